@@ -86,7 +86,7 @@ def editions(s: Stage) -> Figures:
     figures = {"deploy Editions": contract.gas}
     for number, name in enumerate(("lightning", "crown")):
         pointer = store_scene(s.studio, icon_scene(f"icons/{name}"))
-        receipt = contract.send("add", name, pointer, 4, PRICE, 100, 500, 1, sender=s.owner)
+        receipt = contract.send("add", name, pointer, 4, False, PRICE, 100, 500, 1, sender=s.owner)
         figures[f"add an edition and mint 1, the {name}"] = receipt.gas
         figures[f"tokenURI of an edition, the {name}"] = contract.gas_of("tokenURI", number)
     for quantity in (1, 5):

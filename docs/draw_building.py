@@ -24,7 +24,7 @@ FOLDER = Path(__file__).resolve().parent / "images"
 PICTURES: dict[str, dict[str, list[str]]] = {
     "examples/building/ShapeGallery.sol": {
         "shapes": ["box()", "sphere()", "cylinder()", "cone()"],
-        "drawn": ["lathe()", "ring()", "extrusion()"],
+        "drawn": ["lathe()", "torus()", "extrusion()"],
         "text": ["text()"],
         "alphabet": ["alphabet()"],
     },

@@ -32,10 +32,14 @@ class Ours:
         return answer._replace(output=b"") if answer.status == Status.FAILURE else answer
 
 
-def pyrevm_call(codes: Codes, address: bytes, data: bytes, gas: int) -> Answer:
-    """Call in a new EVM of pyrevm; skip the test where it is not installed."""
+def pyrevm_call(
+    codes: Codes, address: bytes, data: bytes, gas: int, block: tuple[int, int, bytes] | None = None
+) -> Answer:
+    """Call in a new EVM of pyrevm; skip the test where it is not installed. block: the arguments of `set_block`."""
     pyrevm: Any = pytest.importorskip("pyrevm")
     evm = pyrevm.EVM(spec_id="Cancun")
+    if block is not None:
+        evm.set_block_env(pyrevm.BlockEnv(number=block[0], timestamp=block[1], prevrandao=block[2]))
     for each, code in codes.items():
         evm.insert_account_info(to_hex(each), pyrevm.AccountInfo(code=code))
     intrinsic = intrinsic_gas(data)

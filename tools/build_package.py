@@ -49,8 +49,8 @@ def addresses(contracts: list[Deployment]) -> str:
         for each in contracts
     )
     return (
-        f"{HEAD}/// @title Addresses: where `shackled deploy` creates the contracts, the same on every chain.\n"
-        "/// @notice They are made of the bytecode: another version of a contract has another address.\n"
+        f"{HEAD}/// @title Addresses: the contract addresses of `shackled deploy`, the same on every chain.\n"
+        "/// @notice Derived from the bytecode: another version of a contract has another address.\n"
         f"library Addresses {{\n{lines}}}\n"
     )
 
@@ -65,7 +65,7 @@ def runtime_codes(contracts: list[Deployment]) -> str:
     )
     return (
         f'{HEAD}import {{Addresses}} from "../Addresses.sol";\n\n'
-        "/// @title ShackledCode: the contracts below, each of which returns a code, and where it belongs.\n"
+        "/// @title ShackledCode: the contracts below, each of which returns a runtime code, and its address.\n"
         "library ShackledCode {\n"
         "    function all() internal pure returns (string[] memory names, address[] memory targets) {\n"
         f"        (names, targets) = (new string[]({len(contracts)}), new address[]({len(contracts)}));\n"

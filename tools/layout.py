@@ -77,7 +77,9 @@ def registers(table: dict[str, Any]) -> Iterator[Section]:
             constants += found
         if name := part.get("block"):
             begin = constants[0].value
-            constants.insert(0, Constant(f"{name}_BEGIN", begin, "Where these registers begin, and their bytes."))
+            constants.insert(
+                0, Constant(f"{name}_BEGIN", begin, "The beginning of these registers, and their size in bytes.")
+            )
             constants.insert(1, Constant(f"{name}_SIZE", address - begin))
         sections.append(Section(part["title"], part.get("text", ""), tuple(constants)))
     end = Constant("REGISTERS_END", address)

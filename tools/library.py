@@ -57,9 +57,9 @@ pragma solidity 0.8.37;
 
 // Written by tools/library.py.
 
-/// @notice The table of the library: a row for each item, as Library.sol says.
+/// @notice The table of the library: a row for each item, in the format of `Library.sol`.
 library Shelf {{
-    /// @notice How many items there are.
+    /// @notice The number of items.
     uint256 internal constant COUNT = {len(items())};
 
     function table() internal pure returns (bytes memory) {{

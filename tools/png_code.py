@@ -26,70 +26,70 @@ TARGET = Path(__file__).resolve().parent.parent / "contracts" / "src" / "encode"
 FILE = """// SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-/// @dev The codes of three zeros; those of other bytes are as much more. They have 9 bits each.
+/// @dev The 9-bit codes of three zeros. The code of another byte is this plus the byte.
 uint256 constant LITERALS = {literals};
 
 /// @notice The Huffman code of the PNG encoder, fitted to pictures of the renderer. Written by tools/png_code.py.
 /// @dev All bits are in the order of the stream.
 library PngCode {{
-    /// @notice The code of a zero; those of other bytes are as much more. They have 9 bits.
+    /// @notice The 9-bit code of a zero. The code of another byte is this plus the byte.
     uint256 internal constant LITERAL = {literal};
-    /// @notice Bits of the longest match, and 32 of them: at the distance of a pixel, and of a byte.
+    /// @notice The code size of the longest match in bits; 32 such matches at the distance of a pixel, and of a byte.
     uint256 internal constant LONGEST_SIZE = {longest_size};
     uint256 internal constant LONGEST = {longest};
     uint256 internal constant LONGEST_ZEROS = {zeros};
-    /// @notice Where the matches of 259 and 260 bytes, which are two each, differ for the other distance. Those of
-    /// fewer bytes differ in the last bit.
+    /// @notice The bits in which the codes of 259 and 260 bytes, two matches each, differ for the other distance. Codes
+    /// of fewer bytes differ in the last bit.
     uint256 internal constant OTHER_DISTANCES = {others};
 
-    /// @notice Of each length from 3 to 260 the code of the match at the distance of a pixel (19 bits), and its length
-    /// (5 bits).
+    /// @notice Returns, for each length from 3 to 260, the code of the match at the distance of a pixel (19 bits), and
+    /// its size in bits (5 bits).
     function tables() internal pure returns (bytes memory) {{
         return
 {tables};
     }}
 
-    /// @notice What tells the code at the beginning of the block, as far as it fills bytes.
+    /// @notice Returns the header of the block, which defines the code, without the last bits, which fill no byte.
     function header() internal pure returns (bytes memory) {{
         return
 {header};
     }}
 
-    /// @notice The rest of it: bits, and how many.
+    /// @notice Returns the last bits of the header, and their number.
     function headerRest() internal pure returns (uint256, uint256) {{
         return ({rest}, {rest_size});
     }}
 
-    /// @notice What ends the block: bits, and how many.
+    /// @notice Returns the end of the block: its bits, and their number.
     function end() internal pure returns (uint256, uint256) {{
         return ({end}, {end_size});
     }}
 }}
 
-/// @notice The Huffman code of PNG files with alpha. Pixels have four bytes there.
+/// @notice The Huffman code of PNG files with alpha. Pixels have four bytes.
 library AlphaCode {{
-    /// @notice The code of a pixel of zeros, 36 bits; bytes, 9 bits apart, are added.
+    /// @notice The code of a zero pixel, 36 bits. The bytes of a pixel, spread 9 bits apart, are added to it.
     uint256 internal constant PIXEL = {alpha_pixel};
 
-    /// @notice Of each number of pixels from 1 to 64 the code of the match that repeats one so often (19 bits), and its
-    /// length (5 bits).
+    /// @notice Returns, for each number of pixels from 1 to 64, the code of the match that repeats one that many times
+    /// (19 bits), and its size in bits (5 bits).
     function tables() internal pure returns (bytes memory) {{
         return
 {alpha_tables};
     }}
 
-    /// @notice What tells the code at the beginning of the block, as far as it fills bytes.
+    /// @notice Returns the header of the block, which defines the code, without the last bits, which fill no byte.
     function header() internal pure returns (bytes memory) {{
         return
 {alpha_header};
     }}
 
-    /// @notice The rest of it: bits, and how many.
+    /// @notice Returns the last bits of the header, and their number.
     function headerRest() internal pure returns (uint256, uint256) {{
         return ({alpha_rest}, {alpha_rest_size});
     }}
 
-    /// @notice What ends the block: bits, and how many.
+    /// @notice Returns the end of the block: its bits, and their number.
     function end() internal pure returns (uint256, uint256) {{
         return ({alpha_end}, {alpha_end_size});
     }}

@@ -8,8 +8,8 @@ import {PatchSamples} from "./pipeline/PatchSamples.sol";
 import {SampleBuffer} from "./pipeline/SampleBuffer.sol";
 import "./pipeline/Registers.sol";
 
-/// @title AntialiasedEngine: what the Engine does, with four samples for each pixel.
-/// @notice The work of the Renderer: see Engine.
+/// @title AntialiasedEngine: does the work of the Engine with four samples per pixel.
+/// @notice Called by the Renderer: see Engine.
 contract AntialiasedEngine is SampleBuffer, PatchSamples, FlatShading {
     function prepare(uint256 a, uint256 b, uint256 c) internal pure override {
         setQuadratic(a, b, c);
@@ -29,6 +29,6 @@ contract AntialiasedEngine is SampleBuffer, PatchSamples, FlatShading {
         ExactSamples.fragment(attribute, covered, column, row);
     }
 
-    /// @dev Wires are drawn by the AntialiasedFragmentEngine.
+    /// @dev The AntialiasedFragmentEngine draws wires.
     function drawWires(uint256, uint256) internal pure override {}
 }

@@ -9,8 +9,8 @@ import {SampleWires} from "./pipeline/SampleWires.sol";
 import {SmoothSamples} from "./pipeline/SmoothSamples.sol";
 import "./pipeline/Registers.sol";
 
-/// @title AntialiasedFragmentEngine: what the FragmentEngine does, with four samples for each pixel.
-/// @notice The work of the Renderer: see FragmentEngine.
+/// @title AntialiasedFragmentEngine: does the work of the FragmentEngine with four samples per pixel.
+/// @notice Called by the Renderer: see FragmentEngine.
 contract AntialiasedFragmentEngine is SampleBuffer, SampleWires {
     function prepare(uint256 a, uint256, uint256) internal pure override {
         unchecked {

@@ -9,12 +9,12 @@ import {SceneErrors} from "./scene/SceneErrors.sol";
 import {Shadows} from "./shadows/Shadows.sol";
 import "./pipeline/Registers.sol";
 
-/// @title Effects: what the EffectsEngine needs to know before it draws.
-/// @notice The work of the Renderer for scenes with effects. It checks their records, and computes uniforms and shadows. Stateless.
+/// @title Effects: computes the data that the EffectsEngine needs.
+/// @notice Called by the Renderer for scenes with effects. Checks their records, and computes uniforms and shadows. Stateless.
 contract Effects is SceneErrors {
-    /// @notice What effects are to the frame and to each object. But for the records of effects, which are checked here, the scene must be
-    /// checked.
-    /// @return The registers EFFECT_FRAME; for each object its registers EFFECT_OBJECT; then the shadows, if a light casts any: see
+    /// @notice Returns the uniforms of effects for the frame and each object. Checks the effect records; the rest of the scene must have
+    /// been checked.
+    /// @return The registers EFFECT_FRAME; for each object the registers EFFECT_OBJECT; then the shadows, if a light casts any: see
     /// Shadows. Without the ABI's offset and length.
     function prepare(Scene calldata scene) external pure returns (bytes memory) {
         unchecked {
@@ -40,7 +40,7 @@ contract Effects is SceneErrors {
         unchecked {
             uint256 target = freeMemory();
             uint256 end = target + scene.objects.length * EFFECT_OBJECT_SIZE;
-            // the scene is the only argument, and stands behind the registers of the frame in the engine's calldata
+            // the scene, the only argument, follows the frame's registers in the engine's calldata
             uint256 moved;
             assembly ("memory-safe") {
                 moved := sub(add(4, FRAME_SIZE), scene)
@@ -53,7 +53,7 @@ contract Effects is SceneErrors {
                 }
                 target += EFFECT_OBJECT_SIZE;
             }
-            // what was allocated is not needed any more
+            // free the allocations
             setFreeMemory(end);
         }
     }

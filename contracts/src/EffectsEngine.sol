@@ -14,9 +14,9 @@ import {SmoothShading} from "./pipeline/SmoothShading.sol";
 import {Rectangle} from "./scene/Scene.sol";
 import "./pipeline/Registers.sol";
 
-/// @title EffectsEngine: from vertices to pixels, for scenes with effects.
-/// @notice The work of the Renderer: see Engine. It draws all objects of a scene that has a hemisphere light, a rim, fog, a tone,
-/// a texture, a shadow or a ground, with four samples for each pixel, and lights every fragment for itself.
+/// @title EffectsEngine: transforms vertices to pixels, for scenes with effects.
+/// @notice Called by the Renderer: see Engine. Draws all objects of a scene that has a hemisphere light, a rim, fog, a tone, a texture, a
+/// shadow or a ground, with four samples per pixel, and shades every fragment individually.
 contract EffectsEngine is SampleBuffer, SampleWires {
     function openPicture(Rectangle memory tile, uint256 image, uint256 bandRows, uint256[3][] memory lists)
         internal
@@ -46,13 +46,13 @@ contract EffectsEngine is SampleBuffer, SampleWires {
             copyCalldata(EFFECT_FRAME_BEGIN, load(EFFECTS), EFFECT_FRAME_SIZE);
             if (load(SHADOWS) == 0) return;
             store(SHADOWS, load(EFFECTS) + load(SHADOWS));
-            // before the records of vertices
+            // allocated before the vertex records
             store(SHADOW_ROW, freeMemory());
             setFreeMemory(freeMemory() + 32 * load(TILE_WIDTH));
         }
     }
 
-    /// @dev Reads the effects of the object whose uniforms were read into their registers.
+    /// @dev Reads the effects of the current object into their registers.
     function setObject() private pure {
         unchecked {
             uint256 number = load(OBJECT_NUMBER);
@@ -69,9 +69,9 @@ contract EffectsEngine is SampleBuffer, SampleWires {
                 register += 32;
             }
             if (load(SHADOWS) != 0) ShadowRows.setObject(number);
-            // of objects that are textured none is left out of the call
+            // the calldata includes every textured object
             if (load(TEXTURE) | load(OPACITIES) != 0) {
-                // an array of pointers to the lists of objects, which begin with the place of the records
+                // an array of pointers to the objects' lists, each of which begins with the address of the records
                 store(RECORDS, load(load(load(LISTS) + 32 + 32 * (number - load(OBJECT_FIRST)))));
             }
         }
@@ -104,7 +104,7 @@ contract EffectsEngine is SampleBuffer, SampleWires {
         }
     }
 
-    /// @dev Whether nothing but shadows changes the colour from place to place.
+    /// @dev Returns whether only shadows change the colour across the face.
     function isUniform(uint256 mode) private pure returns (bool) {
         unchecked {
             if (mode & (IS_SMOOTH | HAS_SPECULAR) != 0) return false;
@@ -118,7 +118,7 @@ contract EffectsEngine is SampleBuffer, SampleWires {
 
     function setFaceUp() private pure {
         assembly ("memory-safe") {
-            // as the light of a direction: see Lighting
+            // as the direction of a light: see Lighting
             let up := sar(UPPER_86_AT, mul(mload(FACE_NORMAL), mload(UP_IN_MESH)))
             mstore(FACE_UP, sdiv(shl(Q16, up), mload(FACE_LENGTH)))
         }

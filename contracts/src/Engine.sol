@@ -7,9 +7,9 @@ import {LinearSpans} from "./pipeline/LinearSpans.sol";
 import {Patches} from "./pipeline/Patches.sol";
 import "./pipeline/Registers.sol";
 
-/// @title Engine: from vertices to pixels, for flat and unlit surfaces.
-/// @notice The work of the Renderer, which checks the scene and computes the uniforms before, and makes a file of the pixels after. Call
-/// the Renderer: the engine relies on what it is handed.
+/// @title Engine: transforms vertices to pixels, for flat and unlit surfaces.
+/// @notice Called by the Renderer, which checks the scene and computes the uniforms before, and makes a file of the pixels afterwards. Do
+/// not call the engine directly: it does not validate its input.
 contract Engine is DepthBuffer, FlatShading {
     function drawParts(uint256 edges, uint256 rows, uint256 row) internal pure override {
         uint256 mode = load(MODE);
@@ -23,6 +23,6 @@ contract Engine is DepthBuffer, FlatShading {
         else Patches.fill(edges, slopes, start, rowAt(row), rowAt(end));
     }
 
-    /// @dev Wires are drawn by the FragmentEngine.
+    /// @dev The FragmentEngine draws wires.
     function drawWires(uint256, uint256) internal pure override {}
 }

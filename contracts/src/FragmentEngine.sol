@@ -11,10 +11,10 @@ import {SmoothLight} from "./pipeline/SmoothLight.sol";
 import {BY_FRAGMENTS, Wireframe} from "./pipeline/Wireframe.sol";
 import "./pipeline/Registers.sol";
 
-/// @title FragmentEngine: from vertices to pixels, for what is lit fragment by fragment.
-/// @notice Smooth surfaces, wires, everything that is not opaque or lit by spot lights; else as `Engine`.
+/// @title FragmentEngine: transforms vertices to pixels, for surfaces that are shaded per fragment.
+/// @notice Draws smooth surfaces, wires, and all translucent or spot-lit objects; otherwise like `Engine`.
 contract FragmentEngine is DepthBuffer, Wireframe {
-    /// @dev Where nothing but colour changes, and that linearly, no light is needed.
+    /// @dev Triangles whose only varying attribute is a linearly varying colour need no per-fragment light.
     function shadeExact(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
         (uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode) = surface(a, b, c);
         if (mode & (IS_LIT | IS_BLENDED | IS_DEPTH_PASS) == 0 && Shading.isAffine(attributesA, attributesB, attributesC, a, b, c)) {

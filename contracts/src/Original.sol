@@ -28,11 +28,11 @@ import {HEADER_SIZE, FACE_SIZE} from "./mesh/PackedMesh.sol";
 import {Renderer} from "./Renderer.sol";
 import {WithRenderer} from "./WithRenderer.sol";
 
-/// @title Original: the interface of the first Shackled contracts, served by this renderer.
-/// @notice Whatever was written against `render(RenderParams, int256, bool)` works here. Geometry, camera, culling, wireframe, background
-/// and inversion carry over exactly, except where the original drew them wrong. Its light becomes one directional light: the colour of
-/// the surface shows in full, as there; the highlight is its highlight; the diffuse term is multiplied by the colour of the surface. The
-/// ambient power and a diffuse colour of another hue than the highlight have no counterpart.
+/// @title Original: the interface of the first Shackled contracts, implemented with this renderer.
+/// @notice Accepts the calls of `render(RenderParams, int256, bool)`. Geometry, camera, culling, wireframe, background and inversion are
+/// the same, except where the original drew them incorrectly. The light becomes one directional light: the colour of the surface is shown
+/// in full, as in the original; the highlight is the original's; the diffuse term is multiplied by the colour of the surface. The ambient
+/// power, and a diffuse colour of another hue than the highlight, have no counterpart.
 contract Original is WithRenderer {
     struct LightingParams {
         bool applyLighting;
@@ -46,9 +46,9 @@ contract Original is WithRenderer {
         int256[3] lightColAmbi;
     }
 
-    /// @param faces Three vertex numbers each, counter-clockwise.
-    /// @param cols A colour for each vertex that a face uses, red, green, blue, 0..255.
-    /// @param backgroundColor At the top and at the bottom.
+    /// @param faces Three vertex indices each, counter-clockwise.
+    /// @param cols The colour of each vertex that a face uses: red, green, blue, 0..255.
+    /// @param backgroundColor The colours at the top and at the bottom.
     struct RenderParams {
         uint256[3][] faces;
         int256[3][] verts;
@@ -69,28 +69,32 @@ contract Original is WithRenderer {
     uint256 internal constant ORTHOGRAPHIC_UNITS = 500;
     uint256 internal constant MAX_COUNT = 65535;
 
+    /// @notice A mesh can have at most 65,535 faces.
     error TooManyFaces(uint256 count);
+    /// @notice A mesh can have at most 65,535 vertices.
     error TooManyVertices(uint256 count);
     /// @notice A face uses a vertex that has no position or no colour.
     error NoVertex(uint256 face, uint256 vertex);
-    /// @notice The coordinates of a mesh, and their products with what the scale has above 16, are from -2^23 to 2^23 - 1.
+    /// @notice The coordinates of a mesh, also when multiplied by the part of the scale above 16, must be -2^23 to 2^23 - 1.
     error VertexOutOfRange(uint256 vertex, int256 x, int256 y, int256 z);
+    /// @notice The channels of a vertex colour must be 0 to 255, those of a light 0 to 2^64 - 1.
     error ColorOutOfRange(int256 red, int256 green, int256 blue);
+    /// @notice The number must be -2^26 to 2^26.
     error NumberOutOfRange(int256 value);
     /// @notice `lightPos` is the direction to the light and must not be zero.
     error NoLightDirection();
 
     constructor(Renderer renderer_) WithRenderer(renderer_) {}
 
-    /// @notice Draws a scene of the original.
-    /// @param canvasDim Width and height in pixels.
-    /// @param returnSVG Whether to return a `data:` URI of an SVG instead of one of a bitmap.
+    /// @notice Draws a scene in the original's format.
+    /// @param canvasDim The width and height in pixels.
+    /// @param returnSVG Whether to return the `data:` URI of an SVG instead of a bitmap.
     function render(RenderParams calldata params, int256 canvasDim, bool returnSVG) external view returns (string memory) {
         Scene memory scene = toScene(params, canvasDim);
         return returnSVG ? svgUri(renderer.renderSVG(scene)) : renderer.renderDataURI(scene);
     }
 
-    /// @notice The scene that `render` draws.
+    /// @notice Returns the scene that `render` draws.
     function toScene(RenderParams calldata params, int256 canvasDim) public pure returns (Scene memory scene) {
         unchecked {
             uint256 side = uint256(canvasDim);
@@ -98,7 +102,7 @@ contract Original is WithRenderer {
             Camera memory camera = scene.camera;
             camera.target.z = -ONE;
             camera.up.y = ONE;
-            // a canvas of a wrong size is refused by the renderer
+            // the renderer rejects an invalid canvas size
             camera.projection = params.perspCamera ? PERSPECTIVE : ORTHOGRAPHIC;
             camera.halfHeight =
                 params.perspCamera ? HALF_HEIGHT : Fixed.wrap(int256((ORTHOGRAPHIC_UNITS * (side & 0xffff)) << 32));
@@ -128,7 +132,7 @@ contract Original is WithRenderer {
             int256 square = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
             if (square == 0) revert NoLightDirection();
             bool hasHighlight = lighting.lightSpecPower > 0 && largest(lighting.lightColSpec) > 0;
-            // one light has one colour: that of the highlight where there is one
+            // a light has one colour: that of the highlight if there is one
             int256[3] calldata color = hasHighlight ? lighting.lightColSpec : lighting.lightColDiff;
             (uint256 hue, int256 sum) = toHue(color);
             scene.lights = new Light[](1);
@@ -141,7 +145,7 @@ contract Original is WithRenderer {
         }
     }
 
-    /// @dev power * color / divisor, from 0 to 4.
+    /// @dev Returns power * color / divisor, limited to 0..4.
     function coefficient(int256 power, int256 color, int256 divisor) private pure returns (Fixed) {
         unchecked {
             if (power <= 0 || divisor == 0) return ZERO;
@@ -151,7 +155,7 @@ contract Original is WithRenderer {
         }
     }
 
-    /// @dev The colour with its largest part at 255, and the sum of its parts then.
+    /// @dev Returns the colour scaled so that its largest channel is 255, and the sum of its channels.
     function toHue(int256[3] calldata color) private pure returns (uint256 hue, int256 sum) {
         unchecked {
             int256 most = largest(color);
@@ -165,7 +169,7 @@ contract Original is WithRenderer {
 
     function largest(int256[3] calldata color) private pure returns (int256 most) {
         for (uint256 i; i != 3; ++i) {
-            // the original's powers may be in its colours
+            // the original allows powers as part of the colours
             if (color[i] < 0 || color[i] >> 64 != 0) revert ColorOutOfRange(color[0], color[1], color[2]);
             if (color[i] > most) most = color[i];
         }
@@ -176,8 +180,8 @@ contract Original is WithRenderer {
         return color[0] + color[1] + color[2];
     }
 
-    /// @dev How many bits a coordinate needs, and by how many bits the scale has to be shifted into the coordinates to be within its
-    /// limit. Where no format is wide enough, `pack` or the renderer says so.
+    /// @dev Returns the bits needed for a coordinate, and the bits by which the scale must be moved into the coordinates to be within its
+    /// limit. If no format is wide enough, `pack` or the renderer reverts.
     function toFormat(int256[3][] calldata verts, Fixed scale) private pure returns (uint256 bits, uint256 shift) {
         unchecked {
             uint256 used;
@@ -195,7 +199,7 @@ contract Original is WithRenderer {
         }
     }
 
-    /// @notice The mesh in the format of `Mesh.sol`.
+    /// @notice Returns the mesh in the format of `Mesh.sol`.
     function pack(RenderParams calldata params, uint256 bits, uint256 shift) private pure returns (bytes memory mesh) {
         unchecked {
             (uint256 vertices, uint256 faces) = (params.verts.length, params.faces.length);
@@ -208,7 +212,7 @@ contract Original is WithRenderer {
                 target := add(mesh, 32)
             }
             target = write(target, ((bits == 24 ? WIDE : 0) << 32) | (vertices << 16) | faces, HEADER_SIZE);
-            // the original's scale may be negative: the mesh is mirrored at its origin instead
+            // the original allows a negative scale: mirror the mesh at its origin instead
             int256 factor = (params.objScale < 0 ? -1 : int256(1)) << shift;
             uint256 colored = params.cols.length;
             for (uint256 i; i != vertices; ++i) {
@@ -235,7 +239,7 @@ contract Original is WithRenderer {
         }
     }
 
-    /// @dev Three coordinates, one after the other.
+    /// @dev Returns three coordinates, packed.
     function toPosition(int256[3] calldata v, int256 factor, uint256 bits, uint256 vertex) private pure returns (uint256 packed) {
         unchecked {
             for (uint256 i; i != 3; ++i) {
@@ -264,12 +268,12 @@ contract Original is WithRenderer {
         }
     }
 
-    /// @dev An SVG document as `data:` URI.
+    /// @dev Returns an SVG document as a `data:` URI.
     function svgUri(string memory svg) private pure returns (string memory uri) {
         unchecked {
             uint256 size = bytes(svg).length;
             string memory head = "data:image/svg+xml;base64,";
-            // with room for what Base64 writes too much
+            // with room for the bytes that Base64 writes beyond the end
             uri = new string(bytes(head).length + 4 * ((size + 2) / 3) + Base64.MARGIN);
             uint256 data;
             uint256 begin;

@@ -22,26 +22,26 @@ import {BY_FACES, Run, Runs} from "./uniforms/Runs.sol";
 import {Uniforms} from "./uniforms/Uniforms.sol";
 import "./pipeline/Registers.sol";
 
-/// @title Renderer: pictures of 3D scenes.
-/// @notice Stateless. What is wrong with a scene is told by the errors of `SceneErrors.sol`.
+/// @title Renderer: draws 3D scenes.
+/// @notice Stateless. `SceneErrors.sol` declares the errors of invalid scenes.
 contract Renderer is SceneErrors {
-    /// @notice What computes the pixels of flat and unlit surfaces.
+    /// @notice The engine for flat and unlit surfaces.
     Engine public immutable engine;
-    /// @notice What computes the pixels of all else.
+    /// @notice The engine for smooth, wireframe, translucent and spot-lit objects.
     FragmentEngine public immutable fragmentEngine;
-    /// @notice What `engine` does, with four samples for each pixel.
+    /// @notice The engine that does the work of `engine` with four samples per pixel.
     AntialiasedEngine public immutable antialiasedEngine;
-    /// @notice What `fragmentEngine` does, with four samples for each pixel.
+    /// @notice The engine that does the work of `fragmentEngine` with four samples per pixel.
     AntialiasedFragmentEngine public immutable antialiasedFragmentEngine;
-    /// @notice What computes all pixels of scenes with effects.
+    /// @notice The engine for scenes with effects.
     EffectsEngine public immutable effectsEngine;
-    /// @notice What finds out before what their effects are to the frame and to each object.
+    /// @notice The contract that checks effects and computes their uniforms.
     Effects public immutable effects;
 
     /// @notice The address has no code.
     error NoEngine(address engine);
 
-    /// @dev A bitmap in memory. There are 128 free bytes before it and a word of zeros after it.
+    /// @dev A bitmap in memory. It is preceded by 128 free bytes and followed by a zero word.
     struct File {
         uint256 begin;
         uint256 size;
@@ -49,9 +49,9 @@ contract Renderer is SceneErrors {
         uint256 litPixels;
     }
 
-    /// @dev Where the answer of an engine is written, behind the beginning of the call: room for the header of the file.
+    /// @dev The offset of the engine's answer from the beginning of the call: room for the file header.
     uint256 private constant ANSWER = 0xc0;
-    /// @dev Room in memory before the pixels, for the texts that encoders allocate.
+    /// @dev Memory before the pixels for the text that encoders allocate.
     uint256 private constant TEXTS = 0x400;
 
     constructor(
@@ -76,30 +76,30 @@ contract Renderer is SceneErrors {
     }
 
     /// @notice Draws a scene.
-    /// @return A Windows bitmap of 24 bits a pixel.
+    /// @return A Windows bitmap of 24 bits per pixel.
     function render(Scene calldata scene) external view returns (bytes memory) {
         File memory file = draw(scene, whole(scene), false);
         returnBytes(file.begin, file.size);
     }
 
-    /// @notice Draws a part of the canvas as a bitmap of its own. The parts of a picture together equal the whole, byte for byte.
+    /// @notice Draws a part of the canvas as a separate bitmap. The tiles of a picture together equal the whole picture, byte for byte.
     function renderTile(Scene calldata scene, Rectangle calldata tile) external view returns (bytes memory) {
         File memory file = draw(scene, tile, false);
         returnBytes(file.begin, file.size);
     }
 
-    /// @notice Draws a scene and counts what was drawn.
-    /// @return bmp As `render` returns it.
-    /// @return triangles How many triangles were left after culling and clipping.
-    /// @return litPixels How many pixels any of them covers.
+    /// @notice Draws a scene and counts its triangles and lit pixels.
+    /// @return bmp The bitmap, as from `render`.
+    /// @return triangles The number of triangles left after culling and clipping.
+    /// @return litPixels The number of pixels covered by any of them.
     function renderCounted(Scene calldata scene) external view returns (bytes memory bmp, uint256 triangles, uint256 litPixels) {
         return counted(scene, whole(scene));
     }
 
-    /// @notice Draws a part of the canvas, as `renderTile` does, and counts what was drawn of it.
-    /// @return bmp As `renderTile` returns it.
-    /// @return triangles How many triangles were left after culling and clipping that do not lie beyond one border of the part.
-    /// @return litPixels How many pixels of the part any of them covers.
+    /// @notice Draws a part of the canvas, as `renderTile` does, and counts its triangles and lit pixels.
+    /// @return bmp The bitmap, as from `renderTile`.
+    /// @return triangles The number of triangles left after culling and clipping that do not lie entirely beyond one edge of the tile.
+    /// @return litPixels The number of pixels of the tile covered by any of them.
     function renderTileCounted(Scene calldata scene, Rectangle calldata tile)
         external
         view
@@ -128,12 +128,13 @@ contract Renderer is SceneErrors {
         }
     }
 
-    /// @notice The rotation about the x axis, then y, then z, by angles in degrees (Q32), for an object of a scene.
+    /// @notice Returns the rotation about the x axis, then y, then z, by angles in degrees (Q32), for `Object.rotation`.
     function eulerRotation(Fixed x, Fixed y, Fixed z) external pure returns (Quaternion memory) {
         return fromEuler(x, y, z);
     }
 
-    /// @notice The data with which the Renderer calls the engine to draw a part of the canvas, as `Uniforms.sol` says: for measurements.
+    /// @notice Returns the calldata with which the Renderer calls the engine to draw a part of the canvas, in the format of `Uniforms.sol`.
+    /// For measurements.
     function engineCall(Scene calldata scene, Rectangle calldata tile) external view returns (bytes memory) {
         unchecked {
             checkScene(scene, tile);
@@ -147,7 +148,7 @@ contract Renderer is SceneErrors {
         return Rectangle(0, 0, scene.canvas.width, scene.canvas.height);
     }
 
-    /// @dev Ends the call.
+    /// @dev Ends the call with the counted picture.
     function counted(Scene calldata scene, Rectangle memory tile)
         private
         view
@@ -162,7 +163,7 @@ contract Renderer is SceneErrors {
             mstore(add(data, 0x20), triangles)
             mstore(add(data, 0x40), litPixels)
             mstore(add(data, 0x60), size)
-            // the file stands where the bytes of `bmp` belong
+            // place the file at the bytes of `bmp`
             bmp := add(data, 0x60)
             return(data, add(0x80, and(add(size, 31), not(31))))
         }
@@ -191,7 +192,7 @@ contract Renderer is SceneErrors {
         }
     }
 
-    /// @dev Has Effects compute what the effects of a scene are, if it has any. The answer stays in memory, at EFFECTS.
+    /// @dev Calls Effects if the scene has effects. The answer stays in memory, at EFFECTS.
     function prepareEffects(Scene calldata scene) private view {
         unchecked {
             (uint256 record, uint256 end) = Extensions.behind(scene, ANTIALIAS);
@@ -213,7 +214,7 @@ contract Renderer is SceneErrors {
         }
     }
 
-    /// @dev Writes the data of the call of an engine: see Uniforms.
+    /// @dev Writes the calldata of an engine: see Uniforms.
     function writeCall(Scene calldata scene, Rectangle memory tile, bool countPixels) private pure returns (uint256 data, uint256 end) {
         unchecked {
             (data, end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, countPixels, TEXTS);
@@ -228,7 +229,8 @@ contract Renderer is SceneErrors {
         }
     }
 
-    /// @dev Where several engines draw a large picture: band by band, since what one has drawn, depths too, is handed to the next.
+    /// @dev Draws a large picture that needs several engines, band by band, since the pixels and depths drawn by one engine are passed to
+    /// the next.
     function drawBands(Scene calldata scene, Rectangle memory tile, bool countPixels)
         private
         view
@@ -239,7 +241,7 @@ contract Renderer is SceneErrors {
             uint256 free = freeMemory();
             pixels = free + TEXTS + 0x100;
             uint256 target = pixels;
-            // what the bands need stands behind the file, which has gaps
+            // the buffer of the bands follows the file, including its padding
             uint256 behind = (pixels + 3 * tile.width * tile.height + 4 * tile.height + 0x3f) & ~uint256(31);
             for (uint256 bottom = tile.height; bottom != 0;) {
                 setFreeMemory(behind);
@@ -260,14 +262,14 @@ contract Renderer is SceneErrors {
         }
     }
 
-    /// @dev Has each engine draw what it draws of the scene, one run of objects after the other.
-    /// @param data Where the call begins; `end` where it ends. The memory behind is free.
-    /// @return pixels Their address. The memory behind them is free.
-    /// @return triangles How many triangles were left after culling and clipping.
-    /// @return litPixels How many pixels they cover, if they are counted.
+    /// @dev Calls the engines one after the other, each for a run of objects.
+    /// @param data The beginning of the calldata; `end` is its end. The memory behind is free.
+    /// @return pixels The address of the pixels. The memory behind them is free.
+    /// @return triangles The number of triangles left after culling and clipping.
+    /// @return litPixels The number of pixels they cover, if counted.
     function callEngines(uint256 data, uint256 end) private view returns (uint256 pixels, uint256 triangles, uint256 litPixels) {
         unchecked {
-            // what is allocated here and in each turn is given up again: the call stands behind
+            // allocations here and in each iteration are freed: the calldata follows them
             uint256 free = freeMemory();
             Run memory run = Runs.begin(data);
             uint256 kept = freeMemory();
@@ -278,7 +280,7 @@ contract Renderer is SceneErrors {
                 if (next.count == 0) break;
                 uint256 answered = callEngine(engineOf(run), data, size, end);
                 triangles += load(end);
-                // the head of the answer does not belong to what was drawn
+                // skip the two words before the pixels
                 Runs.setDrawn(data, end + 0x40);
                 size = end + answered;
                 (run.turn, run.first, run.count, run.position, run.end) = (next.turn, next.first, next.count, next.position, next.end);
@@ -292,7 +294,7 @@ contract Renderer is SceneErrors {
         }
     }
 
-    /// @dev The triangles of all objects.
+    /// @dev Returns the number of triangles of all objects left after culling and clipping.
     function countTriangles(Scene calldata scene, Rectangle memory tile) private view returns (uint256) {
         (uint256 data, uint256 end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, false, TEXTS);
         Runs.setOnlyCounts(data);
@@ -306,8 +308,8 @@ contract Renderer is SceneErrors {
         return run.turn == BY_FACES ? address(antialiasedEngine) : address(antialiasedFragmentEngine);
     }
 
-    /// @param answer Where to write the answer.
-    /// @return size Its bytes.
+    /// @param answer The address for the answer.
+    /// @return size The size of the answer in bytes.
     function callEngine(address target, uint256 data, uint256 end, uint256 answer) private view returns (uint256 size) {
         bytes4 outOfGas = OutOfGas.selector;
         assembly ("memory-safe") {
@@ -324,7 +326,7 @@ contract Renderer is SceneErrors {
         }
     }
 
-    /// @dev Ends the call with bytes from where they are; up to 32 bytes behind them are cleared.
+    /// @dev Returns bytes from their place in memory and ends the call. Clears up to 32 bytes behind them.
     function returnBytes(uint256 begin, uint256 size) private pure {
         assembly ("memory-safe") {
             let data := sub(begin, 0x40)

@@ -4,9 +4,9 @@ pragma solidity 0.8.37;
 import {Renderer} from "./Renderer.sol";
 import {SceneErrors} from "./scene/SceneErrors.sol";
 
-/// @title WithRenderer: a contract that has pictures drawn.
+/// @title WithRenderer: a contract that uses a renderer.
 abstract contract WithRenderer is SceneErrors {
-    /// @notice What draws.
+    /// @notice The renderer.
     Renderer public immutable renderer;
 
     /// @notice The address has no code.

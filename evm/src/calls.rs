@@ -9,7 +9,7 @@ use revm::{
     Context, MainContext,
     bytecode::Bytecode,
     context::{
-        ContextSetters, Evm, TxEnv,
+        BlockEnv, ContextSetters, Evm, TxEnv,
         result::{EVMError, ExecutionResult, HaltReason},
     },
     context_interface::{ContextTr, FrameStack, JournalTr},
@@ -23,7 +23,7 @@ use revm::{
     interpreter::{
         InterpreterAction, interpreter::EthInterpreter, interpreter_action::FrameInit, interpreter_types::LoopControl,
     },
-    primitives::{Address, Bytes, HashMap, TxKind, U256, address, hardfork::SpecId},
+    primitives::{Address, B256, Bytes, HashMap, TxKind, U256, address, hardfork::SpecId},
     state::{AccountInfo, EvmState},
 };
 use std::convert::Infallible;
@@ -54,6 +54,7 @@ pub struct Answer {
 #[derive(Default)]
 pub struct Contracts {
     accounts: CacheDB<EmptyDB>,
+    block: BlockEnv,
     described: HashMap<Address, Described>,
 }
 
@@ -62,6 +63,13 @@ impl Contracts {
         // designators of delegations (EIP-7702) are not code before Prague
         let account = AccountInfo::default().with_code(Bytecode::new_legacy(code));
         self.accounts.insert_account_info(address, account);
+    }
+
+    /// Sets the block of later calls. The hashes of those before it come from `EmptyDB`.
+    pub fn set_block(&mut self, number: u64, timestamp: u64, prevrandao: B256) {
+        self.block.number = U256::from(number);
+        self.block.timestamp = U256::from(timestamp);
+        self.block.prevrandao = Some(prevrandao);
     }
 
     pub fn describe(&mut self, address: Address, places: &[u8]) {
@@ -104,6 +112,7 @@ impl Contracts {
     ) -> (Answer, Option<Profile<'a>>, EvmState) {
         let context = Context::mainnet()
             .with_db(WrapDatabaseRef(&self.accounts))
+            .with_block(self.block.clone())
             .modify_cfg_chained(|cfg| {
                 cfg.set_spec_and_mainnet_gas_params(SpecId::CANCUN);
                 cfg.tx_gas_limit_cap = Some(u64::MAX);

@@ -1,8 +1,9 @@
 //! revm as a module of WebAssembly: an EVM, with the rules of Cancun, whose state is a few contracts.
 //!
-//! One instance serves one thread. Every call starts from the state that `put`, `deploy` and `send` left, so that the same
-//! call always costs the same gas. The host writes arguments to memory from `allocate`, and releases them afterwards; it reads an answer from
-//! `answer` before the next call. Addresses have 20 bytes.
+//! One instance serves one thread. Every call starts from the state that `put`, `deploy` and `send` left, in the block
+//! of `set_block`, so that the same call always costs the same gas. The host writes arguments to memory from
+//! `allocate`, and releases them afterwards; it reads an answer from `answer` before the next call. Addresses have 20
+//! bytes.
 
 mod calls;
 mod fast;
@@ -10,7 +11,7 @@ mod precompiles;
 mod profile;
 
 use calls::{Answer, Contracts};
-use revm::primitives::{Address, Bytes, TxKind, U256};
+use revm::primitives::{Address, B256, Bytes, TxKind, U256};
 use std::cell::RefCell;
 
 #[derive(Default)]
@@ -50,6 +51,17 @@ pub unsafe extern "C" fn release(start: *mut u8, size: usize) {
 pub unsafe extern "C" fn put(address: *const u8, code: *const u8, size: usize) {
     let (address, code) = unsafe { (read_address(address), read(code, size)) };
     INSTANCE.with_borrow_mut(|instance| instance.contracts.put(address, code));
+}
+
+/// Sets the block of later calls: its number, its timestamp, and PREVRANDAO, which has 32 bytes. At first they are 0, 1
+/// and 0.
+///
+/// # Safety
+/// The arguments lie in memory from `allocate`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn set_block(number: u64, timestamp: u64, prevrandao: *const u8) {
+    let prevrandao = B256::from_slice(&unsafe { read(prevrandao, 32) });
+    INSTANCE.with_borrow_mut(|instance| instance.contracts.set_block(number, timestamp, prevrandao));
 }
 
 /// Calls a contract with at most `gas` for the execution; returns a `Status`.

@@ -4,7 +4,7 @@ pragma solidity ^0.8.25;
 import {Scene} from "shackled-contracts/scene/Scene.sol";
 import {Model, ModelMaker, Shapes, Stage, StageMaker} from "shackled-contracts/studio/SceneBuilder.sol";
 
-/// @title ShapeGallery: the shapes and letters of docs/building.md, a scene each.
+/// @title ShapeGallery: the shapes and letters of docs/building.md, one scene each.
 contract ShapeGallery {
     uint256 private constant CLAY = 0xd98e5f;
     uint256 private constant SAGE = 0x8fb08c;
@@ -38,15 +38,15 @@ contract ShapeGallery {
 
     function lathe() external pure returns (Scene memory) {
         Model memory m = ModelMaker.model();
-        // radius and height, from the foot over the outside to the inside
+        // radius and height, from the foot along the outside to the inside
         string memory vase = "0,0 50,0 50,0 48,8 60,25 75,50 80,80 74,108 58,132 42,150 36,170 40,188 50,200 44,200 30,170 0,150";
         m.lathe(0, 0, 0, Shapes.points(vase), 24, ROSE);
         return shown(m.packSmooth(), true);
     }
 
-    function ring() external pure returns (Scene memory) {
+    function torus() external pure returns (Scene memory) {
         Model memory m = ModelMaker.model();
-        m.ring(0, 0, 0, 100, 30, 32, 16, STRAW);
+        m.torus(0, 0, 0, 100, 30, 32, 16, STRAW);
         return shown(m.packSmooth(), true);
     }
 
@@ -80,7 +80,7 @@ contract ShapeGallery {
         return stage.scene;
     }
 
-    /// @dev One mesh that fills the picture.
+    /// @dev Returns the scene of one mesh that fills the picture.
     function shown(bytes memory mesh, bool smooth) private pure returns (Scene memory) {
         Stage memory stage = StageMaker.stage(160, 160);
         stage.add(mesh, smooth ? StageMaker.smooth(30, 70, 30, 30) : StageMaker.flat(30, 70, 30, 30));

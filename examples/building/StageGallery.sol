@@ -12,7 +12,7 @@ contract StageGallery {
     uint256 private constant STRAW = 0xe3c878;
     uint256 private constant ROSE = 0xd0797c;
 
-    /// @notice The same mesh with one shade a face, and smooth.
+    /// @notice Returns the same mesh with flat and with smooth shading.
     function shading() external pure returns (Scene memory) {
         Model memory m = ModelMaker.model();
         m.sphere(0, 0, 0, 100, 16, 10, SKY);
@@ -24,7 +24,7 @@ contract StageGallery {
         return stage.scene;
     }
 
-    /// @notice Three objects of one mesh, of which one is painted.
+    /// @notice Returns three objects with the same mesh, one of them painted.
     function painted() external pure returns (Scene memory) {
         Model memory m = ModelMaker.model();
         m.cylinder(0, 0, 0, 30, 70, 20, SAGE);
@@ -41,7 +41,7 @@ contract StageGallery {
         return stage.scene;
     }
 
-    /// @notice A shape that is ten times as large as the box into which it is placed.
+    /// @notice Returns a shape that is ten times as large as the box into which it is placed.
     function placed() external pure returns (Scene memory) {
         Model memory m = ModelMaker.model();
         m.extrusion(Shapes.star(1000, 450, 5), -250, 250, STRAW);
@@ -57,7 +57,7 @@ contract StageGallery {
         return stage.scene;
     }
 
-    /// @notice Blocks, seen with a field of view of so many degrees, or by an orthographic camera (0), from where all fit the picture.
+    /// @notice Returns blocks, seen with this field of view in degrees, or by an orthographic camera (0), at the distance at which all fit.
     function lens(int256 degrees_) external pure returns (Scene memory) {
         Stage memory stage = blocks();
         if (degrees_ == 0) stage.orthographic(1);
@@ -66,7 +66,7 @@ contract StageGallery {
         return stage.scene;
     }
 
-    /// @notice Blocks without any light, with the default sun, or with a sun from the right.
+    /// @notice Returns blocks without any light, with the default sun, or with a sun from the right.
     function lit(uint256 which) external pure returns (Scene memory) {
         Stage memory stage = blocks();
         if (which == 0) stage.dark();

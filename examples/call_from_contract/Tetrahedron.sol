@@ -19,7 +19,7 @@ import {
 import {IPngEncoder} from "shackled-contracts/interfaces/IPngEncoder.sol";
 import {IRenderer} from "shackled-contracts/interfaces/IRenderer.sol";
 
-/// @notice A contract that shows itself: a tetrahedron, turned as far as the caller wants, as a PNG file or as a bitmap.
+/// @notice A contract that draws a tetrahedron, rotated as the caller chooses, as a PNG file or as a bitmap.
 contract Tetrahedron {
     IRenderer public immutable renderer;
     IPngEncoder public immutable encoder;
@@ -28,7 +28,7 @@ contract Tetrahedron {
         (renderer, encoder) = (renderer_, encoder_);
     }
 
-    /// @notice The `image` of a token: a `data:` URI of a PNG file, each pixel of the picture a square of 4 x 4.
+    /// @notice Returns the `image` of a token: a `data:` URI of a PNG file, each pixel enlarged to a square of 4 x 4 pixels.
     function image(int256 degrees_) external view returns (string memory) {
         return encoder.dataURI(bitmap(degrees_), 4);
     }
@@ -37,7 +37,7 @@ contract Tetrahedron {
         return renderer.render(scene(degrees_));
     }
 
-    /// @notice The whole picture, as it is told to the renderer. Lengths are Q32 fixed-point numbers: value * 2^32.
+    /// @notice Returns the whole scene for the renderer. Lengths are Q32 fixed-point numbers: value * 2^32.
     function scene(int256 degrees_) public view returns (Scene memory s) {
         s.canvas = Canvas(64, 64);
         s.camera = Camera({
@@ -71,8 +71,8 @@ contract Tetrahedron {
         });
     }
 
-    /// @notice Four vertices of six bytes for the place and three for the colour, four faces of three vertex numbers of two bytes: see
-    /// shackled-contracts/scene/Mesh.sol.
+    /// @notice Returns four vertices, six bytes for the position and three for the colour, and four faces of three vertex indices of two
+    /// bytes: see shackled-contracts/scene/Mesh.sol.
     function mesh() public pure returns (bytes memory) {
         return bytes.concat(
             // format, vertices, faces

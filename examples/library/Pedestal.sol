@@ -8,7 +8,7 @@ import {Fixed} from "shackled-contracts/math/Fixed.sol";
 import {Object, Scene} from "shackled-contracts/scene/Scene.sol";
 import {Framing, Model, ModelMaker, Stage, StageMaker} from "shackled-contracts/studio/SceneBuilder.sol";
 
-/// @notice Items of the library in scenes of one's own.
+/// @notice Places items of the library in other scenes.
 contract Pedestal {
     ILibrary public immutable items;
     IStudio public immutable studio;
@@ -17,17 +17,17 @@ contract Pedestal {
         (items, studio) = (items_, studio_);
     }
 
-    /// @notice The picture of an item as it is stored, as a data: URI.
+    /// @notice Returns the picture of an item as it is stored, as a data: URI.
     function portrait(string calldata name) external view returns (string memory) {
         return studio.renderDataURI(items.find(name).scene, 4);
     }
 
-    /// @notice A picture of 512 x 512 pixels as a data: URI.
+    /// @notice Returns a picture of 512 x 512 pixels as a data: URI.
     function image(string calldata name) external view returns (string memory) {
         return studio.drawDataURI(onPedestal(name), 4);
     }
 
-    /// @notice An item that stands on a pedestal.
+    /// @notice Returns the scene of an item on a pedestal.
     function onPedestal(string memory name) public view returns (Scene memory) {
         Item memory item = items.find(name);
         Object[] memory parts = items.objects(name, StageMaker.unit(100)); // its longest side
@@ -45,7 +45,7 @@ contract Pedestal {
         return stage.scene;
     }
 
-    /// @notice Three items side by side, each turned, and as large as its compartment.
+    /// @notice Returns the scene of three items side by side, each rotated, and fitted to its compartment.
     function inCompartments(string[3] calldata names) external view returns (Scene memory) {
         Stage memory stage = StageMaker.stage(384, 128);
         for (uint256 k; k != 3; ++k) place(stage, names[k], 120 * int256(k));

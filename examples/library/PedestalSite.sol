@@ -5,7 +5,7 @@ import {ILibrary} from "shackled-contracts/interfaces/ILibrary.sol";
 import {IStudio} from "shackled-contracts/interfaces/IStudio.sol";
 import {Pedestal} from "./Pedestal.sol";
 
-/// @notice Its pictures at web3:// addresses: web3://ADDRESS/crown, and links to all of them at /.
+/// @notice Serves the pictures at web3:// URLs: web3://ADDRESS/crown, and links to all of them at /.
 contract PedestalSite is Pedestal {
     struct KeyValue {
         string key;
@@ -14,12 +14,12 @@ contract PedestalSite is Pedestal {
 
     constructor(ILibrary items_, IStudio studio_) Pedestal(items_, studio_) {}
 
-    /// @notice ERC-4804: requests come as ERC-5219 has it.
+    /// @notice Selects ERC-5219 mode (ERC-4804).
     function resolveMode() external pure returns (bytes32) {
         return "5219";
     }
 
-    /// @notice Answers a request: the parts of the path, and what follows the question mark.
+    /// @notice Responds to a request, given by the segments of the path and the query parameters.
     function request(string[] calldata resource, KeyValue[] calldata)
         external
         view

@@ -8,7 +8,7 @@ import {fromEuler} from "shackled-contracts/math/Euler.sol";
 import {IStudio} from "shackled-contracts/interfaces/IStudio.sol";
 import {Changes, TURN} from "shackled-contracts/studio/Changes.sol";
 
-/// @notice Tokens whose picture is a scene that the Studio keeps, turned by ten degrees more for each token.
+/// @notice Tokens that show a scene stored in the Studio, rotated by ten degrees more for each token.
 contract PictureToken is ERC721A("Pictures", "PIC") {
     IStudio public immutable studio;
     address public immutable picture;

@@ -7,7 +7,7 @@ import {IStudio} from "shackled-contracts/interfaces/IStudio.sol";
 import {Scene} from "shackled-contracts/scene/Scene.sol";
 import {Model, ModelMaker, Stage, StageMaker} from "shackled-contracts/studio/SceneBuilder.sol";
 
-/// @notice Tokens whose picture is made of their number alone: a town of 5 by 5 houses, no two towns alike.
+/// @notice Tokens whose pictures are generated from their numbers alone: a town of 5 by 5 houses, different for each token.
 contract SkylineToken is ERC721A("Skylines", "SKY") {
     IStudio public immutable studio;
 
@@ -26,7 +26,7 @@ contract SkylineToken is ERC721A("Skylines", "SKY") {
         return string.concat("data:application/json;base64,", Base64.encode(bytes(json)));
     }
 
-    /// @notice The whole scene: 25 houses on a plate, seen from above, in the evening sun.
+    /// @notice Returns the whole scene: 25 houses on a plate, seen from above, in the evening sun.
     function town(uint256 id) public pure returns (Scene memory) {
         Model memory houses = ModelMaker.model(26 * 8, 26 * 12);
         houses.box(-280, -20, -280, 280, 0, 280, 0x39424e);
@@ -45,7 +45,7 @@ contract SkylineToken is ERC721A("Skylines", "SKY") {
         return stage.scene;
     }
 
-    /// @dev One of five colours.
+    /// @dev Returns one of five colours.
     function wall(uint256 random) private pure returns (uint256) {
         return uint24(uint256(0xc8553d_f3e9dc_5e8c9a_d9b44a_8a5a83) >> (24 * (random % 5)));
     }

@@ -148,7 +148,7 @@ def test_mistakes_are_told_in_one_line(capsys: pytest.CaptureFixture[str]) -> No
     assert "--gas-price" in error(capsys, 2, "--gas-price", "-1")
     assert "--eth-price" in error(capsys, 2, "--eth-price", "nan")
     assert "0 <= lower < upper" in error(capsys, 2, "--no-stages", "--lower", "9", "--upper", "9")
-    assert "1,000, the upper limit of the search" in error(capsys, 1, "--no-stages", "--upper", "1000")
+    assert "1,000 gas, the upper limit of the search" in error(capsys, 1, "--no-stages", "--upper", "1000")
     assert "--light must be" in error(capsys, 2, "--light", "lamp:1,2,3")
     assert "--background must be" in error(capsys, 2, "--background", "#000000,#111111,#222222")
     assert "--fov and --half-height" in error(capsys, 2, "--no-stages", "--fov", "30", "--half-height", "1")

@@ -12,7 +12,7 @@ from shackled.tokens import editions_address
 
 ACCOUNT = "0x" + "a1" * 20
 EVENTS = {
-    "EditionAdded": "EditionAdded(uint256,address,address,string,uint256,uint256,uint256,uint256)",
+    "EditionAdded": "EditionAdded(uint256,address,address,string,uint256,bool,uint256,uint256,uint256)",
     "Transfer": "Transfer(address,address,uint256)",
 }
 

@@ -63,11 +63,13 @@ def test_the_picture_becomes_a_token_of_the_visitor(calls: EditionCalls) -> None
     assert words.startswith("Added: edition 0 of Shackled Editions, token 0 is yours, at 0x")
     assert [each["to"] for each in chain.sent] == [calls.studio] * len(calls.storing) + [calls.collection]
     assert all(each["value"] == "0x0" for each in chain.sent)
-    artist, price, supply, minted, _, closed, royalty, scale, _, name = chain.collection("editionAt", 0)
-    assert (artist, price, supply, minted, closed, royalty, name) == (ACCOUNT, 10**16, 7, 1, False, 250, "Mine")
+    artist, price, supply, minted, _, closed, royalty, scale, model, _, name = chain.collection("editionAt", 0)
+    assert (artist, price, supply, minted, closed) == (ACCOUNT, 10**16, 7, 1, False)
+    assert (royalty, model, name) == (250, False, "Mine")
     token = read_token_uri(chain.collection("tokenURI", 0))
     drawn = render(Tasks(Limits(), lambda done, total: None).scene(STATE)).pixels
     np.testing.assert_array_equal(token.pixels, drawn.repeat(scale, 0).repeat(scale, 1))
+    assert all(each["chainId"] == "0x7a69" for each in chain.sent)
     # what is stored already is not stored again
     before = len(chain.sent)
     assert "edition 1" in run(calls, chain)
@@ -89,6 +91,13 @@ def idle() -> EditionChain:
     return chain
 
 
+def switched() -> EditionChain:
+    """A wallet that is switched to another chain after the first transaction."""
+    chain = EditionChain()
+    setattr(chain, "eth_chainId", lambda: "0x1" if chain.sent else "0x7a69")  # noqa: B010
+    return chain
+
+
 def changed(receipt: dict[str, Any], place: int, value: str) -> dict[str, Any]:
     for log in receipt["logs"]:
         log["topics"][place] = value
@@ -101,6 +110,7 @@ def changed(receipt: dict[str, Any], place: int, value: str) -> dict[str, Any]:
         (lambda: EditionChain(deployed=False), InputError, "a development chain has no collection of editions", 0),
         (lambda: lying("eth_getCode", lambda code, _: code[:-2] + "00"), InputError, "has no collection of", 0),
         (lambda: lying("eth_requestAccounts", lambda *_: [7]), WalletError, "the wallet has no account", 0),
+        (switched, InputError, "the wallet is on Ethereum now, not on a development chain: switch it back", 1),
         (idle, WalletError, "succeeded, but the scene is not at", 1),
         (
             lambda: lying("eth_getTransactionReceipt", lambda receipt, _: receipt | {"status": "0x0"}),
@@ -168,6 +178,7 @@ def test_wrong_fields(change: dict[str, Any], words: str) -> None:
 
 def test_licences() -> None:
     assert parse_terms(FIELDS | {"supply": ""}, PIECE).supply == OPEN
+    assert [parse_terms(FIELDS | more, PIECE).model for more in ({}, {"model": "on"})] == [False, True]
     with pytest.raises(InputError, match="short texts"):
         parse_terms(None, PIECE)
     upload = Source("upload", "0" * 64)

@@ -39,7 +39,7 @@ def test_it_imports_nothing() -> None:
     module = wasmtime.Module(wasmtime.Engine(), module_bytes())
     assert list(module.imports) == []
     names = {"allocate", "answer", "answer_size", "call", "create", "deploy", "describe", "gas_used", "memory"}
-    names |= {"profile", "put", "release", "send", "table", "table_size"}
+    names |= {"profile", "put", "release", "send", "set_block", "table", "table_size"}
     assert {each.name for each in module.exports if not each.name.startswith("__")} == names
 
 

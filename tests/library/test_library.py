@@ -109,6 +109,8 @@ def test_errors_of_the_library(chain: Chain) -> None:
         ("objects", ["crown", 1 << 32], "NotStored(name=crown, pointer=0x"),
         ("objects", ["cube", 0], "SizeOutOfRange(size=0)"),
         ("objects", ["cube", 1 << 52], "SizeOutOfRange(size="),
+        # not in Q32: its objects would be invisible
+        ("objects", ["cube", 100], "SizeOutOfRange(size=100)"),
     ):
         with pytest.raises(LookupError) as raised:
             chain.call("Library", function, *values)
@@ -143,6 +145,13 @@ def test_pieces_of_genesis_at_paths(chain: Chain) -> None:
         assert np.array_equal(np.asarray(opened)[::4, ::4], pixels)
 
 
+def test_too_little_gas_is_no_answer(chain: Chain) -> None:
+    """A gateway may keep an answer, so a piece that exists is never reported as missing."""
+    data = artifact("Web").interface.encode("request", ["genesis", "12.png"], [])
+    for gas in range(200_000, 5_000_000, 400_000):
+        assert chain.evm.call(chain.addresses["Web"], data, gas).status != Status.SUCCESS
+
+
 @pytest.mark.parametrize("path", ["", "/"])
 def test_the_page(chain: Chain, path: str) -> None:
     status, body, headers = chain.ask(path)
@@ -172,6 +181,9 @@ def test_paths_where_nothing_is(chain: Chain) -> None:
         "/genesis/0x12.png",
         f"/genesis/0x{'g' * 64}.png",
         "/genesis/.png",
+        f"/genesis/{'9' * 78}.png",
+        f"/genesis/0x{'a' * 65}.png",
+        f"/genesis/1x{'a' * 64}.png",
         "/../icons/coin.png",
         "/" + "a" * 1000,
     ):

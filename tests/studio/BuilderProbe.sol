@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {Fixed} from "../../contracts/src/math/Fixed.sol";
 import {Object, Scene} from "../../contracts/src/scene/Scene.sol";
 import {Box, Framing, Model, ModelMaker, Stage, StageMaker} from "../../contracts/src/studio/SceneBuilder.sol";
 
@@ -61,6 +62,16 @@ contract BuilderProbe {
         return stage.scene;
     }
 
+    /// @notice A mesh of some scale, seen from a direction, white before black.
+    function alone(bytes memory packed, int256 numerator, int256 denominator, int256[3] memory toward) external pure returns (Scene memory) {
+        Stage memory stage = StageMaker.stage(64, 64);
+        stage.background(0, 0);
+        stage.add(packed, StageMaker.unlit()).scale = StageMaker.fraction(numerator, denominator);
+        stage.paint(0xffffff);
+        stage.fit(StageMaker.units(toward[0], toward[1], toward[2]));
+        return stage.scene;
+    }
+
     /// @notice A mesh placed in a box, and one of which only the bounds are known.
     function placed(bytes memory packed, int256[3][2] memory bounds, int256[6] memory room) external pure returns (Scene memory) {
         Stage memory stage = StageMaker.stage(60, 40);
@@ -88,16 +99,32 @@ contract BuilderProbe {
             if (step == "p") stage.add(hex"12", StageMaker.unlit());
             if (step == "P") stage.paint(0, 0xabcdef);
             if (step == "L") stage.paint(0x123456);
-            if (step == "f") stage.fade(StageMaker.fraction(1, 8));
+            if (step == "f") stage.opacity(StageMaker.fraction(1, 8));
             if (step == "s") stage.sun(StageMaker.units(1, 2, 3), 0xffffff);
-            if (step == "t") stage.spot(StageMaker.units(1, 2, 3), StageMaker.units(0, 1, 0), 90, 50, 0xffffff);
+            if (step == "t") stage.spot(StageMaker.units(1, 2, 3), StageMaker.units(0, 1, 0), 30, 50, 0xffffff);
             if (step == "d") stage.dark();
             if (step == "w") stage.shadow();
             if (step == "l") stage.look(StageMaker.units(400, 0, 0), StageMaker.units(0, 0, 0));
+            if (step == "D") stage.look(StageMaker.units(7, 50, 9), StageMaker.units(7, 0, 9));
+            if (step == "u") stage.look(StageMaker.units(7, -50, 9), StageMaker.units(7, 0, 9));
             if (step == "F") stage.fit(StageMaker.units(0, 0, 1));
             if (step == "n") stage.fit(StageMaker.units(0, 0, 0));
             if (step == "v") stage.fieldOfView(180);
             if (step == "o") stage.orthographic(0);
+            if (step == "1") stage.spot(StageMaker.units(0, 0, 0), StageMaker.units(0, 1, 0), 50, 49, 0);
+            if (step == "2") stage.spot(StageMaker.units(0, 0, 0), StageMaker.units(0, 1, 0), 0, 181, 0);
+            if (step == "3") stage.spot(StageMaker.units(0, 0, 0), StageMaker.units(1 << 31, 0, 0), 0, 1, 0);
+            if (step == "4") stage.hemisphere(0, 1 << 24);
+            if (step == "5") stage.rim(1 << 24, 1);
+            if (step == "6") stage.rim(0, 257);
+            if (step == "7") stage.fog(0, 0, 1 << 32);
+            if (step == "8") stage.tone((1 << 24) + 100, true, true);
+            if (step == "9") stage.opacity(StageMaker.unit(257));
+            if (step == "g") stage.ground(0, StageMaker.units(0, 0, 0), 1 << 32);
+            if (step == "O") stage.opacities(new bytes(7));
+            if (step == "U") stage.texture(1, 1, 0, "", new bytes(3), new int256[2][](9));
+            if (step == "i") stage.fieldOfView(Fixed.wrap(50));
+            if (step == "x") stage.texture(1, 1, 4, "", new bytes(3), new int256[2][](8));
             if (step == "r") stage.place(Framing.box(0, 0, 0, 1, 0, 1));
         }
         return stage.scene;
@@ -127,14 +154,14 @@ contract BuilderProbe {
         Stage memory stage = StageMaker.stage(20, 10, 3);
         stage.antialias();
         stage.add(hex"0000000000", StageMaker.unlit());
-        stage.fade(99);
-        stage.fade(50);
+        stage.opacity(99);
+        stage.opacity(50);
         stage.sun(StageMaker.units(-1, 2, 3), 0xffffff);
-        stage.spot(StageMaker.units(10, -20, 30), StageMaker.units(0, 1, -2), 90, -50, 0x808080);
+        stage.spot(StageMaker.units(10, -20, 30), StageMaker.units(0, 1, -2), StageMaker.fraction(45, 2), StageMaker.unit(120), 0x808080);
         stage.add(hex"0000000000", StageMaker.unlit());
         stage.add(hex"0000000000", StageMaker.unlit());
-        stage.fade(0);
-        stage.spot(StageMaker.units(1, 2, 3), StageMaker.units(-1, 0, 0), 100, 100, 0x010203);
+        stage.opacity(0);
+        stage.spot(StageMaker.units(1, 2, 3), StageMaker.units(-1, 0, 0), 0, 180, 0x010203);
         stage.antialias();
         stage.tone(150, true, false);
         stage.fog(0xc0ffee, 2, 5);
@@ -160,13 +187,13 @@ contract BuilderProbe {
     }
 
     function seeThrough(bytes memory levels) external pure returns (Scene memory) {
-        Model memory m = ModelMaker.model(8, 12);
-        m.box(-100, -100, -100, 100, 100, 100, 0x102030);
+        Model memory m = ModelMaker.model();
+        for (uint256 k; k != levels.length; ++k) m.vertex(int256(k), 0, 0, 0x102030);
         Stage memory stage = StageMaker.stage(20, 10, 2);
         stage.add(hex"0000000000", StageMaker.unlit());
         stage.opacities("");
         stage.add(m.pack(), StageMaker.unlit());
-        stage.fade(50);
+        stage.opacity(50);
         stage.opacities(levels);
         stage.antialias();
         return stage.scene;

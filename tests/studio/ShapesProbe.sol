@@ -21,7 +21,7 @@ contract ShapesProbe {
         if (which == 0) m.sphere(10, 20, 30, radius, segments, rings, 0x102030);
         if (which == 1) m.cylinder(10, 20, 30, radius, size, segments, 0x102030);
         if (which == 2) m.cone(10, 20, 30, radius, size, segments, 0x102030);
-        if (which == 3) m.ring(10, 20, 30, radius, size, segments, rings, 0x102030);
+        if (which == 3) m.torus(10, 20, 30, radius, size, segments, rings, 0x102030);
         return (m.pack(), m.packSmooth());
     }
 

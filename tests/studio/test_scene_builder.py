@@ -14,6 +14,7 @@ from tools.ledger import World, call_data
 
 from shackled import Mesh, RenderError, Texture
 from shackled.artifacts import artifact
+from shackled.image import decode_bmp
 from shackled.scene import Viewpoint, frame, is_closed, pack, pack_texture, unpack
 from shackled.scene import decode as decode_scene
 from shackled.studio import scene_struct, split_mesh
@@ -163,7 +164,8 @@ def test_what_the_structs_do_not_hold(world: World, probe: bytes) -> None:
     """In whatever order they are added, their records ascend; the last of an object counts."""
     (scene,) = ask(world, probe, [SCENE_STRUCT], "extended()")
     assert [light[0] for light in scene[5]] == [0, 1, 1]
-    numbers = [(0, ONE, -2 * ONE, 90 * ONE // 100, -(50 * ONE // 100)), (-ONE, 0, 0, ONE, ONE)]
+    cosine = round(math.cos(math.radians(22.5)) * ONE)
+    numbers = [(0, ONE, -2 * ONE, cosine, -ONE // 2), (-ONE, 0, 0, ONE, -ONE)]
     cones = [b"".join(number.to_bytes(8, "big", signed=True) for number in cone) for cone in numbers]
     fog = b"\xc0\xff\xee" + (2 * ONE).to_bytes(8, "big") + (5 * ONE).to_bytes(8, "big")
     effects = b"\4\0\0\0\6\1\2\3\4\5\6" + b"\5\0\0\0\4\7\10\11\4" + b"\6\0\0\0\x13" + fog
@@ -256,6 +258,13 @@ def test_the_sun_shines_until_other_light_is_added(world: World, probe: bytes) -
     assert stepped(world, probe, "wts")[7].endswith(b"\n\0\0\0\1" + bytes(31) + b"\1")
 
 
+@pytest.mark.parametrize(("order", "up"), [("D", -1), ("u", 1)])
+def test_cameras_look_straight_down_and_up(world: World, probe: bytes, order: str, up: int) -> None:
+    scene = stepped(world, probe, order)
+    assert scene[1][2] == (0, 0, up * ONE)
+    world.run(world.address("Renderer"), call_data(f"render({SCENE_STRUCT})", scene))
+
+
 def test_one_of_several_objects_is_painted(world: World, probe: bytes) -> None:
     """Objects may share a mesh; what is painted has its own from then on."""
     scene = stepped(world, probe, "aaaPL")
@@ -290,11 +299,25 @@ def test_fractions(world: World, probe: bytes) -> None:
         ("ar", "NoRoom", "uint256"),
         ("v", "FieldOfViewOutOfRange", "int256"),
         ("o", "HeightOutOfRange", "int256"),
+        ("i", "FieldOfViewOutOfRange", "int256"),
+        ("aO", "NotOnePerVertex", "uint256,uint256"),
+        ("aU", "NotOnePerVertex", "uint256,uint256"),
+        ("1", "SpotAnglesOutOfRange", "int256,int256"),
+        ("2", "SpotAnglesOutOfRange", "int256,int256"),
+        ("3", "SpotOutOfRange", "uint256,int256,int256,int256"),
+        ("4", "NotAColor", "uint256"),
+        ("5", "NotAColor", "uint256"),
+        ("6", "RimPowerOutOfRange", "uint256"),
+        ("7", "FogOutOfRange", "int256,int256"),
+        ("8", "ExposureOutOfRange", "uint256"),
+        ("a9", "OpacityOutOfRange", "uint256,uint256"),
+        ("g", "GroundOutOfRange", "uint256,uint256,uint256"),
+        ("ax", "TextureFormat", "uint256,uint256,uint256"),
     ],
 )
 def test_steps_that_are_refused(world: World, probe: bytes, order: str, error: str, kinds: str) -> None:
     selector = call_data(f"{error}({kinds})", *([0] * (kinds.count(",") + bool(kinds))))[:4].hex()
-    with pytest.raises(RenderError, match=f"error 0x{selector}"):
+    with pytest.raises(RenderError, match=rf"error 0x{selector}|: {error}\("):
         stepped(world, probe, order)
 
 
@@ -307,6 +330,25 @@ def test_scenes_from_elsewhere_go_on(world: World, probe: bytes) -> None:
     assert scene[5] == given[5] + given[5][:1]
     assert scene[6][:2] == given[6]
     assert scene[6][2][0] == bytes(5)
+
+
+@pytest.mark.parametrize(
+    ("length", "scale"), [(1500, (1, 10)), (3000, (1, 10)), (1000, (1, 1000)), (1000, (1, 100000))]
+)
+def test_long_and_small_objects_are_in_view(world: World, probe: bytes, length: int, scale: tuple[int, int]) -> None:
+    """A pyramid and a bar, seen from their ends with the eye close by: nothing is clipped, at any scale."""
+    square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    for near, far in ((0, 300), (2, 2)):
+        corners = [(far * x, far * y, 0) for x, y in square] + [(near * x, near * y, length) for x, y in square]
+        sides = [(k, (k + 1) % 4, 4 + (k + 1) % 4) for k in range(4)] + [(k, 4 + (k + 1) % 4, 4 + k) for k in range(4)]
+        mesh = pack(Mesh(corners, [*sides, (4, 5, 6), (4, 6, 7)]))
+        (scene,) = ask(world, probe, [SCENE_STRUCT], "alone(bytes,int256,int256,int256[3])", mesh, *scale, [0, 0, 1])
+        bitmap = world.run(world.address("Renderer"), call_data(f"render({SCENE_STRUCT})", scene))
+        white = decode_bmp(decode(["bytes"], bitmap)[0], 64, 64)[..., 0] == 255
+        rows, columns = np.nonzero(white)
+        # whole, symmetric, in the middle
+        assert white.sum() == (rows.max() - rows.min() + 1) * (columns.max() - columns.min() + 1) > 0
+        assert (rows.min() + rows.max(), columns.min() + columns.max()) == (63, 63)
 
 
 @pytest.mark.parametrize("tenths", [0, 500, 225])

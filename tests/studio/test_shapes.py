@@ -187,6 +187,29 @@ def test_extrusions(probe: Probe, name: str, backward: bool) -> None:
     assert (normals[front][:, 2] > 0).all()
 
 
+def test_outlines_that_cross_themselves_are_refused(probe: Probe) -> None:
+    def side(a: Any, b: Any, p: Any) -> int:
+        return int(np.sign((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])))
+
+    random, crossed, simple = np.random.default_rng(7), 0, 0
+    for _ in range(150):
+        points = random.integers(0, 50, (random.integers(4, 8), 2)).tolist()
+        edges = list(zip(points, points[1:] + points[:1], strict=True))
+        crosses = any(
+            side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0 for a, b in edges for c, d in edges
+        )
+        crossed += crosses
+        text = " ".join(f"{x},{y}" for x, y in points)
+        if crosses:
+            with pytest.raises(RenderError):
+                probe.mesh(EXTRUSION, text, 0, 1)
+        elif all(side(a, b, p) for a, b in edges for p in points if p not in (a, b)):
+            assert is_closed(probe.mesh(EXTRUSION, text, 0, 1))
+            simple += 1
+    assert crossed > 50
+    assert simple > 20
+
+
 def test_stars_and_polygons(probe: Probe) -> None:
     star, square = probe.ask(["int256[2][]", "int256[2][]"], "star(int256,int256,uint256)", 100, 50, 4)
     assert square == ((0, 100), (-100, 0), (0, -100), (100, 0))

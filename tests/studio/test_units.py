@@ -43,7 +43,8 @@ def world() -> World:
         (scene(thing(1, mesh=compact(MESH))), "ScaleLooksUnscaled(object=0, scale=1)"),
         (scene(thing(1), lens=(1, 200 * ONE)), "ScaleLooksUnscaled(object=0, scale=1)"),
         (scene(thing(), eye=(0, 0, -300)), "CameraLooksUnscaled(eyeX=0, eyeY=0, eyeZ=-300)"),
-        (scene(thing(1), eye=(0, 0, 300)), "CameraLooksUnscaled(eyeX=0, eyeY=0, eyeZ=300)"),
+        # the camera is where `fit` puts it for such an object
+        (scene(thing(), thing(1), eye=(0, 0, 300)), "ScaleLooksUnscaled(object=1, scale=1)"),
         (scene(thing(material=(1, 1, 2, 0, 9))), "MaterialLooksUnscaled(object=0, coefficient=2)"),
     ],
 )

@@ -23,6 +23,7 @@ from tools.tokens.stage import Stage, icon_scene, stage, store_scene
 from tools.tokens.world import ETHER, GAS, ZERO, Contract, Receipt, Refused, World, keccak
 
 from shackled import render
+from shackled.tokens import read_data_uri
 from tokens.adversaries import adversary
 from tokens.show import document, pixels, traits
 
@@ -45,7 +46,8 @@ class Show:
 
     def add(self, sender: str | None = None, gas: int = GAS, **changes: Any) -> Receipt:
         """Adds an edition."""
-        terms = {"name": "One", "scene": self.scene, "scale": 1, "price": PRICE, "supply": 5, "royalty": 500}
+        terms = {"name": "One", "scene": self.scene, "scale": 1, "model": False, "price": PRICE}
+        terms |= {"supply": 5, "royalty": 500}
         terms |= {"copies": 0} | changes
         return self.editions.send("add", *terms.values(), sender=sender or self.alice, gas=gas)
 
@@ -91,12 +93,24 @@ def test_anybody_adds_scenes(show: Show) -> None:
     first = show.editions.call("editionAt", 0)
     receipt = show.add(show.bob, name="Two", price=1, supply=OPEN, royalty=1000, copies=2)
     added, *given = receipt.events
-    expected = {"edition": 1, "artist": show.bob, "scene": show.scene, "name": "Two", "scale": 1, "price": 1}
+    expected = {
+        "edition": 1,
+        "artist": show.bob,
+        "scene": show.scene,
+        "name": "Two",
+        "scale": 1,
+        "model": False,
+        "price": 1,
+    }
     assert added == ("EditionAdded", expected | {"supply": OPEN, "royalty": 1000})
     assert [event["to"] for _, event in given] == [show.bob, show.bob]
-    assert show.editions.call("editionAt", 0) == first == (show.alice, PRICE, 5, 0, 0, False, 500, 1, show.scene, "One")
+    assert (
+        show.editions.call("editionAt", 0)
+        == first
+        == (*(show.alice, PRICE, 5, 0, 0, False, 500, 1, False, show.scene, "One"),)
+    )
     # the copies are the artist's, and nothing is due for them
-    assert show.editions.call("editionAt", 1) == (show.bob, 1, OPEN, 2, 2, False, 1000, 1, show.scene, "Two")
+    assert show.editions.call("editionAt", 1) == (*(show.bob, 1, OPEN, 2, 2, False, 1000, 1, False, show.scene, "Two"),)
     assert (show.editions.call("editionCount"), show.editions.call("totalSupply")) == (2, 2)
     assert [show.editions.call("editionOf", token) for token in range(2)] == [1, 1]
     assert [show.editions.call("left", edition) for edition in range(2)] == [5, OPEN - 2]
@@ -162,6 +176,10 @@ def test_what_cannot_be_drawn_is_refused(show: Show) -> None:
         # parts that may come when it is sold, or never
         (put(show, "storePart", b"\x13" + 20 * b"\x12"), "NothingKept"),
         (put(show, "storePart", b"\1" + bytes(4)), "NotAScene"),
+        # the mark of a scene, without one behind it
+        (put(show, "storePart", b"\x20"), "NotAScene"),
+        (put(show, "storePart", b"\x20" + 64 * b"\xff"), "NotAScene"),
+        (put(show, "storePart", show.world.of(show.scene).code[1:-64]), "NotAScene"),
         (kept(canvas=(2049, 128)), "CanvasSize"),
         (kept(position=(2**59, 0, 0)), "PositionOutOfRange"),
         (kept(mesh=b"\x12" + 20 * b"\x12"), "NothingKept"),
@@ -193,11 +211,39 @@ def test_what_takes_too_much_gas_to_draw_is_refused(show: Show) -> None:
     show.add()
 
 
-def test_the_whole_picture_is_drawn(show: Show) -> None:
-    for name in ("icons/lightning", "icons/ethereum"):
-        scene = store_scene(show.s.studio, icon_scene(name))
-        drawing = show.s.studio.gas_of("renderDataURI", scene, 4)
-        assert 0 < show.add(scene=scene, scale=4).execution - drawing < 200_000
+def test_the_whole_metadata_is_computed(show: Show) -> None:
+    """So what was added can be read with as much gas, and little more for the number of the token and its owner."""
+    for number, (name, model) in enumerate((("lightning", False), ("ethereum", False), ("ethereum", True)), 1):
+        scene = store_scene(show.s.studio, icon_scene(f"icons/{name}"))
+        execution = show.add(scene=scene, scale=4, model=model, copies=3).execution
+        computing = show.editions.gas_of("editionURI", number)
+        assert computing > show.s.studio.gas_of("renderDataURI", scene, 4)
+        assert 0 < execution - computing < 330_000
+        (*_, last) = range(show.editions.call("totalSupply"))
+        assert 0 < show.editions.gas_of("tokenURI", last) - computing < 20_000
+
+
+def test_the_metadata_of_an_edition_is_that_of_its_tokens(show: Show) -> None:
+    show.add(name='A "model"', model=True, copies=1)
+    plain, edition = (document(show.editions.call("editionURI", number)) for number in range(2))
+    token = document(show.editions.call("tokenURI", 0))
+    assert token == edition | {"name": 'A "model" #0'}
+    assert edition["name"] == 'A "model"'
+    assert "animation_url" not in plain
+    kind, content = read_data_uri(edition["animation_url"], "the model")
+    assert (kind, content) == ("model/gltf-binary", show.s.studio.call("glb", show.scene))
+    with refused("UnknownEdition", 2, 2):
+        show.editions.call("editionURI", 2)
+
+
+def test_the_picture_is_drawn_at_its_scale(show: Show) -> None:
+    """What fits at a scale of 1 may not fit at 8."""
+    plain = evolve(icon_scene("icons/lightning"), width=480, height=440, objects=())
+    scene = store_scene(show.s.studio, plain)
+    assert show.s.studio.gas_of("renderDataURI", scene, 1) < 2**24 < show.s.studio.gas_of("renderDataURI", scene, 8)
+    show.add(scene=scene)
+    with refused("DrawingOutOfGas", scene, 2**24):
+        show.add(scene=scene, scale=8)
 
 
 def test_the_number_of_an_edition_fits_beside_the_owner(show: Show) -> None:
@@ -246,12 +292,18 @@ def test_every_name_is_valid_json(shared: Show, name: str) -> None:
     ).map(b"".join)
 )
 @example(b"caf\xe9\xff")
+@example(b"\xe0\x80\x80")
+@example(b"\xf0\x80\x80\x80")
+@example(b"\xf4\x90\x80\x80")
+@example(b"\xf8\x90\x80\x80")
+@example(b"\xc3a")
+@example(b"\xe2\x82a")
 @example(b"\xe2\x82")
 def test_names_are_text(shared: Show, name: bytes) -> None:
     """Python's decoder says which bytes are UTF-8, and where they are not."""
-    signature = b"add(string,address,uint8,uint96,uint32,uint16,uint32)"
-    kinds = ["bytes", "address", "uint8", "uint96", "uint32", "uint16", "uint32"]
-    data = keccak(signature)[:4] + encode(kinds, [name, shared.scene, 1, 0, 1, 0, 0])
+    signature = b"add(string,address,uint8,bool,uint96,uint32,uint16,uint32)"
+    kinds = ["bytes", "address", "uint8", "bool", "uint96", "uint32", "uint16", "uint32"]
+    data = keccak(signature)[:4] + encode(kinds, [name, shared.scene, 1, False, 0, 1, 0, 0])
 
     def run() -> None:
         shared.world.run(shared.alice, shared.editions.address, data, 0, GAS, False, shared.editions.abi)
@@ -419,7 +471,7 @@ def execute(show: Show, contract: Contract, function: str, *arguments: Any, valu
 
 def trap(show: Show, copies: int = 0) -> tuple[Any, ...]:
     """An edition of a contract."""
-    return "add", "Trap", show.scene, 1, PRICE, 5, 0, copies
+    return "add", "Trap", show.scene, 1, False, PRICE, 5, 0, copies
 
 
 def test_calls_from_a_token_that_arrives(show: Show) -> None:
@@ -428,7 +480,7 @@ def test_calls_from_a_token_that_arrives(show: Show) -> None:
     receiver = show.world.deploy(adversary("Receiver"))
     show.world.fund(receiver.address, ETHER)
     mint = show.editions.encode("mint", (0, 1))[1]
-    more = show.editions.encode("add", ("Two", show.scene, 1, 0, 1, 0, 1))[1]
+    more = show.editions.encode("add", ("Two", show.scene, 1, False, 0, 1, 0, 1))[1]
     for swallow in (False, True):
         for data, value in ((show.editions.encode("mint", (1, 1))[1], 1), (more, 0)):
             receiver.send("prepare", show.editions, data, value, swallow)
@@ -437,7 +489,7 @@ def test_calls_from_a_token_that_arrives(show: Show) -> None:
     assert show.editions.call("totalSupply") == 0
     # adding without copies, giving the token away: as well then as later
     for data in (
-        show.editions.encode("add", ("Two", show.scene, 1, 0, 1, 0, 0))[1],
+        show.editions.encode("add", ("Two", show.scene, 1, False, 0, 1, 0, 0))[1],
         show.editions.encode("transferFrom", (receiver.address, show.carol, 1))[1],
     ):
         receiver.send("prepare", show.editions, data, 0, False)

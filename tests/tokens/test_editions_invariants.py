@@ -38,6 +38,7 @@ class Model:
     closed: bool
     royalty: int
     scale: int
+    model: bool
     scene: str
     name: str
 
@@ -68,10 +69,10 @@ class Show(RuleBasedStateMachine):
     )
     def add(self, artist: str, price: int, supply: int, copies: int, royalty: int) -> None:
         edition = len(self.editions)
-        model = Model(artist, price, supply, copies, copies, False, royalty, 1, self.scene, f"No. {edition}")
+        model = Model(artist, price, supply, copies, copies, False, royalty, 1, False, self.scene, f"No. {edition}")
         possible = supply > 0 and copies <= min(supply, 100) and royalty <= 1000
         try:
-            self.contract.send("add", model.name, self.scene, 1, price, supply, royalty, copies, sender=artist)
+            self.contract.send("add", model.name, self.scene, 1, False, price, supply, royalty, copies, sender=artist)
         except Refused:
             assert not possible
         else:

@@ -98,6 +98,11 @@ def test_the_whole_way_of_editions(
     said = shackled("token", "phase", "public", "-c", "editions", "--yes", user=OWNER, expect=2)
     assert "shackled token edition --help" in said.error
 
+    # a token larger than wallets like, with a model, is right all the same
+    large = pointer_of(shackled("mint", "triangle.obj", "--licence", "MIT", "--size", 280, "--yes", user=ALICE))
+    shackled(*edition, "add", large, "Large", "--scale", 8, "--model", "--price", 0, "--yes", user=ALICE)
+    assert "WRONG" not in shackled("token", "verify", 4, "-c", "editions").out
+
     # nodes that lie: about the edition that was added, about its price, about gas
     def lied(lies: dict[str, Any], *arguments: Any, user: int, expect: int = 1) -> str:
         with Liar(lies).before(node.url) as url:
@@ -122,10 +127,10 @@ def test_the_whole_way_of_editions(
     assert contract.functions.editionCount().call() == count + 1
     many = {"eth_estimateGas": lambda gas, _: hex(1000 * int(gas, 16))}
     assert "more than 10 times as much" in lied(many, "add", pointer, "Mine", *open_sale, user=BOB)
-    shackled(*edition, "add", pointer, "Dear", *sale, user=BOB)
+    shackled(*edition, "add", pointer, "Expensive", *sale, user=BOB)
     told = lied({"eth_call": dearer}, "mint", 0, 1, "--yes", user=ALICE)
     assert told == "shackled: the price is 0.01 ether, but 0.02 ether was sent"
-    assert contract.functions.totalSupply().call() == 5
+    assert contract.functions.totalSupply().call() == 6
 
     # the artist has the ether, and closes
     said = shackled(*edition, "withdraw", 0, "--yes", user=BOB, expect=1)

@@ -45,7 +45,7 @@ def s() -> Stage:
 def editions(s: Stage) -> Contract:
     collection = s.world.deploy("Editions", s.studio)
     scene = store_scene(s.studio, evolve(icon_scene("icons/ethereum"), width=32, height=24))
-    collection.send("add", "Ether", scene, 3, ETHER, 5, 0, 3, sender=s.bob)
+    collection.send("add", "Ether", scene, 3, True, ETHER, 5, 0, 3, sender=s.bob)
     return collection
 
 

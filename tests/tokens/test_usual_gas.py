@@ -27,7 +27,7 @@ def test_the_usual_gas_of_each_function() -> None:
     listed = {s.alice: 20} | {account(f"listed {number}"): 2 for number in range(99)}
     price = list(ICONS.values())[1][3]
     editions = s.world.deploy("Editions", s.studio)
-    editions.send("add", "One", pointer, 4, price, 9, 500, 1, sender=s.bob)
+    editions.send("add", "One", pointer, 4, False, price, 9, 500, 1, sender=s.bob)
     calls: list[tuple[Contract, str, tuple[Any, ...], str, int]] = [
         (s.genesis, "mint", (1,), s.alice, PRICE),
         (s.genesis, "mint", (1,), s.alice, PRICE),

@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from functools import cache
 
 from attrs import evolve
-from eth_utils.abi import collapse_if_tuple
 
 from shackled import Scene
 from shackled.artifacts import artifact
 from shackled.datasets import icons
-from shackled.scene import encode
-from tools.tokens.world import ETHER, GAS, Contract, World, account, keccak
+from shackled.studio import store_scene as storing
+from tools.tokens.world import ETHER, GAS, Contract, World, account
 
 PRICE = ETHER // 20
 RESERVE = 24
@@ -83,13 +82,11 @@ def icon_scene(name: str) -> Scene:
 
 
 def store_scene(studio: Contract, scene: Scene) -> str:
-    """Store a scene in the Studio; return its pointer."""
-    (entry,) = (each for each in studio.abi if each.get("name") == "storeScene")
-    selector = keccak(f"storeScene({collapse_if_tuple(entry['inputs'][0])})".encode())[:4]
-    output = studio.world.run(
-        account("owner"), studio.address, encode(selector, scene), 0, GAS, True, studio.abi
-    ).output
-    return "0x" + output[12:32].hex()
+    """Store a scene in the Studio as the commands do; return its pointer."""
+    transactions = storing(scene, bytes.fromhex(studio.address[2:]))
+    for each in transactions:
+        studio.world.run(account("owner"), studio.address, each.data, 0, GAS, True, studio.abi)
+    return "0x" + transactions[-1].pointer.hex()
 
 
 def stage(chain_id: int = 1) -> Stage:

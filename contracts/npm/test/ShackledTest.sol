@@ -8,7 +8,7 @@ import {IRenderer} from "../interfaces/IRenderer.sol";
 import {IStudio} from "../interfaces/IStudio.sol";
 import {ShackledCode} from "./ShackledCode.sol";
 
-/// @dev What is needed of Foundry's cheatcodes.
+/// @dev The Foundry cheatcodes used here.
 interface Cheats {
     function deployCode(string calldata artifact) external returns (address);
     function etch(address target, bytes calldata code) external;
@@ -19,8 +19,8 @@ interface CodeHolder {
     function get() external view returns (bytes memory code);
 }
 
-/// @title ShackledTest: a Foundry test with the contracts at their addresses, the same bytes as on every chain.
-/// @notice The contracts of ShackledCode.sol, which hold the bytes, are compiled once: tests read them as artifacts of the project.
+/// @title ShackledTest: a Foundry test with the contracts at their addresses, with the same bytecode as on every chain.
+/// @notice The contracts of ShackledCode.sol, which contain the bytecode, are compiled once: tests read them as artifacts of the project.
 abstract contract ShackledTest {
     IStudio internal constant studio = IStudio(Addresses.STUDIO);
     IRenderer internal constant renderer = IRenderer(Addresses.RENDERER);
@@ -33,7 +33,7 @@ abstract contract ShackledTest {
         placeShackled();
     }
 
-    /// @notice Places all contracts whose addresses have no code. To be called again after a fork is selected.
+    /// @notice Places all contracts whose addresses have no code. Call it again after selecting a fork.
     function placeShackled() internal {
         (string[] memory names, address[] memory targets) = ShackledCode.all();
         for (uint256 k; k < names.length; ++k) {

@@ -3,9 +3,10 @@ pragma solidity 0.8.37;
 
 import {metered, OutOfGas} from "./Metering.sol";
 
-/// @dev Calls a contract and ends the creation call with what came of it, by reverting: what a creation returns may have 24,576 bytes
-/// only. The answer is a word, 1 if the call succeeded, 0 if not; a word, the gas that it used; then what it returned or reverted with.
-/// @param saved Gas that the call would have used had it not been made by this creation.
+/// @dev Calls a contract and ends the creation call by reverting with the result, because the return data of a creation is limited to
+/// 24,576 bytes. The result consists of a word, 1 if the call succeeded or 0 if not; a word, the gas used; then the return data of the
+/// call.
+/// @param saved Gas that the call saved because this creation made it.
 function answer(address target, uint256 limit, uint256 data, uint256 size, uint256 saved) view {
     if (limit != 0) limit = limit > saved ? limit - saved : 1;
     (bool success, uint256 used, bool exhausted) = metered(target, limit, data, size);

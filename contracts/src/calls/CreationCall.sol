@@ -4,21 +4,22 @@ pragma solidity 0.8.37;
 import {answer} from "./Answer.sol";
 import {inflate} from "./Inflate.sol";
 
-/// @title CreationCall: a read call that brings contracts along, creates them and calls the last of them.
-/// @notice Never deployed: the creation always ends by a revert, whose data are the answer. For nodes without state overrides, where
-/// nothing is deployed.
+/// @title CreationCall: a read call that creates the contracts it needs, and calls the last of them.
+/// @notice Never deployed: the creation always reverts, and the revert data is the result. For nodes without state overrides, on chains
+/// where the contracts are not deployed.
 contract CreationCall {
-    /// @dev What the first access to an account costs in a transaction, less what a later one does: accounts that were just created count
-    /// as accessed, others do not.
+    /// @dev The cost of the first access to an account in a transaction, less that of a later one: accounts that were just created are
+    /// warm, others are cold.
     uint256 private constant FIRST_ACCESS = 2500;
 
     error NotCreated(uint256 index);
 
-    /// @param limit The gas that the call gets; 0 for all there is.
-    /// @param count How many contracts are to be created. The constructor of each is handed the addresses of the two before, the last one
-    /// first, three times: the Renderer takes two engines for plain pictures, two for those that are antialiased, and one for effects with
-    /// the one for their shadows. It calls one pair, or the one for effects. If only one was created before, it takes the place of both.
-    /// @param packed Deflated: for each contract four bytes, the size of its creation code, and this code; then the data of the call.
+    /// @param limit The gas limit of the call; 0 for all available gas.
+    /// @param count The number of contracts to create. The constructor of each receives the addresses of the two created before it, the
+    /// last one first, three times: the Renderer takes two engines for plain pictures, two for antialiased ones, and one for effects
+    /// together with Effects. It calls one of the pairs, or the one for effects. If only one contract was created before, its address is
+    /// used for both.
+    /// @param packed Compressed by DEFLATE: for each contract its creation code, preceded by its size in four bytes; then the calldata.
     constructor(uint256 limit, uint256 count, bytes memory packed) {
         bytes memory data = inflate(packed);
         address target;
@@ -35,7 +36,7 @@ contract CreationCall {
                 next := add(next, 4)
                 let code := next
                 next := add(next, size)
-                // the addresses take the place of what comes next for a moment
+                // the addresses temporarily overwrite the following data
                 let kept := add(mload(0x40), 0xc0)
                 mcopy(kept, next, 0xc0)
                 mstore(next, target)
@@ -48,7 +49,7 @@ contract CreationCall {
             }
             if (target == address(0)) revert NotCreated(i);
         }
-        // each but the first to be called is taken to be accessed by one after it: where a single engine draws that is one too many
+        // each contract but the first one called is assumed to be accessed by the next: one too many if a single engine draws
         answer(target, limit, next, end - next, (count - 1) * FIRST_ACCESS);
     }
 }

@@ -3,11 +3,11 @@ pragma solidity 0.8.37;
 
 import {answer} from "./Answer.sol";
 
-/// @title DeployedCall: a read call that creates this contract, which calls another that is there, and says how much gas that took.
-/// @notice Never deployed: the creation always ends by a revert, whose data are the answer. For nodes without state overrides.
+/// @title DeployedCall: a read call that creates this contract, which calls a deployed one and measures the gas.
+/// @notice Never deployed: the creation always reverts, and the revert data is the result. For nodes without state overrides.
 contract DeployedCall {
-    /// @param target The contract.
-    /// @param limit The gas that it gets; 0 for all there is.
+    /// @param target The contract to call.
+    /// @param limit The gas limit of the call; 0 for all available gas.
     constructor(address target, uint256 limit, bytes memory data) {
         uint256 begin;
         assembly ("memory-safe") {

@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-/// @dev Where in the data the next bits are.
+/// @dev The state of a bit reader.
 /// @param next The address of the first byte that is not in `bits`.
-/// @param bits Those that were read ahead, the next one lowest.
-/// @param count How many they are.
+/// @param bits The bits already read, the next one lowest.
+/// @param count The number of these bits.
 struct Reader {
     uint256 next;
     uint256 bits;
     uint256 count;
 }
 
-/// @dev The workspace. Two tables, for literals with lengths and for distances: an entry of two bytes, symbol * 16 + length of its code,
-/// for all 15 bits that may come next.
+/// @dev Offsets in the workspace. Two tables, for literals and lengths, and for distances: an entry of two bytes, symbol * 16 + length of
+/// its code, for each value of the next 15 bits.
 uint256 constant LITERAL_TABLE = 0;
 uint256 constant DISTANCE_TABLE = 0x10000;
-/// @dev For each symbol of a length, of a distance: how many extra bits follow (a byte), and the base to which they are added (two bytes).
+/// @dev For each symbol of a length or distance: the number of extra bits (one byte), and the base to which they are added (two bytes).
 uint256 constant LENGTHS = 0x20000;
 uint256 constant DISTANCES = 0x20060;
-/// @dev The lengths of the codes of the symbols, a byte each; the symbols sorted by this length, two bytes each.
+/// @dev The code lengths of the symbols, one byte each; the symbols sorted by code length, two bytes each.
 uint256 constant CODE_LENGTHS = 0x200e0;
 uint256 constant SORTED = 0x20260;
 uint256 constant WORKSPACE = 0x20500;
 
 error NotDeflated();
 
-/// @notice What was packed by DEFLATE (RFC 1951), such as zlib makes it without head and checksum.
-/// @return data In memory where nothing comes after it yet.
+/// @notice Decompresses DEFLATE data (RFC 1951): zlib data without header and checksum.
+/// @return data The decompressed data, at the end of the used memory.
 function inflate(bytes memory packed) pure returns (bytes memory data) {
     unchecked {
         uint256 space;
@@ -59,7 +59,7 @@ function inflate(bytes memory packed) pure returns (bytes memory data) {
     }
 }
 
-/// @dev The next `count` bits, up to 32.
+/// @dev Returns the next `count` bits, up to 32.
 function take(Reader memory reader, uint256 count) pure returns (uint256 value) {
     unchecked {
         if (reader.count < 48) fill(reader);
@@ -69,7 +69,7 @@ function take(Reader memory reader, uint256 count) pure returns (uint256 value) 
     }
 }
 
-/// @dev Reads 26 bytes ahead; fewer than 48 bits must be there.
+/// @dev Reads 26 bytes ahead. Fewer than 48 bits must be buffered.
 function fill(Reader memory reader) pure {
     unchecked {
         uint256 word;
@@ -83,7 +83,7 @@ function fill(Reader memory reader) pure {
     }
 }
 
-/// @dev The bytes of a word in the opposite order.
+/// @dev Reverses the bytes of a word.
 function reversed(uint256 word) pure returns (uint256) {
     unchecked {
         word = ((word & 0x00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff) << 8)
@@ -98,7 +98,7 @@ function reversed(uint256 word) pure returns (uint256) {
     }
 }
 
-/// @dev A block that is not packed.
+/// @dev Copies an uncompressed block.
 function copyStored(Reader memory reader, uint256 out) pure returns (uint256) {
     unchecked {
         take(reader, reader.count & 7);
@@ -113,7 +113,7 @@ function copyStored(Reader memory reader, uint256 out) pure returns (uint256) {
     }
 }
 
-/// @dev A block up to its end.
+/// @dev Decodes the rest of a block.
 function decode(Reader memory reader, uint256 space, uint256 begin) pure returns (uint256 out) {
     out = begin;
     bool ended;
@@ -122,7 +122,7 @@ function decode(Reader memory reader, uint256 space, uint256 begin) pure returns
         assembly ("memory-safe") {
             let bits := mload(add(reader, 0x20))
             let count := mload(add(reader, 0x40))
-            // at most 48 bits are used from symbol to symbol
+            // a symbol takes at most 48 bits
             for {} iszero(lt(count, 48)) {} {
                 let entry := shr(240, mload(add(space, shl(1, and(bits, 0x7fff)))))
                 let size := and(entry, 15)
@@ -138,7 +138,7 @@ function decode(Reader memory reader, uint256 space, uint256 begin) pure returns
                     ended := 1
                     break
                 }
-                // extra bits and base of a length, of a distance
+                // extra bits and base of a length or distance
                 entry := shr(232, mload(add(add(space, LENGTHS), mul(3, sub(symbol, 257)))))
                 size := shr(16, entry)
                 let end := add(add(out, and(entry, 0xffff)), and(bits, sub(shl(size, 1), 1)))
@@ -153,7 +153,7 @@ function decode(Reader memory reader, uint256 space, uint256 begin) pure returns
                 let from := sub(out, add(and(entry, 0xffff), and(bits, sub(shl(size, 1), 1))))
                 bits := shr(size, bits)
                 count := sub(count, size)
-                // what repeats itself sooner than it ends is copied as far as it is there, then twice as far
+                // overlapping copies double the copied range each time
                 for {} lt(out, end) {} {
                     size := sub(out, from)
                     if gt(size, sub(end, out)) { size := sub(end, out) }
@@ -167,7 +167,7 @@ function decode(Reader memory reader, uint256 space, uint256 begin) pure returns
     }
 }
 
-/// @dev The bases and extra bits of lengths (from 257) and of distances (from 0), as RFC 1951 has them.
+/// @dev Writes the bases and extra bits of lengths (from symbol 257) and distances (from symbol 0) of RFC 1951.
 function writeBases(uint256 space) pure {
     assembly ("memory-safe") {
         let place := add(space, LENGTHS)
@@ -178,7 +178,7 @@ function writeBases(uint256 space) pure {
             place := add(place, 3)
             base := add(base, shl(extra, 1))
         }
-        // the longest has a symbol of its own
+        // the maximum length has its own symbol
         mstore(place, shl(232, 258))
         place := add(space, DISTANCES)
         for { let i := 0 let base := 1 } lt(i, 30) { i := add(i, 1) } {
@@ -191,7 +191,7 @@ function writeBases(uint256 space) pure {
     }
 }
 
-/// @dev The codes that need not be sent.
+/// @dev Sets the fixed codes.
 function fixedCodes(uint256 space) pure {
     unchecked {
         uint256 lengths = space + CODE_LENGTHS;
@@ -202,7 +202,7 @@ function fixedCodes(uint256 space) pure {
     }
 }
 
-/// @dev The codes that are sent at the begin of a block, in a code of their own.
+/// @dev Reads the codes at the beginning of a block, which are themselves encoded.
 function dynamicCodes(Reader memory reader, uint256 space) pure {
     unchecked {
         uint256 lengths = space + CODE_LENGTHS;
@@ -244,17 +244,17 @@ function setLength(uint256 lengths, uint256 symbol, uint256 value) pure {
     }
 }
 
-/// @dev The table of a code, from the lengths of its symbols' codes.
-/// @param table Which, by its place in the workspace.
+/// @dev Builds the table of a code from its code lengths.
+/// @param table The offset of the table in the workspace.
 function makeTable(uint256 space, uint256 lengths, uint256 symbols, uint256 table) pure {
     assembly ("memory-safe") {
         table := add(space, table)
-        // how many codes have each length, 16 bits a length
+        // the number of codes of each length, 16 bits each
         let counts := 0
         for { let i := 0 } lt(i, symbols) { i := add(i, 1) } {
             counts := add(counts, shl(shl(4, byte(0, mload(add(lengths, i)))), 1))
         }
-        // where those of each length begin among all sorted by length
+        // the start of each length among the sorted symbols
         let begins := 0
         for { let i := 1 let sum := 0 } lt(i, 16) { i := add(i, 1) } {
             begins := or(begins, shl(shl(4, i), sum))
@@ -270,8 +270,8 @@ function makeTable(uint256 space, uint256 lengths, uint256 symbols, uint256 tabl
                 begins := add(begins, shl(shift, 1))
             }
         }
-        // a table for one bit more is twice that for the bits before, and the codes of this length. Codes count upward from their
-        // last bit, but come with the first bit lowest: here they are turned round
+        // the table for one more bit is twice the table for the bits before, plus the codes of this length. Codes are counted from their
+        // last bit, but transmitted with the first bit lowest, so they are reversed here
         mstore8(table, 0)
         mstore8(add(table, 1), 0)
         let code := 0

@@ -3,10 +3,10 @@ pragma solidity 0.8.37;
 
 import {metered, OutOfGas} from "./Metering.sol";
 
-/// @title Meter: calls a contract, and says how much gas that took.
-/// @notice Never deployed: read calls place it at an address of their own by a state override. Its data are two words, the contract and the
-/// gas that it gets (0 for all), then the data of the call. It returns a word, the gas of the execution, then what the contract returned;
-/// what the contract reverts with, it reverts with too.
+/// @title Meter: calls a contract and measures the gas.
+/// @notice Never deployed: read calls place it at an address by a state override. The calldata consists of two words, the contract and the
+/// gas limit (0 for all available gas), then the calldata of the call. Returns a word, the gas of the execution, then the return data;
+/// reverts with the revert data of the contract.
 contract Meter {
     fallback() external {
         uint256 data;

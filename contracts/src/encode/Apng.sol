@@ -3,18 +3,18 @@ pragma solidity 0.8.37;
 
 import {Crc32} from "./Crc32.sol";
 
-/// @notice Animated PNG files, made of PNG files of one size: the first shows where animations are unknown.
+/// @notice Assembles animated PNG files from PNG files of one size. Viewers without support for animations show the first frame.
 /// @dev Source: PNG, third edition (W3C), the chunks acTL, fcTL and fdAT. The PNG files are those of `Png.compress`: their pixels are in
-/// one chunk IDAT, behind the chunk IHDR, and checksums are missing.
+/// one IDAT chunk after the IHDR chunk, and the checksums are missing.
 library Apng {
-    /// @dev Where the chunk IHDR of a PNG file begins, the bytes of its data, and where the data of the chunk IDAT begin.
+    /// @dev The offset of the IHDR chunk in a PNG file, the size of its data, and the offset of the IDAT chunk's data.
     uint256 private constant IHDR = 8;
     uint256 private constant IHDR_SIZE = 13;
     uint256 private constant DATA = 41;
-    /// @dev What stands behind those: a checksum and the chunk IEND.
+    /// @dev The size of the checksum and the IEND chunk behind the data.
     uint256 private constant IEND = 12;
     uint256 private constant TAIL = 16;
-    /// @dev Size and name of chunks.
+    /// @dev Sizes and names of chunks.
     uint256 private constant AC_TL = 0x000000086163544c;
     uint256 private constant FC_TL = 0x0000001a6663544c;
     uint256 private constant ID_AT = 0x49444154;
@@ -22,10 +22,10 @@ library Apng {
     /// @dev The denominator of delays.
     uint256 private constant MILLISECONDS = 1000;
 
-    /// @notice Writes what precedes the first frame. The animation is repeated for ever.
-    /// @param target Where; the PNG file may not begin before 64 bytes behind it.
+    /// @notice Writes everything before the first frame. The animation loops endlessly.
+    /// @param target The address to write to, at least 64 bytes before the PNG file.
     /// @param png The first frame.
-    /// @return end The address behind what was written.
+    /// @return end The address after the written bytes.
     function begin(uint256 target, bytes memory png, uint256 frames) internal pure returns (uint256 end) {
         unchecked {
             assembly ("memory-safe") {
@@ -33,7 +33,7 @@ library Apng {
             }
             end = writeSum(target + IHDR, IHDR_SIZE);
             assembly ("memory-safe") {
-                // the last word is how often it is repeated, 0 being for ever
+                // the last word is the number of loops; 0 loops endlessly
                 mstore(end, or(shl(192, AC_TL), shl(160, frames)))
             }
             return writeSum(end, 8);
@@ -41,29 +41,29 @@ library Apng {
     }
 
     /// @notice Writes a frame.
-    /// @param target Where; the PNG file may not begin before 64 bytes behind it.
-    /// @param png The frame as a file, which may be overwritten.
-    /// @param number Of the frame, from 0.
-    /// @param delay How long it is shown, in milliseconds.
-    /// @return end The address behind what was written.
+    /// @param target The address to write to, at least 64 bytes before the PNG file.
+    /// @param png The frame as a PNG file, which may be overwritten.
+    /// @param number The number of the frame, from 0.
+    /// @param delay The duration of the frame in milliseconds.
+    /// @return end The address after the written bytes.
     function frame(uint256 target, bytes memory png, uint256 number, uint256 delay) internal pure returns (uint256 end) {
         unchecked {
             uint256 size = png.length - DATA - TAIL;
-            // fcTL and fdAT are numbered together; the first frame has no fdAT
+            // fcTL and fdAT chunks are numbered together; the first frame has no fdAT
             uint256 sequence = number == 0 ? 0 : 2 * number - 1;
             assembly ("memory-safe") {
                 let sides := shr(192, mload(add(png, 48)))
-                // at the top left corner, in place of what was there
+                // replaces the whole canvas
                 mstore(target, or(or(shl(192, FC_TL), shl(160, sequence)), or(shl(96, sides), or(shl(16, delay), MILLISECONDS))))
                 mstore(add(target, 32), 0)
             }
             target = writeSum(target, 26);
-            // the data, with their number in front of them if they are not of the first frame
+            // the data, preceded by its sequence number except for the first frame
             uint256 more = number == 0 ? 0 : 4;
             uint256 head = ((size + more) << 64) | ((number == 0 ? ID_AT : FD_AT) << 32) | (sequence + 1);
             assembly ("memory-safe") {
                 mcopy(add(add(target, 8), more), add(png, add(32, DATA)), size)
-                // the last four bytes are the data's if there is no number
+                // without a sequence number, the last four bytes belong to the data
                 let kept := sub(256, shl(3, add(8, more)))
                 mstore(target, or(shl(kept, shr(shl(3, sub(4, more)), head)), shr(sub(256, kept), shl(sub(256, kept), mload(target)))))
             }
@@ -71,8 +71,8 @@ library Apng {
         }
     }
 
-    /// @notice Writes what follows the last frame: the chunk IEND.
-    /// @return end The address behind it.
+    /// @notice Writes the end of the file: the IEND chunk.
+    /// @return end The address after it.
     function finish(uint256 target) internal pure returns (uint256 end) {
         unchecked {
             assembly ("memory-safe") {
@@ -82,7 +82,7 @@ library Apng {
         }
     }
 
-    /// @dev Writes the sum of a chunk that has so many bytes of data; the address behind it.
+    /// @dev Writes the checksum of a chunk with `size` bytes of data, and returns the address after it.
     function writeSum(uint256 chunk, uint256 size) private pure returns (uint256 end) {
         unchecked {
             uint256 sum = Crc32.sum(chunk + 4, size + 4);

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-// A Windows bitmap of 24 bits a pixel: a header, then the rows from the bottom, each filled up to a multiple of 4 bytes.
-// Source: Microsoft, BITMAPFILEHEADER and BITMAPINFOHEADER.
+// A Windows bitmap of 24 bits per pixel: a header, then the rows from the bottom, each padded to a multiple of 4 bytes. Source: Microsoft,
+// BITMAPFILEHEADER and BITMAPINFOHEADER.
 
 library Bmp {
     uint256 internal constant HEADER = 54;
 
-    /// @notice Bytes of a row in the file.
+    /// @notice Returns the size of a row in the file, in bytes.
     function stride(uint256 width) internal pure returns (uint256) {
         unchecked {
             return (3 * width + 3) & ~uint256(3);
         }
     }
 
-    /// @notice Turns rows of pixels, without gaps, into a file.
-    /// @param image Address of the rows; there must be room for HEADER bytes before it, and for the gaps after it.
-    /// @return size Bytes of the file, which begins HEADER bytes before the image.
+    /// @notice Converts rows of pixels without padding to a file.
+    /// @param image The address of the rows. There must be room for HEADER bytes before it, and for the padding after it.
+    /// @return size The size of the file in bytes. It begins HEADER bytes before the image.
     function finish(uint256 image, uint256 width, uint256 height) internal pure returns (uint256 size) {
         unchecked {
             uint256 rowBytes = 3 * width;
@@ -25,20 +25,20 @@ library Bmp {
                 for (uint256 row = height; row-- != 0;) spreadRow(image, row, rowBytes, fileRowBytes);
             }
             size = fileRowBytes * height;
-            // 24 bits a pixel, 2835 pixels per metre (72 dots per inch)
+            // 24 bits per pixel, 2835 pixels per metre (72 dots per inch)
             uint256 first = (0x424d << 240) | (littleEndian(size + HEADER) << 208) | (littleEndian(HEADER) << 144)
                 | (littleEndian(40) << 112) | (littleEndian(width) << 80) | (littleEndian(height) << 48) | 0x010018000000;
             uint256 second = (littleEndian(size) << 128) | (littleEndian(2835) << 96) | (littleEndian(2835) << 64);
             size += HEADER;
             assembly ("memory-safe") {
-                // bytes 22 to 53, of which the first ten are those of the first word
+                // bytes 22 to 53; the first ten of them are also in the first word
                 mstore(sub(image, 32), second)
                 mstore(sub(image, 54), first)
             }
         }
     }
 
-    /// @dev Moves a row to its place in the file and fills the gap after it.
+    /// @dev Moves a row to its place in the file and clears the padding after it.
     function spreadRow(uint256 image, uint256 row, uint256 rowBytes, uint256 fileRowBytes) private pure {
         assembly ("memory-safe") {
             let target := add(image, mul(row, fileRowBytes))
@@ -47,7 +47,7 @@ library Bmp {
         }
     }
 
-    /// @dev Four bytes in the reverse order.
+    /// @dev Returns four bytes in reverse order.
     function littleEndian(uint256 value) private pure returns (uint256) {
         return (value & 0xff) << 24 | (value & 0xff00) << 8 | (value & 0xff0000) >> 8 | value >> 24;
     }

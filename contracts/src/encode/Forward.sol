@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-/// @notice Ends the call with what a contract answers, or why it refuses, as it is: the compiler would copy a picture twice.
-/// @param data Of the call. The answer takes its place.
+/// @notice Ends the call with the return or revert data of another call, unchanged. The compiler would copy a picture twice.
+/// @param data The calldata of the call. The result overwrites it.
 function forward(address target, bytes memory data) view {
     assembly ("memory-safe") {
         let done := staticcall(gas(), target, add(data, 0x20), mload(data), 0, 0)
@@ -12,7 +12,7 @@ function forward(address target, bytes memory data) view {
     }
 }
 
-/// @notice Ends the call with bytes from where they are: the compiler would copy them.
+/// @notice Returns bytes from their place in memory and ends the call. The compiler would copy them.
 function answer(bytes memory data) pure {
     assembly ("memory-safe") {
         let begin := sub(data, 0x20)

@@ -14,34 +14,34 @@ import {GlbErrors} from "./GlbErrors.sol";
 import {LINEAR} from "./Linear.sol";
 import {Text} from "./Text.sol";
 
-/// @notice Binary glTF files of the objects of a scene: meshes with their colours and normals, each with its place and its material.
-/// Camera, lights and background are left to whoever shows them.
+/// @notice Encodes the objects of a scene as binary glTF files: meshes with colours and normals, transforms and materials. Camera, lights
+/// and background are omitted, since viewers provide them.
 /// @dev Source: glTF 2.0 (Khronos), KHR_materials_unlit.
 ///
-/// The buffer has two parts for each object. Vertices: position, 3 floats; colour, 4 linear numbers of 16 bits; the normal, 3 floats,
-/// where the surface is smooth. Indices: 16 bits each, 3 for each face, or 6 for its edges.
+/// The buffer has two parts for each object. Vertices: position, 3 floats; colour, 4 linear numbers of 16 bits; for smooth surfaces the
+/// normal, 3 floats. Indices: 16 bits each, 3 for each face, or 6 for its edges.
 library Glb {
-    /// @dev The head of the file and of both chunks: 12 and 8 bytes.
+    /// @dev The sizes of the file header with the first chunk header, and of a chunk header.
     uint256 private constant HEAD = 20;
     uint256 private constant CHUNK = 8;
-    /// @dev The most characters of the JSON, without objects and for each.
+    /// @dev The maximum number of characters of the JSON: common to all objects, and for each object.
     uint256 private constant COMMON = 512;
     uint256 private constant EACH = 1536;
-    /// @dev The most digits of a fraction.
+    /// @dev The maximum number of decimal places.
     uint256 private constant DIGITS = 10;
-    /// @dev The exponents of floats that stand for whole numbers and for numbers of 23 binary digits.
+    /// @dev Values for `exponent` in `toFloat`: for integers, and for numbers with 23 fraction bits.
     uint256 private constant WHOLE = 127;
     uint256 private constant Q23 = 104;
-    /// @dev The lower byte of each two, and the lower two of each four.
+    /// @dev The lower byte of each two bytes, and the lower two of each four.
     uint256 private constant BYTES = 0x00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff;
     uint256 private constant PAIRS = 0x0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff;
 
     /// @dev An object that has faces.
-    /// @param index Of the object.
-    /// @param mesh Of the object.
-    /// @param stride Bytes of a vertex in the file.
-    /// @param indices How many.
-    /// @param opacity Q24.
+    /// @param index The index of the object.
+    /// @param mesh The mesh of the object.
+    /// @param stride The size of a vertex in the file, in bytes.
+    /// @param indices The number of indices.
+    /// @param opacity The opacity, Q24.
     struct Part {
         uint256 index;
         Mesh mesh;
@@ -54,7 +54,7 @@ library Glb {
         bool culled;
     }
 
-    /// @notice A GLB file of a scene. What the renderer refuses of an object is refused here, too.
+    /// @notice Returns a GLB file of a scene. Reverts with the renderer's errors if an object is invalid.
     function encode(Scene calldata scene) internal pure returns (bytes memory glb) {
         unchecked {
             bytes memory linear = LINEAR;
@@ -69,11 +69,11 @@ library Glb {
                 }
             }
             target = writeJson(scene, parts, begin + HEAD);
-            // spaces up to four bytes
+            // pad with spaces to four bytes
             while ((target - begin) & 3 != 0) target = Text.write(target, " ");
             uint256 data = target + CHUNK;
             uint256 end = data;
-            // from here on nothing is allocated: what is written may go beyond the room
+            // no allocations from here on: writes may exceed the allocated room
             for (uint256 k; k != parts.length; ++k) {
                 end = writeVertices(parts[k], linear, end);
                 end = writeIndices(parts[k], end);
@@ -221,7 +221,7 @@ library Glb {
         }
     }
 
-    /// @param view_ The number of the part of the buffer that has the vertices; the next one has the indices.
+    /// @param view_ The number of the buffer view with the vertices; the next one has the indices.
     function accessors(Part memory part, uint256 target, uint256 view_) private pure returns (uint256) {
         unchecked {
             target = integer(Text.write(target, '{"componentType":5123,"type":"SCALAR","bufferView":'), int256(view_ + 1));
@@ -245,7 +245,7 @@ library Glb {
         return Text.write(target, "}");
     }
 
-    /// @param offset Where the vertices begin in the buffer; the second result is where those of the next object do.
+    /// @param offset The offset of the vertices in the buffer. The second result is that of the next object's vertices.
     function views(Part memory part, uint256 target, uint256 offset) private pure returns (uint256, uint256) {
         unchecked {
             uint256 size = part.stride * part.mesh.vertexCount;
@@ -270,7 +270,7 @@ library Glb {
         return integer(target, v[2]);
     }
 
-    /// @dev Writes a whole number.
+    /// @dev Writes an integer.
     function integer(uint256 target, int256 value) private pure returns (uint256) {
         unchecked {
             if (value < 0) {
@@ -284,7 +284,7 @@ library Glb {
         }
     }
 
-    /// @dev Writes a number (Q32), without zeros at its end.
+    /// @dev Writes a number (Q32) without trailing zeros.
     function decimal(uint256 target, int256 value) private pure returns (uint256) {
         unchecked {
             if (value < 0) {
@@ -304,7 +304,7 @@ library Glb {
         }
     }
 
-    /// @dev Writes the last digits of a number.
+    /// @dev Writes the last `digits` digits of a number.
     function put(uint256 target, uint256 value, uint256 digits) private pure {
         assembly ("memory-safe") {
             for { let place := add(target, digits) } gt(place, target) {} {
@@ -317,7 +317,7 @@ library Glb {
 
     // ---- the buffer ----
 
-    /// @dev The lowest and the highest coordinates.
+    /// @dev Returns the minimum and maximum coordinates.
     function box(Mesh memory mesh) private pure returns (int256[3] memory low, int256[3] memory high) {
         (uint256 vertices, uint256 count, uint256 bits, uint256 stride) = (mesh.vertices, mesh.vertexCount, mesh.bits, mesh.stride);
         assembly ("memory-safe") {
@@ -348,7 +348,7 @@ library Glb {
                 uint256 blue;
                 assembly ("memory-safe") {
                     vertex := calldataload(place)
-                    // colours stand behind the three coordinates
+                    // the colour follows the three coordinates
                     let color := shr(232, shl(mul(3, bits), vertex))
                     let table := add(linear, 32)
                     red := shr(240, mload(add(table, shl(1, shr(16, color)))))
@@ -371,32 +371,32 @@ library Glb {
         }
     }
 
-    /// @dev Three floats of length 1.
-    /// @param packed Three numbers of 10 bits, the first uppermost.
+    /// @dev Returns three floats of a unit vector.
+    /// @param packed Three numbers of 10 bits, the first in the uppermost bits.
     function normal(uint256 packed) private pure returns (uint256) {
         unchecked {
             (int256 x, int256 y, int256 z) = (int256(packed) >> 246, int256(packed << 10) >> 246, int256(packed << 20) >> 246);
             if (x | y | z == 0) z = 1;
-            // with 20 binary digits
+            // with 20 fraction bits
             int256 length = root(uint256(x * x + y * y + z * z) << 40);
             return (toFloat((x << 43) / length, Q23) << 64) | (toFloat((y << 43) / length, Q23) << 32) | toFloat((z << 43) / length, Q23);
         }
     }
 
-    /// @dev A float of 32 bits that stands for a whole number below 2^24, exactly.
-    /// @param exponent What its exponent would be if the number were 1.
+    /// @dev Returns the 32-bit float of an integer below 2^24, exactly.
+    /// @param exponent The exponent of the float if the integer were 1.
     function toFloat(int256 value, uint256 exponent) private pure returns (uint256 bits) {
         assembly ("memory-safe") {
             if value {
                 let negative := slt(value, 0)
                 let size := xor(sub(value, negative), sub(0, negative))
-                // the number of its highest bit
+                // the index of its highest bit
                 let highest := shl(4, lt(0xffff, size))
                 highest := or(highest, shl(3, lt(0xff, shr(highest, size))))
                 highest := or(highest, shl(2, lt(0xf, shr(highest, size))))
                 highest := or(highest, shl(1, lt(3, shr(highest, size))))
                 highest := or(highest, lt(1, shr(highest, size)))
-                // which is not written
+                // the highest bit is implicit
                 bits := and(shl(sub(23, highest), size), 0x7fffff)
                 bits := or(or(shl(31, negative), shl(23, add(exponent, highest))), bits)
             }
@@ -419,7 +419,7 @@ library Glb {
                         wrong := k
                         break
                     }
-                    // the lower byte first
+                    // little-endian
                     face := or(shl(8, and(face, BYTES)), and(shr(8, face), BYTES))
                     switch lines
                     case 0 {
@@ -434,14 +434,14 @@ library Glb {
                         target := add(target, 12)
                     }
                 }
-                // zeros up to four bytes
+                // pad with zeros to four bytes
                 mstore(target, 0)
             }
             if (wrong != count) revert SceneErrors.IndexOutOfRange(part.index, wrong, vertices);
         }
     }
 
-    /// @dev The square root, with one more step of Newton's method.
+    /// @dev Returns the square root, with one more step of Newton's method.
     function root(uint256 x) private pure returns (int256) {
         unchecked {
             uint256 r = sqrt(x);
@@ -449,7 +449,7 @@ library Glb {
         }
     }
 
-    /// @dev Four bytes in the reverse order.
+    /// @dev Returns four bytes in reverse order.
     function reversed(uint256 value) private pure returns (uint256) {
         return (value & 0xff) << 24 | (value & 0xff00) << 8 | (value & 0xff0000) >> 8 | value >> 24;
     }

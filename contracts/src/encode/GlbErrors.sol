@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-/// @title GlbErrors: why there is no GLB file of a scene.
+/// @title GlbErrors: the errors of glTF encoding.
 interface GlbErrors {
-    /// @notice No object has a face: glTF knows no empty mesh.
+    /// @notice No object has a face, and glTF does not allow empty meshes.
     error NothingToShow();
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-/// @dev What the 256 bytes of sRGB (IEC 61966-2-1) are as linear values of 16 bits, 65535 being 1.
+/// @dev The linear values, 16 bits each, of the 256 bytes of sRGB (IEC 61966-2-1); 65535 is 1.
 bytes constant LINEAR =
         hex"000000140028003c005000630077008b009f00b300c700db00f10108012001390154016f018c01ab01ca01eb020e02320257027d02a502ce02f90325"
         hex"0353038203b303e50418044d048404bc04f60532056f05ad05ed062f067306b806fe0747079107dd082a087a08ca091d097209c80a200a790ad50b32"

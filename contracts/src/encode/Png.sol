@@ -8,94 +8,97 @@ import {DataUri} from "./DataUri.sol";
 import {LITERALS, PngCode} from "./PngCode.sol";
 import {PngErrors} from "./PngErrors.sol";
 
-/// @notice PNG files of the renderer's bitmaps, each pixel a square of up to 8 x 8, so that it stays crisp wherever pictures are smoothed.
-/// @dev Source: PNG (W3C), RFC 1950 (zlib), RFC 1951 (deflate).
+/// @notice Encodes the renderer's bitmaps as PNG files. Each pixel becomes a square of up to 8 x 8 pixels, so that it remains sharp where
+/// viewers smooth pictures.
+/// @dev Sources: PNG (W3C), RFC 1950 (zlib), RFC 1951 (deflate).
 ///
-/// The first row of each square holds the pixels themselves (filter None), the others are like the row above (filter Up): zeros. A pixel
-/// is written as its three bytes and a match that repeats them until another one comes. All bytes have codes of nine bits, so that eight
-/// pixels can be made of a word at once; matches are looked up: see `PngCode`. One code, fitted to pictures of this renderer, does for all.
+/// The first row of each square contains the pixels themselves (filter None); the other rows equal the row above (filter Up): zeros. A
+/// pixel is written as its three bytes and a match that repeats them until the next different pixel. All bytes have 9-bit codes, so that
+/// eight pixels can be encoded in one word; the codes of matches are in a table: see `PngCode`. One Huffman code, fitted to pictures of
+/// this renderer, is used for all.
 library Png {
     uint256 internal constant MAX_SCALE = 8;
     string internal constant URI = "data:image/png;base64,";
-    /// @dev Where in the bytes of the result, counted with the word of their length, the compressed data begin: behind the signature
-    /// (8 bytes), the chunk IHDR (25), the head of the chunk IDAT (8) and that of zlib (2).
+    /// @dev The offset of the compressed data in the result, which begins with its length: after the signature (8 bytes), the IHDR chunk
+    /// (25), the header of the IDAT chunk (8) and the zlib header (2).
     uint256 internal constant DATA = 75;
-    /// @dev The signature with the size and the name of the chunk IHDR; what follows the sides there; the sum of that, the size and the
-    /// name of the chunk IDAT and the head of zlib, where sum and size are filled in later; the chunk IEND.
+    /// @dev The signature with the size and name of the IHDR chunk; the bytes after its width and height; its checksum, the size and name
+    /// of the IDAT chunk and the zlib header, with checksum and size to be filled in later; the IEND chunk.
     uint256 private constant SIGNATURE_IHDR = 0x89504e470d0a1a0a0000000d49484452;
     uint256 private constant RGB_8 = 0x0802000000;
     uint256 internal constant RGBA_8 = 0x0806000000;
     uint256 private constant IDAT_ZLIB = 0x494441547801;
     uint256 private constant IEND = 0x49454e44;
     uint256 private constant IEND_SUM = 0xae426082;
-    /// @dev What bitmaps begin with; one plane of 24 bits a pixel.
+    /// @dev The first two bytes of a bitmap; one plane of 24 bits per pixel.
     uint256 private constant BMP_KIND = 0x424d;
     uint256 private constant ONE_PLANE_24 = 0x01001800;
-    /// @dev The filter of rows that are as the row above.
+    /// @dev The filter of rows that equal the row above.
     uint256 internal constant UP = 2;
     /// @dev The largest prime below 2^16, for the checksum Adler-32.
     uint256 private constant ADLER = 65521;
-    /// @dev Rows are divided into parts of so many pixels, each of which begins with a pixel that is written.
+    /// @dev The length in pixels of the parts of a row. Each part begins with a literal pixel.
     uint256 private constant PART = 256;
-    /// @dev Bits of the codes of a byte and of a pixel.
+    /// @dev The code sizes of a byte and of a pixel, in bits.
     uint256 private constant LITERAL_SIZE = 9;
     uint256 private constant PIXEL_SIZE = 27;
-    /// @dev Where the match of the rest of a square has so many bits, so that a pixel has 32 with it, or where there is none, eight pixels
-    /// of which so many are not like those at their left are all written.
+    /// @dev If the match of the rest of a square has SHORT_MATCH bits, so that a pixel with it has 32, or if there is none, then eight
+    /// pixels are all written as literals if at least MANY of them differ from their left neighbours.
     uint256 private constant SHORT_MATCH = 5;
     uint256 private constant MANY = 4;
-    /// @dev Bits of eight pixels without matches.
+    /// @dev The size of eight literal pixels in bits.
     uint256 private constant ALL_EIGHT = 216;
-    /// @dev Of pixels without their bytes 18 and more: the uppermost bytes of eight pixels in the lower 24 bytes of a word.
+    /// @dev Mask of the uppermost bytes of eight pixels in the lower 24 bytes of a word.
     uint256 private constant BYTE_OF_PIXEL = 0x00000000000000000000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff;
 
-    /// @dev The first byte of a word, and the green of the nine bits a channel that a word begins with.
+    /// @dev The first byte of a word; and the green channel at the beginning of a word with nine bits per channel.
     uint256 private constant FIRST_BYTE = 0xff00000000000000000000000000000000000000000000000000000000000000;
     uint256 private constant GREEN_OF_9 = 0x003fc00000000000000000000000000000000000000000000000000000000000;
     /// @dev 1 in each of eight pixels of 24 bits.
     uint256 private constant EACH_PIXEL = 0x0000000000000000000001000001000001000001000001000001000001000001;
-    /// @dev Of eight pixels of 24 bits the upper four, of each four the upper two, of each two the upper one.
+    /// @dev Masks of eight 24-bit pixels: the upper four; the upper two of each four; the upper one of each two.
     uint256 private constant UPPER_FOUR = 0x0000000000000000ffffffffffffffffffffffff000000000000000000000000;
     uint256 private constant UPPER_TWO = 0x00000000ffffffffffff00000000000000000000ffffffffffff000000000000;
     uint256 private constant UPPER_ONE = 0x0000ffffff0000000000ffffff0000000000ffffff0000000000ffffff000000;
-    /// @dev Of eight pixels of 27 bits in 32 each the lower of each two; when that has moved up, of four pairs likewise; of two fours.
+    /// @dev Masks of eight 27-bit pixels in 32 bits each: the lower one of each two; after those have moved up, the lower of each two
+    /// pairs; the lower of the two fours.
     uint256 private constant LOWER_ONE = 0x0000000007ffffff0000000007ffffff0000000007ffffff0000000007ffffff;
     uint256 private constant LOWER_TWO = 0x000000000000000007ffffffffffffe0000000000000000007ffffffffffffe0;
     uint256 private constant LOWER_FOUR = 0x0000000000000000000000000000000007ffffffffffffffffffffffffff8000;
-    /// @dev 1 in each 32 bits; their lowest byte, and the one above it.
+    /// @dev 1 in each 32 bits; their lowest byte; and the next byte.
     uint256 private constant EACH_32 = 0x0000000100000001000000010000000100000001000000010000000100000001;
     uint256 private constant LOWEST_BYTES = 0x000000ff000000ff000000ff000000ff000000ff000000ff000000ff000000ff;
     uint256 private constant SECOND_BYTES = 0x0000ff000000ff000000ff000000ff000000ff000000ff000000ff000000ff00;
 
-    // Checksums take 30 bytes, ten pixels, at a time, as lanes of 16 bits of which the lowest is not used.
+    // Checksums are computed from 30 bytes, ten pixels, at a time, in lanes of 16 bits; the lowest lane is not used.
     uint256 private constant WORD = 30;
-    /// @dev As many bytes of a row are summed in lanes of 16 bits: 14 words, and 510 * (1 + 2 + .. + 14) < 2^16.
+    /// @dev The number of bytes of a row that can be summed in lanes of 16 bits: 14 words, and 510 * (1 + 2 + .. + 14) < 2^16.
     uint256 private constant SUMMED = 420;
     uint256 private constant LANES = 0x00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff0000;
-    /// @dev The lower half of each byte; of each four bits; of each two.
+    /// @dev The lower half of each byte; of each four bits; of each two bits.
     uint256 private constant LOW_4 = 0x0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f;
     uint256 private constant LOW_2 = 0x3333333333333333333333333333333333333333333333333333333333333333;
     uint256 private constant LOW_1 = 0x5555555555555555555555555555555555555555555555555555555555555555;
     uint256 private constant HALF_LANES = 0x0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff;
     uint256 private constant ALL_LANES = 0xffffffff;
 
-    /// @dev What has been written so far.
-    /// @param target Where the next byte belongs.
-    /// @param count How many of its bits are there already, 0..7. The others are zeros.
+    /// @dev A bit stream.
+    /// @param target The address of the next byte.
+    /// @param count The number of bits already in that byte, 0..7; the others are zeros.
     struct Stream {
         uint256 target;
         uint256 count;
     }
 
     /// @dev The rows of a picture.
-    /// @param source The row that is read last, in the calldata.
-    /// @param row Where one is copied to, with a word before it and four behind it.
-    /// @param size Bytes of its pixels.
-    /// @param height How many there are.
-    /// @param gaps See `gapsOf`.
-    /// @param between Bits that stand between two rows.
-    /// @param betweenSize How many.
-    /// @param lanes Where sums of each 30th byte stand, see `sumRow`.
+    /// @param source The calldata offset of the row that is read last.
+    /// @param row The buffer of a row, with a word before it and four behind it.
+    /// @param size The size of a row's pixels in bytes.
+    /// @param height The number of rows.
+    /// @param gaps The table of `gapsOf`.
+    /// @param between The bits between two rows.
+    /// @param betweenSize The number of these bits.
+    /// @param lanes The sums of every 30th byte, see `sumRow`.
     struct Rows {
         uint256 source;
         uint256 row;
@@ -107,15 +110,15 @@ library Png {
         uint256 lanes;
     }
 
-    /// @notice A PNG file of a bitmap.
-    /// @param bmp 24 bits a pixel, as the renderer makes it.
-    /// @param scale How many pixels each becomes in both directions, 1..8.
+    /// @notice Returns a PNG file of a bitmap.
+    /// @param bmp A bitmap of 24 bits per pixel, as from the renderer.
+    /// @param scale The enlargement, 1..8.
     function encode(bytes calldata bmp, uint256 scale) internal pure returns (bytes memory png) {
         png = compress(bmp, scale);
         writeSums(png);
     }
 
-    /// @notice The same without what `writeSums` fills in.
+    /// @notice Returns the file without the fields that `writeSums` fills in.
     function compress(bytes calldata bmp, uint256 scale) internal pure returns (bytes memory png) {
         unchecked {
             (uint256 width, uint256 height) = sizeOf(bmp);
@@ -130,10 +133,10 @@ library Png {
             }
             bytes memory header = PngCode.header();
             rows.lanes = room(128);
-            // a word before it, and what is added behind it
+            // with a word before it, and room for the padding behind it
             rows.row = room(rows.size + 192) + 32;
             assembly ("memory-safe") {
-                // behind the header, the row that is lowest
+                // after the header, the lowest row
                 mstore(rows, add(bmp.offset, 54))
                 png := mload(0x40)
             }
@@ -155,8 +158,8 @@ library Png {
         }
     }
 
-    /// @dev Writes the signature, 13 bytes in the chunk IHDR, the name of the chunk IDAT, and the head of zlib: what precedes DATA.
-    /// @param kind What follows the sides: RGB_8 or RGBA_8.
+    /// @dev Writes everything before DATA: the signature, the 13 bytes of the IHDR chunk, the name of the IDAT chunk, and the zlib header.
+    /// @param kind The IHDR bytes after width and height: RGB_8 or RGBA_8.
     function writeHead(bytes memory png, uint256 width, uint256 height, uint256 kind) internal pure {
         assembly ("memory-safe") {
             mstore(add(png, 32), or(or(shl(128, SIGNATURE_IHDR), shl(64, or(shl(32, width), height))), shl(24, kind)))
@@ -164,14 +167,14 @@ library Png {
         }
     }
 
-    /// @notice A PNG file of a bitmap as a `data:` URI.
+    /// @notice Returns the PNG file of a bitmap as a `data:` URI.
     function dataURI(bytes calldata bmp, uint256 scale) internal pure returns (string memory) {
-        // this stands before the file, since zeros are written behind that
+        // allocated before the file, since zeros are written behind the file
         string memory head = URI;
         return DataUri.wrap(head, encode(bmp, scale), "");
     }
 
-    /// @notice An SVG document of the size of the PNG file, which it holds.
+    /// @notice Returns an SVG document of the same size that contains the PNG file.
     function svg(bytes calldata bmp, uint256 scale) internal pure returns (string memory) {
         unchecked {
             (uint256 width, uint256 height) = sizeOf(bmp);
@@ -193,7 +196,7 @@ library Png {
         }
     }
 
-    /// @dev The sides of a bitmap in pixels, each 1..65535.
+    /// @dev Returns the width and height of a bitmap in pixels, each 1..65535.
     function sizeOf(bytes calldata bmp) internal pure returns (uint256 width, uint256 height) {
         unchecked {
             if (bmp.length < Bmp.HEADER) revert PngErrors.NotABitmap();
@@ -201,7 +204,7 @@ library Png {
             uint256 planesAndBits;
             assembly ("memory-safe") {
                 kind := shr(240, calldataload(bmp.offset))
-                // bytes 18 to 21 and 22 to 25 are the sides, the lowest byte first
+                // bytes 18 to 21 and 22 to 25 are width and height, little-endian
                 let sides := calldataload(add(bmp.offset, 18))
                 width := or(byte(0, sides), shl(8, byte(1, sides)))
                 height := or(byte(4, sides), shl(8, byte(5, sides)))
@@ -212,7 +215,7 @@ library Png {
         }
     }
 
-    /// @dev Memory of its own, up to a whole word, with zeros.
+    /// @dev Allocates zeroed memory, rounded up to whole words.
     function room(uint256 size) private pure returns (uint256 place) {
         assembly ("memory-safe") {
             place := mload(0x40)
@@ -221,9 +224,9 @@ library Png {
         }
     }
 
-    /// @dev The codes of matches that repeat a pixel to the end of its square, and 0, 1, 2, ... pixels farther, 48 bytes apart. In the
-    /// lowest byte the number of bits, of which the first is uppermost. Before them what eight pixels that are all written are added to,
-    /// if the first match has SHORT_MATCH bits.
+    /// @dev Returns the codes of matches that repeat a pixel to the end of its square, and 0, 1, 2, ... pixels farther, 48 bytes apart. The
+    /// lowest byte contains the number of bits; the first bit is uppermost. Before them, the value added to eight literal pixels if the
+    /// first match has SHORT_MATCH bits.
     function gapsOf(bytes memory tables, uint256 width, uint256 scale) private pure returns (uint256 gaps) {
         unchecked {
             gaps = room(48 * width + 48);
@@ -242,7 +245,7 @@ library Png {
         }
     }
 
-    /// @dev The code of a match of up to 32 times the longest length at the distance of a pixel, and its bits.
+    /// @dev Returns the code of a match at the distance of a pixel, up to 32 times the maximum length, and its size in bits.
     function matchCode(bytes memory tables, uint256 length) private pure returns (uint256 text, uint256 size) {
         unchecked {
             if (length == 0) return (0, 0);
@@ -256,24 +259,24 @@ library Png {
         }
     }
 
-    /// @dev What stands between the pixels of two rows: rows that are like the row above, the filter of the next one.
-    /// @param stream Writes it.
-    /// @param rowSize Bytes of the pixels of a row that is not enlarged.
-    /// @return begin Where its bits are.
-    /// @return size How many.
+    /// @dev Writes the bits between the pixels of two rows: the rows that equal the row above, and the filter of the next row.
+    /// @param stream The stream used for writing.
+    /// @param rowSize The size of the pixels of a row in bytes, before enlargement.
+    /// @return begin The address of the bits.
+    /// @return size The number of bits.
     function betweenRows(Stream memory stream, bytes memory tables, uint256 rowSize, uint256 scale)
         private
         pure
         returns (uint256 begin, uint256 size)
     {
         unchecked {
-            // after the filter and the first zero, matches at the distance of a byte; none where pixels are not enlarged
+            // after the filter and the first zero, matches at the distance of a byte; none without enlargement
             uint256 zeros = scale == 1 ? 3 : rowSize * scale - 1;
             uint256 longest = (zeros - 3) / 258;
             uint256 last = 3 + (zeros - 3) % 258;
             (uint256 text, uint256 textSize) = matchCode(tables, last);
             text ^= last > 258 ? PngCode.OTHER_DISTANCES : 1;
-            // the bits of a row, and room for the word in which the last ones are written
+            // the bits of a row, and room for the last word written
             begin = room((scale * (2 * LITERAL_SIZE + longest * PngCode.LONGEST_SIZE + textSize)) / 8 + 64);
             stream.target = begin;
             for (uint256 copies = scale - 1; copies != 0; --copies) {
@@ -288,27 +291,28 @@ library Png {
         }
     }
 
-    /// @return second What the bytes before compression add to Adler-32: its second sum, in which each byte counts as often as there are
-    /// bytes from it on.
-    /// @return first Its first sum.
+    /// @return second The contribution of the uncompressed bytes to the second sum of Adler-32, in which each byte is weighted by the
+    /// number of bytes from it to the end.
+    /// @return first The first sum of Adler-32.
     function writeRows(Stream memory stream, Rows memory rows, uint256 scale) private pure returns (uint256 second, uint256 first) {
         unchecked {
-            // of all bytes; the same, each times the rows from its own on; each times its place, as `sumRow` has it
+            // the sum of all bytes; the sum weighted by the number of rows from each byte's row on; the sum weighted by position, as in
+            // `sumRow`
             (uint256 sum, uint256 sumBelow, uint256 places) = sumRows(stream, rows);
             // pairs of copies of a row
             uint256 pairs = scale * (scale - 1) / 2;
             uint256 rowSize = 1 + rows.size * scale;
             uint256 written = rowSize * scale;
             first = 1 + scale * sum + UP * (scale - 1) * rows.height;
-            // pixels, of which each is written `scale` times, after the filter of the row
+            // the pixels, each written `scale` times, after the filter of the row
             second = written * rows.height + scale * (written * sumBelow - sum - 3 * scale * places) - 3 * pairs * sum;
             second -= scale * withinWords(rows.lanes, scale);
-            // filters of the other rows
+            // the filters of the other rows
             second += UP * rowSize * pairs * rows.height * rows.height;
         }
     }
 
-    /// @dev Writes all rows.
+    /// @dev Writes all rows, and returns the sums described in `writeRows`.
     function sumRows(Stream memory stream, Rows memory rows) private pure returns (uint256 sum, uint256 sumBelow, uint256 places) {
         unchecked {
             (uint256 size, uint256 row) = (rows.size, rows.row);
@@ -319,7 +323,7 @@ library Png {
                 source -= stride;
                 assembly ("memory-safe") {
                     calldatacopy(row, source, size)
-                    // zeros, for the sums
+                    // zeros for the sums
                     calldatacopy(add(row, size), calldatasize(), 96)
                 }
                 {
@@ -329,7 +333,7 @@ library Png {
                     places += placesOfRow;
                 }
                 assembly ("memory-safe") {
-                    // 32 more pixels like the last one
+                    // repeat the last pixel 32 times
                     let end := add(row, size)
                     let pixels := shl(64, mul(shr(232, mload(sub(end, 3))), EACH_PIXEL))
                     mstore(end, pixels)
@@ -345,18 +349,19 @@ library Png {
         }
     }
 
-    /// @dev Sums over a row, behind which 90 bytes are zeros.
-    /// @param lanes Where four words are added to: sums of each 30th byte, counted from the upper end. The bytes with an odd number, then
-    /// those with an even one, in lanes of 32 bits: first every other one from the second on, then every other one from the first on.
-    /// @return sum Of its bytes.
-    /// @return places Of its bytes, each times the number of the first of the ten pixels in its word.
+    /// @dev Sums a row. It must be followed by 90 zero bytes.
+    /// @param lanes The address of four words to which sums of every 30th byte are added, counted from the upper end: the bytes with odd
+    /// numbers, then those with even numbers, in lanes of 32 bits; for each, first every second one from the second on, then every second
+    /// one from the first on.
+    /// @return sum The sum of the bytes.
+    /// @return places The sum of the bytes, each weighted by the index of the first of the ten pixels in its word.
     function sumRow(uint256 row, uint256 size, uint256 lanes) private pure returns (uint256 sum, uint256 places) {
         assembly ("memory-safe") {
             let last := add(row, size)
             for { let pixel := 0 } lt(row, last) { pixel := add(pixel, 140) } {
                 let odd := 0
                 let even := 0
-                // after each word, what was summed before it, too: the first of n words counts n times
+                // prefix sums: the first of n words counts n times
                 let sums := 0
                 let first := row
                 let end := add(row, SUMMED)
@@ -386,29 +391,29 @@ library Png {
         }
     }
 
-    /// @dev Of all bytes the sum, each times the first of its places in a row as it is written, counted from the ten pixels in its word.
+    /// @dev Returns the sum of all bytes, each weighted by its first position in the enlarged row, relative to the ten pixels of its word.
     function withinWords(uint256 lanes, uint256 scale) private pure returns (uint256 sum) {
         unchecked {
             for (uint256 i; i != WORD; ++i) {
                 uint256 word;
                 assembly ("memory-safe") {
-                    // odd or even; the first, third, ... of them or the second, fourth, ...
+                    // selects odd or even bytes, and the first, third, ... or the second, fourth, ... of them
                     word := mload(add(lanes, sub(sub(0x60, mul(0x40, and(i, 1))), mul(0x20, and(shr(1, i), 1)))))
                 }
-                // blue comes first in a bitmap, red in a PNG file
+                // bitmaps are in the order blue, green, red; PNG files in the order red, green, blue
                 sum += (3 * scale * (i / 3) + 2 - i % 3) * ((word >> (224 - 32 * (i / 4))) & ALL_LANES);
             }
         }
     }
 
     /// @dev Writes the pixels of a part of a row, with the match of each.
-    /// @param first Its first pixel. What is before it may change.
-    /// @param end Behind its last one; up to seven pixels more must be like that.
+    /// @param first The first pixel. The bytes before it may be overwritten.
+    /// @param end The end of the last pixel. Up to seven pixels after it must equal the last one.
     function writePart(Stream memory stream, uint256 gaps, uint256 first, uint256 end) private pure {
         assembly ("memory-safe") {
-            // the match of the pixel before, of this code, and a pixel
+            // writes the match with this code for the previous pixel, then a pixel
             function write(target, count, code, pixel) -> newTarget, newCount {
-                // blue, green and red, of eight bits each, to red, green and blue of nine
+                // from blue, green, red with eight bits each to red, green, blue with nine
                 let text := shr(232, mload(pixel))
                 text := or(
                     or(shl(247, and(text, 0xff)), and(shl(230, text), GREEN_OF_9)),
@@ -432,15 +437,15 @@ library Png {
 
             let target := mload(stream)
             let count := mload(add(stream, 0x20))
-            // the pixel that was written last: its match comes when it is known how far it goes
+            // the last literal pixel: its match is written when its length is known
             let last := first
             target, count := write(target, count, 0, first)
             mcopy(sub(first, 3), first, 3)
-            // eight pixels that begin before this one may all be written
+            // all eight pixels may be literals if they begin before this one
             let square := byte(31, mload(add(gaps, 48)))
             let full := mul(sub(end, 23), or(eq(square, SHORT_MATCH), iszero(square)))
             for {} lt(first, end) {} {
-                // most pixels are like those at their left, often 32 together
+                // most pixels equal their left neighbours, often 32 in a row
                 let left := sub(first, 3)
                 if iszero(
                     or(
@@ -454,31 +459,32 @@ library Png {
                 for { let behind := add(first, 96) } lt(first, behind) { first := add(first, 24) } {
                     let change := shr(64, xor(mload(first), mload(sub(first, 3))))
                     if iszero(change) { continue }
-                    // how many are not
+                    // the number of pixels that differ
                     let changed := or(change, or(shr(8, change), shr(16, change)))
                     changed := add(and(changed, BYTE_OF_PIXEL), BYTE_OF_PIXEL)
                     changed := mod(and(shr(8, changed), EACH_PIXEL), 0xffffff)
                     if gt(mul(changed, lt(first, full)), sub(MANY, 1)) {
-                        // from 24 bits to 32 bits each: the upper half of each part moves up
+                        // spread pixels from 24 to 32 bits: the upper half of each part moves up
                         let pixels := shr(64, mload(first))
                         pixels := add(pixels, mul(and(pixels, UPPER_FOUR), 0xffffffff))
                         pixels := add(pixels, mul(and(pixels, UPPER_TWO), 0xffff))
                         pixels := add(pixels, mul(and(pixels, UPPER_ONE), 0xff))
-                        // blue, green and red, of eight bits each, to red, green and blue of nine behind the match of the pixel before
+                        // from blue, green, red with eight bits each to red, green, blue with nine, preceded by the match of the previous
+                        // pixel
                         pixels := add(
                             add(shl(18, and(pixels, LOWEST_BYTES)), shl(1, and(pixels, SECOND_BYTES))),
                             and(shr(16, pixels), LOWEST_BYTES)
                         )
                         pixels := add(pixels, mload(gaps))
                         if iszero(square) {
-                            // to 27 bits each: the lower one of each two moves up
+                            // compact to 27 bits each: the lower one of each two moves up
                             pixels := add(pixels, mul(and(pixels, LOWER_ONE), 31))
                             pixels := add(pixels, mul(and(pixels, LOWER_TWO), 1023))
                             pixels := shl(5, add(pixels, mul(and(pixels, LOWER_FOUR), 1048575)))
                             let size := ALL_EIGHT
                             switch xor(first, last)
                             case 0 {
-                                // the first one is written already
+                                // the first one is already written
                                 pixels := shl(PIXEL_SIZE, pixels)
                                 size := sub(ALL_EIGHT, PIXEL_SIZE)
                             }
@@ -492,7 +498,7 @@ library Png {
                         }
                         switch sub(first, last)
                         case 3 {
-                            // all of them: a word and what is pushed out of it
+                            // write all of them: a word, and the bits shifted out of it
                             mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, pixels)))
                             target := add(target, 32)
                             mstore(target, shl(sub(256, count), pixels))
@@ -532,7 +538,7 @@ library Png {
         }
     }
 
-    /// @dev Writes as many bits as there are at an address, the first of which is uppermost.
+    /// @dev Writes `size` bits from an address, the uppermost bit first.
     function putBits(Stream memory stream, uint256 begin, uint256 size) private pure {
         unchecked {
             for (; size > 248; size -= 248) {
@@ -551,7 +557,7 @@ library Png {
         }
     }
 
-    /// @dev Writes up to 248 bits, the first of which is uppermost.
+    /// @dev Writes up to 248 bits, the uppermost bit first.
     function put(Stream memory stream, uint256 text, uint256 size) private pure {
         assembly ("memory-safe") {
             let target := mload(stream)
@@ -563,8 +569,8 @@ library Png {
         }
     }
 
-    /// @dev Turns the bits of each byte to the order of deflate, and adds the checksum Adler-32. After that the
-    /// length of the file is right, and its last twelve bytes are free.
+    /// @dev Reverses the bits of each byte for deflate, and appends the Adler-32 checksum. Then the length of the file is correct, and its
+    /// last twelve bytes are free.
     function finish(bytes memory png, Stream memory stream, uint256 second, uint256 first) internal pure {
         unchecked {
             second %= ADLER;
@@ -573,14 +579,14 @@ library Png {
                 let target := add(mload(stream), iszero(iszero(mload(add(stream, 0x20)))))
                 for { let place := add(png, DATA) } lt(place, target) { place := add(place, 32) } {
                     let word := mload(place)
-                    // sums, which the optimizer leaves alone: of `or` and `and` it makes more
+                    // `add` rather than `or`: the optimizer would rewrite `or` and `and` to more instructions
                     word := add(and(shr(4, word), LOW_4), mul(and(word, LOW_4), 16))
                     word := add(and(shr(2, word), LOW_2), mul(and(word, LOW_2), 4))
                     word := add(and(shr(1, word), LOW_1), mul(and(word, LOW_1), 2))
                     mstore(place, word)
                 }
                 mstore(target, shl(224, or(shl(16, second), first)))
-                // the sum of this chunk (4 bytes), and the chunk IEND (12 bytes)
+                // the checksum of this chunk (4 bytes), and the IEND chunk (12 bytes)
                 target := add(target, 20)
                 mstore(png, sub(target, add(png, 32)))
                 mstore(0x40, and(add(target, 31), not(31)))
@@ -588,7 +594,7 @@ library Png {
         }
     }
 
-    /// @dev Fills in the size of the data and the sums of the chunks, and adds the chunk IEND.
+    /// @dev Fills in the data size and the checksums of the chunks, and appends the IEND chunk.
     function writeSums(bytes memory png) internal pure {
         unchecked {
             uint256 file;

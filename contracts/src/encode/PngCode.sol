@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-/// @dev The codes of three zeros; those of other bytes are as much more. They have 9 bits each.
+/// @dev The 9-bit codes of three zeros. The code of another byte is this plus the byte.
 uint256 constant LITERALS = 66189564;
 
 /// @notice The Huffman code of the PNG encoder, fitted to pictures of the renderer. Written by tools/png_code.py.
 /// @dev All bits are in the order of the stream.
 library PngCode {
-    /// @notice The code of a zero; those of other bytes are as much more. They have 9 bits.
+    /// @notice The 9-bit code of a zero. The code of another byte is this plus the byte.
     uint256 internal constant LITERAL = 252;
-    /// @notice Bits of the longest match, and 32 of them: at the distance of a pixel, and of a byte.
+    /// @notice The code size of the longest match in bits; 32 such matches at the distance of a pixel, and of a byte.
     uint256 internal constant LONGEST_SIZE = 5;
     uint256 internal constant LONGEST = 0x0000000000000000000000006b5ad6b5ad6b5ad6b5ad6b5ad6b5ad6b5ad6b5ad;
     uint256 internal constant LONGEST_ZEROS = 0x0000000000000000000000006318c6318c6318c6318c6318c6318c6318c6318c;
-    /// @notice Where the matches of 259 and 260 bytes, which are two each, differ for the other distance. Those of
-    /// fewer bytes differ in the last bit.
+    /// @notice The bits in which the codes of 259 and 260 bytes, two matches each, differ for the other distance. Codes
+    /// of fewer bytes differ in the last bit.
     uint256 internal constant OTHER_DISTANCES = 0x21;
 
-    /// @notice Of each length from 3 to 260 the code of the match at the distance of a pixel (19 bits), and its length
-    /// (5 bits).
+    /// @notice Returns, for each length from 3 to 260, the code of the match at the distance of a pixel (19 bits), and
+    /// its size in bits (5 bits).
     function tables() internal pure returns (bytes memory) {
         return
             hex"0001250ffe2f0ffe6f0ffeaf0ffeef0fff2f0001650fff6f1fff301fff701fffb01ffff001fe2c01fe6c0ffd2f0ffd6f0000250000a50000650000e5"
@@ -36,30 +36,30 @@ library PngCode {
             hex"01d86d01dc6d01da6d01de6d01d96d01dd6d01db6d01df6d01d8ed01dced01daed01deed01d9ed01dded01dbed0001a53bbd323b7d32";
     }
 
-    /// @notice What tells the code at the beginning of the block, as far as it fills bytes.
+    /// @notice Returns the header of the block, which defines the code, without the last bits, which fill no byte.
     function header() internal pure returns (bytes memory) {
         return
             hex"b743e009c4103104e38f7bdef7bdef7bdef7bdef7bdef7bdef7bdef7bdef7bdef7bdef7b38270496fd7e5ee5e9b61244c4";
     }
 
-    /// @notice The rest of it: bits, and how many.
+    /// @notice Returns the last bits of the header, and their number.
     function headerRest() internal pure returns (uint256, uint256) {
         return (1, 1);
     }
 
-    /// @notice What ends the block: bits, and how many.
+    /// @notice Returns the end of the block: its bits, and their number.
     function end() internal pure returns (uint256, uint256) {
         return (4092, 12);
     }
 }
 
-/// @notice The Huffman code of PNG files with alpha. Pixels have four bytes there.
+/// @notice The Huffman code of PNG files with alpha. Pixels have four bytes.
 library AlphaCode {
-    /// @notice The code of a pixel of zeros, 36 bits; bytes, 9 bits apart, are added.
+    /// @notice The code of a zero pixel, 36 bits. The bytes of a pixel, spread 9 bits apart, are added to it.
     uint256 internal constant PIXEL = 34426978560;
 
-    /// @notice Of each number of pixels from 1 to 64 the code of the match that repeats one so often (19 bits), and its
-    /// length (5 bits).
+    /// @notice Returns, for each number of pixels from 1 to 64, the code of the match that repeats one that many times
+    /// (19 bits), and its size in bits (5 bits).
     function tables() internal pure returns (bytes memory) {
         return
             hex"0001250002a60000650018e90032aa0033aa000ba80034aa006b2b006b6b006d2b006d6b006f2b006f6b00712b00716b00e62c00e6ac00e66c00e6ec"
@@ -68,18 +68,18 @@ library AlphaCode {
             hex"000c69000d69000ce9000de9";
     }
 
-    /// @notice What tells the code at the beginning of the block, as far as it fills bytes.
+    /// @notice Returns the header of the block, which defines the code, without the last bits, which fill no byte.
     function header() internal pure returns (bytes memory) {
         return
             hex"b7c3e030d80c30c00dbffffffffffffffffffffffffffffffffffffffffffffffffffffe50c0100428b65ff50201";
     }
 
-    /// @notice The rest of it: bits, and how many.
+    /// @notice Returns the last bits of the header, and their number.
     function headerRest() internal pure returns (uint256, uint256) {
         return (0, 0);
     }
 
-    /// @notice What ends the block: bits, and how many.
+    /// @notice Returns the end of the block: its bits, and their number.
     function end() internal pure returns (uint256, uint256) {
         return (48, 7);
     }

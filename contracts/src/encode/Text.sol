@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-/// @notice Writes text to memory, piece after piece.
+/// @notice Writes text to memory, piece by piece.
 library Text {
     function write(uint256 target, string memory text) internal pure returns (uint256) {
         unchecked {

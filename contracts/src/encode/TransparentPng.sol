@@ -7,23 +7,23 @@ import {Png} from "./Png.sol";
 import {AlphaCode} from "./PngCode.sol";
 import {PngErrors} from "./PngErrors.sol";
 
-/// @notice PNG files with an alpha channel, of two pictures of one scene: over black, and over white.
-/// @dev What covers a share a of a pixel in the colour c shows a c over black and a c + 255 (1 - a) over white, so the difference tells
-/// a, and the picture over black then c. This holds for edges that are antialiased, and for objects that are not opaque.
+/// @notice Encodes PNG files with an alpha channel from two bitmaps of a scene: over black and over white.
+/// @dev A fragment that covers a fraction a of a pixel in the colour c appears as a c over black and as a c + 255 (1 - a) over white. The
+/// difference yields a, and the bitmap over black then yields c. This holds for antialiased edges and for translucent objects.
 ///
-/// Pixels are written as four bytes and, if more are like them, matches at the distance of a pixel. Where pixels are squares, the other
-/// rows of a square are like the row above (filter Up): pixels of zeros. The code is `AlphaCode`.
+/// A pixel is written as four bytes; if equal pixels follow, as matches at the distance of a pixel. If pixels are enlarged to squares, the
+/// other rows of a square equal the row above (filter Up): zeros. The Huffman code is `AlphaCode`.
 library TransparentPng {
-    /// @dev The most pixels that one match repeats, since it has at most 258 bytes.
+    /// @dev The maximum number of pixels in a match, since a match has at most 258 bytes.
     uint256 private constant MOST = 64;
-    /// @dev Bits of the codes of a byte and of a pixel.
+    /// @dev The code sizes of a byte and of a pixel, in bits.
     uint256 private constant LITERAL_SIZE = 9;
     uint256 private constant PIXEL_SIZE = 36;
     /// @dev The first byte of a word.
     uint256 private constant FIRST_BYTE = 0xff00000000000000000000000000000000000000000000000000000000000000;
 
-    /// @param stream What has been written.
-    /// @param matches See `codes`.
+    /// @param stream The bits written so far.
+    /// @param matches The table of `codes`.
     /// @param first, second The sums of Adler-32, not reduced.
     struct File {
         Png.Stream stream;
@@ -32,9 +32,9 @@ library TransparentPng {
         uint256 second;
     }
 
-    /// @notice A PNG file of 8 bits for each of red, green, blue and alpha.
-    /// @param black, white Bitmaps of the scene over a black background and over a white one, of the same size.
-    /// @param scale How many pixels each becomes in both directions, 1..8.
+    /// @notice Returns a PNG file of 8 bits for each of red, green, blue and alpha.
+    /// @param black, white Bitmaps of the scene over a black and over a white background, of the same size.
+    /// @param scale The enlargement, 1..8.
     function encode(bytes calldata black, bytes calldata white, uint256 scale) internal pure returns (bytes memory png) {
         unchecked {
             (uint256 width, uint256 height) = Png.sizeOf(black);
@@ -76,16 +76,16 @@ library TransparentPng {
         }
     }
 
-    /// @notice The same as a `data:` URI.
+    /// @notice Returns the file as a `data:` URI.
     function dataURI(bytes calldata black, bytes calldata white, uint256 scale) internal pure returns (string memory) {
-        // this stands before the file, since zeros are written behind that
+        // allocated before the file, since zeros are written behind the file
         string memory head = Png.URI;
         return DataUri.wrap(head, encode(black, white, scale), "");
     }
 
     /// @dev Writes a row.
-    /// @param place Of its first pixel in the bitmaps, in bytes.
-    /// @param end Of the byte behind its last one.
+    /// @param place The offset of its first pixel in the bitmaps, in bytes.
+    /// @param end The offset of the end of its last pixel.
     function writeRow(File memory file, bytes calldata black, bytes calldata white, uint256 place, uint256 end, uint256 scale)
         private
         pure
@@ -105,7 +105,7 @@ library TransparentPng {
                 assembly ("memory-safe") {
                     onBlack := shr(232, calldataload(place))
                     onWhite := shr(232, calldataload(add(place, toWhite)))
-                    // how far both go on like that, by ten pixels where so many are alike: a shift leaves the bytes that count
+                    // the length of the run, in steps of ten pixels while all ten are equal: the shift discards the other two bytes
                     for { place := add(place, 3) } lt(place, end) { place := add(place, 3) } {
                         let before := sub(place, 3)
                         let change := or(
@@ -121,7 +121,7 @@ library TransparentPng {
         }
     }
 
-    /// @notice Red, green, blue and alpha, 8 bits each, of what has these colours over black and over white.
+    /// @notice Returns red, green, blue and alpha, 8 bits each, of a pixel with these colours over black and over white.
     /// @param onBlack, onWhite Blue, green and red, 8 bits each.
     function pixelOf(uint256 onBlack, uint256 onWhite) internal pure returns (uint256) {
         unchecked {
@@ -138,12 +138,12 @@ library TransparentPng {
         }
     }
 
-    /// @dev Blue, green and red as red, green, blue and zero.
+    /// @dev Returns blue, green, red as red, green, blue, zero.
     function swapped(uint256 color) private pure returns (uint256) {
         return (color & 0xff) << 24 | (color & 0xff00) << 8 | (color >> 16) << 8;
     }
 
-    /// @dev By what a channel is brighter over white; bitmaps of two scenes may have it the other way.
+    /// @dev Returns by how much a channel is brighter over white; 0 if it is not, which two different scenes can cause.
     function difference(uint256 onBlack, uint256 onWhite, uint256 shift) private pure returns (uint256) {
         unchecked {
             (uint256 dark, uint256 bright) = (onBlack >> shift & 0xff, onWhite >> shift & 0xff);
@@ -151,7 +151,7 @@ library TransparentPng {
         }
     }
 
-    /// @dev The colour of what has a channel over black, rounded to the nearest.
+    /// @dev Returns the colour of a channel from its value over black, rounded to nearest.
     function channel(uint256 onBlack, uint256 alpha) private pure returns (uint256 value) {
         unchecked {
             value = ((onBlack & 0xff) * 255 + alpha / 2) / alpha;
@@ -168,7 +168,7 @@ library TransparentPng {
         }
     }
 
-    /// @dev Writes a pixel so many times, at least once.
+    /// @dev Writes a pixel `count` times, at least once.
     function writeRun(File memory file, uint256 pixel, uint256 count) private pure {
         uint256 zeros = AlphaCode.PIXEL;
         assembly ("memory-safe") {
@@ -179,7 +179,7 @@ library TransparentPng {
                 let blue := byte(30, pixel)
                 let alpha := byte(31, pixel)
                 text := shl(220, add(or(or(shl(27, red), shl(18, green)), or(shl(9, blue), alpha)), zeros))
-                // the sums, as if byte by byte
+                // the sums, as if computed byte by byte
                 let weighted := add(add(shl(2, red), mul(3, green)), add(shl(1, blue), alpha))
                 let sum := add(add(red, green), add(blue, alpha))
                 let first := mload(add(file, 0x40))
@@ -187,7 +187,7 @@ library TransparentPng {
                 mstore(add(file, 0x60), add(mload(add(file, 0x60)), mul(count, weighted)))
                 mstore(add(file, 0x40), add(first, mul(count, sum)))
             }
-            // the bytes with the first match, then as many as it takes
+            // the bytes with the first match, then as many matches as needed
             let stream := mload(file)
             let target := mload(stream)
             let bits := mload(add(stream, 0x20))
@@ -202,7 +202,7 @@ library TransparentPng {
                 size := 0
             }
             let code := mload(add(mload(add(file, 0x20)), shl(5, count)))
-            // the lowest byte of a code leaves the word, or stands behind what counts
+            // the lowest byte of the code is shifted out, or lies behind the used bits
             mstore(target, or(and(mload(target), FIRST_BYTE), shr(bits, or(text, shr(size, code)))))
             bits := add(bits, add(size, and(code, 0xff)))
             mstore(stream, add(target, shr(3, bits)))
@@ -210,7 +210,7 @@ library TransparentPng {
         }
     }
 
-    /// @dev Writes up to 32 bits, the first of which is uppermost.
+    /// @dev Writes up to 32 bits, the uppermost bit first.
     function put(Png.Stream memory stream, uint256 text, uint256 size) private pure {
         assembly ("memory-safe") {
             let target := mload(stream)
@@ -221,7 +221,8 @@ library TransparentPng {
         }
     }
 
-    /// @dev The codes of matches that repeat 0 to MOST pixels, a word each: the first of their bits uppermost, their number lowest.
+    /// @dev Returns the codes of matches that repeat 0 to MOST pixels, one word each: the code in the uppermost bits, its size in the
+    /// lowest.
     function codes() private pure returns (uint256 table) {
         unchecked {
             bytes memory tables = AlphaCode.tables();

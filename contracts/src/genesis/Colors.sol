@@ -7,10 +7,10 @@ import {Hsv} from "./Hsv.sol";
 import {Prisms} from "./Prisms.sol";
 import {Paint, Scheme, LEFT, UP, DOWN, RANDOM, LARGEST, RADIUS, CENTER_X} from "./Schemes.sol";
 
-/// @notice A single prism, and the scheme would choose highlights among the others: the seed has no piece.
+/// @notice The seed has no piece: the scheme needs to choose highlights among the other prisms, but there is only one prism.
 error NoPrismToChoose();
 
-/// @title Colors: the colour of every vertex, from a gradient and a random offset in hue, saturation and value.
+/// @title Colors: the colours of all vertices, from a gradient and random offsets of hue, saturation and value.
 library Colors {
     using Random for Seed;
     using Elements for int256[];
@@ -33,7 +33,7 @@ library Colors {
             uint256 count = prisms.flatX.length;
             colors = new uint256[](6 * count);
             uint256 chosen = highlights(seed, scheme, prisms);
-            // the seed holds no prism: all of a kind have the same offsets
+            // these random numbers do not depend on the prism: all prisms of a kind have the same offsets
             Hue[6] memory plain = offsets(seed, scheme.primary);
             Hue[6] memory special;
             if (chosen != 0) special = offsets(seed, scheme.highlight);
@@ -44,7 +44,7 @@ library Colors {
         }
     }
 
-    /// @dev Which prisms are highlights: bit k for prism k.
+    /// @dev Returns the set of highlighted prisms: bit k for prism k.
     function highlights(Seed seed, Scheme memory scheme, Prisms memory prisms) private pure returns (uint256 chosen) {
         unchecked {
             uint256 total = prisms.flatX.length;
@@ -57,11 +57,11 @@ library Colors {
             }
             int256[] memory keys =
                 scheme.key == RADIUS ? prisms.flatRadius : scheme.key == CENTER_X ? prisms.flatX : prisms.flatY;
-            // of equal keys those with the smaller number come first: no two are equal now
+            // ties are resolved by the index: no two keys are equal from here on
             for (uint256 k = 1; k != total; ++k) {
                 keys.put(k, (scheme.select == LARGEST ? -keys.get(k) : keys.get(k)) * 16 + int256(k));
             }
-            // the first prism comes first, whatever its key
+            // the first prism always comes first
             chosen = 1;
             for (uint256 k = 1; k != total; ++k) {
                 int256 key = keys.get(k);
@@ -72,7 +72,7 @@ library Colors {
         }
     }
 
-    /// @dev What is added at each vertex of a prism.
+    /// @dev Returns the offsets at each vertex of a prism.
     function offsets(Seed seed, Paint memory how) private pure returns (Hue[6] memory found) {
         unchecked {
             uint256 jiggle = how.jiggle;
@@ -97,7 +97,7 @@ library Colors {
         pure
     {
         unchecked {
-            // along which the gradient runs
+            // the coordinates along the gradient
             int256[] memory values = how.direction < UP ? prisms.x : prisms.y;
             (int256 low, int256 high) = how.across ? (-prisms.half[how.direction >> 1], prisms.half[how.direction >> 1]) : range(values, k);
             if (!how.across && (how.direction == LEFT || how.direction == DOWN)) (low, high) = (high, low);
@@ -111,7 +111,7 @@ library Colors {
         }
     }
 
-    /// @dev The least and the largest coordinate at the near end of a prism.
+    /// @dev Returns the minimum and maximum coordinate at the near end of a prism.
     function range(int256[] memory values, uint256 k) private pure returns (int256 low, int256 high) {
         unchecked {
             (int256 a, int256 b, int256 c) = (values.get(6 * k + 3), values.get(6 * k + 4), values.get(6 * k + 5));
@@ -121,7 +121,7 @@ library Colors {
         }
     }
 
-    /// @dev A channel of the gradient; beyond its ends it goes on, but not below 0.
+    /// @dev Returns a channel of the gradient, extrapolated beyond its ends, but not below 0.
     function mix(Paint memory how, uint256 shift, int256 part) private pure returns (int256 channel) {
         unchecked {
             int256 start = int256((how.start >> shift) & 0xff);

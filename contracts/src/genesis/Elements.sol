@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-/// @title Elements: of arrays in memory, without a check of the index: for loops that end with the array.
+/// @title Elements: accesses to memory arrays without bounds checks, for loops that end with the array.
 library Elements {
     function get(int256[] memory values, uint256 index) internal pure returns (int256 value) {
         assembly ("memory-safe") {

@@ -15,20 +15,20 @@ import {Piece, Traits} from "./Piece.sol";
 import {PieceMesh} from "./PieceMesh.sol";
 import {PieceScene} from "./PieceScene.sol";
 
-/// @title Genesis: a collection of pictures made from nothing but a seed of 32 bytes.
-/// @notice The seed gives a piece, the piece a scene, and the renderer its picture, in one call.
+/// @title Genesis: a collection of pictures generated from 32-byte seeds only.
+/// @notice The seed determines a piece, the piece a scene, and the renderer draws it, in one call.
 contract Genesis is WithRenderer {
     using Random for Seed;
 
     Tag internal constant WIRES = Tag.wrap(bytes32("wireframe") | bytes32(uint256(9)));
     Tag internal constant INVERSION = Tag.wrap(bytes32("invert") | bytes32(uint256(6)));
 
-    /// @notice No triangle fits: the seed has no piece.
+    /// @notice The seed has no piece: no triangle fits.
     error NoTriangle();
 
     constructor(Renderer renderer_) WithRenderer(renderer_) {}
 
-    /// @notice The piece of a seed.
+    /// @notice Returns the piece generated from a seed.
     function generate(bytes32 seed) public pure returns (Piece memory piece) {
         (Layout memory laid, Scheme memory scheme) = plan(Seed.wrap(seed));
         piece.traits = describe(laid, scheme);
@@ -38,30 +38,30 @@ contract Genesis is WithRenderer {
         piece.mesh = PieceMesh.pack(prisms, Colors.paint(Seed.wrap(seed), scheme, prisms));
     }
 
-    /// @notice What a piece is called.
+    /// @notice Returns the traits of a piece.
     function traits(bytes32 seed) external pure returns (Traits memory) {
         (Layout memory laid, Scheme memory scheme) = plan(Seed.wrap(seed));
         return describe(laid, scheme);
     }
 
-    /// @notice How a piece is drawn.
+    /// @notice Returns the scene of a piece.
     function scene(bytes32 seed) external pure returns (Scene memory) {
         return PieceScene.make(generate(seed));
     }
 
-    /// @notice The picture of a piece.
-    /// @return A Windows bitmap of 24 bits a pixel.
+    /// @notice Returns the picture of a piece.
+    /// @return A Windows bitmap of 24 bits per pixel.
     function render(bytes32 seed) external view returns (bytes memory) {
         forward(address(renderer), abi.encodeCall(Renderer.render, (PieceScene.make(generate(seed)))));
     }
 
-    /// @notice The picture of a piece.
+    /// @notice Returns the picture of a piece.
     /// @return A `data:` URI of the bitmap.
     function renderDataURI(bytes32 seed) external view returns (string memory) {
         forward(address(renderer), abi.encodeCall(Renderer.renderDataURI, (PieceScene.make(generate(seed)))));
     }
 
-    /// @notice The picture of a piece.
+    /// @notice Returns the picture of a piece.
     /// @return An SVG document that shows the bitmap at any size without smoothing.
     function renderSVG(bytes32 seed) external view returns (string memory) {
         forward(address(renderer), abi.encodeCall(Renderer.renderSVG, (PieceScene.make(generate(seed)))));

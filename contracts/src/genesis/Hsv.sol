@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-/// @title Hsv: colours as hue, saturation and value, 0..255 each, by divisions that cut off.
+/// @title Hsv: hue, saturation and value, 0..255 each, with truncating divisions.
 library Hsv {
-    /// @notice Of a colour whose channels are 0 or more; if one exceeds 255, so may the value.
+    /// @notice Converts a colour with channels of at least 0; if one exceeds 255, the value may, too.
     function fromRgb(int256 red, int256 green, int256 blue) internal pure returns (int256 hue, int256 saturation, int256 value) {
         unchecked {
             red = red * 1000 / 255;
@@ -27,7 +27,7 @@ library Hsv {
         }
     }
 
-    /// @notice Of numbers from 0 to 255; hue 255 is hue 0.
+    /// @notice Converts numbers from 0 to 255; hue 255 equals hue 0.
     function toRgb(int256 hue, int256 saturation, int256 value) internal pure returns (int256 red, int256 green, int256 blue) {
         unchecked {
             int256 sixth = 6 * (hue % 255 * 1000 / 255);
@@ -36,7 +36,7 @@ library Hsv {
             int256 chroma = value * saturation / 1000;
             int256 slope = sixth % 2000 - 1000;
             int256 middle = chroma * (1000 - (slope < 0 ? -slope : slope)) / 1000;
-            // what all three have
+            // the common part of all three channels
             int256 base = value - chroma;
             middle = (middle + base) * 255 / 1000;
             chroma = (chroma + base) * 255 / 1000;

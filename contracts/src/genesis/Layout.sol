@@ -6,16 +6,16 @@ import {Seed, Tag, Random} from "./Random.sol";
 import {Structure, EXTRUDED, UNIFORM} from "./Structures.sol";
 import {Trigonometry, SINES, ONE} from "./Trigonometry.sol";
 
-/// @notice A triangle in the plane, counter-clockwise, and the heights of the two ends of the prism over it.
-/// @param corners x and y of each.
+/// @notice A counter-clockwise triangle in the plane, and the heights of the two ends of its prism.
+/// @param corners x and y of each corner.
 /// @param far The height of the far end.
-/// @param near That of the near one.
-/// @param x Of the centroid.
-/// @param y Of the centroid.
-/// @param radius From the centroid to the first corner, cut off.
-/// @param isUp Whether one corner points upward, not two.
-/// @param edges Of each side, from corner to next corner, four numbers: dx, dy; dx * y - dy * x of either corner, so that a point p is
-/// (that + dy * p.x - dx * p.y) / |dx, dy| away from the line through them; and the most of what is too near, times |dx, dy|.
+/// @param near The height of the near end.
+/// @param x The x coordinate of the centroid.
+/// @param y The y coordinate of the centroid.
+/// @param radius The distance from the centroid to the first corner, truncated.
+/// @param isUp Whether one corner points upward, rather than two.
+/// @param edges Four numbers for each side, from corner to next corner: dx, dy; offset = dx * y - dy * x of either corner, so that the
+/// distance of a point p from the line through them is (offset + dy * p.x - dx * p.y) / |dx, dy|; and the clearance, times |dx, dy|.
 struct Triangle {
     int256[6] corners;
     int256 far;
@@ -28,16 +28,16 @@ struct Triangle {
 }
 
 /// @notice The triangles of a piece.
-/// @param seed Of the piece.
-/// @param structure The rules.
-/// @param unit Of heights.
-/// @param mirrorX Whether each triangle comes with its mirror image at the y axis.
-/// @param mirrorY At the x axis; both: turned by half a turn.
-/// @param count How many triangles are kept.
-/// @param slots These. There may be one more: the first one is no part of a piece that is mirrored at the x axis, and only the
-/// reference for what follows.
-/// @param spare The triangle that is tried next, written to in place.
-/// @param sines Trigonometry's table.
+/// @param seed The seed of the piece.
+/// @param structure The rules of the layout.
+/// @param unit The unit of heights.
+/// @param mirrorX Whether each triangle is accompanied by its mirror image at the y axis.
+/// @param mirrorY The same at the x axis; with both, the image is rotated by 180 degrees.
+/// @param count The number of triangles kept.
+/// @param slots The triangles kept. There can be one more: in a piece mirrored at the x axis, the first triangle is not part of the piece,
+/// only the reference for the following ones.
+/// @param spare The triangle to be tried next, written in place.
+/// @param sines The table of `Trigonometry`.
 struct Layout {
     Seed seed;
     Structure structure;
@@ -50,18 +50,18 @@ struct Layout {
     bytes sines;
 }
 
-/// @title Layouts: triangles in the plane, of which prisms are made. One after the other is laid beside another one, or point to point
-/// with it, wherever it fits.
-/// @dev A triangle is refused by the cheapest test that refuses it: all tests are needed to keep it, in any order. No test takes a root
-/// or divides where a comparison of squares or products says the same.
+/// @title Layouts: arranges the triangles of which prisms are made. Each one is placed beside another one, or corner to corner with it,
+/// wherever it fits.
+/// @dev The tests are ordered so that the cheapest rejects first; a triangle is kept only if it passes all. They use no root or division
+/// where a comparison of squares or products is equivalent.
 library Layouts {
     using Random for Seed;
     using Elements for int256[6];
 
     uint256 internal constant ATTEMPTS = 150;
-    /// @dev Of a triangle's corners and centroid from where they would be without rounding, at most; and of its radius.
+    /// @dev The maximum rounding error of a triangle's corners and centroid; and of its radius.
     int256 internal constant ROUNDING = 8;
-    /// @dev How near a corner may come to the line through an edge.
+    /// @dev The minimum distance between a corner and the line through an edge.
     int256 internal constant CLEARANCE = 8;
 
     Tag private constant UNIT = Tag.wrap(bytes32("depthMult") | bytes32(uint256(9)));
@@ -96,7 +96,7 @@ library Layouts {
             (first.far, first.near) = heights(laid, 0);
             setEdges(first);
             store(laid);
-            // it stays in its slot until another one takes it
+            // the triangle stays in its slot until another one overwrites it
             if (laid.mirrorY) laid.count = 0;
 
             for (uint256 i; i != ATTEMPTS && laid.count < most; ++i) {
@@ -107,7 +107,7 @@ library Layouts {
         }
     }
 
-    /// @dev Beside a side of the reference, then beside that side of the new one, and so on, ever smaller.
+    /// @dev Places triangles beside a side of the reference, then beside that side of the new one, and so on, with decreasing size.
     /// @param base The slot of the reference.
     function layAdjacent(Layout memory laid, uint256 i, uint256 base) private pure {
         unchecked {
@@ -119,7 +119,7 @@ library Layouts {
                 Triangle memory beside = laid.spare;
                 Triangle[] memory slots = laid.slots;
                 assembly ("memory-safe") {
-                    // slots[base], which is there
+                    // slots[base], without a bounds check
                     beside := mload(add(add(slots, 0x20), shl(5, base)))
                 }
                 int256 size = limited(structure, scale * beside.radius / 1000);
@@ -131,7 +131,7 @@ library Layouts {
                     int256 away = beside.radius / 2 * (1000 + scale) / 1000 + 6000;
                     (int256 cosine, int256 sine) = Trigonometry.ofTurn(laid.sines, turn);
                     (int256 dx, int256 dy) = Trigonometry.rotate(lateral, away, cosine, sine);
-                    // by 30 degrees less
+                    // minus 30 degrees
                     place(laid, beside.x + dx, beside.y + dy, size, turn + 11);
                 }
                 if (!fits(laid)) return;
@@ -144,7 +144,7 @@ library Layouts {
         }
     }
 
-    /// @dev Point to point with the reference, smaller or larger.
+    /// @dev Places triangles corner to corner with the reference, smaller or larger.
     function layOpposite(Layout memory laid, uint256 i, uint256 base) private pure {
         unchecked {
             Seed seed = laid.seed;
@@ -156,7 +156,7 @@ library Layouts {
                 else if (seed.chance(OPPOSITE_EQUAL, i, 0, 50)) scale = 500;
             }
             for (uint256 depth;; ++depth) {
-                // read anew each time: it may be the slot that was filled last
+                // read each time: the slot filled last may be chosen
                 Triangle memory other = laid.spare;
                 Triangle[] memory slots = laid.slots;
                 assembly ("memory-safe") {
@@ -169,7 +169,7 @@ library Layouts {
                     int256 away = other.radius * (1000 + scale) / 1000 + 64;
                     (int256 cosine, int256 sine) = Trigonometry.ofTurn(laid.sines, turn);
                     (int256 dx, int256 dy) = Trigonometry.rotate(0, away, cosine, sine);
-                    // by 210 degrees less
+                    // minus 210 degrees
                     place(laid, other.x + dx, other.y + dy, size, turn + 5);
                 }
                 if (!fits(laid)) return;
@@ -186,14 +186,14 @@ library Layouts {
         return radius > int256(structure.maxRadius) ? int256(structure.maxRadius) : radius;
     }
 
-    /// @dev Whether a triangle of that radius is below the least one, however it is rounded.
+    /// @dev Returns whether a triangle of this radius is below the minimum, even after rounding.
     function isTooSmall(Structure memory structure, int256 radius) private pure returns (bool) {
         unchecked {
             return radius + ROUNDING < int256(structure.minRadius);
         }
     }
 
-    /// @dev The heights of a triangle for slot `index`.
+    /// @dev Returns the heights of a triangle for slot `index`.
     function heights(Layout memory laid, uint256 index) private pure returns (int256 far, int256 near) {
         unchecked {
             int256 unit = laid.unit;
@@ -207,7 +207,7 @@ library Layouts {
         }
     }
 
-    /// @dev Keeps the spare triangle, which fits, and its mirror image if that fits then.
+    /// @dev Keeps the spare triangle, which fits, and then its mirror image if that fits.
     function add(Layout memory laid) private pure {
         Triangle memory triangle = laid.spare;
         store(laid);
@@ -217,13 +217,13 @@ library Layouts {
         }
     }
 
-    /// @dev Puts the spare triangle into the next slot.
+    /// @dev Moves the spare triangle into the next slot.
     function store(Layout memory laid) private pure {
         unchecked {
             Triangle memory triangle = laid.spare;
             laid.slots[laid.count++] = triangle;
             laid.spare = newTriangle();
-            // the side of an equilateral triangle, nearly
+            // approximates the side of an equilateral triangle
             uint256 guess = uint256(triangle.radius * 1732 / 1000);
             int256[12] memory e = triangle.edges;
             e[3] = nearness(e[0], e[1], guess);
@@ -232,8 +232,8 @@ library Layouts {
         }
     }
 
-    /// @dev The most of what is too near to an edge, times its length.
-    /// @param guess About that length.
+    /// @dev Returns the clearance of an edge, times its length.
+    /// @param guess An approximation of the length.
     function nearness(int256 dx, int256 dy, uint256 guess) private pure returns (int256) {
         unchecked {
             return CLEARANCE * int256(Trigonometry.root(uint256(dx * dx + dy * dy), guess)) - 1;
@@ -241,7 +241,7 @@ library Layouts {
     }
 
     /// @dev Makes the spare triangle equilateral.
-    /// @param turn The direction of the first corner, times 30 degrees.
+    /// @param turn The direction of the first corner, in units of 30 degrees.
     function place(Layout memory laid, int256 x, int256 y, int256 radius, uint256 turn) private pure {
         unchecked {
             int256[6] memory corners = laid.spare.corners;
@@ -254,7 +254,7 @@ library Layouts {
         }
     }
 
-    /// @dev Makes the spare triangle the mirror image of another one; the order of its corners makes it wound alike.
+    /// @dev Makes the spare triangle the mirror image of another one, with corners ordered to keep the winding.
     function mirror(Layout memory laid, Triangle memory triangle) private pure {
         unchecked {
             Triangle memory image = laid.spare;
@@ -270,8 +270,8 @@ library Layouts {
         }
     }
 
-    /// @dev Centroid, radius and edges.
-    /// @param radius About what it is.
+    /// @dev Computes centroid, radius and edges.
+    /// @param radius An approximation of the radius.
     function measure(Triangle memory triangle, int256 radius) private pure {
         unchecked {
             int256[6] memory c = triangle.corners;
@@ -284,7 +284,7 @@ library Layouts {
         }
     }
 
-    /// @dev Whether the spare triangle may be added.
+    /// @dev Returns whether the spare triangle can be added.
     function fits(Layout memory laid) private pure returns (bool) {
         unchecked {
             Triangle memory triangle = laid.spare;
@@ -292,11 +292,11 @@ library Layouts {
             if (count >= laid.structure.maxPrisms || triangle.radius < int256(laid.structure.minRadius)) return false;
             Triangle[] memory slots = laid.slots;
             (int256 x, int256 y, int256 half) = (triangle.x, triangle.y, triangle.radius >> 1);
-            // any value at first: the compiler would allocate a new triangle
+            // any initial value: the compiler would allocate a new triangle
             Triangle memory old = triangle;
             for (uint256 k; k != count; ++k) {
                 assembly ("memory-safe") {
-                    // slots[k], which is there
+                    // slots[k], without a bounds check
                     old := mload(add(add(slots, 0x20), shl(5, k)))
                 }
                 (int256 dx, int256 dy) = (x - old.x, y - old.y);
@@ -314,7 +314,7 @@ library Layouts {
         }
     }
 
-    /// @dev The lines through the corners.
+    /// @dev Computes the lines through the corners.
     function setEdges(Triangle memory triangle) private pure {
         unchecked {
             int256[6] memory c = triangle.corners;
@@ -328,7 +328,7 @@ library Layouts {
         }
     }
 
-    /// @dev Whether a new triangle keeps the distance that it must keep from one that is there, but for that of the centroids.
+    /// @dev Returns whether a new triangle keeps the required distance from an existing one, apart from the distance of the centroids.
     function isApart(Triangle memory triangle, Triangle memory old) private pure returns (bool) {
         unchecked {
             int256[6] memory c = triangle.corners;
@@ -342,28 +342,28 @@ library Layouts {
         }
     }
 
-    /// @dev Whether a point stays away from the lines of a triangle and lies outside. If it stays away, the signs of its distances say
-    /// exactly whether it lies inside: then all are negative.
+    /// @dev Returns whether a point keeps clear of the lines of a triangle and lies outside. If it keeps clear, the signs of its distances
+    /// are exact, and it lies inside if all are negative.
     function isClear(int256[12] memory edges, int256 x, int256 y) private pure returns (bool clear) {
         assembly ("memory-safe") {
             // distance * length = offset + dy * x - dx * y
             let a := sub(add(mload(add(edges, 0x40)), mul(mload(add(edges, 0x20)), x)), mul(mload(edges), y))
             let near := mload(add(edges, 0x60))
-            // |a| > near, as one comparison without sign
+            // |a| > near, as one unsigned comparison
             if gt(add(a, near), shl(1, near)) {
                 let b := sub(add(mload(add(edges, 0xc0)), mul(mload(add(edges, 0xa0)), x)), mul(mload(add(edges, 0x80)), y))
                 near := mload(add(edges, 0xe0))
                 if gt(add(b, near), shl(1, near)) {
                     let c := sub(add(mload(add(edges, 0x140)), mul(mload(add(edges, 0x120)), x)), mul(mload(add(edges, 0x100)), y))
                     near := mload(add(edges, 0x160))
-                    // and one of the three on the outer side
+                    // and at least one of the three is on the outer side
                     clear := and(gt(add(c, near), shl(1, near)), iszero(slt(and(and(a, b), c), 0)))
                 }
             }
         }
     }
 
-    /// @dev Whether a point lies inside: all of its barycentric coordinates are at least a millionth.
+    /// @dev Returns whether a point lies inside: all of its barycentric coordinates are at least 10^-6.
     function contains(int256[12] memory e, int256 x, int256 y) private pure returns (bool) {
         unchecked {
             int256 area = e[0] * e[5] - e[1] * e[4];
@@ -376,7 +376,7 @@ library Layouts {
 
     function newTriangle() private pure returns (Triangle memory) {}
 
-    /// @dev An array of no triangles: the compiler would make one for each place.
+    /// @dev Returns an array without allocated triangles: the compiler would allocate one for each element.
     function emptySlots(uint256 count) private pure returns (Triangle[] memory slots) {
         assembly ("memory-safe") {
             slots := mload(0x40)

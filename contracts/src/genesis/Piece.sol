@@ -3,13 +3,13 @@ pragma solidity ^0.8.25;
 
 import {Background} from "../scene/Scene.sol";
 
-/// @notice What a piece is called.
-/// @param structure How its prisms are arranged.
-/// @param chroma The scheme of its colours.
-/// @param pseudosymmetry Its mirrors.
-/// @param prisms How many it has.
-/// @param wireframe Whether only edges are drawn.
-/// @param invert Whether its colours are inverted.
+/// @notice The traits of a piece.
+/// @param structure The arrangement of its prisms.
+/// @param chroma The colour scheme.
+/// @param pseudosymmetry The mirror symmetries.
+/// @param prisms The number of prisms.
+/// @param wireframe Whether only the edges are drawn.
+/// @param invert Whether the colours are inverted.
 struct Traits {
     string structure;
     string chroma;
@@ -19,11 +19,11 @@ struct Traits {
     bool invert;
 }
 
-/// @notice What a seed stands for.
-/// @param traits What it is called.
-/// @param background As in a scene.
-/// @param culling Whether faces that turn away are left out.
-/// @param mesh In the format of `Mesh.sol`: six vertices and seven faces a prism.
+/// @notice The piece generated from a seed.
+/// @param traits The traits.
+/// @param background The background, as in a scene.
+/// @param culling Whether back faces are culled.
+/// @param mesh The mesh in the format of `Mesh.sol`: six vertices and seven faces for each prism.
 struct Piece {
     Traits traits;
     Background background;

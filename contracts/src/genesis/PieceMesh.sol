@@ -5,12 +5,12 @@ import {Elements} from "./Elements.sol";
 import {HEADER_SIZE, VERTEX_SIZE, FACE_SIZE} from "../mesh/PackedMesh.sol";
 import {Prisms} from "./Prisms.sol";
 
-/// @title PieceMesh: prisms in the format of `Mesh.sol`.
+/// @title PieceMesh: packs prisms in the format of `Mesh.sol`.
 library PieceMesh {
     using Elements for int256[];
 
-    /// @dev The seven faces of a prism, three vertex numbers of 2 bytes each, and what is added to each for the next prism. There is no
-    /// far cap.
+    /// @dev The seven faces of a prism, three vertex indices of 2 bytes each, and the increment of each index from prism to prism. There is
+    /// no far cap.
     uint256 private constant FACES_A = 0x0003_0004_0005_0004_0003_0000_0000_0001_0004_0005_0004_0001;
     uint256 private constant FACES_B = 0x0001_0002_0005_0002_0000_0003_0003_0005_0002;
     uint256 private constant SIX = 0x0006_0006_0006_0006_0006_0006_0006_0006_0006_0006_0006_0006;
@@ -20,11 +20,11 @@ library PieceMesh {
         unchecked {
             uint256 vertices = colors.length;
             uint256 count = vertices / 6;
-            // room for the whole words that are written at the end
+            // room for the whole words written at the end
             mesh = new bytes(HEADER_SIZE + VERTEX_SIZE * vertices + 7 * FACE_SIZE * count + 32);
             uint256 target;
             assembly ("memory-safe") {
-                // the last word is not part of it
+                // exclude the last word
                 mstore(mesh, sub(mload(mesh), 32))
                 target := add(mesh, 32)
             }
@@ -48,7 +48,7 @@ library PieceMesh {
         return uint16(uint256(value));
     }
 
-    /// @dev Writes a number of so many bytes, and zeros behind it; the end of it.
+    /// @dev Writes a number of `size` bytes, followed by zeros, and returns the end of the number.
     function write(uint256 target, uint256 value, uint256 size) private pure returns (uint256) {
         unchecked {
             assembly ("memory-safe") {

@@ -6,12 +6,12 @@ import {Quaternion} from "../math/Quaternion.sol";
 import {Scene, Canvas, Camera, Light, Material, Object, DIRECTIONAL, FLAT, CULL_BACKFACES, WIREFRAME} from "../scene/Scene.sol";
 import {Piece} from "./Piece.sol";
 
-/// @notice How a piece is drawn. Who wants its traits too has the piece already, and need not have it made again.
+/// @notice Makes the scene of a piece. A library, so that callers that already have the piece need not generate it again.
 library PieceScene {
     /// @dev The side of a picture in pixels.
     uint256 internal constant SIDE = 128;
 
-    /// @dev Seen from the front, lit from the left, its colours in full.
+    /// @dev Returns the scene: seen from the front, lit from the left.
     function make(Piece memory piece) internal pure returns (Scene memory made) {
         unchecked {
             made.canvas = Canvas(SIDE, SIDE);

@@ -7,13 +7,13 @@ import {Layout, Triangle} from "./Layout.sol";
 import {Trigonometry} from "./Trigonometry.sol";
 
 /// @notice The prisms over the triangles of a layout, tilted.
-/// @param flatX The centroids of the triangles, scaled and turned in their plane.
-/// @param flatY Likewise.
-/// @param flatRadius Their distances from the first corners, cut off.
-/// @param x Six points a prism, three at the far end and three at the near one, not yet centred.
-/// @param y Likewise.
-/// @param z Likewise; away from the viewer.
-/// @param center Of the piece.
+/// @param flatX The x coordinates of the triangles' centroids, scaled and rotated in their plane.
+/// @param flatY The y coordinates.
+/// @param flatRadius The distances of the centroids from the first corners, truncated.
+/// @param x The x coordinates of six points for each prism, three at the far end and three at the near one, not yet centred.
+/// @param y The y coordinates.
+/// @param z The z coordinates, increasing away from the viewer.
+/// @param center The centre of the piece.
 /// @param half Half of the mean extent of both ends.
 struct Prisms {
     int256[] flatX;
@@ -26,19 +26,19 @@ struct Prisms {
     int256[2] half;
 }
 
-/// @title PrismMaker: from triangles to prisms.
+/// @title PrismMaker: makes prisms from triangles.
 library PrismMaker {
     using Random for Seed;
     using Elements for int256[];
 
-    /// @dev The width or height of a piece before it is turned, whichever is larger.
+    /// @dev The larger of the width and height of a piece before it is rotated.
     int256 internal constant EXTENT = 2000;
 
     Tag private constant TURN = Tag.wrap(bytes32("rotZ") | bytes32(uint256(4)));
     Tag private constant TILT_X = Tag.wrap(bytes32("rotX") | bytes32(uint256(4)));
     Tag private constant TILT_Y = Tag.wrap(bytes32("rotY") | bytes32(uint256(4)));
 
-    /// @dev How the prisms of a piece are turned.
+    /// @dev The rotation and tilt of the prisms of a piece.
     struct Turn {
         int256 size;
         bool turned;
@@ -64,7 +64,7 @@ library PrismMaker {
         }
     }
 
-    /// @dev Width or height of all triangles, whichever is larger.
+    /// @dev Returns the larger of the width and height of all triangles.
     function extent(Layout memory laid) private pure returns (int256) {
         unchecked {
             (int256 left, int256 right) = (type(int256).max, type(int256).min);
@@ -89,7 +89,7 @@ library PrismMaker {
             : (Trigonometry.COSINE_348, Trigonometry.SINE_348);
     }
 
-    /// @dev Makes prism `k` of a triangle.
+    /// @dev Makes prism `k` from a triangle.
     function erect(Triangle memory triangle, Turn memory turn, Prisms memory prisms, uint256 k) private pure {
         unchecked {
             int256[6] memory c;
@@ -121,7 +121,7 @@ library PrismMaker {
         prisms.z.put(i, z);
     }
 
-    /// @dev Finds the middle between the lowest and the highest coordinate, each the mean of both ends.
+    /// @dev Computes the centre between the minimum and maximum coordinate, each averaged over both ends.
     function center(Prisms memory prisms) private pure {
         unchecked {
             for (uint256 axis; axis != 2; ++axis) {
@@ -135,7 +135,7 @@ library PrismMaker {
         }
     }
 
-    /// @dev The least and the largest coordinate at one end of all prisms.
+    /// @dev Returns the minimum and maximum coordinate at one end of all prisms.
     /// @param first 0 for the far end, 3 for the near one.
     function bounds(int256[] memory values, uint256 first) private pure returns (int256 low, int256 high) {
         unchecked {

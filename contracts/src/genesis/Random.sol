@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-/// @notice What a piece is made from.
+/// @notice The seed from which a piece is generated.
 type Seed is bytes32;
 
-/// @notice The name of a random number: up to 31 letters, and how many in the last byte.
+/// @notice The name of a random number: up to 31 letters, with their number in the last byte.
 type Tag is bytes32;
 
-/// @title Random: numbers from a seed, without state.
-/// @notice The same seed, tag and words always give the same number, in whatever order they are asked for.
+/// @title Random: stateless random numbers from a seed.
+/// @notice The same seed, tag and words always give the same number, independent of the order of the calls.
 library Random {
-    /// @notice A number from `low` to `high`, both included; `low` if there is none between.
+    /// @notice Returns a number from `low` to `high`, inclusive; `low` if the range is empty.
     function draw(Seed seed, Tag tag, int256 low, int256 high) internal pure returns (int256) {
         return toRange(hash(seed, tag, 0, 0, 0), low, high);
     }
@@ -23,7 +23,7 @@ library Random {
         return toRange(hash(seed, tag, i, j, 2), low, high);
     }
 
-    /// @notice Holds in percent + 1 of 101 cases.
+    /// @notice Returns true in percent + 1 of 101 cases.
     function chance(Seed seed, Tag tag, uint256 i, uint256 j, uint256 percent) internal pure returns (bool) {
         unchecked {
             return percent == 100 || hash(seed, tag, i, j, 2) % 101 <= percent;
@@ -34,14 +34,14 @@ library Random {
         unchecked {
             uint256 count = high < low ? 1 : uint256(high - low + 1);
             assembly ("memory-safe") {
-                // the compiler would ask whether the count is zero
+                // the compiler would check for a zero count
                 value := mod(value, count)
             }
             return low + int256(value);
         }
     }
 
-    /// @notice The hash of the seed, the letters of the tag and so many of the two words.
+    /// @notice Returns the hash of the seed, the letters of the tag, and the first `words` of the two words.
     function hash(Seed seed, Tag tag, uint256 i, uint256 j, uint256 words) internal pure returns (uint256 value) {
         assembly ("memory-safe") {
             let data := mload(0x40)

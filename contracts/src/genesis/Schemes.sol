@@ -15,13 +15,13 @@ uint256 constant VIVID_ALABASTER = 7;
 uint256 constant VIVID_INK = 8;
 uint256 constant PIGMENTED = 9;
 
-// The directions in which a gradient runs.
+// The directions of a gradient.
 uint256 constant RIGHT = 0;
 uint256 constant LEFT = 1;
 uint256 constant UP = 2;
 uint256 constant DOWN = 3;
 
-// Which prisms are highlights: random ones, the first of those with the largest key or with the smallest.
+// The selection of highlights: at random, or the prisms with the largest or the smallest keys.
 uint256 constant RANDOM = 0;
 uint256 constant LARGEST = 1;
 uint256 constant SMALLEST = 2;
@@ -31,14 +31,14 @@ uint256 constant RADIUS = 0;
 uint256 constant CENTER_X = 1;
 uint256 constant CENTER_Y = 2;
 
-/// @notice How prisms are coloured. Colours are 0xRRGGBB.
+/// @notice The colouring of prisms. Colours are 0xRRGGBB.
 /// @param start The first colour of the gradient.
-/// @param end Its last one.
-/// @param across Whether it runs across the whole piece, not each triangle.
-/// @param direction In which it runs.
-/// @param jiggle The mean of what is added to hue, saturation and value, a byte each.
-/// @param byVertex Whether each vertex of a prism gets its own.
-/// @param shift What the far end loses in brightness.
+/// @param end The last colour of the gradient.
+/// @param across Whether the gradient spans the whole piece, rather than each triangle.
+/// @param direction The direction of the gradient.
+/// @param jiggle The means of the offsets of hue, saturation and value, one byte each.
+/// @param byVertex Whether each vertex of a prism has its own offsets.
+/// @param shift The decrease of brightness at the far end.
 struct Paint {
     uint256 start;
     uint256 end;
@@ -50,12 +50,12 @@ struct Paint {
 }
 
 /// @notice The colours of a piece.
-/// @param index Which scheme it is.
-/// @param primary How most prisms are coloured.
-/// @param highlight How the others are.
-/// @param count How many these are.
-/// @param select How they are chosen.
-/// @param key By what.
+/// @param index The number of the scheme.
+/// @param primary The colouring of most prisms.
+/// @param highlight The colouring of the highlighted prisms.
+/// @param count The number of highlighted prisms.
+/// @param select The selection of highlights.
+/// @param key The key of the selection.
 /// @param top The background at the top.
 /// @param bottom The background at the bottom.
 struct Scheme {
@@ -69,7 +69,7 @@ struct Scheme {
     uint256 bottom;
 }
 
-/// @title Schemes: what colours a piece has.
+/// @title Schemes: the colour schemes of pieces.
 library Schemes {
     using Random for Seed;
 
@@ -77,7 +77,7 @@ library Schemes {
     Tag private constant HUE = Tag.wrap(bytes32("hsv") | bytes32(uint256(3)));
     Tag private constant PRIMARY = Tag.wrap(bytes32("pri") | bytes32(uint256(3)));
     Tag private constant PRIMARY_EMERGENT = Tag.wrap(bytes32("priDir") | bytes32(uint256(6)));
-    // spelt so
+    // sic
     Tag private constant PRIMARY_STONE = Tag.wrap(bytes32("pirDir") | bytes32(uint256(6)));
     Tag private constant HIGHLIGHT = Tag.wrap(bytes32("hlt") | bytes32(uint256(3)));
     Tag private constant HIGHLIGHT_DIRECTION = Tag.wrap(bytes32("hltDir") | bytes32(uint256(6)));
@@ -85,7 +85,7 @@ library Schemes {
     Tag private constant SELECT = Tag.wrap(bytes32("hltSel") | bytes32(uint256(6)));
     Tag private constant KEY = Tag.wrap(bytes32("hltVar") | bytes32(uint256(6)));
 
-    /// @param prisms How many the piece has.
+    /// @param prisms The number of prisms of the piece.
     function choose(Seed seed, uint256 prisms) internal pure returns (Scheme memory scheme) {
         unchecked {
             int256 value = seed.draw(KIND, 0, 10000);
@@ -158,7 +158,7 @@ library Schemes {
         (scheme.count, scheme.select) = (1, LARGEST);
     }
 
-    /// @dev Denatured, Chameleonic and Gradiated: from drawn colours.
+    /// @dev Denatured, Chameleonic and Gradiated: random colours.
     function drawn(Scheme memory scheme, Seed seed, uint256 prisms) private pure {
         unchecked {
             uint256 way = direction(seed, PRIMARY, 0, scheme.index == CHAMELEONIC ? int256(3) : int256(1));
@@ -186,7 +186,7 @@ library Schemes {
         }
     }
 
-    /// @dev Vivid Alabaster and Vivid Ink: white or black, with highlights and a background of one hue.
+    /// @dev Vivid Alabaster and Vivid Ink: white or black prisms, highlights and a background of one hue.
     function vivid(Scheme memory scheme, Seed seed, uint256 prisms) private pure {
         unchecked {
             int256 hue = seed.draw(HUE, 0, 255);
@@ -201,7 +201,7 @@ library Schemes {
                 scheme.key = uint256(seed.draw(KEY, 0, 2));
             }
             (scheme.count, scheme.select) = ((prisms + 1) / 2, uint256(seed.draw(SELECT, 0, 2)));
-            // nine to either side, on a circle of 255
+            // nine units to either side, on a circle of 255
             (scheme.top, scheme.bottom) = (hsv((hue + 246) % 255, 105, 255), hsv((hue + 9) % 255, 105, 255));
         }
     }
@@ -219,7 +219,7 @@ library Schemes {
         return uint256(seed.draw(tag, low, high));
     }
 
-    /// @dev A drawn colour; its channels are drawn by the two letters and R, G or B.
+    /// @dev Returns a random colour. The tags of its channels are the two letters followed by R, G or B.
     function color(Seed seed, bytes2 letters) private pure returns (uint256) {
         unchecked {
             return (channel(seed, letters, "R") << 16) | (channel(seed, letters, "G") << 8) | channel(seed, letters, "B");

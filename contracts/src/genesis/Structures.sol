@@ -12,10 +12,10 @@ uint256 constant EXTRUDED = 5;
 uint256 constant UNIFORM = 6;
 
 /// @notice The rules of a layout.
-/// @param firstRadius Of the first triangle.
+/// @param firstRadius The radius of the first triangle.
 /// @param sizesVary Whether triangles differ in size.
-/// @param opposite The chance in percent that a triangle is laid point to point with another one, not beside it.
-/// @param oppositeAgain The chances that another one of its kind follows.
+/// @param opposite The probability in percent that a triangle is placed corner to corner with another one, rather than beside it.
+/// @param oppositeAgain The probabilities that another one of the same kind follows.
 struct Structure {
     uint256 index;
     uint256 firstRadius;
@@ -28,7 +28,7 @@ struct Structure {
     uint256 adjacentAgain;
 }
 
-/// @title Structures: how the prisms of a piece are arranged.
+/// @title Structures: the arrangements of a piece's prisms.
 library Structures {
     using Random for Seed;
 

@@ -5,109 +5,130 @@ import {StudioErrors} from "../studio/StudioErrors.sol";
 import {Edition} from "../tokens/Edition.sol";
 import {IStudio} from "./IStudio.sol";
 
-/// @title IEditions: a collection to which anybody adds scenes, each of them an edition of tokens, limited or open.
-/// @notice There is no owner. Whoever adds a scene is its artist, and has no power over the editions of others. What an edition shows,
-/// costs and is called never changes; all that its artist can do later is to close it, and to withdraw what its tokens have cost.
+/// @title IEditions: a collection in which anyone can publish scenes as limited or open editions of tokens.
+/// @notice There is no owner. The account that adds a scene is the artist of the edition, and has no power over other editions. The
+/// picture, name, price, supply and royalty of an edition never change; its artist can only close it and withdraw its proceeds.
 interface IEditions is StudioErrors {
+    /// @notice Emitted when an edition is added.
     event EditionAdded(
         uint256 indexed edition,
         address indexed artist,
         address indexed scene,
         string name,
         uint256 scale,
+        bool model,
         uint256 price,
         uint256 supply,
         uint256 royalty
     );
-    /// @notice No more tokens of the edition can be minted.
+    /// @notice Emitted when an edition is closed. No more of its tokens can be minted.
     event EditionClosed(uint256 indexed edition, uint256 minted);
+    /// @notice Emitted when an artist withdraws proceeds, in wei.
     event Withdrawn(address indexed artist, address indexed to, uint256 amount);
 
+    /// @notice The address has no code.
     error NoStudio(address studio);
+    /// @notice The number of the edition is not below the number of editions.
     error UnknownEdition(uint256 edition, uint256 editions);
+    /// @notice The maximum number of editions is reached.
     error TooManyEditions(uint256 editions);
+    /// @notice The name must have 1 to `longest` bytes.
     error NameLength(uint256 length, uint256 longest);
-    /// @notice The bytes of the name that begin here are no character of UTF-8.
+    /// @notice The bytes of the name from this position on are not valid UTF-8.
     error NameNotUtf8(uint256 position);
+    /// @notice The supply must not be 0.
     error NoSupply();
+    /// @notice The royalty exceeds the highest one, in basis points.
     error Royalty(uint256 royalty, uint256 highest);
-    /// @notice Drawing the scene runs out of gas: it needs more than `gasLimit`, or the transaction has too little.
+    /// @notice Drawing the scene ran out of gas: it needs more than `gasLimit`, or the transaction has too little.
     error DrawingOutOfGas(address scene, uint256 gasLimit);
+    /// @notice The caller is not the artist of the edition.
     error NotTheArtist(uint256 edition, address artist, address account);
+    /// @notice The edition is already closed.
     error AlreadyClosed(uint256 edition);
+    /// @notice The quantity is out of range: at most `perTransaction`; for `mint`, at least 1.
     error Quantity(uint256 quantity, uint256 perTransaction);
+    /// @notice The payment must be exactly `due`, in wei.
     error Payment(uint256 sent, uint256 due);
-    /// @notice What was sent along with a transfer or an approval.
+    /// @notice Transfers and approvals accept no ether.
     error PaymentForNothing(uint256 sent);
+    /// @notice The quantity exceeds the number of tokens left.
     error NothingLeft(uint256 quantity, uint256 left);
+    /// @notice The receiver did not accept the ether.
     error WithdrawalRefused(address to, uint256 amount);
-    /// @notice Of the library that writes addresses as text: never thrown.
+    /// @notice Declared by the library that formats addresses as text. Never thrown.
     error StringsInsufficientHexLength(uint256 value, uint256 length);
 
-    /// @notice The supply of an edition that is open until its artist closes it.
+    /// @notice Returns the supply value of an open edition, which has no limit until its artist closes it.
     function OPEN() external view returns (uint32);
 
-    /// @notice The gas in which a scene must be drawn to be added: what a transaction may use on Ethereum (EIP-7825).
+    /// @notice Returns the gas limit for the metadata of a new edition: that of a transaction on Ethereum (EIP-7825).
     function DRAWING_GAS() external view returns (uint256);
 
-    /// @notice What keeps the scenes, and has them drawn.
+    /// @notice Returns the Studio, which stores and draws the scenes.
     function studio() external view returns (IStudio);
 
-    /// @notice Adds an edition, whose artist is the caller. The whole picture is drawn, as `tokenURI` draws it: what cannot be drawn in
-    /// `DRAWING_GAS` is refused, with the error that drawing it has.
-    /// @param name_ 1 to 64 bytes of text in UTF-8.
-    /// @param scene Where the studio keeps the scene.
-    /// @param scale How many pixels each pixel of the scene becomes in `tokenURI`: 1 to 8; 4 makes 512 of 128.
-    /// @param price Of each token, in wei.
-    /// @param supply The most tokens that there will ever be, `copies` among them; `OPEN` sets no limit.
-    /// @param royalty What the artist is to be paid of each resale, in hundredths of a percent: 0 to 1,000.
-    /// @param copies How many tokens the artist receives at once, for nothing: 0 to 100.
-    /// @return edition Its number.
+    /// @notice Adds an edition whose artist is the caller. Draws the whole picture, as `tokenURI` does, and reverts with the error of the
+    /// drawing if it fails, or if it needs more gas than `DRAWING_GAS`.
+    /// @param name_ The name: 1 to 64 bytes of UTF-8.
+    /// @param scene The pointer to the scene, as the Studio returned it.
+    /// @param scale The enlargement of the picture in `tokenURI`, 1..8: each pixel becomes a square of `scale` x `scale` pixels.
+    /// @param model Whether the metadata contains the scene as a GLB model, in `animation_url`.
+    /// @param price The price of a token, in wei.
+    /// @param supply The maximum number of tokens, including `copies`; `OPEN` for no limit.
+    /// @param royalty The royalty of a resale, in basis points: 0..1,000.
+    /// @param copies The number of tokens minted to the artist for free, 0..100.
+    /// @return edition The number of the edition.
     function add(
         string calldata name_,
         address scene,
         uint8 scale,
+        bool model,
         uint96 price,
         uint32 supply,
         uint16 royalty,
         uint32 copies
     ) external returns (uint256 edition);
 
-    /// @notice Ends the minting of an edition, for ever. For its artist.
+    /// @notice Closes an edition permanently. Only its artist.
     function close(uint256 edition) external;
 
-    /// @notice Sends what tokens of the caller's editions have cost, and was not withdrawn yet, to `to`. If `to` does not take it, nothing
-    /// is lost: choose another.
-    /// @return amount How much, in wei.
+    /// @notice Sends the unwithdrawn proceeds of the caller's editions to `to`. Reverts if `to` does not accept them; nothing is lost, and
+    /// another address can be used.
+    /// @return amount The amount sent, in wei.
     function withdraw(uint256[] calldata ofEditions, address payable to) external returns (uint256 amount);
 
-    /// @notice Mints tokens of an edition to the caller. Exactly `quantity` times its price must be sent along.
-    /// @param quantity 1 to 100.
+    /// @notice Mints tokens of an edition to the caller. The payment must be exactly `quantity` times the price.
+    /// @param quantity 1..100.
     function mint(uint256 edition, uint256 quantity) external payable;
 
-    /// @notice How many editions there are, numbered from 0.
+    /// @notice Returns the number of editions. They are numbered from 0.
     function editionCount() external view returns (uint256);
 
-    /// @notice An edition.
+    /// @notice Returns an edition.
     function editionAt(uint256 edition) external view returns (Edition memory);
 
-    /// @notice The edition that a token is one of.
+    /// @notice Returns the edition of a token.
     function editionOf(uint256 tokenId) external view returns (uint256);
 
-    /// @notice How many tokens of an edition can still be minted.
+    /// @notice Returns how many tokens of an edition can still be minted.
     function left(uint256 edition) external view returns (uint256);
 
-    /// @notice What the artist can withdraw of an edition, in wei.
+    /// @notice Returns the amount that the artist can withdraw from an edition, in wei.
     function proceeds(uint256 edition) external view returns (uint256);
 
-    /// @notice ERC-7572: the metadata of the collection. Its picture is nobody's: the edges of a solid of eight faces.
+    /// @notice Returns the metadata of an edition: that of its tokens, without a number in the name.
+    /// @return A `data:` URI of JSON that contains the picture as a PNG.
+    function editionURI(uint256 edition) external view returns (string memory);
+
+    /// @notice Returns the metadata of the collection (ERC-7572). Its picture is a fixed octahedron wireframe.
     /// @return A `data:` URI of JSON.
     function contractURI() external view returns (string memory);
 
-    /// @notice ERC-2981: the artist of the token's edition is to be paid a part of each resale.
+    /// @notice Returns the royalty of a resale (ERC-2981), which goes to the artist of the token's edition.
     function royaltyInfo(uint256 tokenId, uint256 salePrice) external view returns (address receiver, uint256 royaltyAmount);
 
-    // ---- ERC-721, as ERC-721A has it ----
+    // ---- ERC-721, as implemented by ERC-721A ----
 
     event Transfer(address indexed from, address indexed to, uint256 indexed tokenId);
     event Approval(address indexed owner, address indexed approved, uint256 indexed tokenId);
@@ -133,13 +154,13 @@ interface IEditions is StudioErrors {
     error TransferToZeroAddress();
     error URIQueryForNonexistentToken();
 
-    /// @notice The first token of the range is not before the last.
+    /// @notice The start of the range is not less than its end.
     error InvalidQueryRange();
 
-    /// @param addr Who has the token.
-    /// @param startTimestamp Since when, in Unix time.
-    /// @param burned Never.
-    /// @param extraData The edition.
+    /// @param addr The owner of the token.
+    /// @param startTimestamp The Unix time at which the ownership began.
+    /// @param burned Always false.
+    /// @param extraData The number of the edition.
     struct TokenOwnership {
         address addr;
         uint64 startTimestamp;
@@ -147,58 +168,58 @@ interface IEditions is StudioErrors {
         uint24 extraData;
     }
 
-    /// @notice Who has a token and since when; all zero if there is no such token.
+    /// @notice Returns the owner of a token and the start of the ownership; all zero if the token does not exist.
     function explicitOwnershipOf(uint256 tokenId) external view returns (TokenOwnership memory);
 
-    /// @notice The same of several.
+    /// @notice Returns the ownership of several tokens.
     function explicitOwnershipsOf(uint256[] calldata tokenIds) external view returns (TokenOwnership[] memory);
 
-    /// @notice The tokens of an account. The gas grows with all tokens: it is meant for reading.
+    /// @notice Returns the tokens of an account. The gas grows with the total supply: meant for off-chain reads.
     function tokensOfOwner(address owner) external view returns (uint256[] memory);
 
-    /// @notice The same among the tokens from `start` to before `stop`.
+    /// @notice Returns the tokens of an account in the range from `start` (inclusive) to `stop` (exclusive).
     function tokensOfOwnerIn(address owner, uint256 start, uint256 stop) external view returns (uint256[] memory);
 
-    /// @notice How many tokens there are, numbered from 0. None can be burned.
+    /// @notice Returns the number of tokens. They are numbered from 0, and cannot be burned.
     function totalSupply() external view returns (uint256);
 
-    /// @notice ERC-165.
+    /// @notice Returns whether the contract implements an interface (ERC-165).
     function supportsInterface(bytes4 interfaceId) external view returns (bool);
 
-    /// @notice How many tokens an account has.
+    /// @notice Returns the number of tokens of an account.
     function balanceOf(address owner) external view returns (uint256 balance);
 
-    /// @notice Who has a token.
+    /// @notice Returns the owner of a token.
     function ownerOf(uint256 tokenId) external view returns (address owner);
 
-    /// @notice Transfers a token; a contract must accept it. No ether must be sent along.
+    /// @notice Transfers a token. A receiver with code must accept it. Accepts no ether.
     function safeTransferFrom(address from, address to, uint256 tokenId, bytes calldata data) external payable;
 
-    /// @notice The same without data.
+    /// @notice As above, without data.
     function safeTransferFrom(address from, address to, uint256 tokenId) external payable;
 
-    /// @notice Transfers a token, whether the receiver accepts it or not. No ether must be sent along.
+    /// @notice Transfers a token without calling the receiver. Accepts no ether.
     function transferFrom(address from, address to, uint256 tokenId) external payable;
 
-    /// @notice Allows an account to transfer a token, once. No ether must be sent along.
+    /// @notice Approves an account to transfer a token once. Accepts no ether.
     function approve(address to, uint256 tokenId) external payable;
 
-    /// @notice Allows an account to transfer all tokens of the caller, or forbids it.
+    /// @notice Approves or revokes an operator for all tokens of the caller.
     function setApprovalForAll(address operator, bool approved) external;
 
-    /// @notice Who may transfer a token beside its owner; zero for nobody.
+    /// @notice Returns the account approved for a token; zero if there is none.
     function getApproved(uint256 tokenId) external view returns (address operator);
 
-    /// @notice Whether an account may transfer all tokens of another one.
+    /// @notice Returns whether an account is an operator for all tokens of another account.
     function isApprovedForAll(address owner, address operator) external view returns (bool);
 
-    /// @notice What the collection is called.
+    /// @notice Returns the name of the collection.
     function name() external view returns (string memory);
 
-    /// @notice The same in short.
+    /// @notice Returns the symbol of the collection.
     function symbol() external view returns (string memory);
 
-    /// @notice The metadata of a token. They never change.
-    /// @return A `data:` URI of JSON, the picture in it a PNG.
+    /// @notice Returns the metadata of a token, which never changes.
+    /// @return A `data:` URI of JSON that contains the picture as a PNG.
     function tokenURI(uint256 tokenId) external view returns (string memory);
 }

@@ -6,36 +6,36 @@ import {Scene} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 import {IRenderer} from "./IRenderer.sol";
 
-/// @title IGenesis: pictures that are made from a seed of 32 bytes.
+/// @title IGenesis: pictures generated from 32-byte seeds.
 interface IGenesis is SceneErrors {
-    /// @notice No triangle fits: the seed has no piece.
+    /// @notice The seed has no piece: no triangle fits.
     error NoTriangle();
-    /// @notice The scheme would choose highlights among the other prisms, and there is one only: the seed has no piece.
+    /// @notice The seed has no piece: the scheme needs to choose highlights among the other prisms, but there is only one prism.
     error NoPrismToChoose();
     /// @notice The address has no code.
     error NoRenderer(address renderer);
 
-    /// @notice What draws.
+    /// @notice Returns the renderer.
     function renderer() external view returns (IRenderer);
 
-    /// @notice The piece of a seed.
+    /// @notice Returns the piece generated from a seed.
     function generate(bytes32 seed) external pure returns (Piece memory piece);
 
-    /// @notice What a piece is called.
+    /// @notice Returns the traits of a piece.
     function traits(bytes32 seed) external pure returns (Traits memory);
 
-    /// @notice How a piece is drawn.
+    /// @notice Returns the scene of a piece.
     function scene(bytes32 seed) external pure returns (Scene memory);
 
-    /// @notice The picture of a piece.
-    /// @return A Windows bitmap of 24 bits a pixel.
+    /// @notice Returns the picture of a piece.
+    /// @return A Windows bitmap of 24 bits per pixel.
     function render(bytes32 seed) external view returns (bytes memory);
 
-    /// @notice The picture of a piece.
+    /// @notice Returns the picture of a piece.
     /// @return A `data:` URI of the bitmap.
     function renderDataURI(bytes32 seed) external view returns (string memory);
 
-    /// @notice The picture of a piece.
+    /// @notice Returns the picture of a piece.
     /// @return An SVG document that shows the bitmap at any size without smoothing.
     function renderSVG(bytes32 seed) external view returns (string memory);
 }

@@ -5,12 +5,12 @@ import {GlbErrors} from "../encode/GlbErrors.sol";
 import {Scene} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 
-/// @title IGlbEncoder: scenes as models that viewers turn.
+/// @title IGlbEncoder: encodes scenes as binary glTF files (GLB) for 3D viewers.
 interface IGlbEncoder is SceneErrors, GlbErrors {
-    /// @notice A binary glTF file of the objects of a scene: a node, a mesh and a material for each that has faces.
-    /// @param scene Its meshes in the format of `Mesh.sol`.
+    /// @notice Returns a binary glTF file of the objects of a scene: one node, mesh and material for each object that has faces.
+    /// @param scene A scene with meshes in the format of `Mesh.sol`.
     function encode(Scene calldata scene) external pure returns (bytes memory);
 
-    /// @notice The same as a `data:` URI, for the `animation_url` of a token.
+    /// @notice Returns the file as a `data:` URI, for the `animation_url` of a token.
     function dataURI(Scene calldata scene) external pure returns (string memory);
 }

@@ -6,51 +6,51 @@ import {Quaternion} from "../math/Quaternion.sol";
 import {Rectangle, Scene} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 
-/// @title IRenderer: pictures of 3D scenes.
-/// @notice Stateless. The errors are those of `SceneErrors.sol`.
+/// @title IRenderer: draws 3D scenes.
+/// @notice Stateless. `SceneErrors.sol` declares the errors of invalid scenes.
 interface IRenderer is SceneErrors {
     /// @notice The address has no code.
     error NoEngine(address engine);
-    /// @notice The angle leaves the range of 2^26 degrees either way.
+    /// @notice The angle must be at most 2^26 degrees in either direction.
     error AngleOutOfRange(int256 degrees_);
-    /// @notice A mistake of the renderer, which no scene causes.
+    /// @notice Internal error: no scene causes it.
     error RegistersOverlap();
 
-    /// @notice What computes the pixels of flat and unlit surfaces.
+    /// @notice Returns the engine for flat and unlit surfaces.
     function engine() external view returns (address);
 
-    /// @notice What computes the pixels of all else.
+    /// @notice Returns the engine for smooth, wireframe, translucent and spot-lit objects.
     function fragmentEngine() external view returns (address);
 
-    /// @notice What `engine` does, with four samples for each pixel.
+    /// @notice Returns the engine that does the work of `engine` with four samples per pixel.
     function antialiasedEngine() external view returns (address);
 
-    /// @notice What `fragmentEngine` does, with four samples for each pixel.
+    /// @notice Returns the engine that does the work of `fragmentEngine` with four samples per pixel.
     function antialiasedFragmentEngine() external view returns (address);
 
-    /// @notice What computes all pixels of scenes with effects.
+    /// @notice Returns the engine for scenes with effects.
     function effectsEngine() external view returns (address);
 
-    /// @notice What finds out before what their effects are to the frame and to each object.
+    /// @notice Returns the contract that checks effects and computes their uniforms.
     function effects() external view returns (address);
 
     /// @notice Draws a scene.
-    /// @return A Windows bitmap of 24 bits a pixel.
+    /// @return A Windows bitmap of 24 bits per pixel.
     function render(Scene calldata scene) external view returns (bytes memory);
 
-    /// @notice Draws a part of the canvas as a bitmap of its own. The parts of a picture together equal the whole, byte for byte.
+    /// @notice Draws a part of the canvas as a separate bitmap. The tiles of a picture together equal the whole picture, byte for byte.
     function renderTile(Scene calldata scene, Rectangle calldata tile) external view returns (bytes memory);
 
-    /// @notice Draws a scene and counts what was drawn.
-    /// @return bmp As `render` returns it.
-    /// @return triangles How many triangles were left after culling and clipping.
-    /// @return litPixels How many pixels any of them covers.
+    /// @notice Draws a scene and counts its triangles and lit pixels.
+    /// @return bmp The bitmap, as from `render`.
+    /// @return triangles The number of triangles left after culling and clipping.
+    /// @return litPixels The number of pixels covered by any of them.
     function renderCounted(Scene calldata scene) external view returns (bytes memory bmp, uint256 triangles, uint256 litPixels);
 
-    /// @notice Draws a part of the canvas, as `renderTile` does, and counts what was drawn of it.
-    /// @return bmp As `renderTile` returns it.
-    /// @return triangles How many triangles were left after culling and clipping that do not lie beyond one border of the part.
-    /// @return litPixels How many pixels of the part any of them covers.
+    /// @notice Draws a part of the canvas, as `renderTile` does, and counts its triangles and lit pixels.
+    /// @return bmp The bitmap, as from `renderTile`.
+    /// @return triangles The number of triangles left after culling and clipping that do not lie entirely beyond one edge of the tile.
+    /// @return litPixels The number of pixels of the tile covered by any of them.
     function renderTileCounted(Scene calldata scene, Rectangle calldata tile)
         external
         view
@@ -64,9 +64,10 @@ interface IRenderer is SceneErrors {
     /// @return An SVG document that shows the bitmap at any size without smoothing.
     function renderSVG(Scene calldata scene) external view returns (string memory);
 
-    /// @notice The rotation about the x axis, then y, then z, by angles in degrees (Q32), for an object of a scene.
+    /// @notice Returns the rotation about the x axis, then y, then z, by angles in degrees (Q32), for `Object.rotation`.
     function eulerRotation(Fixed x, Fixed y, Fixed z) external pure returns (Quaternion memory);
 
-    /// @notice The data with which the Renderer calls the engine to draw a part of the canvas, as `Uniforms.sol` says: for measurements.
+    /// @notice Returns the calldata with which the Renderer calls the engine to draw a part of the canvas, in the format of `Uniforms.sol`.
+    /// For measurements.
     function engineCall(Scene calldata scene, Rectangle calldata tile) external view returns (bytes memory);
 }

@@ -10,14 +10,14 @@ import {IPngEncoder} from "./IPngEncoder.sol";
 import {IRenderer} from "./IRenderer.sol";
 import {ITurntable} from "./ITurntable.sol";
 
-/// @title IStudio: meshes and scenes stored on chain, and pictures for every contract.
-/// @notice Anyone stores a mesh or a scene once. There is no owner, and nothing can be changed or removed. The address of what is stored
-/// is made of its bytes: the same mesh or scene has the same pointer on every chain.
+/// @title IStudio: stores meshes and scenes on chain, and draws them for any contract.
+/// @notice Anyone can store a mesh or a scene; its pointer is permanent. There is no owner, and nothing can be changed or removed. The
+/// pointer is derived from the stored bytes: the same mesh or scene has the same pointer on every chain.
 interface IStudio is StudioErrors {
-    /// @notice Bytes were stored by `storeMesh` or `storeScene`. There is no event where they were kept already, nor for what `storePart`
-    /// and `join` store: that nothing was told does not mean that nothing is kept. Ask the pointer.
+    /// @notice Emitted when `storeMesh` stores new bytes. Not emitted for bytes that are already stored, nor by `storePart` and `join`. A
+    /// missing event does not mean that the data is not stored; check for code at the pointer.
     event MeshStored(address indexed pointer, address indexed by);
-    /// @notice As for a mesh.
+    /// @notice Emitted when `storeScene` stores new bytes, as `MeshStored`.
     event SceneStored(address indexed pointer, address indexed by);
 
     /// @notice The address has no code.
@@ -29,119 +29,118 @@ interface IStudio is StudioErrors {
     /// @notice The address has no code.
     error NoModeller(address modeller);
 
-    /// @notice What draws.
+    /// @notice Returns the renderer.
     function renderer() external view returns (IRenderer);
 
-    /// @notice What makes PNG files of the pictures.
+    /// @notice Returns the encoder of PNG files.
     function encoder() external view returns (IPngEncoder);
 
-    /// @notice What makes animated PNG files of scenes that turn.
+    /// @notice Returns the contract that makes animated PNG files of rotating scenes.
     function turntable() external view returns (ITurntable);
 
-    /// @notice What makes models of scenes.
+    /// @notice Returns the encoder of binary glTF files.
     function modeller() external view returns (IGlbEncoder);
 
-    /// @notice Stores a mesh in any of its forms but a pointer: packed (`Mesh.sol`) or compact (`CompactMesh.sol`).
-    /// @return pointer Where it is kept.
+    /// @notice Stores a mesh, packed (`Mesh.sol`) or compact (`CompactMesh.sol`). Pointers are not accepted.
+    /// @return pointer The address of the stored mesh.
     function storeMesh(bytes calldata data) external returns (address pointer);
 
-    /// @notice Stores a scene. Its meshes may be pointers: `meshAt`. A scale, a camera or a material whose numbers were not multiplied by
-    /// 2^32 is refused.
-    /// @return pointer Where it is kept.
+    /// @notice Stores a scene. Its meshes can be pointers: see `meshAt`. Reverts if a scale, a camera or a material looks as if its numbers
+    /// were not multiplied by 2^32.
+    /// @return pointer The address of the stored scene.
     function storeScene(Scene calldata scene_) external returns (address pointer);
 
-    /// @notice Stores up to 24,575 bytes of something larger, for what does not fit one transaction.
+    /// @notice Stores a part (at most 24,575 bytes) of data too large for one transaction.
     function storePart(bytes calldata data) external returns (address pointer);
 
-    /// @notice Stores what the parts are together: a mesh or a scene. The pointer is that of the whole stored at once, where each part but
-    /// the last has 24,575 bytes.
+    /// @notice Stores the concatenation of parts as a mesh or scene. If each part but the last has 24,575 bytes, the pointer is the same as
+    /// if the whole were stored at once.
     function join(address[] calldata parts) external returns (address pointer);
 
-    /// @notice What stands for a mesh that is kept, in the field `mesh` of an object.
+    /// @notice Returns the reference to a stored mesh, for `Object.mesh`.
     function meshAt(address pointer) external pure returns (bytes memory);
 
-    /// @notice A mesh that is kept, in the format of `Mesh.sol`.
+    /// @notice Returns a stored mesh in the format of `Mesh.sol`.
     function mesh(address pointer) external view returns (bytes memory);
 
-    /// @notice A scene that is kept, its meshes in the format of `Mesh.sol`: what the renderer takes.
+    /// @notice Returns a stored scene with its meshes in the format of `Mesh.sol`, as the renderer takes it.
     function scene(address pointer) external view returns (Scene memory);
 
-    /// @notice The same with changes.
+    /// @notice Returns a stored scene with changes applied.
     function scene(address pointer, Changes calldata changes) external view returns (Scene memory);
 
-    /// @notice Reverts if the scene that is kept there cannot be drawn, with the error that drawing it would have: a part or a mesh is
-    /// missing, or a number is out of range. All is checked, one pixel is drawn. As nothing that is kept changes, it can be drawn ever
-    /// after.
+    /// @notice Reverts with the renderer's error if the stored scene cannot be drawn: a part or a mesh is missing, or a number is out of
+    /// range. Checks everything and draws one pixel. Stored data never changes, so a scene that passes remains drawable.
     function check(address pointer) external view;
 
-    /// @notice The picture of a scene that is kept.
-    /// @return A Windows bitmap of 24 bits a pixel.
+    /// @notice Draws a stored scene.
+    /// @return A Windows bitmap of 24 bits per pixel.
     function render(address pointer) external view returns (bytes memory);
 
-    /// @notice The same with changes.
+    /// @notice As above, with changes applied to the scene.
     function render(address pointer, Changes calldata changes) external view returns (bytes memory);
 
-    /// @notice The picture as a PNG file, each pixel a square of `scale` pixels, 1..8.
+    /// @notice Returns the picture as a PNG file, each pixel enlarged to a square of `scale` x `scale` pixels, 1..8.
     function renderPNG(address pointer, uint256 scale) external view returns (bytes memory);
 
-    /// @notice The same with changes.
+    /// @notice As above, with changes applied to the scene.
     function renderPNG(address pointer, uint256 scale, Changes calldata changes) external view returns (bytes memory);
 
-    /// @notice The PNG file as a `data:` URI.
+    /// @notice Returns the PNG file as a `data:` URI.
     function renderDataURI(address pointer, uint256 scale) external view returns (string memory);
 
-    /// @notice The same with changes.
+    /// @notice As above, with changes applied to the scene.
     function renderDataURI(address pointer, uint256 scale, Changes calldata changes) external view returns (string memory);
 
-    /// @notice An SVG document that holds the PNG file, and shows each pixel as a square without smoothing.
+    /// @notice Returns an SVG document that contains the PNG file and shows each pixel as a square without smoothing.
     function renderSVG(address pointer, uint256 scale) external view returns (string memory);
 
-    /// @notice The same with changes.
+    /// @notice As above, with changes applied to the scene.
     function renderSVG(address pointer, uint256 scale, Changes calldata changes) external view returns (string memory);
 
-    /// @notice The picture without its background, as a PNG file with an alpha channel. The scene is drawn twice: over black and over
-    /// white.
+    /// @notice Returns the picture as a PNG file with an alpha channel instead of the background. Draws the scene twice: over black and
+    /// over white.
     function renderTransparentPNG(address pointer, uint256 scale) external view returns (bytes memory);
 
-    /// @notice The same with changes.
+    /// @notice As above, with changes applied to the scene.
     function renderTransparentPNG(address pointer, uint256 scale, Changes calldata changes) external view returns (bytes memory);
 
-    /// @notice The PNG file as a `data:` URI.
+    /// @notice Returns the PNG file as a `data:` URI.
     function renderTransparentDataURI(address pointer, uint256 scale) external view returns (string memory);
 
-    /// @notice The same with changes.
+    /// @notice As above, with changes applied to the scene.
     function renderTransparentDataURI(address pointer, uint256 scale, Changes calldata changes) external view returns (string memory);
 
-    /// @notice The scene turning, as an animated PNG file: see `Turntable`, which draws scenes that are not kept.
+    /// @notice Returns an animated PNG file of the rotating scene. `Turntable` does the same for scenes that are not stored.
     function animate(address pointer, Spin calldata spin) external view returns (bytes memory);
 
-    /// @notice The same with changes, of which the first frame has the turn.
+    /// @notice As above, with changes applied to the scene. `Changes.turn` sets the orientation of the first frame.
     function animate(address pointer, Spin calldata spin, Changes calldata changes) external view returns (bytes memory);
 
-    /// @notice The animated PNG file as a `data:` URI.
+    /// @notice Returns the animated PNG file as a `data:` URI.
     function animateDataURI(address pointer, Spin calldata spin) external view returns (string memory);
 
-    /// @notice The same with changes.
+    /// @notice As above, with changes applied to the scene.
     function animateDataURI(address pointer, Spin calldata spin, Changes calldata changes) external view returns (string memory);
 
-    /// @notice The picture of a scene that is not kept, as a PNG file; its meshes may be pointers and compact. As with the following, a
-    /// scale, a camera or a material whose numbers were not multiplied by 2^32 is refused.
+    /// @notice Returns the picture of a scene that is not stored as a PNG file. Meshes can be packed, compact or pointers. The `draw`
+    /// functions revert if a scale, a camera or a material looks as if its numbers were not multiplied by 2^32.
     function drawPNG(Scene calldata scene_, uint256 scale) external view returns (bytes memory);
 
-    /// @notice The same as a `data:` URI.
+    /// @notice Returns the PNG file as a `data:` URI.
     function drawDataURI(Scene calldata scene_, uint256 scale) external view returns (string memory);
 
-    /// @notice The picture without its background, as a PNG file with an alpha channel. The scene is drawn twice: over black and over
-    /// white.
+    /// @notice Returns the picture as a PNG file with an alpha channel instead of the background. Draws the scene twice: over black and
+    /// over white.
     function drawTransparentPNG(Scene calldata scene_, uint256 scale) external view returns (bytes memory);
 
-    /// @notice The same as a `data:` URI.
+    /// @notice Returns the PNG file as a `data:` URI.
     function drawTransparentDataURI(Scene calldata scene_, uint256 scale) external view returns (string memory);
 
-    /// @notice A scene or a mesh that is kept, as a binary glTF file, which viewers turn: see `GlbEncoder`, which takes scenes that are not
-    /// kept.
+    /// @notice Returns a stored scene or mesh as a binary glTF file, for 3D viewers. `GlbEncoder` does the same for scenes that are not
+    /// stored.
     function glb(address pointer) external view returns (bytes memory);
 
-    /// @notice The same as a `data:` URI.
+    /// @notice Returns the file as a `data:` URI.
     function glbDataURI(address pointer) external view returns (string memory);
 }

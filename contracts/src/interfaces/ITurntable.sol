@@ -9,25 +9,25 @@ import {TurntableErrors} from "../studio/TurntableErrors.sol";
 import {IPngEncoder} from "./IPngEncoder.sol";
 import {IRenderer} from "./IRenderer.sol";
 
-/// @title ITurntable: scenes that turn, as animated PNG files.
+/// @title ITurntable: makes animated PNG files of rotating scenes.
 interface ITurntable is SceneErrors, PngErrors, TurntableErrors {
     /// @notice The address has no code.
     error NoRenderer(address renderer);
     /// @notice The address has no code.
     error NoEncoder(address encoder);
-    /// @notice The angle leaves the range of 2^26 degrees either way.
+    /// @notice The angle must be at most 2^26 degrees in either direction.
     error AngleOutOfRange(int256 degrees_);
 
-    /// @notice What draws.
+    /// @notice Returns the renderer.
     function renderer() external view returns (IRenderer);
 
-    /// @notice What makes a PNG file of each frame.
+    /// @notice Returns the encoder of the frames.
     function encoder() external view returns (IPngEncoder);
 
-    /// @notice An animated PNG file, repeated for ever. The first frame is the scene as it is.
-    /// @param scene Its meshes in the format of `Mesh.sol`.
+    /// @notice Returns an animated PNG file that loops endlessly. The first frame is the scene as given.
+    /// @param scene A scene with meshes in the format of `Mesh.sol`.
     function animate(Scene calldata scene, Spin calldata spin) external view returns (bytes memory);
 
-    /// @notice The same as a `data:` URI, for the `animation_url` of a token.
+    /// @notice Returns the file as a `data:` URI, for the `animation_url` of a token.
     function animateDataURI(Scene calldata scene, Spin calldata spin) external view returns (string memory);
 }

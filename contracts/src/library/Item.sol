@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-/// @notice A model of the library.
-/// @param scene Where the Studio keeps the scene that shows it: `IStudio.renderPNG`.
-/// @param meshes Where it keeps the meshes, one for each material.
-/// @param low The least coordinates of all meshes together, x, y and z.
-/// @param high The greatest ones.
-/// @param triangles How many all meshes have.
-/// @param isIcon Whether it is an icon; the others are common objects.
+/// @notice An item of the library.
+/// @param scene The pointer to the scene that shows the item, for `IStudio.renderPNG`.
+/// @param meshes The pointers to the meshes, one for each material.
+/// @param low The minimum x, y and z coordinates of all meshes.
+/// @param high The maximum coordinates.
+/// @param triangles The total number of triangles.
+/// @param isIcon Whether the item is an icon; the others are common objects.
 struct Item {
     address scene;
     address[] meshes;

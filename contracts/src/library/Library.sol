@@ -9,28 +9,29 @@ import {CULL_BACKFACES, Material, Object} from "../scene/Scene.sol";
 import {Item} from "./Item.sol";
 import {Shelf} from "./Shelf.sol";
 
-/// @title Library: meshes and scenes of the project by name, the same on every chain.
-/// @notice Without storage and without an owner. The table is part of the code (`Shelf`): where the Studio keeps each item, once anybody
-/// has stored it.
+/// @title Library: the meshes and scenes of the project by name, the same on every chain.
+/// @notice Has no storage and no owner. The table of items is part of the code (`Shelf`). It contains the pointers at which the Studio
+/// stores each item; anyone can store an item.
 contract Library {
-    /// @dev A row of the table: how many bytes the name has, the name, IS_ICON and the number of meshes, scene, bounds (six numbers of 16
-    /// bits), triangles (16 bits); then of each mesh its address and its material: shading, three coefficients in hundredths, shininess.
+    /// @dev A row of the table: the length of the name, the name, IS_ICON and the number of meshes, the scene, bounds (six 16-bit numbers),
+    /// and the number of triangles (16 bits); then, for each mesh, its address and its material: shading, three coefficients in hundredths,
+    /// shininess.
     uint256 private constant IS_ICON = 0x80;
     uint256 private constant ADDRESS_SIZE = 20;
     uint256 private constant BOUNDS_SIZE = 12;
     uint256 private constant MESH_SIZE = 25;
-    /// @dev Bytes of a row without the name and the meshes.
+    /// @dev The size of a row without the name and the meshes, in bytes.
     uint256 private constant FIXED_SIZE = 36;
     int256 private constant MAX_SIZE = 1 << 52;
 
-    /// @notice There is nothing of that name: see `names`.
+    /// @notice No item has this name. `names` lists all items.
     error UnknownName(string name);
-    /// @notice A part of it is not stored on this chain yet. Anyone can store it: `shackled library store NAME`.
+    /// @notice A mesh or the scene of the item is not stored on this chain yet. Anyone can store it: `shackled library store NAME`.
     error NotStored(string name, address pointer);
-    /// @notice A size is above 0, and below 2^20 units.
+    /// @notice The size must be above 0 and below 2^20 units.
     error SizeOutOfRange(int256 size);
 
-    /// @notice The names of all items, icons first.
+    /// @notice Returns the names of all items, icons first.
     function names() external pure returns (string[] memory list) {
         bytes memory table = Shelf.table();
         list = new string[](Shelf.COUNT);
@@ -41,7 +42,7 @@ contract Library {
         }
     }
 
-    /// @notice An item by its name, whether it is stored on this chain or not.
+    /// @notice Returns an item by its name, whether it is stored on this chain or not.
     function find(string calldata name) public pure returns (Item memory item) {
         bytes memory table = Shelf.table();
         uint256 place = rowOf(table, name) + 1 + bytes(name).length;
@@ -62,13 +63,13 @@ contract Library {
         }
     }
 
-    /// @notice Whether the meshes and the scene of an item are stored on this chain.
+    /// @notice Returns whether the meshes and the scene of an item are stored on this chain.
     function isStored(string calldata name) external view returns (bool) {
         return missing(find(name)) == address(0);
     }
 
-    /// @notice The objects of an item, upright, around the origin: its longest side is `size` long. Add them to a scene, moved and turned
-    /// as you like; their meshes are pointers, which the Studio opens.
+    /// @notice Returns the objects of an item, upright, centred at the origin, scaled so that the longest side is `size`. They can be moved
+    /// and rotated, and added to a scene. Their meshes are pointers, which the Studio resolves.
     function objects(string calldata name, Fixed size) external view returns (Object[] memory list) {
         Item memory item = find(name);
         address absent = missing(item);
@@ -81,6 +82,7 @@ contract Library {
             if (item.high[k] - item.low[k] > longest) longest = item.high[k] - item.low[k];
         }
         Fixed scale = Fixed.wrap(size.raw() / longest);
+        if (scale.raw() == 0) revert SizeOutOfRange(size.raw());
         list = new Object[](item.meshes.length);
         for (uint256 k; k != list.length; ++k) {
             Object memory object = list[k];
@@ -93,7 +95,7 @@ contract Library {
         }
     }
 
-    /// @dev The first part of an item that is not stored on this chain; zero if there is none.
+    /// @dev Returns the first mesh or scene of an item that is not stored on this chain; zero if there is none.
     function missing(Item memory item) private view returns (address) {
         for (uint256 k; k != item.meshes.length; ++k) {
             if (item.meshes[k].code.length == 0) return item.meshes[k];
@@ -101,7 +103,7 @@ contract Library {
         return item.scene.code.length == 0 ? item.scene : address(0);
     }
 
-    /// @dev Where an object lies so that the middle of its bounds is at the origin.
+    /// @dev Returns the position of an object that moves the centre of its bounds to the origin.
     function middle(Item memory item, uint256 k, Fixed scale) private pure returns (Fixed) {
         return Fixed.wrap(-(item.low[k] + item.high[k]) * scale.raw() / 2);
     }
@@ -120,7 +122,7 @@ contract Library {
         return Fixed.wrap(int256(value << 32) / 100);
     }
 
-    /// @dev The place of the row of a name.
+    /// @dev Returns the position of the row with a name.
     function rowOf(bytes memory table, string calldata name) private pure returns (uint256 row) {
         for (uint256 k; k != Shelf.COUNT; ++k) {
             if (keccak256(bytes(nameOf(table, row))) == keccak256(bytes(name))) return row;
@@ -129,7 +131,7 @@ contract Library {
         revert UnknownName(name);
     }
 
-    /// @dev The place of the row behind a row.
+    /// @dev Returns the position of the next row.
     function next(bytes memory table, uint256 row) private pure returns (uint256) {
         uint256 size = number(table, row, 1);
         return row + size + FIXED_SIZE + (number(table, row + 1 + size, 1) & ~IS_ICON) * MESH_SIZE;
@@ -143,7 +145,7 @@ contract Library {
         }
     }
 
-    /// @dev A number of so many bytes.
+    /// @dev Returns a number of `size` bytes.
     function number(bytes memory table, uint256 place, uint256 size) private pure returns (uint256 value) {
         assembly ("memory-safe") {
             value := shr(sub(256, shl(3, size)), mload(add(add(table, 32), place)))

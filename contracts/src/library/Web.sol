@@ -4,48 +4,49 @@ pragma solidity 0.8.37;
 import {Bytes} from "@openzeppelin/contracts/utils/Bytes.sol";
 import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
 import {Genesis} from "../genesis/Genesis.sol";
+import {IGenesis} from "../interfaces/IGenesis.sol";
 import {Studio} from "../studio/Studio.sol";
 import {Item} from "./Item.sol";
 import {Library} from "./Library.sol";
 
-/// @notice A parameter of a request, or a header of an answer (ERC-5219).
+/// @notice A parameter of a request, or a header of a response (ERC-5219).
 struct KeyValue {
     string key;
     string value;
 }
 
-/// @title Web: pictures at web3:// addresses that read well, such as web3://ADDRESS/icons/crown.png.
-/// @notice Source: ERC-4804 and ERC-6860 (web3:// addresses), ERC-5219 (requests).
+/// @title Web: pictures at readable web3:// URLs, such as web3://ADDRESS/icons/crown.png.
+/// @notice Sources: ERC-4804 and ERC-6860 (web3:// URLs), ERC-5219 (requests).
 ///
-/// /                       a page with links to all of it
-/// /icons/crown.png        an icon; as a model /icons/crown.glb
-/// /objects/teapot.png     a common object; as a model /objects/teapot.glb
-/// /genesis/12.png         the piece of the seed keccak256("shackled-12"); or of a seed, 0x and 64 digits
+/// /                       a page with links to all pictures
+/// /icons/crown.png        an icon; /icons/crown.glb is its 3D model
+/// /objects/teapot.png     a common object; /objects/teapot.glb is its 3D model
+/// /genesis/12.png         the piece of the seed keccak256("shackled-12"); or of a seed given as 0x and 64 hexadecimal digits
 ///
-/// Pictures have 512 x 512 pixels; ?scale=1 to 8 makes each pixel of 128 x 128 a square of so many.
+/// Pictures have 512 x 512 pixels. ?scale=1 to 8 enlarges each pixel of the 128 x 128 drawing to a square of scale x scale pixels.
 contract Web {
     using Bytes for bytes;
     using Strings for string;
     using Strings for uint256;
 
     uint256 private constant DEFAULT_SCALE = 4;
-    /// @dev How many pieces the page shows.
+    /// @dev The number of pieces on the page.
     uint256 private constant PIECES = 12;
-    /// @dev What the page begins with.
+    /// @dev The beginning of the page.
     string private constant HEAD =
         '<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
         "<title>Shackled</title><style>body{font:15px system-ui;margin:2rem auto;max-width:70rem;padding:0 1rem;"
         "color:#16181d;background:#f4f3ef}a{display:inline-block;width:128px;margin:0 12px 12px 0;color:inherit;text-decoration:none}"
         "img{display:block;width:128px;height:128px;border-radius:8px;image-rendering:pixelated}p{color:#5d616a}</style>"
-        "<h1>Shackled</h1><p>Pictures of 3D scenes, drawn by contracts. Add ?scale=1 to 8, or .glb in place of .png for a model.</p>";
-    /// @dev Nothing that is shown can change, but what is not stored yet can be stored.
+        "<h1>Shackled</h1><p>Pictures of 3D scenes, drawn by contracts. Add ?scale=1 to 8, or use .glb instead of .png for a 3D model.</p>";
+    /// @dev Successful responses never change; error responses can, since items can still be stored.
     string private constant CACHE = "public, max-age=31536000, immutable";
 
-    /// @notice What has a name.
+    /// @notice The library of items.
     Library public immutable items;
-    /// @notice What draws the items.
+    /// @notice The Studio that draws the items.
     Studio public immutable studio;
-    /// @notice What makes pieces of seeds, and draws them.
+    /// @notice The contract that generates and draws pieces.
     Genesis public immutable genesis;
 
     /// @notice The address has no code.
@@ -58,17 +59,17 @@ contract Web {
         (items, studio, genesis) = (items_, studio_, genesis_);
     }
 
-    /// @notice ERC-4804: requests come as ERC-5219 has it.
+    /// @notice Selects ERC-5219 mode (ERC-4804).
     function resolveMode() external pure returns (bytes32) {
         return "5219";
     }
 
-    /// @notice Answers a request of a browser.
-    /// @param resource The parts of the path.
-    /// @param params What follows the question mark.
-    /// @return statusCode 200; 400 for a wrong parameter, 404 for a path where nothing is.
-    /// @return body The file, or the reason as text.
-    /// @return headers The media type, and for how long the file can be kept.
+    /// @notice Responds to an HTTP request.
+    /// @param resource The segments of the path.
+    /// @param params The query parameters.
+    /// @return statusCode 200; 400 for an invalid parameter; 404 for an unknown path.
+    /// @return body The file, or an error message as text.
+    /// @return headers The media type, and the caching policy.
     function request(string[] calldata resource, KeyValue[] calldata params)
         external
         view
@@ -77,7 +78,7 @@ contract Web {
         if (resource.length == 0 || (resource.length == 1 && bytes(resource[0]).length == 0)) {
             return answer("text/html", page(), "no-cache");
         }
-        if (resource.length != 2) return refused(404, "There is nothing at this path. The page / lists all pictures.");
+        if (resource.length != 2) return refused(404, "Unknown path. The page / lists all pictures.");
         uint256 scale = DEFAULT_SCALE;
         for (uint256 k; k != params.length; ++k) {
             bytes memory value = bytes(params[k].value);
@@ -90,7 +91,7 @@ contract Web {
         if (resource[0].equal("genesis") && isPng) return ofGenesis(name, scale);
         bool isIcon = resource[0].equal("icons");
         if ((isIcon || resource[0].equal("objects")) && (isPng || kind.equal("glb"))) return ofItem(name, isIcon, isPng, scale);
-        return refused(404, "Paths are /icons/NAME.png, /objects/NAME.png, the same with .glb, and /genesis/SEED.png.");
+        return refused(404, "Unknown path. Use /icons/NAME.png, /objects/NAME.png, the same with .glb, or /genesis/SEED.png.");
     }
 
     function ofItem(string memory name, bool isIcon, bool isPng, uint256 scale)
@@ -99,30 +100,43 @@ contract Web {
         returns (uint16, string memory, KeyValue[] memory)
     {
         try items.find(name) returns (Item memory item) {
-            if (item.isIcon != isIcon) return refused(404, isIcon ? "That is an object, not an icon." : "That is an icon: /icons/.");
-            if (!items.isStored(name)) return refused(404, "That is not stored on this chain yet: shackled library store.");
+            if (item.isIcon != isIcon) return refused(404, isIcon ? "Not an icon: see /objects/." : "Not an object: see /icons/.");
+            if (!items.isStored(name)) {
+                string memory command = string.concat("shackled library store ", name);
+                return refused(404, string.concat("Not stored on this chain yet. Anyone can store it: ", command, "."));
+            }
             if (isPng) return found("image/png", string(studio.renderPNG(item.scene, scale)));
             return found("model/gltf-binary", string(studio.glb(item.scene)));
         } catch {
-            return refused(404, "There is nothing of that name. The page / lists all names.");
+            return refused(404, "No item has this name. The page / lists all names.");
         }
     }
 
     function ofGenesis(string memory name, uint256 scale) private view returns (uint16, string memory, KeyValue[] memory) {
-        (bool isSeed, uint256 seed) = name.tryParseHexUint();
-        if (bytes(name).length != 66 || bytes(name)[1] != "x") {
+        bytes memory text = bytes(name);
+        (bool isSeed, uint256 seed) = (false, 0);
+        // the parsers revert for numbers of more than 256 bits
+        if (text.length == 66 && text[1] == "x") (isSeed, seed) = name.tryParseHexUint();
+        else if (text.length != 0 && text.length < 78) {
             (isSeed, seed) = name.tryParseUint();
             seed = uint256(keccak256(bytes(string.concat("shackled-", seed.toString()))));
         }
-        if (!isSeed || bytes(name).length == 0) return refused(404, "A piece has a number, or a seed of 0x and 64 hexadecimal digits.");
+        if (!isSeed) return refused(404, "Give a number, or a seed as 0x and 64 hexadecimal digits.");
         try genesis.render(bytes32(seed)) returns (bytes memory bitmap) {
             return found("image/png", string(studio.encoder().encode(bitmap, scale)));
-        } catch {
-            return refused(404, "This seed has no piece, or the call has too little gas.");
+        } catch (bytes memory reason) {
+            bytes4 code = bytes4(reason);
+            if (code == IGenesis.NoTriangle.selector || code == IGenesis.NoPrismToChoose.selector) {
+                return refused(404, "This seed yields no piece.");
+            }
+            // the call had too little gas
+            assembly ("memory-safe") {
+                revert(add(reason, 0x20), mload(reason))
+            }
         }
     }
 
-    /// @dev The page with links to everything.
+    /// @dev Returns the page with links to all pictures.
     function page() private view returns (string memory html) {
         html = HEAD;
         string[] memory names = items.names();
@@ -143,7 +157,7 @@ contract Web {
         return string.concat('<a href="', path, '.png"><img src="', path, '.png?scale=1" alt="" loading="lazy">', name, "</a>");
     }
 
-    /// @dev A name and what stands behind its last dot.
+    /// @dev Splits a file name at its last dot.
     function split(string memory text) private pure returns (string memory name, string memory kind) {
         bytes memory all = bytes(text);
         uint256 dot = all.length;

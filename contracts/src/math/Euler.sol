@@ -8,11 +8,11 @@ import {Quaternion} from "./Quaternion.sol";
 int256 constant RADIANS = 20122276272436452;
 int256 constant QUARTER_TURN = 90 << 32;
 
-/// @notice The angle leaves the range of 2^26 degrees either way.
+/// @notice The angle must be at most 2^26 degrees in either direction.
 error AngleOutOfRange(int256 degrees_);
 
-/// @notice The rotation about the x axis, then y, then z, by angles in degrees (Q32).
-/// @dev The product of three quaternions, z * y * x, each of which has half the angle.
+/// @notice Returns the rotation about the x axis, then y, then z, by angles in degrees (Q32).
+/// @dev The product z * y * x of three quaternions, each computed from half the angle.
 function fromEuler(Fixed x, Fixed y, Fixed z) pure returns (Quaternion memory) {
     (Fixed sx, Fixed cx) = sinCosOfHalf(x.raw());
     (Fixed sy, Fixed cy) = sinCosOfHalf(y.raw());
@@ -22,17 +22,17 @@ function fromEuler(Fixed x, Fixed y, Fixed z) pure returns (Quaternion memory) {
     );
 }
 
-/// @notice Sine and cosine of half of an angle in degrees (Q32), to 2^-31.
+/// @notice Returns the sine and cosine of half an angle in degrees (Q32), with an error of at most 2^-31.
 function sinCosOfHalf(int256 degrees_) pure returns (Fixed sine, Fixed cosine) {
     unchecked {
         if (degrees_ > 1 << 58 || degrees_ < -(1 << 58)) revert AngleOutOfRange(degrees_);
         int256 angle = degrees_ >> 1;
-        // whole quarter turns, and the rest between -45 and 45 degrees, as radians in Q60
+        // quarter turns, and the remainder between -45 and 45 degrees, in radians (Q60)
         int256 quarters = (angle + QUARTER_TURN / 2) / QUARTER_TURN;
         if (angle + QUARTER_TURN / 2 < 0) --quarters;
         int256 x = ((angle - quarters * QUARTER_TURN) * RADIANS) >> 32;
         int256 square = (x * x) >> 60;
-        // Taylor series to x^12, by Horner's rule: each factor divides by the two next numbers of the factorial
+        // Taylor series to x^12 by Horner's rule: each factor divides by the next two numbers of the factorial
         int256 s = 1 << 60;
         int256 c = 1 << 60;
         for (int256 n = 12; n != 0; n -= 2) {

@@ -2,8 +2,8 @@
 pragma solidity ^0.8.25;
 
 /// @title Fixed: signed binary fixed-point numbers with 32 fraction bits (Q32).
-/// @notice One is `1 << 32`. The operators do not check for overflow: scenes are bounded by `Checks` before anything is computed of them,
-/// and within those bounds nothing here can overflow.
+/// @notice One is `1 << 32`. The operators do not check for overflow: `Checks` bounds the scenes before any computation, and within those
+/// bounds nothing here can overflow.
 type Fixed is int256;
 
 using {add as +, sub as -, neg as -, mul as *, div as /, lessThan as <, greaterThan as >, raw} for Fixed global;

@@ -3,8 +3,7 @@ pragma solidity 0.8.37;
 
 import "../pipeline/Registers.sol";
 
-// sRGB (IEC 61966-2-1): linear = level / 12.92 up to level 0.04045, ((level + 0.055) / 1.055)^2.4 above, by tables with straight lines
-// between their entries.
+// sRGB (IEC 61966-2-1): linear = level / 12.92 up to level 0.04045, ((level + 0.055) / 1.055)^2.4 above; tables with linear interpolation.
 
 /// @dev 16 bits each: 255 times the linear value of the levels 0, 4, 8 ... 256, Q7.
 uint256 constant DECODE_0 = 0x00000028004f007800a900e4012a017b01d7024002b5033603c50461050b05c3;
@@ -36,17 +35,17 @@ library Gamma {
         }
     }
 
-    /// @notice The linear level of a level, both Q10, 0..255.
+    /// @notice Returns the linear value of an sRGB level, both Q10, 0..255.
     function decode(uint256 level) internal pure returns (uint256 linear) {
         assembly ("memory-safe") {
-            // two entries
+            // two adjacent entries
             linear := shr(224, mload(add(DECODE_TABLE, shl(1, shr(12, level)))))
             let first := shr(16, linear)
             linear := shl(3, add(first, shr(12, mul(sub(and(linear, 0xffff), first), and(level, 0xfff)))))
         }
     }
 
-    /// @notice The level, Q8, of a linear value, Q16, 0..1.
+    /// @notice Returns the sRGB level, Q8, of a linear value, Q16, 0..1.
     function encode(uint256 linear) internal pure returns (uint256 level) {
         assembly ("memory-safe") {
             switch lt(linear, 128)

@@ -22,9 +22,8 @@ struct Matrix {
 using {toMatrix} for Quaternion global;
 using {times, transposedTimes} for Matrix global;
 
-/// @notice The rotation matrix of `q`, which must not be zero.
-/// @dev Source: K. Shoemake, "Animating rotation with quaternion curves", SIGGRAPH 1985. Dividing by the squared norm makes a root
-/// unnecessary.
+/// @notice Returns the rotation matrix of `q`, which must not be zero.
+/// @dev Source: K. Shoemake, "Animating rotation with quaternion curves", SIGGRAPH 1985. Dividing by the squared norm avoids a square root.
 function toMatrix(Quaternion memory q) pure returns (Matrix memory m) {
     unchecked {
         (int256 x, int256 y, int256 z, int256 w) = (q.x.raw(), q.y.raw(), q.z.raw(), q.w.raw());
@@ -35,19 +34,19 @@ function toMatrix(Quaternion memory q) pure returns (Matrix memory m) {
     }
 }
 
-/// @dev numerator / denominator as a fixed-point number.
+/// @dev Returns numerator / denominator as a fixed-point number.
 function part(int256 numerator, int256 denominator) pure returns (Fixed) {
     unchecked {
         return Fixed.wrap((numerator << 32) / denominator);
     }
 }
 
-/// @notice m * v.
+/// @notice Returns m * v.
 function times(Matrix memory m, Vector memory v) pure returns (Vector memory) {
     return m.x.scale(v.x).add(m.y.scale(v.y)).add(m.z.scale(v.z));
 }
 
-/// @notice The transposed matrix times v; for a rotation, the inverse rotation of v.
+/// @notice Returns the transposed matrix times v; for a rotation, the inverse rotation of v.
 function transposedTimes(Matrix memory m, Vector memory v) pure returns (Vector memory) {
     return Vector(m.x.dot(v), m.y.dot(v), m.z.dot(v));
 }

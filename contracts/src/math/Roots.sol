@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-/// @notice The square root of `x`, with an error below one and below 2^-22 of it.
-/// @dev With h such that x = m * 4^h and 1 <= m < 4, the line 0.343 * (m + 2) is within 3 % of the root of m; each of the two steps
-/// of Newton's method, r' = (r + x/r) / 2, squares the relative error and halves it. The search for the highest bit is that of solady's
-/// LibBit (https://github.com/vectorized/solady).
+/// @notice Returns the square root of `x`, with an error below 1 and a relative error below 2^-22.
+/// @dev With h such that x = m * 4^h and 1 <= m < 4, the line 0.343 * (m + 2) approximates the root of m within 3 %; each of the two steps
+/// of Newton's method, r' = (r + x/r) / 2, squares the relative error and halves it. The search for the highest bit follows solady's LibBit
+/// (https://github.com/vectorized/solady).
 function sqrt(uint256 x) pure returns (uint256 r) {
     assembly ("memory-safe") {
-        // the branch keeps the compiler from copying all of this to each place of use
+        // the branch prevents the compiler from inlining this at each use
         if x {
-            // 2h = floor(log2(x)) without its last bit, a bit of it at a time
+            // 2h = floor(log2(x)) without its last bit, computed bit by bit
             let h := shl(7, lt(0xffffffffffffffffffffffffffffffff, x))
             h := or(h, shl(6, lt(0xffffffffffffffff, shr(h, x))))
             h := or(h, shl(5, lt(0xffffffff, shr(h, x))))

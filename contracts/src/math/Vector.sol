@@ -40,7 +40,7 @@ function isZero(Vector memory a) pure returns (bool) {
     return a.x.raw() | a.y.raw() | a.z.raw() == 0;
 }
 
-/// @notice The unit vector along `a`; zero for zero. Components of up to 2^62 keep the squares below 2^256.
+/// @notice Returns the unit vector along `a`; zero for zero. Components of up to 2^62 keep the squares below 2^256.
 function normalize(Vector memory a) pure returns (Vector memory) {
     unchecked {
         // 60 more bits, so that vectors of a few units in the last place keep their direction
@@ -50,9 +50,9 @@ function normalize(Vector memory a) pure returns (Vector memory) {
         uint256 square = uint256(x * x + y * y + z * z);
         uint256 root = sqrt(square);
         if (root == 0) return a;
-        // one more step of Newton's method, for 32 bits
+        // a third step of Newton's method, for 32 bits
         int256 length = int256((root + square / root) >> 1);
-        // rounded to nearest, so that the axes stay what they are
+        // rounded to nearest, so that unit vectors along the axes remain exact
         return Vector(
             Fixed.wrap(((x << 36) / length + 8) >> 4),
             Fixed.wrap(((y << 36) / length + 8) >> 4),

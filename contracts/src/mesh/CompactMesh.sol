@@ -5,44 +5,45 @@ import {NORMALS, WIDE} from "../scene/Mesh.sol";
 import {LAST_FORMAT} from "./Kinds.sol";
 import {MeshErrors} from "./MeshErrors.sol";
 
-// A mesh in half of the bytes of `Mesh.sol` or less, all numbers big-endian:
+// A mesh in at most half the bytes of the format of `Mesh.sol`, all numbers big-endian:
 //
 //   kind      1 byte     COMPACT
 //   format    1 byte     as in `Mesh.sol`
-//   n, m, e   3 x 2      vertices, faces, bytes of vertices that are told
+//   n, m, e   3 x 2      numbers of vertices, of faces, of bytes of explicit vertex references
 //   widths    3 x 1      bits of x, y, z: at most those of a coordinate
-//   base      3 x 3      what is added to x, y, z. Coordinates count from 0 here: half of what their bits can hold is added
-//   palette   2 bytes    how many colours it has; 0: each vertex has its colour in 24 bits
-//   colour    1 byte     bits of a colour or its number, at most 24
+//   base      3 x 3      the offsets of x, y, z. The stored coordinates are unsigned: half of their range is added
+//   palette   2 bytes    the number of its colours; 0: each vertex has its colour in 24 bits
+//   colour    1 byte     bits of a colour or of its palette index, at most 24
 //   normal    1 byte     bits of each coordinate of a normal, at most 10; 0 if there are none
-//   palette              3 bytes a colour
+//   palette              3 bytes for each colour
 //   faces     m bytes    see below
-//   told      e bytes
-//   vertices             n times x, y, z, colour, normal, in as many bits each, one after the other; zeros up to a whole byte
+//   explicit  e bytes    the explicit vertex references
+//   vertices             n times x, y, z, colour, normal, with the given bits, without gaps; padded with zeros to a whole byte
 //
-// Vertices are numbered in the order in which faces first name them. A face (a, b, c) leaves two edges to those that follow: (b, a), and
-// then (c, b), the latest. The upper half of a face's byte says which edge (p, q) it takes, 0 being the latest, and its lower half which
-// vertex v it adds, so that it is (q, v, p): 0 the next new one, 1 to 14 one of the last that were new or told, 1 being the latest, 15
-// one that is told: a byte says how far it lies behind the newest vertex, or is 255 and two bytes have its number. If the upper half is
-// 15, the face takes no edge, and the three lowest bits say of each corner whether it is told (1) or new (0), the first corner lowest.
+// Vertices are numbered in the order in which the faces first use them. A face (a, b, c) adds two edges for the following faces: (b, a),
+// and then (c, b), the latest. The upper half of a face's byte selects an edge (p, q), 0 being the latest, and its lower half selects the
+// vertex v that completes the face (q, v, p): 0 is the next new vertex; 1 to 14 is one of the vertices that were most recently new or
+// explicitly referenced, 1 being the latest; 15 is an explicit reference: one byte, its distance behind the newest vertex, or 255 followed
+// by its index in two bytes. If the upper half is 15, the face uses no edge, and the three lowest bits tell for each corner whether it is
+// an explicit reference (1) or new (0), the first corner in the lowest bit.
 
-/// @notice Meshes as they are kept, back to the format of `Mesh.sol`.
+/// @notice Expands compact meshes to the format of `Mesh.sol`.
 library CompactMesh {
     uint256 private constant HEADER = 24;
 
-    /// @dev What is the same for all vertices.
-    /// @param stream Where their bits begin.
-    /// @param bits How many each has.
-    /// @param maskX What keeps the lowest bits, as many as the number has.
-    /// @param maskY Likewise.
-    /// @param maskZ Likewise.
-    /// @param maskColor Likewise.
-    /// @param maskNormal Likewise.
-    /// @param base What is added to all coordinates at once.
+    /// @dev The properties that all vertices share.
+    /// @param stream The position of their bits.
+    /// @param bits The bits of a vertex.
+    /// @param maskX The mask of x, in the lowest bits.
+    /// @param maskY The mask of y.
+    /// @param maskZ The mask of z.
+    /// @param maskColor The mask of the colour.
+    /// @param maskNormal The mask of a coordinate of the normal.
+    /// @param base The sum of the offsets of all coordinates, at their places.
     /// @param top The uppermost bits of all coordinates, and the colour if there is only one.
-    /// @param palette Where it is, if it has several colours; or 0.
-    /// @param normalHalf What stands for the lower bits of normals that are not kept.
-    /// @param stride Bytes of a vertex in the result.
+    /// @param palette The position of the palette if it has several colours; otherwise 0.
+    /// @param normalHalf The replacement for the omitted lower bits of normals.
+    /// @param stride The size of a vertex in the result, in bytes.
     /// @param shifts See `open`.
     struct Plan {
         uint256 stream;
@@ -60,7 +61,7 @@ library CompactMesh {
         uint256 shifts;
     }
 
-    /// @notice The mesh in the format of `Mesh.sol`. Whether its faces name vertices that are there is left to the renderer.
+    /// @notice Returns the mesh in the format of `Mesh.sol`. The renderer checks the vertex indices.
     function expand(bytes memory data) internal pure returns (bytes memory mesh) {
         unchecked {
             if (data.length < HEADER) revert MeshErrors.CompactMeshLength(HEADER, data.length);
@@ -117,8 +118,8 @@ library CompactMesh {
             plan.top = ((1 << (2 * lane)) | (1 << lane) | 1) << (lane + 23);
             plan.stride = 3 * lane / 8 + (normal == 0 ? 3 : 7);
             if (normal != 0 && normal < 10) plan.normalHalf = uint256(0x00401004) << (9 - normal);
-            // a byte each, from the lowest: how far the numbers of a vertex lie above its last bit: x, y, z, colour; how far x and y are
-            // moved in the result, the vertex in its word
+            // one byte each, from the lowest: the distances of x, y, z and colour from the last bit of the vertex; the left shifts of x and
+            // y in the result, and of the vertex in its word
             plan.shifts = (y + z + color + 3 * normal) | ((z + color + 3 * normal) << 8) | ((color + 3 * normal) << 16)
                 | ((3 * normal) << 24) | ((2 * lane) << 32) | (lane << 40) | ((256 - 8 * plan.stride) << 48) | (normal << 56)
                 | ((10 - normal) << 64);
@@ -134,12 +135,13 @@ library CompactMesh {
             let top := mload(add(plan, 0x100))
             let palette := mload(add(plan, 0x120))
             let bits := mload(add(plan, 0x20))
-            // the last bit of a vertex, counted in memory, less those of a word; what is below it in its byte is as much as it lacks of 7
+            // the bit position of the end of a vertex in memory, less a word; its low bits are 7 minus the number of bits below the vertex
+            // in its last byte
             let place := sub(shl(3, mload(plan)), 249)
             for {} lt(target, end) { target := add(target, stride) } {
                 place := add(place, bits)
                 let word := shr(and(not(place), 7), mload(shr(3, place)))
-                // all three coordinates in one sum
+                // all three coordinates as one sum
                 let vertex := or(
                     or(
                         shl(byte(27, shifts), and(shr(byte(31, shifts), word), mload(add(plan, 0x40)))),
@@ -155,7 +157,7 @@ library CompactMesh {
                 case 0 {}
                 case 10 { vertex := or(shl(32, vertex), xor(shl(2, and(word, 0x3fffffff)), 0x80200800)) }
                 default {
-                    // to the upper bits of 10, with the middle of what was cut off, and counted from the middle
+                    // extend to 10 bits, with the middle of the omitted range, and make signed
                     let size := byte(24, shifts)
                     let mask := mload(add(plan, 0xc0))
                     let normal := or(
@@ -174,7 +176,7 @@ library CompactMesh {
     function readFaces(uint256 codes, uint256 m, uint256 e, uint256 target, uint256 n) private pure returns (uint256) {
         bool wrong;
         assembly ("memory-safe") {
-            // a vertex that is told
+            // read an explicit vertex reference
             function read(told, met) -> vertex, next {
                 vertex := byte(0, mload(told))
                 switch vertex
@@ -191,7 +193,7 @@ library CompactMesh {
             let end := add(codes, m)
             let told := end
             let met := 0
-            // the last vertices, 16 bits each, the latest lowest
+            // the most recent vertices, 16 bits each, the latest in the lowest bits
             let recent := 0
             for {} lt(codes, end) { codes := add(codes, 1) } {
                 let code := byte(0, mload(codes))
@@ -210,7 +212,7 @@ library CompactMesh {
                     target := add(target, 6)
                     continue
                 }
-                // the two corners (q, p) of the face that left the edge
+                // the two corners (q, p) of the face that added the edge
                 let edge := shr(
                     224,
                     mload(sub(target, byte(shr(4, code), 0x04060a0c101216181c1e2224282a2e0000000000000000000000000000000000)))

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-/// @title MeshErrors: what can be wrong with a mesh before it is in the form that the renderer takes.
+/// @title MeshErrors: the errors of meshes that cannot be converted to the renderer's format.
 interface MeshErrors {
-    /// @notice The first byte of a mesh is none that is known.
+    /// @notice The first byte of the mesh is not a known kind.
     error UnknownMesh(uint256 kind);
-    /// @notice The numbers of a mesh do not go together: it should have `expected` bytes.
+    /// @notice The fields of the compact mesh are inconsistent with its length: it must have `expected` bytes.
     error CompactMeshLength(uint256 expected, uint256 length);
-    /// @notice What the head of a mesh says is beyond what the format knows.
+    /// @notice The header of the compact mesh has an invalid field.
     error CompactMeshHeader();
-    /// @notice The faces have more new vertices than there are, or do not take all bytes of vertices that are told.
+    /// @notice The faces use more new vertices than there are, or do not use all explicit vertex references.
     error CompactMeshFaces();
 }

@@ -6,9 +6,9 @@ import {CompactMesh} from "./CompactMesh.sol";
 import {COMPACT, LAST_FORMAT, POINTED, kindOf} from "./Kinds.sol";
 import {MeshErrors} from "./MeshErrors.sol";
 
-/// @notice Meshes in any of their forms.
+/// @notice Opens meshes of any kind.
 library Meshes {
-    /// @notice The mesh in the format of `Mesh.sol`, which the renderer takes.
+    /// @notice Returns the mesh in the format of `Mesh.sol`, which the renderer takes.
     function open(bytes memory data) internal view returns (bytes memory) {
         uint256 kind = kindOf(data);
         if (kind == POINTED) {
@@ -20,7 +20,7 @@ library Meshes {
         revert MeshErrors.UnknownMesh(kind);
     }
 
-    /// @notice What stands for a mesh that is kept.
+    /// @notice Returns the reference to a stored mesh.
     function pointed(address pointer) internal pure returns (bytes memory) {
         return abi.encodePacked(uint8(POINTED), pointer);
     }
@@ -32,7 +32,7 @@ library Meshes {
         }
     }
 
-    /// @dev The bytes without the first one.
+    /// @dev Returns the bytes without the first one.
     function rest(bytes memory data) internal pure returns (bytes memory tail) {
         assembly ("memory-safe") {
             tail := mload(0x40)

@@ -5,14 +5,14 @@ import {Fixed} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
 import {NORMALS, WIDE} from "../scene/Mesh.sol";
 
-// Bytes of the parts of a mesh; a vertex without a normal, its coordinates of 16 bits.
+// Sizes of the parts of a mesh in bytes; for a vertex without a normal, with 16-bit coordinates.
 uint256 constant HEADER_SIZE = 5;
 uint256 constant VERTEX_SIZE = 9;
 uint256 constant FACE_SIZE = 6;
 
-/// @notice Meshes in the format of `Mesh.sol`, in memory.
+/// @notice Reads and changes meshes in the format of `Mesh.sol`, in memory.
 library PackedMesh {
-    /// @notice Gives all vertices one colour. Of a mesh that is not complete, which the renderer refuses, nothing changes.
+    /// @notice Sets the colour of all vertices. Leaves incomplete meshes unchanged; the renderer rejects them.
     function paint(bytes memory mesh, uint256 color) internal pure {
         (uint256 begin, uint256 end, uint256 size, uint256 stride) = vertices(mesh);
         assembly ("memory-safe") {
@@ -23,12 +23,12 @@ library PackedMesh {
         }
     }
 
-    /// @notice The lowest and the highest coordinates; zeros if there are no vertices, or not all of them.
+    /// @notice Returns the minimum and maximum coordinates; zeros if there are no vertices or the data is incomplete.
     function box(bytes memory mesh) internal pure returns (int256[3] memory low, int256[3] memory high) {
         (uint256 begin, uint256 end, uint256 size, uint256 stride) = vertices(mesh);
         if (begin >= end) return (low, high);
         assembly ("memory-safe") {
-            // a coordinate stands uppermost in the word that begins with it
+            // a coordinate occupies the uppermost bits of the word at its position
             let cut := sub(256, shl(3, size))
             for { let axis := 0 } lt(axis, 3) { axis := add(axis, 1) } {
                 let place := add(begin, mul(axis, size))
@@ -45,14 +45,15 @@ library PackedMesh {
         }
     }
 
-    /// @notice The largest product of a vertex with a direction, and whether there are vertices, all of them.
+    /// @notice Returns the maximum dot product of the vertices with a direction, and whether there are vertices and all of them are
+    /// complete.
     function reach(bytes memory mesh, Vector memory direction) internal pure returns (Fixed most, bool any) {
         (uint256 begin, uint256 end, uint256 size, uint256 stride) = vertices(mesh);
         if (begin >= end) return (most, false);
         (int256 x, int256 y, int256 z) = (direction.x.raw(), direction.y.raw(), direction.z.raw());
         int256 best = type(int256).min;
         assembly ("memory-safe") {
-            // bits of a coordinate, which stands uppermost in the word that begins with it
+            // bits of a coordinate, which occupies the uppermost bits of the word at its position
             let bits := shl(3, size)
             let cut := sub(256, bits)
             for {} lt(begin, end) { begin := add(begin, stride) } {
@@ -67,11 +68,11 @@ library PackedMesh {
         return (Fixed.wrap(best), true);
     }
 
-    /// @notice Where the vertices are.
-    /// @return begin The first one.
-    /// @return end Behind the last one; 0 if the bytes end before.
-    /// @return size Bytes of a coordinate.
-    /// @return stride Bytes of a vertex.
+    /// @notice Returns the location of the vertices.
+    /// @return begin The position of the first one.
+    /// @return end The position after the last one; 0 if the data is incomplete.
+    /// @return size The size of a coordinate in bytes.
+    /// @return stride The size of a vertex in bytes.
     function vertices(bytes memory mesh) internal pure returns (uint256 begin, uint256 end, uint256 size, uint256 stride) {
         unchecked {
             uint256 header;

@@ -5,7 +5,7 @@ import {ExactSamples} from "./ExactSamples.sol";
 import {Samples} from "./Samples.sol";
 import "./Registers.sol";
 
-// Objects that are not opaque, with four samples for each pixel: the two passes of BlendedSpans, made by each sample.
+// Draws translucent objects with four samples per pixel: the two passes of BlendedSpans, for each sample.
 
 /// @dev The lowest byte of each sample.
 uint256 constant BYTE_OF_SAMPLES = 0xff * ONES_64;
@@ -18,7 +18,7 @@ library BlendedSamples {
             uint256 old = load(p);
             uint256 depths = Samples.depthsOf(attribute);
             bool isFirst = load(MODE) & IS_BLENDED == 0;
-            // nearer than what is there; what the first pass has found
+            // nearer than the stored depth; or equal to the depth found by the first pass
             uint256 seen = isFirst
                 ? (depths | TOPS_64) - (old | BELOW_SAMPLE_DEPTHS)
                 : TOPS_64 - ((old ^ (depths | FOUND_SAMPLES)) & PASSES_OF_SAMPLES);
@@ -31,7 +31,8 @@ library BlendedSamples {
         }
     }
 
-    /// @dev A colour over those of the four samples: color * OPACITY + behind * (1 - OPACITY), to the nearest level.
+    /// @dev Returns a colour blended over those of the four samples: color * OPACITY + behind * (1 - OPACITY), rounded to the nearest
+    /// level.
     function over(uint256 color, uint256 behind) internal pure returns (uint256 mixed) {
         unchecked {
             (uint256 opacity, uint256 rest) = (load(OPACITY), ONE_24 - load(OPACITY));

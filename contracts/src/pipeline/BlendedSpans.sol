@@ -5,16 +5,16 @@ import {Compositor} from "./Compositor.sol";
 import {ExactSpans} from "./ExactSpans.sol";
 import "./Registers.sol";
 
-// Objects that are not opaque. They are drawn twice: the first pass (IS_DEPTH_PASS) finds the nearest fragment of each pixel, the second
-// (IS_BLENDED) mixes its colour with what is there, once. The last two bits of a depth say how far it is.
+// Translucent objects are drawn twice: the first pass (IS_DEPTH_PASS) finds the nearest fragment of each pixel, the second (IS_BLENDED)
+// blends its colour with the pixel, once. The last two bits of a depth record the progress.
 
-/// @dev The depth at the top of a word without its last two bits, and what these say: nearest, and drawn.
+/// @dev A depth at the top of a word without its last two bits; the values of these bits: nearest fragment found, and drawn.
 uint256 constant DEPTH_OF_PASSES = 0xfffffffffffffffc000000000000000000000000000000000000000000000000;
 uint256 constant DEPTH_FOUND = 0x1000000000000000000000000000000000000000000000000;
 uint256 constant DEPTH_DRAWN = 0x2000000000000000000000000000000000000000000000000;
 
 library BlendedSpans {
-    /// @notice Draws the rows from `row` to before `last`, between two edges.
+    /// @notice Draws the rows from `row` (inclusive) to `last` (exclusive) between two edges.
     /// @param start The accumulator at column 0 of the first row.
     function rows(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure {
         unchecked {
@@ -45,7 +45,7 @@ library BlendedSpans {
         }
     }
 
-    /// @dev The depth test of both passes; whether the fragment is to be drawn now.
+    /// @dev Performs the depth test of either pass, and returns whether the fragment is to be drawn now.
     function passes(uint256 p, uint256 attribute) private pure returns (bool) {
         unchecked {
             uint256 old = load(p);

@@ -6,30 +6,30 @@ import {Triangles} from "./Triangles.sol";
 import {VertexShader} from "./VertexShader.sol";
 import "./Registers.sol";
 
-// Triangles that leave the guard band or reach behind the near plane are cut there, in homogeneous coordinates, where no division has
-// happened yet. Source: I. Sutherland, G. Hodgman, "Reentrant polygon clipping", Communications of the ACM 17 (1974).
+// Triangles that leave the guard band or reach behind the near plane are clipped, in homogeneous coordinates, before the perspective
+// division. Source: I. Sutherland, G. Hodgman, "Reentrant polygon clipping", Communications of the ACM 17 (1974).
 //
-// An edge is always cut from its inner end, and each end is put on the same side of a plane in all faces, so that faces that share an
-// edge share the cut as well. A polygon is a row of corners in memory, CORNER_SIZE bytes each.
+// An edge is always clipped from its inner end, and each end is classified in the same way for all faces, so faces that share an edge also
+// share the new vertex. A polygon is a sequence of corners in memory, CORNER_SIZE bytes each.
 
 /// @dev Near, left, right, top, bottom.
 uint256 constant PLANES = 5;
-/// @dev Each plane adds one corner at most to the three of a face.
+/// @dev Each plane adds at most one corner to the three of a face.
 uint256 constant MAX_CORNERS = 8;
-/// @dev Room for a polygon of which rounding has made every second corner stick out of a plane.
+/// @dev Room for a polygon in which rounding has put every second corner outside a plane.
 uint256 constant POLYGON_SIZE = 3 * MAX_CORNERS / 2 * CORNER_SIZE;
 /// @dev A polygon becomes a fan of triangles, one word each.
 uint256 constant FAN_SIZE = (MAX_CORNERS - 2) * 32;
 
-/// @dev Keeps the lanes of a normal positive, and what remains of them when 32 bits are dropped.
+/// @dev Keeps the lanes of a normal positive; and the rest of that bias after a shift by 32 bits.
 uint256 constant NORMAL_LANES_BIAS = 0x40000000000000000000020000000000000000000010000000000;
 uint256 constant NORMAL_LANES = 0xfffffffffffffc00000003ffffffffffffe00000001fffffffffffff;
 
 library Clipper {
-    /// @notice Cuts the faces that the primitive assembly left, and appends what remains of them to its list.
+    /// @notice Clips the faces that primitive assembly left, and appends the resulting triangles to its list.
     /// @return end The end of the list.
-    /// @return free The first address behind the list and the new vertices.
-    /// @return drawn Of how many faces something remains that is to be drawn: see PrimitiveAssembly.
+    /// @return free The first address after the list and the new vertices.
+    /// @return drawn The number of faces with a visible part: see PrimitiveAssembly.
     function run(Mesh memory mesh, uint256 records, uint256 shift, uint256 list, bool cull)
         internal
         pure
@@ -54,12 +54,13 @@ library Clipper {
                 if (isDrawn) ++drawn;
                 free += corners << shift;
             }
-            // a record of 64 bytes has no place for the normal, which is written behind it: into the next, which comes later, or here
+            // a record of 64 bytes has no room for the normal, which is written after it: into the next record, which is made later, or
+            // here
             free += 32;
         }
     }
 
-    /// @dev How many faces have to be cut.
+    /// @dev Returns the number of faces to clip.
     function countFaces(Mesh memory mesh, uint256 records, uint256 shift) private pure returns (uint256 count) {
         unchecked {
             for (uint256 face; face != mesh.faceCount; ++face) {
@@ -71,9 +72,9 @@ library Clipper {
         }
     }
 
-    /// @notice Reads the three corners of a face, if it has to be cut.
-    /// @return isCut Whether it is so.
-    /// @return isOutside Whether all of it lies beyond one plane.
+    /// @notice Reads the three corners of a face if it must be clipped.
+    /// @return isCut Whether it must be clipped.
+    /// @return isOutside Whether it lies entirely outside one plane.
     function readFace(Mesh memory mesh, uint256 records, uint256 shift, uint256 face, uint256 polygon)
         private
         pure
@@ -97,8 +98,8 @@ library Clipper {
         }
     }
 
-    /// @notice Cuts a triangle by all planes.
-    /// @param start Where the polygon is; another place of POLYGON_SIZE bytes follows.
+    /// @notice Clips a triangle by all planes.
+    /// @param start The address of the polygon; POLYGON_SIZE bytes for the other buffer follow it.
     function cut(uint256 start) private pure returns (uint256, uint256 corners) {
         unchecked {
             uint256 places = 2 * start + POLYGON_SIZE;
@@ -118,7 +119,7 @@ library Clipper {
                     if (distance ^ nextDistance < 0) {
                         if (distance < 0) intersect(next, corner, nextDistance, distance, write);
                         else intersect(corner, next, distance, nextDistance, write);
-                        // inward the rest of the edge follows, outward the edge of the cut
+                        // going inward, the rest of the edge follows; going outward, the edge along the plane
                         store(write + CORNER_IS_EDGE, distance < 0 ? load(corner + CORNER_IS_EDGE) : 0);
                         if (plane == 0) store(write + CORNER_W, load(NEAR));
                         write += CORNER_SIZE;
@@ -139,7 +140,7 @@ library Clipper {
         }
     }
 
-    /// @notice A measure of the distance from a plane: not negative inside.
+    /// @notice Returns a measure of the distance from a plane, not negative inside.
     function distanceInside(uint256 corner, uint256 plane) private pure returns (int256) {
         unchecked {
             int256 w = loadSigned(corner + CORNER_W);
@@ -150,12 +151,12 @@ library Clipper {
         }
     }
 
-    /// @dev What clip coordinates are divided by.
+    /// @dev Returns the divisor of clip coordinates.
     function divisor(int256 w) private pure returns (int256) {
         return load(FRAME_IS_ORTHOGRAPHIC) == 0 ? w : int256(ONE_32);
     }
 
-    /// @notice The point between two corners where the distance is zero.
+    /// @notice Computes the point between two corners at which the distance is zero.
     function intersect(uint256 inside, uint256 outside, int256 inner, int256 outer, uint256 target) private pure {
         unchecked {
             int256 whole = inner - outer;
@@ -163,7 +164,7 @@ library Clipper {
                 int256 value = loadSigned(inside + offset);
                 storeSigned(target + offset, value + (loadSigned(outside + offset) - value) * inner / whole);
             }
-            // colours and normals keep 32 more bits until the sum is made
+            // colours and normals keep 32 more bits until they are summed
             uint256 part = uint256((inner << 32) / whole);
             uint256 lanes = load(inside + CORNER_COLOR);
             lanes = (lanes << 32) + (load(outside + CORNER_COLOR) - lanes) * part;
@@ -174,7 +175,7 @@ library Clipper {
         }
     }
 
-    /// @notice Makes the record of a vertex from a corner.
+    /// @notice Makes a vertex record from a corner.
     function project(uint256 corner, uint256 record) private pure {
         unchecked {
             int256 w = loadSigned(corner + CORNER_W);
@@ -187,13 +188,13 @@ library Clipper {
         }
     }
 
-    /// @dev Rounding may have put a point on the border a little outside.
+    /// @dev Clamps: rounding may have put a point slightly outside.
     function inGuardBand(int256 value) private pure returns (uint256) {
         if (value < 0) return 0;
         return uint256(value) >> GUARD_BITS == 0 ? uint256(value) : (1 << GUARD_BITS) - 1;
     }
 
-    /// @notice Appends the triangles of a polygon, whose vertices are at `records`, to the list.
+    /// @notice Appends the triangles of a polygon to the list. Its vertices are at `records`.
     function fan(uint256 corner, uint256 corners, uint256 records, uint256 shift, uint256 list, bool cull)
         private
         pure

@@ -4,15 +4,15 @@ pragma solidity 0.8.37;
 import {Rectangle} from "../scene/Scene.sol";
 import "./Registers.sol";
 
-// The background under the objects, fragments that are mixed with what is behind them, and what happens to all pixels when they are drawn.
+// The background, blending, and the final operations on all pixels.
 
-/// @dev The background writes too much: less than one more row, or 96 bytes.
+/// @dev The background may write this many bytes beyond its end: less than one more row, or 96 bytes.
 uint256 constant OVERHANG = 96;
 /// @dev Just below 256, Q10.
 int256 constant BRIGHTEST = 0x3ffff;
 
 library Compositor {
-    /// @notice Fills the pixels of a tile with the background, rows from the bottom, without padding.
+    /// @notice Fills the pixels of a tile with the background; rows from the bottom, without padding.
     function background(uint256 image, Rectangle memory tile) internal pure {
         unchecked {
             uint256 rowBytes = 3 * tile.width;
@@ -20,11 +20,11 @@ library Compositor {
         }
     }
 
-    /// @dev Fills the rows from `row` to before `end`.
-    /// @param color Lanes of Q24; `step` is its change per row.
+    /// @dev Fills the rows from `row` (inclusive) to `end` (exclusive).
+    /// @param color The colour of the first row in lanes of Q24; `step` is its change per row.
     function fillRows(uint256 row, uint256 rowBytes, uint256 end, uint256 color, uint256 step) private pure {
         assembly ("memory-safe") {
-            // not a colour
+            // not a valid colour
             let last := ONE_24
             for {} lt(row, end) { row := add(row, rowBytes) } {
                 let rounded := and(shr(24, color), BYTES_56)
@@ -34,7 +34,7 @@ library Compositor {
                     continue
                 }
                 last := rounded
-                // b g r b g r ...: 32 bytes hold ten pixels and two thirds
+                // b g r b g r ...: 32 bytes hold ten and two thirds pixels
                 rounded := shr(232, mul(rounded, LANES_TO_PIXEL))
                 let word := or(mul(shl(16, rounded), TEN_PIXELS), shr(8, rounded))
                 mstore(row, word)
@@ -45,16 +45,16 @@ library Compositor {
         }
     }
 
-    /// @notice The colour of a fragment over what is there: color * OPACITY + behind * (1 - OPACITY).
-    /// @param color Signed lanes of 85 bits, Q10, which are kept between 0 and 255 first.
-    /// @param p Where the pixel has its depth.
+    /// @notice Returns a fragment blended over its pixel: color * OPACITY + behind * (1 - OPACITY).
+    /// @param color Signed lanes of 85 bits, Q10; clamped to 0..255 first.
+    /// @param p The address of the pixel's depth.
     function over(uint256 color, uint256 p) internal pure returns (uint256 mixed) {
         unchecked {
             // blue, green and red at the top of the word
             uint256 behind = load(load(IMAGE_ORIGIN) + 3 * (p >> 3));
             for (uint256 lane; lane != 3; ++lane) {
                 int256 value = int256(color << 171) >> 171;
-                // without what the lane has borrowed
+                // remove what the lane below has borrowed
                 color = uint256(int256(color - uint256(value)) >> MIDDLE_85_AT);
                 if (value < 0) value = 0;
                 if (value > BRIGHTEST) value = BRIGHTEST;
@@ -64,7 +64,7 @@ library Compositor {
         }
     }
 
-    /// @notice Turns every byte v of `size` bytes into 255 - v.
+    /// @notice Replaces every byte v of `size` bytes with 255 - v.
     function invert(uint256 image, uint256 size) internal pure {
         assembly ("memory-safe") {
             let end := add(image, size)
@@ -75,15 +75,15 @@ library Compositor {
         }
     }
 
-    /// @notice How many pixels of a depth buffer are covered. Nothing that is drawn has the depth 0 of the empty buffer; the 24 bytes
-    /// behind its end must be empty.
+    /// @notice Returns the number of covered pixels in a depth buffer. Fragments never have the depth 0 of an empty buffer. The 24 bytes
+    /// behind the end must be empty.
     function litPixels(uint256 depth, uint256 end) internal pure returns (uint256 count) {
         assembly ("memory-safe") {
-            // four depths in a word; 1 or 0 for each, side by side in lanes that are added up at the end
+            // four depths in a word; 1 or 0 for each, in separate lanes that are summed at the end
             let counts := 0
             for {} lt(depth, end) { depth := add(depth, 32) } {
                 let depths := mload(depth)
-                // the highest bit of a lane is set if any bit of it is
+                // the highest bit of a lane is set if any of its bits is set
                 let some := add(and(depths, BELOW_TOPS_64), BELOW_TOPS_64)
                 counts := add(counts, shr(63, and(or(some, depths), TOPS_64)))
             }

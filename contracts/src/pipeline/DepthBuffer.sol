@@ -7,7 +7,7 @@ import {Pipeline} from "./Pipeline.sol";
 import {PixelRasterizer} from "./PixelRasterizer.sol";
 import "./Registers.sol";
 
-// One depth for each pixel of a band: 8 bytes, rows as in the picture.
+// The depth buffer of a band: 8 bytes for each pixel, rows as in the picture.
 abstract contract DepthBuffer is Pipeline, PixelRasterizer {
     function openPicture(Rectangle memory tile, uint256 image, uint256 bandRows, uint256[3][] memory)
         internal
@@ -16,8 +16,8 @@ abstract contract DepthBuffer is Pipeline, PixelRasterizer {
         returns (uint256 size)
     {
         unchecked {
-            // at the end of memory, where what is never touched costs nothing; depths are read as whole words, of which 8 bytes count;
-            // their addresses are multiples of 8
+            // at the end of memory, where untouched memory costs nothing; depths are read as whole words, of which 8 bytes count; their
+            // addresses are multiples of 8
             uint256 depth = (image + 3 * tile.width * (tile.height + 1) + OVERHANG + 31) & ~uint256(31);
             store(DEPTHS, depth);
             setFreeMemory(depth + 8 * bandRows * tile.width + 32);
@@ -36,19 +36,19 @@ abstract contract DepthBuffer is Pipeline, PixelRasterizer {
             uint256 depth = load(DEPTHS);
             store(DEPTH_ORIGIN, depth + 8 * ((load(BAND_BOTTOM) - 1) * tile.width - tile.x - PIXEL_BIAS));
             store(IMAGE_ORIGIN, image + 3 * (tile.height - bottom) * tile.width - 3 * (depth >> 3));
-            // the first band finds memory that nothing has touched
+            // the memory of the first band is still untouched
             if (bottom != tile.height) {
-                // and the word behind them, since depths are read as whole words
+                // including the word behind, since depths are read as whole words
                 uint256 size = 8 * (bottom - top) * tile.width + 32;
                 assembly ("memory-safe") {
-                    // beyond its end calldata is zero
+                    // calldata reads as zero beyond its end
                     calldatacopy(depth, calldatasize(), size)
                 }
             }
         }
     }
 
-    /// @dev Pixels are written at once.
+    /// @dev Pixels are written directly.
     function closeBand() internal pure override {}
 
     function litPixels(uint256 bandRows) internal pure override returns (uint256) {

@@ -9,8 +9,8 @@ import {SHADOW_DARK, ShadowRows} from "./ShadowRows.sol";
 import {SurfaceLight} from "./SurfaceLight.sol";
 import "./Registers.sol";
 
-// The fragments of scenes with effects, opaque or not, with four samples for each pixel: each is lit for itself, at the middle of the
-// samples that the triangle covers. What is not opaque is drawn in two passes: see BlendedSpans.
+// The fragments of scenes with effects, opaque or translucent, with four samples per pixel. Each is shaded individually, at the centroid of
+// the samples that the triangle covers. Translucent ones are drawn in two passes: see BlendedSpans.
 
 library EffectSamples {
     /// @notice Draws the fragments of a row: see SampleRasterizer.drawSpan.
@@ -54,7 +54,7 @@ library EffectSamples {
             uint256 z = Samples.depthsOf(attribute);
             uint256 old = load(p);
             bool isFirst = load(MODE) & IS_BLENDED == 0;
-            // nearer than what is there; what the first pass has found
+            // nearer than the stored depth; or equal to the depth found by the first pass
             uint256 seen = isFirst ? z + BELOW_TOPS_64 - old : TOPS_64 - ((old ^ (z | FOUND_SAMPLES)) & PASSES_OF_SAMPLES);
             seen &= covered;
             if (seen == 0) return;
@@ -63,14 +63,14 @@ library EffectSamples {
             } else {
                 uint256 color = colorAt(attribute, covered, column, row);
                 z |= DRAWN_SAMPLES | BlendedSamples.over(color, old);
-                // that of the fragment, if vertices have opacities
+                // the fragment's own opacity if vertices have opacities
                 store(OPACITY, load(OBJECT_OPACITY));
             }
             Samples.write(p, row, column, z, seen);
         }
     }
 
-    /// @dev The colour in the middle of the samples that are covered.
+    /// @dev Returns the colour at the centroid of the covered samples.
     function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure returns (uint256 color) {
         unchecked {
             bool isPlain = load(SHADOWS) | load(IS_UNIFORM) | load(FADE_RANGE) == 0;
@@ -89,7 +89,7 @@ library EffectSamples {
                 y += uint256(int256(dy * load(RAY_STEP)) >> 3);
             }
             if (!isPlain) {
-                // until the fragment is drawn
+                // valid until the fragment is drawn
                 if (load(FADE_RANGE) != 0) store(OPACITY, Ground.opacityAt(attribute, x, y));
                 if (isKnown) return load(UNIFORM_COLOR);
             }

@@ -5,7 +5,7 @@ import {ExactSpans} from "./ExactSpans.sol";
 import {Samples} from "./Samples.sol";
 import "./Registers.sol";
 
-// Every fragment for itself, at the middle of the samples that the triangle covers.
+// Shades every fragment individually, at the centroid of the samples that the triangle covers.
 
 library ExactSamples {
     /// @notice Draws a fragment: see SampleRasterizer.drawFragment.
@@ -21,7 +21,7 @@ library ExactSamples {
         }
     }
 
-    /// @dev The colour in the middle of the samples that are covered: signed lanes of 85 bits, Q10.
+    /// @dev Returns the colour at the centroid of the covered samples: signed lanes of 85 bits, Q10.
     function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure returns (uint256) {
         unchecked {
             (uint256 x, uint256 y) = Samples.centroid(covered);

@@ -4,25 +4,25 @@ pragma solidity 0.8.37;
 import {FragmentLight} from "./FragmentLight.sol";
 import "./Registers.sol";
 
-// Every fragment for itself, from depth and barycentric coordinates.
+// Shades every fragment individually, from depth and barycentric coordinates.
 
 /// @dev Half a level in lanes of 85 bits, Q58 and Q10.
 uint256 constant HALF_85 = 0x800000000000000000000400000000000000000000200000000000000;
 uint256 constant HALF_85_Q10 = 0x800000000000000000000400000000000000000000200;
-/// @dev Bits 18 to 36 of each lane, which a colour between 0 and 255, Q10, does not have. Added once more to what a lane has of them, they
-/// carry into bit 37 unless that is nothing; bit 36 is the sign.
+/// @dev Bits 18 to 36 of each lane, which are zero for a colour of 0 to 255, Q10. Adding the mask to the masked lane carries into bit 37
+/// unless these bits are zero; bit 36 is the sign.
 uint256 constant BEYOND_BYTE_85 = 0x7ffff00000000000000003ffff80000000000000001ffffc0000;
 uint256 constant BEYOND_CARRY = 37;
 uint256 constant BEYOND_SIGN = 36;
 /// @dev 1 in each lane.
 uint256 constant ONES_85 = 0x4000000000000000000002000000000000000000001;
-/// @dev Where the byte of each channel begins.
+/// @dev The lowest bit of the byte of each channel.
 uint256 constant BLUE_Q10_AT = 10;
 uint256 constant GREEN_Q10_AT = 95;
 uint256 constant RED_Q10_AT = 180;
 
 library ExactSpans {
-    /// @notice Draws the rows from `row` to before `last`, between two edges.
+    /// @notice Draws the rows from `row` (inclusive) to `last` (exclusive) between two edges.
     /// @param start The accumulator at column 0 of the first row.
     function rows(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure {
         unchecked {
@@ -42,7 +42,7 @@ library ExactSpans {
         }
     }
 
-    /// @dev At least one fragment.
+    /// @dev Draws at least one fragment.
     function span(uint256 row, uint256 column, uint256 end, uint256 attribute) private pure {
         unchecked {
             uint256 p = load(DEPTH_ORIGIN) - load(DEPTH_STRIDE) * row;
@@ -66,13 +66,13 @@ library ExactSpans {
         }
     }
 
-    /// @notice Writes a pixel of signed lanes of 85 bits, Q10, which are rounded and kept between 0 and 255.
+    /// @notice Writes a pixel from signed lanes of 85 bits, Q10, rounded and clamped to 0..255.
     function write(uint256 p, uint256 color) internal pure {
         assembly ("memory-safe") {
             color := add(color, HALF_85_Q10)
             let beyond := and(color, BEYOND_BYTE_85)
             if beyond {
-                // 255 in lanes that are above it or below 0, then 0 in those below
+                // 255 in lanes above 255 or below 0, then 0 in those below 0
                 beyond := and(shr(BEYOND_CARRY, add(beyond, BEYOND_BYTE_85)), ONES_85)
                 color := or(color, mul(beyond, BYTE_Q10))
                 color := and(color, not(mul(and(shr(BEYOND_SIGN, color), ONES_85), BYTE_Q10)))
@@ -84,7 +84,7 @@ library ExactSpans {
         }
     }
 
-    /// @dev The colour where the accumulator and the ray are these.
+    /// @dev Returns the colour for this accumulator and ray.
     function colorAt(uint256 attribute, uint256 x, uint256 y) internal pure returns (uint256 color) {
         uint256 s;
         uint256 t;

@@ -8,12 +8,12 @@ import {EIGHT_ROWS, Shading} from "./Shading.sol";
 import {VertexHighlights} from "./VertexHighlights.sol";
 import "./Registers.sol";
 
-// How finely flat and unlit triangles have to be shaded.
+// Selects how precisely flat and unlit triangles are shaded.
 
-/// @dev Lifts every colour of which a fragment may come out above 255 into the bits of OVERFLOW: half a level, by which fragments are
-/// rounded, and eight steps of Q10 more, since interpolation is off by one at most.
+/// @dev Addend that sets a bit of OVERFLOW in each colour that may exceed 255 at a fragment: half a level, by which fragments are rounded,
+/// plus eight steps of Q10, since interpolation is off by at most one.
 uint256 constant NEARLY_ABOVE = 0x2080000000000020800000000000208;
-/// @dev A REACH that is beyond every triangle.
+/// @dev A REACH above the size of any triangle.
 uint256 constant NO_LIMIT = 1 << 60;
 /// @dev Twice the area, in sub-pixels, of 10 pixels.
 uint256 constant SMALL = 20 << 16;
@@ -29,9 +29,9 @@ abstract contract FlatShading is Rasterizer {
             p := mload(add(and(a, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
             q := mload(add(and(b, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
             r := mload(add(and(c, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
-            // Depths that differ by at most 1/24 of that of the first vertex, and so by less than 1/22 of the least, and at most 8 rows:
-            // `isAffine` without the minima. |d| <= depth / 24 as 0 <= 24 * d + depth <= 2 * depth, for whole words: what is below the
-            // depths is less than one of them.
+            // At most 8 rows, and depths that differ by at most 1/24 of the first vertex's depth, and so by less than 1/22 of the minimum:
+            // equivalent to `isAffine` without computing minima. |d| <= depth / 24 is computed as 0 <= 24 * d + depth <= 2 * depth on whole
+            // words: the bits below the depths are less than one unit of depth.
             let second := mul(24, sub(q, p))
             let third := mul(24, sub(r, p))
             let limit := shl(1, p)
@@ -43,7 +43,7 @@ abstract contract FlatShading is Rasterizer {
         setPatch(a, b, c, p, q, r, load(OBJECT_MODE) | crossing);
     }
 
-    /// @dev A flat triangle.
+    /// @dev Shades a flat triangle.
     function shadeFlat(uint256 a, uint256 b, uint256 c, uint256 crossing) private pure {
         (uint256 mode, uint256 light) = Lighting.setFace();
         uint256 p;
@@ -57,7 +57,7 @@ abstract contract FlatShading is Rasterizer {
         if (mode & IS_DIFFUSE == 0) {
             bool linear;
             assembly ("memory-safe") {
-                // the attribute word of a vertex with coloured light on its colour
+                // returns the attribute word of a vertex with its colour multiplied by coloured light
                 function lit(attributes, factor) -> product {
                     let color := and(attributes, LANES_24)
                     product := shr(LIGHT_FRACTION, mul(and(factor, LANE_32), and(color, LANE_24)))
@@ -105,7 +105,7 @@ abstract contract FlatShading is Rasterizer {
         setPatch(a, b, c, p, q, r, mode | crossing);
     }
 
-    /// @dev The registers of a triangle whose colours change linearly, and may be above 255: then they need a loop that keeps them there.
+    /// @dev Sets the registers of a triangle with linear colours. If they may exceed 255, a loop that clamps them is selected.
     function setLit(uint256 p, uint256 q, uint256 r, uint256 crossing) private pure {
         assembly ("memory-safe") {
             let above := or(or(add(p, NEARLY_ABOVE), add(q, NEARLY_ABOVE)), add(r, NEARLY_ABOVE))
@@ -116,7 +116,7 @@ abstract contract FlatShading is Rasterizer {
         }
     }
 
-    /// @dev Colours as quadratic functions, or each for itself.
+    /// @dev Selects quadratic colours, or individual fragments.
     function setPatch(uint256 a, uint256 b, uint256 c, uint256 p, uint256 q, uint256 r, uint256 mode) private pure {
         unchecked {
             Shading.setExact(a, b, c, p, q, r, mode);
@@ -130,28 +130,28 @@ abstract contract FlatShading is Rasterizer {
         }
     }
 
-    /// @dev Over how much of a triangle colours are taken as quadratic functions: see PATCH_SIZE and PATCH_WEIGHT.
+    /// @dev Returns the size of the area over which colours are approximated by quadratic functions: see PATCH_SIZE and PATCH_WEIGHT.
     ///
-    /// Where third derivatives are D at most, such a function is off by D * d^3 / 125 at most in a triangle of longest edge d with exact
-    /// colours at vertices and middles of edges, and by D * d^3 / 96 in a square of side d with nine of them.
+    /// If third derivatives are at most D, the error of such a function is at most D * d^3 / 125 in a triangle of longest edge d with exact
+    /// colours at vertices and edge midpoints, and at most D * d^3 / 96 in a square of side d with nine exact colours.
     ///
     /// Perspective: along an edge with depths that differ by k of their mean, the error is k^2/2 * (u - u^3) / (1 + ku) * dc for u from -1
-    /// to 1 and colours dc apart: 1.5 levels of 255 for k = 1/6. With greater k, colours times depths are quadratic, which without
-    /// highlights are even linear, and eight pixels at a time are divided by depths. There k may be 1/5: 2.2 levels.
+    /// to 1 and colours dc apart: 1.5 levels of 255 for k = 1/6. For larger k, colours times depths are approximated instead; they are
+    /// linear without highlights, and eight pixels at a time are divided by their depths. There k may be up to 1/5: 2.2 levels.
     ///
-    /// Light: a highlight cos^n of strength m has a third derivative of at most 1.4 * n^1.5 * m by the angle of H, which turns by d / 2f
-    /// over d pixels. Where linear functions are off by 1.5 levels, d^2 = REACH, it is 0.03 / sqrt(m) * (d^2 / REACH)^1.5 levels: with d^2
-    /// = 16 * REACH it is 2 / sqrt(m), in squares of 11 * REACH as much; and for m below 1/4 it is far from that, since m is 64 levels
-    /// then. Times the depth z, it has a third derivative of 3 * z' / z times its second one more: at most 4 levels, where depths in the
-    /// triangle differ by a factor of 2.
+    /// Light: a highlight cos^n of strength m has a third derivative of at most 1.4 * n^1.5 * m with respect to the angle of H, which turns
+    /// by d / 2f over d pixels. At the size at which linear functions are off by 1.5 levels, d^2 = REACH, the error is 0.03 / sqrt(m) *
+    /// (d^2 / REACH)^1.5 levels: for d^2 = 16 * REACH it is 2 / sqrt(m), and the same in squares of 11 * REACH; for m below 1/4 it is far
+    /// below that, since m is at most 64 levels then. Multiplied by the depth z, the third derivative grows by 3 * z' / z times the second
+    /// one: at most 4 levels if depths in the triangle differ by a factor of 2.
     ///
-    /// Cells reach beyond the triangle by up to their size. Over one, depths change by at most 7/8 of the farthest in the triangle, so that
-    /// they are positive, and k is that of the cell.
+    /// Cells extend beyond the triangle by up to their size. Within a cell, depths change by at most 7/8 of the farthest depth in the
+    /// triangle, so that they are positive; k is that of the cell.
     function patchSize(uint256 a, uint256 b, uint256 c, uint256 za, uint256 zb, uint256 zc) private pure returns (uint256 size) {
         unchecked {
             uint256 mode = load(MODE);
             uint256 area = Shading.doubleArea(a, b, c);
-            // where a few pixels are covered, these are the fewest colours
+            // small triangles need the fewest exact colours this way
             if (area < SMALL || mode & IS_STEEP != 0) return 1;
             uint256 nearest = Shading.max(za, Shading.max(zb, zc)) >> ATTRIBUTE_DEPTH_AT;
             uint256 farthest = Shading.min(za, Shading.min(zb, zc)) >> ATTRIBUTE_DEPTH_AT;
@@ -172,7 +172,7 @@ abstract contract FlatShading is Rasterizer {
             if (mode & IS_ORTHOGRAPHIC == 0) {
                 uint256 bright = brightness(za | zb | zc, mode);
                 if (6 * change * bright > mean) {
-                    // so that colours times depths, Q72, fit their lanes; and the change of the depth over eight pixels of a row
+                    // so that colours times depths, Q72, fit their lanes; includes the change of depth over eight pixels of a row
                     if (bright > 8 || 5120 * along > farthest * area) return 1;
                     store(PATCH_WEIGHT, nearest << DEPTH_FRACTION);
                 }
@@ -180,12 +180,12 @@ abstract contract FlatShading is Rasterizer {
         }
     }
 
-    /// @dev The square of the longest edge, in sub-pixels.
+    /// @dev Returns the square of the longest edge, in sub-pixels.
     function longest(uint256 a, uint256 b, uint256 c) private pure returns (uint256) {
         return Shading.max(squareLength(a, b), Shading.max(squareLength(a, c), squareLength(b, c)));
     }
 
-    /// @dev The square of an edge, in sub-pixels.
+    /// @dev Returns the square of an edge, in sub-pixels.
     function squareLength(uint256 p, uint256 q) private pure returns (uint256 square) {
         assembly ("memory-safe") {
             square := sub(shr(SCREEN_ROW_AT, p), shr(SCREEN_ROW_AT, q))
@@ -194,7 +194,7 @@ abstract contract FlatShading is Rasterizer {
         }
     }
 
-    /// @dev How much the depth changes along a row and along a column, times twice the area.
+    /// @dev Returns the changes of depth along a row and along a column, times twice the area.
     function slopes(uint256 a, uint256 b, uint256 c, uint256 za, uint256 zb, uint256 zc)
         private
         pure
@@ -216,7 +216,7 @@ abstract contract FlatShading is Rasterizer {
         }
     }
 
-    /// @dev How many times 255 colours may be at most.
+    /// @dev Returns the maximum brightness of colours in multiples of 255.
     function brightness(uint256 colors, uint256 mode) private pure returns (uint256 times) {
         unchecked {
             if (mode & IS_DIFFUSE == 0) {

@@ -3,34 +3,36 @@ pragma solidity 0.8.37;
 
 import "./Registers.sol";
 
-// The colour of a triangle at any place: interpolated colours, correct in perspective, times diffuse light, and highlights (Blinn-Phong).
+// Computes the colour of a triangle at any point: perspective-correct interpolated colours times diffuse light, plus highlights
+// (Blinn-Phong).
 //
 //   colour = interpolated colour * (ambient + sum over the lights of diffuse * N.L) + sum of specular * (N.H)^shininess
 //
-// The nDotH vector H between the directions L to the light and -r / |r| to the eye, where r is the ray to the place, is never computed:
+// The half vector H between the direction L to the light and the direction -r / |r| to the eye, where r is the ray to the point, is never
+// computed:
 //
 //   N.H = (N.L |r| - N.r) / sqrt(2 |r| (|r| - L.r))
 //
-// and the table of the highlight takes its square. With vectors that are not unit ones, d = |L|, it is
+// and the table of the highlight is indexed by its square. For vectors of any length, with d = |L|, it is
 //
 //   (N.H)^2 = (N.L |r| - N.r d)^2 / (N.N * 2 d |r| (d |r| - L.r))
 
-/// @dev Keeps colours (Q34) positive, whatever the weights are, by a bit that is taken away in the end. It stands above the brightest
-/// that a flat face may have before its highlights, 20 * 255 levels, at three corners.
+/// @dev Keeps colours (Q34) positive for any weights, by a bit that is removed in the end. It exceeds the maximum brightness of a flat face
+/// without highlights, 20 * 255 levels, at three corners.
 uint256 constant WEIGHTED_BIAS = 0x010000000400000100000004000001000000040000;
-/// @dev The bit of WEIGHTED_BIAS that is above a colour of Q10, in lanes of 85 bits.
+/// @dev The bit of WEIGHTED_BIAS above a colour of Q10, in lanes of 85 bits.
 uint256 constant BIAS_85 = 0x4000000000000000000002000000000000000000001000000;
 
 library FragmentLight {
-    /// @param depth, s, t The depth (with 8 more bits than in a vertex) and the barycentric coordinates on the screen, Q24; these may be
-    /// negative, or above 1, outside the triangle.
-    /// @param x, y The ray through the place, Q24; the place itself, Q32, for an orthographic camera.
-    /// @param isSurface Whether s and t are correct in perspective already, and only the highlights are returned: then the diffuse light
-    /// is left in FRAGMENT_LIGHT.
-    /// @return color Signed lanes of 85 bits, Q10, not kept between 0 and 255; lanes of 56 bits of a surface.
+    /// @param depth, s, t The depth (with 8 more bits than in a vertex) and the screen-space barycentric coordinates, Q24; outside the
+    /// triangle these can be negative or above 1.
+    /// @param x, y The ray through the point, Q24; for an orthographic camera the point itself, Q32.
+    /// @param isSurface Whether s and t are already perspective-correct, and only highlights are returned; the diffuse light is then left
+    /// in FRAGMENT_LIGHT.
+    /// @return color Signed lanes of 85 bits, Q10, not clamped to 0..255; lanes of 56 bits if `isSurface`.
     function colorAt(uint256 depth, uint256 s, uint256 t, uint256 x, uint256 y, bool isSurface) internal pure returns (uint256 color) {
         assembly ("memory-safe") {
-            // sqrt(value), where `hint` remembers the magnitude of the last one, so that it need not be found again
+            // sqrt(value); `hint` stores the magnitude of the previous result as a first guess
             function root(value, hint) -> r {
                 let h := mload(hint)
                 if gt(sub(shr(shl(1, h), value), 1), 2) {
@@ -76,7 +78,7 @@ library FragmentLight {
                 }
             }
 
-            // of directional lights, whose diffuse light is in the colour
+            // highlights of directional lights; their diffuse light is in the colour
             function highlights(normalRay, x_, y_) -> sum {
                 let length := rayLength(x_, y_)
                 for { let record := LIGHTS } 1 {} {
@@ -96,8 +98,8 @@ library FragmentLight {
                 }
             }
 
-            // Of a spot light at a direction of that length (Q16): from 1 where the cosine to its axis is that of the inner angle to 0 at
-            // the outer one, squared, as in the glTF extension KHR_lights_punctual; Q16
+            // The attenuation of a spot light for a direction of length `distance` (Q16): the square of a linear function of the cosine to
+            // its axis, 1 at the inner angle and 0 at the outer one, as in the glTF extension KHR_lights_punctual; Q16
             function cone(record, lx, ly, lz, distance) -> strength {
                 strength := ONE_16
                 if mload(add(record, LIGHT_CONE)) {
@@ -110,7 +112,7 @@ library FragmentLight {
                 }
             }
 
-            // of lights of all kinds; leaves the diffuse light in FRAGMENT_LIGHT
+            // light of all kinds of lights; leaves the diffuse light in FRAGMENT_LIGHT
             function light(depth_, x_, y_) -> sum {
                 let length := rayLength(x_, y_)
                 mstore(FRAGMENT_LIGHT, shl(24, mload(AMBIENT)))
@@ -136,7 +138,7 @@ library FragmentLight {
                         distance := root(add(add(mul(lx, lx), mul(ly, ly)), mul(lz, lz)), add(record, LIGHT_HINT))
                     }
                     mstore(FRAGMENT_CONE, cone(record, lx, ly, lz, distance))
-                    // N.L, Q48 of a direction, Q40 of a place
+                    // N.L: Q48 for a directional light, Q40 for a point light
                     let nDotL
                     switch and(mload(MODE), IS_SMOOTH)
                     case 0 { nDotL := shl(24, mload(add(record, LIGHT_N_DOT_L))) }
@@ -145,11 +147,11 @@ library FragmentLight {
                         nDotL := add(nDotL, mul(mload(FRAGMENT_NORMAL_Z), lz))
                     }
                     if sgt(nDotL, 0) {
-                        // N.L of unit vectors, Q24; then Q24 with the cone
+                        // N.L of unit vectors, Q24; then multiplied by the cone, Q24
                         let lambert := div(shl(24, nDotL), mul(distance, mload(FRAGMENT_NORMAL_LENGTH)))
                         lambert := shr(16, mul(lambert, mload(FRAGMENT_CONE)))
                         mstore(FRAGMENT_LIGHT, add(mload(FRAGMENT_LIGHT), mul(mload(add(record, LIGHT_DIFFUSE)), lambert)))
-                        // N.H by the formula above, but for its divisor
+                        // the numerator of N.H in the formula above
                         nDotL := sub(mul(nDotL, length), mul(distance, mload(FRAGMENT_NORMAL_RAY)))
                         if sgt(nDotL, 0) {
                             lx := add(add(mul(lx, x_), mul(ly, y_)), shl(24, lz))
@@ -165,7 +167,7 @@ library FragmentLight {
                 }
             }
 
-            // the normal at a fragment, Q24, between those of the vertices
+            // interpolates the vertex normals at a fragment, Q24
             function interpolateNormal(second, third, x_, y_) {
                 third := add(mul(mload(NORMALS_1), shr(8, second)), mul(mload(NORMALS_2), shr(8, third)))
                 third := add(add(mload(NORMALS_0), third), NORMAL_BIAS)
@@ -189,11 +191,11 @@ library FragmentLight {
             switch and(mode, IS_ORTHOGRAPHIC)
             case 0 {
                 if iszero(isSurface) {
-                    // perspective-correct: s * depth of the vertex / depth of the place, Q24
+                    // perspective-correct: s * vertex depth / depth of the point, Q24
                     s := sdiv(mul(s, mload(DEPTH_1)), depth)
                     t := sdiv(mul(t, mload(DEPTH_2)), depth)
                     if and(mode, IS_STEEP) {
-                        // rounding counts much where a near vertex meets a far fragment
+                        // rounding errors are large if a near vertex meets a far fragment
                         if sgt(s, ONE_24) { s := ONE_24 }
                         if sgt(t, ONE_24) { t := ONE_24 }
                     }
@@ -214,7 +216,7 @@ library FragmentLight {
                 if mload(RIM_COLOR) { mstore(FRAGMENT_RAY_LENGTH, rayLength(x, y)) }
             }
             default {
-                // each lane has 2^24 too much, so that it is positive
+                // each lane has a bias of 2^24, so that it is positive
                 color := shr(24, add(add(mload(COLOR_0), mul(mload(COLOR_1), s)), mul(mload(COLOR_2), t)))
                 if and(mode, IS_LIT) {
                     // N.r, Q48

@@ -3,13 +3,13 @@ pragma solidity 0.8.37;
 
 import "./Registers.sol";
 
-// An object on which others stand: it casts no shadow, and fades into what is behind it. With the distance d from its position it is opaque
-// up to the inner radius r, and nothing is left of it from the outer radius R on:
+// A ground is an object on which others stand: it casts no shadow and fades into the background. At distance d from its position it is
+// opaque up to the inner radius r and vanishes from the outer radius R on:
 //
-//   opacity = (R^2 - d^2) / (R^2 - r^2), between 0 and 1
+//   opacity = (R^2 - d^2) / (R^2 - r^2), clamped to 0..1
 
 library Ground {
-    /// @notice How much of a ground is left at a fragment, Q24.
+    /// @notice Returns the opacity of a ground at a fragment, Q24.
     /// @param attribute The accumulator.
     /// @param x, y As for FragmentLight.
     function opacityAt(uint256 attribute, uint256 x, uint256 y) internal pure returns (uint256 opacity) {

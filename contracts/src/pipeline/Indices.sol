@@ -11,7 +11,7 @@ uint256 constant LOW_32 = 0x0000000100000001000000010000000100000001000000010000
 uint256 constant LOW_16 = 0x0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff;
 
 library Indices {
-    /// @notice Reverts if a face has a vertex number that is out of range.
+    /// @notice Reverts if a face has a vertex index out of range.
     function check(Mesh memory mesh, uint256 object) internal pure {
         unchecked {
             uint256 count = mesh.vertexCount;
@@ -19,7 +19,7 @@ library Indices {
             uint256 size = FACE_SIZE * mesh.faceCount;
             uint256 bad;
             assembly ("memory-safe") {
-                // 16 numbers at once: number + 2^16 - count, in lanes of 32 bits, is 2^16 or more if it is out of range
+                // 16 indices at once: index + 2^16 - count, in lanes of 32 bits, is at least 2^16 if the index is out of range
                 let bias := mul(sub(0x10000, count), LOW_32)
                 let place := faces
                 let end := add(faces, size)
@@ -27,7 +27,7 @@ library Indices {
                     let numbers := calldataload(place)
                     bad := or(bad, or(add(and(numbers, LOW_16), bias), add(and(shr(16, numbers), LOW_16), bias)))
                 }
-                // what is left of the last word
+                // the rest of the last word
                 if lt(place, end) {
                     let numbers := shr(shl(3, sub(add(place, 32), end)), calldataload(place))
                     bad := or(bad, or(add(and(numbers, LOW_16), bias), add(and(shr(16, numbers), LOW_16), bias)))

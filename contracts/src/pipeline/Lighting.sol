@@ -3,31 +3,31 @@ pragma solidity 0.8.37;
 
 import "./Registers.sol";
 
-// How the lights meet a flat face.
+// Lighting of flat faces.
 
-/// @dev Bits behind the point: of places in the space of the mesh; of the length of a normal and of its square.
+/// @dev Fraction bits: of positions in mesh space; of the length of a normal and of its square.
 uint256 constant MESH_FRACTION = 32;
 uint256 constant LENGTH_FRACTION = 16;
 uint256 constant SQUARE_FRACTION = 32;
-/// @dev From HAS_SPECULAR to IS_LIT; IS_LIT and IS_DIFFUSE.
+/// @dev The shift from HAS_SPECULAR to IS_LIT; IS_LIT and IS_DIFFUSE.
 uint256 constant SPECULAR_TO_LIT = 2;
 uint256 constant IS_LIT_AND_DIFFUSE = 6;
 
 library Lighting {
-    /// @notice Normal and light of a flat face, from its corners in the mesh.
-    /// @return mode How its fragments are lit: the mode of the object, IS_LIT if any light has highlights there, IS_DIFFUSE if a point
-    /// light shines on it: then fragments add up the diffuse light of all lights.
-    /// @return light The light that does not depend on the fragment, lanes of Q16: without meaning if IS_DIFFUSE.
+    /// @notice Computes the normal and light of a flat face from its corners in the mesh.
+    /// @return mode How its fragments are lit: the mode of the object, IS_LIT if any light has a highlight there, IS_DIFFUSE if a point
+    /// light shines on it; in the latter case, fragments sum the diffuse light of all lights.
+    /// @return light The light that does not depend on the fragment, lanes of Q16; undefined if IS_DIFFUSE.
     function setFace() internal pure returns (uint256 mode, uint256 light) {
         assembly ("memory-safe") {
-            // normal * (vector - first corner), or, with 0 for `all`, normal * vector; Q32
+            // normal * (vector - first corner); if `all` is 0, normal * vector; Q32
             function dot(vector, all) -> sum {
                 let corner := calldataload(mload(FACE))
                 corner := calldataload(add(mload(MESH_VERTICES), mul(shr(FACE_FIRST_IN_WORD, corner), mload(MESH_STRIDE))))
                 corner := and(corner, all)
                 let bits := mload(MESH_BITS)
                 let rest := sub(256, bits)
-                // the coordinates of the normal out of their lanes, the uppermost first
+                // unpack the coordinates of the normal, the uppermost first
                 let normal := mload(FACE_NORMAL)
                 let n := sar(UPPER_86_AT, add(normal, HALF_UPPER_86))
                 sum := mul(n, sub(mload(add(vector, 0x40)), shl(MESH_FRACTION, sar(rest, shl(shl(1, bits), corner)))))
@@ -38,7 +38,7 @@ library Lighting {
                 sum := add(sum, mul(n, sub(mload(vector), shl(MESH_FRACTION, sar(rest, corner)))))
             }
 
-            // the length of the normal, which is twice the area of the face; its square at first
+            // the length of the normal, which is twice the area of the face; first its square
             let length
             {
                 // the corners, three numbers of `bits` each at the top of a word
@@ -62,7 +62,7 @@ library Lighting {
                 x := sar(rest, shl(bits, p))
                 a := sub(sar(rest, shl(bits, a)), x)
                 b := sub(sar(rest, shl(bits, b)), x)
-                // the product of the two edges (ax, ay, a) and (bx, by, b); its coordinates are up to 2^49
+                // the cross product of the two edges (ax, ay, a) and (bx, by, b); its coordinates are up to 2^49
                 x := sub(mul(ay, b), mul(a, by))
                 p := sub(mul(a, bx), mul(ax, b))
                 a := sub(mul(ax, by), mul(ay, bx))
@@ -72,13 +72,13 @@ library Lighting {
             mstore(FACE_SQUARE, length)
             length := shl(SQUARE_FRACTION, length)
             {
-                // The square root. With h, a multiple of 3, such that the square is m * 4^h and 1 <= m < 64, the line 0.1367 * (m + 8) is
-                // within 0.231 of the root of m, relatively; three steps of Newton's method leave less than 2^-22. Where the normal is
-                // zero, all products are, whatever they are divided by.
+                // The square root. With h, a multiple of 3, such that the square is m * 4^h and 1 <= m < 64, the line 0.1367 * (m + 8)
+                // approximates the root of m with a relative error of 0.231; three steps of Newton's method reduce it to less than 2^-22.
+                // If the normal is zero, all products are zero for any divisor.
                 length := or(length, iszero(length))
                 let h := mload(FACE_HINT)
                 if gt(sub(shr(shl(1, h), length), 1), 62) {
-                    // that of a neighbour is near
+                    // neighbouring faces have similar magnitudes
                     for {} iszero(shr(shl(1, h), length)) {} { h := sub(h, 3) }
                     for {} gt(shr(shl(1, h), length), 63) {} { h := add(h, 3) }
                     mstore(FACE_HINT, h)
@@ -91,9 +91,9 @@ library Lighting {
             mstore(FACE_LENGTH, length)
             mode := mload(OBJECT_MODE)
             light := mload(AMBIENT)
-            // without lights the first record is zeros
+            // if there are no lights, the first record is zero
             for { let record := LIGHTS } 1 {} {
-                // the middle coefficient of the product; what is below takes one away at most
+                // the middle coefficient of the product; the bits below borrow at most one
                 let facing := sar(UPPER_86_AT, mul(mload(FACE_NORMAL), mload(add(record, LIGHT_MESH_X))))
                 facing := sdiv(shl(LENGTH_FRACTION, facing), length)
                 if mload(add(record, LIGHT_IS_POINT)) {
@@ -102,7 +102,7 @@ library Lighting {
                 }
                 if sgt(facing, 0) {
                     light := add(light, and(shr(COSINE_FRACTION, mul(mload(add(record, LIGHT_DIFFUSE)), facing)), LANES_32))
-                    // a highlight wants the light of each fragment
+                    // a highlight requires the light at each fragment
                     mode := or(mode, shr(SPECULAR_TO_LIT, and(mode, HAS_SPECULAR)))
                 }
                 mstore(add(record, LIGHT_N_DOT_L), facing)
@@ -112,18 +112,18 @@ library Lighting {
         }
     }
 
-    /// @notice The product of the normal and a ray, as fragments want it that are lit for themselves: FACE_N_DOT_RAY and
+    /// @notice Computes the product of the normal and a ray for fragments that are shaded individually: FACE_N_DOT_RAY and
     /// FACE_N_DOT_RAY_SLOPE.
     function setFacing() internal pure {
         assembly ("memory-safe") {
-            // normal * (vector - first corner), or, with 0 for `all`, normal * vector; Q32
+            // normal * (vector - first corner); if `all` is 0, normal * vector; Q32
             function dot(vector, all) -> sum {
                 let corner := calldataload(mload(FACE))
                 corner := calldataload(add(mload(MESH_VERTICES), mul(shr(FACE_FIRST_IN_WORD, corner), mload(MESH_STRIDE))))
                 corner := and(corner, all)
                 let bits := mload(MESH_BITS)
                 let rest := sub(256, bits)
-                // the coordinates of the normal out of their lanes, the uppermost first
+                // unpack the coordinates of the normal, the uppermost first
                 let normal := mload(FACE_NORMAL)
                 let n := sar(UPPER_86_AT, add(normal, HALF_UPPER_86))
                 sum := mul(n, sub(mload(add(vector, 0x40)), shl(MESH_FRACTION, sar(rest, shl(shl(1, bits), corner)))))
@@ -148,14 +148,14 @@ library Lighting {
         }
     }
 
-    /// @notice REACH for the face, on which point lights shine.
-    /// @dev Their directions turn as well as V: by as much where the light is as near as the eye and the face is seen from the front; where
-    /// the face is seen at an angle, by more, since a pixel is a longer way on it. A face that is seen from behind may hide the light: its
-    /// highlight ends where L = -V.
-    /// @param farthest The depth of its farthest vertex.
+    /// @notice Returns REACH for a face lit by point lights.
+    /// @dev The directions to point lights turn like V: by the same amount if the light is as near as the eye and the face is seen from the
+    /// front; by more if the face is seen at an angle, since a pixel covers a longer distance on it. A face seen from behind may hide the
+    /// light: its highlight ends where L = -V.
+    /// @param farthest The depth of the farthest vertex.
     function pointReach(uint256 farthest) internal pure returns (uint256) {
         unchecked {
-            // of the vertex from the eye, and of the nearest light and the eye from the plane of the face, Q16
+            // distances: of the vertex from the eye; of the nearest light and of the eye from the plane of the face; Q16
             uint256 distance = (load(DEPTH_SCALE) >> 16) / (farthest + 1) + 1;
             uint256 height = type(uint256).max >> 1;
             bool isBehind = load(OBJECT_MODE) & HAS_SPECULAR != 0 && loadSigned(FACE_N_DOT_RAY_SLOPE) > 0;
@@ -168,7 +168,7 @@ library Lighting {
             }
             int256 plane = loadSigned(FACE_N_DOT_RAY_SLOPE) * loadSigned(DEPTH_SCALE);
             uint256 eyeHeight = uint256(plane < 0 ? -plane : plane) >> 150;
-            // the cosine of the angle at the vertex is about eyeHeight / distance, and larger elsewhere: take a third more
+            // the cosine of the angle at the vertex is about eyeHeight / distance, and larger elsewhere: increase it by a third
             eyeHeight = 4 * eyeHeight / 3;
             if (eyeHeight < distance) height = height * eyeHeight / distance;
             return load(REACH) * height / (height + distance) * height / (height + distance);

@@ -4,22 +4,22 @@ pragma solidity 0.8.37;
 import {ABOVE_BYTES, BYTES_OF_LANES, LANES_TO_BYTES, NEXT_LANES, NEXT_LANE_TO_BYTE} from "./LinearSpans.sol";
 import "./Registers.sol";
 
-// Triangles of which the accumulator holds the colour, with four samples for each pixel: see Samples. Most triangles of models are small
-// and linear, so that what a row takes counts as much as what its pixels do.
+// Draws triangles whose colour is in the accumulator, with four samples per pixel: see Samples. Most triangles of models are small and
+// linear, so the cost of a row matters as much as that of its pixels.
 
-/// @dev The highest bit of each colour in an accumulator, which is its sign where the centre of a pixel lies outside the triangle; and from
-/// there to the lowest bit of the byte.
+/// @dev The highest bit of each colour in an accumulator, which is its sign if the pixel centre lies outside the triangle; and the shift
+/// from there to the lowest bit of the byte.
 uint256 constant BELOW_NEXT_LANES = 0x800000000000008000000000000080000000000000;
 uint256 constant SIGN_TO_BYTE = 13;
 
 library LinearSamples {
-    /// @notice Draws the rows from `row`, for which the sides are told, to before `last`. Changes the steps of the sides.
+    /// @notice Draws the rows from `row`, for which the sides are given, to `last` (exclusive). Changes the steps of the sides.
     function draw(uint256 row, uint256 last) internal pure {
         assembly ("memory-safe") {
             let left := mload(SIDE_LEFT)
             let right := mload(SIDE_RIGHT)
             let bounds := mload(BOUNDS)
-            // START is told for column 0; now for address 0
+            // START is relative to column 0; make it relative to address 0
             let start := sar(SAMPLE_SIZE_BITS, sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE))))
             mstore(ROW_IMAGE, sub(mload(SAMPLE_IMAGE), mul(3, add(mul(row, mload(TILE_WIDTH)), start))))
             start := sub(add(mload(START), mul(sub(row, mload(START_ROW)), mload(DY))), mul(start, mload(DX)))
@@ -30,7 +30,7 @@ library LinearSamples {
                 mstore(SPAN_BEGIN, add(base, shl(SAMPLE_SIZE_BITS, mload(SPAN_BEGIN))))
                 mstore(SPAN_END, add(base, shl(SAMPLE_SIZE_BITS, mload(SPAN_END))))
             }
-            // the rows above that of the kink; how many there are from that on
+            // the rows above the row of the kink; the number of rows from that one on
             let rows := sub(last, row)
             last := sub(last, mload(KINK_ROW))
             if sgt(last, 0) { rows := sub(rows, last) }
@@ -55,12 +55,12 @@ library LinearSamples {
                             let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE))
                             z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
                             let seen := mul(p, ADDRESS_64)
-                            // nearer by one at least, whatever the colour below the old depth is
+                            // nearer by at least one, whatever the colour bits below the old depth are
                             seen := and(and(add(left, seen), sub(right, seen)), and(sub(add(z, BELOW_TOPS_64), old), TOPS_64))
                             if seen {
                                 let color := attribute
                                 if and(color, ABOVE_BYTES) {
-                                    // all bits of the byte where it is above 255, none where it is below 0
+                                    // set all bits of the byte if above 255, none if below 0
                                     color := and(add(and(attribute, ABOVE_BYTES), ABOVE_BYTES), NEXT_LANES)
                                     color := or(attribute, shr(NEXT_LANE_TO_BYTE, mul(color, 0xff)))
                                     color := and(color, not(shr(SIGN_TO_BYTE, mul(and(attribute, BELOW_NEXT_LANES), 0xff))))
@@ -102,7 +102,7 @@ library LinearSamples {
                     last := 0
                 }
                 default {
-                    // the row of the kink by itself, with samples on both edges; its step leads to the edge that continues
+                    // the row of the kink is drawn separately, with samples on both edges; its step leads to the lower edge
                     row := 0
                     rows := 1
                     last := sub(last, 1)

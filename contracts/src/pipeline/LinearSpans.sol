@@ -3,28 +3,28 @@ pragma solidity 0.8.37;
 
 import "./Registers.sol";
 
-// Rows of fragments of triangles whose colours change linearly on the screen: the plain loop, and one for whatever the plain loop does not
-// know: borders of the tile, bands, colours above 255.
+// Rows of fragments of triangles whose colours are linear on the screen: a plain loop, and a general one for tile borders, bands, and
+// colours above 255.
 
-/// @dev The bytes of colours in an accumulator, and what brings them together at the top of a word; what is below them has no meaning.
+/// @dev The bytes of colours in an accumulator, and a multiplier that collects them at the top of a word; the bits below are undefined.
 uint256 constant BYTES_OF_LANES = 0x0003fc000000000003fc000000000003fc0000000000;
 uint256 constant LANES_TO_BYTES = 0x4000000000000000400000000000000040000000000000000000;
-/// @dev The bits of colours in an accumulator that are above those of the bytes, and the lowest bits of the lanes above.
+/// @dev The bits of colours in an accumulator above the bytes, and the lowest bits of the lanes above.
 uint256 constant ABOVE_BYTES = 0xfc000000000000fc000000000000fc000000000000;
 uint256 constant NEXT_LANES = 0x1000000000000010000000000000100000000000000;
-/// @dev From the lowest bit of the next lane to that of a byte.
+/// @dev The distance from the lowest bit of the next lane to that of a byte.
 uint256 constant NEXT_LANE_TO_BYTE = 14;
-/// @dev An address of a depth, a multiple of 8.
+/// @dev Mask of the address of a depth, a multiple of 8.
 uint256 constant ADDRESS = 0xfffffff8;
 
 library LinearSpans {
-    /// @notice The plain loop: all of the triangle lies within the band, and no colour is above 255.
-    /// @param edges Addresses, as the Rasterizer says; SLOPES are their changes.
-    /// @param rows How many rows the upper part has.
+    /// @notice Draws a triangle that lies entirely within the band and has no colour above 255.
+    /// @param edges Addresses as in PixelRasterizer; SLOPES are their changes.
+    /// @param rows The number of rows of the upper part.
     /// @param row The address of the first row.
     function plain(uint256 edges, uint256 rows, uint256 row) internal pure {
         assembly ("memory-safe") {
-            // START is told for column 0; now for address 0
+            // START is relative to column 0; make it relative to address 0
             let start := sub(mload(START), mul(mload(DX_8), row))
             row := shl(DEPTH_SIZE_BITS, mload(DX_8))
             mstore(ROW_STEP, add(mload(DY), mul(mload(DX_8), mload(DEPTH_STRIDE))))
@@ -37,7 +37,7 @@ library LinearSpans {
                         let pixel := add(mload(IMAGE_ORIGIN), mul(3, shr(DEPTH_SIZE_BITS, p)))
                         for {} 1 {} {
                             if gt(attribute, or(mload(p), BEHIND_DEPTH)) {
-                                // copying a few bytes is cheaper than to put them into a word
+                                // copying a few bytes is cheaper than inserting them into a word
                                 mstore(0, attribute)
                                 mcopy(p, 0, 8)
                                 mstore(0, mul(and(attribute, BYTES_OF_LANES), LANES_TO_BYTES))
@@ -62,9 +62,9 @@ library LinearSpans {
         }
     }
 
-    /// @notice As `plain`, where colours may be above 255.
-    /// @param edges Addresses, as the Rasterizer says; SLOPES are their changes.
-    /// @param rows How many rows the upper part has.
+    /// @notice Draws a triangle as `plain` does, with colours clamped to 255.
+    /// @param edges Addresses as in PixelRasterizer; SLOPES are their changes.
+    /// @param rows The number of rows of the upper part.
     /// @param row The address of the first row.
     function saturating(uint256 edges, uint256 rows, uint256 row) internal pure {
         assembly ("memory-safe") {
@@ -82,7 +82,7 @@ library LinearSpans {
                             if gt(attribute, or(mload(p), BEHIND_DEPTH)) {
                                 mstore(0, attribute)
                                 mcopy(p, 0, 8)
-                                // 1 in the lowest bit of the next lane where a bit of ABOVE_BYTES is set; it makes all eight of the byte 1
+                                // set the lowest bit of the next lane if a bit of ABOVE_BYTES is set; from it all eight bits of the byte
                                 let full := and(add(and(attribute, ABOVE_BYTES), ABOVE_BYTES), NEXT_LANES)
                                 full := or(attribute, shr(NEXT_LANE_TO_BYTE, mul(full, 0xff)))
                                 mstore(0, mul(and(full, BYTES_OF_LANES), LANES_TO_BYTES))
@@ -107,7 +107,7 @@ library LinearSpans {
         }
     }
 
-    /// @notice Draws the rows from `row` to before `last`, told by addresses, between two edges.
+    /// @notice Draws the rows from `row` (inclusive) to `last` (exclusive), given by addresses, between two edges.
     /// @param edges, slopes Columns, Q48.
     /// @param start Depth and colour at column 0; DX and DY are their changes.
     function general(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure {

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-// Memory by its addresses. The values that every vertex, triangle and fragment needs live at fixed ones, the registers: reading one costs
-// 6 gas, half of what a field of a memory struct costs, and no stack slot. Those that are the same for a whole frame or object are
-// uniforms, in the words of graphics interfaces: the Renderer fills them at the same addresses, and hands them to the engine as they
-// stand (see Uniforms.sol).
+// Direct access to memory. The values used by every vertex, triangle and fragment are stored at fixed addresses, called registers: reading
+// one costs 6 gas, half of the cost of a memory struct's field, and needs no stack slot. Registers that are constant for a frame or an
+// object are uniforms: the Renderer fills them at the same addresses, and passes them to the engine as they are (see Uniforms.sol).
 
 error RegistersOverlap();
 
-/// @notice Keeps the memory of the registers free of everything that is allocated.
-/// @param begin What the compiler keeps in memory must end before.
+/// @notice Reserves the memory of the registers, so that nothing is allocated there.
+/// @param begin The maximum end of the compiler's own variables in memory.
 function reserveRegisters(uint256 begin, uint256 end) pure {
     if (freeMemory() > begin) revert RegistersOverlap();
     setFreeMemory(end);

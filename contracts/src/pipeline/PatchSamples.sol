@@ -6,9 +6,9 @@ import {Patches} from "./Patches.sol";
 import {SampleRasterizer} from "./SampleRasterizer.sol";
 import "./Registers.sol";
 
-// Triangles of which the colours are quadratic, as a whole or over square cells: see Patches.
+// Draws triangles with quadratic colours, over the whole triangle or over square cells: see Patches.
 abstract contract PatchSamples is SampleRasterizer {
-    /// @dev What quadratic functions need besides.
+    /// @dev Sets further registers that quadratic functions need.
     function setQuadratic(uint256 a, uint256 b, uint256 c) internal pure {
         unchecked {
             if (load(MODE) & IS_PATCHED == 0) return;
@@ -20,7 +20,7 @@ abstract contract PatchSamples is SampleRasterizer {
         }
     }
 
-    /// @notice Draws the rows from `row` to before `last`.
+    /// @notice Draws the rows from `row` (inclusive) to `last` (exclusive).
     function drawPatches(uint256 row, uint256 last) internal pure {
         unchecked {
             uint256 size = load(PATCH_SIZE);
@@ -44,13 +44,13 @@ abstract contract PatchSamples is SampleRasterizer {
         }
     }
 
-    /// @dev Fragments of a row whose colours are a quadratic function of the place: see drawSpan.
+    /// @dev Draws the fragments of a row with colours that are a quadratic function of the position: see drawSpan.
     function drawQuadratic(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
         assembly ("memory-safe") {
-            // three bytes from a colour, Q58, or from one times its depth, Q72
+            // three bytes from a colour, Q58, or from a colour times its depth, Q72
             function bytesOf(f, attribute) -> color {
                 if mload(PATCH_WEIGHT) {
-                    // beside the triangle the depth may be anything
+                    // outside the triangle the depth can be anything
                     attribute := sar(ACCUMULATOR_DEPTH_AT, attribute)
                     if slt(attribute, mload(FARTHEST)) { attribute := mload(FARTHEST) }
                     f := add(mul(sub(and(shr(48, f), LANES_37), BIAS_36), div(shl(34, mload(PATCH_WEIGHT)), attribute)), HALF_85)
@@ -65,7 +65,7 @@ abstract contract PatchSamples is SampleRasterizer {
             }
 
             {
-                // in the row of the kink no pixel counts as inside
+                // in the row of the kink, no pixel counts as fully covered
                 let inner := mload(INSETS)
                 if iszero(lt(row, mload(KINK_ROW))) { inner := mload(KINK_INSETS) }
                 if eq(row, mload(KINK_ROW)) { inner := NO_INSIDE }
@@ -79,13 +79,13 @@ abstract contract PatchSamples is SampleRasterizer {
             end := add(p, shl(SAMPLE_SIZE_BITS, end))
             p := add(p, shl(SAMPLE_SIZE_BITS, column))
             row := sub(row, mload(QUADRATIC_ROW))
-            // the value at the column, Q58, and its change to the next
+            // the value at the column, Q58, and its change to the next column
             let g := add(mload(QUADRATIC_DX), mul(row, mload(QUADRATIC_DXY)))
             let f := add(mload(QUADRATIC_START), mul(row, mload(QUADRATIC_DY)))
             f := add(f, mul(shr(1, mul(row, sub(row, 1))), mload(QUADRATIC_DYY)))
             f := add(f, add(mul(column, g), mul(shr(1, mul(column, sub(column, 1))), mload(QUADRATIC_DXX))))
             g := add(g, mul(column, mload(QUADRATIC_DXX)))
-            // first the pixels before those that are covered as a whole
+            // first the pixels before the fully covered ones
             row := end
             if lt(mload(INNER_BEGIN), row) { row := mload(INNER_BEGIN) }
             for {} 1 {} {
@@ -119,7 +119,7 @@ abstract contract PatchSamples is SampleRasterizer {
                     g := add(g, mload(QUADRATIC_DXX))
                 }
                 if iszero(lt(p, end)) { break }
-                // then those, as long as nothing is there
+                // then the fully covered ones, while the buffer is empty
                 row := end
                 if lt(mload(INNER_END), row) { row := mload(INNER_END) }
                 if slt(p, row) {

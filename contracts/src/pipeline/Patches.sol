@@ -6,14 +6,15 @@ import {FragmentLight} from "./FragmentLight.sol";
 import {Quadratic} from "./Quadratic.sol";
 import "./Registers.sol";
 
-// Flat and unlit triangles whose colours are not linear on the screen: colours as quadratic functions of the place, fitted to exact ones,
-// over the whole triangle or over square cells of it. The cells are those of the canvas, not of the tile, so that tiles equal the whole.
+// Flat and unlit triangles whose colours are not linear on the screen: colours are approximated by quadratic functions, fitted to exact
+// colours over the whole triangle or over its square cells. The cells are aligned to the canvas, not to the tile, so that tiles match the
+// whole picture.
 
-/// @dev Spans of more pixels are drawn eight at a time.
+/// @dev Longer spans are drawn eight pixels at a time.
 uint256 constant SHORT_SPAN = 5;
 
 library Patches {
-    /// @notice Draws the rows from `row` to before `last`, between two edges, in the way of PATCH_SIZE.
+    /// @notice Draws the rows from `row` (inclusive) to `last` (exclusive) between two edges, as PATCH_SIZE selects.
     function fill(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure {
         unchecked {
             uint256 size = load(PATCH_SIZE);
@@ -29,12 +30,12 @@ library Patches {
         }
     }
 
-    /// @dev A row of cells.
+    /// @dev Draws a row of cells.
     function cells(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) private pure {
         unchecked {
             uint256 size = load(PATCH_SIZE);
             uint256 lastEdges = edges + slopes * (last - row - 1);
-            // edges are straight: their ends tell how far they reach
+            // edges are straight: their ends determine the range
             uint256 column = max(
                 min((edges >> EDGES_LEFT_COLUMN_AT) & EDGES_LEFT_COLUMN_MASK, (lastEdges >> EDGES_LEFT_COLUMN_AT) & EDGES_LEFT_COLUMN_MASK),
                 load(COLUMN_BEGIN)
@@ -49,13 +50,13 @@ library Patches {
         }
     }
 
-    /// @notice Fits a quadratic function to nine exact colours of the cell. All depths there are positive.
+    /// @notice Fits a quadratic function to nine exact colours of the cell, where all depths are positive.
     function fit(uint256 column, uint256 row, uint256 start, uint256 size) internal pure {
         unchecked {
             uint256 half = size / 2;
             uint256 x = column + half;
             uint256 y = row / size * size + half;
-            // from column 0 of the row to the middle
+            // from column 0 of the row to the centre
             start += x * load(DX) + (y - row) * load(DY);
             uint256 dx = half * load(DX);
             uint256 dy = half * load(DY);
@@ -83,20 +84,20 @@ library Patches {
         }
     }
 
-    /// @param down, up, cross Differences between the corners: right below and left above, right above and left below, and of the sums of
-    /// both.
+    /// @param down, up, cross Differences of the corners: lower right minus upper left, upper right minus lower left, and that of the sums
+    /// of both pairs.
     function place(uint256 x, uint256 y, uint256 size, uint256 down, uint256 up, uint256 cross) private pure {
         unchecked {
             uint256 shift = 0;
             for (; size > 2; size >>= 1) ++shift;
-            // Changes per pixel, Q58, where the half of the size is 2^shift. The first derivatives are the means of those along the middles
-            // and along the borders: where the third are not zero, either is off by twice as much on one of both.
+            // Changes per pixel, Q58, where half the size is 2^shift. The first derivatives are the means of those along the centre lines
+            // and along the borders: if third derivatives are not zero, one has twice the error of the other, with opposite sign.
             uint256 a = (2 * load(QUADRATIC_S) + down + up) << (48 - 3 - shift);
             uint256 b = (2 * load(QUADRATIC_T) + down - up) << (48 - 3 - shift);
             uint256 xx = load(QUADRATIC_SS) << (48 - 1 - 2 * shift);
             uint256 yy = load(QUADRATIC_TT) << (48 - 1 - 2 * shift);
             uint256 xy = cross << (48 - 2 - 2 * shift);
-            // from the middle to column 0 of the row
+            // from the centre to column 0 of the row
             x = 0 - x;
             store(QUADRATIC_START, (load(QUADRATIC_1) << 48) + bias() + x * (a + x * xx + y * xy) + y * (b + y * yy));
             store(QUADRATIC_DX, a + (2 * x + 1) * xx + y * xy);
@@ -107,12 +108,13 @@ library Patches {
         }
     }
 
-    /// @dev The colour where the accumulator and the ray are these, as quadratic functions take it.
+    /// @dev Returns the colour for this accumulator and ray, as quadratic functions approximate it.
     function weightedAt(uint256 attribute, uint256 x, uint256 y) private pure returns (uint256) {
         return weighted(ExactSpans.colorAt(attribute, x, y), attribute >> ACCUMULATOR_DEPTH_AT);
     }
 
-    /// @dev A colour as quadratic functions take it: where depths differ much, times its depth by the nearest, Q14.
+    /// @dev Returns a colour as quadratic functions approximate it: if depths differ much, multiplied by its depth relative to the nearest,
+    /// Q14.
     function weighted(uint256 color, uint256 depth) private pure returns (uint256) {
         unchecked {
             uint256 nearest = load(PATCH_WEIGHT);
@@ -120,7 +122,7 @@ library Patches {
         }
     }
 
-    /// @dev What a quadratic function has more than its colour: what rounds it, or keeps it positive until it is divided by the depth.
+    /// @dev Returns the bias of a quadratic function: for rounding, or to keep it positive until it is divided by the depth.
     function bias() private pure returns (uint256) {
         return load(PATCH_WEIGHT) == 0 ? HALF_85 : BIAS_84;
     }
@@ -139,7 +141,7 @@ library Patches {
         }
     }
 
-    /// @dev The colour in the middle between two vertices on the screen.
+    /// @dev Returns the colour at the midpoint between two vertices on the screen.
     function between(uint256 a, uint256 b, uint256 depth, uint256 s, uint256 t) private pure returns (uint256) {
         uint256 x;
         uint256 y;
@@ -159,12 +161,13 @@ library Patches {
         return weighted(FragmentLight.colorAt(depth, s, t, x, y, false), depth);
     }
 
-    /// @dev Quadratic colours, row by row.
+    /// @dev Draws quadratic colours row by row.
     function rows(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) private pure {
         assembly ("memory-safe") {
-            // four depths, of which the last n count but for the last r: where they are not less, ones for the colours that stay
+            // The depth test of four pixels; the last n of them except for the last r take part. Writes depths, and returns ones for the
+            // colours to keep.
             function depths(p, n, r, attribute) -> hidden {
-                // as exact as those of single fragments, so that of surfaces that coincide the first stays
+                // as exact as the depths of single fragments, so that the first of coinciding surfaces remains
                 let dx := mload(DX)
                 let z := shr(ACCUMULATOR_DEPTH_AT, attribute)
                 attribute := sub(attribute, dx)
@@ -180,14 +183,14 @@ library Patches {
                 fail := and(fail, not(keep))
                 if fail {
                     keep := or(keep, or(fail, sub(fail, shr(63, fail))))
-                    // bits 0, 64, 128 and 192 to lanes of 24 bits
+                    // spread bits 0, 64, 128 and 192 to lanes of 24 bits
                     hidden := mul(shr(63, fail), TOPS_64_TO_24)
                     hidden := shr(120, mul(and(hidden, PIXELS_AT_120), LANE_24))
                 }
                 mstore(p, xor(z, and(xor(z, old), keep)))
             }
 
-            // a channel of eight fragments, Q9 in 24 bits each, the last lowest, kept between 0 and 255
+            // a channel of eight fragments, Q9 in 24 bits each, the last one lowest, clamped to 0..255
             function channel(value, slope, bend) -> word {
                 word := add(mul(and(value, LANE_24), ONES_24), bend)
                 word := sub(word, mul(signextend(2, slope), STEPS_24))
@@ -200,7 +203,7 @@ library Patches {
                 word := and(word, BYTES_24)
             }
 
-            // a colour, Q58, from one times its depth, Q72, whose lanes BIAS_84 keeps positive
+            // a colour, Q58, from a colour times its depth, Q72, in lanes kept positive by BIAS_84
             function unweighted(f, depth) -> color {
                 f := sub(and(shr(48, f), LANES_37), BIAS_36)
                 color := add(mul(f, div(shl(34, mload(PATCH_WEIGHT)), depth)), HALF_85)
@@ -208,17 +211,17 @@ library Patches {
 
             // the quadratic part of each channel over eight fragments
             function setBend(bend) {
-                // rounded to the nearest
+                // rounded to nearest
                 bend := add(bend, BEND_ROUNDING)
                 mstore(BEND_BLUE, mul(signextend(2, shr(BLUE_Q9_AT, bend)), SQUARES_24))
                 mstore(BEND_GREEN, mul(signextend(2, shr(GREEN_Q9_AT, bend)), SQUARES_24))
                 mstore(BEND_RED, mul(signextend(2, shr(RED_Q9_AT, bend)), SQUARES_24))
             }
 
-            // the last n fragments that end at p, but for the last r; attribute, colour and slope are those of the last
+            // draws the last n of the fragments that end at p, except for the last r; attribute, colour and slope are those of the last one
             function wide(p, n, r, attribute, f, g) {
                 for {} 1 {} {
-                    // colours that stay
+                    // colours to keep
                     let keep := or(or(shl(mul(24, n), not(0)), shl(192, not(0))), sub(shl(mul(24, r), 1), 1))
                     if lt(r, 4) { keep := or(keep, depths(p, n, r, attribute)) }
                     if gt(n, 4) {
@@ -254,7 +257,7 @@ library Patches {
                 }
             }
 
-            // one after the other
+            // one by one
             function narrow(p, end, attribute, f, g) {
                 let q := add(mload(IMAGE_ORIGIN), mul(3, shr(3, p)))
                 for {} 1 {} {
@@ -317,7 +320,7 @@ library Patches {
                         if and(mload(MODE), IS_CROSSING) {
                             if lt(from, mload(COLUMN_BEGIN)) { n := sub(to, sub(mload(COLUMN_BEGIN), 1)) }
                             if gt(to, sub(mload(COLUMN_END), 1)) {
-                                // eights that lie outside
+                                // groups of eight that lie outside
                                 r := sub(to, sub(mload(COLUMN_END), 1))
                                 from := and(r, not(7))
                                 r := and(r, 7)

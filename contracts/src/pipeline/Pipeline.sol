@@ -10,16 +10,16 @@ import {Clipper} from "./Clipper.sol";
 import {Compositor} from "./Compositor.sol";
 import "./Registers.sol";
 
-// A picture from beginning to end. Memory holds, in this order: registers, vertices and listed triangles of all objects, the pixels, and
-// the depths of a band of rows.
+// Draws a picture from beginning to end. Memory contains, in this order: registers, vertices and listed triangles of all objects, the
+// pixels, and the depths of a band of rows.
 
-/// @dev Pixels of a band, so that the depth buffer stays small however large the picture is.
+/// @dev The number of pixels in a band, which bounds the depth buffer for pictures of any size.
 uint256 constant BAND_PIXELS = 16384;
 
-/// @param pixels Address of the pixels: rows from the bottom without gaps, blue, green, red; before them are two free words.
-/// @param size Their length in bytes, or that of the pixels and the depths behind them: see RETURNS_DEPTHS.
-/// @param triangles How many faces were to be drawn: see PrimitiveAssembly.
-/// @param litPixels How many pixels they cover, if that was asked for.
+/// @param pixels The address of the pixels: rows from the bottom without padding; blue, green, red. Two free words precede it.
+/// @param size The length of the pixels in bytes, or of the pixels and the depths after them: see RETURNS_DEPTHS.
+/// @param triangles The number of faces to draw: see PrimitiveAssembly.
+/// @param litPixels The number of pixels they cover, if counted.
 struct Picture {
     uint256 pixels;
     uint256 size;
@@ -28,32 +28,32 @@ struct Picture {
 }
 
 abstract contract Pipeline is PrimitiveAssembly {
-    /// @notice Draws the edges of the triangles of a list, if this engine is one for wires.
+    /// @notice Draws the edges of the triangles of a list, if this engine draws wires.
     function drawWires(uint256 list, uint256 end) internal pure virtual;
 
-    /// @notice Fills the pixels with the background, or with what was drawn before, and reserves the memory of the depths behind them.
-    /// @param image Address of the pixels.
-    /// @param bandRows How many rows of depths are kept at a time.
-    /// @param lists Of each object the vertex records, the list of its triangles, the end of that.
-    /// @return size Bytes from `image` on that are to be returned: see Picture.
+    /// @notice Fills the pixels with the background, or with what was drawn before, and reserves memory for the depths after them.
+    /// @param image The address of the pixels.
+    /// @param bandRows The number of rows in a band.
+    /// @param lists For each object, the vertex records, and the beginning and end of its list of triangles.
+    /// @return size The number of bytes from `image` on to return: see Picture.
     function openPicture(Rectangle memory tile, uint256 image, uint256 bandRows, uint256[3][] memory lists)
         internal
         pure
         virtual
         returns (uint256 size);
 
-    /// @notice Makes the depths ready for the rows `top` to before `bottom` of the tile.
+    /// @notice Prepares the depths for the rows from `top` (inclusive) to `bottom` (exclusive) of the tile.
     function openBand(Rectangle memory tile, uint256 image, uint256 top, uint256 bottom) internal pure virtual;
 
-    /// @notice Brings what was drawn in the band to its pixels.
+    /// @notice Writes the samples of the band to its pixels.
     function closeBand() internal pure virtual;
 
-    /// @notice How many pixels of the band are covered, which has so many rows.
+    /// @notice Returns the number of covered pixels of the band, which has `bandRows` rows.
     function litPixels(uint256 bandRows) internal pure virtual returns (uint256);
 
-    /// @notice Draws a part of the canvas. The data behind the selector are those of `Uniforms.sol`.
-    /// @return Two words without the ABI's offsets and lengths: how many triangles were left after culling and clipping, how many pixels
-    /// they cover (0 if not counted); then the pixels, blue, green, red, rows from the bottom, and the depths, if they are asked for.
+    /// @notice Draws a part of the canvas. The calldata after the selector is in the format of `Uniforms.sol`.
+    /// @return Two words without the ABI's offsets and lengths: the number of triangles left after culling and clipping, and the number of
+    /// pixels they cover (0 if not counted); then the pixels, blue, green, red, rows from the bottom; then the depths, if requested.
     function drawTile() external pure returns (bytes memory) {
         Picture memory picture = draw();
         assembly ("memory-safe") {
@@ -68,7 +68,7 @@ abstract contract Pipeline is PrimitiveAssembly {
         unchecked {
             reserveRegisters(REGISTERS, REGISTERS_END);
             copyCalldata(REGISTERS, 4, FRAME_SIZE);
-            // once, since what is allocated later stands behind the depths, and makes memory grow over rows that nothing touches
+            // allocated once: later allocations follow the depths, and would expand memory over untouched rows
             Rectangle memory tile;
             Mesh memory mesh;
             assembly ("memory-safe") {
@@ -80,14 +80,14 @@ abstract contract Pipeline is PrimitiveAssembly {
             uint256 bandRows = BAND_PIXELS / tile.width;
             if (bandRows > tile.height) bandRows = tile.height;
             bool atOnce = bandRows == tile.height;
-            // of each object the vertex records, the list of its triangles, the end of that
+            // for each object, the vertex records, and the beginning and end of its list of triangles
             uint256[3][] memory lists = new uint256[3][](load(OBJECT_COUNT));
             uint256 uniforms = load(OBJECTS);
             for (uint256 i; i != lists.length; ++i) {
                 uniforms = readObject(uniforms);
                 uint256 drawn;
                 (lists[i][0], lists[i][1], lists[i][2], drawn) = assembleObject(mesh, load(OBJECT_FIRST) + i, atOnce);
-                // what is not seen at all is checked only
+                // fully transparent objects are only checked
                 if (load(OPACITY) != 0) picture.triangles += drawn;
             }
 
@@ -97,19 +97,19 @@ abstract contract Pipeline is PrimitiveAssembly {
             picture.size = openPicture(tile, image, bandRows, lists);
 
             for (uint256 bottom = tile.height; bottom != 0;) {
-                // bands go up, as the rows of the file do
+                // bands go upward, like the rows of the file
                 uint256 top = bottom < bandRows ? 0 : bottom - bandRows;
                 store(BAND_TOP, tile.y + PIXEL_BIAS + top);
                 store(BAND_BOTTOM, tile.y + PIXEL_BIAS + bottom);
                 openBand(tile, image, top, bottom);
                 uniforms = load(OBJECTS);
                 for (uint256 i; i != lists.length; ++i) {
-                    // what a single object needs is still there
+                    // the uniforms of a single object are still in place
                     if (lists.length != 1) uniforms = readObject(uniforms);
                     uint256 mode = load(OBJECT_MODE);
                     if (load(OPACITY) == 0) continue;
                     if (mode & IS_BLENDED != 0) {
-                        // first which of its surfaces is the nearest, then its colour
+                        // first find the nearest surface, then draw its colour
                         store(OBJECT_MODE, (mode & IS_ORTHOGRAPHIC) | IS_DEPTH_PASS);
                         drawObject(mesh, lists[i], atOnce, recordShift(mode));
                         store(OBJECT_MODE, mode);
@@ -126,7 +126,7 @@ abstract contract Pipeline is PrimitiveAssembly {
     }
 
     /// @dev Reads the uniforms of an object into their registers.
-    /// @return next Where those of the next begin.
+    /// @return next The position of the next object's uniforms.
     function readObject(uint256 position) internal pure virtual returns (uint256 next) {
         unchecked {
             uint256 size;
@@ -144,7 +144,7 @@ abstract contract Pipeline is PrimitiveAssembly {
         }
     }
 
-    /// @return drawn How many faces were drawn that were not listed before.
+    /// @return drawn The number of faces drawn that were not listed before.
     function drawObject(Mesh memory mesh, uint256[3] memory list, bool atOnce, uint256 shift) private pure returns (uint256 drawn) {
         if (load(OBJECT_FLAGS) & WIREFRAME == 0) {
             if (atOnce) (, drawn) = assemble(mesh, list[0], shift, 0, load(OBJECT_FLAGS) & CULL_BACKFACES != 0);
@@ -154,8 +154,8 @@ abstract contract Pipeline is PrimitiveAssembly {
         }
     }
 
-    /// @dev Vertices and triangles of the object whose uniforms were read, after what memory holds already.
-    /// @param atOnce Whether faces that need no clipping are drawn at once, and are not to be listed.
+    /// @dev Makes the vertices and triangles of the current object, after the data already in memory.
+    /// @param atOnce Whether faces that need no clipping are drawn immediately, rather than listed.
     function assembleObject(Mesh memory mesh, uint256 index, bool atOnce)
         private
         pure
@@ -182,7 +182,7 @@ abstract contract Pipeline is PrimitiveAssembly {
         }
     }
 
-    /// @dev The size of a vertex record, as a power of two: position, colour, and what the fragment shader keeps there.
+    /// @dev Returns the size of a vertex record as a power of two: position, colour, and the data that fragment shading stores there.
     function recordShift(uint256 mode) internal pure returns (uint256) {
         unchecked {
             if (mode & IS_SMOOTH != 0) return 8;

@@ -4,19 +4,19 @@ pragma solidity 0.8.37;
 import {Rasterizer} from "./Rasterizer.sol";
 import "./Registers.sol";
 
-// From triangles to fragments, by a digital differential analyzer.
+// Rasterizes triangles to fragments at pixel centres, by a digital differential analyzer.
 //
 // Edges are two columns, Q48, in lanes of 128 bits, such that the integer part is the first pixel whose centre is not left of the edge: the
-// left one below, the right one above. Rows are told by the addresses that their depths have at column 0, which go down. Q48 columns are
-// Q45 numbers of bytes of depths, so with the address of the row added, edges are the addresses of depths.
+// left edge in the lower lane, the right one in the upper lane. Rows are represented by the addresses of their depths at column 0, which
+// decrease downward. A Q48 column is a Q45 offset of depths in bytes, so with the address of the row added, edges are addresses of depths.
 abstract contract PixelRasterizer is Rasterizer {
     /// @notice Draws the fragments of a triangle.
-    /// @param edges Addresses, of the upper part; SLOPES are their changes.
-    /// @param rows How many rows the upper part has.
+    /// @param edges Addresses at the upper part; SLOPES are their changes.
+    /// @param rows The number of rows of the upper part.
     /// @param row The address of the first row.
     function drawParts(uint256 edges, uint256 rows, uint256 row) internal pure virtual;
 
-    /// @notice Draws the fragments between two edges, in the rows from `row` to before `end`, told by addresses.
+    /// @notice Draws the fragments between two edges in the rows from `row` (inclusive) to `end` (exclusive), given by addresses.
     /// @param edges, slopes Columns, Q48.
     /// @param start The accumulator at column 0 of the first row; DX and DY are its changes.
     function drawRows(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 end) internal pure virtual;
@@ -35,9 +35,9 @@ abstract contract PixelRasterizer is Rasterizer {
             // from the first vertex to the centres of the first row
             let y := and(sub(0, a), SUBPIXEL_MASK)
             {
-                // The gradients of the barycentric coordinates t (of c) and s (of b), Q29 per pixel:
-                // dt/dx = yb / area, dt/dy = -xb / area, ds/dx = -yc / area, ds/dy = xc / area
-                // Rounded to 2^-29, over the 4,096 pixels of the guard band in both directions they leave s + t within 2^-15.
+                // The gradients of the barycentric coordinates t (of c) and s (of b), Q29 per pixel: dt/dx = yb / area, dt/dy = -xb / area,
+                // ds/dx = -yc / area, ds/dy = xc / area. Rounded to 2^-29, over the 4,096 pixels of the guard band in both directions they
+                // leave s + t within 2^-15.
                 let area := sub(mul(xc, b), mul(xb, c)) // xc * yb - xb * yc: twice the area, in sub-pixels
                 let dx := sdiv(shl(GRADIENT_SHIFT, b), area)
                 let dy := sdiv(shl(GRADIENT_SHIFT, xb), area)
@@ -55,7 +55,7 @@ abstract contract PixelRasterizer is Rasterizer {
             }
             // columns per row, Q48: left (xb / yb) and right (xc / yc)
             let slopes := add(sdiv(shl(EDGE_FRACTION, xb), b), shl(RIGHT_EDGE_AT, sdiv(shl(EDGE_FRACTION, xc), c)))
-            // Shifted as a whole, the product leaves 8 bits of the upper lane at the top of the lower one, where they do no harm.
+            // In the shifted product, 8 bits of the upper lane enter the top of the lower one, where they do no harm.
             edges := sar(SUBPIXEL_BITS, mul(y, slopes)) // y * slope, Q48
             // the edge between b and c
             y := sdiv(shl(EDGE_FRACTION, sub(xc, xb)), sub(c, b))
@@ -90,7 +90,7 @@ abstract contract PixelRasterizer is Rasterizer {
                 mstore(LOWER_KEPT, LANE_128)
                 mstore(LOWER_SLOPES, sub(add(signextend(15, slopes), shl(RIGHT_EDGE_AT, y)), mload(STRIDE_LANES)))
             }
-            // the first row, its address; the number of rows of the upper part
+            // the address of the first row; the number of rows of the upper part
             a := shr(SUBPIXEL_BITS, add(a, SUBPIXEL_MASK))
             b := sub(b, a)
             a := sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), a))
@@ -100,8 +100,9 @@ abstract contract PixelRasterizer is Rasterizer {
         drawParts(edges, b, a);
     }
 
-    /// @dev Whether a triangle covers no pixel centre. Where one lies on an edge the answer is no: the edges of the Rasterizer are rounded.
-    /// @param a, b, c Its screen words, the topmost first, counter-clockwise.
+    /// @dev Returns whether a triangle covers no pixel centre. Returns false if one lies on an edge, since the rasterized edges are
+    /// rounded.
+    /// @param a, b, c The screen words of its vertices, the topmost first, counter-clockwise.
     function coversNothing(uint256 a, uint256 b, uint256 c) internal pure override returns (bool nothing) {
         assembly ("memory-safe") {
             let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
@@ -114,7 +115,7 @@ abstract contract PixelRasterizer is Rasterizer {
             nothing := 1
             // rows from the first one, in sub-pixels below the first vertex
             for { let y := and(sub(0, a), SUBPIXEL_MASK) } or(lt(y, b), lt(y, c)) { y := add(y, 256) } {
-                // columns, Q16 in sub-pixels: on the left from a by b to c, on the right from a to c, or by c to b
+                // columns, Q16 in sub-pixels: on the left from a via b to c; on the right from a to c, or via c to b
                 let left := add(shl(16, xb), sdiv(mul(sub(y, b), shl(16, sub(xc, xb))), sub(c, b)))
                 let right := left
                 if lt(y, b) { left := sdiv(mul(y, shl(16, xb)), b) }
@@ -127,7 +128,7 @@ abstract contract PixelRasterizer is Rasterizer {
         }
     }
 
-    /// @dev The fragments of a triangle of which some rows may lie outside the band, or with more to do than the plain loop does.
+    /// @dev Draws the fragments of a triangle with rows that may lie outside the band, or whose fragments the plain loop cannot draw.
     function drawBothParts(uint256 edges, uint256 rows, uint256 row) internal pure {
         unchecked {
             uint256 start = load(START);
@@ -151,7 +152,7 @@ abstract contract PixelRasterizer is Rasterizer {
         }
     }
 
-    /// @notice Draws the fragments between two edges, in the rows from `row` to before `end` that lie in the band.
+    /// @notice Draws the fragments between two edges in the rows from `row` (inclusive) to `end` (exclusive) that lie in the band.
     /// @param start The accumulator at column 0 of row `row`; DX and DY are its changes.
     function fill(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 end) internal pure {
         unchecked {
@@ -170,7 +171,7 @@ abstract contract PixelRasterizer is Rasterizer {
         }
     }
 
-    /// @dev The row whose depths have this address at column 0.
+    /// @dev Returns the row of which this is the address of the depth at column 0.
     function rowAt(uint256 position) internal pure returns (uint256) {
         unchecked {
             return (load(DEPTH_ORIGIN) - position) / load(DEPTH_STRIDE);

@@ -7,22 +7,22 @@ import {Rasterizer} from "./Rasterizer.sol";
 import {ALL_EDGES, Triangles} from "./Triangles.sol";
 import "./Registers.sol";
 
-// From vertices and faces to triangles that are to be drawn: those that face the viewer (or all). Where the depths of the whole tile fit
-// one band, each is drawn at once. Else, and where lines are drawn, and after clipping, it is listed: see Triangles. The first vertex is
-// the topmost, and the three run counter-clockwise on the screen.
+// Assembles the triangles to draw from vertices and faces: those that face the viewer, or all if both sides are visible. If the depths of
+// the whole tile fit one band, each triangle is drawn immediately. Otherwise, and for lines and after clipping, it is listed: see
+// Triangles. The first vertex is the topmost, and the vertices are counter-clockwise on the screen.
 
-/// @dev Twice the area of a face that faces the viewer is above this, Q192.
+/// @dev Twice the area of a front face is above this, Q192.
 int256 constant HALF_AREA = 0x800000000000000000000000000000000000000000000000;
-/// @dev Twice the area, Q192, below which a face may lie between the pixel centres: that of one pixel.
+/// @dev Faces with twice an area, Q192, below this may lie between the pixel centres: the area of one pixel.
 int256 constant SMALL_AREA = 0x20000 << 192;
 
 abstract contract PrimitiveAssembly is Rasterizer {
-    /// @notice Draws the faces, or lists them for later, besides those that have to be clipped.
-    /// @param records Address of the vertex records, 2^shift bytes each.
-    /// @param list Where to write the triangles; 0 to draw them at once.
+    /// @notice Draws the faces, or lists them for later; skips those to be clipped.
+    /// @param records The address of the vertex records, 2^shift bytes each.
+    /// @param list The address for the list of triangles; 0 to draw them immediately.
     /// @return end The end of the list.
-    /// @return drawn How many faces are to be drawn: they face the viewer, or both sides are drawn, and they do not lie beyond one border
-    /// of the tile.
+    /// @return drawn The number of faces to draw: they face the viewer, or both sides are visible, and they do not lie entirely beyond one
+    /// edge of the tile.
     function assemble(Mesh memory mesh, uint256 records, uint256 shift, uint256 list, bool cull)
         internal
         pure
@@ -38,7 +38,7 @@ abstract contract PrimitiveAssembly is Rasterizer {
         }
     }
 
-    /// @param down How far the numbers of a face are shifted down to be offsets of records, which `mask` cuts out.
+    /// @param down The shift of a face's vertex indices that makes them offsets of records, which `mask` extracts.
     function loop(uint256 face, uint256 records, uint256 down, uint256 mask) private pure {
         unchecked {
             while (face < load(FACES_END)) {
@@ -52,9 +52,9 @@ abstract contract PrimitiveAssembly is Rasterizer {
                     a := mload(add(records, and(shr(FACE_FIRST_AT, c), mask)))
                     b := mload(add(records, and(shr(FACE_SECOND_AT, c), mask)))
                     c := mload(add(records, and(c, mask)))
-                    // Twice the area, (xc - xa) * (yb - ya) - (xb - xa) * (yc - ya), as the upper part of the product of
-                    // K^2 * (yb - ya) + K * (xb - xa) and K * (xc - xa) - K^2 * (yc - ya), where K = 2^64; what is below K is noise,
-                    // and so are all bits of the product below 2^186. Columns are turned round by taking them from 2^20 - 1.
+                    // Twice the area, (xc - xa) * (yb - ya) - (xb - xa) * (yc - ya), as the upper part of the product of K^2 * (yb - ya) +
+                    // K * (xb - xa) and K * (xc - xa) - K^2 * (yc - ya), where K = 2^64; what is below K is noise, and so are all bits of
+                    // the product below 2^186. Columns are mirrored by subtracting them from 2^20 - 1.
                     area := mul(sub(b, a), sub(xor(a, SCREEN_COLUMNS), xor(c, SCREEN_COLUMNS)))
                 }
                 if (area <= loadSigned(LEAST_AREA)) continue;
@@ -72,7 +72,7 @@ abstract contract PrimitiveAssembly is Rasterizer {
                     mstore(DRAWN, add(mload(DRAWN), 1))
                     mstore(FACE, sub(face, FACE_SIZE))
                 }
-                // the topmost first, without changing the sense of rotation
+                // rotate the topmost vertex to the front, without changing the orientation
                 if (b < a) {
                     if (b < c) (a, b, c) = (b, c, a);
                 }
@@ -88,7 +88,7 @@ abstract contract PrimitiveAssembly is Rasterizer {
         }
     }
 
-    /// @dev What the flags of the vertices of a triangle, taken together, mean for its mode.
+    /// @dev Converts the combined flags of a triangle's vertices to bits of its mode.
     function crossingOf(uint256 flags) private pure returns (uint256) {
         return (flags & IS_BESIDE != 0 ? IS_CROSSING : 0) | (flags & IS_OVER != 0 ? IS_CUT : 0);
     }

@@ -3,19 +3,19 @@ pragma solidity 0.8.37;
 
 import "./Registers.sol";
 
-// Values that are quadratic functions of the place on the screen, three in a word: signed lanes of 85 bits. A smooth function that is
-// fitted at the corners and at the middles of the edges of a triangle (the P2 element) is off by third-order terms only.
+// Quadratic functions of the position on the screen, three in a word, in signed lanes of 85 bits. A smooth function that is interpolated
+// from its values at the corners and edge midpoints of a triangle (the P2 element) has errors of third order only.
 //
 // With the barycentric coordinates s of the second vertex and t of the third,
 //
 //   value = QUADRATIC_1 + s * QUADRATIC_S + t * QUADRATIC_T + s^2 * QUADRATIC_SS + s * t * QUADRATIC_ST + t^2 * QUADRATIC_TT
 //
-// where the coefficients may have any Q format, Qn. Coordinates are Q24, so their products and what is made of them have 48 bits more:
-// Qn+48. Only sums and products by whole numbers are taken: lanes that overflow on the way are right again at each pixel whose own value
-// fits its lane, and a row or column gives the same bits wherever the differences began.
+// where the coefficients have any Q format, Qn. Coordinates are Q24, so products with them have 48 more bits: Qn+48. Only sums and products
+// with integers are computed: intermediate overflows of lanes cancel at each pixel whose value fits its lane, and a row or column yields
+// the same bits wherever the differences start.
 
 library Quadratic {
-    /// @notice The coefficients from the values at the vertices and at the middles of the edges.
+    /// @notice Computes the coefficients from the values at the vertices and the edge midpoints.
     function fromNodes(uint256 a, uint256 b, uint256 c, uint256 ab, uint256 ac, uint256 bc) internal pure {
         assembly ("memory-safe") {
             // along an edge: value = a + s * (b - a) + s * (1 - s) * (4 * ab - 2 * (a + b))
@@ -30,9 +30,9 @@ library Quadratic {
         }
     }
 
-    /// @notice The value at column 0 of row `top` (QUADRATIC_START) and its differences, from the coefficients. The change from column x
-    /// of row y to column x + 1 is QUADRATIC_DX + x * QUADRATIC_DXX + y * QUADRATIC_DXY, and so on for rows.
-    /// @param a The screen words of the vertices, as those of the triangle.
+    /// @notice Computes the value at column 0 of row `top` (QUADRATIC_START) and its differences from the coefficients. The change from
+    /// column x of row y to column x + 1 is QUADRATIC_DX + x * QUADRATIC_DXX + y * QUADRATIC_DXY; rows likewise.
+    /// @param a, b, c The screen words of the vertices, as for the triangle.
     function setDifferences(uint256 a, uint256 b, uint256 c, uint256 top) internal pure {
         assembly ("memory-safe") {
             let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
@@ -53,7 +53,7 @@ library Quadratic {
             b := sar(SUBPIXEL_BITS, sub(mul(xc, a), mul(dsdx, x)))
             c := sar(SUBPIXEL_BITS, sub(mul(xb, a), mul(dtdx, x)))
             {
-                // value, and its derivatives by s and t, Qn+24
+                // the value, and its derivatives with respect to s and t, Qn+24
                 a := mul(b, mload(QUADRATIC_SS))
                 x := mul(c, mload(QUADRATIC_TT))
                 let ds := add(add(shl(Q24, mload(QUADRATIC_S)), a), mul(c, mload(QUADRATIC_ST)))
@@ -71,7 +71,7 @@ library Quadratic {
                 // dsdy * (2 * SS * dsdx + ST * dtdx) + dtdy * (ST * dsdx + 2 * TT * dtdx)
                 a := add(shl(1, a), mul(dtdx, mload(QUADRATIC_ST)))
                 mstore(QUADRATIC_DXY, add(mul(xc, a), mul(xb, add(b, x))))
-                // the same down
+                // the same for columns
                 b := add(mul(xc, mload(QUADRATIC_ST)), mul(xb, mload(QUADRATIC_TT)))
                 c := add(mul(xc, mul(xc, mload(QUADRATIC_SS))), mul(xb, b))
                 mstore(QUADRATIC_DY, add(c, add(mul(xc, ds), mul(xb, dt))))

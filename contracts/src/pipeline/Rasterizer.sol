@@ -3,11 +3,11 @@ pragma solidity 0.8.37;
 
 import "./Registers.sol";
 
-// From triangles to fragments: PixelRasterizer takes the centres of pixels, SampleRasterizer four samples of each.
+// Rasterizes triangles to fragments: PixelRasterizer samples pixel centres, SampleRasterizer four samples per pixel.
 //
-// How triangles are shaded, each engine says: see Engine and FragmentEngine.
+// Each engine implements the shading of triangles: see Engine and FragmentEngine.
 abstract contract Rasterizer {
-    /// @notice Chooses the way to shade a triangle, and sets what that way needs: MODE, ATTRIBUTE_0, DELTA_1, DELTA_2 and more.
+    /// @notice Selects how a triangle is shaded, and sets the registers for it: MODE, ATTRIBUTE_0, DELTA_1, DELTA_2 and others.
     /// @param a, b, c The screen words of its vertices, the topmost first, counter-clockwise.
     /// @param crossing IS_CROSSING, IS_CUT, both or neither.
     function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure virtual;
@@ -16,7 +16,7 @@ abstract contract Rasterizer {
     /// @param a, b, c The screen words of its vertices, the topmost first, counter-clockwise.
     function drawTriangle(uint256 a, uint256 b, uint256 c) internal pure virtual;
 
-    /// @notice Whether a small triangle covers nothing that is drawn. The answer may be no where that is so.
+    /// @notice Returns whether a small triangle covers nothing. May return false even then.
     /// @param a, b, c As for `drawTriangle`.
     function coversNothing(uint256 a, uint256 b, uint256 c) internal pure virtual returns (bool);
 

@@ -8,31 +8,31 @@ import "./Words.sol";
 
 // ------------------------------------------------------------------------------------------------------------------------------ registers
 
-/// @dev Where registers begin: what the compiler keeps in memory must end before.
+/// @dev The beginning of the registers: the maximum end of the compiler's variables in memory.
 uint256 constant REGISTERS = 0x800;
 uint256 constant REGISTERS_END = 0x3fc0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- frame
 // The uniforms of the frame, which the Renderer fills. Pixel columns and rows are counted from -PIXEL_BIAS, so that everything inside the
-// guard band is positive; sub-pixel coordinates are pixels with 8 more bits, and whole pixels are the centres of pixels.
+// guard band is positive; sub-pixel coordinates are pixels with 8 more bits; integers are pixel centres.
 
-/// @dev Where these registers begin, and their bytes.
+/// @dev The beginning of these registers, and their size in bytes.
 uint256 constant FRAME_BEGIN = 0x800;
 uint256 constant FRAME_SIZE = 0x9e0;
-/// @dev 1 for an orthographic camera; 1 for four samples of each pixel; else 0.
+/// @dev 1 for an orthographic camera; 1 for four samples per pixel; otherwise 0.
 uint256 constant FRAME_IS_ORTHOGRAPHIC = 0x800;
 uint256 constant FRAME_IS_ANTIALIASED = 0x820;
-/// @dev Where in calldata the answer of the contract Effects begins, 0 if the scene has no effects; and its size. (Before the call: where
-/// it is in memory.)
+/// @dev The calldata offset of the answer of the contract Effects, 0 if the scene has no effects; and its size. (Before the call: its
+/// memory address.)
 uint256 constant EFFECTS = 0x840;
 uint256 constant EFFECTS_SIZE = 0x860;
 /// @dev Distance of the near plane, Q32.
 uint256 constant NEAR = 0x880;
-/// @dev depth = DEPTH_SCALE / distance (perspective), DEPTH_SCALE - distance / 256 (orthographic): 2^54 at most, so that the highest bit of
+/// @dev depth = DEPTH_SCALE / distance (perspective), DEPTH_SCALE - distance / 256 (orthographic): at most 2^54, so that the highest bit of
 /// the 64 of a depth in the buffer, which has 8 more, is free.
 uint256 constant DEPTH_SCALE = 0x8a0;
-/// @dev Depths of samples, so that their highest bits tell the surfaces of the scene apart: a depth of an accumulator less the base, times
-/// 2^SAMPLE_SHIFT, which the scale has in each lane. See SampleDepths.
+/// @dev Depths of samples, scaled so that their highest bits distinguish the surfaces of the scene: the depth of an accumulator minus the
+/// base, times 2^SAMPLE_SHIFT, which is in each lane of the scale. See SampleDepths.
 uint256 constant SAMPLE_BASE = 0x8c0;
 uint256 constant SAMPLE_SHIFT = 0x8e0;
 uint256 constant SAMPLE_SCALE = 0x900;
@@ -42,12 +42,12 @@ uint256 constant COLUMN_END = 0x940;
 /// @dev Bytes of a row of depths.
 uint256 constant DEPTH_STRIDE = 0x960;
 /// @dev The ray through a pixel, (x, y, 1) in camera space, Q24: x = RAY_LEFT + column * RAY_STEP, y = RAY_TOP + row * RAY_STEP. For an
-/// orthographic camera, where all rays are parallel, the place beside the line of sight in world units, Q32.
+/// orthographic camera, where all rays are parallel, the position beside the line of sight in world units, Q32.
 uint256 constant RAY_LEFT = 0x980;
 uint256 constant RAY_TOP = 0x9a0;
 uint256 constant RAY_STEP = 0x9c0;
-/// @dev First guess at the length of a ray from its square: LENGTH_AT_0 + LENGTH_SLOPE * square >> 48; and how many steps of Newton's
-/// method refine it besides the first.
+/// @dev First approximation of the length of a ray from its square: LENGTH_AT_0 + LENGTH_SLOPE * square >> 48; and the number of further
+/// steps of Newton's method after the first.
 uint256 constant LENGTH_AT_0 = 0x9e0;
 uint256 constant LENGTH_SLOPE = 0xa00;
 uint256 constant LENGTH_STEPS = 0xa20;
@@ -59,19 +59,19 @@ uint256 constant TILE_HEIGHT = 0xaa0;
 /// @dev The background of the lowest row of the tile, lanes of Q24 with half a level, and its change from row to row upwards.
 uint256 constant BACKGROUND = 0xac0;
 uint256 constant BACKGROUND_STEP = 0xae0;
-/// @dev 1 if all bytes are inverted in the end; 1 if covered pixels are counted; else 0.
+/// @dev 1 if all bytes are inverted at the end; 1 if covered pixels are counted; otherwise 0.
 uint256 constant INVERT = 0xb00;
 uint256 constant COUNT_PIXELS = 0xb20;
-/// @dev How many objects are to be drawn, where in calldata the uniforms of the first begin, and its number in the scene.
+/// @dev The number of objects to draw, the calldata offset of the first one's uniforms, and its number in the scene.
 uint256 constant OBJECT_COUNT = 0xb40;
 uint256 constant OBJECTS = 0xb60;
 uint256 constant OBJECT_FIRST = 0xb80;
-/// @dev The same of all objects: see Runs.
+/// @dev The number of all objects, and the offset of their uniforms: see Runs.
 uint256 constant OBJECT_TOTAL = 0xba0;
 uint256 constant OBJECTS_BEGIN = 0xbc0;
-/// @dev Where in calldata the pixels and depths stand of what was drawn before; 0 if nothing was.
+/// @dev The calldata offset of the pixels and depths drawn before; 0 if there are none.
 uint256 constant DRAWN_BEFORE = 0xbe0;
-/// @dev 1 if depths are returned as well; 1 if nothing is drawn, and triangles are counted; else 0.
+/// @dev 1 if depths are returned too; 1 if triangles are counted and nothing is drawn; otherwise 0.
 uint256 constant RETURNS_DEPTHS = 0xc00;
 uint256 constant ONLY_COUNTS = 0xc20;
 /// @dev The address after the last record of a light.
@@ -84,36 +84,36 @@ uint256 constant LIGHTS = 0xc60;
 /// @dev First row of the band that is being drawn, and the row after its last.
 uint256 constant BAND_TOP = 0x11e0;
 uint256 constant BAND_BOTTOM = 0x1200;
-/// @dev Address that the depth of row 0, column 0 would have, which may be below 0. Rows go down in memory, as they do in a bitmap.
+/// @dev The address of the depth at row 0, column 0, extrapolated, which may be negative. Rows go down in memory, as in a bitmap.
 uint256 constant DEPTH_ORIGIN = 0x1220;
-/// @dev Where the depths begin, or the samples.
+/// @dev The address of the depths, or of the samples.
 uint256 constant DEPTHS = 0x1240;
-/// @dev A pixel with its depth at p has its colour at IMAGE_ORIGIN + 3 * (p / 8).
+/// @dev The colour of a pixel with its depth at p is at IMAGE_ORIGIN + 3 * (p / 8).
 uint256 constant IMAGE_ORIGIN = 0x1260;
 
 // --------------------------------------------------------------------------------------------------------------------------------- object
-// The uniforms of an object, which the Renderer fills. They end where the last one is that the object needs: unlit ones at OBJECT_LIT,
-// others behind their lights, and with SPECULAR_TABLE only where there is one.
+// The uniforms of an object, which the Renderer fills. They end with the last one that the object needs: for unlit objects at OBJECT_LIT,
+// for others after their lights, and with SPECULAR_TABLE only if they have a highlight.
 
-/// @dev How many bytes of the following the object has; the first word of them.
+/// @dev The size of the object's uniforms in bytes; their first word.
 uint256 constant OBJECT_BYTES = 0x1280;
-/// @dev The bits of MODE that all faces of the object share, and its flags, as in the scene.
+/// @dev The bits of MODE shared by all faces of the object, and its flags, as in the scene.
 uint256 constant OBJECT_MODE = 0x12a0;
 uint256 constant OBJECT_FLAGS = 0x12c0;
-/// @dev How much of what is behind it the object hides, Q24; 1 where it is opaque.
+/// @dev The opacity of the object, Q24; 1 if it is opaque.
 uint256 constant OPACITY = 0x12e0;
 /// @dev Columns of the matrix from mesh to screen, three lanes each: see VertexShader.
 uint256 constant MATRIX_X = 0x1300;
 uint256 constant MATRIX_Y = 0x1320;
 uint256 constant MATRIX_Z = 0x1340;
 uint256 constant MATRIX_T = 0x1360;
-/// @dev A sub-pixel column x is outside the tile if x - TILE_LEFT, as an unsigned number, is above TILE_SPAN, and a row y if y - TILE_TOP
-/// is above TILE_ROWS.
+/// @dev A sub-pixel column x is outside the tile if x - TILE_LEFT, as an unsigned number, exceeds TILE_SPAN, and a row y if y - TILE_TOP
+/// exceeds TILE_ROWS.
 uint256 constant TILE_LEFT = 0x1380;
 uint256 constant TILE_SPAN = 0x13a0;
 uint256 constant TILE_TOP = 0x13c0;
 uint256 constant TILE_ROWS = 0x13e0;
-/// @dev What is added to screen words to round rows up, or, for lines, to the nearest: see PrimitiveAssembly.
+/// @dev Added to screen words to round rows up, or, for lines, to the nearest: see PrimitiveAssembly.
 uint256 constant ROUND_TOP = 0x1400;
 uint256 constant ROUND_BOTTOM = 0x1420;
 /// @dev The mesh, in the order of the struct Mesh: offsets in the engine's calldata, counts, format.
@@ -123,14 +123,14 @@ uint256 constant MESH_FACES = 0x1480;
 uint256 constant MESH_FACE_COUNT = 0x14a0;
 uint256 constant MESH_BITS = 0x14c0;
 uint256 constant MESH_STRIDE = 0x14e0;
-/// @dev What follows is for objects that are lit.
+/// @dev The following uniforms are for lit objects.
 uint256 constant OBJECT_LIT = 0x1500;
-/// @dev Columns of the matrix that turns normals into camera space, three lanes each. Of a flat object: of the one that turns rays into the
-/// space of the mesh, Q24, signed lanes of 86 bits, z lowest.
+/// @dev Columns of the matrix that rotates normals into camera space, three lanes each. For a flat object: of the matrix that transforms
+/// rays to mesh space, Q24, signed lanes of 86 bits, z lowest.
 uint256 constant NORMAL_X = 0x1500;
 uint256 constant NORMAL_Y = 0x1520;
 uint256 constant NORMAL_Z = 0x1540;
-/// @dev The eye in the space of the mesh, Q32; the line of sight there, Q24, for an orthographic camera.
+/// @dev The eye in mesh space, Q32; for an orthographic camera, the line of sight in mesh space, Q24.
 uint256 constant EYE_X = 0x1560;
 uint256 constant EYE_Y = 0x1580;
 uint256 constant EYE_Z = 0x15a0;
@@ -139,43 +139,42 @@ uint256 constant SCALE = 0x15c0;
 uint256 constant SCALE_PER_NEAR = 0x15e0;
 /// @dev Ambient light times the ambient coefficient, lanes of Q16.
 uint256 constant AMBIENT = 0x1600;
-/// @dev The square of the distance, in sub-pixels, over which light is as good as linear.
+/// @dev The square of the distance, in sub-pixels, over which light is approximately linear.
 uint256 constant REACH = 0x1620;
-/// @dev Up to which sum of the squares of two edges the light of smooth triangles is bounded; and the square of how much unit half vectors
-/// may differ, Q40.
+/// @dev The maximum sum of the squares of two edges for which the light of smooth triangles is bounded; and the maximum square of the
+/// difference of unit half vectors, Q40.
 uint256 constant SMOOTH_REACH = 0x1640;
 uint256 constant HALF_REACH = 0x1660;
-/// @dev Light of a smooth object that does not depend on the fragment, lanes of Q40.
+/// @dev The light of a smooth object that does not depend on the fragment, lanes of Q40.
 uint256 constant FACE_LIGHT_40 = 0x1680;
-/// @dev The square and the length of the normal of a fragment, Q48 and Q24: one, unless normals are interpolated.
+/// @dev The square and the length of a fragment's normal, Q48 and Q24: one, unless normals are interpolated.
 uint256 constant FRAGMENT_SQUARE = 0x16a0;
 uint256 constant FRAGMENT_NORMAL_LENGTH = 0x16c0;
-/// @dev Where the table of the highlight begins, cos^2 in Q24, and its entries per unit of it, Q16; their product, Q24.
+/// @dev The beginning of the highlight's table, as cos^2 in Q24; its entries per unit, Q16; their product, Q24.
 uint256 constant SPECULAR_BEGIN = 0x16e0;
 uint256 constant SPECULAR_SCALE = 0x1700;
 uint256 constant SPECULAR_OFFSET = 0x1720;
-/// @dev The specular coefficient, Q16, if the shininess is 1, else 0.
+/// @dev The specular coefficient, Q16, if the shininess is 1, otherwise 0.
 uint256 constant SPECULAR_ROOT = 0x1740;
 /// @dev The other halves of the records at LIGHTS.
 uint256 constant OBJECT_LIGHTS = 0x1760;
-/// @dev 65 entries: value of the highlight in the upper half, increase to the next entry in the lower, both Q16.
+/// @dev 65 entries: the value of the highlight in the upper half, the increase to the next entry in the lower half, both Q16.
 uint256 constant SPECULAR_TABLE = 0x1ce0;
-/// @dev What follows is for scenes with effects.
+/// @dev The following uniform is for scenes with effects.
 uint256 constant SPECULAR_TABLE_END = 0x2500;
-/// @dev Its number in the scene.
+/// @dev The number of the object in the scene.
 uint256 constant OBJECT_NUMBER = 0x2500;
 uint256 constant OBJECT_END = 0x2520;
 
 // ------------------------------------------------------------------------------------------------------------------------------- triangle
 
-/// @dev How fragments are shaded: see the mode.
+/// @dev The shading of fragments: see the mode.
 uint256 constant MODE = 0x2520;
-/// @dev The accumulator at the first vertex, with the bias of its lanes; and the differences of the attribute words of the others to that
-/// of the first.
+/// @dev The accumulator at the first vertex, with the bias of its lanes; and the differences of the other attribute words to the first.
 uint256 constant ATTRIBUTE_0 = 0x2540;
 uint256 constant DELTA_1 = 0x2560;
 uint256 constant DELTA_2 = 0x2580;
-/// @dev Where the face is in calldata.
+/// @dev The calldata offset of the face.
 uint256 constant FACE = 0x25a0;
 /// @dev The accumulator at column 0 of the first row, and its change per pixel and per row.
 uint256 constant START = 0x25c0;
@@ -188,9 +187,10 @@ uint256 constant COLOR_2 = 0x2660;
 /// @dev Depths at the second and third vertex.
 uint256 constant DEPTH_1 = 0x2680;
 uint256 constant DEPTH_2 = 0x26a0;
-/// @dev Pixels along a side of the cells over which colours are quadratic; 0 if they are over the whole triangle, 1 if each is exact.
+/// @dev The side in pixels of the cells over which colours are quadratic; 0 if they are quadratic over the whole triangle, 1 if each is
+/// exact.
 uint256 constant PATCH_SIZE = 0x26c0;
-/// @dev Normal of a flat face, twice its area long, in units of the mesh: signed lanes of 86 bits.
+/// @dev The normal of a flat face, with a length of twice its area, in units of the mesh: signed lanes of 86 bits.
 uint256 constant FACE_NORMAL = 0x26e0;
 /// @dev The square of its length, and its length, Q16.
 uint256 constant FACE_SQUARE = 0x2700;
@@ -198,53 +198,54 @@ uint256 constant FACE_LENGTH = 0x2720;
 /// @dev Unit normal times ray, Q48: FACE_N_DOT_RAY + FACE_N_DOT_RAY_SLOPE * depth >> 94.
 uint256 constant FACE_N_DOT_RAY = 0x2740;
 uint256 constant FACE_N_DOT_RAY_SLOPE = 0x2760;
-/// @dev Normals of a smooth triangle of which each fragment is lit for itself: the normal at the first vertex (Q36), and the differences to
+/// @dev Normals of a smooth triangle whose fragments are shaded individually: the normal at the first vertex (Q36), and the differences to
 /// the others (Q20).
 uint256 constant NORMALS_0 = 0x2780;
 uint256 constant NORMALS_1 = 0x27a0;
 uint256 constant NORMALS_2 = 0x27c0;
 
 // ------------------------------------------------------------------------------------------------------------------------------- textures
-// Of the EffectsEngine: see Texture.
+// For the EffectsEngine: see Texture.
 
-/// @dev The array of the lists of all objects, 0 before they are drawn; where the vertex records of the object begin.
+/// @dev The array of the lists of all objects, 0 before they are drawn; the address of the object's vertex records.
 uint256 constant LISTS = 0x27e0;
 uint256 constant RECORDS = 0x2800;
 /// @dev Texture coordinates at the first vertex, Q40, and their differences to the others, Q16: two lanes of 128 bits, u below.
 uint256 constant UV_0 = 0x2820;
 uint256 constant UV_1 = 0x2840;
 uint256 constant UV_2 = 0x2860;
-/// @dev The three corners of a face that was clipped, with coordinates in place of colours.
+/// @dev The three corners of a clipped face, with coordinates in place of colours.
 uint256 constant TEXTURE_CORNERS = 0x2880;
 
 // ------------------------------------------------------------------------------------------------------------------- effects of the frame
 // The uniforms of the frame that the contract Effects computes: see EffectUniforms.
 
-/// @dev Where these registers begin, and their bytes.
+/// @dev The beginning of these registers, and their size in bytes.
 uint256 constant EFFECT_FRAME_BEGIN = 0x2ac0;
 uint256 constant EFFECT_FRAME_SIZE = 0x380;
 /// @dev The y axis of the world in camera space, Q24.
 uint256 constant UP_X = 0x2ac0;
 uint256 constant UP_Y = 0x2ae0;
 uint256 constant UP_Z = 0x2b00;
-/// @dev The light at the silhouettes of objects, lanes of bytes, and how fast it grows towards them.
+/// @dev The light at the silhouettes of objects, lanes of bytes, and the exponent of its falloff.
 uint256 constant RIM_COLOR = 0x2b20;
 uint256 constant RIM_POWER = 0x2b40;
-/// @dev The colour of the fog, lanes of Q10; the distance at which it begins, and how much farther it hides everything, Q32: 0 without fog.
+/// @dev The colour of the fog, lanes of Q10; the distance at which it begins, and the additional distance at which it is opaque, Q32: 0
+/// without fog.
 uint256 constant FOG_COLOR = 0x2b60;
 uint256 constant FOG_NEAR = 0x2b80;
 uint256 constant FOG_RANGE = 0x2ba0;
 /// @dev 1 if there is a rim, a tone or fog.
 uint256 constant IS_CHANGED = 0x2bc0;
-/// @dev 1 if there is a TONE that changes anything; what light is multiplied by in the end, Q16, and its flags.
+/// @dev 1 if there is a TONE with an effect; the exposure, Q16, and its flags.
 uint256 constant IS_TONED = 0x2be0;
 uint256 constant EXPOSURE = 0x2c00;
 uint256 constant TONE_FLAGS = 0x2c20;
-/// @dev Where the answer has the shadows, 0 if no light casts any: see Shadows. In the engine: where in calldata.
+/// @dev The offset of the shadows in the answer, 0 if no light casts any: see Shadows. In the engine: their calldata offset.
 uint256 constant SHADOWS = 0x2c40;
-/// @dev The record of the light that casts them, 0 if none does.
+/// @dev The record of the light that casts shadows, 0 if none does.
 uint256 constant SHADOW_LIGHT = 0x2c60;
-/// @dev Of each light LIGHT_COLOR.
+/// @dev LIGHT_COLOR of each light.
 uint256 constant LIGHT_COLORS = 0x2c80;
 /// @dev 16 bits each: the linear level of every fourth level of sRGB, Q7: see Gamma.
 uint256 constant DECODE_TABLE = 0x2d00;
@@ -252,9 +253,9 @@ uint256 constant DECODE_TABLE = 0x2d00;
 uint256 constant ENCODE_TABLE = 0x2da0;
 
 // ------------------------------------------------------------------------------------------------------------------- effects of an object
-// The same of an object.
+// The uniforms of an object that the contract Effects computes.
 
-/// @dev Where these registers begin, and their bytes.
+/// @dev The beginning of these registers, and their size in bytes.
 uint256 constant EFFECT_OBJECT_BEGIN = 0x2e40;
 uint256 constant EFFECT_OBJECT_SIZE = 0x220;
 /// @dev The light from above and from below times the ambient coefficient, lanes of Q16.
@@ -262,18 +263,18 @@ uint256 constant HEMISPHERE_SKY = 0x2e40;
 uint256 constant HEMISPHERE_GROUND = 0x2e60;
 /// @dev AMBIENT of the object.
 uint256 constant OBJECT_AMBIENT = 0x2e80;
-/// @dev Of each light LIGHT_DIFFUSE.
+/// @dev LIGHT_DIFFUSE of each light.
 uint256 constant LIGHT_DIFFUSES = 0x2ea0;
-/// @dev The y axis of the world in the space of the mesh, Q24, signed lanes of 86 bits, z lowest.
+/// @dev The y axis of the world in mesh space, Q24, signed lanes of 86 bits, z lowest.
 uint256 constant UP_IN_MESH = 0x2f20;
-/// @dev Where in calldata its texture is, 0 without one; and the coordinates of its vertices.
+/// @dev The calldata offset of its texture, 0 if it has none; and of the texture coordinates of its vertices.
 uint256 constant TEXTURE = 0x2f40;
 uint256 constant TEXTURE_UVS = 0x2f60;
-/// @dev Where in calldata the opacities of its vertices are, 0 if they have none.
+/// @dev The calldata offset of the opacities of its vertices, 0 if they have none.
 uint256 constant OPACITIES = 0x2f80;
 /// @dev 1 if it has a texture or opacities, or colours are decoded from sRGB.
 uint256 constant HAS_DETAILS = 0x2fa0;
-/// @dev How an object fades: the square of its outer radius, and what that of the inner one is less, 0 if it does not; and its position in
+/// @dev The fading of an object: the square of its outer radius, minus that of the inner one (0 if it does not fade); and its position in
 /// camera space, Q32. See Ground.
 uint256 constant FADE_SQUARE = 0x2fc0;
 uint256 constant FADE_RANGE = 0x2fe0;
@@ -282,39 +283,39 @@ uint256 constant FADE_Y = 0x3020;
 uint256 constant FADE_Z = 0x3040;
 
 // -------------------------------------------------------------------------------------------------- shadows, uniform triangles, opacities
-// Of the EffectsEngine: see ShadowRows and EffectSamples.
+// For the EffectsEngine: see ShadowRows and EffectSamples.
 
-/// @dev OPACITY of the object, where that of its fragments differs from it.
+/// @dev OPACITY of the object, if that of its fragments differs from it.
 uint256 constant OBJECT_OPACITY = 0x3060;
-/// @dev LIGHT_COLOR and LIGHT_DIFFUSE of the light that casts shadows, where it shines.
+/// @dev LIGHT_COLOR and LIGHT_DIFFUSE of the light that casts shadows, outside shadows.
 uint256 constant SHADOW_COLOR = 0x3080;
 uint256 constant SHADOW_DIFFUSE = 0x30a0;
-/// @dev The share of the fragment that it reaches, by which those are weakened: see ShadowRows.
+/// @dev The fraction of the fragment that this light reaches, by which they are scaled: see ShadowRows.
 uint256 constant SHADOW_SHARE = 0x30c0;
-/// @dev The entry of the face, or where in calldata its list is; from where on that is not above the row.
+/// @dev The entry of the face, or the calldata offset of its list; the first edge that is not above the row.
 uint256 constant SHADOW_LIST = 0x30e0;
 uint256 constant SHADOW_BEGIN = 0x3100;
-/// @dev Where in calldata the entries of the faces of the object begin.
+/// @dev The calldata offset of the entries of the object's faces.
 uint256 constant SHADOW_FACES = 0x3120;
-/// @dev The address of a word for each column: which samples of the row are in the shadow.
+/// @dev The address of a word for each column: the samples of the row that are in shadow.
 uint256 constant SHADOW_ROW = 0x3140;
-/// @dev 1 if all fragments of the triangle have one colour but for shadows; the last colour, and 1 more than the SHADOW_SHARE of it, 0 if
-/// there is none yet.
+/// @dev 1 if all fragments of the triangle have one colour except for shadows; the SHADOW_SHARE of the last colour plus 1, 0 if there is
+/// none yet; the last colour.
 uint256 constant IS_UNIFORM = 0x3160;
 uint256 constant UNIFORM_SHARE = 0x3180;
 uint256 constant UNIFORM_COLOR = 0x31a0;
 
 // ------------------------------------------------------------------------------------------------------- triangle of a scene with effects
 
-/// @dev How much the normal of a flat face points up, Q24, -1..1.
+/// @dev The y component of a flat face's unit normal in world space, Q24, -1..1.
 uint256 constant FACE_UP = 0x31c0;
 
 // ------------------------------------------------------------------------------------------------------------------------------- fragment
 
-/// @dev The place of the fragment beside the line of sight of an orthographic camera, Q16.
+/// @dev The position of the fragment beside the line of sight of an orthographic camera, Q16.
 uint256 constant FRAGMENT_PLACE_X = 0x31e0;
 uint256 constant FRAGMENT_PLACE_Y = 0x3200;
-/// @dev Its normal, Q24, and the product of that with the ray.
+/// @dev The normal of the fragment, Q24, and its product with the ray.
 uint256 constant FRAGMENT_NORMAL_X = 0x3220;
 uint256 constant FRAGMENT_NORMAL_Y = 0x3240;
 uint256 constant FRAGMENT_NORMAL_Z = 0x3260;
@@ -322,13 +323,13 @@ uint256 constant FRAGMENT_NORMAL_RAY = 0x3280;
 /// @dev Half the magnitude of the last square of a normal; of that of a face, a multiple of 3.
 uint256 constant NORMAL_HINT = 0x32a0;
 uint256 constant FACE_HINT = 0x32c0;
-/// @dev What of a light's strength reaches it through its cone, Q16.
+/// @dev The fraction of a light's intensity that its cone lets through, Q16.
 uint256 constant FRAGMENT_CONE = 0x32e0;
-/// @dev The light that modulates its colour, lanes of Q40.
+/// @dev The light that modulates the fragment's colour, lanes of Q40.
 uint256 constant FRAGMENT_LIGHT = 0x3300;
-/// @dev The length of its ray, Q24, where there is a rim.
+/// @dev The length of the fragment's ray, Q24, if there is a rim.
 uint256 constant FRAGMENT_RAY_LENGTH = 0x3320;
-/// @dev If colours are times their depths, the nearest depth of the triangle, with 8 more bits than in a vertex; else 0.
+/// @dev If colours are multiplied by their depths, the nearest depth of the triangle, with 8 more bits than in a vertex; otherwise 0.
 uint256 constant PATCH_WEIGHT = 0x3340;
 /// @dev The first column of the cell that is drawn, and the one after its last.
 uint256 constant PATCH_BEGIN = 0x3360;
@@ -338,35 +339,35 @@ uint256 constant PATCH_END = 0x3380;
 
 /// @dev Not zero if a vertex of the object lies outside the guard band or nearer than the near plane.
 uint256 constant HAS_CLIPPED = 0x33a0;
-/// @dev DEPTH_STRIDE in both lanes of edges: see Rasterizer.
+/// @dev DEPTH_STRIDE in both lanes of edges: see PixelRasterizer.
 uint256 constant STRIDE_LANES = 0x33c0;
-/// @dev The change of the accumulator per byte of depths, an eighth of DX; and what START changes per row if it is told by addresses.
+/// @dev The change of the accumulator per byte of depths, an eighth of DX; and the change of START per row, if it refers to address 0.
 uint256 constant DX_8 = 0x33e0;
 uint256 constant ROW_STEP = 0x3400;
-/// @dev The lower part of a triangle, where the edge from the second to the third vertex takes the place of the one that has ended: the
-/// number of its rows, its edges = the edges of the upper part & LOWER_KEPT | LOWER_EDGE, their changes per row.
+/// @dev The lower part of a triangle, in which the edge from the second to the third vertex replaces the one that has ended: the number of
+/// its rows; its edges = the edges of the upper part & LOWER_KEPT | LOWER_EDGE; their changes per row.
 uint256 constant LOWER_ROWS = 0x3420;
 uint256 constant LOWER_KEPT = 0x3440;
 uint256 constant LOWER_EDGE = 0x3460;
 uint256 constant LOWER_SLOPES = 0x3480;
-/// @dev Depths of a triangle that is IS_DEEP: what START, DX and DY get besides.
+/// @dev Depths of a triangle that is IS_DEEP: addends of START, DX and DY.
 uint256 constant DEEP_START = 0x34a0;
 uint256 constant DEEP_DX = 0x34c0;
 uint256 constant DEEP_DY = 0x34e0;
-/// @dev Where the next triangle is listed; 0 if faces are drawn at once.
+/// @dev The address for the next triangle of the list; 0 if faces are drawn immediately.
 uint256 constant LIST = 0x3500;
-/// @dev How many faces of the object were drawn or listed.
+/// @dev The number of the object's faces that were drawn or listed.
 uint256 constant DRAWN = 0x3520;
-/// @dev Faces of which twice the area, Q192, is not above this are not drawn: they face away.
+/// @dev Faces with twice an area, Q192, not above this are not drawn: they are back faces.
 uint256 constant LEAST_AREA = 0x3540;
-/// @dev What edges change per row.
+/// @dev The changes of edges per row.
 uint256 constant SLOPES = 0x3560;
 /// @dev The end of the faces in calldata.
 uint256 constant FACES_END = 0x3580;
 
 // -------------------------------------------------------------------------------------------------------------------- quadratic functions
 
-/// @dev Coefficients of values that are quadratic over a triangle, signed lanes of 85 bits: see Quadratic.
+/// @dev The coefficients of quadratic functions over a triangle, signed lanes of 85 bits: see Quadratic.
 uint256 constant QUADRATIC_1 = 0x35a0;
 uint256 constant QUADRATIC_S = 0x35c0;
 uint256 constant QUADRATIC_T = 0x35e0;
@@ -387,65 +388,65 @@ uint256 constant BEND_RED = 0x3760;
 
 // ----------------------------------------------------------------------------------------------------------------------- smooth triangles
 
-/// @dev Normals at the vertices, times their weights, Q30; behind each the same with its lanes the other way round.
+/// @dev The normals at the vertices, times their weights, Q30; each followed by the same with reversed lanes.
 uint256 constant NORMAL_0 = 0x3780;
 uint256 constant NORMAL_1 = 0x37c0;
 uint256 constant NORMAL_2 = 0x3800;
-/// @dev The largest of the squares of the changes of the half vector from vertex to vertex, Q40.
+/// @dev The largest square of the changes of the half vector from vertex to vertex, Q40.
 uint256 constant HALF_CHANGE = 0x3840;
 /// @dev Half the magnitudes of the last squares of a ray, and of a half vector.
 uint256 constant RAY_HINT = 0x3860;
 uint256 constant HALF_HINT = 0x3880;
-/// @dev The record of a vertex in the middle of an edge.
+/// @dev The record of a vertex at the midpoint of an edge.
 uint256 constant MIDDLE = 0x38a0;
-/// @dev 1 if a depth of its vertices is less than 7/8 of the greatest, 2 if less than 3/4; else 0.
+/// @dev 1 if the depth of a vertex is less than 7/8 of the greatest, 2 if less than 3/4; otherwise 0.
 uint256 constant DEPTHS_DIFFER = 0x39a0;
-/// @dev Half of QUADRATIC_DXX, by which QUADRATIC_DX is less while rows are drawn.
+/// @dev Half of QUADRATIC_DXX, by which QUADRATIC_DX is reduced while rows are drawn.
 uint256 constant QUADRATIC_HALF_DXX = 0x39c0;
-/// @dev The greatest depth of its vertices, Q24 of what is above bit 192 of an accumulator.
+/// @dev The greatest depth of the vertices, Q24 relative to bit 192 of an accumulator.
 uint256 constant NEAREST = 0x39e0;
 
 // -------------------------------------------------------------------------------------------------------------------------------- samples
-// Of the engines that take four samples of each pixel: see Samples and SampleRasterizer.
+// For the engines that take four samples per pixel: see Samples and SampleRasterizer.
 
 /// @dev The columns and rows that have samples in memory: the first, and the one after the last.
 uint256 constant SAMPLE_BEGIN = 0x3a00;
 uint256 constant SAMPLE_END = 0x3a20;
 uint256 constant SAMPLE_TOP = 0x3a40;
 uint256 constant SAMPLE_BOTTOM = 0x3a60;
-/// @dev Bytes of a row of samples; the address that those of row 0, column 0 would have, which may be below 0. Rows go down in memory, as
-/// they do in a bitmap.
+/// @dev The size of a row of samples in bytes; the address of the samples of row 0, column 0, extrapolated, which may be negative. Rows go
+/// down in memory, as in a bitmap.
 uint256 constant SAMPLE_STRIDE = 0x3a80;
 uint256 constant SAMPLE_ORIGIN = 0x3aa0;
-/// @dev The address that the colour of row 0, column 0 would have; rows of TILE_WIDTH pixels go down.
+/// @dev The address of the colour of row 0, column 0, extrapolated; rows of TILE_WIDTH pixels go down.
 uint256 constant SAMPLE_IMAGE = 0x3ac0;
-/// @dev A pixel of the row that is drawn, with its samples at p, has its colour at ROW_IMAGE + 3 * (p / 32); what that is less in the next
+/// @dev The colour of a pixel of the current row with its samples at p is at ROW_IMAGE + 3 * (p / 32); the decrease of that to the next
 /// row.
 uint256 constant ROW_IMAGE = 0x3ae0;
 uint256 constant ROW_IMAGE_STEP = 0x3b00;
 /// @dev The list of the pixels whose samples may differ: the address of the samples, and of the colour.
 uint256 constant MIXED = 0x3b20;
 uint256 constant MIXED_END = 0x3b40;
-/// @dev The row for which START is told; an eighth of DY.
+/// @dev The row to which START refers; an eighth of DY.
 uint256 constant START_ROW = 0x3b60;
 uint256 constant DY_8 = 0x3b80;
-/// @dev What the depths of the samples are above SAMPLE_SCALE times that of the centre of their pixel, signed lanes; of which: from
-/// SAMPLE_BASE.
+/// @dev The differences of the samples' depths from SAMPLE_SCALE times the depth of the pixel centre, signed lanes; the depth relative to
+/// SAMPLE_BASE that they refer to.
 uint256 constant DEPTH_OFFSETS = 0x3ba0;
 uint256 constant DEPTH_BASE = 0x3bc0;
-/// @dev The row for which sides and bounds are told: the first with a sample of the triangle in the band.
+/// @dev The row to which sides and bounds refer: the first with a sample of the triangle in the band.
 uint256 constant SIDE_ROW = 0x3be0;
-/// @dev The sides of the triangle at that row: see SampleRasterizer; and what they change per row.
+/// @dev The sides of the triangle at that row: see SampleRasterizer; and their changes per row.
 uint256 constant SIDE_LEFT = 0x3c00;
 uint256 constant SIDE_RIGHT = 0x3c20;
 uint256 constant SIDE_LEFT_STEP = 0x3c40;
 uint256 constant SIDE_RIGHT_STEP = 0x3c60;
-/// @dev The addresses of the first pixel that may be covered, and of the one after the last, Q37 in lanes of 128 bits; what they change per
-/// row; what those have more between which all samples are covered.
+/// @dev The addresses of the first pixel that may be covered, and of the one after the last, Q37 in lanes of 128 bits; their changes per
+/// row; the insets, which added to them bound the pixels whose samples are all covered.
 uint256 constant BOUNDS = 0x3c80;
 uint256 constant BOUND_STEPS = 0x3ca0;
 uint256 constant INSETS = 0x3cc0;
-/// @dev The row in which one side continues with the edge from the second to the third vertex; which: the address of SIDE_LEFT or
+/// @dev The row in which one side continues with the edge from the second to the third vertex; that side: the address of SIDE_LEFT or
 /// SIDE_RIGHT.
 uint256 constant KINK_ROW = 0x3ce0;
 uint256 constant KINK_SIDE = 0x3d00;
@@ -453,38 +454,38 @@ uint256 constant KINK_SIDE = 0x3d00;
 uint256 constant KINK_MASK = 0x3d20;
 uint256 constant KINK_EDGE = 0x3d40;
 uint256 constant KINK_STEP = 0x3d60;
-/// @dev From that row on: what is kept of the bounds, what takes the place of the rest; their changes, and INSETS.
+/// @dev From that row on: the mask of the bounds that remain, and the replacement of the others; their changes, and INSETS.
 uint256 constant KINK_KEPT = 0x3d80;
 uint256 constant KINK_BOUND = 0x3da0;
 uint256 constant KINK_BOUND_STEPS = 0x3dc0;
 uint256 constant KINK_INSETS = 0x3de0;
-/// @dev Whether SPAN_BEGIN and SPAN_END are to be asked in each row: the bounds may be far outside.
+/// @dev Whether SPAN_BEGIN and SPAN_END must be applied in each row: the bounds may be far outside.
 uint256 constant IS_CLAMPED = 0x3e00;
 /// @dev The columns between which fragments may lie: of the triangle, of the tile, and of the cell that is drawn.
 uint256 constant SPAN_BEGIN = 0x3e20;
 uint256 constant SPAN_END = 0x3e40;
-/// @dev SAMPLE_STRIDE as addresses of samples are told, Q37.
+/// @dev SAMPLE_STRIDE in the format of sample addresses, Q37.
 uint256 constant STRIDE_37 = 0x3e60;
-/// @dev What START changes per row if it is told by addresses.
+/// @dev The change of START per row, if it refers to address 0.
 uint256 constant ROW_STEP_32 = 0x3e80;
-/// @dev The bounds of the row that is drawn by drawSpans, and their changes.
+/// @dev The bounds of the row that drawSpans draws, and their changes.
 uint256 constant ROW_BOUNDS = 0x3ea0;
 uint256 constant ROW_BOUND_STEPS = 0x3ec0;
-/// @dev What its sides change.
+/// @dev The changes of its sides.
 uint256 constant ROW_LEFT_STEP = 0x3ee0;
 uint256 constant ROW_RIGHT_STEP = 0x3f00;
-/// @dev The addresses of the first pixel of the row of which all samples are covered, and of the one after the last.
+/// @dev The addresses of the first pixel of the row whose samples are all covered, and of the one after the last.
 uint256 constant INNER_BEGIN = 0x3f20;
 uint256 constant INNER_END = 0x3f40;
 /// @dev The change of a quadratic function at column 0 to the next row.
 uint256 constant QUADRATIC_DOWN = 0x3f60;
-/// @dev The row for which the quadratic functions are told.
+/// @dev The row to which the quadratic functions refer.
 uint256 constant QUADRATIC_ROW = 0x3f80;
 /// @dev The least depth of the vertices, with 8 more bits than in a vertex.
 uint256 constant FARTHEST = 0x3fa0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- light
-// What a light is to the frame, at LIGHTS.
+// The properties of a light for the frame, at LIGHTS.
 
 /// @dev 1 if it is a point light.
 uint256 constant LIGHT_IS_POINT = 0;
@@ -494,11 +495,11 @@ uint256 constant LIGHT_Y = 64;
 uint256 constant LIGHT_Z = 96;
 /// @dev Lanes of bytes.
 uint256 constant LIGHT_COLOR = 128;
-/// @dev Where a spot light points in camera space (unit vector, Q24).
+/// @dev The direction of a spot light in camera space (unit vector, Q24).
 uint256 constant LIGHT_AXIS_X = 160;
 uint256 constant LIGHT_AXIS_Y = 192;
 uint256 constant LIGHT_AXIS_Z = 224;
-/// @dev The cosine at which no light of it is left, Q24; and how much greater it is where the light begins to fade: 0 for other lights.
+/// @dev The cosine at which the light vanishes, Q24; and the difference to the cosine at which it begins to fade: 0 for other lights.
 uint256 constant LIGHT_COS_OUTER = 0x100;
 uint256 constant LIGHT_CONE = 0x120;
 /// @dev Half the magnitude of the last distance, 0 at first: see `root` in FragmentLight.
@@ -506,9 +507,9 @@ uint256 constant LIGHT_HINT = 0x140;
 uint256 constant LIGHT_SIZE = 0x160;
 
 // --------------------------------------------------------------------------------------------------------------------- light of an object
-// What it is to the object, at OBJECT_LIGHTS, in records of the same size: offsets from the record at LIGHTS.
+// The properties of a light for the object, at OBJECT_LIGHTS, in records of the same size: offsets from the record at LIGHTS.
 
-/// @dev The position in the space of the mesh, Q32; or the direction in MESH_X, Q24, signed lanes of 86 bits, z lowest.
+/// @dev The position in mesh space, Q32; or the direction in MESH_X, Q24, signed lanes of 86 bits, z lowest.
 uint256 constant LIGHT_MESH_X = 0xb00;
 uint256 constant LIGHT_MESH_Y = 0xb20;
 uint256 constant LIGHT_MESH_Z = 0xb40;
@@ -518,20 +519,20 @@ uint256 constant LIGHT_DIFFUSE = 0xb60;
 uint256 constant LIGHT_N_DOT_L = 0xb80;
 
 // --------------------------------------------------------------------------------------------------------------------------------- vertex
-// What every vertex record begins with; the rest is told in VertexShader and SmoothLight.
+// The beginning of every vertex record; for the rest see VertexShader and SmoothLight.
 
 /// @dev The screen word.
 uint256 constant VERTEX_SCREEN = 0;
-/// @dev The attribute word, or the outcode of a vertex that has to be clipped.
+/// @dev The attribute word, or the outcode of a vertex that must be clipped.
 uint256 constant VERTEX_ATTRIBUTES = 32;
 uint256 constant VERTEX_SIZE = 64;
 
 // ---------------------------------------------------------------------------------------------------------------------------- half vector
-// What the vertex of a flat surface keeps of each light, behind VERTEX_SIZE: see VertexHighlights.
+// The data of each light in the vertex record of a flat surface, after VERTEX_SIZE: see VertexHighlights.
 
-/// @dev In the space of the mesh, Q32, signed lanes of 86 bits, z lowest.
+/// @dev The half vector in mesh space, Q32, signed lanes of 86 bits, z lowest.
 uint256 constant HALF_VECTOR = 0;
-/// @dev Its square, in the unit in which it divides the square of a product to a place in the table of the highlight.
+/// @dev Its square, in the unit that makes the square of a product, divided by it, an index into the table of the highlight.
 uint256 constant HALF_SQUARE = 32;
 uint256 constant HALF_SIZE = 64;
 
@@ -545,17 +546,18 @@ uint256 constant CORNER_W = 64;
 uint256 constant CORNER_COLOR = 96;
 /// @dev As in a vertex record.
 uint256 constant CORNER_NORMAL = 128;
-/// @dev 1 if the edge to the next corner is one of the face, 0 if a cut has made it.
+/// @dev 1 if the edge to the next corner belongs to the face, 0 if clipping made it.
 uint256 constant CORNER_IS_EDGE = 160;
 uint256 constant CORNER_SIZE = 192;
 
 // ----------------------------------------------------------------------------------------------------------------------------------- mode
-// How fragments are shaded: the sum of these is in MODE; 0 is the plain loop. IS_CROSSING stands where a shift brings the bit of a
-// triangle.
+// The shading of fragments: the sum of these is in MODE; 0 selects the plain loop. IS_CROSSING is at the position to which a shift moves
+// the bit of a triangle.
 
-/// @dev The accumulator holds the lit colour itself, and it may be above 255.
+/// @dev The accumulator contains the lit colour, which may exceed 255.
 uint256 constant IS_LINEAR = 1;
-/// @dev Light is added for each fragment. There is at least one light then, on which the loops over lights rely: they ask at their end.
+/// @dev Light is computed for each fragment. There is at least one light, on which the loops over lights rely: they test their condition at
+/// the end.
 uint256 constant IS_LIT = 2;
 /// @dev More than highlights.
 uint256 constant IS_DIFFUSE = 4;
@@ -567,21 +569,22 @@ uint256 constant IS_ORTHOGRAPHIC = 32;
 uint256 constant IS_FLAT = 64;
 /// @dev The triangle reaches beyond the left or right border of the tile.
 uint256 constant IS_CROSSING = 128;
-/// @dev The accumulator holds barycentric coordinates, and colours are found as PATCH_SIZE says: see Patches.
+/// @dev The accumulator contains barycentric coordinates, and PATCH_SIZE selects how colours are computed: see Patches.
 uint256 constant IS_PATCHED = 0x100;
-/// @dev Light is made of products that are quadratic over the triangle: see SmoothLight.
+/// @dev Light is computed from products that are quadratic over the triangle: see SmoothLight.
 uint256 constant IS_QUADRATIC = 0x200;
-/// @dev Perspective shows: depths differ by more than a factor of 64, or, with IS_QUADRATIC, colours are multiplied by them.
+/// @dev The effect of perspective is not negligible: depths differ by more than a factor of 64, or, with IS_QUADRATIC, colours are
+/// multiplied by them.
 uint256 constant IS_STEEP = 0x400;
 /// @dev All light is grey.
 uint256 constant IS_GREY = 0x800;
-/// @dev Depths differ by more than a factor of 2^12, and are interpolated by themselves.
+/// @dev Depths differ by more than a factor of 2^12, and are interpolated separately.
 uint256 constant IS_DEEP = 0x1000;
 /// @dev The triangle reaches above or below the band.
 uint256 constant IS_CUT = 0x2000;
 /// @dev A light of the scene is a spot light.
 uint256 constant IS_SPOT_LIT = 0x4000;
-/// @dev The object is not opaque: the nearest fragment of each pixel is mixed with what is behind it.
+/// @dev The object is translucent: the nearest fragment of each pixel is blended with what is behind it.
 uint256 constant IS_BLENDED = 0x8000;
 /// @dev The first of its two passes, which finds those fragments.
 uint256 constant IS_DEPTH_PASS = 0x10000;

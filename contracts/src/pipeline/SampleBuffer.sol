@@ -7,12 +7,12 @@ import {Pipeline} from "./Pipeline.sol";
 import {SampleRasterizer} from "./SampleRasterizer.sol";
 import "./Registers.sol";
 
-// A word of four samples for each pixel of a band, rows as in the picture. There are only those columns and rows that objects reach, since
-// the price of memory grows with its square.
+// A word of four samples for each pixel of a band, rows as in the picture. Only the columns and rows reached by objects are stored, since
+// memory cost grows quadratically.
 //
-// Behind the pixels that are handed to the next engine stand the borders of these columns and rows, four words, and the samples.
+// The pixels passed to the next engine are followed by the bounds of these columns and rows, four words, and the samples.
 
-/// @dev Pixels beyond the outermost vertices that lines and samples may touch.
+/// @dev The number of pixels beyond the outermost vertices that lines and samples may touch.
 uint256 constant MARGIN = 2;
 uint256 constant BORDERS_SIZE = 0x80;
 
@@ -58,7 +58,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
         unchecked {
             uint256 stride = load(SAMPLE_STRIDE);
             uint256 samples = load(DEPTHS);
-            // the row after the last that has samples
+            // the row after the last row that has samples
             uint256 row = min(load(BAND_BOTTOM), load(SAMPLE_BOTTOM));
             uint256 origin = samples + (row - 1) * stride;
             store(SAMPLE_ORIGIN, origin - (load(SAMPLE_BEGIN) << SAMPLE_SIZE_BITS));
@@ -76,7 +76,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
     }
 
     /// @dev Fills samples with the background.
-    /// @param row The row after that at `samples`; rows go up.
+    /// @param row The row after the one at `samples`; rows go upward.
     function clear(Rectangle memory tile, uint256 samples, uint256 row, uint256 size) private pure {
         unchecked {
             uint256 stride = load(SAMPLE_STRIDE);
@@ -84,7 +84,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
             uint256 color = load(BACKGROUND) + load(BACKGROUND_STEP) * (tile.y + tile.height + PIXEL_BIAS - row);
             uint256 step = load(BACKGROUND_STEP);
             assembly ("memory-safe") {
-                // not a colour
+                // not a valid colour
                 let last := ONE_24
                 for {} lt(samples, end) { samples := add(samples, stride) } {
                     let rounded := and(shr(Q24, color), BYTES_56)
@@ -103,8 +103,8 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
         }
     }
 
-    /// @dev Copies the samples of what was drawn before: then there is one band.
-    /// @param position Where in calldata their borders stand.
+    /// @dev Copies the samples drawn before. There is only one band in this case.
+    /// @param position The calldata offset of their bounds.
     /// @param origin The address of the samples of row 0 in the first column that has samples.
     function copySamples(uint256 position, uint256 origin) private pure {
         unchecked {
@@ -123,7 +123,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
         }
     }
 
-    /// @dev The columns and rows of the tile that the vertices reach; all, if any is clipped.
+    /// @dev Sets the columns and rows of the tile that the vertices reach; all of them if any vertex is clipped.
     function setBorders(Rectangle memory tile, uint256[3][] memory lists) private pure {
         unchecked {
             uint256 least = type(uint256).max;
@@ -158,7 +158,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
             store(SAMPLE_BOTTOM, top + tile.height);
             if (isClipped) return;
             if (most == 0) {
-                // nothing is there
+                // nothing to draw
                 store(SAMPLE_END, begin);
                 store(SAMPLE_BOTTOM, top);
                 return;

@@ -5,37 +5,37 @@ import {Rasterizer} from "./Rasterizer.sol";
 import {Samples} from "./Samples.sol";
 import "./Registers.sol";
 
-// From triangles to fragments with four samples for each pixel (multisampling). A fragment is a pixel of which a triangle covers a sample.
-// Its colour is computed once; its depth for each sample.
+// Rasterizes triangles to fragments with four samples per pixel (multisampling). A fragment is a pixel in which a triangle covers at least
+// one sample. Its colour is computed once, its depth for each sample.
 //
-// A side of a triangle in a row is four columns, one for each sample, in lanes of 64 bits: where the edge crosses the height of the sample,
-// less the place of the sample in the pixel. Columns are told by the addresses that the samples of their pixels have, Q37, which are
-// columns in Q42. A pixel with its samples at p has a sample inside if p is not left of the left side and left of the right one. Sides are
-// kept so that one addition, or subtraction, of p in all lanes tells it by the highest bit of each:
+// A side of a triangle in a row is four columns, one for each sample, in lanes of 64 bits: the column at which the edge crosses the height
+// of the sample, minus the offset of the sample in the pixel. Columns are represented by the addresses of their pixels' samples, Q37, which
+// are columns in Q42. A pixel with its samples at p has a sample inside if p is not left of the left side and left of the right side. Sides
+// are stored so that one addition or subtraction of p in all lanes yields the result in the highest bit of each:
 //
 //   left = 2^63 - side                  left + p  >= 2^63 where p >= side
 //   right = 2^63 - 1 + side             right - p >= 2^63 where p < side
 //
-// Edges are told by their upper vertex, whichever triangle they belong to, so that triangles leave no gap between them and do not overlap.
-// Above the upper vertex of two edges, and below the lower one, the sides have changed places, and nothing is between them.
+// Edges are defined by their upper vertex, independent of the triangle, so that adjacent triangles neither leave gaps nor overlap. Above
+// the upper vertex of two edges and below the lower one, the sides are swapped, so that nothing lies between them.
 //
-// With x and y for the places of the samples in eighths of a pixel, a side is that of the centre of the pixel, at column c and with the
-// slope s, and s * y - x eighths: its outermost samples are max(s + 3, 3 * s - 1, 1 - 3 * s) eighths from c. These are the bounds.
+// With x and y for the offsets of the samples in eighths of a pixel, a side is that of the pixel centre, at column c and with slope s, plus
+// s * y - x eighths: its outermost samples are max(s + 3, 3 * s - 1, 1 - 3 * s) eighths from c. These are the bounds.
 abstract contract SampleRasterizer is Rasterizer {
-    /// @notice Draws the fragments of a row from `column` to before `end`.
+    /// @notice Draws the fragments of a row from `column` (inclusive) to `end` (exclusive).
     function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure virtual;
 
-    /// @notice Draws a fragment, where an engine has rows drawn by drawEach: the accumulator at the centre of its pixel, the highest bit
-    /// of each sample that the triangle covers, one at least, column and row.
+    /// @notice Draws a fragment, for engines that draw rows by drawEach. The arguments are the accumulator at the pixel centre; the highest
+    /// bits of the samples that the triangle covers, at least one; column and row.
     function drawFragment(uint256, uint256, uint256, uint256) internal pure virtual {}
 
-    /// @notice Sets what the ways to shade a triangle need besides, before its sides are set.
+    /// @notice Sets further registers that shading requires, before the sides of the triangle are set.
     function prepare(uint256, uint256, uint256) internal pure virtual {}
 
-    /// @notice Draws the rows from `row` to before `last` of the triangle that was set up, as its mode says.
+    /// @notice Draws the rows from `row` (inclusive) to `last` (exclusive) of the current triangle, as its mode selects.
     function drawFragments(uint256 row, uint256 last) internal pure virtual;
 
-    /// @dev A triangle between the centres of pixels may cover samples.
+    /// @dev A triangle between pixel centres may cover samples.
     function coversNothing(uint256, uint256, uint256) internal pure override returns (bool) {
         return false;
     }
@@ -54,7 +54,7 @@ abstract contract SampleRasterizer is Rasterizer {
         }
     }
 
-    /// @dev The accumulator at column 0 of the row of the first pixel centres below the first vertex, and its changes.
+    /// @dev Sets the accumulator at column 0 of the row of the first pixel centres below the first vertex, and its changes.
     function setGradients(uint256 a, uint256 b, uint256 c) private pure {
         assembly ("memory-safe") {
             let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
@@ -73,8 +73,8 @@ abstract contract SampleRasterizer is Rasterizer {
             xc := sdiv(shl(GRADIENT_SHIFT, xc), a)
             let toB := mload(DELTA_1)
             let toC := mload(DELTA_2)
-            // Colours are taken up to a pixel outside the triangle. They fit their lanes if a barycentric coordinate changes by 16 at
-            // most: triangles that are thinner have the colour of their first vertex.
+            // Colours are extrapolated up to a pixel outside the triangle. They fit their lanes if a barycentric coordinate changes by at
+            // most 16 per pixel: thinner triangles have the colour of their first vertex.
             a := or(or(add(b, LEAST_WIDTH), add(xb, LEAST_WIDTH)), or(add(c, LEAST_WIDTH), add(xc, LEAST_WIDTH)))
             if and(a, ABOVE_LEAST_WIDTH) {
                 if iszero(and(mload(MODE), or(IS_PATCHED, IS_QUADRATIC))) {
@@ -107,12 +107,11 @@ abstract contract SampleRasterizer is Rasterizer {
         }
     }
 
-    /// @dev The sides and bounds at the first row that is drawn, and where one of them continues with another edge.
+    /// @dev Sets the sides and bounds at the first row, and the row in which one of the sides continues with another edge (the kink).
     function setSides(uint256 a, uint256 b, uint256 c, uint256 row) private pure {
         assembly ("memory-safe") {
-            // An edge that goes on by dx while rows go down by dy, so many sub-pixels below the vertex, which is at an address: a left
-            // side, of which the complement is a right one; its change per row; where it is, rounded up; how far its outermost samples
-            // are away
+            // An edge with the direction (dx, dy) that starts `below` sub-pixels above the row, at the address `at`. Returns a left side,
+            // whose complement is a right side; its change per row; its position, rounded up; and the distance of its outermost samples.
             function edge(dx, dy, at, below) -> side, step, line, reach {
                 step := sdiv(shl(COLUMN_FRACTION, dx), dy)
                 mstore(IS_CLAMPED, or(mload(IS_CLAMPED), add(step, STEEPEST_42)))
@@ -135,7 +134,7 @@ abstract contract SampleRasterizer is Rasterizer {
             c := sub(shr(SCREEN_ROW_AT, c), a)
             mstore(SIDE_ROW, row)
             mstore(IS_CLAMPED, 0)
-            // where the first vertex is
+            // the position of the first vertex
             x := add(
                 shl(ADDRESS_FRACTION, sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))),
                 shl(SUBPIXEL_TO_COLUMN, x)
@@ -149,8 +148,7 @@ abstract contract SampleRasterizer is Rasterizer {
                 mstore(BOUNDS, sub(line, reach))
                 mstore(BOUND_STEPS, step)
                 mstore(INSETS, reach)
-                // to the third one on the right
-                // a horizontal edge has no side below it: nothing is left of address 0
+                // to the third vertex on the right; a horizontal edge has no side below it: nothing is left of address 0
                 side, step, line, reach := edge(xc, c, mul(x, gt(c, 0)), row)
                 mstore(SIDE_RIGHT, not(side))
                 mstore(SIDE_RIGHT_STEP, mul(step, ONES_64))
@@ -158,13 +156,13 @@ abstract contract SampleRasterizer is Rasterizer {
                 mstore(BOUND_STEPS, add(mload(BOUND_STEPS), shl(128, step)))
                 mstore(INSETS, sub(mload(INSETS), shl(128, reach)))
             }
-            // from the upper of both to the other one: 0 and -1 on the left, or 128 and 1 on the right
+            // from the upper to the lower of both; shift and sign are 0 and -1 on the left, 128 and 1 on the right
             let shift := shl(7, iszero(lt(b, c)))
             let sign := sub(shr(6, shift), 1)
             mstore(KINK_SIDE, add(SIDE_LEFT, shr(2, shift)))
             let kept := shl(sub(128, shift), LANE_128)
             mstore(KINK_KEPT, kept)
-            // where it begins; the first row with a sample below, in which those above are still on the upper edge
+            // the beginning of the kink: the first row with a sample below it; samples above it are still on the upper edge
             switch shift
             case 0 {
                 row := add(a, b)
@@ -185,14 +183,14 @@ abstract contract SampleRasterizer is Rasterizer {
                 let side, step, line, reach := edge(sub(xc, xb), sub(c, b), x, row)
                 mstore(KINK_EDGE, xor(side, sub(0, gt(shift, 0))))
                 mstore(KINK_STEP, mul(mul(sign, step), ONES_64))
-                // lanes borrow from each other less than bounds are rounded by
+                // the borrow between lanes is less than the rounding of the bounds
                 step := shl(shift, step)
                 mstore(KINK_BOUND, and(shl(shift, add(line, mul(sign, reach))), not(kept)))
                 mstore(KINK_BOUND_STEPS, add(and(mload(BOUND_STEPS), kept), step))
                 mstore(KINK_INSETS, sub(and(mload(INSETS), kept), shl(shift, mul(sign, reach))))
                 mstore(IS_CLAMPED, or(and(mload(IS_CLAMPED), STEEP_42), and(mload(MODE), IS_CLAMPED_MODE)))
                 if eq(b, c) {
-                    // nothing is below
+                    // there is no edge below
                     mstore(KINK_KEPT, not(0))
                     mstore(KINK_BOUND, 0)
                 }
@@ -210,7 +208,7 @@ abstract contract SampleRasterizer is Rasterizer {
         }
     }
 
-    /// @dev The columns that the triangle may touch.
+    /// @dev Sets the columns that the triangle may touch.
     function setSpan(uint256 a, uint256 b, uint256 c) private pure {
         assembly ("memory-safe") {
             let x := and(a, SCREEN_COLUMNS)
@@ -230,12 +228,12 @@ abstract contract SampleRasterizer is Rasterizer {
         }
     }
 
-    /// @dev Draws the rows from `row` to before `last`, between SPAN_BEGIN and SPAN_END.
+    /// @dev Draws the rows from `row` (inclusive) to `last` (exclusive), between SPAN_BEGIN and SPAN_END.
     function drawSpans(uint256 row, uint256 last) internal pure {
         unchecked {
             uint256 kink = load(KINK_ROW);
             while (row != last) {
-                // the rows above the kink, the one that has it, the rows below
+                // the rows above the kink, the row of the kink, the rows below
                 uint256 next = row < kink ? min(kink, last) : row == kink ? row + 1 : last;
                 (uint256 left, uint256 right) = sidesAt(row);
                 for (; row != next; ++row) {
@@ -261,7 +259,7 @@ abstract contract SampleRasterizer is Rasterizer {
         }
     }
 
-    /// @dev The sides at a row; their changes to the next, and the bounds, in registers.
+    /// @dev Returns the sides at a row; sets the registers of their changes to the next row and of the bounds.
     function sidesAt(uint256 row) private pure returns (uint256 left, uint256 right) {
         unchecked {
             uint256 n = row - load(SIDE_ROW);
@@ -299,7 +297,8 @@ abstract contract SampleRasterizer is Rasterizer {
         return uint256(int256(int128(int256(word))));
     }
 
-    /// @dev The first column of a row that may have a fragment, and the one after the last; none if they are not in this order.
+    /// @dev Returns the first column of a row that may have a fragment, and the one after the last; there are none if they are not in this
+    /// order.
     function columnsBetween(uint256 row) private pure returns (uint256 first, uint256 end) {
         assembly ("memory-safe") {
             let base := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))
@@ -312,12 +311,12 @@ abstract contract SampleRasterizer is Rasterizer {
         }
     }
 
-    /// @dev The same of the rows from `row` to before `last`.
+    /// @dev Returns the same for the rows from `row` (inclusive) to `last` (exclusive).
     function columnsOf(uint256 row, uint256 last) internal pure returns (uint256 first, uint256 end) {
         unchecked {
             uint256 kink = load(KINK_ROW);
             (first, end) = (load(SPAN_END), 0);
-            // sides are straight but for the kink
+            // sides are straight except for the kink
             (first, end) = widened(first, end, row);
             if (kink >= row && kink < last) {
                 if (kink != row) (first, end) = widened(first, end, kink - 1);

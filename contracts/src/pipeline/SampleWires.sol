@@ -6,8 +6,8 @@ import {SampleRasterizer} from "./SampleRasterizer.sol";
 import {SmoothShading} from "./SmoothShading.sol";
 import "./Registers.sol";
 
-// From the edges of triangles to fragments of four samples: a line is a rectangle, a pixel wide, as in OpenGL with multisampling. It is
-// drawn as two triangles.
+// Rasterizes the edges of triangles to fragments of four samples: a line is a rectangle, one pixel wide, as in OpenGL with multisampling.
+// It is drawn as two triangles.
 abstract contract SampleWires is SampleRasterizer, SmoothShading {
     /// @notice Draws the edges of the triangles of a list into the current band.
     function drawWires(uint256 list, uint256 end) internal pure virtual {
@@ -44,12 +44,12 @@ abstract contract SampleWires is SampleRasterizer, SmoothShading {
         return load((vertex & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES) >> ATTRIBUTE_DEPTH_AT;
     }
 
-    /// @param p, q The screen words of its ends.
+    /// @param p, q The screen words of the ends.
     /// @param attribute The accumulator at p.
-    /// @param change What its attribute word changes from there to q.
+    /// @param change The change of the attribute word from p to q.
     function line(uint256 p, uint256 q, uint256 attribute, uint256 change) private pure {
         unchecked {
-            // the same rectangle, whichever face the line belongs to
+            // the same rectangle for both faces that share the edge
             if (q < p) {
                 (p, q) = (q, p);
                 attribute += change << ACCUMULATOR_FRACTION;
@@ -72,8 +72,8 @@ abstract contract SampleWires is SampleRasterizer, SmoothShading {
         }
     }
 
-    /// @dev A triangle of which the first two vertices are the corners at one end of the line.
-    /// @param toB, toC What the attribute word changes from the first vertex to the others.
+    /// @dev Draws a triangle whose first two vertices are the corners at one end of the line.
+    /// @param toB, toC The changes of the attribute word from the first vertex to the others.
     function triangle(uint256 a, uint256 b, uint256 c, uint256 attribute, uint256 toB, uint256 toC) private pure {
         unchecked {
             int256 area = (columnOf(c) - columnOf(a)) * (rowOf(b) - rowOf(a)) - (columnOf(b) - columnOf(a)) * (rowOf(c) - rowOf(a));
@@ -91,7 +91,7 @@ abstract contract SampleWires is SampleRasterizer, SmoothShading {
         }
     }
 
-    /// @dev Corners that would leave the guard band are far from the picture.
+    /// @dev Clamps to the guard band: corners beyond it are far from the picture.
     function screenWord(int256 x, int256 y) private pure returns (uint256) {
         return (inGuardBand(y) << SCREEN_ROW_AT) | (inGuardBand(x) << SCREEN_COLUMN_AT);
     }

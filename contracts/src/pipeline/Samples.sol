@@ -5,16 +5,17 @@ import {BEYOND_BYTE_85, BEYOND_CARRY, BEYOND_SIGN} from "./ExactSpans.sol";
 import {BLUE_Q10_AT, GREEN_Q10_AT, HALF_85_Q10, ONES_85, RED_Q10_AT} from "./ExactSpans.sol";
 import "./Registers.sol";
 
-// Fragments of four samples: see SampleRasterizer. In each lane of a pixel stand a depth and a colour; what is nearer replaces both. Where
-// all four have one colour it is written to the picture at once. Other pixels are put on a list, and their mean is written in the end.
+// Fragments of four samples: see SampleRasterizer. Each lane of a pixel contains a depth and a colour; a nearer fragment replaces both. If
+// all four samples have one colour, it is written to the picture immediately. Other pixels are listed, and their means are written at the
+// end.
 //
-// Linear and quadratic colours are those of the centre of the pixel, as in OpenGL, even if the triangle covers only samples beside it.
-// What is computed for each fragment, and would be unbounded outside the triangle, is taken in the middle of the samples that it covers
-// (`centroid` in OpenGL).
+// Linear and quadratic colours are those of the pixel centre, as in OpenGL, even if the triangle covers only samples beside it. Values that
+// are computed per fragment, and would be unbounded outside the triangle, are evaluated at the centroid of the covered samples (`centroid`
+// in OpenGL).
 
 library Samples {
-    /// @dev The highest bit of each sample of a pixel that lies between two sides.
-    /// @param p Where the pixel has its samples.
+    /// @dev Returns the highest bits of the samples of a pixel that lie between two sides.
+    /// @param p The address of the pixel's samples.
     function coverage(uint256 left, uint256 right, uint256 p) internal pure returns (uint256 lanes) {
         assembly ("memory-safe") {
             lanes := mul(p, ADDRESS_64)
@@ -22,7 +23,7 @@ library Samples {
         }
     }
 
-    /// @dev The middle of the samples that are covered, from the centre of their pixel, in eighths of it.
+    /// @dev Returns the centroid of the covered samples, relative to the centre of the pixel, in eighths of a pixel.
     function centroid(uint256 lanes) internal pure returns (uint256 x, uint256 y) {
         assembly ("memory-safe") {
             lanes := and(shr(SET_AT, mul(shr(63, lanes), COVERED_TO_SET)), SET_MASK)
@@ -31,7 +32,7 @@ library Samples {
         }
     }
 
-    /// @dev The accumulator at a place so many eighths of a pixel away.
+    /// @dev Returns the accumulator at an offset in eighths of a pixel.
     function moved(uint256 attribute, uint256 x, uint256 y) internal pure returns (uint256 there) {
         assembly ("memory-safe") {
             there := add(attribute, add(mul(x, mload(DX_8)), mul(y, mload(DY_8))))
@@ -42,7 +43,7 @@ library Samples {
         }
     }
 
-    /// @dev The depths of the four samples.
+    /// @dev Returns the depths of the four samples.
     function depthsOf(uint256 attribute) internal pure returns (uint256 z) {
         assembly ("memory-safe") {
             z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE))
@@ -50,7 +51,7 @@ library Samples {
         }
     }
 
-    /// @dev A colour of signed lanes of 85 bits, Q10, as three bytes, blue uppermost.
+    /// @dev Converts a colour from signed lanes of 85 bits, Q10, to three bytes, blue uppermost.
     function bytesOf(uint256 color) internal pure returns (uint256 pixel) {
         assembly ("memory-safe") {
             color := add(color, HALF_85_Q10)
@@ -67,8 +68,8 @@ library Samples {
     }
 
     /// @dev Writes all samples of a pixel, and the pixel of the picture.
-    /// @param p Where the pixel has its samples.
-    /// @param z Their depths.
+    /// @param p The address of the pixel's samples.
+    /// @param z The depths of the samples.
     function paint(uint256 p, uint256 row, uint256 column, uint256 z, uint256 color) internal pure {
         assembly ("memory-safe") {
             mstore(p, or(z, mul(color, ONES_64)))
@@ -78,8 +79,8 @@ library Samples {
     }
 
     /// @dev Writes samples of a pixel.
-    /// @param p Where the pixel has its samples.
-    /// @param z What those change to of which the highest bit is in `seen`.
+    /// @param p The address of the pixel's samples.
+    /// @param z The new samples; only those whose highest bit is set in `seen` are written.
     function write(uint256 p, uint256 row, uint256 column, uint256 z, uint256 seen) internal pure {
         assembly ("memory-safe") {
             let old := mload(p)
@@ -94,7 +95,7 @@ library Samples {
         }
     }
 
-    /// @dev Where a pixel has its samples.
+    /// @dev Returns the address of a pixel's samples.
     function place(uint256 row, uint256 column) internal pure returns (uint256 p) {
         assembly ("memory-safe") {
             p := add(sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE))), shl(SAMPLE_SIZE_BITS, column))

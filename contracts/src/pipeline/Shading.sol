@@ -6,19 +6,19 @@ import {Lighting} from "./Lighting.sol";
 import {VERTEX_NORMAL} from "./SmoothLight.sol";
 import "./Registers.sol";
 
-// What the ways to shade a triangle have in common: whether colours may be linear on the screen, and the registers of those that are, and
-// of those of which each fragment is lit for itself.
+// The common parts of triangle shading: the test whether colours can be linear on the screen, and the registers of linear triangles and of
+// those whose fragments are shaded individually.
 
-/// @dev A bit above the numbers of each lane; and the limit of a pair: 4 times 3 levels, Q30.
+/// @dev A bit above the numbers of each lane; and the limit for a pair: 4 times 3 levels, Q30.
 uint256 constant GUARDS = 0x00400000000000004000000000000040000000000000;
 uint256 constant LIMITS = 0x00000003000000000000030000000000000300000000;
 /// @dev Twice the area of three pixels, in sub-pixels.
 uint256 constant THREE_PIXELS = 0x60000;
-/// @dev Eight rows, as screen words have them.
+/// @dev Eight rows in the format of screen words.
 uint256 constant EIGHT_ROWS = 0x80000000000000000000000000000000000;
 
 library Shading {
-    /// @notice The attribute words of the vertices with these screen words.
+    /// @notice Returns the attribute words of the vertices with these screen words.
     function attributesOf(uint256 a, uint256 b, uint256 c) internal pure returns (uint256, uint256, uint256) {
         assembly ("memory-safe") {
             a := mload(add(and(a, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
@@ -28,9 +28,8 @@ library Shading {
         return (a, b, c);
     }
 
-    /// @notice The normal and the light of a flat face.
-    /// @return mode How its fragments are lit. If by highlights only, the colours of the attribute words have the rest of the light on
-    /// them.
+    /// @notice Sets the normal and the light of a flat face.
+    /// @return mode How its fragments are lit. If only by highlights, the colours of the attribute words include the other light.
     function setFace(uint256 attributesA, uint256 attributesB, uint256 attributesC)
         internal
         pure
@@ -45,7 +44,7 @@ library Shading {
         }
     }
 
-    /// @dev The registers of a triangle whose colours change linearly.
+    /// @dev Sets the registers of a triangle with linear colours.
     function setLinear(uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode) internal pure {
         assembly ("memory-safe") {
             mstore(MODE, mode)
@@ -55,10 +54,10 @@ library Shading {
         }
     }
 
-    /// @dev Whether colours interpolated linearly on the screen are within four levels of the perspective-correct ones, or within two in
-    /// triangles that are large, on which the mean error of a picture depends. With weights w, depths z and colours c the two part by the
-    /// sum of w_i w_j (z_i - z_j) (c_i - c_j) / z over the three pairs of vertices, where w_i w_j is 1/4 at most, and their sum 1/3: three
-    /// levels, or one and a half, are allowed to each pair alone.
+    /// @dev Returns whether colours interpolated linearly on the screen are within four levels of the perspective-correct ones; within two
+    /// in large triangles, which determine the mean error of a picture. With weights w, depths z and colours c, the difference is the sum
+    /// of w_i w_j (z_i - z_j) (c_i - c_j) / z over the three pairs of vertices, where w_i w_j is at most 1/4, and their sum at most 1/3:
+    /// each pair alone may contribute three levels, or one and a half.
     function isAffine(uint256 a, uint256 b, uint256 c, uint256 screenA, uint256 screenB, uint256 screenC)
         internal
         pure
@@ -66,7 +65,7 @@ library Shading {
     {
         bool large;
         assembly ("memory-safe") {
-            // words compare as rows do
+            // words compare like rows
             large := add(screenA, EIGHT_ROWS)
             large := or(gt(screenB, large), gt(screenC, large))
         }
@@ -76,13 +75,13 @@ library Shading {
             let change := xor(xor(a, b), least)
             least := shr(ATTRIBUTE_DEPTH_AT, xor(least, mul(xor(least, c), lt(c, least))))
             change := sub(shr(ATTRIBUTE_DEPTH_AT, xor(change, mul(xor(change, c), lt(change, c)))), least)
-            // colours of up to 255 may differ as they like where depths do not by more than 12 / 255, in large triangles 8 / 255
+            // colours of up to 255 may differ by any amount if depths differ by at most 12 / 255, in large triangles 8 / 255
             yes := iszero(or(gt(mul(add(22, mul(11, large)), change), least), and(or(or(a, b), c), OVERFLOW)))
             if iszero(yes) {
                 let inverse := div(0x1000000000000000000000, least)
                 let limits := or(GUARDS, shr(large, LIMITS))
-                // |z_i - z_j| / z, Q20; its product with the difference of the colours (Q10), in each lane: if it is above the limit, a bit
-                // above is cleared; and more than 2^32 would not fit the lanes where colours are up to 20 times 255
+                // |z_i - z_j| / z, Q20, times the difference of the colours (Q10), in each lane: if it exceeds the limit, a bit above is
+                // cleared; more than 2^32 would not fit the lanes, since colours are up to 20 times 255
                 change := sub(b, a)
                 let ratio := sar(ATTRIBUTE_DEPTH_AT, change)
                 ratio := shr(64, mul(xor(ratio, sar(255, ratio)), inverse))
@@ -106,8 +105,8 @@ library Shading {
         }
     }
 
-    /// @dev Whether a triangle has more than 8 rows, of more than 3 pixels in the mean. To shade others in blocks would be dear, and
-    /// change little.
+    /// @dev Returns whether a triangle has more than 8 rows, of more than 3 pixels on average. Shading smaller ones in blocks would be
+    /// expensive, with little benefit.
     function isLarge(uint256 a, uint256 b, uint256 c) internal pure returns (bool large) {
         assembly ("memory-safe") {
             let rows := xor(b, mul(xor(b, c), lt(b, c)))
@@ -121,7 +120,7 @@ library Shading {
         }
     }
 
-    /// @notice The registers of a triangle of which each fragment is lit for itself.
+    /// @notice Sets the registers of a triangle whose fragments are shaded individually.
     function setExact(uint256 a, uint256 b, uint256 c, uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode)
         internal
         pure
@@ -155,8 +154,8 @@ library Shading {
         }
     }
 
-    /// @dev Depths by themselves, Q32, for which barycentric coordinates are too coarse.
-    /// @param z The depth at the first vertex; zb, zc the differences to the others.
+    /// @dev Sets separate depths, Q32, since barycentric coordinates are too coarse for them.
+    /// @param z The depth at the first vertex; zb and zc are the differences to the others.
     function setDepths(uint256 a, uint256 b, uint256 c, uint256 z, uint256 zb, uint256 zc) internal pure {
         assembly ("memory-safe") {
             let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
@@ -175,7 +174,7 @@ library Shading {
         }
     }
 
-    /// @notice The normals of the vertices: the first, Q36, and the differences to the others, Q20.
+    /// @notice Sets the normals of the vertices: the first one, Q36, and the differences to the others, Q20.
     function setNormals(uint256 a, uint256 b, uint256 c) internal pure {
         assembly ("memory-safe") {
             a := mload(add(and(a, SCREEN_RECORD_MASK), VERTEX_NORMAL))
@@ -185,7 +184,7 @@ library Shading {
         }
     }
 
-    /// @dev The sum of the squares of two edges, in sub-pixels.
+    /// @dev Returns the sum of the squares of two edges, in sub-pixels.
     function squareSize(uint256 a, uint256 b, uint256 c) internal pure returns (uint256 sum) {
         assembly ("memory-safe") {
             let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
@@ -198,7 +197,7 @@ library Shading {
         }
     }
 
-    /// @dev Twice the area, in sub-pixels.
+    /// @dev Returns twice the area, in sub-pixels.
     function doubleArea(uint256 a, uint256 b, uint256 c) internal pure returns (uint256 area) {
         assembly ("memory-safe") {
             let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
@@ -216,7 +215,7 @@ library Shading {
         return a > b ? a : b;
     }
 
-    /// @dev The attribute word with the light of the face on its colour.
+    /// @dev Returns the attribute word with its colour multiplied by the light of the face.
     function lit(uint256 word, uint256 factor) private pure returns (uint256 product) {
         assembly ("memory-safe") {
             let color := and(word, LANES_24)

@@ -4,19 +4,19 @@ pragma solidity 0.8.37;
 import {BOTTOM_AT, LAST_EDGE, ROW_MASK, TOP_AT, X_AT, Y_AT} from "../shadows/Receivers.sol";
 import "./Registers.sol";
 
-// The samples of a row that are in the shadow: a word of four lanes for each pixel, of which the highest bit of each is set where more
-// shadows begin than end to the left of the sample: see Receivers. Each edge changes the words of the pixels that it crosses, and the sums
-// of the words from the left on are what is wanted.
+// The samples of a row that are in shadow: a word of four lanes for each pixel; the highest bit of each lane is set if more shadows begin
+// than end to the left of the sample: see Receivers. Each edge changes the words of the pixels it crosses; the prefix sums of the words
+// from the left are the result.
 //
-// The light that casts shadows is weakened by the share of the samples of a fragment that it reaches.
+// The light that casts shadows is scaled by the fraction of the samples of a fragment that it reaches.
 
-/// @dev The share of a fragment of which the light reaches all samples.
+/// @dev The fraction for a fragment whose samples are all lit.
 uint256 constant ALL_SAMPLES = 1 << 8;
-/// @dev Bytes of an entry, and where it is in a word; that of a dark face.
+/// @dev The size of an entry in bytes, and its position in a word; the entry of a dark face.
 uint256 constant SHADOW_ENTRY_SIZE = 4;
 uint256 constant SHADOW_ENTRY_AT = 224;
 uint256 constant SHADOW_DARK = 1;
-/// @dev How far the value of a function is below the top of a word, and where it is there.
+/// @dev The distance of a function's value from the top of a word, and its position there.
 uint256 constant CONSTANT_TO_TOP = 96;
 uint256 constant LANE_AT_TOP = 192;
 
@@ -27,8 +27,8 @@ library ShadowRows {
         }
     }
 
-    /// @notice Finds the entries of the faces of an object, and what the light is to it where it shines.
-    /// @param object Its number in the scene.
+    /// @notice Finds the entries of the faces of an object, and its light from the shadow-casting lamp.
+    /// @param object The number of the object in the scene.
     function setObject(uint256 object) internal pure {
         unchecked {
             uint256 shadows = load(SHADOWS);
@@ -40,7 +40,7 @@ library ShadowRows {
         }
     }
 
-    /// @notice Finds what shades the face at FACE.
+    /// @notice Finds the shadows on the face at FACE.
     function setFace() internal pure {
         unchecked {
             uint256 entry = load(SHADOW_FACES) + SHADOW_ENTRY_SIZE * ((load(FACE) - load(MESH_FACES)) / FACE_SIZE);
@@ -51,13 +51,13 @@ library ShadowRows {
         }
     }
 
-    /// @notice Sets the words of a row of the triangle from `column` to before `end`. Rows must ascend.
+    /// @notice Sets the words of a row of the triangle from `column` (inclusive) to `end` (exclusive). Rows must ascend.
     function prepare(uint256 column, uint256 end, uint256 row) internal pure {
         assembly ("memory-safe") {
-            // Adds an edge that crosses rows of samples from q on, four for each row of pixels. `words` is the address that the word of the
-            // first pixel of the canvas would have. Returns the address of the first word that is changed, or wordsEnd.
+            // Adds an edge that crosses rows of samples from q on, four for each row of pixels. `words` is the address of the word of the
+            // canvas's first pixel, which may lie outside the buffer. Returns the address of the first changed word, or wordsEnd.
             function addEdge(word, q, words, column_, wordsEnd) -> first {
-                // the lanes of the samples that are in its rows
+                // the lanes of the samples in its rows
                 let crossed := TOPS_64
                 let cut := and(shr(TOP_AT, word), ROW_MASK)
                 if gt(cut, q) { crossed := shl(shl(6, sub(cut, q)), crossed) }
@@ -108,7 +108,7 @@ library ShadowRows {
                 }
                 if and(word, LAST_EDGE) { break }
                 edge := add(edge, 0x20)
-                // those above are passed over from now on
+                // edges above are skipped from now on
                 if isLeading { mstore(SHADOW_BEGIN, edge) }
             }
             let sum := sub(TOPS_64, ONES_64)
@@ -119,8 +119,8 @@ library ShadowRows {
         }
     }
 
-    /// @notice Weakens the light by what is in the shadow of a fragment.
-    /// @param covered The highest bit of the lane of each sample of the fragment.
+    /// @notice Scales the light by the fraction of a fragment that is not in shadow.
+    /// @param covered The highest bits of the lanes of the fragment's samples.
     function setShare(uint256 covered, uint256 column) internal pure {
         unchecked {
             uint256 dark;
@@ -145,14 +145,14 @@ library ShadowRows {
         }
     }
 
-    /// @dev How many of the highest bits of four lanes are set.
+    /// @dev Returns how many of the highest bits of four lanes are set.
     function count(uint256 lanes) private pure returns (uint256) {
         unchecked {
             return ((lanes >> 63) * ONES_64) >> 192;
         }
     }
 
-    /// @dev So many parts of the lanes of a colour.
+    /// @dev Returns the lanes of a colour times visible / total.
     function part(uint256 color, uint256 visible, uint256 total) private pure returns (uint256 weaker) {
         unchecked {
             for (uint256 i; i != 3 * MIDDLE_AT; i += MIDDLE_AT) weaker |= (((color >> i) & LANE_32) * visible / total) << i;

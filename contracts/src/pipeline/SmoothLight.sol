@@ -4,38 +4,40 @@ pragma solidity 0.8.37;
 import {ADDRESS} from "./LinearSpans.sol";
 import "./Registers.sol";
 
-// The light of one lamp on smooth surfaces. Normals N are interpolated between the vertices, and so are the directions L to the light and
-// the half vectors H between it and the eye, which turn little within a triangle. With the barycentric coordinates w and any vectors P, Q
+// The light of a single lamp on smooth surfaces. Normals N are interpolated between the vertices, and so are the directions L to the light
+// and the half vectors H between light and eye, which turn little within a triangle. With the barycentric coordinates w and any vectors P,
+// Q
 //
 //   P * Q = sum w_i P_i * Q_i - sum over the edges w_i w_j (P_i - P_j) * (Q_i - Q_j)
 //
-// is quadratic, so that a fragment takes three numbers from forward differences (see Quadratic), no vectors:
+// is quadratic, so a fragment reads three numbers from forward differences (see Quadratic), rather than vectors:
 //
 //   N * N, N * L, N * H     Q20 at the vertices, Q68 at a fragment, in lanes of 85 bits, N * N uppermost
 //   diffuse  = N * L / |N|
 //   specular = ((N * H)^2 / N * N)^(shininess / 2)
 //
-// Perspective needs no division: the normals are multiplied by the depths of their vertices, so that what is linear on the screen has the
-// direction of the normal, and a length that cancels.
+// Perspective correction needs no division: the normals are multiplied by the depths of their vertices, so that the result, linear on the
+// screen, has the direction of the normal, and a length that cancels.
 //
-// How far this is from the light at the fragment itself, in levels of 255; what is not bounded takes the exact way: see FragmentLight:
-//   - Between two points seen at an angle d, which are at different distances, a direction that is interpolated linearly is off by
-//     d * (ratio of the distances - 1) / 4 at most; for an edge that is e distances long neither factor is above e, and the product not
-//     above e^2 / 2, so it is off by e^2 / 8: see Materials.smoothReach. Lamps must not be much nearer than the eye.
+// The difference from the light computed at the fragment itself, in levels of 255; triangles without these bounds are shaded per fragment:
+// see FragmentLight:
+//   - Between two points seen at an angle d and at different distances, a linearly interpolated direction has an error of at most
+//     d * (ratio of the distances - 1) / 4; for an edge of length e in distances neither factor is above e, and the product not
+//     above e^2 / 2, so the error is at most e^2 / 8: see Materials.smoothReach. Lamps must not be much nearer than the eye.
 //   - Half vectors change by at most the root of HALF_REACH: see Specular.halfReach. Between unit vectors the interpolated one is too short
-//     by the factor 1 - sum w_i w_j (H_i - H_j)^2 / 2; that is added, for N * H near |N|, where highlights are.
-//   - Where the squares of both are beyond these bounds, but not beyond eight times, or 6.5 times for half vectors, and depths do not
-//     differ by more than a third, their products are exact in the middles of the edges too. Errors are of third order then: 0.008 times
-//     the third derivative, which is at most 3 e^3 for the direction to a point, from an edge e distances long. With a diffuse coefficient
+//     by the factor 1 - sum w_i w_j (H_i - H_j)^2 / 2; this is compensated for N * H near |N|, where highlights are.
+//   - If the squares of both exceed these bounds, but not eight times the bounds, or 6.5 times for half vectors, and depths differ by
+//     at most a third, their products are made exact at the edge midpoints too. Errors are of third order then: 0.008 times the third
+//     derivative, which is at most 3 e^3 for the direction to a point, for an edge of length e in distances. With a diffuse coefficient
 //     of 0.7 that is two levels; for a half vector that turns by d it is 0.024 d^3, or 2.6 levels by the fourth root of the shininess.
-//   - Colours are perspective-correct where linear ones would not be (Shading.isAffine): multiplied by the weights of the normals, and
-//     divided at each fragment by its depth, which is their sum.
-//   - N * N is from 1/4 to 17/16, where one step of Newton's method from a line gives its root to 1/1300. In a triangle it is at least the
-//     least one of its vertices less a third of the largest square of a change, since the sum of w_i w_j is at most 1/3.
+//   - Colours are perspective-correct where linear ones would be too inaccurate (Shading.isAffine): they are multiplied by the weights of
+//     the normals, and divided at each fragment by its depth, which is the sum of the weights.
+//   - N * N is 1/4 to 17/16; in this range one step of Newton's method from a linear function gives its root to 1/1300. In a triangle it is
+//     at least the minimum of the vertices minus a third of the largest square of a change, since the sum of w_i w_j is at most 1/3.
 
-/// @dev Words of a vertex record: the normal, the same with its lanes the other way round, and the other way round the direction to the
-/// light, Q21 and even; the half vector, Q29, and the other way round, Q21 and even. LIT once they are there and bounded, UNBOUNDED if they
-/// cannot be used, else 0.
+/// @dev Words of a vertex record: the normal; the normal with reversed lanes; the direction to the light with reversed lanes, Q21 and even;
+/// the half vector, Q29; the half vector with reversed lanes, Q21 and even. LIT if they are present and bounded, UNBOUNDED if they cannot
+/// be used, otherwise 0.
 uint256 constant VERTEX_NORMAL = 0x40;
 uint256 constant VERTEX_REVERSED = 0x60;
 uint256 constant VERTEX_LIGHT = 0x80;
@@ -45,7 +47,7 @@ uint256 constant VERTEX_STATE = 0xe0;
 uint256 constant LIT = 1;
 uint256 constant UNBOUNDED = 2;
 
-/// @dev What `setLight` finds of a triangle.
+/// @dev The results of `setLight`.
 uint256 constant UNBOUNDED_LIGHT = 0;
 uint256 constant AFFINE_LIGHT = 1;
 uint256 constant STEEP_LIGHT = 2;
@@ -53,8 +55,8 @@ uint256 constant STEEP_LIGHT = 2;
 /// @dev Half the range of a lane of 85 bits, for vectors of Q20.
 uint256 constant VECTOR_BIAS = 0x100000000000000000000080000000000000000000040000000;
 
-/// @dev Products of vectors of which one is twice its value: shifts that bring them, as Q20, from the upper lane to the upper, the middle
-/// and the lowest one, where n and m of `products` are Q30; and shifts of a square of Q40 and of one of half vectors, Q29 and Q21.
+/// @dev Products of vectors, one of which is doubled: shifts that move them, as Q20, from the upper lane to the upper, middle and lowest
+/// one, where n and m of `products` are Q30; and shifts of a square of Q40 and of one of half vectors, Q29 and Q21.
 uint256 constant PRODUCT_TO_UPPER = 41;
 uint256 constant PRODUCT_TO_MIDDLE = 116;
 uint256 constant PRODUCT_TO_LOWER = 201;
@@ -62,35 +64,35 @@ uint256 constant SQUARE_AT = 171;
 uint256 constant HALF_SQUARE_AT = 180;
 /// @dev From Q20 to the Q29 of VERTEX_HALF.
 uint256 constant Q20_TO_Q29 = 9;
-/// @dev 15/16 and 1/8, Q40: from where to where squares of normals may be.
+/// @dev 15/16 and 1/8, Q40: the minimum of the squares of normals and their range.
 uint256 constant LEAST_SQUARE = 0xf000000000;
 uint256 constant SQUARES = 0x2000000000;
-/// @dev 1/4, Q40: half vectors L + V that are shorter than a half turn too fast.
+/// @dev 1/4, Q40: half vectors L + V shorter than one half turn too fast.
 uint256 constant LEAST_HALF_SQUARE = 0x4000000000;
-/// @dev 3/4, Q20: three times the least square of an interpolated normal.
+/// @dev 3/4, Q20: three times the minimum square of an interpolated normal.
 uint256 constant LEAST_SQUARE_3 = 0xc0000;
 /// @dev Weights (Q10): 1 - 11/255 (43.5 of 1,024), 7/8 and 3/4.
 uint256 constant NEAR_ONE = 980;
 uint256 constant SEVEN_EIGHTHS = 896;
 uint256 constant THREE_QUARTERS = 768;
 
-/// @dev Behind the normal of a vertex the same with its lanes the other way round.
+/// @dev The offset from a vertex normal to the normal with reversed lanes.
 uint256 constant REVERSED = 0x20;
 
-/// @dev At fragments: twice the root of N * N, Q34, is within 3 % of ROOT_AT_0 + (N * N) * ROOT_SLOPE >> ROOT_SHIFT.
+/// @dev At fragments: twice the root of N * N, Q34, is approximated within 3 % by ROOT_AT_0 + (N * N) * ROOT_SLOPE >> ROOT_SHIFT.
 uint256 constant ROOT_AT_0 = 5892665057;
 uint256 constant ROOT_SLOPE = 702;
 uint256 constant ROOT_SHIFT = 44;
-/// @dev Where N * L is Q59, and N * H Q46, once its lane is at the top of a word.
+/// @dev The positions of N * L as Q59 and N * H as Q46, with their lanes at the top of a word.
 uint256 constant N_DOT_L_AT = 180;
 uint256 constant N_DOT_H_AT = 193;
 
 library SmoothLight {
-    /// @notice The coefficients of the quadratic products of a triangle.
-    /// @param a The screen words of its vertices.
+    /// @notice Computes the coefficients of a triangle's quadratic products.
+    /// @param a, b, c The screen words of the vertices.
     /// @param size The sum of the squares of two edges.
-    /// @return kind UNBOUNDED_LIGHT if they may be too far from the light of each fragment; AFFINE_LIGHT if the depths of the vertices are
-    /// so near to each other that colours may be interpolated linearly, else STEEP_LIGHT.
+    /// @return kind UNBOUNDED_LIGHT if the error may be too large; AFFINE_LIGHT if the depths of the vertices are so similar that colours
+    /// can be interpolated linearly; otherwise STEEP_LIGHT.
     function setLight(uint256 a, uint256 b, uint256 c, uint256 size) internal pure returns (uint256 kind) {
         assembly ("memory-safe") {
             // as in FragmentLight
@@ -110,7 +112,7 @@ library SmoothLight {
                 r := shr(1, add(r, div(value, r)))
                 r := shr(1, add(r, div(value, r)))
             }
-            // fills the record of a vertex with what the triangles around it need
+            // fills the part of a vertex record that is common to all adjacent triangles
             function setVertex(vertex) {
                 let screen := mload(vertex)
                 // the ray (x, y, 1), Q24
@@ -137,7 +139,7 @@ library SmoothLight {
                     lz := sub(lz, z)
                     square := add(square, mul(z, z))
                     length := add(add(mul(lx, lx), mul(ly, ly)), mul(lz, lz))
-                    // at most nearer than the eye by the root of 5/4
+                    // the light must not be nearer than the eye by more than a factor of the root of 5/4
                     bounded := iszero(gt(shl(2, square), mul(5, length)))
                     length := root(length, add(LIGHTS, LIGHT_HINT))
                 }
@@ -149,13 +151,13 @@ library SmoothLight {
                     x := 0
                     y := 0
                 }
-                // H = L + V, where V is the ray turned round
+                // H = L + V, where V is the reversed ray
                 length := root(add(add(mul(x, x), mul(y, y)), ONE_48), RAY_HINT)
                 lx := sub(lx, sdiv(shl(Q20, x), length))
                 ly := sub(ly, sdiv(shl(Q20, y), length))
                 lz := sub(lz, div(ONE_44, length))
                 length := add(add(mul(lx, lx), mul(ly, ly)), mul(lz, lz))
-                // not against the light, where it turns without bound
+                // not opposite to the light, where it turns arbitrarily fast
                 bounded := and(bounded, gt(length, LEAST_HALF_SQUARE))
                 length := root(length, HALF_HINT)
                 lx := sdiv(shl(Q20, lx), length)
@@ -167,14 +169,14 @@ library SmoothLight {
                 y := add(x, VECTOR_BIAS)
                 y := shl(1, sub(or(or(shl(UPPER_85_AT, and(y, LANE_85)), shr(UPPER_85_AT, y)), and(y, MIDDLE_LANE_85)), VECTOR_BIAS))
                 mstore(add(vertex, VERTEX_REVERSED), y)
-                // the square of the normal, Q40, is from 15/16 to 17/16
+                // the square of the normal, Q40, must be 15/16 to 17/16
                 bounded := and(bounded, lt(sub(sar(SQUARE_AT, mul(x, y)), LEAST_SQUARE), SQUARES))
                 mstore(add(vertex, VERTEX_STATE), sub(UNBOUNDED, bounded))
             }
 
-            // lanes: n * r, n * l, m * h, where r, l, h are the other way round; n and m are Q30, the sums Q20
-            // A product of two vectors stands in the uppermost lane, but for bit 255, where the lowest of what is above it would be: that
-            // is 0, since one of them is twice its value.
+            // lanes: n * r, n * l, m * h, where r, l, h have reversed lanes; n and m are Q30, the sums Q20. A dot product is in the
+            // uppermost lane of the product of two words, except for bit 255, which would be the lowest bit of the next lane: it is 0,
+            // since one of the vectors is doubled.
             function products(n, r, l, m, h) -> packed {
                 packed := and(sar(PRODUCT_TO_UPPER, mul(n, r)), UPPER_LANE_85)
                 packed := add(packed, and(sar(PRODUCT_TO_MIDDLE, mul(n, l)), UPPER_LANES_85))
@@ -201,8 +203,8 @@ library SmoothLight {
                 packed := products(n, sub(mload(add(placeV, REVERSED)), mload(add(placeU, REVERSED))), square, sub(n, h), reversed)
             }
 
-            // What has to be added to that, so that the light in the middle is right: four times the error there,
-            // (N_u + N_v) * (L_u + L_v - 2 L), and the same of H, which is not too short there
+            // The correction that makes the light at the midpoint exact: four times the error there, (N_u + N_v) * (L_u + L_v - 2 L), and
+            // the same for H, which is not too short there
             function correction(u, v, placeU, placeV) -> packed {
                 mstore(MIDDLE, shl(SCREEN_COLUMN_AT, shr(1, add(shr(SCREEN_COLUMN_AT, mload(u)), shr(SCREEN_COLUMN_AT, mload(v))))))
                 mstore(
@@ -245,7 +247,7 @@ library SmoothLight {
                 let q := ONE_10
                 let r := ONE_10
                 if iszero(mload(FRAME_IS_ORTHOGRAPHIC)) {
-                    // depths by the greatest of them
+                    // depths relative to the greatest of them
                     p := shr(ATTRIBUTE_DEPTH_AT, mload(add(a, VERTEX_ATTRIBUTES)))
                     q := shr(ATTRIBUTE_DEPTH_AT, mload(add(b, VERTEX_ATTRIBUTES)))
                     r := shr(ATTRIBUTE_DEPTH_AT, mload(add(c, VERTEX_ATTRIBUTES)))
@@ -255,7 +257,7 @@ library SmoothLight {
                     p := div(shl(Q10, p), nearest)
                     q := div(shl(Q10, q), nearest)
                     r := div(shl(Q10, r), nearest)
-                    // colours of up to 255 may differ as they like where depths do not by more than 12 / 255: see Shading.isAffine
+                    // colours of up to 255 may differ by any amount if depths differ by at most 12 / 255: see Shading.isAffine
                     kind := add(AFFINE_LIGHT, or(or(lt(p, NEAR_ONE), lt(q, NEAR_ONE)), lt(r, NEAR_ONE)))
                     mstore(DEPTHS_DIFFER, 0)
                     if eq(kind, STEEP_LIGHT) {
@@ -276,7 +278,7 @@ library SmoothLight {
                 let ac := along(a, c, NORMAL_0, NORMAL_2)
                 let bc := along(b, c, NORMAL_1, NORMAL_2)
                 {
-                    // the least N * N less a third of the largest square of a change is to be 1/4 or more: three times that
+                    // the minimum of N * N minus a third of the largest square of a change must be at least 1/4: three times that
                     let least := p
                     if slt(q, least) { least := q }
                     if slt(r, least) { least := r }
@@ -284,7 +286,7 @@ library SmoothLight {
                     least := and(and(slt(sar(UPPER_85_AT, ab), least), slt(sar(UPPER_85_AT, ac), least)), slt(sar(UPPER_85_AT, bc), least))
                     kind := mul(kind, least)
                 }
-                // an eighth of the reach where depths differ, and with them the lengths of N for which |H| = 1 is made up
+                // an eighth of the reach if depths differ, since then the lengths of N differ, which the compensation for |H| = 1 uses
                 if or(gt(shl(mul(3, mload(DEPTHS_DIFFER)), mload(HALF_CHANGE)), mload(HALF_REACH)), iszero(lt(size, mload(SMOOTH_REACH)))) {
                     kind := mul(kind, iszero(or(gt(shl(1, mload(HALF_CHANGE)), mul(13, mload(HALF_REACH))), gt(mload(DEPTHS_DIFFER), 1))))
                     if kind {
@@ -306,16 +308,16 @@ library SmoothLight {
         }
     }
 
-    /// @notice Draws the fragments of a smooth triangle: see Rasterizer.drawParts.
+    /// @notice Draws the fragments of a smooth triangle: see PixelRasterizer.drawParts.
     function drawParts(uint256 edges, uint256 rows, uint256 row) internal pure {
         assembly ("memory-safe") {
-            // Fragments of a row; `light` are the products at the first, `step` their change to the next. `plain` is a literal, of which
-            // the compiler makes two functions: 1 for grey light on linear colours.
+            // Fragments of a row; `light` contains the products at the first one, `step` their change to the next. `plain` is a literal, so
+            // that the compiler generates two functions: 1 for grey light on linear colours.
             function span(p, end, attribute, light, step, plain) {
                 let pixel := add(mload(IMAGE_ORIGIN), mul(3, shr(3, p)))
                 for {} 1 {} {
                     if gt(attribute, or(mload(p), BEHIND_DEPTH)) {
-                        // copying a few bytes is cheaper than to put them into a word
+                        // copying a few bytes is cheaper than inserting them into a word
                         mstore(0, attribute)
                         mcopy(p, 0, 8)
                         // N * N, Q68, and twice its root, Q34
@@ -327,7 +329,7 @@ library SmoothLight {
                         // N * L, Q59
                         let t := sar(N_DOT_L_AT, shl(MIDDLE_85_TO_TOP, light))
                         if sgt(t, 0) {
-                            // its quotient by |N|, Q24
+                            // divided by |N|, Q24
                             factor := add(factor, mul(mload(add(LIGHTS, LIGHT_DIFFUSE)), div(t, length)))
                             // N * H, Q46
                             t := sar(N_DOT_H_AT, shl(LOWER_85_TO_TOP, light))
@@ -358,7 +360,7 @@ library SmoothLight {
                             sum := add(sum, shl(MIDDLE_AT, shr(Q16, mul(and(t, LANE_24), and(shr(MIDDLE_AT, factor), LANE_32)))))
                             t := add(sum, shl(UPPER_AT, shr(Q16, mul(shr(MIDDLE_AT, t), shr(UPPER_AT, factor)))))
                         }
-                        // lanes above 255 get all the bits of 255
+                        // lanes above 255 get all bits of 255
                         if and(t, OVERFLOW) { t := or(t, mul(and(shr(OVERFLOW_CARRY_AT, add(t, OVERFLOW_TO_CARRY)), ONES), BYTE_Q10)) }
                         mstore(0, mul(and(t, BYTES_Q10), Q10_TO_PIXEL))
                         mcopy(pixel, 0, 3)
@@ -374,14 +376,14 @@ library SmoothLight {
             let mode := mload(MODE)
             // 0 for most triangles, 1 if only the light or the colours need more
             mode := or(and(mode, IS_CUT_OR_CROSSING), iszero(eq(and(mode, IS_GREY_OR_STEEP), IS_GREY)))
-            // START is told for column 0; now for address 0
+            // START is relative to column 0; make it relative to address 0
             let start := sub(mload(START), mul(mload(DX_8), row))
             mstore(DX, shl(3, mload(DX_8)))
             mstore(ROW_STEP, add(mload(DY), mul(mload(DX_8), mload(DEPTH_STRIDE))))
             let light := mload(QUADRATIC_START)
             let down := mload(QUADRATIC_DY)
-            // half the second difference, and the first without it: the value at column x is then that at column 0 and x * (DX + x *
-            // HALF_DXX). The bit that is lost at the top does no harm: x * (x - 1) is even.
+            // half the second difference, and the first difference without it: the value at column x is then that at column 0 plus x * (DX
+            // + x * HALF_DXX). The bit lost at the top does no harm: x * (x - 1) is even.
             mstore(QUADRATIC_HALF_DXX, shr(1, mload(QUADRATIC_DXX)))
             mstore(QUADRATIC_DX, sub(mload(QUADRATIC_DX), mload(QUADRATIC_HALF_DXX)))
             for {} 1 {} {
@@ -406,13 +408,13 @@ library SmoothLight {
                     let p := and(shr(EDGE_ADDRESS_FRACTION, edges), ADDRESS)
                     let end := and(shr(EDGE_RIGHT_ADDRESS_AT, edges), ADDRESS)
                     if gt(mode, 1) {
-                        // addresses may be below 0 beside the tile, columns are not
+                        // addresses may be negative beside the tile, columns are not
                         end := sub(edges, mul(shl(EDGE_ADDRESS_FRACTION, row), ONES_128))
                         p := and(shr(EDGES_LEFT_COLUMN_AT, end), EDGES_LEFT_COLUMN_MASK)
                         end := shr(EDGES_RIGHT_COLUMN_AT, end)
                         if lt(p, mload(COLUMN_BEGIN)) { p := mload(COLUMN_BEGIN) }
                         if gt(end, mload(COLUMN_END)) { end := mload(COLUMN_END) }
-                        // a row without pixels stays one where addresses are below 0
+                        // a row without pixels remains empty if addresses are negative
                         if gt(p, end) { end := p }
                         p := add(row, shl(3, p))
                         end := add(row, shl(3, end))

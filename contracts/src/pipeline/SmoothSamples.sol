@@ -4,10 +4,10 @@ pragma solidity 0.8.37;
 import {N_DOT_H_AT, N_DOT_L_AT, ROOT_AT_0, ROOT_SHIFT, ROOT_SLOPE} from "./SmoothLight.sol";
 import "./Registers.sol";
 
-// Smooth surfaces in the light of one lamp, with four samples for each pixel: the products of SmoothLight, at the middle of the samples
-// that the triangle covers.
+// Smooth surfaces lit by a single lamp, with four samples per pixel: the products of SmoothLight, at the centroid of the samples that the
+// triangle covers.
 
-/// @dev Bits that eight times a product has more.
+/// @dev The additional bits of eight times a product.
 uint256 constant EIGHT_BITS = 3;
 
 library SmoothSamples {
@@ -53,7 +53,7 @@ library SmoothSamples {
                     color := add(color, shl(MIDDLE_AT, shr(Q16, mul(and(t, LANE_24), and(shr(MIDDLE_AT, factor), LANE_32)))))
                     color := add(color, shl(UPPER_AT, shr(Q16, mul(shr(MIDDLE_AT, t), shr(UPPER_AT, factor)))))
                 }
-                // lanes above 255 get all the bits of 255
+                // lanes above 255 get all bits of 255
                 if and(color, OVERFLOW) {
                     color := or(color, mul(and(shr(OVERFLOW_CARRY_AT, add(color, OVERFLOW_TO_CARRY)), ONES), BYTE_Q10))
                 }

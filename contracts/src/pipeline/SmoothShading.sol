@@ -7,9 +7,9 @@ import {Shading} from "./Shading.sol";
 import {SmoothLight, UNBOUNDED_LIGHT, STEEP_LIGHT} from "./SmoothLight.sol";
 import "./Registers.sol";
 
-// How triangles are shaded of which the fragments are lit: those of smooth surfaces, and everything that no other way draws.
+// Selects the shading of triangles whose fragments are lit: smooth surfaces, and all that no other method draws.
 
-/// @dev Keeps colours (Q42) from being rounded below zero: 1/32 of a level.
+/// @dev Prevents colours (Q42) from being rounded below zero: 1/32 of a level.
 uint256 constant SMOOTH_BIAS = 0x100000000000020000000000000200000000000002000000000;
 
 abstract contract SmoothShading is Rasterizer {
@@ -19,7 +19,7 @@ abstract contract SmoothShading is Rasterizer {
             uint256 kind = UNBOUNDED_LIGHT;
             if (mode & (IS_QUADRATIC | IS_BLENDED) == IS_QUADRATIC) {
                 uint256 size = Shading.squareSize(a, b, c);
-                // nothing is tried in triangles that are too large
+                // skip triangles that are too large
                 if (size < 8 * load(SMOOTH_REACH)) kind = SmoothLight.setLight(a, b, c, size);
             }
             if (kind == UNBOUNDED_LIGHT) return shadeExact(a, b, c, crossing);
@@ -42,13 +42,13 @@ abstract contract SmoothShading is Rasterizer {
         }
     }
 
-    /// @notice The same where every fragment is lit for itself.
+    /// @notice Selects the shading of every fragment individually.
     function shadeExact(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure virtual {
         (uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode) = surface(a, b, c);
         Shading.setExact(a, b, c, attributesA, attributesB, attributesC, mode | crossing);
     }
 
-    /// @dev The attribute words of a triangle and its mode; its normal or its normals are set.
+    /// @dev Returns the attribute words of a triangle and its mode, and sets its normal or normals.
     function surface(uint256 a, uint256 b, uint256 c)
         internal
         pure
@@ -62,7 +62,7 @@ abstract contract SmoothShading is Rasterizer {
         }
     }
 
-    /// @dev The attribute word with its colour multiplied by its depth, as a part (Q10) of the nearest.
+    /// @dev Returns the attribute word with its colour multiplied by its depth relative to the nearest (Q10).
     function weighted(uint256 word, uint256 nearest) private pure returns (uint256) {
         unchecked {
             uint256 depth = word >> ATTRIBUTE_DEPTH_AT;

@@ -7,25 +7,25 @@ import {FragmentLight} from "./FragmentLight.sol";
 import {OPACITY_AT, Texture} from "./Texture.sol";
 import "./Registers.sol";
 
-// The fragment shader of scenes with effects. With albedo, light and highlights of FragmentLight:
+// The fragment shader of scenes with effects. With albedo, light and highlights as in FragmentLight:
 //
 //   radiance = albedo * (light + hemisphere) + highlights + rim * (1 - max(N.V, 0))^power
 //   hemisphere = ambient coefficient * (ground + (sky - ground) * (1 + N.up) / 2)
-//   colour = tone(radiance * exposure), mixed with that of the fog by the distance along the line of sight
+//   colour = tone(radiance * exposure), blended with the fog by the distance along the line of sight
 //
-// In linear light (gamma) the albedo is decoded from sRGB, and the colour is encoded; the colours of lights are decoded before.
-// The filmic tone is x (2.51 x + 0.03) / (x (2.43 x + 0.59) + 0.14), the fit of the ACES curve by Krzysztof Narkowicz.
+// In linear light (gamma), the albedo is decoded from sRGB and the final colour is encoded; the colours of lights are decoded beforehand.
+// The filmic tone is x (2.51 x + 0.03) / (x (2.43 x + 0.59) + 0.14), the approximation of the ACES curve by Krzysztof Narkowicz.
 
 /// @dev 255 levels, Q10.
 uint256 constant WHITE_10 = 0x3fc00;
-/// @dev What makes a lane above that carry into bit 55; that bit in each lane, and its place; a lane.
+/// @dev Addend that makes a larger lane carry into bit 55; that bit in each lane, and its position; a lane.
 uint256 constant BELOW_BEYOND = 0x7ffffffffc03ff7ffffffffc03ff7ffffffffc03ff;
 uint256 constant BEYOND_LEVELS = 0x800000000000008000000000000080000000000000;
 uint256 constant BEYOND_AT = 55;
 uint256 constant LANE_56 = 0xffffffffffffff;
-/// @dev 40 bits of each lane.
+/// @dev The lower 40 bits of each lane.
 uint256 constant LANES_40 = 0xffffffffff0000ffffffffff0000ffffffffff;
-/// @dev Values of the filmic curve above 64 (Q16) are as good as white.
+/// @dev Values of the filmic curve above 64 (Q16) are treated as white.
 uint256 constant BRIGHTEST_FILMIC = 1 << 22;
 /// @dev 0.59 and 0.03, Q16, and 0.14, Q32, times 100.
 uint256 constant FILMIC_59 = 59 << 16;
@@ -33,14 +33,13 @@ uint256 constant FILMIC_3 = 3 << 16;
 uint256 constant FILMIC_14 = 14 << 32;
 /// @dev The end of the lanes of a colour.
 uint256 constant LANES_END = 3 * 56;
-/// @dev What a lane of COLOR_0 has besides its colour: 2^24; what brings lanes above 255, Q10, to bit 18; the bits that a colour of 0 to
-/// 255 has not.
+/// @dev The bias of a lane of COLOR_0, 2^24; the addend that makes lanes above 255, Q10, set bit 18; the bits that are zero for 0 to 255.
 uint256 constant ALBEDO_BIAS = 0x10000000000000100000000000001000000;
 uint256 constant ALBEDO_SLACK = 0x3ff000000000003ff000000000003ff;
 uint256 constant BEYOND_ALBEDO = 0xfffc0000000000fffc0000000000fffc0000;
 
 library SurfaceLight {
-    /// @notice The colour where the accumulator and the ray are these.
+    /// @notice Returns the colour for this accumulator and ray.
     /// @param attribute The accumulator of barycentric coordinates.
     /// @param x, y As for FragmentLight.
     /// @return color Three bytes, blue uppermost.
@@ -64,7 +63,7 @@ library SurfaceLight {
         }
         uint256 albedo = albedoAt(s, t);
         if (load(MODE) & IS_LIT != 0) {
-            // the highlights alone; the light that modulates the albedo stays in FRAGMENT_LIGHT
+            // the highlights only; the light that modulates the albedo stays in FRAGMENT_LIGHT
             color = FragmentLight.colorAt(attribute, s, t, x, y, true);
             addHemisphere();
             color = lit(albedo, color);
@@ -82,16 +81,16 @@ library SurfaceLight {
         }
     }
 
-    /// @dev The colour of the surface itself, lanes of Q10, 0..255.
-    /// @param s, t Barycentric coordinates, correct in perspective, Q24.
+    /// @dev Returns the colour of the surface, lanes of Q10, 0..255.
+    /// @param s, t Perspective-correct barycentric coordinates, Q24.
     function albedoAt(uint256 s, uint256 t) private pure returns (uint256 albedo) {
         assembly ("memory-safe") {
             albedo := shr(24, add(add(mload(COLOR_0), mul(mload(COLOR_1), s)), mul(mload(COLOR_2), t)))
             albedo := and(albedo, LANES_32)
-            // each lane has 2^24 too much
+            // each lane has a bias of 2^24
             albedo := xor(albedo, ALBEDO_BIAS)
             if and(add(albedo, ALBEDO_SLACK), BEYOND_ALBEDO) {
-                // lanes that are below 0 have the bit that others have no more
+                // negative lanes still have the bias bit that the others have lost
                 let inside := 0
                 for { let i := 0 } lt(i, LANES_END) { i := add(i, MIDDLE_AT) } {
                     let channel := and(shr(i, albedo), LANE_32)
@@ -108,7 +107,7 @@ library SurfaceLight {
         }
     }
 
-    /// @dev Sets OPACITY to that of the fragment, if vertices have opacities: the uppermost lane of colours.
+    /// @dev Sets OPACITY to that of the fragment if vertices have opacities, which are in the uppermost lane of colours.
     function setOpacity(uint256 s, uint256 t) private pure {
         unchecked {
             uint256 sum = load(COLOR_0) + load(COLOR_1) * s + load(COLOR_2) * t;
@@ -120,7 +119,7 @@ library SurfaceLight {
         }
     }
 
-    /// @dev Lanes of Q10 times those of a texture, Q16.
+    /// @dev Multiplies lanes of Q10 by those of a texture, Q16.
     function textured(uint256 color, uint256 texture) private pure returns (uint256 product) {
         assembly ("memory-safe") {
             product := shr(16, mul(and(color, LANE_32), and(texture, LANE_24)))
@@ -130,14 +129,14 @@ library SurfaceLight {
         }
     }
 
-    /// @dev Lanes of Q10 as linear levels.
+    /// @dev Converts lanes of Q10 to linear values.
     function decoded(uint256 color) private pure returns (uint256 linear) {
         unchecked {
             for (uint256 i; i != LANES_END; i += MIDDLE_AT) linear |= Gamma.decode((color >> i) & LANE_32) << i;
         }
     }
 
-    /// @dev Albedo times FRAGMENT_LIGHT (Q40), and highlights, lanes of Q10.
+    /// @dev Returns albedo times FRAGMENT_LIGHT (Q40), plus highlights; lanes of Q10.
     function lit(uint256 albedo, uint256 highlights) private pure returns (uint256 color) {
         assembly ("memory-safe") {
             let light := mload(FRAGMENT_LIGHT)
@@ -148,14 +147,14 @@ library SurfaceLight {
         }
     }
 
-    /// @dev A colour and the rim at this strength, Q24.
+    /// @dev Returns a colour plus the rim at this strength, Q24.
     function withRim(uint256 color, uint256 strength) private pure returns (uint256) {
         unchecked {
             return color + (((load(RIM_COLOR) * strength) >> (Q24 - Q10)) & LANES_24);
         }
     }
 
-    /// @dev A colour behind fog that hides so much of it, Q16.
+    /// @dev Returns a colour blended with the fog at this strength, Q16.
     function fogged(uint256 color, uint256 strength) private pure returns (uint256) {
         unchecked {
             if (strength == 0) return color;
@@ -164,7 +163,7 @@ library SurfaceLight {
         }
     }
 
-    /// @dev A colour of which no channel is above 255, lanes of Q10.
+    /// @dev Returns a colour with channels clamped to 255, lanes of Q10.
     function bounded(uint256 color) private pure returns (uint256 levels) {
         assembly ("memory-safe") {
             levels := color
@@ -196,7 +195,7 @@ library SurfaceLight {
         }
     }
 
-    /// @dev How strong the rim is at a fragment, Q24.
+    /// @dev Returns the strength of the rim at a fragment, Q24.
     function rimAt() private pure returns (uint256 strength) {
         unchecked {
             uint256 normalRay = load(FRAGMENT_NORMAL_RAY);
@@ -213,7 +212,7 @@ library SurfaceLight {
         }
     }
 
-    /// @dev How much the fog hides at a depth, Q16.
+    /// @dev Returns the opacity of the fog at a depth, Q16.
     function fogAt(uint256 depth) private pure returns (uint256 strength) {
         assembly ("memory-safe") {
             let distance := shl(8, mload(DEPTH_SCALE))
@@ -227,11 +226,11 @@ library SurfaceLight {
         }
     }
 
-    /// @dev A colour as it is shown, lanes of Q10, 0..255.
+    /// @dev Returns the displayed colour, lanes of Q10, 0..255.
     function toned(uint256 color) private pure returns (uint256 shown) {
         unchecked {
             uint256 flags = load(TONE_FLAGS);
-            // Four lights, ambient light and a hemisphere, with coefficients up to 4, are less than 2^24; exposures are 2^22 at most
+            // Four lights, ambient light and a hemisphere, with coefficients up to 4, are less than 2^24; exposures are at most 2^22
             color = ((color * load(EXPOSURE)) >> Q16) & LANES_40;
             if (flags == 0) return bounded(color);
             for (uint256 i; i != LANES_END; i += MIDDLE_AT) {

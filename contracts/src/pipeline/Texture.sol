@@ -7,21 +7,21 @@ import {Triangles} from "./Triangles.sol";
 import {VertexShader} from "./VertexShader.sol";
 import "./Registers.sol";
 
-// The colour of a texture at a fragment: see EffectRecords for how it is stored.
+// Samples a texture at a fragment: see EffectRecords for its format.
 //
-// Texture coordinates are interpolated correctly in perspective, two lanes of 128 bits: u below, v above. Texels are found as in OpenGL:
-// with the coordinate x = u * width, the nearest texel is floor(x); between texels, whose centres lie at i + 0.5, colours are linear.
+// Texture coordinates are interpolated perspective-correctly, in two lanes of 128 bits: u below, v above. Texels are addressed as in
+// OpenGL: with the coordinate x = u * width, the nearest texel is floor(x); for bilinear filtering, texel centres are at i + 0.5.
 
 uint256 constant ONE_12 = 0x1000;
 uint256 constant BELOW_ONE_24 = 0xffffff;
-/// @dev Where colours have opacities, and what keeps them positive.
+/// @dev The position of opacities in colours, and a bias that keeps them positive.
 uint256 constant OPACITY_AT = 168;
 uint256 constant OPACITY_BIAS = 1 << (48 + OPACITY_AT);
 uint256 constant Q34 = 34;
 
 library Texture {
-    /// @notice The coordinates of a triangle: at the first vertex (Q40), and the differences to the others (Q16).
-    /// @param a, b, c The screen words of its vertices, which records of 2^shift bytes have.
+    /// @notice Sets the texture coordinates of a triangle: at the first vertex (Q40), and the differences to the others (Q16).
+    /// @param a, b, c The screen words of its vertices. Their records have 2^shift bytes.
     function setTriangle(uint256 a, uint256 b, uint256 c, uint256 shift) internal pure {
         unchecked {
             uint256 first = coordinatesOf(a, shift, false);
@@ -45,7 +45,7 @@ library Texture {
         return uint256(int256(change) >> (Q16 - Q10));
     }
 
-    /// @notice The colour at barycentric coordinates, Q24, that are correct in perspective: lanes of Q16, where 255 is one.
+    /// @notice Returns the colour at perspective-correct barycentric coordinates, Q24: lanes of Q16, where 255 is one.
     function colorAt(uint256 s, uint256 t) internal pure returns (uint256) {
         assembly ("memory-safe") {
             t := add(add(mload(UV_0), mul(mload(UV_1), s)), mul(mload(UV_2), t))
@@ -56,7 +56,7 @@ library Texture {
         return sample(load(TEXTURE), s, t);
     }
 
-    /// @notice The colour of the texture at this place of the call, lanes of Q16, where 255 is one.
+    /// @notice Returns the colour of the texture at this calldata offset, lanes of Q16, where 255 is one.
     /// @param u, v Q24, signed.
     function sample(uint256 texture, uint256 u, uint256 v) internal pure returns (uint256 color) {
         assembly ("memory-safe") {
@@ -73,7 +73,7 @@ library Texture {
                 if gt(inside, BELOW_ONE_24) { inside := BELOW_ONE_24 }
             }
 
-            // the texels along a side between whose centres a place (Q24) lies
+            // the texels along a side whose centres enclose a coordinate (Q24)
             function around(x, size, flags) -> first, second {
                 first := sar(24, x)
                 second := add(first, 1)
@@ -119,14 +119,14 @@ library Texture {
                     v := sub(ONE_12, v)
                 }
             }
-            // Q34 levels times 257 / 2^16; from a half on one more, so that 255 is one
+            // Q34 levels times 257 / 2^16; add one from a half on, so that 255 is one
             color := and(shr(34, mul(color, 257)), LANES_24)
             color := add(color, and(shr(15, color), ONES))
         }
     }
 
-    /// @dev The texture coordinates, or the opacity, of a vertex, Q16: those of the mesh, or where the vertex is new, since its face was
-    /// clipped, those of that place of the face.
+    /// @dev Returns the texture coordinates, or the opacity, of a vertex, Q16: from the record in calldata; for a new vertex of a clipped
+    /// face, those of its position on the face.
     function coordinatesOf(uint256 screen, uint256 shift, bool isOpacity) private pure returns (uint256) {
         unchecked {
             uint256 index = ((screen & SCREEN_RECORD_MASK) - load(RECORDS)) >> shift;
@@ -145,7 +145,7 @@ library Texture {
         }
     }
 
-    /// @dev With the clip coordinates P of the vertices of the face, (x, y, 1) of the place is a multiple of their sum with the weights
+    /// @dev With the clip coordinates P of the vertices of the face, (x, y, 1) of the position is a multiple of their sum with the weights
     /// e0 = det((x, y, 1), P1, P2), e1 = det((x, y, 1), P2, P0), e2 = det((x, y, 1), P0, P1).
     function cutCoordinates(uint256 screen, bool isOpacity) private pure returns (uint256 uv) {
         unchecked {

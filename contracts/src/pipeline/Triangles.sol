@@ -5,23 +5,23 @@ import "./Registers.sol";
 
 // A triangle of a list, in one word: see TRIANGLE_ in Words.sol.
 //
-// The first vertex is the topmost, and the three run counter-clockwise on the screen.
+// The first vertex is the topmost, and the vertices are counter-clockwise on the screen.
 
 uint256 constant ALL_EDGES = 7;
 
 library Triangles {
-    /// @notice The three vertex numbers of a face, 16 bits each.
+    /// @notice Returns the three vertex indices of a face, 16 bits each.
     function readIndices(uint256 face) internal pure returns (uint256 indices) {
         assembly ("memory-safe") {
             indices := shr(FACE_AT, calldataload(face))
         }
     }
 
-    /// @notice Lists one triangle of a face that was clipped, if it is to be drawn: see PrimitiveAssembly.
-    /// @param a The screen words of its vertices.
-    /// @param edges Which edges belong to the face, three bits as in the list.
+    /// @notice Lists one triangle of a clipped face, if it is to be drawn: see PrimitiveAssembly.
+    /// @param a, b, c The screen words of the vertices.
+    /// @param edges The edges that belong to the face, three bits as in the list.
     /// @return end The end of the list.
-    /// @return drawn 1 if it is to be drawn, else 0.
+    /// @return drawn 1 if it is to be drawn, otherwise 0.
     function append(uint256 list, uint256 a, uint256 b, uint256 c, uint256 edges, bool cull)
         internal
         pure
@@ -42,7 +42,7 @@ library Triangles {
         }
     }
 
-    /// @dev Lists a triangle of the face at FACE, if there is a row that it may cover.
+    /// @dev Lists a triangle of the face at FACE if it may cover a row.
     function pack(uint256 list, uint256 a, uint256 b, uint256 c, uint256 edges) internal pure returns (uint256) {
         unchecked {
             uint256 top = (a + load(ROUND_TOP)) >> SCREEN_PIXEL_ROW_AT;

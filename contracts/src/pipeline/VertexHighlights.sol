@@ -3,36 +3,36 @@ pragma solidity 0.8.37;
 
 import "./Registers.sol";
 
-// The highlights of directional lights at the vertices of a flat face.
+// Computes the highlights of directional lights at the vertices of a flat face.
 //
-// The half vector H = L - V, for unit vectors L to the light and V along the ray, is kept in the space of the mesh, Q32, where the product
-// with the normal of a face is the middle coefficient of one product of words: coordinates of normals are up to 2^49, so that it is below
-// 2^83. H is off by 2^-22 at most, as rays and directions are Q24. Beside it is its square in the unit in which
+// The half vector H = L - V, for unit vectors L to the light and V along the ray, is stored in mesh space, Q32; its dot product with the
+// normal of a face is the middle coefficient of one product of words: coordinates of normals are up to 2^49, so it is below 2^83. The error
+// of H is at most 2^-22, since rays and directions are Q24. Its square is stored in the unit in which
 //
 //   (N.H)^2 / (N.N * square)
 //
-// is a place in the table of the highlight, cos^2 times the entries per unit of it, Q24. So that rounding leads to no place behind the
-// last entry, H^2 is taken 2^-20 too great, more than it may be off: cos^n changes by at most n/2 * 2^-20 / H^2, or, with a shininess of
-// 128 and H^2 = 1, by 0.016 levels.
+// is an index into the table of the highlight: cos^2 times the number of entries per unit, Q24. To keep rounding from exceeding the last
+// entry, H^2 is increased by 2^-20, more than its error: cos^n changes by at most n/2 * 2^-20 / H^2, or, with a shininess of 128 and H^2 =
+// 1, by 0.016 levels.
 
 /// @dev 1 + 2^-21, Q24.
 uint256 constant ABOVE_ONE_24 = 0x1000008;
-/// @dev 1, Q56: divided by a length of Q24 it is Q32, which makes Q80 of what is Q48.
+/// @dev 1, Q56: divided by a length of Q24 it is Q32, which converts Q48 to Q80.
 uint256 constant ONE_56 = 0x100000000000000;
-/// @dev Between Q formats; and from a square (Q48, half of it times the length) to the unit in which it is kept.
+/// @dev Conversions between Q formats; and from a square (Q48, half of it times the length) to the unit in which it is stored.
 uint256 constant Q24_TO_Q80 = 56;
 uint256 constant Q80_TO_Q32 = 48;
 uint256 constant Q40_TO_Q10 = 30;
 uint256 constant SQUARE_SHIFT = 33;
 
 library VertexHighlights {
-    /// @notice Adds the highlights at its vertices to the attribute words of a flat triangle. Records of vertices keep what does not depend
-    /// on the face.
-    /// @param a, b, c The screen words of its vertices.
-    /// @param p, q, r Their attribute words.
+    /// @notice Adds the highlights at the vertices to the attribute words of a flat triangle. Vertex records cache the values that do not
+    /// depend on the face.
+    /// @param a, b, c The screen words of the vertices.
+    /// @param p, q, r The attribute words.
     function addTo(uint256 a, uint256 b, uint256 c, uint256 p, uint256 q, uint256 r) internal pure returns (uint256, uint256, uint256) {
         assembly ("memory-safe") {
-            // for each light H, and its square, behind the first two words of a record, which are as many as those of a half vector
+            // for each light, H and its square, after the first two words of a record
             function fill(vertex) {
                 let x := mload(vertex)
                 let y := add(mload(RAY_TOP), sar(SUBPIXEL_BITS, mul(shr(SCREEN_ROW_AT, x), mload(RAY_STEP))))
@@ -64,16 +64,16 @@ library VertexHighlights {
                 }
             }
 
-            // the light of a record where a vertex keeps what is at `kept`: lanes of Q10
+            // the light of a light record for a vertex whose cached values are at `kept`: lanes of Q10
             function shine(record, kept) -> color {
                 let place := sar(UPPER_86_AT, mul(mload(FACE_NORMAL), mload(add(kept, HALF_VECTOR))))
-                // 0 where N.H is negative
+                // 0 if N.H is negative
                 place := mul(place, sgt(place, 0))
                 place := div(mul(place, place), mul(mload(FACE_SQUARE), mload(add(kept, HALF_SQUARE))))
                 place := sub(place, mload(SPECULAR_OFFSET))
                 if sgt(place, 0) {
                     color := mload(add(SPECULAR_TABLE, and(shr(SPECULAR_ENTRY_SHIFT_24, place), SPECULAR_ENTRY_MASK_24)))
-                    // (value * 2^24 + increase * what is behind the entry), Q40, is the upper half of a product
+                    // (value * 2^24 + increase * fraction of the index), Q40, is the upper half of a product
                     color := shr(SPECULAR_VALUE_AT, mul(color, or(ONE_24, and(shl(SPECULAR_VALUE_AT, place), SPECULAR_REST_AT_128))))
                     color := and(shr(Q40_TO_Q10, mul(mload(add(record, LIGHT_COLOR)), color)), LANES_24)
                 }

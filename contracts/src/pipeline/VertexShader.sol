@@ -4,20 +4,20 @@ pragma solidity 0.8.37;
 import {Mesh} from "../scene/Mesh.sol";
 import "./Registers.sol";
 
-// From mesh to screen. Each vertex becomes a record in memory:
+// Transforms vertices from the mesh to the screen. Each vertex becomes a record in memory:
 //
 //   +0x00  screen word: sub-pixel row and column, flags, address of the record
 //   +0x20  attribute word: depth and colours
 //   +0x40  smooth shading: normal in camera space, signed lanes of Q20 at bits 0, 85 and 170
-//          flat shading with highlights: half vector in the space of the mesh and its square, for each light: see VertexHighlights
-//   +0x60  smooth shading with one light: what SmoothLight tells, to +0xff
+//          flat shading with highlights: half vector in mesh space and its square, for each light: see VertexHighlights
+//   +0x60  smooth shading with one light: the words of SmoothLight, to +0xff
 //
-// What flat shading keeps at +0x40 and smooth shading from +0x60 on is filled when it is first needed; zero says that it is not yet. So
-// nothing may ever be written beyond the free memory before a record is made there, and no Solidity object be made between
-// `freeMemory()` and `setFreeMemory()` in Pipeline.assembleObject. Pipeline.recordShift tells the size.
+// The words at +0x40 for flat shading, and from +0x60 on for smooth shading, are filled on first use; zero means not yet. Therefore nothing
+// may be written beyond the free memory before a record is made there, and no Solidity object may be allocated between `freeMemory()` and
+// `setFreeMemory()` in Pipeline.assembleObject. Pipeline.recordShift returns the size.
 //
-// How the words are divided, Words.sol tells. Comparing screen words as numbers compares rows. The attribute word of a vertex that has to
-// be clipped holds its outcode instead.
+// Words.sol defines the layout of the words. Comparing screen words as numbers compares rows. The attribute word of a vertex that must be
+// clipped contains its outcode instead.
 
 library VertexShader {
     /// @notice Writes the records of all vertices of a mesh, from `record` on.
@@ -50,12 +50,12 @@ library VertexShader {
                         depth := sub(mload(DEPTH_SCALE), sar(8, divisor))
                         divisor := ONE_32
                     }
-                    // colour bytes spread to their lanes, times 2^10
+                    // spread colour bytes to their lanes, times 2^10
                     mstore(
                         add(record, VERTEX_ATTRIBUTES),
                         or(shl(ATTRIBUTE_DEPTH_AT, depth), and(mul(data, COLOR_SPREAD), BYTES_Q10))
                     )
-                    // a lane that is negative, and has borrowed from the one above, comes out far beyond the guard band
+                    // a negative lane, which has borrowed from the one above, yields a value far beyond the guard band
                     let x := div(and(clip, CLIP_X_MASK), divisor) // column * distance / distance, sub-pixels
                     let y := div(and(shr(CLIP_Y_AT, clip), CLIP_Y_MASK), divisor)
                     mstore(record, or(or(shl(SCREEN_ROW_AT, y), shl(SCREEN_COLUMN_AT, x)), record))
@@ -71,8 +71,8 @@ library VertexShader {
         }
     }
 
-    /// @dev The flags of a vertex that lies outside the tile or nearer than the near plane; the outcode of one that has to be clipped:
-    /// nearer than the near plane, left, right, above, below the guard band.
+    /// @dev Sets the flags of a vertex that lies outside the tile or nearer than the near plane; and the outcode of a vertex that must be
+    /// clipped: nearer than the near plane; left of, right of, above, below the guard band.
     function setFlags(uint256 record, uint256 clip) private pure {
         unchecked {
             clip += CLIP_BIAS;
@@ -95,7 +95,7 @@ library VertexShader {
         }
     }
 
-    /// @notice The clip coordinates and the colour of a vertex, as `project` computes them, in the first four words of `corner`.
+    /// @notice Computes the clip coordinates and the colour of a vertex as `project` does, in the first four words of `corner`.
     function clipCoordinates(uint256 index, uint256 corner) internal pure {
         uint256 bits = load(MESH_BITS);
         assembly ("memory-safe") {
@@ -114,7 +114,7 @@ library VertexShader {
         }
     }
 
-    /// @notice The first word of a record.
+    /// @notice Returns the first word of a record.
     function screenWord(uint256 x, uint256 y, uint256 record) internal pure returns (uint256 word) {
         unchecked {
             word = (y << SCREEN_ROW_AT) | (x << SCREEN_COLUMN_AT) | record;

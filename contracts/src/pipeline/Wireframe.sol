@@ -5,17 +5,18 @@ import {PixelRasterizer} from "./PixelRasterizer.sol";
 import {SmoothShading} from "./SmoothShading.sol";
 import "./Registers.sol";
 
-// From the edges of triangles to fragments. A line has one pixel in each column, or in each row if it is steeper than 45 degrees: the
-// pixel that is nearest to it, with the depth and the colour of the line at the centre of that column or row.
+// Rasterizes the edges of triangles to fragments. A line has one pixel in each column, or in each row if it is steeper than 45 degrees: the
+// pixel nearest to it, with the depth and colour of the line at the centre of that column or row.
 
-/// @dev Modes of triangles whose fragments are not of linear colours.
+/// @dev The modes of triangles whose fragments do not have linear colours.
 uint256 constant BY_FRAGMENTS = IS_BLENDED | IS_DEPTH_PASS | IS_PATCHED;
 
-/// @dev 1 / 2^8 of the length of a line in sub-pixels is an accumulator's change for each pixel: Q32 of attributes, Q8 of sub-pixels.
+/// @dev Divided by the length of a line in sub-pixels (Q8), this is the fraction of the line per pixel, Q32.
 int256 constant STEP_ONE = 1 << 40;
 
 abstract contract Wireframe is PixelRasterizer, SmoothShading {
-    /// @notice Draws the rows from `row` to before `last`, if the mode is BY_FRAGMENTS: see Rasterizer.drawRows, where they are addresses.
+    /// @notice Draws the rows from `row` (inclusive) to `last` (exclusive), if the mode is one of BY_FRAGMENTS: see
+    /// PixelRasterizer.drawRows, where rows are addresses.
     function drawFragments(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure virtual;
 
     /// @notice Draws the edges of the triangles of a list into the current band.
@@ -51,15 +52,15 @@ abstract contract Wireframe is PixelRasterizer, SmoothShading {
         return load((screenWord & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES) >> ATTRIBUTE_DEPTH_AT;
     }
 
-    /// @param p, q The screen words of its ends.
+    /// @param p, q The screen words of the ends.
     /// @param attribute The accumulator at p.
-    /// @param change What its attribute word changes from there to q.
+    /// @param change The change of the attribute word from p to q.
     function line(uint256 p, uint256 q, uint256 attribute, uint256 change, uint256 top, uint256 bottom) private pure {
         unchecked {
             int256 dx = column(q) - column(p);
             int256 dy = row(q) - row(p);
             bool steep = dy * dy >= dx * dx;
-            // the same pixels, whichever face the line belongs to
+            // the same pixels for both faces that share the edge
             if (steep ? dy < 0 : dx < 0) {
                 (p, q) = (q, p);
                 (dx, dy) = (-dx, -dy);
@@ -72,7 +73,7 @@ abstract contract Wireframe is PixelRasterizer, SmoothShading {
     }
 
     /// @param attribute The accumulator at the upper end.
-    /// @param change What its attribute word changes along the line.
+    /// @param change The change of the attribute word along the line.
     function steepLine(uint256 p, uint256 q, int256 dx, int256 dy, uint256 attribute, uint256 change, uint256 top, uint256 bottom)
         private
         pure
@@ -84,7 +85,7 @@ abstract contract Wireframe is PixelRasterizer, SmoothShading {
             int256 below = int256(top << SUBPIXEL_BITS) - row(p);
             int256 slope = (dx << EDGE_FRACTION) / dy;
             uint256 step = uint256(STEP_ONE / dy);
-            // the pixel whose middle is nearest
+            // the pixel whose centre is nearest
             uint256 left = uint256((column(p) << EDGE_SUBPIXEL_SHIFT) + ((below * slope) >> SUBPIXEL_BITS) + int256(HALF_COLUMN));
             store(DX, 0);
             store(DY, change * step);
@@ -108,7 +109,7 @@ abstract contract Wireframe is PixelRasterizer, SmoothShading {
             store(DX, change * step);
             store(DY, 0);
             attribute += change * uint256((-column(p) * int256(step)) >> SUBPIXEL_BITS);
-            // where the line enters the first row, and how far it goes in each
+            // the column at which the line enters the first row, and its change per row
             int256 enter = begin << EDGE_FRACTION;
             int256 slope = (end - begin) << EDGE_FRACTION;
             if (dy != 0) {
@@ -125,13 +126,13 @@ abstract contract Wireframe is PixelRasterizer, SmoothShading {
                 if (left < begin) left = begin;
                 if (right > end) right = end;
                 uint256 edges = uint256(left << EDGES_LEFT_COLUMN_AT) | (uint256(right) << EDGES_RIGHT_COLUMN_AT);
-                // one row only, so that the slopes make no difference
+                // a single row, so the slopes make no difference
                 if (left < right) draw(edges, uint256(slope), attribute, top, top + 1);
             }
         }
     }
 
-    /// @dev The fragments of the rows from `top` to before `bottom`.
+    /// @dev Draws the fragments of the rows from `top` (inclusive) to `bottom` (exclusive).
     function draw(uint256 edges, uint256 slopes, uint256 attribute, uint256 top, uint256 bottom) private pure {
         unchecked {
             if (load(MODE) & BY_FRAGMENTS != 0) return drawFragments(edges, slopes, attribute, top, bottom);

@@ -13,17 +13,17 @@ uint256 constant GUARD_BITS = 20;
 
 // ----------------------------------------------------------------------------------------------------------------------------- sub-pixels
 
-/// @dev Bits of a coordinate below the pixel.
+/// @dev The fraction bits of a sub-pixel coordinate.
 uint256 constant SUBPIXEL_BITS = 8;
-/// @dev These bits; added before they are shifted away, it rounds up.
+/// @dev The mask of these bits; added before a right shift, it rounds up.
 uint256 constant SUBPIXEL_MASK = 255;
 uint256 constant HALF_PIXEL = 128;
-/// @dev A quotient of sub-pixel lengths by twice an area, shifted so, is Q24 per pixel.
+/// @dev Shifted left by this, a quotient of sub-pixel lengths and twice an area is Q24 per pixel.
 uint256 constant SUBPIXEL_TO_Q24 = 32;
 
 // -------------------------------------------------------------------------------------------------------------------- fixed-point formats
 
-/// @dev Bits behind the point. A number is brought from one format to another by their difference.
+/// @dev Fraction bits. Numbers are converted between formats by shifts by the difference.
 uint256 constant Q10 = 10;
 uint256 constant Q16 = 16;
 uint256 constant Q20 = 20;
@@ -41,20 +41,20 @@ uint256 constant ONE_24 = 0x1000000;
 uint256 constant ONE_32 = 0x100000000;
 uint256 constant ONE_44 = 0x100000000000;
 uint256 constant ONE_48 = 0x1000000000000;
-/// @dev The greatest depth of a vertex is 2 to this power: see DEPTH_SCALE.
+/// @dev The maximum depth of a vertex is 2 to this power: see DEPTH_SCALE.
 uint256 constant DEPTH_BITS = 54;
 
 // ----------------------------------------------------------------------------------------------------------------------- mesh in calldata
 
 /// @dev The colour of a vertex, 24 bits at the top of a word.
 uint256 constant MESH_COLOR_AT = 232;
-/// @dev A component of a normal, 10 bits at the top of a word; and where the others are below it.
+/// @dev A component of a normal, 10 bits at the top of a word; and the offsets of the others below it.
 uint256 constant MESH_NORMAL_AT = 246;
 uint256 constant MESH_NORMAL_Y = 10;
 uint256 constant MESH_NORMAL_Z = 20;
 /// @dev Bytes of a face.
 uint256 constant FACE_SIZE = 6;
-/// @dev Its three vertex numbers at the top of a word; where the first and the second are in them; a number.
+/// @dev The three vertex indices of a face at the top of a word; the positions of the first and the second in them; an index.
 uint256 constant FACE_AT = 208;
 uint256 constant FACE_FIRST_AT = 32;
 /// @dev The first and the second in the word of calldata.
@@ -76,24 +76,24 @@ uint256 constant SCREEN_ROUND_UP = 0xff00000000000000ff0000000000000000;
 
 // ------------------------------------------------------------------------------------------------------------------ parts of accumulators
 
-/// @dev The bits that a depth has more than in a vertex.
+/// @dev The additional bits of a depth compared to a vertex.
 uint256 constant DEPTH_FRACTION = 8;
 /// @dev A depth of the buffer has 2^3 bytes.
 uint256 constant DEPTH_SIZE_BITS = 3;
-/// @dev The bits that it has more than an attribute word.
+/// @dev The additional bits of an accumulator compared to an attribute word.
 uint256 constant ACCUMULATOR_FRACTION = 32;
 /// @dev Depth as in a vertex.
 uint256 constant ACCUMULATOR_VERTEX_DEPTH_AT = 200;
 /// @dev 1 in the lane of s.
 uint256 constant ATTRIBUTE_S = 0x100000000000000;
-/// @dev Where s and t have Q24 numbers, and the last bytes of their lanes.
+/// @dev The positions of s and t as Q24 numbers, and the last bytes of their lanes.
 uint256 constant ACCUMULATOR_S_AT = 64;
 uint256 constant ACCUMULATOR_S_LAST_BYTE = 20;
 uint256 constant ACCUMULATOR_T_AT = 8;
 uint256 constant ACCUMULATOR_T_LAST_BYTE = 6;
 /// @dev Bias of the lanes: half a level for colours.
 uint256 constant COLOR_BIAS = 0x100000000000200000000000002000000000000020000000000;
-/// @dev 2^-15 for barycentric coordinates, so that gradients that are rounded (see Rasterizer) leave none below zero.
+/// @dev 2^-15 for barycentric coordinates, so that rounded gradients (see PixelRasterizer) leave none below zero.
 uint256 constant WEIGHT_BIAS = 0x100000000000000000000000000000002000000000000020000;
 
 // --------------------------------------------------------------------------------------------------------------------- parts of triangles
@@ -106,42 +106,42 @@ uint256 constant EDGE_CA = 0x4000000000000000000000000000000000000;
 // -------------------------------------------------------------------------------------------------------------- parts of clip coordinates
 
 uint256 constant CLIP_BIAS = 0x800000000000000000000000800000000000000000000000;
-/// @dev What it adds to each.
+/// @dev The addend of each.
 uint256 constant CLIP_HALF = 0x800000000000000000000000;
 
 // ----------------------------------------------------------------------------------------------------------------------- parts of borders
 
-/// @dev Bits of a lane; how many there are.
+/// @dev The bits of a lane; the number of lanes.
 uint256 constant BORDER_BITS = 28;
 uint256 constant BORDER_COUNT = 9;
-/// @dev 2^27, below which values are, less 2^16 for the tile and more 2^16 for the guard band, which is more than their rounding.
+/// @dev 2^27, which bounds values, minus 2^16 for the tile and plus 2^16 for the guard band, which is more than their rounding error.
 uint256 constant BORDER_BIAS = 0x801000080100008010000801000080100007ff00007ff00007ff00007ff0000;
 
 // ------------------------------------------------------------------------------------------------------------------------- parts of edges
 
-/// @dev Bits of a column behind the point; where it stands for an address of a depth.
+/// @dev The fraction bits of a column; of an edge as an address of depths.
 uint256 constant EDGE_FRACTION = 48;
 uint256 constant EDGE_ADDRESS_FRACTION = 45;
-/// @dev Where the address of the right edge is.
+/// @dev The position of the right edge's address.
 uint256 constant EDGE_RIGHT_ADDRESS_AT = 173;
-/// @dev Brings sub-pixels to a column.
+/// @dev The shift from sub-pixels to a column.
 uint256 constant EDGE_SUBPIXEL_SHIFT = 40;
 uint256 constant HALF_COLUMN = 0x800000000000;
 uint256 constant RIGHT_EDGE_AT = 128;
-/// @dev Makes the integer part of a Q48 number the next integer, as far as such numbers are exact.
+/// @dev Added to a Q48 number, it rounds up to the next integer, within the precision of such numbers.
 uint256 constant CEIL_48 = 0xffffffffc000;
 /// @dev 1 in both lanes.
 uint256 constant ONES_128 = 0x100000000000000000000000000000001;
 uint256 constant LANE_128 = 0xffffffffffffffffffffffffffffffff;
 uint256 constant UPPER_LANE_128 = 0xffffffffffffffffffffffffffffffff00000000000000000000000000000000;
-/// @dev A quotient of sub-pixel lengths by twice an area, shifted so, is Q29 per pixel.
+/// @dev Shifted left by this, a quotient of sub-pixel lengths and twice an area is Q29 per pixel.
 uint256 constant GRADIENT_SHIFT = 37;
-/// @dev Brings such a gradient times sub-pixels to the fraction of an accumulator.
+/// @dev The shift from such a gradient times sub-pixels to the fraction of an accumulator.
 uint256 constant GRADIENT_TO_ACCUMULATOR = 5;
 
 // ----------------------------------------------------------------------------------------------------------------------- parts of colours
 
-/// @dev Bits of a colour 0xRRGGBB; where they are; and how far from there their lanes are.
+/// @dev Masks of a colour 0xRRGGBB; their positions; and the distances from there to their lanes.
 uint256 constant BLUE = 255;
 uint256 constant GREEN = 0xff00;
 uint256 constant RED = 0xff0000;
@@ -149,25 +149,25 @@ uint256 constant GREEN_AT = 8;
 uint256 constant RED_AT = 16;
 uint256 constant GREEN_TO_LANE = 48;
 uint256 constant RED_TO_LANE = 96;
-/// @dev Bits behind the point of light; of light while it is summed; of a cosine, a direction, a ray.
+/// @dev Fraction bits of light; of light while it is summed; of a cosine, a direction, a ray.
 uint256 constant LIGHT_FRACTION = 16;
 uint256 constant LIGHT_SUM_FRACTION = 40;
 uint256 constant COSINE_FRACTION = 24;
-/// @dev Where a lane of Q10 has what is above 255, and the six bits of it.
+/// @dev The position of the bits above 255 in a lane of Q10, and the mask of these six bits.
 uint256 constant OVERFLOW_AT = 18;
 uint256 constant OVERFLOW_MASK = 63;
-/// @dev Where green and red are in lanes.
+/// @dev The positions of green and red in lanes.
 uint256 constant MIDDLE_AT = 56;
 uint256 constant UPPER_AT = 112;
-/// @dev A lane by itself.
+/// @dev A single lane.
 uint256 constant LANE_24 = 0xffffff;
 uint256 constant LANE_32 = 0xffffffff;
-/// @dev Brings the bytes of a colour 0xRRGGBB to BYTES_Q10, besides others.
+/// @dev Multiplier that copies the bytes of a colour 0xRRGGBB to BYTES_Q10, among others.
 uint256 constant COLOR_SPREAD = 0x400000000000400000000000400;
-/// @dev A byte as Q10, in a lane by itself.
+/// @dev A byte as Q10, in a single lane.
 uint256 constant BYTE_Q10 = 0x3fc00;
 uint256 constant OVERFLOW_CARRY_AT = 30;
-/// @dev Brings BYTES_56 together at the top of a word; BYTES_Q10.
+/// @dev Multiplier that collects BYTES_56 at the top of a word; the same for BYTES_Q10.
 uint256 constant LANES_TO_PIXEL = 0x100000000000000010000000000000001000000000000000000000000000000;
 uint256 constant Q10_TO_PIXEL = 0x400000000000000040000000000000004000000000000000000000000000;
 
@@ -176,7 +176,8 @@ uint256 constant Q10_TO_PIXEL = 0x4000000000000000400000000000000040000000000000
 uint256 constant LANE_64 = 0xffffffffffffffff;
 /// @dev In the lowest lane: the pixel is on the list of those whose samples may differ.
 uint256 constant IS_LISTED = 0x4000000;
-/// @dev Where an entry of that list has the address of the samples; that of the colour, and its bits; the bytes of an entry.
+/// @dev The position of the samples' address in an entry of that list; the position of the colour's address, and its mask; the size of an
+/// entry in bytes.
 uint256 constant MIXED_AT = 224;
 uint256 constant MIXED_PIXEL_AT = 192;
 uint256 constant MIXED_PIXEL_MASK = 0xffffffff;
@@ -184,62 +185,61 @@ uint256 constant MIXED_SIZE = 8;
 uint256 constant UPPER_LANE_64_AT = 192;
 /// @dev The samples of a pixel have 2^5 bytes.
 uint256 constant SAMPLE_SIZE_BITS = 5;
-/// @dev Bits of a column behind the point.
+/// @dev The fraction bits of a column.
 uint256 constant COLUMN_FRACTION = 42;
 uint256 constant SUBPIXEL_TO_COLUMN = 34;
-/// @dev The same of an address of samples; addresses of whole pixels.
+/// @dev The fraction bits of a sample address; the mask of whole pixels.
 uint256 constant ADDRESS_FRACTION = 37;
 uint256 constant WHOLE_SAMPLES = 0xffffffffffffffffffffffffffffffffffffffffffffffffffffffffffffffe0;
-/// @dev The same of an address that is not below 0; where the upper bound has its address.
+/// @dev The mask of whole pixels for a non-negative address; the position of the upper bound's address.
 uint256 constant ADDRESS_32 = 0xffffffe0;
 uint256 constant UPPER_ADDRESS_AT = 165;
-/// @dev The column of a screen word in whole pixels; what is added to get the first column with a sample, and the last.
+/// @dev The position of a screen word's column in whole pixels; the addends that yield the first column with a sample, and the last.
 uint256 constant SCREEN_PIXEL_COLUMN_AT = 72;
 uint256 constant FROM_FIRST_SAMPLE = 0x9f0000000000000000;
 uint256 constant TO_LAST_SAMPLE = 0x600000000000000000;
 /// @dev An eighth of a column, and three, Q42.
 uint256 constant EIGHTH_42 = 0x8000000000;
 uint256 constant THREE_EIGHTHS_42 = 0x18000000000;
-/// @dev Makes the integer part of a side's outermost sample, without what LEFT_AT_0 adds, the next integer.
+/// @dev Added to a side's outermost sample, without the addend of LEFT_AT_0, it rounds up to the next integer.
 uint256 constant CEIL_42 = 0x3ffffffdfff;
 /// @dev An inset of the left side that leaves nothing inside.
 uint256 constant NO_INSIDE = 0x1000000000000000;
-/// @dev Sides that change by less than 16 columns per row have bounds that are nowhere far outside the triangle; the bits of the sum of
-/// both.
+/// @dev Sides that change by less than 16 columns per row have bounds that are never far outside the triangle; the bits of the sum of both.
 uint256 constant STEEPEST_42 = 0x400000000000;
 uint256 constant STEEP_42 = 0xffffffffffffffffffffffffffffffffffffffffffffffffffff800000000000;
 /// @dev Sub-pixels from the centre of a pixel to the outermost of its samples.
 uint256 constant OUTERMOST_SAMPLE = 96;
-/// @dev Added to the row of a vertex, in sub-pixels, it gives that of the first pixel with a sample below; then these bits are 64 times the
-/// samples above.
+/// @dev Added to the row of a vertex, in sub-pixels, it yields the row of the first pixel with a sample below; then these bits are 64 times
+/// the number of samples above.
 uint256 constant TO_FIRST_ROW = 159;
 uint256 constant SAMPLES_ABOVE = 192;
-/// @dev 16 as a gradient, Q29 per pixel; what is set above twice that; half a depth in an attribute word.
+/// @dev 16 as a gradient, Q29 per pixel; the bits set above twice that; half a depth in an attribute word.
 uint256 constant LEAST_WIDTH = 0x200000000;
 uint256 constant ABOVE_LEAST_WIDTH = 0xfffffffffffffffffffffffffffffffffffffffffffffffffffffffc00000000;
 uint256 constant HALF_DEPTH = 0x800000000000000000000000000000000000000000;
 /// @dev An eighth of a depth in an accumulator.
 uint256 constant DEPTH_8_AT = 195;
-/// @dev Brings bits 0, 64, 128, 192 together as the number of a set, times 16; the bits of it.
+/// @dev Multiplier that collects bits 0, 64, 128, 192 as the number of a set, times 16; the bits of it.
 uint256 constant COVERED_TO_SET = 0x1000000000000000200000000000000040000000000000008;
 uint256 constant SET_AT = 188;
 uint256 constant SET_MASK = 240;
-/// @dev The middle of each set of samples, in eighths of a pixel: signed bytes of the column and, below it, of the row.
+/// @dev The centroid of each set of samples, in eighths of a pixel: signed bytes of the column and, below it, of the row.
 uint256 constant CENTROIDS = 0x1ff00ff02010002010000010300ff0000fefffd0101fe03fffffd0000;
 uint256 constant GREEN_OF_SUM = 24;
 /// @dev A colour at the top of a word.
 uint256 constant PIXEL_AT = 232;
-/// @dev Red and blue of a colour; where the mean of four has green.
+/// @dev Red and blue of a colour; the position of green in the mean of four.
 uint256 constant RED_BLUE = 0xff00ff;
 uint256 constant MEAN_OF_GREEN_AT = 26;
-/// @dev Half a level of the sums of four colours: red lowest, blue at bit 16, green at bit 32; where those have their bytes.
+/// @dev Half a level for the sums of four colours: red lowest, blue at bit 16, green at bit 32; the position of their bytes.
 uint256 constant ROUND_SUM = 0x200020002;
 
 // ------------------------------------------------------------------------------------------------------------------------ parts of pixels
 
 /// @dev 1 in each of ten pixels.
 uint256 constant TEN_PIXELS = 0x1000001000001000001000001000001000001000001000001000001;
-/// @dev Brings bits 0, 64, 128, 192 to bits 120, 144, 168, 192, besides others; and these.
+/// @dev Multiplier that copies bits 0, 64, 128, 192 to bits 120, 144, 168, 192, among others; and the mask of these.
 uint256 constant TOPS_64_TO_24 = 0x1000000000100000000010000000001;
 uint256 constant PIXELS_AT_120 = 0x1000001000001000001000000000000000000000000000000;
 
@@ -247,7 +247,7 @@ uint256 constant PIXELS_AT_120 = 0x100000100000100000100000000000000000000000000
 
 uint256 constant MIDDLE_86_AT = 86;
 uint256 constant UPPER_86_AT = 172;
-/// @dev Half of what the middle lane counts in, and half of what the upper one does: they round to the nearest.
+/// @dev Half the unit of the middle lane, and half the unit of the upper one: they round to nearest.
 uint256 constant HALF_MIDDLE_86 = 0x2000000000000000000000;
 uint256 constant HALF_UPPER_86 = 0x8000000000000000000000000000000000000000000;
 
@@ -260,22 +260,22 @@ uint256 constant LANE_85 = 0x1fffffffffffffffffffff;
 uint256 constant MIDDLE_LANE_85 = 0x3ffffffffffffffffffffe00000000000000000000;
 uint256 constant UPPER_LANE_85 = 0xfffffffffffffffffffffc000000000000000000000000000000000000000000;
 uint256 constant UPPER_LANES_85 = 0xffffffffffffffffffffffffffffffffffffffffffe000000000000000000000;
-/// @dev Shifts that bring the sign of the lowest lane to the top of a word, and that of the middle one.
+/// @dev The shifts that move the sign of the lowest lane, and of the middle one, to the top of a word.
 uint256 constant LOWER_85_TO_TOP = 171;
 uint256 constant MIDDLE_85_TO_TOP = 86;
-/// @dev The sign of the lowest lane, and what that carries into.
+/// @dev The sign of the lowest lane, and the bit into which it carries.
 uint256 constant SIGN_85 = 84;
 uint256 constant CARRY_85 = 85;
 uint256 constant Q10_TO_Q58 = 48;
-/// @dev Where each lane of Q58 has a Q9 number.
+/// @dev The positions of Q9 numbers in lanes of Q58.
 uint256 constant BLUE_Q9_AT = 49;
 uint256 constant GREEN_Q9_AT = 134;
 uint256 constant RED_Q9_AT = 219;
 /// @dev The byte of the lowest lane.
 uint256 constant BYTE_Q58 = 0x3fc00000000000000;
-/// @dev Brings BYTES_Q58 together at the top of a word, besides others below.
+/// @dev Multiplier that collects BYTES_Q58 at the top of a word, among others below.
 uint256 constant Q58_TO_TOP = 0x400000000000000000000002000000000000000000000010;
-/// @dev Shifts that bring BYTES_Q58 to the top of a word: blue, green, red.
+/// @dev The shifts that move BYTES_Q58 to the top of a word: blue, green, red.
 uint256 constant BLUE_TO_TOP = 190;
 uint256 constant GREEN_TO_TOP = 97;
 uint256 constant RED_TO_TOP = 4;
@@ -284,50 +284,51 @@ uint256 constant THIRD_BYTE = 0xff0000000000000000000000000000000000000000000000
 
 // ------------------------------------------------------------------------------------------------------------------- words of the buffers
 
-/// @dev The depth that a word begins with, the next two, and what follows the first.
+/// @dev The first depth of a word, the next two, and everything after the first.
 uint256 constant FIRST_DEPTH = 0xffffffffffffffff000000000000000000000000000000000000000000000000;
 uint256 constant SECOND_DEPTH = 0xffffffffffffffff00000000000000000000000000000000;
 uint256 constant THIRD_DEPTH = 0xffffffffffffffff0000000000000000;
 uint256 constant BEHIND_DEPTH = 0xffffffffffffffffffffffffffffffffffffffffffffffff;
-/// @dev The pixel that a word begins with, and what follows.
+/// @dev The first pixel of a word, and everything after it.
 uint256 constant FIRST_PIXEL = 0xffffff0000000000000000000000000000000000000000000000000000000000;
 uint256 constant BEHIND_PIXEL = 0xffffffffffffffffffffffffffffffffffffffffffffffffffffffffff;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- light
 
-/// @dev Where lanes of Q40 have Q16 numbers.
+/// @dev The positions of Q16 numbers in lanes of Q40.
 uint256 constant BLUE_Q40_AT = 24;
 uint256 constant GREEN_Q40_AT = 80;
 uint256 constant RED_Q40_AT = 136;
-/// @dev Steps of the table of the highlight; where its last entry is, Q40.
+/// @dev The number of steps in the table of the highlight; the index of its last entry, Q40.
 uint256 constant SPECULAR_ENTRIES = 64;
 uint256 constant SPECULAR_LAST = 0x400000000000;
-/// @dev Brings a place in the table, Q40, to bytes; those of whole words; what is between two entries, Q16.
+/// @dev The shift from an index into the table, Q40, to bytes; the mask of whole words; the position and mask of the fraction between two
+/// entries, Q16.
 uint256 constant SPECULAR_ENTRY_SHIFT = 35;
 uint256 constant SPECULAR_ENTRY_MASK = 0xffffe0;
 uint256 constant SPECULAR_REST_AT = 24;
 uint256 constant SPECULAR_REST_MASK = 0xffff;
-/// @dev Where an entry has its value.
+/// @dev The position of an entry's value.
 uint256 constant SPECULAR_VALUE_AT = 128;
-/// @dev The same for a place in Q24; what is between two entries, at bit 128.
+/// @dev The same for an index in Q24; the mask of the fraction between two entries, at bit 128.
 uint256 constant SPECULAR_ENTRY_SHIFT_24 = 19;
 uint256 constant SPECULAR_ENTRY_MASK_24 = 0xfe0;
 uint256 constant SPECULAR_REST_AT_128 = 0xffffff00000000000000000000000000000000;
 
 // ------------------------------------------------------------------------------------------------------------------- normals of fragments
 
-/// @dev Where interpolated normals (Q36, lanes of 85 bits) have Q24 numbers, the bits of these, and what keeps them positive.
+/// @dev The positions of Q24 numbers in interpolated normals (Q36, lanes of 85 bits), their mask, and the bias that keeps them positive.
 uint256 constant NORMAL_X_AT = 12;
 uint256 constant NORMAL_Y_AT = 97;
 uint256 constant NORMAL_Z_AT = 182;
 uint256 constant NORMAL_MASK = 0x7ffffff;
 uint256 constant NORMAL_HALF = 0x4000000;
-/// @dev That in each lane.
+/// @dev That bias in each lane.
 uint256 constant NORMAL_BIAS = 0x10000000000000000000008000000000000000000004000000000;
 
 // ---------------------------------------------------------------------------------------------------------------------------- screen word
-// Where a vertex is on the screen. Comparing screen words as numbers compares rows. What is below the column must stay below bit 41: see
-// the area in PrimitiveAssembly, of which it is the error, 2^149 times as large, and half of the least area is 2^191.
+// The position of a vertex on the screen. Comparing screen words as numbers compares rows. The bits below the column must stay below bit
+// 41: see the area in PrimitiveAssembly, to whose error they contribute 2^149 times; half of the minimum area is 2^191.
 
 /// @dev Address of the vertex record.
 uint256 constant SCREEN_RECORD_AT = 0;
@@ -347,22 +348,22 @@ uint256 constant SCREEN_ROW_AT = 128;
 uint256 constant SCREEN_ROW_MASK = 0xfffff;
 
 // ------------------------------------------------------------------------------------------------------------------------- attribute word
-// Depth and colours of a vertex: colours as told below, Q10. Of a vertex that has to be clipped it holds the outcode instead.
+// Depth and colours of a vertex: colours as described below, Q10. For a vertex that must be clipped, the outcode instead.
 
 /// @dev Depth: see DEPTH_SCALE.
 uint256 constant ATTRIBUTE_DEPTH_AT = 168;
 uint256 constant ATTRIBUTE_DEPTH_MASK = 0xffffffffffffff;
 
 // ---------------------------------------------------------------------------------------------------------------------------- accumulator
-// An attribute word with 32 more bits, as it is stepped from pixel to pixel. In place of colours there may be barycentric coordinates: s in
+// An attribute word with 32 more bits, incremented from pixel to pixel. It may contain barycentric coordinates in place of colours: s in
 // the middle lane, t in the lowest.
 
-/// @dev Depth with 8 more bits than in a vertex, as it is in the buffer.
+/// @dev Depth with 8 more bits than in a vertex, as in the buffer.
 uint256 constant ACCUMULATOR_DEPTH_AT = 192;
 uint256 constant ACCUMULATOR_DEPTH_MASK = 0xffffffffffffffff;
 
 // --------------------------------------------------------------------------------------------------------------------- triangle of a list
-// The first vertex is the topmost, and the three run counter-clockwise on the screen.
+// The first vertex is the topmost, and the vertices are counter-clockwise on the screen.
 
 /// @dev Addresses of the third, second and first vertex record.
 uint256 constant TRIANGLE_C_AT = 0;
@@ -396,8 +397,8 @@ uint256 constant CLIP_W_AT = 192;
 uint256 constant CLIP_W_MASK = 0xffffffffffffffff;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- edges
-// Two columns, Q48, in lanes of 128 bits: the integer part is the first pixel whose centre is not left of the edge. Q48 columns are Q45
-// numbers of bytes of depths: with the address of a row added, edges are the addresses of depths.
+// Two columns, Q48, in lanes of 128 bits: the integer part is the first pixel whose centre is not left of the edge. A Q48 column is a Q45
+// offset of depths in bytes: with the address of a row added, edges are addresses of depths.
 
 /// @dev Whole pixels of the left edge, and of the right one.
 uint256 constant EDGES_LEFT_COLUMN_AT = 48;
@@ -412,10 +413,10 @@ uint256 constant IS_BESIDE = 0x600000000;
 uint256 constant IS_OVER = 0x1800000000;
 uint256 constant IS_OUTSIDE = 0x1e00000000;
 uint256 constant IS_NOT_PLAIN = 0x1f00000000;
-/// @dev What tells how the rows of a smooth triangle are drawn.
+/// @dev The bits that select the loop for the rows of a smooth triangle.
 uint256 constant IS_GREY_OR_STEEP = 0xc00;
 uint256 constant IS_CUT_OR_CROSSING = 0x2080;
-/// @dev Triangles of samples for which SPAN_BEGIN and SPAN_END are asked: see IS_CLAMPED.
+/// @dev The modes of triangles of samples to which SPAN_BEGIN and SPAN_END are applied: see IS_CLAMPED.
 uint256 constant IS_CLAMPED_MODE = 0x380;
 
 // ----------------------------------------------------------------------------------------------------------------- flags that are shifted
@@ -424,29 +425,29 @@ uint256 constant IS_CLAMPED_MODE = 0x380;
 uint256 constant TRIANGLE_CROSSING_SHIFT = 140;
 
 // -------------------------------------------------------------------------------------------------------------------- borders of the tile
-// Four lanes of 28 bits for the left, right, upper and lower border: positive where a vertex lies beyond. See TileCulling.
+// Four lanes of 28 bits for the left, right, upper and lower border: positive if a vertex lies beyond it. See TileCulling.
 
-/// @dev Set where the value is positive.
+/// @dev Set if the value is positive.
 uint256 constant BORDER_SIGNS = 0x8000000800000080000008000000;
 
 // -------------------------------------------------------------------------------------------------------------- borders of the guard band
-// Behind these five for the left, right, upper and lower border of the guard band, and the near plane.
+// After these, five lanes for the left, right, upper and lower border of the guard band, and the near plane.
 
-/// @dev Set where the value is positive.
+/// @dev Set if the value is positive.
 uint256 constant GUARD_SIGNS = 0x800000080000008000000800000080000000000000000000000000000000000;
 
 // -------------------------------------------------------------------------------------------------------------------------------- colours
-// Three lanes of 56 bits: blue at bit 0, green at 56, red at 112. One ADD or MUL works on all of them. A signed number in a lane borrows
-// from the lane above; as long as the sum in the end is positive in every lane (a bias sees to that), the lanes come out right.
+// Three lanes of 56 bits: blue at bit 0, green at 56, red at 112. One ADD or MUL works on all of them. A negative number in a lane borrows
+// from the lane above; the lanes are correct if the final sum is positive in every lane, which a bias ensures.
 
 /// @dev 1 in each lane.
 uint256 constant ONES = 0x10000000000000100000000000001;
-/// @dev The lower bits of each: all that a colour of Q10 has in the lanes of a triangle.
+/// @dev The lower bits of each lane: all bits that a colour of Q10 uses in the lanes of a triangle.
 uint256 constant LANES_24 = 0xffffff00000000ffffff00000000ffffff;
 uint256 constant LANES_32 = 0xffffffff000000ffffffff000000ffffffff;
 /// @dev Half a level, Q10.
 uint256 constant HALF_LEVEL = 0x2000000000000020000000000000200;
-/// @dev What is set in lanes of Q10 above 255; what makes it carry into bit OVERFLOW_CARRY_AT.
+/// @dev The bits that are set in lanes of Q10 above 255; the addend that makes them carry into bit OVERFLOW_CARRY_AT.
 uint256 constant OVERFLOW = 0xfc000000000000fc000000000000fc0000;
 uint256 constant OVERFLOW_TO_CARRY = 0x3ffc00000000003ffc00000000003ffc0000;
 /// @dev A byte in each lane; a byte as Q10.
@@ -456,7 +457,7 @@ uint256 constant BYTES_Q10 = 0x3fc000000000003fc000000000003fc00;
 // --------------------------------------------------------------------------------------------------------------------------------- depths
 // Four depths in a word, the leftmost uppermost.
 
-/// @dev The bit above each; and what is below it.
+/// @dev The highest bit of each lane; and the bits below it.
 uint256 constant TOPS_64 = 0x8000000000000000800000000000000080000000000000008000000000000000;
 uint256 constant BELOW_TOPS_64 = 0x7fffffffffffffff7fffffffffffffff7fffffffffffffff7fffffffffffffff;
 
@@ -464,37 +465,36 @@ uint256 constant BELOW_TOPS_64 = 0x7fffffffffffffff7fffffffffffffff7ffffffffffff
 // Colours of eight pixels in a word, or a channel of eight (Q9), the leftmost uppermost.
 
 uint256 constant ONES_24 = 0x1000001000001000001000001000001000001000001;
-/// @dev How many pixels each is to the left of the last; the squares of that.
+/// @dev The distance of each pixel to the left of the last; the squares of the distances.
 uint256 constant STEPS_24 = 0x7000006000005000004000003000002000001000000;
 uint256 constant SQUARES_24 = 0x31000024000019000010000009000004000001000000;
-/// @dev What is set below 0 and above 255: that below 0; what makes it carry above 255; the byte.
+/// @dev The bits set below 0 or above 255; the bit set below 0; the addend that makes values above 255 carry; the byte.
 uint256 constant BEYOND_BYTES_24 = 0xfe0000fe0000fe0000fe0000fe0000fe0000fe0000fe0000;
 uint256 constant TOPS_24 = 0x800000800000800000800000800000800000800000800000;
 uint256 constant CARRY_24 = 0x7e00007e00007e00007e00007e00007e00007e00007e0000;
 uint256 constant BYTES_24 = 0x1fe0001fe0001fe0001fe0001fe0001fe0001fe0001fe00;
 
 // -------------------------------------------------------------------------------------------------------------------------------- samples
-// Four samples of a pixel in a word: in each lane the colour of what is nearest there, blue uppermost, three bits that tell what happened
-// to it, and above them the highest 36 bits of its depth; 0 where nothing is. The bit above stays free. They lie where Direct3D and most
-// drivers of OpenGL have them.
+// Four samples of a pixel in a word. Each lane contains the colour of the nearest surface, blue uppermost; three status bits; and above
+// them the highest 36 bits of its depth, 0 if there is none. The highest bit stays free. The sample positions are those of Direct3D and of
+// most OpenGL drivers.
 
 uint256 constant ONES_64 = 0x1000000000000000100000000000000010000000000000001;
 /// @dev The depths.
 uint256 constant SAMPLE_DEPTHS = 0x7ffffffff80000007ffffffff80000007ffffffff80000007ffffffff8000000;
-/// @dev Below the depth, of objects that are not opaque: found by the first pass, drawn by the second, and all that tells them apart: see
-/// BlendedSamples.
+/// @dev Below the depth, for translucent objects: found by the first pass; drawn by the second pass; and the mask of all bits that
+/// distinguish them: see BlendedSamples.
 uint256 constant FOUND_SAMPLES = 0x1000000000000000100000000000000010000000000000001000000;
 uint256 constant DRAWN_SAMPLES = 0x2000000000000000200000000000000020000000000000002000000;
 uint256 constant PASSES_OF_SAMPLES = 0x7ffffffffb0000007ffffffffb0000007ffffffffb0000007ffffffffb000000;
-/// @dev What is below the depths; the colours.
+/// @dev The bits below the depths; the colours.
 uint256 constant BELOW_SAMPLE_DEPTHS = 0x7ffffff0000000007ffffff0000000007ffffff0000000007ffffff;
 uint256 constant SAMPLE_COLORS = 0xffffff0000000000ffffff0000000000ffffff0000000000ffffff;
-/// @dev Where they are from the centre of the pixel, in eighths of it: columns, and rows.
+/// @dev The offsets of the samples from the pixel centre, in eighths of a pixel: columns, and rows.
 uint256 constant SAMPLE_X_8 = 0xfffffffffffffffd0000000000000002ffffffffffffffff;
 uint256 constant SAMPLE_Y_8 = 0x30000000000000000fffffffffffffffefffffffffffffffd;
-/// @dev A left side at column 0: its bias, the places of the samples in the pixel, and 2^-29, which makes samples that lie exactly on an
-/// edge come out as being to the right of it. Edges are off by less than 2^-30, and samples that do not lie on an edge are 2^-28 away from
-/// it at least.
+/// @dev A left side at column 0: its bias, the offsets of the samples in the pixel, and 2^-29, which puts samples that lie exactly on an
+/// edge to the right of it. Edges have errors below 2^-30, and samples that do not lie on an edge are at least 2^-28 away from it.
 uint256 constant LEFT_AT_0 = 0x80000080000020007ffffe800000200080000180000020007fffff8000002000;
 /// @dev A byte of samples, Q37, of which a column has 32.
 uint256 constant ADDRESS_64 = 0x2000000000000000200000000000000020000000000000002000000000;
@@ -503,26 +503,26 @@ uint256 constant RED_BLUE_64 = 0xff00ff0000000000ff00ff0000000000ff00ff000000000
 uint256 constant GREEN_64 = 0xff00000000000000ff00000000000000ff00000000000000ff00;
 
 // ------------------------------------------------------------------------------------------------------------------------- signed colours
-// Three signed lanes of 85 bits, of quadratic functions. A colour that is stepped is Q58, and one times its depth Q72 (Q24 without the last
-// 48 bits).
+// Three signed lanes of 85 bits, for quadratic functions. An incremented colour is Q58, and a colour times its depth Q72 (Q24 without the
+// last 48 bits).
 
-/// @dev Half the range of a lane, which keeps it positive; the same without the last 48 bits, with all bits of that.
+/// @dev Half the range of a lane, which keeps it positive; the same without the last 48 bits; all bits of that.
 uint256 constant BIAS_84 = 0x4000000000000000000002000000000000000000001000000000000000000000;
 uint256 constant BIAS_36 = 0x4000000000000000000002000000000000000000001000000000;
 uint256 constant LANES_37 = 0x7ffffffffc000000000003ffffffffe000000000001fffffffff;
-/// @dev Half of the last bit that a second difference keeps.
+/// @dev Half of the last bit that a second difference retains.
 uint256 constant BEND_ROUNDING = 0x4000000000000000000002000000000000000000001000000000000;
-/// @dev The byte of each lane, Q58; what is above; what it carries into if it is added to itself; the sign.
+/// @dev The byte of each lane, Q58; the bits above; the bit into which they carry if they are added to themselves; the sign.
 uint256 constant BYTES_Q58 = 0xff00000000000000000007f80000000000000000003fc00000000000000;
 uint256 constant ABOVE_Q58 = 0x7ffff00000000000000003ffff80000000000000001ffffc0000000000000000;
 uint256 constant CARRIES_85 = 0x8000000000000000000004000000000000000000002000000000000000000000;
 uint256 constant SIGNS_85 = 0x4000000000000000000002000000000000000000001000000000000000000000;
 
 // --------------------------------------------------------------------------------------------------------- vectors in the space of a mesh
-// Three signed lanes of 86 bits. The middle coefficient of the product of two vectors, one of them with its lanes the other way round, is
-// their dot product, and has all bits from UPPER_86_AT on: what is above is beyond the word.
+// Three signed lanes of 86 bits. The middle coefficient of the product of two vectors, one of them with reversed lanes, is their dot
+// product, which occupies all bits from UPPER_86_AT on: the higher coefficients are beyond the word.
 
-/// @dev Half the range of each lane; the bits that are left of a lane of Q80 as Q32; half of them.
+/// @dev Half the range of each lane; the bits of a lane of Q80 that remain as Q32; half of their range.
 uint256 constant HALF_86 = 0x8000000000000000000008000000000000000000002000000000000000000000;
 uint256 constant Q32_86 = 0xfffffffff000000000000fffffffffc000000000003fffffffff;
 uint256 constant HALF_Q32_86 = 0x8000000000000000000008000000000000000000002000000000;

@@ -26,19 +26,20 @@ import {Extensions} from "./Extensions.sol";
 import {NORMALS, WIDE} from "./Mesh.sol";
 import {SceneErrors} from "./SceneErrors.sol";
 
-// Every bound that the pipeline relies on. Within them no sum and no product in it overflows, and no packed number leaves its lane.
+// Every bound on which the pipeline relies. Within these bounds no sum and no product in it overflows, and no packed number exceeds its
+// lane.
 
 uint256 constant MAX_CANVAS = 2048;
 uint256 constant MAX_LIGHTS = 4;
 uint256 constant MAX_SHININESS = 128;
-/// @dev 2^26 world units.
+/// @dev 2^26 world units, Q32.
 int256 constant MAX_COORDINATE = 1 << 58;
-/// @dev Half the extent of a scaled mesh, in world units times 2^32: 2^27 units.
+/// @dev Half the extent of a scaled mesh: 2^27 world units, Q32.
 int256 constant MAX_EXTENT = 1 << 59;
-/// @dev 4.
+/// @dev 4, Q32.
 int256 constant MAX_COEFFICIENT = 4 << 32;
 
-/// @notice Everything but the vertex numbers of the faces, which the primitive assembly checks.
+/// @notice Checks a scene, except for the vertex indices of the faces, which primitive assembly checks.
 function checkScene(Scene calldata scene, Rectangle memory tile) pure {
     unchecked {
         checkLayout(scene);
@@ -61,7 +62,7 @@ function checkScene(Scene calldata scene, Rectangle memory tile) pure {
     }
 }
 
-/// @dev Follows the offsets and lengths of the call before anything is read through them.
+/// @dev Validates the offsets and lengths of the ABI encoding before anything is read through them.
 function checkLayout(Scene calldata scene) pure {
     unchecked {
         uint256 base;
@@ -83,11 +84,11 @@ function checkLayout(Scene calldata scene) pure {
     }
 }
 
-/// @notice Checks that an offset leads to an array that lies within the call.
-/// @param base What the offset counts from.
-/// @param position Where the offset is in calldata.
-/// @param size Bytes of an element.
-/// @return tail Where the length of the array is.
+/// @notice Checks that an offset points to an array within the calldata, and returns the position of the array.
+/// @param base The position from which the offset counts.
+/// @param position The calldata position of the offset.
+/// @param size The size of an element in bytes.
+/// @return tail The calldata position of the array's length.
 function checkTail(uint256 base, uint256 position, uint256 size) pure returns (uint256 tail) {
     unchecked {
         tail = base + word(position);
@@ -107,7 +108,7 @@ function word(uint256 position) pure returns (uint256 value) {
 function checkCamera(Camera calldata camera) pure {
     if (camera.projection > ORTHOGRAPHIC) revert SceneErrors.UnknownProjection(camera.projection);
     bool perspective = camera.projection == PERSPECTIVE;
-    // the tangent of half the field of view from 2^-10 to 2^10, a height from 2^-12 to 2^26 units
+    // tangent of half the field of view: 2^-10 to 2^10; orthographic half height: 2^-12 to 2^26 units
     if (
         camera.halfHeight.raw() < (perspective ? int256(1 << 22) : int256(1 << 20))
             || camera.halfHeight.raw() > (perspective ? int256(1 << 42) : int256(1 << 58))
@@ -154,7 +155,7 @@ function checkPosition(int256 x, int256 y, int256 z, uint256 object) pure {
     if (!inRange(x) || !inRange(y) || !inRange(z)) revert SceneErrors.PositionOutOfRange(object, x, y, z);
 }
 
-/// @param bits Of a coordinate of the mesh.
+/// @param bits The bits of a mesh coordinate.
 function checkScale(int256 scale, uint256 bits, uint256 object) pure {
     if (scale < 0 || scale > MAX_EXTENT >> (bits - 1)) revert SceneErrors.ScaleOutOfRange(object, scale);
 }
@@ -164,7 +165,7 @@ function checkRotation(int256 x, int256 y, int256 z, int256 w, uint256 object) p
     if (x | y | z | w == 0) revert SceneErrors.RotationIsZero(object);
 }
 
-/// @return bits Of a coordinate.
+/// @return bits The bits of a coordinate.
 function checkMesh(bytes calldata data, uint256 index) pure returns (uint256 bits, bool hasNormals) {
     unchecked {
         uint256 header;

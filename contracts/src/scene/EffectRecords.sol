@@ -22,28 +22,28 @@ import {
 import {Scene} from "./Scene.sol";
 import {SceneErrors} from "./SceneErrors.sol";
 
-// The records of effects: see Extensions. Those up to TONE are of the scene, with index 0; colours are three bytes, red, green, blue:
+// Effect records: see `Extensions.sol`. Kinds up to TONE belong to the scene and have index 0. Colours are three bytes: red, green, blue.
 //
-//   HEMISPHERE   the colours of the light from above, y up, and of that from below
-//   RIM          the colour of the light at silhouettes, and the power by which it falls off, 1 byte, 1..16
-//   FOG          its colour, and the distances along the line of sight at which it begins and at which it hides everything, 8 bytes each,
-//                Q32, 0 to 2^58, the second above the first
-//   TONE         what light is multiplied by in the end, 4 bytes, Q16, above 0, up to 64; and 1 byte of flags: see TONE_FILMIC
-//   TEXTURE      of an object, in words of 32 bytes, filled up with zeros:
+//   HEMISPHERE   the colour of the light from above (+y), then of the light from below
+//   RIM          the colour of the light at silhouettes; the exponent of its falloff, 1 byte, 1..16
+//   FOG          its colour; the distances along the line of sight at which it begins and at which it is opaque, 8 bytes each, Q32,
+//                0 to 2^58, the second above the first
+//   TONE         the exposure, by which the final light is multiplied, 4 bytes, Q16, above 0, up to 64; flags, 1 byte: see TONE_FILMIC
+//   TEXTURE      of an object, padded with zeros to words of 32 bytes:
 //                flags         1 byte    sum of TEXTURE_BILINEAR and TEXTURE_CLAMP
 //                sides         2 bytes   width - 1 and height - 1
-//                bits          1 byte    of a texel: 1, 2, 4, 8, or 24
-//                palette                 2^bits colours of 3 bytes; none for texels of 24 bits, which are colours themselves
-//                texels                  rows from the top, one after the other; zeros up to a whole byte
-//                coordinates             of each vertex of the mesh u and v, 3 bytes each, Q16, signed; (0, 0) is the upper left corner
-//                                        of the image, (1, 1) the lower right one
-//   OPACITIES    of an object, in words: 1 byte for each vertex of the mesh, 255 where it is opaque, filled up with zeros
-//   SHADOW       of the light that casts shadows; there is one at most: a word, which faces of culled objects do: see SHADOWS_ALL
-//   GROUND       of an object that casts none, and fades into what is behind it: a word, of which the upper half has the distances from its
-//                position at which it begins to fade and at which nothing is left of it, 8 bytes each, Q32, 0 to 2^58, the second above the
-//                first
+//                bits          1 byte    bits of a texel: 1, 2, 4, 8, or 24
+//                palette                 2^bits colours of 3 bytes; absent if texels have 24 bits, which are colours themselves
+//                texels                  rows from the top, without gaps; padded with zeros to a whole byte
+//                coordinates             u and v of each vertex, 3 bytes each, Q16, signed; (0, 0) is the upper left corner of the
+//                                        image, (1, 1) the lower right one
+//   OPACITIES    of an object: 1 byte for each vertex of the mesh, 255 being opaque, padded with zeros to words
+//   SHADOW       of the light that casts shadows, at most one: a word, which selects the casting faces of culled objects: see SHADOWS_ALL
+//   GROUND       of an object that casts no shadow and fades into the background: a word, whose upper half contains two distances from
+//                the object's position, at which it begins to fade and at which it vanishes, 8 bytes each, Q32, 0 to 2^58, the second
+//                above the first
 //
-// What they do is told in SurfaceLight, Texture and Ground.
+// `SurfaceLight`, `Texture` and `Ground` implement them.
 
 uint256 constant HEMISPHERE_SIZE = 6;
 uint256 constant RIM_SIZE = 4;
@@ -55,17 +55,17 @@ uint256 constant MAX_RIM_POWER = 16;
 int256 constant MAX_FOG_DISTANCE = 1 << 58;
 /// @dev Q16.
 uint256 constant MAX_EXPOSURE = 64 << 16;
-/// @dev Bytes before the palette; bits of a texel that is a colour; bytes of a pair of coordinates; 2^bits of all bits that a texel may
-/// have.
+/// @dev Bytes before the palette; bits of a texel that contains a colour; bytes of a pair of coordinates; 2^bits for all bits that a texel
+/// can have, ORed.
 uint256 constant TEXTURE_HEADER = 4;
 uint256 constant TEXTURE_COLOR_BITS = 24;
 uint256 constant UV_SIZE = 6;
 uint256 constant BITS_ALLOWED = 0x1000116;
-/// @dev The greatest radius of a GROUND, 2^26 units, Q32.
+/// @dev The maximum radius of a GROUND: 2^26 units, Q32.
 uint256 constant MAX_FADE = 1 << 58;
 
 library EffectRecords {
-    /// @notice Checks all records of effects.
+    /// @notice Checks all effect records.
     function check(Scene calldata scene) internal pure {
         unchecked {
             (uint256 record, uint256 end) = Extensions.behind(scene, ANTIALIAS);
@@ -92,7 +92,7 @@ library EffectRecords {
         }
     }
 
-    /// @dev The bytes that the content of a record must have.
+    /// @dev Returns the required size of a record's content, in bytes.
     function sizeOf(Scene calldata scene, uint256 record, uint256 kind, uint256 index) private pure returns (uint256) {
         unchecked {
             if (kind == HEMISPHERE) return HEMISPHERE_SIZE;
@@ -115,7 +115,7 @@ library EffectRecords {
         }
     }
 
-    /// @notice Where the coordinates of vertices are in the content of a TEXTURE.
+    /// @notice Returns the position of the texture coordinates in the content of a TEXTURE.
     function uvsOf(uint256 texture) internal pure returns (uint256) {
         unchecked {
             uint256 header = Extensions.word(texture) >> 224;
@@ -125,22 +125,22 @@ library EffectRecords {
         }
     }
 
-    /// @notice The power of a RIM.
+    /// @notice Returns the exponent of a RIM.
     function rimPower(uint256 content) internal pure returns (uint256) {
         return (content >> 224) & 0xff;
     }
 
-    /// @notice The distances of a FOG, Q32.
+    /// @notice Returns the distances of a FOG, Q32.
     function fogDistances(uint256 content) internal pure returns (int256 near, int256 far) {
         return (int256(content << 24) >> 192, int256(content << 88) >> 192);
     }
 
-    /// @notice The exposure of a TONE, Q16, and its flags.
+    /// @notice Returns the exposure of a TONE, Q16, and its flags.
     function toneOf(uint256 content) internal pure returns (uint256 exposure, uint256 flags) {
         return (content >> 224, (content >> 216) & 0xff);
     }
 
-    /// @notice The radii of a GROUND, Q32.
+    /// @notice Returns the radii of a GROUND, Q32.
     function radiiOf(uint256 content) internal pure returns (uint256 inner, uint256 outer) {
         return (content >> 192, (content >> 128) & type(uint64).max);
     }

@@ -5,22 +5,22 @@ import {ANTIALIAS, LONG_KINDS, OPACITY_OF, RECORD_HEADER, SPOT} from "./Records.
 import {Scene, POINT} from "./Scene.sol";
 import {SceneErrors} from "./SceneErrors.sol";
 
-// What a scene, its lights and its objects have beyond the fields of their structs, so that what is new changes no selector and breaks no
-// scene that is kept. `Scene.extensions` is a sequence of records, all numbers big-endian:
+// Properties of a scene, its lights and its objects beyond the fields of their structs. New properties therefore change no selector, and
+// stored scenes remain valid. `Scene.extensions` is a sequence of records, all numbers big-endian:
 //
 //   kind     1 byte    one of the following
-//   index    2 bytes   the light or the object that it belongs to, counted from 0; 0 for the scene
-//   size     2 bytes   of what follows, which is that of the kind: in bytes, for kinds from 8 on in words of 32 bytes
-//   SPOT               of a point light, which shines into a cone only:
-//                      3 numbers of 8 bytes: where it points, Q32, any length but zero
-//                      2 numbers of 8 bytes: the cosines of the angles from there at which the light begins to fade, and at which none
-//                      is left, Q32, -1..1
+//   index    2 bytes   the number of the light or object, from 0; 0 for the scene
+//   size     2 bytes   the size of the content: in bytes; for kinds from 8 on, in words of 32 bytes
+//   content            depends on the kind:
+//   SPOT               of a point light, limits it to a cone:
+//                      3 numbers of 8 bytes: the direction of its axis, Q32, any length but zero
+//                      2 numbers of 8 bytes: the cosines of the angles from the axis at which the light begins to fade, and at which
+//                      it vanishes, Q32, -1..1
 //   OPACITY            of an object: 4 bytes, Q24, below 1
-//   ANTIALIAS          of the scene: nothing; edges are smoothed
-//   4 and above        effects, of the scene or of an object: see EffectRecords.sol. A scene that has any is drawn by the
-//                      EffectsEngine
+//   ANTIALIAS          of the scene: empty; edges are smoothed
+//   4 and above        effects, of the scene or of an object: see `EffectRecords.sol`. The EffectsEngine draws scenes that have any
 //
-// Kind and index, taken together as one number, ascend strictly. What is not there has its default: there is one way only to say a thing.
+// The pairs of kind and index, as one number, must strictly ascend. A missing record means the default, so each property has one encoding.
 
 uint256 constant SPOT_SIZE = 40;
 uint256 constant OPACITY_SIZE = 4;
@@ -28,13 +28,13 @@ uint256 constant OPACITY_SIZE = 4;
 /// @dev One, as Q24.
 uint256 constant OPAQUE = 1 << 24;
 
-/// @notice Records, by their places in calldata.
+/// @notice Reads records in calldata.
 library Extensions {
-    /// @dev The bounds of coordinates, 2^26 units, and one, Q32.
+    /// @dev Bounds of coordinates (2^26 units), and 1; Q32.
     int256 private constant MAX_COORDINATE = 1 << 58;
     int256 private constant ONE = 1 << 32;
 
-    /// @notice Every record of a scene, of which lights and objects are checked.
+    /// @notice Checks every record of a scene. The lights and objects must have been checked.
     function check(Scene calldata scene) internal pure {
         unchecked {
             bytes calldata records = scene.extensions;
@@ -83,8 +83,8 @@ library Extensions {
         return value >= -MAX_COORDINATE && value <= MAX_COORDINATE;
     }
 
-    /// @return record The first record of a scene.
-    /// @return end The place after the last.
+    /// @return record The position of the first record of a scene.
+    /// @return end The position after the last one.
     function bounds(Scene calldata scene) internal pure returns (uint256 record, uint256 end) {
         unchecked {
             bytes calldata records = scene.extensions;
@@ -95,7 +95,7 @@ library Extensions {
         }
     }
 
-    /// @notice The first record behind those of kinds up to `kind`, or the end.
+    /// @notice Returns the first record of a kind above `kind`, or the end.
     function behind(Scene calldata scene, uint256 kind) internal pure returns (uint256 record, uint256 end) {
         unchecked {
             (record, end) = bounds(scene);
@@ -103,7 +103,7 @@ library Extensions {
         }
     }
 
-    /// @notice Where the content of the record of this kind and index begins; 0 if there is none.
+    /// @notice Returns the position of the content of the record of this kind and index; 0 if there is none.
     function find(Scene calldata scene, uint256 kind, uint256 index) internal pure returns (uint256) {
         unchecked {
             (uint256 record, uint256 end) = behind(scene, kind - 1);
@@ -112,13 +112,13 @@ library Extensions {
         }
     }
 
-    /// @notice Whether there is a record of the kinds that tell something of vertices or faces.
+    /// @notice Returns whether any record contains data of vertices or faces.
     function isLong(Scene calldata scene) internal pure returns (bool) {
         (uint256 record, uint256 end) = behind(scene, LONG_KINDS - 1);
         return record != end;
     }
 
-    /// @notice The bytes of what follows the header of a record.
+    /// @notice Returns the size of a record's content in bytes.
     function sizeOf(uint256 record) internal pure returns (uint256) {
         unchecked {
             uint256 header = word(record) >> 216;
@@ -126,17 +126,17 @@ library Extensions {
         }
     }
 
-    /// @notice Whether the record that comes next is that of this kind and index. What follows the last record is none.
+    /// @notice Returns whether the next record has this kind and index; false at the end.
     function isOf(uint256 record, uint256 end, uint256 kind, uint256 index) internal pure returns (bool) {
         return record != end && keyOf(record) == (kind << 16 | index);
     }
 
-    /// @notice Kind and index as one number.
+    /// @notice Returns the kind and index as one number.
     function keyOf(uint256 record) internal pure returns (uint256) {
         return word(record) >> 232;
     }
 
-    /// @return The `i`th number of a SPOT.
+    /// @return Number `i` of a SPOT.
     function spotNumber(uint256 record, uint256 i) internal pure returns (int256) {
         unchecked {
             return int256(word(record + RECORD_HEADER + 8 * i)) >> 192;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-// A mesh in bytes, all numbers big-endian:
+// The binary format of a mesh, all numbers big-endian:
 //
 //   format   1 byte    sum of NORMALS and WIDE
 //   vertices 2 bytes   n
@@ -9,14 +9,14 @@ pragma solidity ^0.8.25;
 //   n times:           position, 3 numbers of 2 bytes (3 if WIDE), signed
 //                      colour, 3 bytes: red, green, blue
 //                      normal, 4 bytes if NORMALS: 3 signed numbers of 10 bits, -511..511, then 2 bits that are 0
-//   m times:           3 vertex numbers of 2 bytes, counter-clockwise as seen from the front
+//   m times:           3 vertex indices of 2 bytes, counter-clockwise as seen from the front
 //
-// The normal is the 2_10_10_10 format of graphics interfaces: a unit vector times 511.
+// The normal is in the 2_10_10_10 format of graphics APIs: a unit vector times 511.
 
 uint256 constant NORMALS = 1;
 uint256 constant WIDE = 2;
 
-/// @dev All positions are calldata offsets.
+/// @dev Positions are calldata offsets.
 struct Mesh {
     uint256 vertices;
     uint256 vertexCount;
@@ -28,7 +28,7 @@ struct Mesh {
     uint256 stride;
 }
 
-/// @notice Where the parts of a mesh are. Its bytes must be complete: see `checkMesh`.
+/// @notice Returns the positions of the parts of a mesh. Its data must be complete: see `checkMesh`.
 function openMesh(bytes calldata data) pure returns (Mesh memory mesh) {
     unchecked {
         uint256 header;

@@ -3,8 +3,8 @@ pragma solidity ^0.8.25;
 
 import {SceneErrors} from "./SceneErrors.sol";
 
-// The numbers of the records of `Scene.extensions`, which `Extensions.sol` and `EffectRecords.sol` explain, and records made in memory.
-// Contracts outside import this file, whatever the EVM that they are compiled for.
+// The kinds of the records of `Scene.extensions` (see `Extensions.sol` and `EffectRecords.sol`), and a function that adds records in
+// memory. External contracts import this file, so it must compile for any EVM version.
 
 uint256 constant SPOT = 1;
 uint256 constant OPACITY_OF = 2;
@@ -18,33 +18,33 @@ uint256 constant OPACITIES_OF = 9;
 uint256 constant SHADOW = 10;
 uint256 constant GROUND = 11;
 
-/// @dev The first kind of which sizes are told in words.
+/// @dev The first kind whose size is given in words.
 uint256 constant LONG_KINDS = 8;
 
 uint256 constant RECORD_HEADER = 5;
 
-/// @dev Flags of a TONE: the filmic curve; light is added up in linear values, of which colours are decoded and encoded as sRGB.
+/// @dev Flags of a TONE: the filmic curve; lighting in linear light, with colours decoded from and encoded as sRGB.
 uint256 constant TONE_FILMIC = 1;
 uint256 constant TONE_GAMMA = 2;
-/// @dev Flags of a TEXTURE: colours are interpolated; beyond the border its colours go on.
+/// @dev Flags of a TEXTURE: bilinear interpolation; clamping to the edge.
 uint256 constant TEXTURE_BILINEAR = 1;
 uint256 constant TEXTURE_CLAMP = 2;
 
-/// @dev Which faces of culled objects cast shadows: all; those turned away from the light, enough where all such objects together are
-/// closed; those turned to it.
+/// @dev The faces of culled objects that cast shadows: all; those that face away from the light, which suffice if all such objects together
+/// are closed; those that face the light.
 uint256 constant SHADOWS_ALL = 1;
 uint256 constant SHADOWS_AVERSE = 2;
 uint256 constant SHADOWS_TURNED = 3;
 
-/// @notice The records in memory with one more, which replaces one of the same kind and index.
-/// @dev Without MCOPY, which older EVMs do not have.
+/// @notice Adds a record. It replaces one of the same kind and index.
+/// @dev Avoids MCOPY, which older EVMs lack.
 function addRecord(bytes memory records, uint256 kind, uint256 index, bytes memory content) pure returns (bytes memory more) {
     unchecked {
-        // in words, for kinds from LONG_KINDS on
+        // in words from LONG_KINDS on
         uint256 size = content.length >> (kind < LONG_KINDS ? 0 : 5);
         bytes memory record = abi.encodePacked(uint8(kind), uint16(index), uint16(size), content);
         uint256 key = kind << 16 | index;
-        // where the record belongs, and where those after it begin
+        // the position of the record, and of the records after it
         (uint256 place, uint256 next) = (0, 0);
         while (next < records.length) {
             uint256 header;
@@ -64,7 +64,7 @@ function addRecord(bytes memory records, uint256 kind, uint256 index, bytes memo
     }
 }
 
-/// @notice Copies `size` bytes from one place to another, and changes no byte beside them. Within the same bytes only toward the front.
+/// @notice Copies exactly `size` bytes. If the ranges overlap, only toward lower addresses.
 function copyBytes(bytes memory target, uint256 to, bytes memory source, uint256 from, uint256 size) pure {
     assembly ("memory-safe") {
         to := add(add(target, 32), to)

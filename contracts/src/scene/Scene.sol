@@ -5,12 +5,12 @@ import {Fixed} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
 import {Quaternion} from "../math/Quaternion.sol";
 
-// What a caller hands to the renderer. The world is right-handed, +y up; with the default camera the eye is at the origin and looks
-// down -z. All lengths are Q32 fixed-point numbers in world units, colours are 0xRRGGBB, and every number takes a whole ABI word. Arrays
-// and meshes may stand anywhere in the encoding, in any order, and offsets may lead to the same place: objects that share a mesh, or all
-// of their fields, need its bytes once. The bounds of each field stand with its check in `Checks.sol`.
+// The input of the renderer. The world is right-handed with +y up; the default camera has the eye at the origin and looks along -z. All
+// lengths are Q32 fixed-point numbers in world units, colours are 0xRRGGBB, and every number takes a whole ABI word. Arrays and meshes can
+// be anywhere in the encoding, in any order, and offsets can coincide: objects that share a mesh or all of their fields need its bytes only
+// once. `Checks.sol` contains the bounds of each field.
 
-/// @notice The whole picture. Each side 1..2048 pixels.
+/// @notice The size of the whole picture, 1..2048 pixels for each side.
 struct Canvas {
     uint256 width;
     uint256 height;
@@ -28,9 +28,9 @@ uint256 constant PERSPECTIVE = 0;
 uint256 constant ORTHOGRAPHIC = 1;
 
 /// @param projection PERSPECTIVE or ORTHOGRAPHIC.
-/// @param halfHeight Half the height of what the picture shows: at distance 1 for a perspective camera (the tangent of half the
-/// vertical field of view), in world units for an orthographic one.
-/// @param near The distance of the near plane; what is nearer is clipped. Positive for a perspective camera.
+/// @param halfHeight Half the height of the visible area: at distance 1 for a perspective camera (the tangent of half the vertical field of
+/// view), in world units for an orthographic one.
+/// @param near The distance of the near plane; anything nearer is clipped. Positive for a perspective camera.
 struct Camera {
     Vector eye;
     Vector target;
@@ -40,7 +40,7 @@ struct Camera {
     Fixed near;
 }
 
-/// @notice A vertical gradient; one colour where both are equal.
+/// @notice A vertical gradient; a single colour if both are equal.
 struct Background {
     uint256 top;
     uint256 bottom;
@@ -49,7 +49,7 @@ struct Background {
 uint256 constant DIRECTIONAL = 0;
 uint256 constant POINT = 1;
 
-/// @param vector The direction toward a directional light (any length but zero), the position of a point light.
+/// @param vector The direction toward a directional light (any length but zero), or the position of a point light.
 struct Light {
     uint256 kind;
     Vector vector;
@@ -60,9 +60,9 @@ uint256 constant UNLIT = 0;
 uint256 constant FLAT = 1;
 uint256 constant SMOOTH = 2;
 
-/// @notice How a surface answers light: Blinn-Phong coefficients.
-/// @param shading UNLIT shows the vertex colours as they are; FLAT takes the normal of the face, SMOOTH the normals of the vertices.
-/// @param ambient What of the ambient light is added, and so on; 0..4 as Q32.
+/// @notice How a surface reflects light: Blinn-Phong coefficients.
+/// @param shading UNLIT shows the vertex colours unchanged; FLAT uses the normal of the face, SMOOTH the normals of the vertices.
+/// @param ambient The coefficient of the ambient light, 0..4, Q32; `diffuse` and `specular` likewise.
 /// @param shininess The exponent of the highlight, 1..128.
 struct Material {
     uint256 shading;
@@ -75,9 +75,9 @@ struct Material {
 uint256 constant CULL_BACKFACES = 1;
 uint256 constant WIREFRAME = 2;
 
-/// @notice A mesh with its place in the world: p = position + rotation(scale * v).
-/// @param mesh Vertices and faces, packed as `Mesh.sol` says.
-/// @param flags The sum of CULL_BACKFACES and WIREFRAME, as wanted.
+/// @notice A mesh placed in the world: p = position + rotation(scale * v).
+/// @param mesh Vertices and faces in the format of `Mesh.sol`.
+/// @param flags The sum of CULL_BACKFACES and WIREFRAME; 0 for neither.
 struct Object {
     bytes mesh;
     Vector position;
@@ -87,11 +87,11 @@ struct Object {
     uint256 flags;
 }
 
-/// @param invert 1 turns every byte v of the picture into 255 - v; else 0.
-/// @param ambientLight The colour of the light that comes from everywhere.
+/// @param invert 1 replaces every byte v of the picture with 255 - v; otherwise 0.
+/// @param ambientLight The colour of the ambient light.
 /// @param lights At most 4.
-/// @param objects Drawn in this order, those that are not opaque after the others; of fragments at equal depth the first stays.
-/// @param extensions What is not in the structs, such as spot lights: see `Extensions.sol`. Empty for none.
+/// @param objects Drawn in this order, translucent objects after the others; of fragments at equal depth the first one remains.
+/// @param extensions Further properties, such as spot lights: see `Extensions.sol`. Empty for none.
 struct Scene {
     Canvas canvas;
     Camera camera;
@@ -103,8 +103,8 @@ struct Scene {
     bytes extensions;
 }
 
-/// @dev Words of the encoding: of a scene before its arrays, and where in it the offsets of those are; of a light; of an object before
-/// its mesh.
+/// @dev Sizes in words of the ABI encoding: of a scene before its arrays, and the positions of their offsets; of a light; of an object
+/// before its mesh.
 uint256 constant SCENE_LIGHTS = 18;
 uint256 constant SCENE_OBJECTS = 19;
 uint256 constant SCENE_EXTENSIONS = 20;

@@ -4,20 +4,21 @@ pragma solidity 0.8.37;
 import {load, loadSigned, store} from "../pipeline/Memory.sol";
 import {BESIDE, BUCKETS, CUBE, EVERYWHERE, Frame, LightSpace, PLACE_BUCKETS, SIDE_AT} from "./LightSpace.sol";
 
-// Faces in the space of the light, and which of them may shade a face.
+// Faces in light space, and the search for those that may shade a face.
 //
-// A face is six words: a word of addresses and ranges (FACE_); its normal, the cross product of two sides; its side, positive if turned
-// to the light, 0 if it is seen edge-on; and what is found about its shadows.
+// A face has six words: a word of addresses and ranges (FACE_); its normal, the cross product of two sides; its side, positive if it faces
+// the light, 0 if edge-on; and the results for its shadows.
 //
-// Those that cast shadows have numbers, each a bit in the sets of what lies in a range of coordinates. There are five tables of sets: what
-// reaches a range in x or beyond it, what begins in it or before; the same of y; what is in a range of depths or nearer to the light.
-// What may shade a face is in five of these sets: 256 faces are found by four `and`s. Each side of a cube has such tables.
+// Shadow casters are numbered, and each is a bit in the sets of faces by ranges of coordinates. There are five tables of sets: faces that
+// reach a range in x or beyond it; faces that begin in it or before; the same for y; faces in a range of depths or nearer to the light. The
+// faces that may shade a face are the intersection of five of these sets: four `and`s test 256 faces. Each side of a cube has its own
+// tables.
 
 uint256 constant FACE_RECORD_SIZE = 0xc0;
 uint256 constant FACE_NORMAL = 0x20;
 uint256 constant FACE_SIDE = 0x80;
 uint256 constant FACE_ENTRY = 0xa0;
-/// @dev In the first word: the addresses of the vertices, HAS_PLANES, and the ranges of x, y, z, the least and the greatest, in bytes.
+/// @dev The first word: the addresses of the vertices, HAS_PLANES, and the ranges of x, y, z, minimum and maximum, in bytes.
 uint256 constant FACE_B_AT = 32;
 uint256 constant FACE_C_AT = 64;
 /// @dev Whether its functions are written.
@@ -25,20 +26,20 @@ uint256 constant HAS_PLANES = 1 << 96;
 uint256 constant FACE_BOX_AT = 128;
 uint256 constant ADDRESS_MASK = 0xffffffff;
 uint256 constant BOX_MASK = 0xffffffffffffffff;
-/// @dev The highest bit of each lane of the ranges of a vertex.
+/// @dev The highest bit of each lane of a vertex's ranges.
 uint256 constant LANE_GUARDS = 0x800080008000;
 
 /// @dev The functions of a face, positive in shadow: three sides, each opposite to a corner, with the factors of x and y, and that of z for
-/// a point light, else a constant; and what lies behind the face, with the factors of x, y and z and a constant.
+/// a point light, otherwise a constant; and the half-space behind the face, with the factors of x, y and z and a constant.
 uint256 constant SIDE_SIZE = 0x60;
 uint256 constant BEHIND = 0x120;
 uint256 constant PLANES_SIZE = 0x1a0;
 
-/// @dev What casts shadows: the address of its face, and the x, y and z of its corners, signed lanes of 85 bits, so that a function takes
-/// as many products for three corners as for one.
+/// @dev A shadow caster: the address of its face, and the x, y and z of its corners, signed lanes of 85 bits, so that evaluating a function
+/// at three corners takes as many products as at one.
 uint256 constant CASTER_SIZE = 0x80;
 uint256 constant LANE = 85;
-/// @dev The highest bit of a lane is added to its value, so that it is set where that is at least 0.
+/// @dev 1 in each lane; its highest bit, which added to a lane is set if the value is at least 0; that bit of all lanes; a lane.
 uint256 constant LANE_ONES = 0x4000000000000000000002000000000000000000001;
 uint256 constant LANE_TOP = 0x1000000000000000000000;
 uint256 constant LANE_TOPS = 0x4000000000000000000002000000000000000000001000000000000000000000;
@@ -46,7 +47,7 @@ uint256 constant LANE_MASK = 0x1fffffffffffffffffffff;
 
 library Faces {
     /// @notice Writes the record of a face.
-    /// @param face Where to write it.
+    /// @param face The address for the record.
     /// @param a, b, c The addresses of its vertices.
     function write(uint256 face, uint256 a, uint256 b, uint256 c, bool isPoint) internal pure {
         unchecked {
@@ -75,8 +76,8 @@ library Faces {
         }
     }
 
-    /// @dev The ranges of three vertices: the least in the lower byte of each lane, the greatest in the upper; BESIDE if a vertex is, or if
-    /// they are on several sides of the cube.
+    /// @dev Returns the ranges of three vertices: the minimum in the lower byte of each lane, the maximum in the upper one; BESIDE if a
+    /// vertex is, or if they are on several sides of the cube.
     function boxOf(uint256 a, uint256 b, uint256 c) private pure returns (uint256 box) {
         assembly ("memory-safe") {
             a := mload(add(a, PLACE_BUCKETS))
@@ -84,7 +85,7 @@ library Faces {
             c := mload(add(c, PLACE_BUCKETS))
             switch or(and(or(or(a, b), c), BESIDE), shr(SIDE_AT, or(xor(a, b), xor(b, c))))
             case 0 {
-                // where a lane of a is not less than that of b, the mask has ones
+                // the mask has ones in each lane of a that is not less than that of b
                 let mask := and(sub(or(a, LANE_GUARDS), b), LANE_GUARDS)
                 let change := and(xor(a, b), sub(mask, shr(15, mask)))
                 let high := xor(b, change)
@@ -99,9 +100,10 @@ library Faces {
         }
     }
 
-    /// @notice Writes where to look for what may shade a face: for each side of the cube that it is on, the tables and the ranges.
-    /// @param target Where to write them.
-    /// @param tables Where those of the first side begin.
+    /// @notice Writes where to search for faces that may shade a face: for each side of the cube on which it lies, the tables and the
+    /// ranges.
+    /// @param target The address to write to.
+    /// @param tables The address of the first side's tables.
     /// @param corners The first word of its record.
     /// @return end The address after the last of these pairs.
     function writeBoxes(uint256 target, uint256 tables, uint256 words, Frame memory frame, uint256 corners)
@@ -113,7 +115,7 @@ library Faces {
             uint256 box = (corners >> FACE_BOX_AT) & BOX_MASK;
             uint256 size = 5 * BUCKETS * 32 * words;
             if (corners & BESIDE == 0 || frame.sides == 1) {
-                // what is beside a point light may shade everything
+                // faces beside a point light may shade everything
                 store(target, tables + (box >> SIDE_AT & 7) * size);
                 store(target + 0x20, corners & BESIDE == 0 ? box : EVERYWHERE);
                 return target + 0x40;
@@ -132,14 +134,14 @@ library Faces {
         }
     }
 
-    /// @notice Puts a face into the sets of its ranges.
+    /// @notice Inserts a face into the sets of its ranges.
     /// @param sets Tables of sets of `words` words each.
     function insert(uint256 sets, uint256 words, uint256 index, uint256 box) internal pure {
         assembly ("memory-safe") {
             let bit := shl(and(index, 0xff), 1)
             let size := shl(5, words)
             let set := add(sets, shl(5, shr(8, index)))
-            // the greatest and the least x, the greatest and the least y, the greatest z
+            // the maximum and minimum x, the maximum and minimum y, the maximum z
             let p := add(set, mul(size, byte(30, box)))
             mstore(p, or(mload(p), bit))
             set := add(set, mul(BUCKETS, size))
@@ -157,7 +159,7 @@ library Faces {
         }
     }
 
-    /// @notice Adds to each set those of the ranges beyond it, or before it.
+    /// @notice Adds to each set the sets of the ranges beyond it, or before it.
     function complete(uint256 sets, uint256 words) internal pure {
         assembly ("memory-safe") {
             let size := shl(5, words)
@@ -181,9 +183,9 @@ library Faces {
         }
     }
 
-    /// @notice What may shade a face, of 256 faces.
-    /// @param box Its ranges.
-    /// @param offset Of the word in each set.
+    /// @notice Returns which of 256 faces may shade a face.
+    /// @param box The ranges of the face.
+    /// @param offset The offset of the word in each set.
     function candidates(uint256 sets, uint256 words, uint256 box, uint256 offset) internal pure returns (uint256 bits) {
         assembly ("memory-safe") {
             let size := shl(5, words)
@@ -201,7 +203,7 @@ library Faces {
     }
 
     /// @notice Writes the coordinates of three corners as lanes.
-    /// @param corners The first word of the record of a face.
+    /// @param corners The first word of a face record.
     function pack(uint256 target, uint256 corners) internal pure {
         assembly ("memory-safe") {
             let a := and(corners, ADDRESS_MASK)

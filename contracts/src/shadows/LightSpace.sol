@@ -9,40 +9,40 @@ import {Mesh} from "../scene/Mesh.sol";
 import {Light, Object, POINT} from "../scene/Scene.sol";
 import {loadSigned, store, storeSigned} from "../pipeline/Memory.sol";
 
-// The space of the light. z points toward a directional light, and from a point light to what casts shadows. Its origin is the middle of
-// what casts shadows, or the point light. The farthest place that casts a shadow has coordinates of 20 bits, with the sign.
+// Light space. The z axis points toward a directional light, or from a point light to the shadow casters. The origin is the centre of the
+// casters, or the point light. The farthest point of a caster has coordinates of 20 bits, including the sign.
 //
-// Coordinates are divided into ranges, to find what may shade a face: x, y and z, or x / z, y / z and -z. A point light among what casts
-// shadows is in the middle of a cube, and each side of it, z, -z, x, -x, y, -y, has ranges of its own, with its axis in place of z.
+// Coordinates are divided into ranges for the search for casters: x, y and z, or x / z, y / z and -z. A point light among the casters is
+// the centre of a cube, and each side of the cube, z, -z, x, -x, y, -y, has its own ranges, with its axis in place of z.
 //
-// A vertex is four words: x, y, z, and the ranges in which they are with the side of the cube, lanes of 16 bits, or BESIDE.
+// A vertex has four words: x, y, z, and its ranges with the side of the cube, in lanes of 16 bits, or BESIDE.
 
-/// @dev Bits of the coordinates of the farthest place that casts a shadow, without the sign.
+/// @dev The bits of the coordinates of a caster's farthest point, without the sign.
 uint256 constant COORDINATE_BITS = 19;
-/// @dev Coordinates are divided into so many ranges, to find what may shade a face.
+/// @dev The number of ranges into which coordinates are divided.
 uint256 constant BUCKETS = 128;
 uint256 constant PLACE_SIZE = 0x80;
 uint256 constant PLACE_BUCKETS = 0x60;
-/// @dev The vertex is beside or behind a point light that is not in a cube, or at the light.
+/// @dev The vertex is beside or behind a point light without a cube, or at the light.
 uint256 constant BESIDE = 1 << 255;
-/// @dev Bits of the product of a length, Q32, and a factor, 2^64 / radius (Q32), below those of a coordinate.
+/// @dev The extra fraction bits in the product of a length, Q32, and a factor, 2^64 / radius (Q32), compared to a coordinate.
 uint256 constant PLACE_SHIFT = 77;
-/// @dev Bits of x / z and y / z.
+/// @dev The bits of x / z and y / z.
 uint256 constant SLOPE_BITS = 16;
-/// @dev A point light with a greater slope across what casts shadows is among that.
+/// @dev A point light from which the casters span a larger slope is among them.
 int256 constant WIDEST = 2 << 16;
-/// @dev Sides of a cube; where the side is in the ranges; and whether there are any.
+/// @dev The number of sides of a cube; the position of the side in the ranges; and whether there are ranges.
 uint256 constant CUBE = 6;
 uint256 constant SIDE_AT = 48;
 uint256 constant HAS_BOX = 1 << 63;
-/// @dev All ranges of x and y, and from the least one of z on.
+/// @dev All ranges of x and y, and of z from the minimum on.
 uint256 constant EVERYWHERE = 0x7f007f007f00;
-/// @dev Above this, Q32, the y component of a direction is not taken as that of a second axis.
+/// @dev If the y component of a direction exceeds this, Q32, the y axis does not define the second axis.
 int256 constant UPRIGHT = 3 << 30;
 
-/// @param axis Three times three numbers, 2^64 / radius times the components of the axes.
-/// @param low, factor Of the ranges into which coordinates are divided.
-/// @param sides How many sides of the cube have ranges: CUBE or 1.
+/// @param axis Three times three numbers: 2^64 / radius times the components of the axes.
+/// @param low, factor The origin and scale of the ranges.
+/// @param sides The number of cube sides that have ranges: CUBE or 1.
 struct Frame {
     bool isPoint;
     int256 radius;
@@ -54,8 +54,8 @@ struct Frame {
 }
 
 library LightSpace {
-    /// @notice Writes the vertices of an object in the world, Q32.
-    /// @param vertex Where to write them.
+    /// @notice Writes the vertices of an object in world space, Q32.
+    /// @param vertex The address to write to.
     function writeWorld(Object calldata object, Mesh memory mesh, Matrix memory rotation, uint256 vertex) internal pure {
         unchecked {
             Fixed size = object.scale;
@@ -88,8 +88,8 @@ library LightSpace {
         }
     }
 
-    /// @notice Widens bounds to hold vertices.
-    /// @param bounds The lowest coordinates, then the highest.
+    /// @notice Widens bounds to include vertices.
+    /// @param bounds The minimum coordinates, then the maximum ones.
     function widen(int256[6] memory bounds, uint256 vertex, uint256 end) internal pure {
         assembly ("memory-safe") {
             for {} lt(vertex, end) { vertex := add(vertex, PLACE_SIZE) } {
@@ -104,8 +104,8 @@ library LightSpace {
         }
     }
 
-    /// @notice The space of a light.
-    /// @param bounds Of what casts shadows, in the world.
+    /// @notice Returns the space of a light.
+    /// @param bounds The bounds of the casters in world space.
     function frameOf(Light calldata light, int256[6] memory bounds) internal pure returns (Frame memory frame) {
         unchecked {
             frame.isPoint = light.kind == POINT;
@@ -150,8 +150,8 @@ library LightSpace {
         }
     }
 
-    /// @dev The ranges in the cone from a point light around the sphere around what casts shadows.
-    /// @param half The radius of the sphere; `distance` that of its middle from the light.
+    /// @dev Sets the ranges in the cone from a point light around the bounding sphere of the casters.
+    /// @param half The radius of the sphere; `distance` is that of its centre from the light.
     function setCone(Frame memory frame, int256 half, int256 distance) private pure {
         unchecked {
             int256 size = (half << COORDINATE_BITS) / frame.radius + 2;
@@ -196,7 +196,7 @@ library LightSpace {
         }
     }
 
-    /// @notice Takes vertices from the world to the space of the light.
+    /// @notice Transforms vertices from world space to light space.
     function place(Frame memory frame, uint256 vertex, uint256 end) internal pure {
         unchecked {
             for (; vertex != end; vertex += PLACE_SIZE) {
@@ -234,7 +234,7 @@ library LightSpace {
         }
     }
 
-    /// @dev The side of the cube on which a place is.
+    /// @dev Returns the side of the cube on which a point lies.
     function mainSide(int256 x, int256 y, int256 z) private pure returns (uint256) {
         unchecked {
             (int256 i, int256 j, int256 k) = (magnitude(x), magnitude(y), magnitude(z));
@@ -244,7 +244,7 @@ library LightSpace {
         }
     }
 
-    /// @dev A place with the axis of a side in place of z.
+    /// @dev Returns a point with the axis of a side in place of z.
     function turned(int256 x, int256 y, int256 z, uint256 side) private pure returns (int256, int256, int256) {
         unchecked {
             if (side > 3) (x, y, z) = (z, x, y);
@@ -253,9 +253,9 @@ library LightSpace {
         }
     }
 
-    /// @notice The ranges of a face that is on several sides of the cube, on one of them.
+    /// @notice Returns the ranges, on one side of the cube, of a face that spans several sides.
     /// @param places Three addresses of vertices.
-    /// @return box As in Faces, and HAS_BOX; 0 where it is not on that side.
+    /// @return box As in Faces, and HAS_BOX; 0 if the face does not reach that side.
     function boxOn(Frame memory frame, uint256[3] memory places, uint256 side) internal pure returns (uint256 box) {
         unchecked {
             int256 far;
@@ -277,7 +277,7 @@ library LightSpace {
         }
     }
 
-    /// @dev The least range of x / z (axis 0) or y / z (1) and, above it, the greatest.
+    /// @dev Returns the minimum range of x / z (axis 0) or y / z (axis 1) and, above it, the maximum.
     function boxAcross(Frame memory frame, uint256[3] memory places, uint256 side, uint256 axis) private pure returns (uint256) {
         unchecked {
             int256 low = type(int256).max;
@@ -294,14 +294,14 @@ library LightSpace {
         }
     }
 
-    /// @notice A place of the world in the space of the light.
+    /// @notice Transforms a point from world space to light space.
     function placeOf(Frame memory frame, int256 x, int256 y, int256 z) internal pure returns (int256, int256, int256) {
         unchecked {
             return directionOf(frame, x - frame.origin[0], y - frame.origin[1], z - frame.origin[2]);
         }
     }
 
-    /// @notice A difference of places of the world in the space of the light.
+    /// @notice Transforms a difference of points from world space to light space.
     function directionOf(Frame memory frame, int256 x, int256 y, int256 z) internal pure returns (int256 i, int256 j, int256 k) {
         assembly ("memory-safe") {
             let axis := mload(add(frame, 0x60))

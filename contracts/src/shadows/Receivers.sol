@@ -21,21 +21,21 @@ import {
     SIDE_SIZE
 } from "./Faces.sol";
 
-// What shades a face: the edges of all shadows on it. A sample is in a shadow if more of them begin than end to the left of it. Where two
-// shadows meet, one ends and the other begins: neither edge is kept, so that of most objects little more than the outline is left. Each
-// corner of what casts a shadow has a place on the canvas, the same for all faces that share it, so that there are no gaps.
+// Computes the edges of all shadows on a face. A sample is in shadow if more of them begin than end to the left of it. Where two shadows
+// meet, one ends and the other begins: both edges cancel, so that for most objects little more than the outline is left. Each corner of a
+// caster has one position on the canvas, shared by all its faces, so that there are no gaps.
 //
-// An edge is a word. A place on the canvas, in eighths of a pixel, is to the right of it where its function is at least 0:
+// An edge is a word. A position on the canvas, in eighths of a pixel, is to the right of the edge if its function is at least 0:
 //
-//   bits 208 to 255   its change to the right; signed, as the others
-//   bits 160 to 207   its change downwards
-//   bits  96 to 159   its value at the centre of the first pixel of the canvas
+//   bits 208 to 255   the change of the function to the right; signed, like the next two
+//   bits 160 to 207   its change downward
+//   bits  96 to 159   its value at the centre of the canvas's first pixel
 //   bits  80 to  95   the first row of samples, four for each row of pixels, that the edge crosses
 //   bits  64 to  79   the row after the last
-//   bit    8          whether it is the last one of the list
+//   bit    8          whether it is the last edge of the list
 //   bit    0          whether a shadow ends at it, or begins
 //
-// Lists are ordered by the first row of pixels.
+// Lists are sorted by the first row of pixels.
 
 uint256 constant X_AT = 208;
 uint256 constant Y_AT = 160;
@@ -46,49 +46,50 @@ uint256 constant LAST_EDGE = 1 << 8;
 uint256 constant ROW_MASK = 0xffff;
 uint256 constant LANE_48 = 0xffffffffffff;
 
-/// @dev Bits of the distances of vertices, and of other homogeneous coordinates.
+/// @dev The bits of the distances of vertices, and of other homogeneous coordinates.
 uint256 constant DISTANCE_BITS = 38;
 uint256 constant CLIP_BITS = 60;
-/// @dev Bits of the change of the function of an edge per eighth of a pixel.
+/// @dev The bits of the change of an edge's function per eighth of a pixel.
 uint256 constant EDGE_BITS = 40;
-/// @dev Coordinates of a face have so many bits, with the sign, that all functions fit lanes. The functions of a wider one are divided by a
-/// power of two: factors have WIDE_BITS then, constants CONSTANT_BITS more, without the sign.
+/// @dev The bits of the coordinates of a face, including the sign, for which all functions fit lanes. The functions of a wider face are
+/// divided by a power of two: factors have WIDE_BITS then, constants CONSTANT_BITS more, without the sign.
 uint256 constant NARROW_BITS = 27;
 uint256 constant WIDE_BITS = 60;
 uint256 constant CONSTANT_BITS = 22;
-/// @dev Bits of the coordinates of corners that are made where polygons are cut.
+/// @dev The bits of the coordinates of corners made by clipping polygons.
 uint256 constant VALUE_BITS = 83;
-/// @dev The place of a bit of a word is the byte that the remainder of that word tells in a table.
+/// @dev The index of a bit is found by a table, indexed by the remainder of the word.
 uint256 constant BIT_REMAINDERS = 269;
 
-/// @dev A place on the canvas: the row in the upper half of 128 bits, the column in the lower one, whole numbers with so many bits below
-/// the pixel, and POINT_BIAS. In sub-pixels they are below 2^POINT_GUARD.
+/// @dev A position on the canvas: the row in the upper half of 128 bits, the column in the lower half, integers with this many bits below
+/// the pixel, plus POINT_BIAS. In sub-pixels they are below 2^POINT_GUARD.
 uint256 constant POINT_BITS = 20;
 uint256 constant POINT_BIAS = 0x10000000000;
 uint256 constant POINT_GUARD = 22;
 uint256 constant SUBPIXEL_TO_POINT = 12;
 uint256 constant POINT_MASK = 0xffffffffffffffff;
-/// @dev Where a vertex keeps such a place, or 0, in the upper bits, in place of its ranges; the address of the face is below with this bit.
+/// @dev Where a vertex stores such a position, or 0, in the upper bits, replacing its ranges; the address of the face is below, with this
+/// bit.
 uint256 constant PLACE_POINT = 0x60;
 uint256 constant POINT_TAG = 1 << 63;
-/// @dev The first row of samples that is not above a place: its row with this added, shifted by so much; and what the bias is then.
+/// @dev The first row of samples not above a position: its row plus this, shifted by the next constant; and the bias after that.
 uint256 constant ROW_UP = 0x9ffff;
 uint256 constant ROW_SHIFT = 18;
 uint256 constant ROW_BIAS = 0x400000;
-/// @dev From eighths of a pixel to the unit of places.
+/// @dev From eighths of a pixel to the unit of positions.
 uint256 constant EIGHTH = 17;
 
-/// @dev An edge while edges are collected: its ends, the upper first; how many more shadows begin at it than end; the next one of the same
-/// chain; the one before.
+/// @dev An edge during collection: its ends, the upper one first; the number of shadows that begin at it minus those that end; the next
+/// edge of the same chain; the previous edge.
 uint256 constant EDGE_SIZE = 0x80;
 uint256 constant EDGE_COUNT = 0x20;
 uint256 constant EDGE_NEXT = 0x40;
 uint256 constant EDGE_BEFORE = 0x60;
-/// @dev The number of chains, by the remainders of ends.
+/// @dev The number of chains, indexed by a remainder of the ends.
 uint256 constant CHAINS = 509;
 
-/// @dev What stands behind the functions of the face that receives shadows: its coordinates; of what may shade it the corners by its sides,
-/// and how far behind it they are, lanes; 1 if none of them is, else 0; two polygons; and the table of bits.
+/// @dev The data after the functions of the receiving face: its coordinates; for a potential caster, its corners relative to the receiver's
+/// sides, and their distances behind it, lanes; 1 if none of them is behind, otherwise 0; two polygons; and the table of bits.
 uint256 constant OWN_COORDINATES = 0x1a0;
 uint256 constant SIDES = 0x200;
 uint256 constant HEIGHTS = 0x260;
@@ -97,20 +98,20 @@ uint256 constant POLYGON_1 = 0x2a0;
 uint256 constant POLYGON_2 = 0x720;
 uint256 constant BIT_TABLE = 0xba0;
 uint256 constant RECEIVER_SIZE = 0xce0;
-/// @dev A corner of a polygon: by the sides of the face, and its distance from a boundary.
+/// @dev A corner of a polygon: relative to the sides of the face, and its distance from a boundary.
 uint256 constant POLYGON_CORNER = 0x80;
 
-/// @notice What is known of the face that receives shadows.
-/// @param planes Its functions, and what stands behind them.
+/// @notice The state of the face that receives shadows.
+/// @param planes Its functions, and the data after them.
 /// @param isPoint Whether the light is a point light.
-/// @param isWide Whether its functions do not fit lanes: it is much larger than what casts shadows.
+/// @param isWide Whether its functions do not fit lanes: it is much larger than the casters.
 /// @param places Its corners on the canvas, homogeneous: column and row in sub-pixels, and the distance.
 /// @param isVisible Whether it is on the canvas, and not seen edge-on.
-/// @param isFlipped Whether the shadow of what is turned away from the light has its corners the other way round on the canvas.
-/// @param top, bottom The rows of samples between which it is, with ROW_BIAS; `right`: the column before which it is, as of places.
-/// @param chains CHAINS addresses of edges, 0 while there are none; `last`: that of the last edge.
-/// @param begin Where the edges begin.
-/// @param tag What stands beside the place on the canvas that a corner of what casts shadows has kept for this face.
+/// @param isFlipped Whether the shadow of a face turned away from the light has the opposite orientation on the canvas.
+/// @param top, bottom The rows of samples that bound it, with ROW_BIAS; `right`: the column that bounds it, in the unit of positions.
+/// @param chains CHAINS addresses of edges, 0 if empty; `last`: the address of the last edge.
+/// @param begin The address of the edges.
+/// @param tag Identifies this face next to the position on the canvas cached at a caster's corner.
 struct Receiver {
     uint256 planes;
     bool isPoint;
@@ -133,7 +134,7 @@ uint256 constant COVERED = 1;
 uint256 constant MIXED_SHADOW = 2;
 
 library Receivers {
-    /// @notice Writes what is the same for all faces.
+    /// @notice Writes the data that is common to all faces.
     function open(Receiver memory receiver) internal pure {
         unchecked {
             receiver.planes = freeMemory();
@@ -145,7 +146,7 @@ library Receivers {
         }
     }
 
-    /// @notice Begins with a face.
+    /// @notice Starts a face.
     /// @param face Its record.
     function setFace(Receiver memory receiver, uint256 face) internal pure {
         unchecked {
@@ -175,7 +176,7 @@ library Receivers {
     }
 
     /// @dev Divides functions by a power of two, so that they fit lanes.
-    /// @param size Of those that end with a constant, else 0.
+    /// @param size The size of functions that end with a constant; otherwise 0.
     function fit(uint256 begin, uint256 end, uint256 size) private pure {
         unchecked {
             uint256 most;
@@ -188,11 +189,11 @@ library Receivers {
         }
     }
 
-    /// @notice The next of up to 256 faces that may shade the one of the receiver: it is in front of it, and inside its sides.
-    /// @param bits Which of them may be.
-    /// @param casters The address of the first.
-    /// @return caster The address of the one that was found; then its corners are in SIDES and HEIGHTS; or 0.
-    /// @return rest The bits of those behind it.
+    /// @notice Returns the next of up to 256 faces that may shade the receiver: it is in front of it, and inside its sides.
+    /// @param bits The set of candidates.
+    /// @param casters The address of the first one.
+    /// @return caster The address of the face found, with its corners in SIDES and HEIGHTS; or 0.
+    /// @return rest The remaining candidates.
     function next(Receiver memory receiver, uint256 bits, uint256 casters) internal pure returns (uint256 caster, uint256 rest) {
         uint256 own = receiver.planes;
         bool isPoint = receiver.isPoint;
@@ -208,13 +209,13 @@ library Receivers {
                 let p := add(own, BEHIND)
                 let v := add(mul(x, mload(p)), mul(y, mload(add(p, 0x20))))
                 v := add(add(v, mul(z, mload(add(p, 0x40)))), add(mul(LANE_ONES, mload(add(p, 0x60))), LANE_TOPS))
-                // all are behind it
+                // all corners are behind it
                 if eq(and(v, LANE_TOPS), LANE_TOPS) { continue }
                 mstore(add(own, HEIGHTS), v)
                 mstore(add(own, IS_IN_FRONT), iszero(and(sub(v, LANE_ONES), LANE_TOPS)))
                 if iszero(isPoint) { z := LANE_ONES }
                 v := add(add(mul(x, mload(own)), mul(y, mload(add(own, 0x20)))), add(mul(z, mload(add(own, 0x40))), LANE_TOPS))
-                // all are at most 0
+                // all values are at most 0
                 if iszero(and(sub(v, LANE_ONES), LANE_TOPS)) { continue }
                 mstore(add(own, SIDES), v)
                 v := add(mul(x, mload(add(own, 0x60))), mul(y, mload(add(own, 0x80))))
@@ -233,9 +234,9 @@ library Receivers {
         }
     }
 
-    /// @notice Whether a face that `next` has found shades the one of the receiver.
+    /// @notice Returns whether a face found by `next` shades the receiver.
     /// @param caster Its record.
-    /// @param plane Where its functions are, or may be written.
+    /// @param plane The address of its functions, or for them.
     /// @return MISSED, COVERED, or MIXED_SHADOW.
     function test(Receiver memory receiver, uint256 caster, uint256 plane) internal pure returns (uint256) {
         unchecked {
@@ -253,7 +254,7 @@ library Receivers {
                 let x := mload(add(own, OWN_COORDINATES))
                 let y := mload(add(add(own, OWN_COORDINATES), 0x20))
                 let z := mload(add(add(own, OWN_COORDINATES), 0x40))
-                // what is in front of the face is in front of all that is inside its sides
+                // a caster entirely in front of the receiver is in front of all of it within its sides
                 if iszero(mload(add(own, IS_IN_FRONT))) {
                     own := add(plane, BEHIND)
                     all := add(mul(x, mload(own)), mul(y, mload(add(own, 0x20))))
@@ -265,7 +266,7 @@ library Receivers {
                     let v := add(mul(x, mload(plane)), mul(y, mload(add(plane, 0x20))))
                     v := add(v, add(mul(z, mload(add(plane, 0x40))), LANE_TOPS))
                     all := and(all, v)
-                    // all are at most 0
+                    // all values are at most 0
                     if iszero(and(sub(v, LANE_ONES), LANE_TOPS)) {
                         isMissed := 1
                         break
@@ -276,8 +277,8 @@ library Receivers {
         }
     }
 
-    /// @notice Sets the corners on the canvas. The registers have the mesh and the matrix of the object.
-    /// @param numbers The three numbers of the vertices, 16 bits each.
+    /// @notice Sets the corners on the canvas. The registers must contain the mesh and the matrix of the object.
+    /// @param numbers The three vertex indices, 16 bits each.
     function place(Receiver memory receiver, uint256 numbers, uint256 width, uint256 height) internal pure {
         unchecked {
             receiver.isPlaced = true;
@@ -351,7 +352,7 @@ library Receivers {
         }
     }
 
-    /// @dev How many bits a number has above so many.
+    /// @dev Returns the number of bits by which a value exceeds `bits` bits.
     function excess(uint256 value, uint256 bits) private pure returns (uint256 shift) {
         assembly ("memory-safe") {
             value := shr(bits, value)
@@ -370,7 +371,7 @@ library Receivers {
         }
     }
 
-    /// @notice Adds the edges of the shadow of a face that `next` has found.
+    /// @notice Adds the edges of the shadow of a face found by `next`.
     /// @param caster Its record.
     function add(Receiver memory receiver, uint256 caster) internal pure {
         unchecked {
@@ -412,8 +413,8 @@ library Receivers {
         }
     }
 
-    /// @dev The place on the canvas of the shadow of a corner of what casts it; 0 if that is far outside or has none.
-    /// @param lane Where its lane begins.
+    /// @dev Returns the position on the canvas of the shadow of a caster's corner; 0 if it is far outside or does not exist.
+    /// @param lane The position of its lane.
     function cornerOf(Receiver memory receiver, uint256 lane) private pure returns (uint256 point) {
         unchecked {
             int256[9] memory places = receiver.places;
@@ -439,7 +440,7 @@ library Receivers {
         }
     }
 
-    /// @dev The homogeneous place of a corner of a polygon.
+    /// @dev Returns the homogeneous position of a polygon's corner.
     function placeOf(Receiver memory receiver, uint256 corner) private pure returns (int256 x, int256 y, int256 w) {
         unchecked {
             int256[9] memory p = receiver.places;
@@ -456,8 +457,8 @@ library Receivers {
         }
     }
 
-    /// @dev What casts a shadow, without what is behind the face, and what casts none on the canvas or far around it.
-    /// @return polygon The address of its first corner; `end`: that after the last.
+    /// @dev Clips a caster to the part in front of the face whose shadow is on the canvas or near it.
+    /// @return polygon The address of its first corner; `end` is the address after the last.
     function clippedPolygon(Receiver memory receiver) private pure returns (uint256 polygon, uint256 end) {
         unchecked {
             polygon = receiver.planes + POLYGON_1;
@@ -492,7 +493,7 @@ library Receivers {
         }
     }
 
-    /// @dev The part of a convex polygon that is not below 0 in the distances of its corners, as the other one of the two polygons.
+    /// @dev Clips a convex polygon to the part where the distances of its corners are not negative, into the other one of the two polygons.
     function clip(Receiver memory receiver, uint256 polygon, uint256 polygonEnd) private pure returns (uint256 begin, uint256 end) {
         unchecked {
             begin = receiver.planes + POLYGON_1;
@@ -526,7 +527,7 @@ library Receivers {
         }
     }
 
-    /// @dev Adds an edge from one place to another; the shadow is to the right of those that go up.
+    /// @dev Adds an edge from one position to another; the shadow is to the right of upward edges.
     function addEdge(Receiver memory receiver, uint256 a, uint256 b) private pure {
         (uint256 top, uint256 bottom, uint256 right) = (receiver.top, receiver.bottom, receiver.right);
         uint256 chains = receiver.chains;
@@ -544,7 +545,7 @@ library Receivers {
                 end := other
                 more := 1
             }
-            // it crosses a row of the face, and not all of it is to the right of that
+            // if it crosses a row of the face, and does not lie entirely to the right of it
             if and(
                 and(lt(first, end), and(lt(first, bottom), gt(end, top))),
                 iszero(and(gt(and(a, POINT_MASK), right), gt(and(b, POINT_MASK), right)))
@@ -576,7 +577,7 @@ library Receivers {
         receiver.last = last;
     }
 
-    /// @dev The first row of samples that is not above a place, but not before `top`, nor behind `bottom`.
+    /// @dev Returns the first row of samples that is not above a position, clamped to `top` and `bottom`.
     function rowOf(uint256 point, uint256 top, uint256 bottom) private pure returns (uint256 row) {
         assembly ("memory-safe") {
             row := shr(ROW_SHIFT, add(shr(64, point), ROW_UP))
@@ -585,7 +586,7 @@ library Receivers {
         }
     }
 
-    /// @notice Forgets all edges.
+    /// @notice Clears all edges.
     function clear(Receiver memory receiver) internal pure {
         unchecked {
             for (uint256 edge = receiver.last; edge != 0; edge = load(edge + EDGE_BEFORE)) {
@@ -595,15 +596,15 @@ library Receivers {
         }
     }
 
-    /// @notice Writes the edges that are left, ordered by the first row of pixels.
-    /// @param heads A word for each row of pixels, 0.
-    /// @return list The address of the size of the list, behind which it stands; 0 if nothing is left.
+    /// @notice Writes the remaining edges, sorted by the first row of pixels.
+    /// @param heads A zero word for each row of pixels.
+    /// @return list The address of the size of the list, followed by the list; 0 if nothing is left.
     function finish(Receiver memory receiver, uint256 heads) internal pure returns (uint256 list) {
         unchecked {
             uint256 count;
             (uint256 top, uint256 bottom) = (receiver.top, receiver.bottom);
             uint256 first = type(uint256).max;
-            // those of a row in front of one another, from the last on
+            // insert each edge at the front of its row, starting with the last one
             for (uint256 edge = receiver.last; edge != 0; edge = load(edge + EDGE_BEFORE)) {
                 uint256 key = load(edge);
                 store(receiver.chains + 32 * (key % CHAINS), 0);
@@ -645,7 +646,7 @@ library Receivers {
         }
     }
 
-    /// @dev The word of an edge with these ends.
+    /// @dev Returns the word of an edge with these ends.
     function wordOf(uint256 key, uint256 top, uint256 bottom) private pure returns (uint256 word) {
         unchecked {
             word = ((rowOf(key >> 128, top, bottom) - ROW_BIAS) << TOP_AT)
@@ -659,7 +660,7 @@ library Receivers {
             let value := sub(mul(y, dx), mul(x, dy))
             y := shl(EIGHTH, sub(0, dx))
             x := shl(EIGHTH, dy)
-            // the bits of the greater one above EDGE_BITS, at most 16, are left out
+            // drop the bits of the greater one above EDGE_BITS, at most 16
             dx := sar(255, y)
             dx := sub(xor(y, dx), dx)
             if gt(x, dx) { dx := x }

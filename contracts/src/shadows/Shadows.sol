@@ -16,25 +16,25 @@ import {BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./LightSpace.sol";
 import {CHAINS, COVERED, LAST_EDGE, MISSED, Receiver, Receivers} from "./Receivers.sol";
 import "../pipeline/Registers.sol";
 
-// Which parts of which faces one light does not reach.
+// Computes which parts of which faces a light does not reach.
 //
-// Every face that casts a shadow is four half-spaces, exact in integers: its three sides as seen from the light, and what lies behind it.
-// For each face that the light may reach, those are found that may shade it: see Faces. Most faces are wholly lit or wholly dark; of the
-// others each half-space becomes a function of the place on the canvas: see Receivers.
+// Every shadow caster is a set of four half-spaces, exact in integers: its three sides as seen from the light, and the half-space behind
+// it. For each face that the light may reach, the faces that may shade it are found: see Faces. Most faces are entirely lit or entirely
+// dark; for the others, each half-space becomes a function of the position on the canvas: see Receivers.
 
 library Shadows {
-    /// @dev What is in memory, by addresses.
+    /// @dev The data in memory, by addresses.
     /// @param frame The space of the light.
-    /// @param vertices, faces Of each object, where its vertices and faces begin.
-    /// @param begin, end Of the faces.
+    /// @param vertices, faces For each object, the beginning of its vertices and faces.
+    /// @param begin, end The bounds of the faces.
     /// @param casters The faces that cast shadows: see Faces.
-    /// @param sets See Faces; of `words` words each.
-    /// @param boxes Where to look for what may shade a face: see Faces.writeBoxes.
-    /// @param planes Where the functions of what casts shadows are written.
-    /// @param heads A word for each row of the canvas, whose size is `width` and `height`; 0 but while lists are ordered.
+    /// @param sets The tables of sets, of `words` words each: see Faces.
+    /// @param boxes The search ranges of a face: see Faces.writeBoxes.
+    /// @param planes The address for the functions of casters.
+    /// @param heads A word for each row of the canvas, which has the size `width` by `height`; 0 except while lists are sorted.
     /// @param chains See Receiver.
-    /// @param light Its number; `toward` is the direction toward it in the space of a mesh: see turnsAway.
-    /// @param eye In the space of the light; for an orthographic camera the direction in which it looks.
+    /// @param light The number of the light; `toward` is the direction toward it in mesh space: see turnsAway.
+    /// @param eye The eye in light space; for an orthographic camera, the viewing direction.
     struct State {
         Frame frame;
         uint256[] vertices;
@@ -60,11 +60,11 @@ library Shadows {
     uint256 private constant ENTRY_BITS = 32;
     uint256 private constant ENTRIES = 8;
 
-    /// @notice What the light of the SHADOW does not reach. The registers of the frame must be set: see EffectUniforms.
-    /// @return begin Where it is in memory: for each object a word, where from the beginning on the entries of its faces begin. Then the
-    /// entries, 4 bytes for each face of all objects: 0 if it is lit, 1 if it is dark, else where the functions stand of what shades parts
-    /// of it, as words: see Receivers. The entries are filled up to whole words.
-    /// @return size Its bytes.
+    /// @notice Computes the parts that the light of the SHADOW does not reach. The registers of the frame must be set: see EffectUniforms.
+    /// @return begin The address of the result: for each object a word, the offset of its faces' entries from the beginning. Then the
+    /// entries, 4 bytes for each face of all objects: 0 if it is lit, 1 if it is dark, otherwise the offset, in words, of the functions of
+    /// the shadows on it: see Receivers. The entries are padded to whole words.
+    /// @return size The size of the result in bytes.
     function cast(Scene calldata scene, View memory view_) internal pure returns (uint256 begin, uint256 size) {
         unchecked {
             uint256 light = (load(SHADOW_LIGHT) - LIGHTS) / LIGHT_SIZE;
@@ -87,14 +87,14 @@ library Shadows {
         }
     }
 
-    /// @dev Whether an object casts a shadow: not wires, what is not opaque, and what shall not.
+    /// @dev Returns whether an object casts a shadow: not wireframes, translucent objects, or grounds.
     function casts(Scene calldata scene, uint256 index) private pure returns (bool) {
         return scene.objects[index].flags & WIREFRAME == 0 && Extensions.find(scene, OPACITY_OF, index) == 0
             && Extensions.find(scene, OPACITIES_OF, index) == 0 && Extensions.find(scene, GROUND, index) == 0;
     }
 
-    /// @dev Writes all vertices in the world.
-    /// @return bounds Of what casts shadows: the lowest coordinates, then the highest.
+    /// @dev Writes all vertices in world space.
+    /// @return bounds The bounds of the casters: the minimum coordinates, then the maximum ones.
     function readVertices(Scene calldata scene, State memory state) private pure returns (int256[6] memory bounds) {
         unchecked {
             for (uint256 i; i != 3; ++i) (bounds[i], bounds[i + 3]) = (type(int256).max, type(int256).min);
@@ -112,7 +112,7 @@ library Shadows {
                 faces += FACE_RECORD_SIZE * mesh.faceCount;
             }
             (state.vertices[count], state.faces[count]) = (end, faces);
-            // an object is read with memory of its own behind all vertices
+            // the memory for reading an object follows all vertices
             uint256 begin = freeMemory();
             setFreeMemory(begin + end);
             for (uint256 i; i <= count; ++i) {
@@ -144,7 +144,7 @@ library Shadows {
     }
 
     /// @dev Writes all faces, and the sets of those that cast shadows.
-    /// @param rule Which faces of culled objects cast shadows; 0 if nothing does, and faces are only counted.
+    /// @param rule Which faces of culled objects cast shadows; 0 if none do, and faces are only counted.
     function readFaces(Scene calldata scene, State memory state, uint256 rule) private pure {
         unchecked {
             state.casters = freeMemory();
@@ -185,8 +185,8 @@ library Shadows {
         }
     }
 
-    /// @param end Where to append those that cast shadows.
-    /// @param rule Which of them do; 0 for none.
+    /// @param end The address for appending those that cast shadows.
+    /// @param rule Which of them cast shadows; 0 for none.
     function readObject(State memory state, Mesh memory mesh, uint256 index, uint256 end, uint256 rule)
         private
         pure
@@ -258,7 +258,7 @@ library Shadows {
         }
     }
 
-    /// @dev Whether a face may be seen on the side that the light reaches.
+    /// @dev Returns whether a face may be seen on the side that the light reaches.
     function receives(uint256 face, int256[3] memory eye, bool isOrthographic, bool isFlat, bool isCulled) private pure returns (bool) {
         unchecked {
             int256 side = loadSigned(face + FACE_SIDE);
@@ -285,13 +285,13 @@ library Shadows {
                 slack := shl(2, slack)
             }
             if (isCulled && seen < -slack) return false;
-            // the light of smooth shading may be positive on faces that are turned away
+            // with smooth shading, the light may be positive on faces turned away
             return !isFlat || (seen >= -slack && seen <= slack) || (seen > 0) == (side > 0);
         }
     }
 
-    /// @dev Whether all normals of a smooth face point away from a directional light, which then gives it no light.
-    /// @param toward The direction toward the light in the space of the mesh; zero if that is not known.
+    /// @dev Returns whether all normals of a smooth face point away from a directional light, so that it is not lit.
+    /// @param toward The direction toward the light in mesh space; zero if unknown.
     function turnsAway(Vector memory toward, Mesh memory mesh, uint256 source) private pure returns (bool) {
         unchecked {
             if (toward.isZero()) return false;

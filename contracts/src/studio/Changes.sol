@@ -11,13 +11,13 @@ uint256 constant INVERT = 8;
 uint256 constant CANVAS = 16;
 uint256 constant ANTIALIAS = 32;
 
-/// @notice How a picture differs from that of the scene that is kept.
-/// @param fields Which of the following count: the sum of TURN, PAINT, BACKGROUND, INVERT, CANVAS; and of ANTIALIAS, which
-/// has no field: it smooths the edges of the picture.
-/// @param turn A rotation of all objects about their middle. Its length must not be zero, and is best 1.
-/// @param color Of all vertices of all objects, 0xRRGGBB.
-/// @param background As in a scene.
-/// @param invert 1 or 0.
+/// @notice Changes to a scene before it is drawn.
+/// @param fields The changes to apply: the sum of TURN, PAINT, BACKGROUND, INVERT and CANVAS, which select the following fields, and
+/// ANTIALIAS, which has no field and smooths the edges.
+/// @param turn A rotation of all objects about their centre. Its length must not be zero, and should be 1.
+/// @param color The colour of all vertices of all objects, 0xRRGGBB.
+/// @param background The background, as in a scene.
+/// @param invert 1 or 0, as in a scene.
 /// @param canvas The size of the picture.
 struct Changes {
     uint256 fields;

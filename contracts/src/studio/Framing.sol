@@ -10,66 +10,73 @@ import {Camera, Canvas, Object, ORTHOGRAPHIC, PERSPECTIVE} from "../scene/Scene.
 import {SceneErrors} from "../scene/SceneErrors.sol";
 import {Stage, StageMaker} from "./StageMaker.sol";
 
-/// @notice A box along the axes, told by two opposite corners.
+/// @notice An axis-aligned box, given by two opposite corners.
 struct Box {
     Vector low;
     Vector high;
 }
 
-/// @title Framing: where the camera stands, what it sees, and objects fitted into boxes.
+/// @title Framing: places the camera, and fits objects into boxes.
 library Framing {
-    /// @notice A field of view is above 0 and below 180 degrees (Q32).
+    /// @notice A field of view must be at least 0.112 and below 180 degrees (Q32).
     error FieldOfViewOutOfRange(int256 degrees_);
-    /// @notice What an orthographic camera sees has a height above 0 (Q32).
+    /// @notice The height of an orthographic view must be above 0 (Q32).
     error HeightOutOfRange(int256 height);
-    /// @notice No object has a vertex, or the direction from which they are to be seen is zero.
+    /// @notice The scene has no vertices, or the viewing direction is zero.
     error NothingToFit();
-    /// @notice The mesh of the object is stored or compact, so that its bounds are not known here: pass them to `add`.
+    /// @notice The object's mesh is stored or compact, so its bounds are unknown: pass them to `add`.
     error BoundsUnknown(uint256 object);
-    /// @notice The object, or the room for it, has no size.
+    /// @notice The object, or the box for it, has no size.
     error NoRoom(uint256 object);
 
-    /// @dev The part of the picture that is used: 8 % are left free on each side.
+    /// @dev The part of the half-height and half-width that is used, in percent: the margin is 8 % of them on each side.
     int256 private constant USED = 92;
-    /// @dev The default near plane of an orthographic camera, which clips nothing.
+    /// @dev Near plane of an orthographic camera; it clips nothing.
     int256 private constant BEHIND_ALL = -(1 << 58);
     int256 private constant MAX = type(int256).max;
+    /// @dev The least half-height of a perspective camera: see `Checks.sol`.
+    Fixed private constant SMALLEST_TANGENT = Fixed.wrap(1 << 22);
 
-    /// @dev The directions of a picture.
+    /// @dev The axes of the camera.
     struct Axes {
         Vector right;
         Vector up;
         Vector toward;
     }
 
-    /// @notice Sets the camera, upright, at `eye`, looking at `target`. Its projection stays. What is nearer than a unit is not seen,
-    /// unless `fit` or an orthographic projection has set it so.
+    /// @notice Places the camera at `eye`, upright, looking at `target`; if it looks straight down or up, -z or z is up in the picture.
+    /// Projection and near plane do not change; the near plane of a new stage is at 1 unit.
     function look(Stage memory made, Vector memory eye, Vector memory target) internal pure {
         Camera memory camera = made.scene.camera;
-        (camera.eye, camera.target, camera.up) = (eye, target, StageMaker.units(0, 1, 0));
+        Vector memory up = StageMaker.units(0, 1, 0);
+        if (eye.x.raw() == target.x.raw() && eye.z.raw() == target.z.raw()) up = StageMaker.units(0, 0, eye.y > target.y ? -1 : int256(1));
+        (camera.eye, camera.target, camera.up) = (eye, target, up);
         lightFromLeft(made);
     }
 
-    /// @notice Sets the vertical field of view of a perspective camera in whole degrees, 1..179; 50 if it is not set.
+    /// @notice Makes the camera perspective with a vertical field of view in whole degrees, 1..179. The default is 50.
     function fieldOfView(Stage memory made, int256 degrees_) internal pure {
         fieldOfView(made, StageMaker.unit(degrees_));
     }
 
-    /// @notice Sets the vertical field of view of a perspective camera in degrees, about 0.12 to 179.8.
+    /// @notice Makes the camera perspective with a vertical field of view in degrees, about 0.12 to 179.8.
     function fieldOfView(Stage memory made, Fixed degrees_) internal pure {
         if (degrees_.raw() <= 0 || degrees_.raw() >= 180 << 32) revert FieldOfViewOutOfRange(degrees_.raw());
         Camera memory camera = made.scene.camera;
         (Fixed sine, Fixed cosine) = sinCosOfHalf(degrees_.raw());
+        if (sine / cosine < SMALLEST_TANGENT) revert FieldOfViewOutOfRange(degrees_.raw());
         if (camera.projection != PERSPECTIVE) camera.near = ONE;
         (camera.projection, camera.halfHeight) = (PERSPECTIVE, sine / cosine);
     }
 
-    /// @notice Makes the camera orthographic: it shows so many whole units from top to bottom, wherever the eye is on its line of sight.
+    /// @notice Makes the camera orthographic.
+    /// @param height Visible height, from top to bottom, in whole units.
     function orthographic(Stage memory made, int256 height) internal pure {
         orthographic(made, StageMaker.unit(height));
     }
 
-    /// @notice Makes the camera orthographic: it shows so many units from top to bottom, wherever the eye is on its line of sight.
+    /// @notice Makes the camera orthographic.
+    /// @param height Visible height, from top to bottom, in units.
     function orthographic(Stage memory made, Fixed height) internal pure {
         if (height.raw() <= 0) revert HeightOutOfRange(height.raw());
         Camera memory camera = made.scene.camera;
@@ -77,31 +84,35 @@ library Framing {
         camera.near = Fixed.wrap(BEHIND_ALL);
     }
 
-    /// @notice Moves the camera so that all objects that were added fill the picture but for a small margin. An orthographic camera sees as
-    /// much as it must. It counts vertices, not pixels: call it when all objects have their places.
-    /// @dev Each side of the picture is a plane through the eye that no vertex is beyond. How far the objects reach toward its normal says
-    /// where it lies, and those of opposite sides where they meet.
-    /// @param toward The direction from the objects to the eye, of any length: (0, 0, 1) is the front.
+    /// @notice Moves the camera so that all objects fill the picture except for a margin of 8 %; sets the visible height of an orthographic
+    /// camera accordingly. Call it after all objects are placed.
+    /// @dev Each side of the picture is a plane through the eye with all vertices on one side of it. The extent of the objects along its
+    /// normal gives its position; the planes of opposite sides intersect in the eye.
+    /// @param toward Direction from the objects to the eye, of any length: (0, 0, 1) is the front.
     function fit(Stage memory made, Vector memory toward) internal pure {
         Camera memory camera = made.scene.camera;
         Axes memory axes = axesOf(toward);
         Fixed aspect = aspectOf(made.scene.canvas);
-        Fixed tangent = camera.projection == ORTHOGRAPHIC ? ZERO : camera.halfHeight * StageMaker.percent(USED);
+        bool isPerspective = camera.projection == PERSPECTIVE;
+        Fixed tangent = isPerspective ? camera.halfHeight * StageMaker.percent(USED) : ZERO;
         (Fixed x, Fixed width) = span(made, axes.right, axes.toward.scale(tangent * aspect));
         (Fixed y, Fixed height) = span(made, axes.up, axes.toward.scale(tangent));
         camera.target = axes.right.scale(x).add(axes.up.scale(y));
         height = larger(width / aspect, height);
         (Fixed z, Fixed depth) = span(made, axes.toward, StageMaker.units(0, 0, 0));
         Fixed distance;
-        if (tangent.raw() == 0) {
-            // a line toward the eye fits any height
+        if (!isPerspective) {
+            // a line along the viewing direction fits any height
             camera.halfHeight = height.raw() == 0 ? ONE : height / StageMaker.percent(USED);
             distance = depth + ONE;
         } else {
             distance = height / tangent - z;
-            // a line toward the eye fits at any distance
-            if (!(distance > depth)) distance = depth + ONE;
-            // what is small is seen from near
+            // objects that are long along the viewing direction may fit at any distance: as in Python, a thousandth of their size is left
+            // before the eye, so that the near plane clips nothing
+            Fixed size = larger(depth, height);
+            Fixed least = depth + (size.raw() == 0 ? ONE : Fixed.wrap(size.raw() / 500 + 1));
+            distance = larger(distance, least);
+            // small scenes are seen from closer than 1 unit
             camera.near = smaller(ONE, Fixed.wrap(distance.raw() / 1024 + 1));
         }
         camera.target = camera.target.add(axes.toward.scale(z));
@@ -109,9 +120,8 @@ library Framing {
         lightFromLeft(made);
     }
 
-    /// @notice Scales and moves the object that was added last so that it fills a box as far as its proportions let it, in the middle of
-    /// it. It is turned before: set its rotation first.
-    /// @param room Two opposite corners of the box, whichever.
+    /// @notice Scales and moves the last object so that it is centred in a box and as large as fits. Set its rotation first.
+    /// @param room The box, given by any two opposite corners.
     function place(Stage memory made, Box memory room) internal pure {
         uint256 count = made.scene.objects.length;
         if (count == 0) revert StageMaker.NoSuchObject(0, 0);
@@ -132,12 +142,12 @@ library Framing {
         return Box(StageMaker.units(x0, y0, z0), StageMaker.units(x1, y1, z1));
     }
 
-    /// @notice Returns the box between two opposite corners, in whole units: x, y and z of each.
+    /// @notice Returns the box between two opposite corners, each given by x, y and z in whole units.
     function box(int256[3] memory low, int256[3] memory high) internal pure returns (Box memory) {
         return box(low[0], low[1], low[2], high[0], high[1], high[2]);
     }
 
-    /// @dev The middle of the last object along an axis, and how large it may be: not larger than it fits into the room along this axis.
+    /// @dev Returns the middle of the last object along an axis, and the smaller of `most` and the scale at which it fills `room`.
     function placed(Stage memory made, Vector memory axis, Fixed room, Fixed most) private pure returns (Fixed middle, Fixed scale) {
         uint256 index = made.scene.objects.length - 1;
         (Fixed high, bool any) = reach(made, index, axis);
@@ -148,18 +158,18 @@ library Framing {
         if (high + low > ZERO) scale = smaller(most, (room < ZERO ? ZERO - room : room) / (high + low));
     }
 
-    /// @dev Width of the picture by its height.
+    /// @dev Returns width / height.
     function aspectOf(Canvas memory canvas) private pure returns (Fixed) {
         if (canvas.width == 0 || canvas.height == 0) revert SceneErrors.CanvasSize(canvas.width, canvas.height);
         return StageMaker.fraction(int256(canvas.width), int256(canvas.height));
     }
 
-    /// @dev Where the default sun stands: to the upper left of the viewer.
+    /// @dev Moves the default sun to the upper left of the viewer.
     function lightFromLeft(Stage memory made) private pure {
         unchecked {
             if (!made.hasDefaultSun()) return;
             (Vector memory eye, Vector memory target) = (made.scene.camera.eye, made.scene.camera.target);
-            // coordinates of lights have the bound of those of eyes
+            // a quarter, so that sums stay within the range of lights
             int256 x = (eye.x.raw() - target.x.raw()) / 4;
             int256 y = (eye.y.raw() - target.y.raw()) / 4;
             int256 z = (eye.z.raw() - target.z.raw()) / 4;
@@ -169,7 +179,7 @@ library Framing {
         }
     }
 
-    /// @dev The axes of a picture from there; upright, or, from straight above or below, with -z or z up.
+    /// @dev Returns the axes of an upright camera; seen from straight above or below, -z or z is up.
     function axesOf(Vector memory toward) private pure returns (Axes memory axes) {
         if (toward.isZero()) revert NothingToFit();
         axes.toward = toward.normalize();
@@ -179,13 +189,13 @@ library Framing {
         axes.up = axes.toward.cross(axes.right);
     }
 
-    /// @dev How far all objects reach toward axis + slope and toward slope - axis: half of the difference, and half of the sum.
+    /// @dev Returns half the difference and half the sum of the extents along axis + slope and slope - axis.
     function span(Stage memory made, Vector memory axis, Vector memory slope) private pure returns (Fixed middle, Fixed half) {
         (Fixed up, Fixed down) = (reach(made, axis.add(slope)), reach(made, slope.sub(axis)));
         return (Fixed.wrap((up - down).raw() >> 1), Fixed.wrap((up + down).raw() >> 1));
     }
 
-    /// @dev How far any object reaches in a direction from the origin, times the length of the direction.
+    /// @dev Returns the largest dot product of a point of the objects and a direction.
     function reach(Stage memory made, Vector memory direction) private pure returns (Fixed most) {
         unchecked {
             uint256 count = made.scene.objects.length;
@@ -198,16 +208,16 @@ library Framing {
         }
     }
 
-    /// @dev How far an object reaches in a direction, and whether it has vertices.
+    /// @dev Returns the same for one object, and whether it has vertices.
     function reach(Stage memory made, uint256 index, Vector memory direction) private pure returns (Fixed most, bool any) {
         Object memory object = made.scene.objects[index];
-        // in the axes of the mesh
+        // the direction in the coordinates of the mesh
         Vector memory d = object.rotation.toMatrix().transposedTimes(direction).scale(object.scale);
         (most, any) = reachOfMesh(made, object.mesh, index, d);
         most = most + direction.dot(object.position);
     }
 
-    /// @dev The same of a mesh: of the bounds that were told, or else of its vertices.
+    /// @dev Returns the same for a mesh: from its bounds if they were passed to `add`, otherwise from its vertices.
     function reachOfMesh(Stage memory made, bytes memory mesh, uint256 index, Vector memory d) private pure returns (Fixed, bool) {
         if (made.isOwn() && index < made.bounds.length) {
             Box memory box_ = made.bounds[index];

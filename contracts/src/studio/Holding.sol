@@ -9,27 +9,27 @@ import {PackedMesh} from "../mesh/PackedMesh.sol";
 import {MAX_CANVAS, inRange} from "../scene/Checks.sol";
 import {Camera, Object, Scene, PERSPECTIVE} from "../scene/Scene.sol";
 
-/// @notice Cameras that hold a scene in the picture while it turns.
-/// @dev A vertex at the height h above the middle, along the axis, and at the distance r from the axis stays on a circle. On it, a linear
-/// function with the gradient n is at most n.middle + h * n.axis + r * |n - (n.axis) axis|. Each side of the picture is such a function:
-/// how far the camera must move back until it shows the point there.
+/// @notice Moves the camera so that a rotating scene stays within the picture.
+/// @dev A vertex at height h above the centre, along the axis, and at distance r from the axis moves on a circle. On the circle, a linear
+/// function with the gradient n is at most n.centre + h * n.axis + r * |n - (n.axis) axis|. Each side of the picture is such a function:
+/// the distance by which the camera must move back to show a point at that side.
 library Holding {
-    /// @dev The share of half of the picture that may be filled: 0.92.
+    /// @dev The part of half the picture that can be filled: 0.92.
     int256 private constant FILLED = 3951369912;
 
     /// @param along n.axis.
-    /// @param across The length of what is left of n.
-    /// @param most Of all vertices, of h * along + r * across; Q64.
+    /// @param across |n - (n.axis) axis|.
+    /// @param most The maximum of h * along + r * across over all vertices, Q64.
     struct Side {
         int256 along;
         int256 across;
         int256 most;
     }
 
-    /// @notice Moves the camera back, or makes what an orthographic one shows larger, until no vertex leaves the picture at whatever angle;
-    /// never the other way. A camera that cannot be drawn with stays as it is.
+    /// @notice Moves a perspective camera back, or enlarges the view of an orthographic one, until no vertex leaves the picture at any
+    /// angle; never the other way. An invalid camera is left unchanged.
     /// @param center A point on the axis.
-    /// @param axis Of length 1.
+    /// @param axis The unit axis.
     function hold(Scene memory scene, Vector memory center, Vector memory axis) internal pure {
         unchecked {
             Camera memory camera = scene.camera;
@@ -64,12 +64,12 @@ library Holding {
         }
     }
 
-    /// @dev Of the vertices of an object.
+    /// @dev Raises `most` of each side by the vertices of an object.
     function reach(Object memory object, Vector memory center, Vector memory axis, Side[4] memory sides) private pure {
         unchecked {
             (uint256 place, uint256 end, uint256 size, uint256 stride) = PackedMesh.vertices(object.mesh);
             Matrix memory m = object.rotation.toMatrix();
-            // axis and middle in the space of the mesh, whose lengths are those of the world
+            // axis and centre in mesh space, at world scale
             (axis, center) = (m.transposedTimes(axis), m.transposedTimes(object.position.sub(center)));
             (int256 a, int256 b, int256 c) = (axis.x.raw(), axis.y.raw(), axis.z.raw());
             int256 scale = object.scale.raw();
@@ -91,7 +91,7 @@ library Holding {
         }
     }
 
-    /// @dev A number of a vertex stands uppermost in the word that begins with it.
+    /// @dev Returns a coordinate of a vertex, which occupies the uppermost bits of the word at `place`.
     function coordinate(uint256 place, uint256 size) private pure returns (int256 value) {
         assembly ("memory-safe") {
             value := sar(sub(256, shl(3, size)), mload(place))

@@ -5,18 +5,18 @@ import {SSTORE2} from "solady/src/utils/SSTORE2.sol";
 import {PARTS, kindOf} from "../mesh/Kinds.sol";
 import {StudioErrors} from "./StudioErrors.sol";
 
-/// @notice Bytes kept for ever as the code of contracts that cannot run, at addresses made of the bytes themselves and of the contract that
-/// keeps them: the same bytes have one address, and nobody can put others there.
-/// @dev What is longer than a contract may be is kept in parts, together with a list of them: PARTS, then their addresses.
+/// @notice Stores bytes permanently as contract code that cannot run. The address is derived from the bytes and from the storing contract
+/// (CREATE2): the same bytes have one address, and no other bytes can be placed there.
+/// @dev Bytes that exceed the size limit of a contract are stored in parts, together with a list: PARTS, then the addresses of the parts.
 library Kept {
-    /// @notice Bytes that one contract can hold: 24,576, less the instruction in front that stops all calls.
+    /// @notice The maximum size of a part: 24,576 bytes, less the leading STOP instruction.
     uint256 internal constant MAX_PART = 24575;
-    /// @notice The most bytes that all parts of a list have together.
+    /// @notice The maximum total size of the parts of a list, in bytes.
     uint256 internal constant MAX_SIZE = 1 << 20;
 
-    /// @notice Keeps bytes, unless they are kept already.
-    /// @return pointer Where they are.
-    /// @return created Whether they were not.
+    /// @notice Stores bytes unless they are already stored.
+    /// @return pointer The address of the stored bytes.
+    /// @return created Whether they were not stored before.
     function keep(bytes memory data) internal returns (address pointer, bool created) {
         unchecked {
             if (data.length == 0 || kindOf(data) == PARTS) revert StudioErrors.NotToBeKept();
@@ -35,7 +35,7 @@ library Kept {
         }
     }
 
-    /// @notice Keeps a list of parts, whose bytes one after the other are what is meant; for what does not fit one transaction.
+    /// @notice Stores a list of parts, which represents the concatenation of their bytes. For data too large for one transaction.
     function join(address[] memory parts) internal returns (address pointer, bool created) {
         unchecked {
             bytes memory list = new bytes(1 + 20 * parts.length);
@@ -52,20 +52,20 @@ library Kept {
         }
     }
 
-    /// @notice Keeps up to MAX_PART bytes, whatever they are.
+    /// @notice Stores up to MAX_PART bytes without checking their kind.
     function keepPart(bytes memory data) internal returns (address pointer, bool created) {
         pointer = SSTORE2.predictCounterfactualAddress(data, 0);
         if (pointer.code.length == 0) return (SSTORE2.writeCounterfactual(data, 0), true);
     }
 
-    /// @notice The bytes that are kept there. Code that others have put anywhere does not count: that of some accounts can change.
+    /// @notice Returns the stored bytes. Rejects code that this contract did not store: the code of some accounts can change.
     function read(address pointer) internal view returns (bytes memory data) {
         unchecked {
             data = readPart(pointer);
             if (kindOf(data) != PARTS) return data;
             bytes memory list = data;
             uint256 size = sizeOf(list);
-            // all parts together are read to where they belong
+            // read all parts directly to their final places
             data = new bytes(0);
             uint256 target;
             assembly ("memory-safe") {
@@ -76,7 +76,8 @@ library Kept {
             for (uint256 k; target != end; ++k) {
                 address part = partAt(list, k);
                 size = part.code.length;
-                // read as bytes whose length stands in the word before, which is that of `data` or the end of the last part
+                // check each part as `bytes`: its length temporarily replaces the preceding word, which is the length of `data` or the end
+                // of the previous part
                 bytes memory here;
                 uint256 neighbour;
                 assembly ("memory-safe") {
@@ -99,7 +100,7 @@ library Kept {
         }
     }
 
-    /// @dev How many bytes the parts of a list have together.
+    /// @dev Returns the total size of the parts of a list, in bytes.
     function sizeOf(bytes memory list) private view returns (uint256 size) {
         unchecked {
             uint256 count = (list.length - 1) / 20;
@@ -125,7 +126,7 @@ library Kept {
         check(pointer, data);
     }
 
-    /// @dev Whether the address is that at which this contract keeps these bytes.
+    /// @dev Reverts unless the address is the one at which this contract stores these bytes.
     function check(address pointer, bytes memory data) private view {
         if (SSTORE2.predictCounterfactualAddress(data, 0) != pointer) revert StudioErrors.NothingKept(pointer);
     }

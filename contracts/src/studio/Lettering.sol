@@ -6,31 +6,31 @@ import {STARTS, STROKES} from "./Glyphs.sol";
 import {Model, ModelMaker} from "./ModelMaker.sol";
 import {Shapes} from "./Shapes.sol";
 
-/// @title Lettering: text as solid letters, added to a mesh.
-/// @notice The characters are printable ASCII, and a line feed. Strokes have a ninth of the height of capitals and corners that are
-/// mitred; each stroke is closed. Letters are meant for one shade a face.
+/// @title Lettering: adds text as solid letters to a mesh.
+/// @notice Supports printable ASCII and line feeds. Strokes are a ninth of the height of capitals wide, with mitred corners; each stroke is
+/// a closed solid. Use flat shading.
 library Lettering {
-    /// @notice Text has the characters from 0x20 to 0x7e, and 0x0a for a new line.
+    /// @notice Text must consist of the characters 0x20 to 0x7e, and 0x0a for a new line.
     error NoSuchLetter(uint256 position, uint256 character);
 
-    /// @dev Letters are drawn on a grid on which capitals are 10 steps high from middle line to middle line; a step has so many parts.
+    /// @dev Parts per step of the grid of the letters. Capitals are 10 steps high, measured between the middle lines of strokes.
     int256 private constant STEP = 4096;
-    /// @dev Half the width of a stroke, which is a ninth of the height of capitals.
+    /// @dev Half the width of a stroke.
     int256 private constant HALF = STEP * 5 / 8;
-    /// @dev The height of capitals with their strokes.
+    /// @dev Height of capitals including the width of strokes.
     int256 private constant CAPITAL = 10 * STEP + 2 * HALF;
-    /// @dev From the right of a letter to the left of the next, from middle line to middle line.
+    /// @dev Gap between letters, measured between the middle lines of strokes.
     int256 private constant GAP = 3 * STEP;
     int256 private constant SPACE = 5 * STEP;
-    /// @dev From line to line.
+    /// @dev Distance between lines of text.
     int256 private constant LINE = 18 * STEP;
-    /// @dev y of the grid that is 0 in a byte.
+    /// @dev The y coordinate that is encoded as 0.
     int256 private constant LOWEST = -3;
     uint256 private constant END_OF_STROKE = 0xfe;
 
-    /// @dev What all strokes have in common.
-    /// @param left Where the letter begins, in parts of a step from x.
-    /// @param base Where its line stands, in parts of a step from y.
+    /// @dev Parameters that are common to all strokes.
+    /// @param left Left end of the letter, in parts of a step from x.
+    /// @param base Baseline of the letter, in parts of a step from y.
     struct Pen {
         int256 x;
         int256 y;
@@ -42,12 +42,12 @@ library Lettering {
         int256 base;
     }
 
-    /// @notice Adds text that is read from +z. A stroke of n points has 4 n vertices and 8 n - 4 faces; a letter about 40 faces.
-    /// @param x The left end of the first line,
-    /// @param y the line on which it stands, and
-    /// @param z its back.
-    /// @param height Of capitals, from 1 on; at least 20 look good. Lines are 1.6 times as far apart.
-    /// @param depth From back to front. If it is 0, letters are sheets that are seen from both sides.
+    /// @notice Adds text that is read from +z. A stroke of n points adds 4 n vertices and 8 n - 4 faces; a letter has about 40 faces.
+    /// @param x Left end of the text.
+    /// @param y Baseline of the first line.
+    /// @param z Back of the letters, or their front if `depth` is negative.
+    /// @param height Height of capitals, 1 to 65,535; use at least 20 for good shapes. Lines are 1.6 times as far apart.
+    /// @param depth Distance from back to front. If it is 0, letters are sheets that are visible from both sides.
     /// @param color 0xRRGGBB.
     function text(
         Model memory m,
@@ -66,7 +66,7 @@ library Lettering {
         write(m, bytes(words), pen);
     }
 
-    /// @notice Returns the width of text, of its longest line, in the same units as `height`.
+    /// @notice Returns the width of the longest line of a text, in the units of `height`.
     function textWidth(string memory words, int256 height) internal pure returns (int256 width) {
         checkHeight(height);
         unchecked {
@@ -108,7 +108,7 @@ library Lettering {
         }
     }
 
-    /// @dev Where the strokes of a character begin.
+    /// @dev Returns the offset of the strokes of a character.
     function start(bytes memory starts, bytes1 character, uint256 position) private pure returns (uint256) {
         unchecked {
             uint256 code = uint8(character);
@@ -144,7 +144,7 @@ library Lettering {
         }
     }
 
-    /// @dev Adds a stroke. Its ends stand over by half its width.
+    /// @dev Adds a stroke. Its ends extend by half its width.
     function stroke(Model memory m, int256[2][] memory points, Pen memory pen) private pure {
         unchecked {
             if (points.length == 1) points = dot(points[0]);
@@ -169,7 +169,7 @@ library Lettering {
         }
     }
 
-    /// @dev A short line through a point, which becomes a square when its ends are moved.
+    /// @dev Returns a short line through a point, which becomes a square when its ends are extended.
     function dot(int256[2] memory point) private pure returns (int256[2][] memory points) {
         points = new int256[2][](2);
         (points[0], points[1]) = ([point[0] - 1, point[1]], [point[0] + 1, point[1]]);
@@ -183,7 +183,7 @@ library Lettering {
         }
     }
 
-    /// @dev The unit vector from a to b, Q16.
+    /// @dev Returns the unit vector from a to b, Q16.
     function direction(int256[2] memory a, int256[2] memory b) private pure returns (int256[2] memory) {
         unchecked {
             (int256 x, int256 y) = (b[0] - a[0], b[1] - a[1]);
@@ -192,12 +192,12 @@ library Lettering {
         }
     }
 
-    /// @dev Adds the four vertices where two parts of a stroke meet: left and right in front, and left and right behind.
-    /// @param u Direction of the part before.
-    /// @param v Direction of the part after.
+    /// @dev Adds the four vertices where two segments of a stroke meet: front left, front right, back left, back right.
+    /// @param u Direction of the segment before.
+    /// @param v Direction of the segment after.
     function corner(Model memory m, int256[2] memory point, int256[2] memory u, int256[2] memory v, Pen memory pen) private pure {
         unchecked {
-            // the mitre is the sum of both normals, (-y, x), divided by 1 + their product: four times as long as a normal at most
+            // the mitre is the sum of both normals, (-y, x), divided by 1 + their dot product; limited to four times the length of a normal
             int256 divisor = (1 << 16) + ((u[0] * v[0] + u[1] * v[1]) >> 16);
             if (divisor < 1 << 14) divisor = 1 << 14;
             (int256 x, int256 y) = (-HALF * (u[1] + v[1]) / divisor, HALF * (u[0] + v[0]) / divisor);
@@ -205,7 +205,7 @@ library Lettering {
         }
     }
 
-    /// @dev Adds two points in front and behind, from the left of the letter and from its line, in parts of a step.
+    /// @dev Adds two points at the front and at the back, in parts of a step from the left end and the baseline of the letter.
     function sides(Model memory m, Pen memory pen, int256 x0, int256 y0, int256 x1, int256 y1) private pure {
         (x0, x1) = (pen.x + scaled(pen.left + HALF + x0, pen.height), pen.x + scaled(pen.left + HALF + x1, pen.height));
         (y0, y1) = (pen.y + scaled(pen.base + HALF + y0, pen.height), pen.y + scaled(pen.base + HALF + y1, pen.height));
@@ -215,7 +215,7 @@ library Lettering {
         m.vertex(x1, y1, pen.z0, pen.color);
     }
 
-    /// @dev To the nearest unit.
+    /// @dev Scales parts of a step to units, rounded to the nearest.
     function scaled(int256 value, int256 height) private pure returns (int256) {
         unchecked {
             int256 twice = 2 * value * height / CAPITAL;
@@ -223,7 +223,7 @@ library Lettering {
         }
     }
 
-    /// @dev Adds the faces between two corners: in front, behind, to the right and to the left.
+    /// @dev Adds the faces between two corners: front, back, right and left.
     function join(Model memory m, uint256 a, uint256 b) private pure {
         unchecked {
             m.quad(a + 1, b + 1, b, a);

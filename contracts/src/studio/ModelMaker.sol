@@ -7,13 +7,13 @@ import {NORMALS} from "../scene/Mesh.sol";
 import {Lettering} from "./Lettering.sol";
 import {Shapes} from "./Shapes.sol";
 
-/// @notice A mesh in the making. Its room grows when it is used up.
-/// @param vertices Where the next vertex belongs.
-/// @param faces Where the next face belongs.
-/// @param vertexCount How many there are.
-/// @param faceCount How many there are.
-/// @param maxVertices How many there is room for.
-/// @param maxFaces How many there is room for.
+/// @notice A mesh under construction, which grows on demand.
+/// @param vertices Memory address of the next vertex.
+/// @param faces Memory address of the next face.
+/// @param vertexCount Number of vertices.
+/// @param faceCount Number of faces.
+/// @param maxVertices Capacity for vertices.
+/// @param maxFaces Capacity for faces.
 struct Model {
     uint256 vertices;
     uint256 faces;
@@ -27,27 +27,27 @@ using ModelMaker for Model global;
 using Shapes for Model global;
 using Lettering for Model global;
 
-/// @title ModelMaker: meshes of coloured triangles, made step by step on chain.
-/// @notice Coordinates are whole numbers from -32,768 to 32,767. Make a mesh some hundred units large and scale the object that has it.
+/// @title ModelMaker: builds meshes of coloured triangles on chain, step by step.
+/// @notice Coordinates are whole numbers from -32,768 to 32,767. Make a mesh a few hundred units large, and scale the object that uses it.
 library ModelMaker {
-    /// @notice A mesh has at most 65,535 vertices and as many faces.
+    /// @notice A mesh has at most 65,535 vertices and 65,535 faces.
     error ModelTooLarge(uint256 vertices, uint256 faces);
-    /// @notice The mesh has `most` vertices already, the largest number.
+    /// @notice The mesh already has `most` vertices, the maximum.
     error TooManyVertices(uint256 most);
-    /// @notice The mesh has `most` faces already, the largest number.
+    /// @notice The mesh already has `most` faces, the maximum.
     error TooManyFaces(uint256 most);
-    /// @notice Coordinates are whole numbers from -32,768 to 32,767.
+    /// @notice Coordinates must be from -32,768 to 32,767.
     error PositionOutOfRange(int256 x, int256 y, int256 z);
-    /// @notice Colours are 0xRRGGBB.
+    /// @notice A colour must be 0xRRGGBB.
     error NotAColor(uint256 color);
-    /// @notice A face names a vertex that is not there yet.
+    /// @notice A face refers to a missing vertex.
     error NoSuchVertex(uint256 vertex, uint256 vertexCount);
 
     /// @dev Vertices and faces are counted in 16 bits.
     uint256 private constant MOST = 65535;
     /// @dev A unit normal is stored as a vector of this length.
     uint256 private constant NORMAL_UNIT = 511;
-    /// @dev Lanes of a word that holds a sum of vectors, each coordinate below 2^51: see `sumOfNormals`.
+    /// @dev Bits of a lane of a word that holds a sum of vectors, each coordinate below 2^51: see `sumsOfNormals`.
     uint256 private constant LANE = 85;
 
     /// @notice Returns an empty mesh.
@@ -55,7 +55,7 @@ library ModelMaker {
         return model(64, 96);
     }
 
-    /// @notice Returns an empty mesh with room for as many vertices and faces, which saves the gas of growing.
+    /// @notice Returns an empty mesh with an initial capacity; the right numbers save the gas of growing.
     function model(uint256 maxVertices, uint256 maxFaces) internal pure returns (Model memory made) {
         if (maxVertices > MOST || maxFaces > MOST) revert ModelTooLarge(maxVertices, maxFaces);
         setRoom(made, maxVertices, maxFaces);
@@ -63,7 +63,7 @@ library ModelMaker {
 
     /// @notice Adds a vertex.
     /// @param color 0xRRGGBB.
-    /// @return index Its number, for faces.
+    /// @return index Its index, for faces.
     function vertex(Model memory m, int256 x, int256 y, int256 z, uint256 color) internal pure returns (uint256 index) {
         unchecked {
             index = m.vertexCount;
@@ -108,8 +108,8 @@ library ModelMaker {
         face(m, a, c, d);
     }
 
-    /// @notice Returns the bytes of the mesh without normals, for surfaces that are unlit or have one shade a face. Each call returns the
-    /// same bytes; they stay as they are if more is added afterwards.
+    /// @notice Returns the packed mesh without normals, for unlit and flat materials. It does not change if more is added to the model
+    /// afterwards; without changes, each call returns the same bytes.
     function pack(Model memory m) internal pure returns (bytes memory mesh) {
         unchecked {
             uint256 vertexSize = VERTEX_SIZE * m.vertexCount;
@@ -121,21 +121,20 @@ library ModelMaker {
             assembly ("memory-safe") {
                 let begin := sub(end, vertexSize)
                 mesh := sub(begin, 37)
-                // the header has a byte of zeros before it, and overwrites nothing: it is put into the word that ends where vertices begin
+                // the word that ends where the vertices begin holds the header, after bytes that are zero
                 mstore(mesh, add(HEADER_SIZE, add(vertexSize, faceSize)))
                 mstore(sub(begin, 5), or(shl(216, header), shr(40, mload(begin))))
-                // what the last word has beyond the faces
+                // clear the bytes of the last word beyond the faces
                 mstore(add(end, faceSize), 0)
             }
-            // where the faces are now; what is added next goes elsewhere
+            // the faces have moved; no capacity is left, so that the next addition allocates
             m.faces = end + faceSize;
             (m.maxVertices, m.maxFaces) = (m.vertexCount, m.faceCount);
         }
     }
 
-    /// @notice Returns the bytes of the mesh with a normal for each vertex, for smooth surfaces: the mean of the normals of its faces,
-    /// weighted by their areas, and zero where there are none. Faces that share vertices look round; an edge stays sharp where the faces
-    /// beside it have vertices of their own.
+    /// @notice Returns the packed mesh with a normal per vertex, for smooth materials: the mean of the normals of its faces, weighted by
+    /// their areas, or zero without faces. Faces that share vertices look smooth; an edge is sharp if its faces do not share vertices.
     function packSmooth(Model memory m) internal pure returns (bytes memory mesh) {
         unchecked {
             uint256[] memory sums = sumsOfNormals(m);
@@ -143,7 +142,7 @@ library ModelMaker {
             uint256 faceSize = FACE_SIZE * m.faceCount;
             uint256 source = m.vertices - VERTEX_SIZE * count;
             uint256 size = HEADER_SIZE + (VERTEX_SIZE + 4) * count + faceSize;
-            // a word more than is used: whole words are written
+            // one extra word, because whole words are written
             mesh = new bytes(size + 32);
             uint256 target;
             uint256 header = (NORMALS << 32) | (count << 16) | m.faceCount;
@@ -169,8 +168,8 @@ library ModelMaker {
         }
     }
 
-    /// @dev For each vertex the sum of the normals of its faces, each as long as twice the face's area: x * 2^170 + y * 2^85 + z. Such
-    /// words can be added as they are.
+    /// @dev Returns for each vertex the sum of the normals of its faces, each with twice the face's area as length, packed as
+    /// x * 2^170 + y * 2^85 + z. Such words can be added.
     function sumsOfNormals(Model memory m) private pure returns (uint256[] memory sums) {
         unchecked {
             sums = new uint256[](m.vertexCount);
@@ -211,7 +210,7 @@ library ModelMaker {
         }
     }
 
-    /// @dev The direction of a sum as `Mesh.sol` stores it: three numbers of 10 bits, then two bits that are 0.
+    /// @dev Returns the direction of a sum in the encoding of `Mesh.sol`: three numbers of 10 bits, then two zero bits.
     function unitNormal(uint256 sum) private pure returns (uint256) {
         unchecked {
             int256 rest = int256(sum);
@@ -219,23 +218,23 @@ library ModelMaker {
             rest = (rest - z) >> LANE;
             int256 y = (rest << 256 - LANE) >> 256 - LANE;
             int256 x = (rest - y) >> LANE;
-            // 20 bits more, for short ones
+            // 20 more bits of precision, for short vectors
             uint256 length = sqrt(uint256(x * x + y * y + z * z) << 40);
             if (length == 0) return 0;
-            // 511 / length, Q128, with the 20 bits taken back
+            // 511 / length, Q128, without the 20 extra bits
             int256 unit = int256((NORMAL_UNIT << 148) / length);
             return part(x * unit) << 22 | part(y * unit) << 12 | part(z * unit) << 2;
         }
     }
 
-    /// @dev A Q128 number to the nearest, in 10 bits.
+    /// @dev Rounds a Q128 number to the nearest integer, in 10 bits.
     function part(int256 value) private pure returns (uint256) {
         unchecked {
             return uint256((value + (1 << 127)) >> 128) & 0x3ff;
         }
     }
 
-    /// @dev Makes room for twice as many of what is full.
+    /// @dev Doubles the capacity for vertices or faces, whichever is used up.
     function grow(Model memory m) private pure {
         unchecked {
             uint256 vertexSize = VERTEX_SIZE * m.vertexCount;
@@ -256,11 +255,11 @@ library ModelMaker {
         }
     }
 
-    /// @dev Sets room aside, and where the first vertex and the first face belong in it.
+    /// @dev Allocates memory, and sets the addresses of the first vertex and the first face in it.
     function setRoom(Model memory m, uint256 maxVertices, uint256 maxFaces) private pure {
         (m.maxVertices, m.maxFaces) = (maxVertices, maxFaces);
         assembly ("memory-safe") {
-            // the length and the header, the vertices, and a word that may be written behind them; the faces likewise
+            // the length and the header, the vertices, and a word that may be written past their end; the same for the faces
             let begin := add(mload(0x40), 37)
             let faces := add(begin, add(mul(maxVertices, VERTEX_SIZE), 32))
             mstore(m, begin)
@@ -269,7 +268,7 @@ library ModelMaker {
         }
     }
 
-    /// @dev Copies bytes, and up to 31 behind them; toward the front within the same bytes.
+    /// @dev Copies bytes, and up to 31 bytes past their end. Overlapping ranges must move to lower addresses.
     function copyWords(uint256 target, uint256 source, uint256 size) private pure {
         assembly ("memory-safe") {
             for { let k := 0 } lt(k, size) { k := add(k, 32) } { mstore(add(target, k), mload(add(source, k))) }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-// All that a contract needs to build a scene, in one import: meshes with their shapes and letters, and the stage on which they stand.
+// Everything that a contract needs to build a scene, in one import: meshes, shapes, lettering, framing and stages.
 
 import {Lettering} from "./Lettering.sol";
 import {Model, ModelMaker} from "./ModelMaker.sol";

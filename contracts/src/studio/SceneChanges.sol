@@ -13,7 +13,7 @@ import {checkPosition, checkRotation, checkScale, inRange} from "../scene/Checks
 import {ANTIALIAS, BACKGROUND, CANVAS, INVERT, PAINT, TURN, Changes} from "./Changes.sol";
 import {StudioErrors} from "./StudioErrors.sol";
 
-/// @notice Makes a scene differ.
+/// @notice Applies changes to a scene.
 library SceneChanges {
     int256 private constant MAX_PART = 1 << 48;
 
@@ -36,7 +36,7 @@ library SceneChanges {
         if (fields & ANTIALIAS != 0) scene.extensions = addRecord(scene.extensions, ANTIALIAS_RECORD, 0, "");
     }
 
-    /// @notice What is computed with here must be within its bounds before; the renderer checks the rest.
+    /// @notice Checks the ranges of the fields used here; the renderer checks the rest.
     function checkPlaces(Scene memory scene) internal pure {
         for (uint256 k; k < scene.objects.length; ++k) checkPlace(scene.objects[k], k);
     }
@@ -50,7 +50,7 @@ library SceneChanges {
         checkRotation(q.x.raw(), q.y.raw(), q.z.raw(), q.w.raw(), index);
     }
 
-    /// @notice Turns all objects about a point.
+    /// @notice Rotates all objects about a point.
     function turn(Scene memory scene, Quaternion memory q, Vector memory center) internal pure {
         Matrix memory m = q.toMatrix();
         for (uint256 k; k < scene.objects.length; ++k) {
@@ -60,7 +60,7 @@ library SceneChanges {
         }
     }
 
-    /// @notice The middle of all objects, each taken as the ball around the box of its vertices.
+    /// @notice Returns the centre of all objects, each represented by the bounding sphere of the bounding box of its vertices.
     function middle(Scene memory scene) internal pure returns (Vector memory center) {
         unchecked {
             Vector memory low;
@@ -83,7 +83,7 @@ library SceneChanges {
         return (place - radius < low ? place - radius : low, place + radius > high ? place + radius : high);
     }
 
-    /// @dev The ball around the box of an object's vertices.
+    /// @dev Returns the bounding sphere of the bounding box of an object's vertices.
     function ball(Object memory object) private pure returns (Vector memory place, Fixed radius) {
         unchecked {
             (int256[3] memory low, int256[3] memory high) = PackedMesh.box(object.mesh);
@@ -97,8 +97,8 @@ library SceneChanges {
         }
     }
 
-    /// @dev First q, then p: p * q. Where both together are so short that their product would lose digits it is made 2^32 times as long,
-    /// which is the same rotation.
+    /// @dev Returns p * q: q applied first, then p. If both are so short that the product would lose digits, it is scaled by 2^32, which is
+    /// the same rotation.
     function times(Quaternion memory p, Quaternion memory q) private pure returns (Quaternion memory) {
         unchecked {
             (int256 a, int256 b, int256 c, int256 d) = (p.x.raw(), p.y.raw(), p.z.raw(), p.w.raw());

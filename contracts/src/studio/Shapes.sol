@@ -5,25 +5,24 @@ import {Fixed} from "../math/Fixed.sol";
 import {sinCosOfHalf} from "../math/Euler.sol";
 import {Model, ModelMaker} from "./ModelMaker.sol";
 
-/// @title Shapes: boxes, solids of revolution and extrusions, added to a mesh.
-/// @notice Faces look outward. Axes of revolution are parallel to y; rotate the object for others. All shapes but open lathes are closed.
-/// With `packSmooth` walls are round, and the edges of caps are sharp.
+/// @title Shapes: adds boxes, solids of revolution and extrusions to a mesh.
+/// @notice Faces point outward. Axes of revolution are parallel to y; rotate the object for other axes. All shapes except open lathes are
+/// closed. With `packSmooth`, walls are smooth and the edges of caps are sharp.
 library Shapes {
-    /// @notice A radius or a height that must be above 0 is not, or the radius of a profile is below 0.
+    /// @notice A radius or height must be 1 to 65,535; the radius of a profile must not be negative; a height must not be 0.
     error SizeOutOfRange(int256 size);
-    /// @notice A circle has from `least` segments on, up to 65,535; a sphere from 2 rings on.
+    /// @notice A circle must have `least` to 65,535 segments; a sphere `least` to 65,535 rings.
     error SegmentsOutOfRange(uint256 segments, uint256 least);
-    /// @notice A profile has at least 2 points, an outline 3.
+    /// @notice A profile must have at least 2 points, an outline 3.
     error TooFewPoints(uint256 points, uint256 least);
     /// @notice The outline crosses itself, or encloses no area.
     error NotAnOutline();
-    /// @notice Text for `points` has pairs of whole numbers up to 65,535, with a comma in each and a space between them; at this place
-    /// of it there is something else.
+    /// @notice The text is not a list of points such as "0,0 50,-10"; `position` is the first wrong character.
     error NotPoints(uint256 position);
 
-    /// @dev What all rings of a lathe have in common.
-    /// @param sines Of the segments' angles, Q32.
-    /// @param cosines Likewise.
+    /// @dev Parameters that are common to all rings of a lathe.
+    /// @param sines Sines of the angles of the segments, Q32.
+    /// @param cosines Their cosines, Q32.
     struct Turn {
         int256 x;
         int256 y;
@@ -34,8 +33,8 @@ library Shapes {
         bool inward;
     }
 
-    /// @notice Adds a box: 8 vertices, 12 faces. Its corners may be any two that are opposite. A box without thickness is a sheet that is
-    /// seen from both sides.
+    /// @notice Adds a box between any two opposite corners: 8 vertices, 12 faces. A box without thickness is a sheet that is visible from
+    /// both sides.
     /// @param color 0xRRGGBB.
     function box(Model memory m, int256 x0, int256 y0, int256 z0, int256 x1, int256 y1, int256 z1, uint256 color) internal pure {
         unchecked {
@@ -59,9 +58,9 @@ library Shapes {
         }
     }
 
-    /// @notice Adds a sphere about (x, y, z): segments * (rings - 1) + 2 vertices, 2 * segments * (rings - 1) faces.
-    /// @param segments How many sides it has as seen from above, from 3 on.
-    /// @param rings How many bands it has between its poles, from 2 on.
+    /// @notice Adds a sphere with centre (x, y, z): segments * (rings - 1) + 2 vertices, 2 * segments * (rings - 1) faces.
+    /// @param segments Number of sides as seen from above, at least 3.
+    /// @param rings Number of bands between the poles, at least 2.
     /// @param color 0xRRGGBB.
     function sphere(Model memory m, int256 x, int256 y, int256 z, int256 radius, uint256 segments, uint256 rings, uint256 color)
         internal
@@ -72,9 +71,9 @@ library Shapes {
         lathe(m, x, y, z, arc(radius, rings), segments, color);
     }
 
-    /// @notice Adds a cylinder that stands on (x, y, z): 4 * segments + 2 vertices, 4 * segments faces.
-    /// @param height Below 0: it hangs from there.
-    /// @param segments How many sides it has, from 3 on.
+    /// @notice Adds a cylinder whose base has its centre at (x, y, z): 4 * segments + 2 vertices, 4 * segments faces.
+    /// @param height Height along y; if it is negative, the cylinder extends downward.
+    /// @param segments Number of sides, at least 3.
     /// @param color 0xRRGGBB.
     function cylinder(Model memory m, int256 x, int256 y, int256 z, int256 radius, int256 height, uint256 segments, uint256 color)
         internal
@@ -89,9 +88,9 @@ library Shapes {
         lathe(m, x, y, z, profile, segments, color);
     }
 
-    /// @notice Adds a cone that stands on (x, y, z): 2 * segments + 2 vertices, 2 * segments faces.
-    /// @param height Of its apex over (x, y, z). Below 0: it hangs from there.
-    /// @param segments How many sides it has, from 3 on.
+    /// @notice Adds a cone whose base has its centre at (x, y, z): 2 * segments + 2 vertices, 2 * segments faces.
+    /// @param height Height of the apex above the base; if it is negative, the cone extends downward.
+    /// @param segments Number of sides, at least 3.
     /// @param color 0xRRGGBB.
     function cone(Model memory m, int256 x, int256 y, int256 z, int256 radius, int256 height, uint256 segments, uint256 color)
         internal
@@ -105,13 +104,13 @@ library Shapes {
         lathe(m, x, y, z, profile, segments, color);
     }
 
-    /// @notice Adds a ring that lies about (x, y, z): segments * sides vertices, 2 * segments * sides faces.
-    /// @param radius From the middle to the middle line of the tube.
-    /// @param tube The radius of the tube, at most that of the ring.
-    /// @param segments How many parts the ring has, from 3 on.
-    /// @param sides How many sides the tube has, from 3 on.
+    /// @notice Adds a torus about the vertical axis through (x, y, z): segments * sides vertices, 2 * segments * sides faces.
+    /// @param radius Distance from the centre to the middle of the tube, at most 65,535.
+    /// @param tube Radius of the tube, at most `radius`.
+    /// @param segments Number of segments around the axis, at least 3.
+    /// @param sides Number of sides of the tube, at least 3.
     /// @param color 0xRRGGBB.
-    function ring(
+    function torus(
         Model memory m,
         int256 x,
         int256 y,
@@ -125,13 +124,13 @@ library Shapes {
         lathe(m, x, y, z, section(radius, tube, sides), segments, color);
     }
 
-    /// @notice Adds what a profile leaves when it turns about a vertical axis through (x, y, z): a vase, a chess piece, or, if it ends
-    /// where it began, a ring. Each point of the profile gives `segments` vertices, or one on the axis, and each stretch between two points
-    /// 2 * segments faces, or `segments` if it has one end on the axis.
-    /// @param profile Radius, from 0 on, and height over y of each point. It may go up or down: the outside is away from the axis. A point
-    /// twice in a row makes a sharp edge for `packSmooth`. What begins and ends on the axis is closed; for what is open and is seen from
-    /// inside, clear the object's flag CULL_BACKFACES.
-    /// @param segments How many sides it has as seen from above, from 3 on.
+    /// @notice Adds the solid of revolution of a profile about the vertical axis through (x, y, z), such as a vase or a chess piece. Each
+    /// point of the profile adds `segments` vertices, or one if it is on the axis; each line between two points adds 2 * segments faces, or
+    /// `segments` if one end is on the axis.
+    /// @param profile Radius, at least 0, and height above y of each point, going up or down. Repeat a point for a sharp edge with
+    /// `packSmooth`. A profile that begins and ends on the axis, or ends at its first point, gives a closed solid; if an open one can be
+    /// seen from inside, clear the object's flag CULL_BACKFACES.
+    /// @param segments Number of sides as seen from above, at least 3.
     /// @param color 0xRRGGBB.
     function lathe(
         Model memory m,
@@ -152,7 +151,7 @@ library Shapes {
             uint256 first = level(m, turn, profile[0]);
             uint256 lower = first;
             for (uint256 k = 1; k <= last; ++k) {
-                // what ends where it began has its first ring there
+                // a closed profile shares its first ring
                 uint256 upper = k == last && last > 1 && isSame(profile[0], profile[last]) ? first : level(m, turn, profile[k]);
                 if (!isSame(profile[k - 1], profile[k])) {
                     band(m, turn, lower, profile[k - 1][0] == 0 ? 0 : 1, upper, profile[k][0] == 0 ? 0 : 1);
@@ -162,11 +161,11 @@ library Shapes {
         }
     }
 
-    /// @notice Adds an outline that is drawn out along z: 4 vertices and 4 faces a point, less 4 faces.
-    /// @param outline x and y of its points, in either direction; it is closed by itself, may be concave and must not cross itself. A point
-    /// twice in a row makes a sharp edge for `packSmooth`; without such points the walls are round.
-    /// @param z0 Where it begins, and
-    /// @param z1 where it ends. If both are equal, it is a sheet that is seen from both sides.
+    /// @notice Adds the extrusion of an outline along z: 4 n vertices and 4 n - 4 faces for n points.
+    /// @param outline x and y of its points, clockwise or counter-clockwise. The last point is joined to the first. It may be concave and
+    /// must not cross itself. Repeat a point for a sharp edge with `packSmooth`; walls are smooth at other points.
+    /// @param z0 One end along z.
+    /// @param z1 The other end. If both are equal, the result is a sheet that is visible from both sides.
     /// @param color 0xRRGGBB.
     function extrusion(Model memory m, int256[2][] memory outline, int256 z0, int256 z1, uint256 color) internal pure {
         unchecked {
@@ -177,17 +176,18 @@ library Shapes {
             for (uint256 k; k != outline.length; ++k) m.vertex(outline[k][0], outline[k][1], z1, color);
             uint256 back = m.vertexCount;
             for (uint256 k; k != outline.length; ++k) m.vertex(outline[k][0], outline[k][1], z0, color);
+            checkSimple(outline, cap);
             bool clockwise = doubleArea(outline, cap) < 0;
             cut(m, outline, cap, front, back, clockwise);
-            // walls have vertices of their own
+            // walls do not share vertices with the caps, so that their edges are sharp
             for (uint256 k; k != outline.length; ++k) m.vertex(outline[k][0], outline[k][1], z1, color);
             for (uint256 k; k != outline.length; ++k) m.vertex(outline[k][0], outline[k][1], z0, color);
             wall(m, outline, clockwise);
         }
     }
 
-    /// @notice Returns points that are written as "x,y x,y ...", for `lathe` and `extrusion`.
-    /// @param text Whole numbers, from -65,535 to 65,535; a comma between x and y, one space between points.
+    /// @notice Parses points for `lathe` and `extrusion`.
+    /// @param text "x,y x,y ...": whole numbers from -65,535 to 65,535, with one comma between x and y and one space between points.
     /// @return list The points (x, y).
     function points(string memory text) internal pure returns (int256[2][] memory list) {
         unchecked {
@@ -209,7 +209,7 @@ library Shapes {
         }
     }
 
-    /// @dev The number that is written there, and the place behind it.
+    /// @dev Returns the number at a position of the text, and the position after it.
     function number(bytes memory all, uint256 place) private pure returns (int256 value, uint256) {
         unchecked {
             bool negative = place < all.length && all[place] == "-";
@@ -226,21 +226,21 @@ library Shapes {
         }
     }
 
-    /// @notice Returns the outline of a regular polygon about the origin, with a corner above it, for `extrusion`.
-    /// @param corners_ From 3 on.
+    /// @notice Returns the outline of a regular polygon for `extrusion`, centred at the origin, with a corner at the top.
+    /// @param corners_ Number of corners, at least 3.
     function polygon(int256 radius, uint256 corners_) internal pure returns (int256[2][] memory outline) {
         return star(radius, radius, corners_, 1);
     }
 
-    /// @notice Returns the outline of a star about the origin, with a point above it, for `extrusion`.
-    /// @param outer The radius of its points.
-    /// @param inner The radius of the corners between them.
-    /// @param count How many points it has, from 2 on.
+    /// @notice Returns the outline of a star for `extrusion`, centred at the origin, with a point at the top.
+    /// @param outer Radius of the points.
+    /// @param inner Radius of the corners between them.
+    /// @param count Number of points, at least 2.
     function star(int256 outer, int256 inner, uint256 count) internal pure returns (int256[2][] memory outline) {
         return star(outer, inner, count, 2);
     }
 
-    /// @dev The corners of a star, or, with a step of 1, its points only.
+    /// @dev Returns the corners of a star, or only its points if `step` is 1.
     function star(int256 outer, int256 inner, uint256 count, uint256 step) private pure returns (int256[2][] memory outline) {
         unchecked {
             if (count > 32767 || count * step < 3) revert SegmentsOutOfRange(count, 4 - step);
@@ -255,7 +255,7 @@ library Shapes {
         }
     }
 
-    /// @dev The circle of a ring's tube, which ends where it begins.
+    /// @dev Returns the cross-section of a torus as a closed profile.
     function section(int256 radius, int256 tube, uint256 sides) private pure returns (int256[2][] memory profile) {
         unchecked {
             checkSize(tube);
@@ -269,7 +269,7 @@ library Shapes {
         }
     }
 
-    /// @dev The walls between the last vertices: an outline in front, and one behind.
+    /// @dev Adds the walls between the last vertices: a front and a back outline.
     function wall(Model memory m, int256[2][] memory outline, bool clockwise) private pure {
         unchecked {
             uint256 count = outline.length;
@@ -283,7 +283,27 @@ library Shapes {
         }
     }
 
-    /// @dev Fills an outline in front and behind by clipping ears: corners whose triangle has no other point of the outline in it.
+    /// @dev Reverts if two edges cross. Edges may touch, as those of a bridge to a hole do.
+    function checkSimple(int256[2][] memory outline, uint256[] memory numbers) private pure {
+        unchecked {
+            uint256 count = numbers.length;
+            for (uint256 j = 2; j < count; ++j) {
+                (int256[2] memory c, int256[2] memory d) = (outline[numbers[j]], outline[numbers[j + 1 == count ? 0 : j + 1]]);
+                for (uint256 k; k + 1 < j; ++k) {
+                    (int256[2] memory a, int256[2] memory b) = (outline[numbers[k]], outline[numbers[k + 1]]);
+                    bool isCrossed = haveOppositeSigns(side(a, b, c), side(a, b, d));
+                    if (isCrossed && haveOppositeSigns(side(c, d, a), side(c, d, b))) revert NotAnOutline();
+                }
+            }
+        }
+    }
+
+    /// @dev Returns whether one number is positive and the other negative.
+    function haveOppositeSigns(int256 a, int256 b) private pure returns (bool) {
+        return (a < 0 && b > 0) || (a > 0 && b < 0);
+    }
+
+    /// @dev Triangulates the front and back caps by ear clipping: an ear is a convex corner whose triangle contains no other point.
     /// Source: G. H. Meisters, "Polygons have ears", The American Mathematical Monthly 82 (1975).
     function cut(Model memory m, int256[2][] memory outline, uint256[] memory rest, uint256 front, uint256 back, bool clockwise)
         private
@@ -309,13 +329,13 @@ library Shapes {
                 --count;
                 for (uint256 k = ear; k < count; ++k) rest[k] = rest[k + 1];
                 tried = 0;
-                // not a fan about the same corner, of slivers
+                // continue at the next corner: a fan about one corner would have thin triangles
                 ++ear;
             }
         }
     }
 
-    /// @dev Whether the corner between a and c is convex, and no other point lies in its triangle or on the border of it.
+    /// @dev Returns whether the corner b is convex, and no other point lies in or on the triangle a, b, c.
     function isEar(int256[2][] memory outline, uint256[] memory rest, uint256 count, uint256[3] memory abc) private pure returns (bool) {
         unchecked {
             (int256[2] memory a, int256[2] memory b, int256[2] memory c) = (outline[abc[0]], outline[abc[1]], outline[abc[2]]);
@@ -329,14 +349,14 @@ library Shapes {
         }
     }
 
-    /// @dev Above 0 where p lies to the left of the way from a to b. Coordinates have 16 bits.
+    /// @dev Returns twice the signed area of a, b, p: positive if p lies to the left of the line from a to b. Coordinates have 16 bits.
     function side(int256[2] memory a, int256[2] memory b, int256[2] memory p) private pure returns (int256) {
         unchecked {
             return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
         }
     }
 
-    /// @dev The numbers of the points, without those that equal the one before.
+    /// @dev Returns the indices of the points, without those that equal the previous point.
     function corners(int256[2][] memory outline) private pure returns (uint256[] memory numbers) {
         unchecked {
             numbers = new uint256[](outline.length);
@@ -351,7 +371,7 @@ library Shapes {
         }
     }
 
-    /// @dev Twice the area that the points enclose; below 0 if they go clockwise.
+    /// @dev Returns twice the signed area of the outline, negative if it is clockwise.
     function doubleArea(int256[2][] memory outline, uint256[] memory numbers) private pure returns (int256 area) {
         unchecked {
             for (uint256 k = 2; k < numbers.length; ++k) {
@@ -361,7 +381,7 @@ library Shapes {
         }
     }
 
-    /// @dev Half a circle from the lower pole to the upper one.
+    /// @dev Returns a half circle from the lower pole to the upper one as a profile.
     function arc(int256 radius, uint256 rings) private pure returns (int256[2][] memory profile) {
         unchecked {
             profile = new int256[2][](rings + 1);
@@ -382,12 +402,12 @@ library Shapes {
         }
     }
 
-    /// @dev Adds the vertices of a point of the profile; the first one.
+    /// @dev Adds the vertices of a point of the profile, and returns the index of the first one.
     function level(Model memory m, Turn memory turn, int256[2] memory point) private pure returns (uint256 first) {
         unchecked {
             first = m.vertexCount;
             (int256 radius, int256 y) = (point[0], turn.y + point[1]);
-            if (radius < 0) revert SizeOutOfRange(radius);
+            if (radius < 0 || radius > 65535) revert SizeOutOfRange(radius);
             if (radius == 0) {
                 m.vertex(turn.x, y, turn.z, turn.color);
                 return first;
@@ -399,7 +419,8 @@ library Shapes {
     }
 
     /// @dev Adds the faces between two rings.
-    /// @param step From each vertex of the lower ring to the next: 0 if it is a point on the axis, else 1. Likewise `step2`.
+    /// @param step Index step from one vertex of the lower ring to the next: 0 for a point on the axis, otherwise 1. `step2` is the same
+    /// for the upper ring.
     function band(Model memory m, Turn memory turn, uint256 lower, uint256 step, uint256 upper, uint256 step2) private pure {
         unchecked {
             uint256 segments = turn.sines.length;
@@ -412,8 +433,7 @@ library Shapes {
         }
     }
 
-    /// @dev Whether what lies to the right of the profile, seen with the axis to its left, is inside: its volume is below 0 then, or, of
-    /// a flat disc, it faces down.
+    /// @dev Returns whether the profile goes down on the outside: its signed volume is negative, or it is a flat disc that faces down.
     function goesDown(int256[2][] memory profile) private pure returns (bool) {
         unchecked {
             int256 volume;
@@ -429,7 +449,7 @@ library Shapes {
         return a[0] == b[0] && a[1] == b[1];
     }
 
-    /// @dev The product with a Q32 number, to the nearest whole number.
+    /// @dev Returns the product with a Q32 number, rounded to the nearest whole number.
     function times(int256 value, int256 factor) private pure returns (int256) {
         unchecked {
             return (value * factor + (1 << 31)) >> 32;

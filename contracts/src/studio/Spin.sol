@@ -3,12 +3,12 @@ pragma solidity ^0.8.25;
 
 import {Vector} from "../math/Vector.sol";
 
-/// @notice A full turn of all objects of a scene about their middle, in equal steps; camera and lights stay.
-/// @param frames How many pictures, 2..360.
-/// @param delay How long each is shown, in milliseconds: 20..10,000.
-/// @param scale How many pixels each pixel becomes in both directions, 1..8.
-/// @param axis Seen from where it points, objects turn counter-clockwise. Of any length but zero; (0, 1, 0) is upright.
-/// @param hold Whether the camera is moved back until nothing leaves the picture, at whatever angle.
+/// @notice A full rotation of all objects of a scene about their centre, in equal steps; camera and lights do not move.
+/// @param frames The number of frames, 2..360.
+/// @param delay The duration of a frame in milliseconds, 20..10,000.
+/// @param scale The enlargement of the picture, 1..8: each pixel becomes a square of `scale` x `scale` pixels.
+/// @param axis The axis of rotation, of any length but zero; seen from its tip, objects rotate counter-clockwise. (0, 1, 0) is upright.
+/// @param hold Whether to move the camera back so that nothing leaves the picture at any angle.
 struct Spin {
     uint256 frames;
     uint256 delay;

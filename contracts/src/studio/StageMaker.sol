@@ -4,24 +4,25 @@ pragma solidity ^0.8.25;
 import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
 import {Quaternion} from "../math/Quaternion.sol";
-import {fromEuler} from "../math/Euler.sol";
-import {PackedMesh} from "../mesh/PackedMesh.sol";
+import {fromEuler, sinCosOfHalf} from "../math/Euler.sol";
+import {HEADER_SIZE, PackedMesh} from "../mesh/PackedMesh.sol";
 import {NORMALS, WIDE} from "../scene/Mesh.sol";
 import {
-    ANTIALIAS, FOG, GROUND, HEMISPHERE, OPACITIES_OF, OPACITY_OF, RIM, SHADOW, SHADOWS_ALL, SPOT, TEXTURE_OF, TONE, TONE_FILMIC,
-    TONE_GAMMA, addRecord, copyBytes
+    ANTIALIAS, FOG, GROUND, HEMISPHERE, OPACITIES_OF, OPACITY_OF, RIM, SHADOW, SHADOWS_ALL, SPOT, TEXTURE_BILINEAR, TEXTURE_CLAMP,
+    TEXTURE_OF, TONE, TONE_FILMIC, TONE_GAMMA, addRecord, copyBytes
 } from "../scene/Records.sol";
 import {
     Scene, Canvas, Background, Light, Material, Object, PERSPECTIVE, DIRECTIONAL, POINT, UNLIT, FLAT, SMOOTH, CULL_BACKFACES
 } from "../scene/Scene.sol";
+import {SceneErrors} from "../scene/SceneErrors.sol";
 import {Box, Framing} from "./Framing.sol";
 import {Model, ModelMaker} from "./ModelMaker.sol";
 
-/// @notice A scene in the making; `scene` is what the renderer takes, at any time. Its room for objects grows when it is used up.
-/// @param maxObjects How many objects there is room for in `room`.
-/// @param room Where `scene.objects` was when an object was added: an array that came from elsewhere has no room behind it.
-/// @param bounds Those of meshes, as far as they were told.
-/// @param defaultLights Where `scene.lights` is while the default sun is in it, which the first light that is added replaces.
+/// @notice A scene under construction. `scene` can be drawn at any time; the array of objects grows on demand.
+/// @param maxObjects Capacity of the array of objects at `room`.
+/// @param room Memory address of the array of objects that this library allocated. An array from elsewhere has no spare capacity.
+/// @param bounds Bounds of the meshes that were added with bounds; zero for the others.
+/// @param defaultLights Memory address of the array with the default sun, which the first added light replaces.
 struct Stage {
     Scene scene;
     uint256 maxObjects;
@@ -33,40 +34,45 @@ struct Stage {
 using StageMaker for Stage global;
 using Framing for Stage global;
 
-/// @title StageMaker: scenes made step by step on chain.
-/// @notice Numbers are of the type `Fixed` (Q32), or whole where a parameter is an integer: lengths in units, angles in degrees,
-/// coefficients in per cent. `units`, `unit`, `percent` and `fraction` make numbers. What is out of range is told by the renderer.
+/// @title StageMaker: builds scenes on chain, step by step.
+/// @notice Numbers have the type `Fixed` (Q32). Integer parameters are whole numbers: lengths in units, angles in degrees, coefficients in
+/// percent. `units`, `unit`, `percent` and `fraction` return `Fixed` numbers. The renderer checks all ranges when it draws the scene; a
+/// number that its record cannot hold is refused here, with the same error.
 library StageMaker {
     /// @notice A scene has at most 65,536 objects.
     error TooManyObjects(uint256 most);
     /// @notice A scene has at most 4 lights.
     error TooManyLights(uint256 most);
-    /// @notice The scene has only so many objects.
+    /// @notice The scene has only `count` objects.
     error NoSuchObject(uint256 object, uint256 count);
-    /// @notice There is no light that could cast shadows.
+    /// @notice The scene has no light that could cast shadows.
     error NoLight();
-    /// @notice The mesh is stored or compact: only one that is packed can be painted. `IStudio.mesh` returns a stored mesh as it is packed.
+    /// @notice The angles of a spot light must be from 0 to 180 degrees, the inner one not above the outer one (Q32).
+    error SpotAnglesOutOfRange(int256 inner, int256 outer);
+    /// @notice The mesh is stored or compact; only packed meshes can be painted. `IStudio.mesh` returns a stored mesh in packed form.
     error MeshNotPacked(uint256 object);
+    /// @notice A mesh of `vertexCount` vertices needs as many values.
+    error NotOnePerVertex(uint256 vertexCount, uint256 values);
     /// @notice A palette has 2, 4, 16 or 256 colours of 3 bytes.
     error TexturePalette(uint256 size);
     /// @notice A texture has 1 to 256 texels along each side.
     error TextureSize(uint256 width, uint256 height);
-    /// @notice Its texels have `expected` bytes.
+    /// @notice The texels must have `expected` bytes.
     error TextureTexels(uint256 expected, uint256 actual);
-    /// @notice Coordinates are from -128 to below 128, in 65,536ths.
+    /// @notice Texture coordinates must be from -128 to below 128, in units of 1 / 65,536.
     error TextureCoordinates(uint256 vertex, int256 u, int256 v);
 
     uint256 private constant MAX_LIGHTS = 4;
     uint256 private constant MAX_OBJECTS = 65536;
 
-    /// @notice Returns an empty scene of width * height pixels.
+    /// @notice Returns an empty scene of width x height pixels.
     function stage(uint256 width, uint256 height) internal pure returns (Stage memory) {
         return stage(width, height, 4);
     }
 
-    /// @notice Returns an empty scene: the eye 1,000 units in front of the origin, 50 degrees of view, white ambient light, a sun from the
-    /// upper left until other light is added, a dark background.
-    /// @param maxObjects For how many objects room is set aside, which saves the gas of growing.
+    /// @notice Returns an empty scene: the eye 1,000 units in front of the origin, a field of view of 50 degrees, white ambient light, a
+    /// sun from the upper left until another light is added, a dark background.
+    /// @param maxObjects Initial capacity for objects; the right number saves the gas of growing.
     function stage(uint256 width, uint256 height, uint256 maxObjects) internal pure returns (Stage memory made) {
         Scene memory s = made.scene;
         s.canvas = Canvas(width, height);
@@ -86,15 +92,15 @@ library StageMaker {
         made.scene.background = Background(top, bottom);
     }
 
-    /// @notice Adds an object at the origin, a unit long for each step of its coordinates, without the faces that turn away.
-    /// @param mesh Packed, or what `IStudio.meshAt` returns for one that is stored. Objects may share it.
-    /// @return object The object, which can be changed: its position, rotation, scale and flags.
+    /// @notice Adds an object at the origin, with scale 1 and back-face culling.
+    /// @param mesh A packed mesh, or the reference to a stored mesh that `IStudio.meshAt` returns. Objects may share a mesh.
+    /// @return object The object; set its position, rotation, scale and flags as needed.
     function add(Stage memory made, bytes memory mesh, Material memory material) internal pure returns (Object memory object) {
         Box memory unknown;
         return add(made, mesh, material, unknown);
     }
 
-    /// @notice Adds an object whose mesh is stored, so that only its bounds are known here. `place` and `fit` need them.
+    /// @notice Adds an object with a stored mesh and its bounds, which `place` and `fit` need.
     /// @param bounds The lowest and the highest coordinates of the mesh: see `Framing.box`.
     function add(Stage memory made, bytes memory mesh, Material memory material, Box memory bounds)
         internal
@@ -116,17 +122,17 @@ library StageMaker {
         }
     }
 
-    /// @notice Gives all vertices of the object that was added last one colour, 0xRRGGBB.
+    /// @notice Sets the colour of all vertices of the last object, 0xRRGGBB.
     function paint(Stage memory made, uint256 color) internal pure {
         paint(made, last(made), color);
     }
 
-    /// @notice Gives all vertices of one of the objects one colour, 0xRRGGBB; objects that share its mesh keep theirs.
-    /// @param object Its number, from 0, in the order in which objects were added.
+    /// @notice Sets the colour of all vertices of an object, 0xRRGGBB. Objects that share its mesh keep their colours.
+    /// @param object Index of the object, from 0, in the order in which objects were added.
     function paint(Stage memory made, uint256 object, uint256 color) internal pure {
         uint256 count = made.scene.objects.length;
         if (object >= count) revert NoSuchObject(object, count);
-        if (color > 0xffffff) revert ModelMaker.NotAColor(color);
+        checkColor(color);
         bytes memory mesh = made.scene.objects[object].mesh;
         if (mesh.length == 0 || uint8(mesh[0]) > NORMALS + WIDE) revert MeshNotPacked(object);
         bytes memory own = bytes.concat(mesh);
@@ -134,80 +140,111 @@ library StageMaker {
         made.scene.objects[object].mesh = own;
     }
 
-    /// @notice Adds light from a direction.
-    /// @param toward The direction in which the light stands, of any length.
+    /// @notice Adds a directional light.
+    /// @param toward Direction toward the light, of any length.
     /// @param color 0xRRGGBB.
     function sun(Stage memory made, Vector memory toward, uint256 color) internal pure {
         addLight(made, Light(DIRECTIONAL, toward, color));
     }
 
-    /// @notice Adds light from a place.
+    /// @notice Adds a point light.
+    /// @param place Its position.
     /// @param color 0xRRGGBB.
     function lamp(Stage memory made, Vector memory place, uint256 color) internal pure {
         addLight(made, Light(POINT, place, color));
     }
 
-    /// @notice Adds light from a place that shines into a cone only, whole up to where the cosine of the angle to `toward` is `inner` per
-    /// cent, none from `outer` per cent on. The coordinates of `toward` are below 2^31 units.
-    /// @param color 0xRRGGBB.
+    /// @notice Adds a spot light, with angles in whole degrees.
     function spot(Stage memory made, Vector memory place, Vector memory toward, int256 inner, int256 outer, uint256 color) internal pure {
-        lamp(made, place, color);
-        bytes memory cone = abi.encodePacked(
-            int64(toward.x.raw()), int64(toward.y.raw()), int64(toward.z.raw()), int64(percent(inner).raw()), int64(percent(outer).raw())
-        );
-        made.scene.extensions = addRecord(made.scene.extensions, SPOT, made.scene.lights.length - 1, cone);
+        spot(made, place, toward, unit(inner), unit(outer), color);
     }
 
-    /// @notice Removes all lights, the default sun, too; only the ambient light is left. Comes before `spot` and `shadow`.
+    /// @notice Adds a spot light.
+    /// @param place Its position.
+    /// @param toward Direction of its axis, of any length.
+    /// @param inner Angle from the axis up to which the light is full, in degrees.
+    /// @param outer Angle from the axis at which the light has fallen to zero, in degrees, at least `inner`, at most 180.
+    /// @param color 0xRRGGBB.
+    function spot(Stage memory made, Vector memory place, Vector memory toward, Fixed inner, Fixed outer, uint256 color) internal pure {
+        if (inner.raw() < 0 || inner > outer || outer.raw() > 180 << 32) revert SpotAnglesOutOfRange(inner.raw(), outer.raw());
+        lamp(made, place, color);
+        uint256 light = made.scene.lights.length - 1;
+        made.scene.extensions = addRecord(made.scene.extensions, SPOT, light, cone(light, toward, inner, outer));
+    }
+
+    /// @dev Returns the record of a spot light.
+    function cone(uint256 light, Vector memory toward, Fixed inner, Fixed outer) private pure returns (bytes memory) {
+        (int256 x, int256 y, int256 z) = (toward.x.raw(), toward.y.raw(), toward.z.raw());
+        if (int64(x) != x || int64(y) != y || int64(z) != z) revert SceneErrors.SpotOutOfRange(light, x, y, z);
+        (, Fixed cosInner) = sinCosOfHalf(2 * inner.raw());
+        (, Fixed cosOuter) = sinCosOfHalf(2 * outer.raw());
+        return abi.encodePacked(int64(x), int64(y), int64(z), int64(cosInner.raw()), int64(cosOuter.raw()));
+    }
+
+    /// @notice Removes all lights but the ambient one, including the default sun. Call it before `spot` and `shadow`.
     function dark(Stage memory made) internal pure {
         made.scene.lights = new Light[](0);
     }
 
-    /// @notice Has the object that was added last hide only so many per cent, 0..99, of what is behind it.
-    function fade(Stage memory made, int256 opacity) internal pure {
-        fade(made, percent(opacity));
+    /// @notice Sets the opacity of the last object, in percent from 0 to 99.
+    function opacity(Stage memory made, int256 value) internal pure {
+        opacity(made, percent(value));
     }
 
-    /// @notice Has the object that was added last hide only a part, from 0 to below 1, of what is behind it.
-    function fade(Stage memory made, Fixed opacity) internal pure {
-        bytes memory content = abi.encodePacked(uint32(uint256(opacity.raw()) >> 8));
-        made.scene.extensions = addRecord(made.scene.extensions, OPACITY_OF, last(made), content);
+    /// @notice Sets the opacity of the last object, from 0 to below 1.
+    function opacity(Stage memory made, Fixed value) internal pure {
+        uint256 level = uint256(value.raw()) >> 8;
+        if (uint32(level) != level) revert SceneErrors.OpacityOutOfRange(last(made), level);
+        made.scene.extensions = addRecord(made.scene.extensions, OPACITY_OF, last(made), abi.encodePacked(uint32(level)));
     }
 
-    /// @notice Smooths the edges of the picture.
+    /// @notice Turns on anti-aliasing, with four samples per pixel.
     function antialias(Stage memory made) internal pure {
         extend(made, ANTIALIAS, "");
     }
 
-    /// @notice Adds light from above, 0xRRGGBB, and from below, in proportion to the ambient coefficients of materials. The picture is
-    /// antialiased, as with each of the following.
+    /// @notice Adds light from above and from below, 0xRRGGBB, which is multiplied by the ambient coefficients of materials. The picture is
+    /// antialiased, as with each of the following effects.
     function hemisphere(Stage memory made, uint256 above, uint256 below) internal pure {
+        checkColor(above);
+        checkColor(below);
         extend(made, HEMISPHERE, abi.encodePacked(uint24(above), uint24(below)));
     }
 
-    /// @notice Adds light along outlines, 0xRRGGBB, from wide to narrow by its power, 1 to 16.
+    /// @notice Adds light along silhouettes.
+    /// @param color 0xRRGGBB.
+    /// @param power From 1, wide, to 16, narrow.
     function rim(Stage memory made, uint256 color, uint256 power) internal pure {
+        checkColor(color);
+        if (uint8(power) != power) revert SceneErrors.RimPowerOutOfRange(power);
         extend(made, RIM, abi.encodePacked(uint24(color), uint8(power)));
     }
 
-    /// @notice Adds fog, 0xRRGGBB, that begins `near` units from the eye and hides everything from `far` units on.
+    /// @notice Adds fog that begins `near` whole units from the eye and hides everything beyond `far` units.
+    /// @param color 0xRRGGBB.
     function fog(Stage memory made, uint256 color, uint256 near, uint256 far) internal pure {
+        checkColor(color);
+        if ((near | far) >> 31 != 0) revert SceneErrors.FogOutOfRange(int256(near << 32), int256(far << 32));
         extend(made, FOG, abi.encodePacked(uint24(color), uint64(near << 32), uint64(far << 32)));
     }
 
-    /// @notice Sets how light becomes colours: multiplied by so many per cent, up to 6,400; bright light compressed as on film or cut off;
-    /// added up in linear space, or as sRGB values.
+    /// @notice Sets the tone mapping.
+    /// @param exposure Multiplier of all light, in percent from 1 to 6,400.
+    /// @param filmic Whether bright light is compressed by a filmic curve; otherwise it is clamped.
+    /// @param gamma Whether light is added in linear space; otherwise in sRGB values.
     function tone(Stage memory made, uint256 exposure, bool filmic, bool gamma) internal pure {
         uint256 flags = (filmic ? TONE_FILMIC : 0) | (gamma ? TONE_GAMMA : 0);
-        extend(made, TONE, abi.encodePacked(uint32((exposure << 16) / 100), uint8(flags)));
+        uint256 factor = (exposure << 16) / 100;
+        if (exposure >> 16 != 0) revert SceneErrors.ExposureOutOfRange(factor);
+        extend(made, TONE, abi.encodePacked(uint32(factor), uint8(flags)));
     }
 
-    /// @notice Multiplies the colours of the object that was added last by an image: see Texture.sol.
+    /// @notice Multiplies the colours of the last object by a texture: see Texture.sol.
     /// @param flags The sum of TEXTURE_BILINEAR and TEXTURE_CLAMP.
-    /// @param palette 2, 4, 16 or 256 colours of three bytes, of which texels are numbers of 1, 2, 4 or 8 bits; or nothing: texels are
+    /// @param palette 2, 4, 16 or 256 colours of three bytes, so that texels are indices of 1, 2, 4 or 8 bits; if it is empty, texels are
     /// colours.
-    /// @param texels Rows from the top, one after the other.
-    /// @param uvs Of each vertex of the mesh, in 65,536ths of the image from its upper left corner.
+    /// @param texels Rows from the top, without padding between them.
+    /// @param uvs Texture coordinates of each vertex, in units of 1 / 65,536 of the image, from its upper left corner.
     function texture(
         Stage memory made,
         uint256 width,
@@ -225,11 +262,13 @@ library StageMaker {
                 if (palette.length != 3 << bits) revert TexturePalette(palette.length);
             }
             if (width - 1 > 255 || height - 1 > 255) revert TextureSize(width, height);
+            if (flags > TEXTURE_BILINEAR | TEXTURE_CLAMP) revert SceneErrors.TextureFormat(last(made), flags, bits);
+            checkCount(made, uvs.length);
             uint256 expected = (width * height * bits + 7) / 8;
             if (texels.length != expected) revert TextureTexels(expected, texels.length);
             bytes memory head = abi.encodePacked(uint8(flags), uint8(width - 1), uint8(height - 1), uint8(bits), palette, texels);
             uint256 size = head.length + 6 * uvs.length;
-            // whole words, and room for one that is written behind
+            // whole words, and space for one more, which is written past the end
             bytes memory content = new bytes(((size + 31) & ~uint256(31)) + 32);
             copyBytes(content, 0, head, 0, head.length);
             assembly ("memory-safe") {
@@ -247,10 +286,11 @@ library StageMaker {
         }
     }
 
-    /// @notice Has each vertex of the object that was added last hide only so much of what is behind it.
-    /// @param levels A byte for each vertex of the mesh, from 0, not seen, to 255, opaque.
+    /// @notice Sets the opacity of each vertex of the last object.
+    /// @param levels One byte per vertex, from 0, transparent, to 255, opaque.
     function opacities(Stage memory made, bytes memory levels) internal pure {
         unchecked {
+            checkCount(made, levels.length);
             // whole words, at least one
             bytes memory content = new bytes(levels.length == 0 ? 32 : (levels.length + 31) & ~uint256(31));
             copyBytes(content, 0, levels, 0, levels.length);
@@ -258,7 +298,7 @@ library StageMaker {
         }
     }
 
-    /// @notice Has objects cast shadows in the light that was added last; one light of a scene at most.
+    /// @notice Makes the last light cast shadows; at most one light of a scene can.
     function shadow(Stage memory made) internal pure {
         unchecked {
             uint256 count = made.scene.lights.length;
@@ -267,9 +307,12 @@ library StageMaker {
         }
     }
 
-    /// @notice Adds a level, matte disc, 0xRRGGBB, which catches shadows and casts none: opaque around its middle, and gone `radius` units
-    /// from it. It stands best just below what is on it, and is added after it, and after `fit`.
+    /// @notice Adds a horizontal, matte disc that receives shadows and casts none. It is opaque in the middle and fades out toward its
+    /// edge. Place it just below the objects, and add it after `fit`.
+    /// @param color 0xRRGGBB.
+    /// @param radius Whole units, up to 67,108,864.
     function ground(Stage memory made, uint256 color, Vector memory middle, uint256 radius) internal pure returns (Object memory object) {
+        if (radius >> 31 != 0) revert SceneErrors.GroundOutOfRange(made.scene.objects.length, 0, radius << 32);
         Model memory square = ModelMaker.model(4, 2);
         square.vertex(-1, 0, -1, color);
         square.vertex(-1, 0, 1, color);
@@ -282,12 +325,12 @@ library StageMaker {
         made.scene.extensions = addRecord(made.scene.extensions, GROUND, last(made), radii);
     }
 
-    /// @notice Returns the rotation about the x axis, then y, then z, by whole degrees.
+    /// @notice Returns the rotation about the x axis, then the y axis, then the z axis, by whole degrees.
     function turned(int256 x, int256 y, int256 z) internal pure returns (Quaternion memory) {
         return fromEuler(unit(x), unit(y), unit(z));
     }
 
-    /// @notice Returns the rotation about the x axis, then y, then z, by degrees.
+    /// @notice Returns the rotation about the x axis, then the y axis, then the z axis, by degrees.
     function turned(Fixed x, Fixed y, Fixed z) internal pure returns (Quaternion memory) {
         return fromEuler(x, y, z);
     }
@@ -302,43 +345,43 @@ library StageMaker {
         return Fixed.wrap(value * 4294967296);
     }
 
-    /// @notice Returns so many hundredths.
+    /// @notice Returns value / 100.
     function percent(int256 value) internal pure returns (Fixed) {
         return Fixed.wrap(value * 4294967296 / 100);
     }
 
-    /// @notice Returns a fraction: (1, 3) a third, (125, 1000) twelve and a half per cent, (45, 2) as an angle 22.5 degrees.
+    /// @notice Returns numerator / denominator, such as (1, 3), a third, or (45, 2), 22.5.
     function fraction(int256 numerator, int256 denominator) internal pure returns (Fixed) {
         return Fixed.wrap(numerator * 4294967296 / denominator);
     }
 
-    /// @notice Returns a surface with faces of one shade each. All but the shininess, 1..128, are per cent, 0..400.
+    /// @notice Returns a material with flat shading. Coefficients are percentages, 0..400; the shininess is 1..128.
     function flat(int256 ambient, int256 diffuse, int256 specular, uint256 shininess) internal pure returns (Material memory) {
         return Material(FLAT, percent(ambient), percent(diffuse), percent(specular), shininess);
     }
 
-    /// @notice Returns a surface with faces of one shade each; coefficients 0..4.
+    /// @notice Returns a material with flat shading; coefficients 0..4.
     function flat(Fixed ambient, Fixed diffuse, Fixed specular, uint256 shininess) internal pure returns (Material memory) {
         return Material(FLAT, ambient, diffuse, specular, shininess);
     }
 
-    /// @notice Returns a smooth surface, for meshes with normals: see `ModelMaker.packSmooth`. All but the shininess, 1..128, are per cent,
-    /// 0..400.
+    /// @notice Returns a material with smooth shading, for meshes with normals: see `ModelMaker.packSmooth`. Coefficients are percentages,
+    /// 0..400; the shininess is 1..128.
     function smooth(int256 ambient, int256 diffuse, int256 specular, uint256 shininess) internal pure returns (Material memory) {
         return Material(SMOOTH, percent(ambient), percent(diffuse), percent(specular), shininess);
     }
 
-    /// @notice Returns a smooth surface, for meshes with normals; coefficients 0..4.
+    /// @notice Returns a material with smooth shading, for meshes with normals; coefficients 0..4.
     function smooth(Fixed ambient, Fixed diffuse, Fixed specular, uint256 shininess) internal pure returns (Material memory) {
         return Material(SMOOTH, ambient, diffuse, specular, shininess);
     }
 
-    /// @notice Returns a surface that shows its colours as they are.
+    /// @notice Returns a material whose colours are shown without lighting.
     function unlit() internal pure returns (Material memory) {
         return Material(UNLIT, ONE, ZERO, ZERO, 1);
     }
 
-    /// @notice Returns whether the array of objects is one with room behind it.
+    /// @notice Returns whether the array of objects has the spare capacity that `maxObjects` states.
     function isOwn(Stage memory made) internal pure returns (bool own) {
         Object[] memory objects = made.scene.objects;
         uint256 room = made.room;
@@ -352,14 +395,14 @@ library StageMaker {
         return address_(made.scene.lights) == made.defaultLights;
     }
 
-    /// @dev Where an array is in memory.
+    /// @dev Returns the memory address of an array.
     function address_(Light[] memory lights) private pure returns (uint256 place) {
         assembly ("memory-safe") {
             place := lights
         }
     }
 
-    /// @dev The number of the object that was added last.
+    /// @dev Returns the index of the last object.
     function last(Stage memory made) private pure returns (uint256) {
         unchecked {
             uint256 count = made.scene.objects.length;
@@ -368,7 +411,20 @@ library StageMaker {
         }
     }
 
-    /// @dev Sets a record of the scene.
+    /// @dev Reverts if the last object's mesh is packed, so that its vertices can be counted, and has another number of them.
+    function checkCount(Stage memory made, uint256 values) private pure {
+        bytes memory mesh = made.scene.objects[last(made)].mesh;
+        if (mesh.length < HEADER_SIZE || uint8(mesh[0]) > NORMALS + WIDE) return;
+        uint256 vertexCount = uint256(uint8(mesh[1])) << 8 | uint8(mesh[2]);
+        if (values != vertexCount) revert NotOnePerVertex(vertexCount, values);
+    }
+
+    /// @dev Reverts if a colour is not 0xRRGGBB.
+    function checkColor(uint256 color) private pure {
+        if (color > 0xffffff) revert ModelMaker.NotAColor(color);
+    }
+
+    /// @dev Sets a record of the whole scene.
     function extend(Stage memory made, uint256 kind, bytes memory content) private pure {
         made.scene.extensions = addRecord(made.scene.extensions, kind, 0, content);
     }
@@ -385,13 +441,13 @@ library StageMaker {
         }
     }
 
-    /// @dev Moves the objects to where there is room for more.
+    /// @dev Moves the objects to an array with capacity for `most`.
     function setRoom(Stage memory made, uint256 most) private pure {
         unchecked {
             if (most > MAX_OBJECTS) most = MAX_OBJECTS;
             (Object[] memory objects, Box[] memory boxes) = (made.scene.objects, made.bounds);
             uint256 count = objects.length;
-            // where the array came from elsewhere
+            // the bounds of objects from elsewhere are unknown
             if (!isOwn(made)) boxes = new Box[](count);
             uint256 room;
             assembly ("memory-safe") {

@@ -20,22 +20,22 @@ import {StudioErrors} from "./StudioErrors.sol";
 import {Turntable} from "./Turntable.sol";
 import {Units} from "./Units.sol";
 
-/// @title Studio: meshes and scenes kept on chain, and their pictures for every contract.
-/// @notice Anyone stores a mesh or a scene once, for the gas alone, and has a pointer to it for ever. There is no owner, nothing can be
-/// changed or removed, and the address is made of what is stored: the same mesh or scene has the same pointer, whoever stores it, and is
-/// stored once. What is wrong with a scene is told when it is drawn, and concerns no other.
+/// @title Studio: stores meshes and scenes on chain, and draws them for any contract.
+/// @notice Anyone can store a mesh or a scene for the cost of gas; its pointer is permanent. There is no owner, and nothing can be changed
+/// or removed. The pointer is derived from the stored bytes: the same mesh or scene has the same pointer, whoever stores it, and is stored
+/// once. Invalid scenes revert when drawn, and affect no other.
 contract Studio is WithRenderer, StudioErrors {
-    /// @notice What makes PNG files of the pictures.
+    /// @notice The encoder of PNG files.
     PngEncoder public immutable encoder;
-    /// @notice What makes animated PNG files of scenes that turn.
+    /// @notice The contract that makes animated PNG files of rotating scenes.
     Turntable public immutable turntable;
-    /// @notice What makes models of scenes.
+    /// @notice The encoder of binary glTF files.
     GlbEncoder public immutable modeller;
 
-    /// @notice Bytes were stored by `storeMesh` or `storeScene`. There is no event where they were kept already, nor for what `storePart`
-    /// and `join` store: that nothing was told does not mean that nothing is kept. Ask the pointer.
+    /// @notice Emitted when `storeMesh` stores new bytes. Not emitted for bytes that are already stored, nor by `storePart` and `join`. A
+    /// missing event does not mean that the data is not stored; check for code at the pointer.
     event MeshStored(address indexed pointer, address indexed by);
-    /// @notice As for a mesh.
+    /// @notice Emitted when `storeScene` stores new bytes, as `MeshStored`.
     event SceneStored(address indexed pointer, address indexed by);
 
     /// @notice The address has no code.
@@ -52,8 +52,8 @@ contract Studio is WithRenderer, StudioErrors {
         (encoder, turntable, modeller) = (encoder_, turntable_, modeller_);
     }
 
-    /// @notice Stores a mesh in any of its forms but a pointer: packed (`Mesh.sol`) or compact (`CompactMesh.sol`).
-    /// @return pointer Where it is kept.
+    /// @notice Stores a mesh, packed (`Mesh.sol`) or compact (`CompactMesh.sol`). Pointers are not accepted.
+    /// @return pointer The address of the stored mesh.
     function storeMesh(bytes memory data) external returns (address pointer) {
         uint256 kind = kindOf(data);
         if (kind > LAST_FORMAT && kind != COMPACT) revert NotAMesh(kind);
@@ -62,9 +62,9 @@ contract Studio is WithRenderer, StudioErrors {
         if (created) emit MeshStored(pointer, msg.sender);
     }
 
-    /// @notice Stores a scene. Its meshes may be pointers: `meshAt`. A scale, a camera or a material whose numbers were not multiplied by
-    /// 2^32 is refused.
-    /// @return pointer Where it is kept.
+    /// @notice Stores a scene. Its meshes can be pointers: see `meshAt`. Reverts if a scale, a camera or a material looks as if its numbers
+    /// were not multiplied by 2^32.
+    /// @return pointer The address of the stored mesh.
     function storeScene(Scene memory scene_) external returns (address pointer) {
         Units.check(scene_);
         bool created;
@@ -72,177 +72,176 @@ contract Studio is WithRenderer, StudioErrors {
         if (created) emit SceneStored(pointer, msg.sender);
     }
 
-    /// @notice Stores up to 24,575 bytes of something larger, for what does not fit one transaction.
+    /// @notice Stores a part (at most 24,575 bytes) of data too large for one transaction.
     function storePart(bytes memory data) external returns (address pointer) {
         if (data.length > Kept.MAX_PART) revert NotToBeKept();
         (pointer,) = Kept.keepPart(data);
     }
 
-    /// @notice Stores what the parts are together: a mesh or a scene. The pointer is that of the whole stored at once, where each part but
-    /// the last has 24,575 bytes.
+    /// @notice Stores the concatenation of parts as a mesh or scene. If each part but the last has 24,575 bytes, the pointer is the same as
+    /// if the whole were stored at once.
     function join(address[] memory parts) external returns (address pointer) {
         (pointer,) = Kept.join(parts);
     }
 
-    /// @notice What stands for a mesh that is kept, in the field `mesh` of an object.
+    /// @notice Returns the reference to a stored mesh, for `Object.mesh`.
     function meshAt(address pointer) external pure returns (bytes memory) {
         return Meshes.pointed(pointer);
     }
 
-    /// @notice A mesh that is kept, in the format of `Mesh.sol`.
+    /// @notice Returns a stored mesh in the format of `Mesh.sol`.
     function mesh(address pointer) external view returns (bytes memory) {
         return Meshes.open(Meshes.pointed(pointer));
     }
 
-    /// @notice A scene that is kept, its meshes in the format of `Mesh.sol`: what the renderer takes.
+    /// @notice Returns a stored scene with its meshes in the format of `Mesh.sol`, as the renderer takes it.
     function scene(address pointer) public view returns (Scene memory scene_) {
         bytes memory data = Kept.read(pointer);
         if (kindOf(data) != SCENE) revert NotAScene(pointer);
         return decoded(data);
     }
 
-    /// @notice The same with changes.
+    /// @notice Returns a stored scene with changes applied.
     function scene(address pointer, Changes memory changes) public view returns (Scene memory scene_) {
         scene_ = scene(pointer);
         SceneChanges.make(scene_, changes);
     }
 
-    /// @notice Reverts if the scene that is kept there cannot be drawn, with the error that drawing it would have: a part or a mesh is
-    /// missing, or a number is out of range. All is checked, one pixel is drawn. As nothing that is kept changes, it can be drawn ever
-    /// after.
+    /// @notice Reverts with the renderer's error if the stored scene cannot be drawn: a part or a mesh is missing, or a number is out of
+    /// range. Checks everything and draws one pixel. Stored data never changes, so a scene that passes remains drawable.
     function check(address pointer) external view {
         renderer.renderTile(scene(pointer), Rectangle(0, 0, 1, 1));
     }
 
-    /// @notice The picture of a scene that is kept.
-    /// @return A Windows bitmap of 24 bits a pixel.
+    /// @notice Draws a stored scene.
+    /// @return A Windows bitmap of 24 bits per pixel.
     function render(address pointer) external view returns (bytes memory) {
         forward(address(renderer), abi.encodeCall(Renderer.render, (scene(pointer))));
     }
 
-    /// @notice The same with changes.
+    /// @notice As above, with changes applied to the scene.
     function render(address pointer, Changes memory changes) external view returns (bytes memory) {
         forward(address(renderer), abi.encodeCall(Renderer.render, (scene(pointer, changes))));
     }
 
-    /// @notice The picture as a PNG file, each pixel a square of `scale` pixels, 1..8.
+    /// @notice Returns the picture as a PNG file, each pixel enlarged to a square of `scale` x `scale` pixels, 1..8.
     function renderPNG(address pointer, uint256 scale) external view returns (bytes memory) {
         forward(address(encoder), abi.encodeCall(PngEncoder.encode, (renderer.render(scene(pointer)), scale)));
     }
 
-    /// @notice The same with changes.
+    /// @notice As above, with changes applied to the scene.
     function renderPNG(address pointer, uint256 scale, Changes memory changes) external view returns (bytes memory) {
         forward(address(encoder), abi.encodeCall(PngEncoder.encode, (renderer.render(scene(pointer, changes)), scale)));
     }
 
-    /// @notice The PNG file as a `data:` URI.
+    /// @notice Returns the PNG file as a `data:` URI.
     function renderDataURI(address pointer, uint256 scale) external view returns (string memory) {
         forward(address(encoder), abi.encodeCall(PngEncoder.dataURI, (renderer.render(scene(pointer)), scale)));
     }
 
-    /// @notice The same with changes.
+    /// @notice As above, with changes applied to the scene.
     function renderDataURI(address pointer, uint256 scale, Changes memory changes) external view returns (string memory) {
         forward(address(encoder), abi.encodeCall(PngEncoder.dataURI, (renderer.render(scene(pointer, changes)), scale)));
     }
 
-    /// @notice An SVG document that holds the PNG file, and shows each pixel as a square without smoothing.
+    /// @notice Returns an SVG document that contains the PNG file and shows each pixel as a square without smoothing.
     function renderSVG(address pointer, uint256 scale) external view returns (string memory) {
         forward(address(encoder), abi.encodeCall(PngEncoder.svg, (renderer.render(scene(pointer)), scale)));
     }
 
-    /// @notice The same with changes.
+    /// @notice As above, with changes applied to the scene.
     function renderSVG(address pointer, uint256 scale, Changes memory changes) external view returns (string memory) {
         forward(address(encoder), abi.encodeCall(PngEncoder.svg, (renderer.render(scene(pointer, changes)), scale)));
     }
 
-    /// @notice The picture without its background, as a PNG file with an alpha channel. The scene is drawn twice: over black and over
-    /// white.
+    /// @notice Returns the picture as a PNG file with an alpha channel instead of the background. Draws the scene twice: over black and
+    /// over white.
     function renderTransparentPNG(address pointer, uint256 scale) external view returns (bytes memory) {
         encodeTransparent(PngEncoder.encodeTransparent.selector, scene(pointer), scale);
     }
 
-    /// @notice The same with changes.
+    /// @notice As above, with changes applied to the scene.
     function renderTransparentPNG(address pointer, uint256 scale, Changes memory changes) external view returns (bytes memory) {
         encodeTransparent(PngEncoder.encodeTransparent.selector, scene(pointer, changes), scale);
     }
 
-    /// @notice The PNG file as a `data:` URI.
+    /// @notice Returns the PNG file as a `data:` URI.
     function renderTransparentDataURI(address pointer, uint256 scale) external view returns (string memory) {
         encodeTransparent(PngEncoder.transparentDataURI.selector, scene(pointer), scale);
     }
 
-    /// @notice The same with changes.
+    /// @notice As above, with changes applied to the scene.
     function renderTransparentDataURI(address pointer, uint256 scale, Changes memory changes) external view returns (string memory) {
         encodeTransparent(PngEncoder.transparentDataURI.selector, scene(pointer, changes), scale);
     }
 
-    /// @notice The scene turning, as an animated PNG file: see `Turntable`, which draws scenes that are not kept.
+    /// @notice Returns an animated PNG file of the rotating scene. `Turntable` does the same for scenes that are not stored.
     function animate(address pointer, Spin memory spin) external view returns (bytes memory) {
         forward(address(turntable), abi.encodeCall(Turntable.animate, (scene(pointer), spin)));
     }
 
-    /// @notice The same with changes, of which the first frame has the turn.
+    /// @notice As above, with changes applied to the scene. `Changes.turn` sets the orientation of the first frame.
     function animate(address pointer, Spin memory spin, Changes memory changes) external view returns (bytes memory) {
         forward(address(turntable), abi.encodeCall(Turntable.animate, (scene(pointer, changes), spin)));
     }
 
-    /// @notice The animated PNG file as a `data:` URI.
+    /// @notice Returns the animated PNG file as a `data:` URI.
     function animateDataURI(address pointer, Spin memory spin) external view returns (string memory) {
         forward(address(turntable), abi.encodeCall(Turntable.animateDataURI, (scene(pointer), spin)));
     }
 
-    /// @notice The same with changes.
+    /// @notice As above, with changes applied to the scene.
     function animateDataURI(address pointer, Spin memory spin, Changes memory changes) external view returns (string memory) {
         forward(address(turntable), abi.encodeCall(Turntable.animateDataURI, (scene(pointer, changes), spin)));
     }
 
-    /// @notice The picture of a scene that is not kept, as a PNG file; its meshes may be pointers and compact. As with the following, a
-    /// scale, a camera or a material whose numbers were not multiplied by 2^32 is refused.
+    /// @notice Returns the picture of a scene that is not stored as a PNG file. Meshes can be packed, compact or pointers. The `draw`
+    /// functions revert if a scale, a camera or a material looks as if its numbers were not multiplied by 2^32.
     function drawPNG(Scene memory scene_, uint256 scale) external view returns (bytes memory) {
         forward(address(encoder), abi.encodeCall(PngEncoder.encode, (renderer.render(given(scene_)), scale)));
     }
 
-    /// @notice The same as a `data:` URI.
+    /// @notice Returns the PNG file as a `data:` URI.
     function drawDataURI(Scene memory scene_, uint256 scale) external view returns (string memory) {
         forward(address(encoder), abi.encodeCall(PngEncoder.dataURI, (renderer.render(given(scene_)), scale)));
     }
 
-    /// @notice The picture without its background, as a PNG file with an alpha channel. The scene is drawn twice: over black and over
-    /// white.
+    /// @notice Returns the picture as a PNG file with an alpha channel instead of the background. Draws the scene twice: over black and
+    /// over white.
     function drawTransparentPNG(Scene memory scene_, uint256 scale) external view returns (bytes memory) {
         encodeTransparent(PngEncoder.encodeTransparent.selector, given(scene_), scale);
     }
 
-    /// @notice The same as a `data:` URI.
+    /// @notice Returns the PNG file as a `data:` URI.
     function drawTransparentDataURI(Scene memory scene_, uint256 scale) external view returns (string memory) {
         encodeTransparent(PngEncoder.transparentDataURI.selector, given(scene_), scale);
     }
 
-    /// @notice A scene or a mesh that is kept, as a binary glTF file, which viewers turn: see `GlbEncoder`, which takes scenes that are not
-    /// kept.
+    /// @notice Returns a stored scene or mesh as a binary glTF file, for 3D viewers. `GlbEncoder` does the same for scenes that are not
+    /// stored.
     function glb(address pointer) external view returns (bytes memory) {
         forward(address(modeller), abi.encodeCall(GlbEncoder.encode, (shown(pointer))));
     }
 
-    /// @notice The same as a `data:` URI.
+    /// @notice Returns the file as a `data:` URI.
     function glbDataURI(address pointer) external view returns (string memory) {
         forward(address(modeller), abi.encodeCall(GlbEncoder.dataURI, (shown(pointer))));
     }
 
-    /// @dev Ends the call with what a function of the encoder makes of the pictures over black and over white.
+    /// @dev Ends the call with the result of a function of the encoder for the pictures over black and over white.
     function encodeTransparent(bytes4 function_, Scene memory scene_, uint256 scale) private view {
         bytes memory black = over(scene_, scene_.invert != 0 ? 0xffffff : 0);
         bytes memory white = over(scene_, scene_.invert != 0 ? 0 : 0xffffff);
         forward(address(encoder), abi.encodeWithSelector(function_, black, white, scale));
     }
 
-    /// @dev The picture over a background of one colour, which `invert` inverts, too.
+    /// @dev Returns the picture over a background of one colour. `invert` inverts the background too, so callers pass the inverse.
     function over(Scene memory scene_, uint256 color) private view returns (bytes memory) {
         scene_.background = Background(color, color);
         return renderer.render(scene_);
     }
 
-    /// @dev A scene that is kept, or one with a mesh that is kept, seen from both sides.
+    /// @dev Returns a stored scene, or a scene that shows a stored mesh from both sides.
     function shown(address pointer) private view returns (Scene memory scene_) {
         bytes memory data = Kept.read(pointer);
         if (kindOf(data) == SCENE) return decoded(data);
@@ -258,7 +257,7 @@ contract Studio is WithRenderer, StudioErrors {
         return opened(abi.decode(LibZip.cdDecompress(Meshes.rest(data)), (Scene)));
     }
 
-    /// @dev A scene that a caller passes, for whom numbers without their unit are refused.
+    /// @dev Returns a scene passed by a caller with its meshes unpacked. Reverts if numbers look as if they were not multiplied by 2^32.
     function given(Scene memory scene_) private view returns (Scene memory) {
         opened(scene_);
         Units.check(scene_);

@@ -19,14 +19,15 @@ import {SceneChanges} from "./SceneChanges.sol";
 import {Spin} from "./Spin.sol";
 import {TurntableErrors} from "./TurntableErrors.sol";
 
-/// @title Turntable: scenes that turn, as animated PNG files, for the Studio and all contracts.
-/// @notice Stateless. Each frame is drawn by a call of its own, and only its compressed bytes are kept: memory costs the square.
+/// @title Turntable: makes animated PNG files of rotating scenes, for the Studio and any contract.
+/// @notice Stateless. Each frame is drawn by a separate call and only its compressed bytes are kept, because memory cost grows
+/// quadratically.
 contract Turntable is WithRenderer, PngErrors, TurntableErrors {
     uint256 internal constant MAX_FRAMES = 360;
     uint256 internal constant MIN_DELAY = 20;
     uint256 internal constant MAX_DELAY = 10000;
 
-    /// @notice What makes a PNG file of each frame.
+    /// @notice The encoder of the frames.
     PngEncoder public immutable encoder;
 
     /// @notice The address has no code.
@@ -37,13 +38,13 @@ contract Turntable is WithRenderer, PngErrors, TurntableErrors {
         encoder = encoder_;
     }
 
-    /// @notice An animated PNG file, repeated for ever. The first frame is the scene as it is.
-    /// @param scene Its meshes in the format of `Mesh.sol`.
+    /// @notice Returns an animated PNG file that loops endlessly. The first frame is the scene as given.
+    /// @param scene A scene with meshes in the format of `Mesh.sol`.
     function animate(Scene memory scene, Spin memory spin) external view returns (bytes memory) {
         answer(film(scene, spin));
     }
 
-    /// @notice The same as a `data:` URI, for the `animation_url` of a token.
+    /// @notice Returns the file as a `data:` URI, for the `animation_url` of a token.
     function animateDataURI(Scene memory scene, Spin memory spin) external view returns (string memory) {
         string memory head = "data:image/png;base64,";
         answer(bytes(DataUri.wrap(head, film(scene, spin), "")));
@@ -63,7 +64,7 @@ contract Turntable is WithRenderer, PngErrors, TurntableErrors {
             }
             uint256 end = begin;
             for (uint256 k; k != spin.frames; ++k) {
-                // what is allocated for a frame stands behind those that are finished, and is given up
+                // the memory of a frame begins behind the finished frames, and is freed
                 assembly ("memory-safe") {
                     mstore(0x40, and(add(end, 63), not(31)))
                 }
@@ -80,7 +81,7 @@ contract Turntable is WithRenderer, PngErrors, TurntableErrors {
         }
     }
 
-    /// @return axis Of length 1.
+    /// @return axis The unit axis.
     function check(Spin memory spin) private pure returns (Vector memory axis) {
         if (spin.frames < 2 || spin.frames > MAX_FRAMES) revert FramesOutOfRange(spin.frames, 2, MAX_FRAMES);
         if (spin.delay < MIN_DELAY || spin.delay > MAX_DELAY) revert DelayOutOfRange(spin.delay, MIN_DELAY, MAX_DELAY);
@@ -90,7 +91,7 @@ contract Turntable is WithRenderer, PngErrors, TurntableErrors {
         axis = axis.normalize();
     }
 
-    /// @dev The objects with their places and rotations; what those consist of is common to both.
+    /// @dev Copies positions and rotations of the objects. Both arrays share the same vectors and quaternions.
     function copied(Object[] memory objects) private pure returns (Object[] memory copies) {
         copies = new Object[](objects.length);
         for (uint256 k; k < objects.length; ++k) {
@@ -98,7 +99,7 @@ contract Turntable is WithRenderer, PngErrors, TurntableErrors {
         }
     }
 
-    /// @dev Turns the objects by an angle from where they stand still.
+    /// @dev Rotates the objects by an angle from their original orientation.
     function turn(Scene memory scene, Object[] memory still, Vector memory center, Vector memory axis, Fixed degrees_) private pure {
         for (uint256 k; k < still.length; ++k) {
             (scene.objects[k].position, scene.objects[k].rotation) = (still[k].position, still[k].rotation);

@@ -5,22 +5,27 @@ import {NORMALS, WIDE} from "../scene/Mesh.sol";
 import {Camera, Material, Object, Scene, PERSPECTIVE, UNLIT} from "../scene/Scene.sol";
 import {StudioErrors} from "./StudioErrors.sol";
 
-/// @notice Finds numbers that were not multiplied by 2^32: those that a renderer draws as nothing, and that nobody means. Scenes are told
-/// in Q32 numbers, of which 1 is 2^-32.
+/// @notice Finds numbers that were probably not multiplied by 2^32: values so small that an object becomes invisible or black. The numbers
+/// of a scene are Q32: 2^32 is 1.
 library Units {
-    // Below: scales, coefficients and distances from the eye to the target that are taken for numbers without their unit.
+    // Scales, coefficients and distances from eye to target below these bounds are taken for numbers that were not converted to Q32.
     int256 private constant SMALL_SCALE = 1 << 10;
     int256 private constant SMALL_COEFFICIENT = 1 << 12;
     int256 private constant SMALL_DISTANCE = 1 << 16;
 
-    /// @notice Reverts if a number of the scene has no effect but for a unit that is missing. The bounds are left to the renderer.
+    /// @notice Reverts if a number of the scene looks as if it was not converted to Q32. The renderer checks all ranges.
     function check(Scene memory scene) internal pure {
         unchecked {
             Camera memory camera = scene.camera;
             (int256 x, int256 y, int256 z) = (camera.eye.x.raw(), camera.eye.y.raw(), camera.eye.z.raw());
             int256 distance = largest(x - camera.target.x.raw(), y - camera.target.y.raw(), z - camera.target.z.raw());
-            // an orthographic camera only has a direction
+            // only the direction of an orthographic camera matters
             if (camera.projection == PERSPECTIVE && distance != 0 && distance < SMALL_DISTANCE) {
+                // `fit` moves the camera close to objects that are too small
+                for (uint256 k; k != scene.objects.length; ++k) {
+                    int256 scale = scene.objects[k].scale.raw();
+                    if (scale > 0 && scale < SMALL_SCALE) revert StudioErrors.ScaleLooksUnscaled(k, scale);
+                }
                 revert StudioErrors.CameraLooksUnscaled(x, y, z);
             }
             for (uint256 k; k != scene.objects.length; ++k) {
@@ -36,7 +41,7 @@ library Units {
         }
     }
 
-    /// @dev Whether the largest mesh of this format would be smaller than a pixel of the largest canvas, which has 2^11 rows.
+    /// @dev Returns whether the largest mesh of this format would be smaller than a pixel of the largest canvas, which has 2^11 rows.
     function isUnseen(Object memory object, Camera memory camera) private pure returns (bool) {
         unchecked {
             bytes memory mesh = object.mesh;
@@ -54,7 +59,7 @@ library Units {
         }
     }
 
-    /// @dev The largest of the magnitudes.
+    /// @dev Returns the largest magnitude.
     function largest(int256 x, int256 y, int256 z) private pure returns (int256 most) {
         unchecked {
             most = x < 0 ? -x : x;

@@ -5,10 +5,10 @@ import {ERC721A, IERC721A} from "erc721a/contracts/ERC721A.sol";
 import {ERC2981} from "@openzeppelin/contracts/token/common/ERC2981.sol";
 import {Sale} from "./Sale.sol";
 
-/// @param owner Who opens the sale and fetches the ether.
-/// @param perTransaction The most tokens that one call mints, 1 to 100.
-/// @param royaltyReceiver To whom marketplaces are to pay a part of each resale.
-/// @param royalty That part, in hundredths of a percent: 0 to 1,000.
+/// @param owner The account that controls the sale and withdraws the proceeds.
+/// @param perTransaction The maximum number of tokens per call, 1..100.
+/// @param royaltyReceiver The receiver of royalties.
+/// @param royalty The royalty of a resale, in basis points: 0..1,000.
 struct Terms {
     address owner;
     uint256 perTransaction;
@@ -16,19 +16,20 @@ struct Terms {
     uint96 royalty;
 }
 
-/// @title Collection: what all collections here have in common beside their sale.
-/// @notice Royalties (ERC-2981), metadata of the collection (ERC-7572), news of changed metadata (ERC-4906), and ERC-165 for all of it.
+/// @title Collection: the common part of the collections, on top of `Sale`.
+/// @notice Royalties (ERC-2981), collection metadata (ERC-7572), metadata updates (ERC-4906), and interface detection (ERC-165).
 abstract contract Collection is Sale, ERC2981 {
     bytes4 internal constant ERC4906 = 0x49064906;
-    /// @dev `owner` and `transferOwnership`.
+    /// @dev The interface ID of ERC-173: `owner` and `transferOwnership`.
     bytes4 internal constant ERC173 = 0x7f5828d0;
     uint96 internal constant HIGHEST_ROYALTY = 1000;
 
-    /// @notice ERC-7572: the metadata of the collection has changed.
+    /// @notice Emitted when the metadata of the collection changes (ERC-7572).
     event ContractURIUpdated();
-    /// @notice ERC-4906: the metadata of these tokens has changed.
+    /// @notice Emitted when the metadata of these tokens changes (ERC-4906).
     event BatchMetadataUpdate(uint256 _fromTokenId, uint256 _toTokenId);
 
+    /// @notice The royalty exceeds the highest one, in basis points.
     error Royalty(uint256 royalty, uint256 highest);
 
     constructor(string memory name_, string memory symbol_, Terms memory terms)
@@ -37,14 +38,14 @@ abstract contract Collection is Sale, ERC2981 {
         royalize(terms.royaltyReceiver, terms.royalty);
     }
 
-    /// @notice Changes the royalties.
-    /// @param receiver To whom they are paid.
-    /// @param royalty In hundredths of a percent: 0 to 1,000.
+    /// @notice Sets the royalties.
+    /// @param receiver The receiver of royalties.
+    /// @param royalty The royalty of a resale, in basis points: 0..1,000.
     function setRoyalty(address receiver, uint96 royalty) external onlyOwner {
         royalize(receiver, royalty);
     }
 
-    /// @notice ERC-7572: the metadata of the collection.
+    /// @notice Returns the metadata of the collection (ERC-7572).
     /// @return A `data:` URI of JSON.
     function contractURI() external view virtual returns (string memory);
 

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-/// @notice A scene of which anybody can mint tokens. Only `minted`, `settled` and `closed` ever change.
-/// @param artist Who added it, receives what its tokens cost, and is named for royalties.
-/// @param price Of each token, in wei.
-/// @param supply The most tokens that there will ever be; 2^32 - 1 where the edition is open.
-/// @param minted How many tokens there are.
-/// @param settled How many of these are paid out: those whose price the artist has withdrawn, and the artist's own copies.
-/// @param closed Whether no more tokens can be minted.
-/// @param royalty What the artist is to be paid of each resale, in hundredths of a percent.
-/// @param scale How many pixels each pixel of the scene becomes in `tokenURI`, both ways.
-/// @param scene Where the studio keeps the scene.
-/// @param name What it is called.
+/// @notice A scene for which anyone can mint tokens. Only `minted`, `settled` and `closed` ever change.
+/// @param artist The account that added the edition and receives its proceeds and royalties.
+/// @param price The price of a token, in wei.
+/// @param supply The maximum number of tokens; 2^32 - 1 if the edition is open.
+/// @param minted The number of tokens minted.
+/// @param settled The number of tokens without outstanding proceeds: the artist's free copies, and those whose price was withdrawn.
+/// @param closed Whether minting has ended.
+/// @param royalty The royalty of a resale, in basis points.
+/// @param scale The enlargement of the picture in `tokenURI`: each pixel becomes a square of `scale` x `scale` pixels.
+/// @param model Whether the metadata contains the scene as a GLB model, in `animation_url`.
+/// @param scene The pointer to the scene, as the Studio returned it.
+/// @param name The name of the edition.
 struct Edition {
     address artist;
     uint96 price;
@@ -21,6 +22,7 @@ struct Edition {
     bool closed;
     uint16 royalty;
     uint8 scale;
+    bool model;
     address scene;
     string name;
 }

@@ -13,9 +13,9 @@ import {Json} from "./Json.sol";
 import {Placeholder} from "./Placeholder.sol";
 import {Utf8} from "./Utf8.sol";
 
-/// @title Editions: a collection to which anybody adds scenes, each of them an edition of tokens, limited or open.
-/// @notice There is no owner. Whoever adds a scene is its artist, and has no power over the editions of others. What an edition shows,
-/// costs and is called never changes; all that its artist can do later is to close it, and to withdraw what its tokens have cost.
+/// @title Editions: a collection in which anyone can publish scenes as limited or open editions of tokens.
+/// @notice There is no owner. The account that adds a scene is the artist of the edition, and has no power over other editions. The
+/// picture, name, price, supply and royalty of an edition never change; its artist can only close it and withdraw its proceeds.
 contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
     using Strings for address;
     using Strings for uint256;
@@ -25,59 +25,74 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
         "name; the attribute Artist is the account that added this one. "
         "Not by the authors of the Shackled contracts of 2021, nor endorsed by them.";
 
-    /// @notice The supply of an edition that is open until its artist closes it.
+    /// @notice The supply value of an open edition, which has no limit until its artist closes it.
     uint32 public constant OPEN = type(uint32).max;
-    /// @notice The gas in which a scene must be drawn to be added: what a transaction may use on Ethereum (EIP-7825).
+    /// @notice The gas limit for the metadata of a new edition: that of a transaction on Ethereum (EIP-7825).
     uint256 public constant DRAWING_GAS = 1 << 24;
     uint256 internal constant MAX_NAME = 64;
     uint256 internal constant HIGHEST_ROYALTY = 1000;
-    /// @dev ERC-721A looks for the owner of a token among so many.
+    /// @dev Bounds the number of tokens that ERC-721A scans for the owner of a token.
     uint256 internal constant MOST_AT_ONCE = 100;
-    /// @dev Of the picture of the collection: its side in pixels, and how many pixels each of them becomes.
+    /// @dev The picture of the collection: its side in pixels, and its enlargement.
     uint256 internal constant SIDE = 128;
     uint256 internal constant SCALE = 4;
-    /// @dev The sides of the collection's wide picture, in pixels.
+    /// @dev The width and height of the collection's banner, in pixels.
     uint256 internal constant BANNER_WIDTH = 256;
     uint256 internal constant BANNER_HEIGHT = 64;
 
-    /// @notice What keeps the scenes, and has them drawn.
+    /// @notice The Studio, which stores and draws the scenes.
     Studio public immutable studio;
 
     Edition[] private editions;
     /// @dev The edition of the tokens that are being minted.
     uint24 private transient minting;
 
+    /// @notice Emitted when an edition is added.
     event EditionAdded(
         uint256 indexed edition,
         address indexed artist,
         address indexed scene,
         string name,
         uint256 scale,
+        bool model,
         uint256 price,
         uint256 supply,
         uint256 royalty
     );
-    /// @notice No more tokens of the edition can be minted.
+    /// @notice Emitted when an edition is closed. No more of its tokens can be minted.
     event EditionClosed(uint256 indexed edition, uint256 minted);
+    /// @notice Emitted when an artist withdraws proceeds, in wei.
     event Withdrawn(address indexed artist, address indexed to, uint256 amount);
 
+    /// @notice The address has no code.
     error NoStudio(address studio);
+    /// @notice The number of the edition is not below the number of editions.
     error UnknownEdition(uint256 edition, uint256 editions);
+    /// @notice The maximum number of editions is reached.
     error TooManyEditions(uint256 editions);
+    /// @notice The name must have 1 to `longest` bytes.
     error NameLength(uint256 length, uint256 longest);
-    /// @notice The bytes of the name that begin here are no character of UTF-8.
+    /// @notice The bytes of the name from this position on are not valid UTF-8.
     error NameNotUtf8(uint256 position);
+    /// @notice The supply must not be 0.
     error NoSupply();
+    /// @notice The royalty exceeds the highest one, in basis points.
     error Royalty(uint256 royalty, uint256 highest);
-    /// @notice Drawing the scene runs out of gas: it needs more than `gasLimit`, or the transaction has too little.
+    /// @notice Drawing the scene ran out of gas: it needs more than `gasLimit`, or the transaction has too little.
     error DrawingOutOfGas(address scene, uint256 gasLimit);
+    /// @notice The caller is not the artist of the edition.
     error NotTheArtist(uint256 edition, address artist, address account);
+    /// @notice The edition is already closed.
     error AlreadyClosed(uint256 edition);
+    /// @notice The quantity is out of range: at most `perTransaction`; for `mint`, at least 1.
     error Quantity(uint256 quantity, uint256 perTransaction);
+    /// @notice The payment must be exactly `due`, in wei.
     error Payment(uint256 sent, uint256 due);
-    /// @notice What was sent along with a transfer or an approval.
+    /// @notice Transfers and approvals accept no ether.
     error PaymentForNothing(uint256 sent);
+    /// @notice The quantity exceeds the number of tokens left.
     error NothingLeft(uint256 quantity, uint256 left);
+    /// @notice The receiver did not accept the ether.
     error WithdrawalRefused(address to, uint256 amount);
 
     constructor(Studio studio_) ERC721A("Shackled Editions", "SHKE") {
@@ -85,29 +100,31 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
         studio = studio_;
     }
 
-    // ---- the artist's part ----
+    // ---- artists ----
 
-    /// @notice Adds an edition, whose artist is the caller. The whole picture is drawn, as `tokenURI` draws it: what cannot be drawn in
-    /// `DRAWING_GAS` is refused, with the error that drawing it has.
-    /// @param name_ 1 to 64 bytes of text in UTF-8.
-    /// @param scene Where the studio keeps the scene.
-    /// @param scale How many pixels each pixel of the scene becomes in `tokenURI`: 1 to 8; 4 makes 512 of 128.
-    /// @param price Of each token, in wei.
-    /// @param supply The most tokens that there will ever be, `copies` among them; `OPEN` sets no limit.
-    /// @param royalty What the artist is to be paid of each resale, in hundredths of a percent: 0 to 1,000.
-    /// @param copies How many tokens the artist receives at once, for nothing: 0 to 100.
-    /// @return edition Its number.
+    /// @notice Adds an edition whose artist is the caller. Draws the whole picture, as `tokenURI` does, and reverts with the error of the
+    /// drawing if it fails, or if it needs more gas than `DRAWING_GAS`.
+    /// @param name_ The name: 1 to 64 bytes of UTF-8.
+    /// @param scene The pointer to the scene, as the Studio returned it.
+    /// @param scale The enlargement of the picture in `tokenURI`, 1..8: each pixel becomes a square of `scale` x `scale` pixels.
+    /// @param model Whether the metadata contains the scene as a GLB model, in `animation_url`.
+    /// @param price The price of a token, in wei.
+    /// @param supply The maximum number of tokens, including `copies`; `OPEN` for no limit.
+    /// @param royalty The royalty of a resale, in basis points: 0..1,000.
+    /// @param copies The number of tokens minted to the artist for free, 0..100.
+    /// @return edition The number of the edition.
     function add(
         string calldata name_,
         address scene,
         uint8 scale,
+        bool model,
         uint96 price,
         uint32 supply,
         uint16 royalty,
         uint32 copies
     ) external returns (uint256 edition) {
         edition = editions.length;
-        // the number of an edition is kept in 24 bits beside the owner of a token
+        // the number of an edition is stored in 24 bits next to the owner of a token
         if (edition > type(uint24).max) revert TooManyEditions(edition);
         if (bytes(name_).length == 0 || bytes(name_).length > MAX_NAME) revert NameLength(bytes(name_).length, MAX_NAME);
         uint256 valid = Utf8.validLength(bytes(name_));
@@ -116,13 +133,13 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
         if (royalty > HIGHEST_ROYALTY) revert Royalty(royalty, HIGHEST_ROYALTY);
         if (copies > MOST_AT_ONCE) revert Quantity(copies, MOST_AT_ONCE);
         if (copies > supply) revert NothingLeft(copies, supply);
-        draw(scene, scale);
-        editions.push(Edition(msg.sender, price, supply, copies, copies, false, royalty, scale, scene, name_));
-        emit EditionAdded(edition, msg.sender, scene, name_, scale, price, supply, royalty);
+        editions.push(Edition(msg.sender, price, supply, copies, copies, false, royalty, scale, model, scene, name_));
+        draw(edition, scene);
+        emit EditionAdded(edition, msg.sender, scene, name_, scale, model, price, supply, royalty);
         if (copies != 0) hand(edition, copies);
     }
 
-    /// @notice Ends the minting of an edition, for ever. For its artist.
+    /// @notice Closes an edition permanently. Only its artist.
     function close(uint256 edition) external {
         Edition storage it = ofCaller(edition);
         if (it.closed) revert AlreadyClosed(edition);
@@ -130,9 +147,9 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
         emit EditionClosed(edition, it.minted);
     }
 
-    /// @notice Sends what tokens of the caller's editions have cost, and was not withdrawn yet, to `to`. If `to` does not take it, nothing
-    /// is lost: choose another.
-    /// @return amount How much, in wei.
+    /// @notice Sends the unwithdrawn proceeds of the caller's editions to `to`. Reverts if `to` does not accept them; nothing is lost, and
+    /// another address can be used.
+    /// @return amount The amount sent, in wei.
     function withdraw(uint256[] calldata ofEditions, address payable to) external returns (uint256 amount) {
         for (uint256 k; k < ofEditions.length; ++k) {
             Edition storage it = ofCaller(ofEditions[k]);
@@ -140,7 +157,7 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
             it.settled = it.minted;
         }
         bool done = to != address(0);
-        // no bytes of the answer are copied: nobody can make them dear
+        // copies no return data, so a receiver cannot make the call expensive
         assembly ("memory-safe") {
             if done { done := call(gas(), to, amount, 0, 0, 0, 0) }
         }
@@ -150,8 +167,8 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
 
     // ---- minting ----
 
-    /// @notice Mints tokens of an edition to the caller. Exactly `quantity` times its price must be sent along.
-    /// @param quantity 1 to 100.
+    /// @notice Mints tokens of an edition to the caller. The payment must be exactly `quantity` times the price.
+    /// @param quantity 1..100.
     function mint(uint256 edition, uint256 quantity) external payable {
         Edition storage it = known(edition);
         if (quantity == 0 || quantity > MOST_AT_ONCE) revert Quantity(quantity, MOST_AT_ONCE);
@@ -169,35 +186,35 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
         _safeMint(msg.sender, quantity);
     }
 
-    /// @dev A token keeps its edition, whoever owns it.
+    /// @dev Keeps the edition of a token across transfers.
     function _extraData(address from, address, uint24 previous) internal view override returns (uint24) {
         return from == address(0) ? minting : previous;
     }
 
     // ---- editions ----
 
-    /// @notice How many editions there are, numbered from 0.
+    /// @notice Returns the number of editions. They are numbered from 0.
     function editionCount() external view returns (uint256) {
         return editions.length;
     }
 
-    /// @notice An edition.
+    /// @notice Returns an edition.
     function editionAt(uint256 edition) external view returns (Edition memory) {
         return known(edition);
     }
 
-    /// @notice The edition that a token is one of.
+    /// @notice Returns the edition of a token.
     function editionOf(uint256 tokenId) public view returns (uint256) {
         return _ownershipOf(tokenId).extraData;
     }
 
-    /// @notice How many tokens of an edition can still be minted.
+    /// @notice Returns how many tokens of an edition can still be minted.
     function left(uint256 edition) external view returns (uint256) {
         Edition storage it = known(edition);
         return it.closed ? 0 : it.supply - it.minted;
     }
 
-    /// @notice What the artist can withdraw of an edition, in wei.
+    /// @notice Returns the amount that the artist can withdraw from an edition, in wei.
     function proceeds(uint256 edition) external view returns (uint256) {
         return unsettled(known(edition));
     }
@@ -216,24 +233,23 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
         if (it.artist != msg.sender) revert NotTheArtist(edition, it.artist, msg.sender);
     }
 
-    // ---- what marketplaces ask ----
+    // ---- metadata and royalties ----
 
-    /// @notice The metadata of a token. They never change.
-    /// @return A `data:` URI of JSON, the picture in it a PNG.
+    /// @notice Returns the metadata of a token, which never changes.
+    /// @return A `data:` URI of JSON that contains the picture as a PNG.
     function tokenURI(uint256 tokenId) public view override(ERC721A, IERC721A) returns (string memory) {
         if (!_exists(tokenId)) revert URIQueryForNonexistentToken();
-        uint256 edition = editionOf(tokenId);
-        Edition storage it = editions[edition];
-        string memory name_ = string.concat(Strings.escapeJSON(it.name), " #", tokenId.toString());
-        string memory supply = it.supply == OPEN ? "open" : uint256(it.supply).toString();
-        string memory traits = string.concat(
-            Json.trait("Edition", edition), ",", Json.trait("Artist", it.artist.toChecksumHexString()), ",", Json.trait("Supply", supply)
-        );
-        string memory fields = Json.field("external_url", Json.picture(address(studio), it.scene, it.scale));
-        show(Json.token(name_, DESCRIPTION, fields, traits), drawing(it.scene, it.scale));
+        showEdition(editionOf(tokenId), string.concat(" #", tokenId.toString()));
     }
 
-    /// @notice ERC-7572: the metadata of the collection. Its picture is nobody's: the edges of a solid of eight faces.
+    /// @notice Returns the metadata of an edition: that of its tokens, without a number in the name.
+    /// @return A `data:` URI of JSON that contains the picture as a PNG.
+    function editionURI(uint256 edition) external view returns (string memory) {
+        known(edition);
+        showEdition(edition, "");
+    }
+
+    /// @notice Returns the metadata of the collection (ERC-7572). Its picture is a fixed octahedron wireframe.
     /// @return A `data:` URI of JSON.
     function contractURI() external view returns (string memory) {
         string memory banner = studio.drawDataURI(Placeholder.scene(BANNER_WIDTH, BANNER_HEIGHT), SCALE);
@@ -241,27 +257,27 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
         show(Json.collection(name(), symbol(), DESCRIPTION, banner), request);
     }
 
-    /// @notice ERC-2981: the artist of the token's edition is to be paid a part of each resale.
+    /// @notice Returns the royalty of a resale (ERC-2981), which goes to the artist of the token's edition.
     function royaltyInfo(uint256 tokenId, uint256 salePrice) external view returns (address receiver, uint256 royaltyAmount) {
         Edition storage it = editions[editionOf(tokenId)];
         return (it.artist, salePrice * it.royalty / 10_000);
     }
 
-    /// @notice ERC-165.
+    /// @notice Returns whether the contract implements an interface (ERC-165).
     function supportsInterface(bytes4 interfaceId) public view override(ERC721A, IERC721A, IERC165) returns (bool) {
         return interfaceId == type(IERC2981).interfaceId || super.supportsInterface(interfaceId);
     }
 
     // ---- pictures ----
 
-    /// @dev Draws a scene, and forgets the picture.
-    function draw(address scene, uint256 scale) private view {
-        bytes memory request = drawing(scene, scale);
+    /// @dev Computes the metadata of an edition and discards it. Reverts as the drawing does.
+    function draw(uint256 edition, address scene) private view {
+        bytes memory request = abi.encodeCall(this.editionURI, (edition));
+        uint256 available = gasleft();
         bool done;
         uint256 answered;
-        address source = address(studio);
         assembly ("memory-safe") {
-            done := staticcall(DRAWING_GAS, source, add(request, 0x20), mload(request), 0, 0)
+            done := staticcall(DRAWING_GAS, address(), add(request, 0x20), mload(request), 0, 0)
             answered := returndatasize()
             if iszero(or(done, iszero(answered))) {
                 let begin := mload(0x40)
@@ -269,17 +285,31 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
                 revert(begin, answered)
             }
         }
-        if (!done) revert DrawingOutOfGas(scene, DRAWING_GAS);
+        if (done) return;
+        // bytes that cannot be decoded as a scene also revert without data, but use little gas
+        uint256 limit = available < DRAWING_GAS ? available : DRAWING_GAS;
+        if (available - gasleft() < limit / 2) revert NotAScene(scene);
+        revert DrawingOutOfGas(scene, DRAWING_GAS);
     }
 
-    /// @dev The call of the studio that draws a scene.
-    function drawing(address scene, uint256 scale) private pure returns (bytes memory) {
-        return abi.encodeWithSignature("renderDataURI(address,uint256)", scene, scale);
+    /// @dev Ends the call with the metadata of an edition.
+    /// @param suffix The end of the name.
+    function showEdition(uint256 edition, string memory suffix) private view {
+        Edition storage it = editions[edition];
+        string memory name_ = string.concat(Strings.escapeJSON(it.name), suffix);
+        string memory supply = it.supply == OPEN ? "open" : uint256(it.supply).toString();
+        string memory traits = string.concat(
+            Json.trait("Edition", edition), ",", Json.trait("Artist", it.artist.toChecksumHexString()), ",", Json.trait("Supply", supply)
+        );
+        string memory fields = Json.field("external_url", Json.picture(address(studio), it.scene, it.scale));
+        if (it.model) fields = string.concat(fields, Json.field("animation_url", studio.glbDataURI(it.scene)));
+        bytes memory request = abi.encodeWithSignature("renderDataURI(address,uint256)", it.scene, it.scale);
+        show(Json.token(name_, DESCRIPTION, fields, traits), request);
     }
 
     /// @dev Ends the call with the `data:` URI of a document.
     /// @param head The document up to its picture.
-    /// @param request The call of the studio that draws the picture.
+    /// @param request The calldata with which the Studio draws the picture.
     function show(bytes memory head, bytes memory request) private view {
         uint256 data;
         assembly ("memory-safe") {
@@ -288,7 +318,7 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
         Json.answer(head, address(studio), data, request.length);
     }
 
-    // ---- ERC-721A takes ether where none is due ----
+    // ---- ERC-721A's payable functions ----
 
     function approve(address to, uint256 tokenId) public payable override(ERC721A, IERC721A) {
         if (msg.value != 0) revert PaymentForNothing(msg.value);

@@ -10,33 +10,35 @@ import {Allowance} from "./Sale.sol";
 import {GenesisMetadata} from "./GenesisMetadata.sol";
 import {Rounds} from "./Rounds.sol";
 
-/// @title GenesisCollection: 1024 pictures, each made on chain from a seed that nobody could choose.
-/// @notice A token keeps the round in which it was minted. The randomness of the round comes at least 128 blocks later (`Rounds`); with
-/// the number of the token it gives the seed, and the seed gives the picture, by contracts that nobody can change.
+/// @title GenesisCollection: 1024 pictures, each generated on chain from a random seed.
+/// @notice A token stores the round in which it was minted. The randomness of the round comes from a block at least 128 blocks later
+/// (`Rounds`). The randomness and the number of the token determine the seed, and immutable contracts generate the picture from it.
 contract GenesisCollection is Collection, Rounds {
-    /// @notice How many tokens there will ever be, numbered from 0.
+    /// @notice The maximum number of tokens. They are numbered from 0.
     uint256 public constant SUPPLY = 1024;
 
-    /// @notice What makes metadata of seeds.
+    /// @notice The contract that makes metadata from seeds.
     GenesisMetadata public immutable metadata;
-    /// @notice What makes pieces of seeds, and pictures of pieces.
+    /// @notice The contract that generates and draws pieces.
     Genesis public immutable genesis;
-    /// @notice Of each token, in wei.
+    /// @notice The price of a token, in wei.
     uint256 public immutable price;
-    /// @notice How many tokens are kept for the team.
+    /// @notice The number of tokens reserved for the team.
     uint256 public immutable reserve;
 
-    /// @notice How many of those have been minted.
+    /// @notice The number of reserved tokens already minted.
     uint256 public reserveMinted;
 
+    /// @notice The address has no code.
     error NoMetadata(address metadata);
+    /// @notice The reserve exceeds the supply.
     error Reserve(uint256 reserve, uint256 supply);
-    /// @notice The round of the token is not revealed yet: see `blockOf`, `reveal`.
+    /// @notice The round of the token is not revealed yet: see `blockOf` and `reveal`.
     error NotRevealed(uint256 tokenId, uint256 round);
 
-    /// @param metadata_ What makes metadata of seeds, and knows what makes pictures of them.
-    /// @param price_ Of each token, in wei.
-    /// @param reserve_ How many tokens are kept for the team.
+    /// @param metadata_ The contract that makes metadata from seeds. It also provides `genesis`.
+    /// @param price_ The price of a token, in wei.
+    /// @param reserve_ The number of tokens reserved for the team.
     constructor(GenesisMetadata metadata_, uint256 price_, uint256 reserve_, Terms memory terms)
         Collection("Shackled Genesis", "SHKG", terms)
     {
@@ -48,27 +50,27 @@ contract GenesisCollection is Collection, Rounds {
 
     // ---- minting ----
 
-    /// @notice Mints tokens to the caller, while the sale is public. Exactly `quantity * price` must be sent along.
+    /// @notice Mints tokens to the caller while the sale is public. The payment must be exactly `quantity * price`.
     function mint(uint256 quantity) external payable {
         requirePhase(Phase.Public);
         checkQuantity(quantity);
         sell(quantity);
     }
 
-    /// @notice Mints tokens to the caller, who is on the allow-list by a Merkle proof.
-    /// @param allowed How many tokens the list allows the caller to mint in all.
+    /// @notice Mints tokens to the caller, who proves a place on the allow list by a Merkle proof.
+    /// @param allowed The total number of tokens that the list allows the caller to mint.
     function mintWithProof(uint256 quantity, uint256 allowed, bytes32[] calldata proof) external payable {
         spendByProof(quantity, allowed, proof);
         sell(quantity);
     }
 
-    /// @notice Mints tokens to the caller, who is on the allow-list by a signature.
+    /// @notice Mints tokens to the caller, who proves a place on the allow list by a signature.
     function mintWithSignature(uint256 quantity, Allowance calldata allowance, bytes calldata signature) external payable {
         spendBySignature(quantity, allowance, signature);
         sell(quantity);
     }
 
-    /// @notice Mints tokens of the reserve to anyone, in any phase.
+    /// @notice Mints reserved tokens to any account, in any phase. Only the owner.
     function mintReserve(address to, uint256 quantity) external onlyOwner {
         checkQuantity(quantity);
         uint256 unminted = reserve - reserveMinted;
@@ -77,7 +79,7 @@ contract GenesisCollection is Collection, Rounds {
         _safeMint(to, quantity);
     }
 
-    /// @notice How many tokens are left to be sold.
+    /// @notice Returns the number of tokens left for sale.
     function left() public view returns (uint256) {
         return SUPPLY - (reserve - reserveMinted) - _totalMinted();
     }
@@ -89,20 +91,19 @@ contract GenesisCollection is Collection, Rounds {
         _safeMint(msg.sender, quantity);
     }
 
-    /// @dev A token keeps the round of its mint, whoever owns it.
+    /// @dev Keeps the round of a token across transfers.
     function _extraData(address from, address, uint24 previous) internal view override returns (uint24) {
         return from == address(0) ? roundToKeep() : previous;
     }
 
-    // ---- revealing ----
+    // ---- reveal ----
 
-    /// @notice The round in which a token was minted.
+    /// @notice Returns the round in which a token was minted.
     function roundOf(uint256 tokenId) public view returns (uint256) {
         return _ownershipOf(tokenId).extraData;
     }
 
-    /// @notice The rounds of tokens `first` to `last` that are not revealed, each once; such as `reveal` takes, once their blocks are
-    /// there.
+    /// @notice Returns the unrevealed rounds of tokens `first` to `last`, without repetition, for `reveal` once their blocks are mined.
     function hiddenRounds(uint256 first, uint256 last) external view returns (uint256[] memory rounds) {
         rounds = new uint256[](last - first + 1);
         uint256 count;
@@ -119,12 +120,12 @@ contract GenesisCollection is Collection, Rounds {
         if (_totalMinted() != 0) emit BatchMetadataUpdate(0, _totalMinted() - 1);
     }
 
-    /// @notice The seed of a token, of which `genesis` makes its picture. It never changes.
+    /// @notice Returns the seed of a token, from which `genesis` generates its picture. It never changes.
     function seedOf(uint256 tokenId) external view returns (bytes32 seed) {
         (seed,) = metadata.settle(drawn(tokenId));
     }
 
-    /// @notice The traits of a token.
+    /// @notice Returns the traits of a token.
     function traitsOf(uint256 tokenId) external view returns (Traits memory traits) {
         (, traits) = metadata.settle(drawn(tokenId));
     }
@@ -136,10 +137,10 @@ contract GenesisCollection is Collection, Rounds {
         return keccak256(abi.encode(randomness, address(this), tokenId));
     }
 
-    // ---- what tokens show ----
+    // ---- metadata and pictures ----
 
-    /// @notice The metadata of a token; until its round is revealed with a picture that all such tokens share.
-    /// @return A `data:` URI of JSON, the picture in it a PNG of 512 x 512 pixels.
+    /// @notice Returns the metadata of a token. Until its round is revealed, all tokens show the same picture.
+    /// @return A `data:` URI of JSON that contains the picture as a PNG of 512 x 512 pixels.
     function tokenURI(uint256 tokenId) public view override(ERC721A, IERC721A) returns (string memory) {
         if (!_exists(tokenId)) revert URIQueryForNonexistentToken();
         uint256 round = roundOf(tokenId);
@@ -156,7 +157,7 @@ contract GenesisCollection is Collection, Rounds {
         forward(address(metadata), abi.encodeCall(GenesisMetadata.contractURI, ()));
     }
 
-    /// @notice The picture of a token.
+    /// @notice Returns the picture of a token.
     /// @return A Windows bitmap of 128 x 128 pixels.
     function render(uint256 tokenId) external view returns (bytes memory) {
         (bytes32 seed,) = metadata.settle(drawn(tokenId));

@@ -13,9 +13,8 @@ import {Json} from "./Json.sol";
 import {PieceScene} from "../genesis/PieceScene.sol";
 import {Placeholder} from "./Placeholder.sol";
 
-/// @title GenesisMetadata: what the tokens of the Genesis collection show.
-/// @notice Without storage, an owner or a way to change; a contract of its own because together with the collection it would be larger than
-/// a contract may be.
+/// @title GenesisMetadata: the metadata of the Genesis collection.
+/// @notice Has no storage and no owner, and cannot be changed. A separate contract because of the size limit of contracts.
 contract GenesisMetadata {
     using Bytes for bytes;
     using Strings for uint256;
@@ -26,20 +25,22 @@ contract GenesisMetadata {
         "1024 pictures of 3D scenes. Scene, colours and every pixel are computed by contracts, from a seed that nobody could choose. "
         "Not by the authors of the Shackled contracts of 2021, nor endorsed by them.";
 
-    /// @dev The side of the square that each pixel of a picture becomes.
+    /// @dev The enlargement of pictures.
     uint256 internal constant SCALE = 4;
-    /// @dev The sides of the collection's wide picture, in pixels.
+    /// @dev The width and height of the collection's banner, in pixels.
     uint256 internal constant BANNER_WIDTH = 256;
     uint256 internal constant BANNER_HEIGHT = 64;
 
-    /// @notice What makes pieces of seeds, and pictures of pieces.
+    /// @notice The contract that generates and draws pieces.
     Genesis public immutable genesis;
-    /// @notice What draws those pictures.
+    /// @notice The renderer that draws those pictures.
     Renderer public immutable renderer;
-    /// @notice What makes PNG files of them.
+    /// @notice The encoder of PNG files.
     PngEncoder public immutable encoder;
 
+    /// @notice The address has no code.
     error NoGenesis(address genesis);
+    /// @notice The address has no code.
     error NoEncoder(address encoder);
 
     constructor(Genesis genesis_, PngEncoder encoder_) {
@@ -48,17 +49,17 @@ contract GenesisMetadata {
         (genesis, renderer, encoder) = (genesis_, genesis_.renderer(), encoder_);
     }
 
-    /// @notice The seed that stands for what was drawn, and the traits of its piece. It is what was drawn, if that has a piece; very few
-    /// seeds (one in some 6,000) have none, and the hash of such a seed takes its place.
+    /// @notice Returns the final seed for a drawn one, and the traits of its piece. A drawn seed that has a piece is final. Very few seeds
+    /// (about one in 6,000) have none; each is replaced by its hash.
     function settle(bytes32 drawn) external view returns (bytes32 seed, Traits memory traits) {
         Piece memory piece;
         (seed, piece) = pieceOf(drawn);
         traits = piece.traits;
     }
 
-    /// @notice The metadata of a token.
-    /// @param drawn What was drawn for it, as for `settle`.
-    /// @return A `data:` URI of JSON, the picture in it a PNG of 512 x 512 pixels.
+    /// @notice Returns the metadata of a token.
+    /// @param drawn The drawn seed of the token, as for `settle`.
+    /// @return A `data:` URI of JSON that contains the picture as a PNG of 512 x 512 pixels.
     function tokenURI(uint256 tokenId, bytes32 drawn) external view returns (string memory) {
         (bytes32 seed, Piece memory piece) = pieceOf(drawn);
         string memory digits = uint256(seed).toHexString(32);
@@ -72,8 +73,8 @@ contract GenesisMetadata {
         show(Json.token(title(tokenId), description, fields, list(piece.traits)), PieceScene.make(piece));
     }
 
-    /// @notice The metadata of a token whose seed is not drawn or not revealed yet: a picture that all such tokens share.
-    /// @param blockNumber The block that draws it.
+    /// @notice Returns the metadata of a token whose seed is not drawn or not revealed yet. All such tokens show the same picture.
+    /// @param blockNumber The block that determines the seed.
     function hiddenURI(uint256 tokenId, uint256 blockNumber) external view returns (string memory) {
         string memory description = string.concat(
             DESCRIPTION,
@@ -84,7 +85,7 @@ contract GenesisMetadata {
         show(Json.token(title(tokenId), description, "", Json.trait("Revealed", false)), cover());
     }
 
-    /// @notice The metadata of the collection, as ERC-7572 has it.
+    /// @notice Returns the metadata of the collection (ERC-7572).
     function contractURI() external view returns (string memory) {
         string memory banner = encoder.dataURI(renderer.render(Placeholder.scene(BANNER_WIDTH, BANNER_HEIGHT)), SCALE);
         show(Json.collection(NAME, SYMBOL, DESCRIPTION, banner), cover());
@@ -95,7 +96,7 @@ contract GenesisMetadata {
         while (true) {
             (bool done, bytes memory answer) = address(genesis).staticcall(abi.encodeCall(Genesis.generate, (seed)));
             if (done) return (seed, abi.decode(answer, (Piece)));
-            // no other error counts: too little gas must not lead to another picture
+            // ignore no other error: a lack of gas must not change the picture
             bytes4 reason = bytes4(answer);
             if (answer.length != 4 || (reason != Genesis.NoTriangle.selector && reason != NoPrismToChoose.selector)) {
                 assembly ("memory-safe") {
@@ -130,26 +131,26 @@ contract GenesisMetadata {
         return Placeholder.scene(PieceScene.SIDE, PieceScene.SIDE);
     }
 
-    /// @dev The six digits of a colour.
+    /// @dev Returns the six hexadecimal digits of a colour.
     function hexadecimal(uint256 color) private pure returns (string memory) {
         return string(bytes(color.toHexString(3)).slice(2));
     }
 
     /// @dev Ends the call with the `data:` URI of a document.
     /// @param head The document up to its picture.
-    /// @param scene The picture.
+    /// @param scene The scene of the picture.
     function show(bytes memory head, Scene memory scene) private view {
         bytes memory data = abi.encodeCall(Renderer.render, (scene));
         (address target, bytes4 selector) = (address(renderer), PngEncoder.dataURI.selector);
         uint256 begin;
         uint256 size;
         assembly ("memory-safe") {
-            // the bitmap, as it is answered, behind the head of the next call: selector, offset and scale
+            // the returned bitmap, behind the head of the next call: selector, offset and scale
             let bitmap := add(mload(0x40), 0x40)
             let done := staticcall(gas(), target, add(data, 0x20), mload(data), 0, 0)
             returndatacopy(bitmap, 0, returndatasize())
             if iszero(done) { revert(bitmap, returndatasize()) }
-            // the scale takes the place of its offset
+            // the scale replaces the offset of the bitmap
             mstore(bitmap, SCALE)
             mstore(sub(bitmap, 0x20), 0x40)
             begin := sub(bitmap, 0x24)

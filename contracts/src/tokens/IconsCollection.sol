@@ -15,14 +15,14 @@ import {Json} from "./Json.sol";
 import {Utf8} from "./Utf8.sol";
 
 /// @notice A kind of token.
-/// @param name What it is called.
-/// @param scene Where the studio keeps the scene that it shows.
-/// @param scale How many pixels each pixel of the scene becomes in `tokenURI`, both ways.
-/// @param price Of each token, in wei.
-/// @param supply How many tokens of it there will ever be.
-/// @param reserve How many of those are kept for the team.
-/// @param sold How many have been sold.
-/// @param reserveMinted How many of the reserve have been minted.
+/// @param name The name of the icon.
+/// @param scene The pointer to the scene, as the Studio returned it.
+/// @param scale The enlargement of the picture in `tokenURI`: each pixel becomes a square of `scale` x `scale` pixels.
+/// @param price The price of a token, in wei.
+/// @param supply The maximum number of tokens of the icon.
+/// @param reserve The number of them reserved for the team.
+/// @param sold The number of tokens sold.
+/// @param reserveMinted The number of reserved tokens minted.
 struct Icon {
     string name;
     address scene;
@@ -34,9 +34,9 @@ struct Icon {
     uint32 reserveMinted;
 }
 
-/// @title IconsCollection: a fixed set of scenes that are kept on chain, each a kind of token with a supply of its own.
-/// @notice The owner adds the icons, then seals the collection: from then on no icon can be added or changed, and only then the sale opens.
-/// What an icon shows is kept as the code of contracts that cannot change, and drawn by contracts that cannot change.
+/// @title IconsCollection: a fixed set of stored scenes, each a kind of token with its own supply.
+/// @notice The owner adds the icons, then seals the collection. The sale can open only then, and no icon can be added or changed any more.
+/// The scenes are stored as contract code and drawn by contracts, all of them immutable.
 contract IconsCollection is Collection, StudioErrors {
     using Strings for uint256;
 
@@ -45,36 +45,44 @@ contract IconsCollection is Collection, StudioErrors {
         "Not by the authors of the Shackled contracts of 2021, nor endorsed by them.";
     uint256 internal constant MAX_SCALE = 8;
     uint256 internal constant MAX_NAME = 64;
-    /// @dev Of animations: how many frames, their sides in pixels, and how long each is shown, in milliseconds.
+    /// @dev Animations: the number of frames, their side in pixels, and their duration in milliseconds.
     uint256 internal constant FRAMES = 12;
     uint256 internal constant FRAME_SIDE = 64;
     uint256 internal constant FRAME_TIME = 100;
-    /// @dev The sides of the collection's wide picture, in pixels.
+    /// @dev The width and height of the collection's banner, in pixels.
     uint256 internal constant BANNER_WIDTH = 256;
     uint256 internal constant BANNER_HEIGHT = 64;
 
-    /// @notice What keeps the scenes, and has them drawn.
+    /// @notice The Studio, which stores and draws the scenes.
     Studio public immutable studio;
 
-    /// @notice Whether the set of icons is fixed.
+    /// @notice Whether the set of icons is sealed.
     bool public isSealed;
 
     Icon[] private icons;
     /// @dev The icon of the tokens that are being minted.
     uint24 private transient minting;
 
+    /// @notice Emitted when an icon is added.
     event IconAdded(uint256 indexed icon, string name, address scene, uint256 price, uint256 supply, uint256 reserve);
-    /// @notice The set of icons is fixed now.
+    /// @notice Emitted when the set of icons is sealed.
     event Sealed(uint256 icons);
 
+    /// @notice The address has no code.
     error NoStudio(address studio);
+    /// @notice The collection is already sealed.
     error AlreadySealed();
+    /// @notice The collection is not sealed yet.
     error NotSealed();
+    /// @notice The collection has no icons to seal, or too many.
     error NoIcons();
+    /// @notice The number of the icon is not below the number of icons.
     error UnknownIcon(uint256 icon, uint256 icons);
+    /// @notice The name must have 1 to `longest` bytes.
     error NameLength(uint256 length, uint256 longest);
-    /// @notice The bytes of the name that begin here are no character of UTF-8.
+    /// @notice The bytes of the name from this position on are not valid UTF-8.
     error NameNotUtf8(uint256 position);
+    /// @notice The supply must not be 0, and the reserve must not exceed it.
     error Supply(uint256 supply, uint256 reserve);
 
     constructor(Studio studio_, Terms memory terms) Collection("Shackled Icons", "SHKI", terms) {
@@ -82,17 +90,17 @@ contract IconsCollection is Collection, StudioErrors {
         studio = studio_;
     }
 
-    // ---- the set of icons ----
+    // ---- icons ----
 
-    /// @notice Adds an icon, until the collection is sealed. What cannot be drawn is refused, with the error that drawing it has. Look at
-    /// it first: `studio().render(scene)`.
-    /// @param name_ 1 to 64 bytes of text in UTF-8.
-    /// @param scene Where the studio keeps the scene.
-    /// @param scale How many pixels each pixel of the scene becomes in `tokenURI`: 1 to 8; 4 makes 512 of 128.
-    /// @param price Of each token, in wei.
-    /// @param supply How many tokens of it there will ever be.
-    /// @param reserve How many of those are kept for the team.
-    /// @return icon Its number.
+    /// @notice Adds an icon. Only the owner, until the collection is sealed. Reverts with the error of the drawing if the scene cannot be
+    /// drawn. `studio().render(scene)` returns a preview.
+    /// @param name_ The name: 1 to 64 bytes of UTF-8.
+    /// @param scene The pointer to the scene, as the Studio returned it.
+    /// @param scale The enlargement of the picture in `tokenURI`, 1..8: each pixel becomes a square of `scale` x `scale` pixels.
+    /// @param price The price of a token, in wei.
+    /// @param supply The maximum number of tokens of the icon.
+    /// @param reserve The number of them reserved for the team.
+    /// @return icon The number of the icon.
     function add(string calldata name_, address scene, uint8 scale, uint96 price, uint32 supply, uint32 reserve)
         external
         onlyOwner
@@ -111,32 +119,32 @@ contract IconsCollection is Collection, StudioErrors {
         if (icon == 0) emit ContractURIUpdated();
     }
 
-    /// @notice Fixes the set of icons for ever.
+    /// @notice Seals the set of icons permanently. Only the owner.
     function seal() external onlyOwner {
         if (isSealed) revert AlreadySealed();
-        // the number of an icon is kept in 24 bits beside the owner of a token
+        // the number of an icon is stored in 24 bits next to the owner of a token
         if (icons.length == 0 || icons.length > type(uint24).max) revert NoIcons();
         isSealed = true;
         emit Sealed(icons.length);
     }
 
-    /// @notice Says who may mint from now on: nobody, until the collection is sealed.
+    /// @notice Sets the phase, which determines who may mint. Must be `Closed` until the collection is sealed.
     function setPhase(Phase phase_) public override {
         if (phase_ != Phase.Closed && !isSealed) revert NotSealed();
         super.setPhase(phase_);
     }
 
-    /// @notice How many icons there are, numbered from 0.
+    /// @notice Returns the number of icons. They are numbered from 0.
     function iconCount() external view returns (uint256) {
         return icons.length;
     }
 
-    /// @notice An icon.
+    /// @notice Returns an icon.
     function iconAt(uint256 icon) external view returns (Icon memory) {
         return known(icon);
     }
 
-    /// @notice How many tokens of an icon are left to be sold.
+    /// @notice Returns the number of tokens of an icon left for sale.
     function left(uint256 icon) public view returns (uint256) {
         Icon storage it = known(icon);
         return it.supply - it.reserve - it.sold;
@@ -144,21 +152,21 @@ contract IconsCollection is Collection, StudioErrors {
 
     // ---- minting ----
 
-    /// @notice Mints tokens of an icon to the caller, while the sale is public. Exactly `quantity` times its price must be sent along.
+    /// @notice Mints tokens of an icon to the caller while the sale is public. The payment must be exactly `quantity` times the price.
     function mint(uint256 icon, uint256 quantity) external payable {
         requirePhase(Phase.Public);
         checkQuantity(quantity);
         sell(icon, quantity);
     }
 
-    /// @notice Mints tokens of an icon to the caller, who is on the allow-list by a Merkle proof.
-    /// @param allowed How many tokens, of all icons together, the list allows the caller to mint in all.
+    /// @notice Mints tokens of an icon to the caller, who proves a place on the allow list by a Merkle proof.
+    /// @param allowed The total number of tokens, of all icons together, that the list allows the caller to mint.
     function mintWithProof(uint256 icon, uint256 quantity, uint256 allowed, bytes32[] calldata proof) external payable {
         spendByProof(quantity, allowed, proof);
         sell(icon, quantity);
     }
 
-    /// @notice Mints tokens of an icon to the caller, who is on the allow-list by a signature.
+    /// @notice Mints tokens of an icon to the caller, who proves a place on the allow list by a signature.
     function mintWithSignature(uint256 icon, uint256 quantity, Allowance calldata allowance, bytes calldata signature)
         external
         payable
@@ -167,7 +175,7 @@ contract IconsCollection is Collection, StudioErrors {
         sell(icon, quantity);
     }
 
-    /// @notice Mints tokens of the reserve of an icon to anyone, in any phase, once the collection is sealed.
+    /// @notice Mints reserved tokens of an icon to any account, in any phase, once the collection is sealed. Only the owner.
     function mintReserve(uint256 icon, address to, uint256 quantity) external onlyOwner {
         if (!isSealed) revert NotSealed();
         checkQuantity(quantity);
@@ -193,7 +201,7 @@ contract IconsCollection is Collection, StudioErrors {
         _safeMint(to, quantity);
     }
 
-    /// @dev A token keeps its icon, whoever owns it.
+    /// @dev Keeps the icon of a token across transfers.
     function _extraData(address from, address, uint24 previous) internal view override returns (uint24) {
         return from == address(0) ? minting : previous;
     }
@@ -203,28 +211,28 @@ contract IconsCollection is Collection, StudioErrors {
         return icons[icon];
     }
 
-    // ---- what tokens show ----
+    // ---- metadata and pictures ----
 
-    /// @notice The icon that a token is one of.
+    /// @notice Returns the icon of a token.
     function iconOf(uint256 tokenId) public view returns (uint256) {
         return _ownershipOf(tokenId).extraData;
     }
 
-    /// @notice The picture of a token.
+    /// @notice Returns the picture of a token.
     /// @return A Windows bitmap.
     function render(uint256 tokenId) external view returns (bytes memory) {
         return studio.render(icons[iconOf(tokenId)].scene);
     }
 
-    /// @notice The picture of an icon.
+    /// @notice Returns the picture of an icon.
     /// @return A Windows bitmap.
     function renderIcon(uint256 icon) external view returns (bytes memory) {
         return studio.render(known(icon).scene);
     }
 
-    /// @notice The icon of a token turning about the vertical axis, for pages that show more than `tokenURI`. Much dearer than that: the
-    /// icons of the project take 14 to 60 million gas.
-    /// @return A `data:` URI of an animated PNG file: 12 frames of 64 x 64 pixels, each enlarged as in `tokenURI`.
+    /// @notice Returns an animation of the icon of a token rotating about the vertical axis, for pages that show more than `tokenURI`. Much
+    /// more expensive than `tokenURI`: 14 to 60 million gas for the icons of the project.
+    /// @return A `data:` URI of an animated PNG file: 12 frames of 64 x 64 pixels, enlarged as in `tokenURI`.
     function animation(uint256 tokenId) external view returns (string memory) {
         Icon storage it = icons[iconOf(tokenId)];
         Changes memory changes;
@@ -232,13 +240,13 @@ contract IconsCollection is Collection, StudioErrors {
         return studio.animateDataURI(it.scene, Spin(FRAMES, FRAME_TIME, it.scale, Vector(ZERO, ONE, ZERO), true), changes);
     }
 
-    /// @notice The icon of a token as a model, which viewers turn: a `data:` URI of a binary glTF file.
+    /// @notice Returns the icon of a token as a binary glTF file, for 3D viewers, in a `data:` URI.
     function model(uint256 tokenId) external view returns (string memory) {
         return studio.glbDataURI(icons[iconOf(tokenId)].scene);
     }
 
-    /// @notice The metadata of a token.
-    /// @return A `data:` URI of JSON, the picture in it a PNG.
+    /// @notice Returns the metadata of a token.
+    /// @return A `data:` URI of JSON that contains the picture as a PNG.
     function tokenURI(uint256 tokenId) public view override(ERC721A, IERC721A) returns (string memory) {
         if (!_exists(tokenId)) revert URIQueryForNonexistentToken();
         Icon storage it = icons[iconOf(tokenId)];

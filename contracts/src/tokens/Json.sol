@@ -4,49 +4,49 @@ pragma solidity 0.8.37;
 import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
 import {Base64} from "../encode/Base64.sol";
 
-/// @title Json: what marketplaces and wallets read of a token. Text comes as it stands in JSON, escaped where it has to be.
+/// @title Json: token metadata for marketplaces and wallets. Text arguments must already be escaped for JSON.
 library Json {
     using Strings for address;
     using Strings for uint256;
 
-    /// @dev Bytes of what a `data:` URI of a document begins with; and of what ends a document behind its picture.
+    /// @dev The size of the `data:` URI prefix of a document; and of the end of a document behind its picture.
     uint256 private constant SCHEME_SIZE = 29;
     uint256 private constant TAIL_SIZE = 2;
 
-    /// @notice A trait whose value is text.
+    /// @notice Returns a trait with a text value.
     function trait(string memory kind, string memory value) internal pure returns (string memory) {
         return string.concat('{"trait_type":"', kind, '","value":"', value, '"}');
     }
 
-    /// @notice A trait whose value is a number, shown as such: without a display type marketplaces show a rank.
+    /// @notice Returns a trait with a number. The display type makes marketplaces show the number instead of a rank.
     function trait(string memory kind, uint256 value) internal pure returns (string memory) {
         return string.concat('{"display_type":"number","trait_type":"', kind, '","value":', value.toString(), "}");
     }
 
-    /// @notice A trait that is there or not.
+    /// @notice Returns a trait that is present or absent.
     function trait(string memory kind, bool value) internal pure returns (string memory) {
         return trait(kind, value ? "Yes" : "No");
     }
 
-    /// @notice A field that not every document has, such as `external_url`.
+    /// @notice Returns an optional field, such as `external_url`.
     function field(string memory name, string memory value) internal pure returns (string memory) {
         return string.concat('","', name, '":"', value);
     }
 
-    /// @notice The web3:// address at which a contract answers a call (ERC-6860).
-    /// @param path The call and its arguments, as `/render/12?mime.content=image/bmp`.
+    /// @notice Returns the web3:// URL of a contract call (ERC-6860).
+    /// @param path The function and its arguments, such as `/render/12?mime.content=image/bmp`.
     function link(address target, string memory path) internal view returns (string memory) {
         return string.concat("web3://", target.toHexString(), ":", block.chainid.toString(), path);
     }
 
-    /// @notice The web3:// address of the picture of a scene that a studio keeps.
+    /// @notice Returns the web3:// URL of the picture of a stored scene.
     function picture(address studio, address scene, uint256 scale) internal view returns (string memory) {
         return link(studio, string.concat("/renderPNG/", scene.toHexString(), "/", scale.toString(), "?mime.type=png"));
     }
 
-    /// @notice The metadata of a token up to its picture.
-    /// @param fields One after the other, of `field`.
-    /// @param traits Separated by commas.
+    /// @notice Returns the metadata of a token up to its picture.
+    /// @param fields The concatenated results of `field`.
+    /// @param traits The traits, separated by commas.
     function token(string memory name, string memory description, string memory fields, string memory traits)
         internal
         pure
@@ -55,8 +55,8 @@ library Json {
         return abi.encodePacked('{"name":"', name, '","description":"', description, fields, '","attributes":[', traits, '],"image":"');
     }
 
-    /// @notice The metadata of a collection up to its picture, as ERC-7572 has it.
-    /// @param banner What is shown across the top of a page: a wide picture, as a `data:` URI.
+    /// @notice Returns the metadata of a collection up to its picture (ERC-7572).
+    /// @param banner A wide picture for the top of a page, as a `data:` URI.
     function collection(string memory name, string memory symbol, string memory description, string memory banner)
         internal
         pure
@@ -65,21 +65,21 @@ library Json {
         return abi.encodePacked(pictureless(name, symbol, description), field("banner_image", banner), '","image":"');
     }
 
-    /// @notice The metadata of a collection without a picture, but for their end.
+    /// @notice Returns the metadata of a collection without a picture, except for the closing characters.
     function pictureless(string memory name, string memory symbol, string memory description) internal pure returns (bytes memory) {
         return abi.encodePacked('{"name":"', name, '","symbol":"', symbol, '","description":"', description);
     }
 
-    /// @notice Ends the call with the `data:` URI of a document that shows no picture.
-    /// @param head The document but for its end.
+    /// @notice Ends the call with the `data:` URI of a document without a picture.
+    /// @param head The document except for the closing characters.
     function answer(bytes memory head) internal pure {
         finish(head, 0, 0);
     }
 
-    /// @notice Ends the call with the `data:` URI of a document, or with why there is no picture.
+    /// @notice Ends the call with the `data:` URI of a document and its picture, or with the error of drawing the picture.
     /// @param head The document up to its picture.
-    /// @param source The contract that answers the picture, a `data:` URI.
-    /// @param data Address of the data of that call, and `size` how many bytes. They may be overwritten.
+    /// @param source The contract that returns the picture, as a `data:` URI.
+    /// @param data The memory address of the calldata, and `size` its size in bytes. It may be overwritten.
     function answer(bytes memory head, address source, uint256 data, uint256 size) internal view {
         uint256 length;
         assembly ("memory-safe") {
@@ -88,15 +88,15 @@ library Json {
                 returndatacopy(begin, 0, returndatasize())
                 revert(begin, returndatasize())
             }
-            // behind the offset
+            // skip the offset
             returndatacopy(0, 0x20, 0x20)
             length := mload(0)
         }
         finish(head, 0x40, length);
     }
 
-    /// @dev Memory grows with the square: the picture is copied once, and the characters of the document overwrite it.
-    /// @param offset Where the picture begins in what was answered last, and `size` how many bytes.
+    /// @dev Memory cost grows quadratically, so the picture is copied once, and the encoded document overwrites it.
+    /// @param offset The offset of the picture in the return data, and `size` its size in bytes.
     function finish(bytes memory head, uint256 offset, uint256 size) private pure {
         unchecked {
             uint256 begin;
@@ -104,7 +104,7 @@ library Json {
                 begin := mload(0x40)
             }
             uint256 length = head.length + size + TAIL_SIZE;
-            // behind offset and length of what is answered
+            // leave room for the offset and length of the return value
             uint256 target = begin + 0x40 + SCHEME_SIZE;
             uint256 document = target + length / 3 + Base64.OVERLAP;
             assembly ("memory-safe") {
@@ -112,7 +112,7 @@ library Json {
                 let place := add(document, mload(head))
                 returndatacopy(place, offset, size)
                 place := add(place, size)
-                // with zeros behind it, for the encoder
+                // followed by zeros, which the encoder reads
                 mstore(place, '"}')
                 mstore(add(place, 0x20), 0)
                 mstore(begin, 0x20)

@@ -5,17 +5,17 @@ import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
 import {Quaternion} from "../math/Quaternion.sol";
 import {Scene, Canvas, Background, Material, Object, UNLIT, WIREFRAME} from "../scene/Scene.sol";
 
-/// @notice What a token shows that has no picture yet: the edges of a solid of eight faces, grey on black.
+/// @notice The picture of tokens that have no picture yet: the edges of an octahedron, grey on black.
 library Placeholder {
-    /// @dev Six vertices, 100 units from the middle, and eight faces, as `Mesh.sol` has it.
+    /// @dev Six vertices, 100 units from the centre, and eight faces, in the format of `Mesh.sol`.
     bytes internal constant OCTAHEDRON = hex"00" hex"0006" hex"0008"
         hex"0064" hex"0000" hex"0000" hex"8c929e" hex"ff9c" hex"0000" hex"0000" hex"8c929e" hex"0000" hex"0064" hex"0000" hex"d8dce4"
         hex"0000" hex"ff9c" hex"0000" hex"4c525e" hex"0000" hex"0000" hex"0064" hex"8c929e" hex"0000" hex"0000" hex"ff9c" hex"4c525e"
         hex"000000020004" hex"000200010004" hex"000100030004" hex"000300000004"
         hex"000200000005" hex"000100020005" hex"000300010005" hex"000000030005";
 
-    /// @notice The solid, turned a little.
-    /// @param width Of the picture, in pixels; and so its height.
+    /// @notice Returns the scene of the octahedron, slightly rotated.
+    /// @param width The width of the picture in pixels; `height` likewise.
     function scene(uint256 width, uint256 height) internal pure returns (Scene memory made) {
         made.canvas = Canvas(width, height);
         made.camera.target.z = -ONE;
@@ -27,7 +27,7 @@ library Placeholder {
         Object memory solid = made.objects[0];
         solid.mesh = OCTAHEDRON;
         solid.position.z = Fixed.wrap(-300 << 32);
-        // 27 degrees about (1, 2, 0) or so
+        // about 27 degrees about the axis (1, 2, 0)
         solid.rotation = Quaternion(Fixed.wrap(1 << 32), Fixed.wrap(2 << 32), ZERO, Fixed.wrap(9 << 32));
         solid.scale = ONE;
         solid.material = Material(UNLIT, ONE, ZERO, ZERO, 1);

@@ -5,21 +5,21 @@ import {Blockhash} from "@openzeppelin/contracts/utils/Blockhash.sol";
 import {SafeCast} from "@openzeppelin/contracts/utils/math/SafeCast.sol";
 import {Header} from "./Header.sol";
 
-/// @title Rounds: randomness of blocks to come.
-/// @notice Blocks are counted in rounds of 32. Each round has one block, at least 128 blocks after any of its own, and the randomness of
-/// the round is PREVRANDAO of that block: no choice is left to anybody, neither which block it is nor when it is looked up.
+/// @title Rounds: randomness from future blocks.
+/// @notice Blocks are grouped into rounds of 32. Each round is assigned one block, at least 128 blocks after any of its own; the randomness
+/// of the round is the PREVRANDAO value of that block. Nobody can choose the block, and the time of the reveal has no effect.
 ///
-/// PREVRANDAO can be read only while its block is made. But it stands in the header of the block, and the hash of the header can be read
-/// afterwards. So whoever reveals a round shows the header; every other header has another hash. The chain knows the hashes of the last
-/// 8,191 blocks (EIP-2935; 256 without). Older ones are proven by a chain of headers, each of which has the hash of the one before: a late
-/// reveal costs more, and says the same.
+/// PREVRANDAO can be read directly only within its own block. It is, however, a field of the block header, and the hash of the header
+/// remains available. A reveal therefore submits the header and checks its hash. The chain provides the hashes of the last 8,191 blocks
+/// (EIP-2935; 256 without it). Older blocks are proven by a chain of headers, each of which contains the hash of its parent: a late reveal
+/// costs more, but has the same result.
 abstract contract Rounds {
     using Header for bytes;
 
-    /// @notice Blocks in a round.
+    /// @notice The number of blocks in a round.
     uint256 public constant ROUND = 32;
-    /// @notice Blocks from the end of a round to that of its randomness. More than two epochs of 32: while a round lasts, nobody can know
-    /// who will propose the blocks that its randomness is made of.
+    /// @notice The number of blocks from the end of a round to the block of its randomness. More than two epochs of 32 blocks: during a
+    /// round, the proposers of the blocks that determine its randomness are not yet known.
     uint256 public constant DELAY = 128;
 
     /// @notice The first block of round 0.
@@ -27,44 +27,48 @@ abstract contract Rounds {
 
     /// @notice The randomness of a round; zero until it is revealed.
     mapping(uint256 round => bytes32) public randomnessOf;
-    /// @dev Hashes of blocks that were written down.
+    /// @dev Block hashes stored by `keepHash`.
     mapping(uint256 blockNumber => bytes32) private kept;
 
+    /// @notice Emitted when the randomness of a round is stored.
     event Revealed(uint256 indexed round, uint256 indexed blockNumber, bytes32 randomness);
+    /// @notice Emitted when the hash of a block is stored.
     event HashKept(uint256 indexed blockNumber, bytes32 hash);
 
+    /// @notice The number of headers must equal the number of rounds.
     error AsManyHeadersAsRounds(uint256 headers, uint256 rounds);
-    /// @notice The block is still to come, or is this one.
+    /// @notice The block is not yet mined, or is the current one.
     error BlockToCome(uint256 blockNumber);
-    /// @notice The chain has forgotten the hash: prove it by the headers of later blocks, with `keepHash`.
+    /// @notice The hash of the block is no longer available: prove it with the headers of later blocks, by `keepHash`.
     error BlockForgotten(uint256 blockNumber);
+    /// @notice The header does not have the hash of the block.
     error WrongHeader(uint256 blockNumber, bytes32 hash, bytes32 hashOfHeader);
-    /// @notice A chain without randomness.
+    /// @notice PREVRANDAO is zero: the chain provides no randomness.
     error NoRandomness(uint256 blockNumber);
 
     constructor() {
         firstBlock = block.number;
     }
 
-    /// @notice The round of the block that is being made.
+    /// @notice Returns the round of the current block.
     function currentRound() public view returns (uint256) {
         return (block.number - firstBlock) / ROUND;
     }
 
-    /// @notice The block whose randomness is that of a round.
+    /// @notice Returns the block whose PREVRANDAO value is the randomness of a round.
     function blockOf(uint256 round) public view returns (uint256) {
         return firstBlock + (round + 1) * ROUND - 1 + DELAY;
     }
 
-    /// @notice The hash of a block, if the chain or this contract knows it; else zero.
+    /// @notice Returns the hash of a block if it is available from the chain or stored by this contract; zero otherwise.
     function hashOf(uint256 blockNumber) public view returns (bytes32 hash) {
         hash = kept[blockNumber];
         if (hash == 0) hash = Blockhash.blockHash(blockNumber);
     }
 
-    /// @notice Writes down the randomness of rounds. Anyone may; it is the same whoever does, whenever. Rounds that are revealed already
-    /// are passed over.
-    /// @param headers Of each round the header of its block, in RLP as it is hashed.
+    /// @notice Stores the randomness of rounds. Anyone can call it, at any later time, with the same result. Rounds already revealed are
+    /// skipped.
+    /// @param headers For each round, the header of its block, as the RLP encoding whose hash is the block hash.
     function reveal(uint256[] calldata rounds, bytes[] calldata headers) external {
         if (headers.length != rounds.length) revert AsManyHeadersAsRounds(headers.length, rounds.length);
         bool news;
@@ -83,9 +87,10 @@ abstract contract Rounds {
         if (news) revealed();
     }
 
-    /// @notice Writes down the hash of a block for the time when the chain will have forgotten it. With headers, that of an older block.
-    /// @param blockNumber A block whose hash is known (`hashOf`).
-    /// @param headers Those of this block, of the one before it, and so on; the hash of the block before the last of them is written down.
+    /// @notice Stores the hash of a block before the chain discards it; given headers, the hash of an older block.
+    /// @param blockNumber A block whose hash is available (`hashOf`).
+    /// @param headers The headers of this block, of its parent, and so on. The parent hash in the last one is stored; without headers, the
+    /// hash of this block.
     function keepHash(uint256 blockNumber, bytes[] calldata headers) external {
         bytes32 hash = knownHash(blockNumber);
         for (uint256 i = 0; i < headers.length; ++i) {
@@ -98,10 +103,10 @@ abstract contract Rounds {
         emit HashKept(blockNumber, hash);
     }
 
-    /// @dev What to do after rounds were revealed.
+    /// @dev Called after rounds were revealed.
     function revealed() internal virtual;
 
-    /// @dev The present round as a number of 24 bits, which fits beside the owner of a token: enough for 500 million blocks.
+    /// @dev Returns the current round as 24 bits, to be stored next to the owner of a token: enough for 500 million blocks.
     function roundToKeep() internal view returns (uint24) {
         return SafeCast.toUint24(currentRound());
     }

@@ -9,20 +9,19 @@ import {EIP712} from "@openzeppelin/contracts/utils/cryptography/EIP712.sol";
 import {MerkleProof} from "@openzeppelin/contracts/utils/cryptography/MerkleProof.sol";
 import {SignatureChecker} from "@openzeppelin/contracts/utils/cryptography/SignatureChecker.sol";
 
-/// @notice A permission of the allow-list, signed by `allowListSigner` as EIP-712 typed data.
-/// @param account Who may mint; nobody else can use it.
-/// @param quantity How many tokens the account may mint in all while the allow-list is open, not how many more.
-/// @param deadline The last second, in Unix time, at which it holds.
+/// @notice An entry of the allow list, signed by `allowListSigner` as EIP-712 typed data.
+/// @param account The account that may mint. No other account can use the entry.
+/// @param quantity The total number of tokens that the account may mint from the allow list, including those it has already minted.
+/// @param deadline The last second at which the entry is valid, in Unix time.
 struct Allowance {
     address account;
     uint256 quantity;
     uint256 deadline;
 }
 
-/// @title Sale: who may mint when, and where the ether goes.
-/// @notice Tokens are paid exactly, with neither change nor refund, and the ether stays here until the owner fetches it. An account on the
-/// allow-list is there by a Merkle proof or by a signature; both speak of how many tokens it may mint in all, so that neither is worth
-/// anything when it is shown twice.
+/// @title Sale: phases of minting, the allow list, and the proceeds.
+/// @notice Payments must be exact. The ether stays in the contract until the owner withdraws it. An account proves its place on the allow
+/// list by a Merkle proof or by a signature; both state the total number of tokens it may mint, so neither can be used twice.
 abstract contract Sale is ERC721AQueryable, Ownable2Step, EIP712 {
     enum Phase {
         Closed,
@@ -32,34 +31,48 @@ abstract contract Sale is ERC721AQueryable, Ownable2Step, EIP712 {
 
     bytes32 internal constant ALLOWANCE_TYPE = keccak256("Allowance(address account,uint256 quantity,uint256 deadline)");
 
-    /// @notice The most tokens that one call mints.
+    /// @notice The maximum number of tokens per call.
     uint256 public immutable perTransaction;
 
-    /// @notice Who may mint at present.
+    /// @notice The current phase, which determines who may mint.
     Phase public phase;
-    /// @notice The root of the allow-list; zero if there is none.
+    /// @notice The Merkle root of the allow list; zero if there is none.
     bytes32 public allowListRoot;
-    /// @notice Whose signatures put accounts on the allow-list; zero if nobody's do.
+    /// @notice The account or contract that signs allowances; zero if there is none.
     address public allowListSigner;
 
+    /// @notice Emitted when the phase changes.
     event PhaseChanged(Phase phase);
+    /// @notice Emitted when the allow list changes.
     event AllowListChanged(bytes32 root, address indexed signer);
+    /// @notice Emitted when the proceeds are withdrawn, in wei.
     event Withdrawn(address indexed to, uint256 amount);
 
-    /// @notice The limit of a call must be 1 to 100 tokens: ERC-721A looks for the owner of a token among so many.
+    /// @notice The limit per call must be 1 to 100 tokens: it bounds the number of tokens that ERC-721A scans for the owner of a token.
     error PerTransaction(uint256 perTransaction);
+    /// @notice The sale is not in the needed phase.
     error WrongPhase(Phase phase, Phase needed);
+    /// @notice The quantity must be 1 to `perTransaction`.
     error Quantity(uint256 quantity, uint256 perTransaction);
+    /// @notice The payment must be exactly `due`, in wei.
     error Payment(uint256 sent, uint256 due);
-    /// @notice What was sent along with a transfer or an approval.
+    /// @notice Transfers and approvals accept no ether.
     error PaymentForNothing(uint256 sent);
+    /// @notice The Merkle proof does not prove that the account may mint this total quantity.
     error NotOnAllowList(address account, uint256 quantity);
+    /// @notice The allowance belongs to another account.
     error AllowanceOfAnother(address account, address sender);
+    /// @notice The deadline of the allowance has passed.
     error AllowanceExpired(uint256 deadline, uint256 time);
+    /// @notice The allowance is not signed by the current signer.
     error AllowanceNotSigned(address signer);
+    /// @notice The mint would exceed the account's allowance.
     error AllowanceExceeded(uint256 minted, uint256 quantity, uint256 allowance);
+    /// @notice The quantity exceeds the number of tokens left.
     error NothingLeft(uint256 quantity, uint256 left);
+    /// @notice The receiver did not accept the ether.
     error WithdrawalRefused(address to, uint256 amount);
+    /// @notice The collection cannot be without an owner.
     error OwnerNeeded();
 
     constructor(string memory name_, string memory symbol_, address owner_, uint256 perTransaction_)
@@ -71,27 +84,28 @@ abstract contract Sale is ERC721AQueryable, Ownable2Step, EIP712 {
         perTransaction = perTransaction_;
     }
 
-    // ---- the owner's part ----
+    // ---- owner ----
 
-    /// @notice Says who may mint from now on.
+    /// @notice Sets the phase, which determines who may mint.
     function setPhase(Phase phase_) public virtual onlyOwner {
         phase = phase_;
         emit PhaseChanged(phase_);
     }
 
-    /// @notice Replaces the allow-list. What accounts have minted by the old one counts for the new one too.
-    /// @param root Of a tree whose leaves are keccak256(keccak256(abi.encode(account, quantity))), pairs sorted; zero for none.
-    /// @param signer Of `Allowance`s, an account or a contract (ERC-1271); zero for none.
+    /// @notice Replaces the allow list. Tokens minted from the old list count toward the limits of the new one.
+    /// @param root The root of a tree with leaves keccak256(keccak256(abi.encode(account, quantity))) and sorted pairs; zero for none.
+    /// @param signer The signer of `Allowance`s, an account or a contract (ERC-1271); zero for none.
     function setAllowList(bytes32 root, address signer) external onlyOwner {
         (allowListRoot, allowListSigner) = (root, signer);
         emit AllowListChanged(root, signer);
     }
 
-    /// @notice Sends all ether that is here to `to`. If `to` does not take it, nothing is lost: choose another.
+    /// @notice Sends all ether of the contract to `to`. Reverts if `to` does not accept it; nothing is lost, and another address can be
+    /// used.
     function withdraw(address payable to) external onlyOwner {
         uint256 amount = address(this).balance;
         bool done = to != address(0);
-        // no bytes of the answer are copied: nobody can make them dear
+        // copies no return data, so a receiver cannot make the call expensive
         assembly ("memory-safe") {
             if done { done := call(gas(), to, amount, 0, 0, 0, 0) }
         }
@@ -99,28 +113,28 @@ abstract contract Sale is ERC721AQueryable, Ownable2Step, EIP712 {
         emit Withdrawn(to, amount);
     }
 
-    /// @notice Never: the ether of the sale would stay here for ever.
+    /// @notice Always reverts: without an owner, the proceeds could not be withdrawn.
     function renounceOwnership() public pure override {
         revert OwnerNeeded();
     }
 
-    // ---- the allow-list ----
+    // ---- allow list ----
 
-    /// @notice How many tokens an account has minted while the allow-list was open.
+    /// @notice Returns the number of tokens that an account has minted from the allow list.
     function mintedFromAllowList(address account) public view returns (uint256) {
         return _getAux(account);
     }
 
-    /// @notice What is signed to allow an account to mint.
+    /// @notice Returns the EIP-712 hash to sign for an allowance.
     function allowanceHash(Allowance calldata allowance) public view returns (bytes32) {
         return _hashTypedDataV4(
             keccak256(abi.encode(ALLOWANCE_TYPE, allowance.account, allowance.quantity, allowance.deadline))
         );
     }
 
-    /// @dev Counts tokens against an allowance that is in the tree.
+    /// @dev Counts tokens against an allowance proven by the Merkle tree.
     function spendByProof(uint256 quantity, uint256 allowed, bytes32[] calldata proof) internal {
-        // hashed twice, so that no inner node of the tree can be taken for a leaf
+        // hashed twice so that an inner node of the tree cannot pass as a leaf
         bytes32 leaf = keccak256(bytes.concat(keccak256(abi.encode(msg.sender, allowed))));
         if (allowListRoot == 0 || !MerkleProof.verifyCalldata(proof, allowListRoot, leaf)) {
             revert NotOnAllowList(msg.sender, allowed);
@@ -128,7 +142,7 @@ abstract contract Sale is ERC721AQueryable, Ownable2Step, EIP712 {
         spend(quantity, allowed);
     }
 
-    /// @dev Counts tokens against an allowance that is signed.
+    /// @dev Counts tokens against a signed allowance.
     function spendBySignature(uint256 quantity, Allowance calldata allowance, bytes calldata signature) internal {
         if (allowance.account != msg.sender) revert AllowanceOfAnother(allowance.account, msg.sender);
         if (block.timestamp > allowance.deadline) revert AllowanceExpired(allowance.deadline, block.timestamp);
@@ -143,7 +157,7 @@ abstract contract Sale is ERC721AQueryable, Ownable2Step, EIP712 {
         requirePhase(Phase.AllowList);
         uint256 minted = _getAux(msg.sender);
         if (quantity > allowed || minted > allowed - quantity) revert AllowanceExceeded(minted, quantity, allowed);
-        // at most 100 at a time: 64 bits suffice for ever, once `checkQuantity` has been asked
+        // 64 bits suffice: `checkQuantity` limits each call to 100
         checkQuantity(quantity);
         _setAux(msg.sender, uint64(minted + quantity));
     }
@@ -162,7 +176,7 @@ abstract contract Sale is ERC721AQueryable, Ownable2Step, EIP712 {
         if (msg.value != due) revert Payment(msg.value, due);
     }
 
-    // ---- ERC-721A takes ether where none is due ----
+    // ---- ERC-721A's payable functions ----
 
     function approve(address to, uint256 tokenId) public payable override(ERC721A, IERC721A) {
         if (msg.value != 0) revert PaymentForNothing(msg.value);

@@ -16,17 +16,17 @@ import {Transform} from "./Transform.sol";
 import {View} from "./View.sol";
 import "../pipeline/Registers.sol";
 
-/// @notice The light that comes from everywhere, from above, and from below: lanes of bytes.
+/// @notice Ambient light, light from above, and light from below: lanes of bytes.
 struct Ambient {
     uint256 light;
     uint256 sky;
     uint256 ground;
 }
 
-/// @notice The registers of effects, of the frame and of an object. The records must be checked.
+/// @notice Sets the effect registers of the frame and of an object. The records must have been checked.
 library EffectUniforms {
-    /// @notice Sets the registers of the frame but for SHADOWS.
-    /// @return ambient The light of which objects get a part.
+    /// @notice Sets the registers of the frame, except for SHADOWS.
+    /// @return ambient The light to be multiplied by the objects' coefficients.
     function setFrame(View memory view_, Scene calldata scene) internal pure returns (Ambient memory ambient) {
         unchecked {
             // the products with (0, 1, 0)
@@ -75,7 +75,7 @@ library EffectUniforms {
     }
 
     /// @notice Sets the registers of an object.
-    /// @param moved How much farther the scene stands in the engine's calldata.
+    /// @param moved The difference between the scene's positions in the engine's calldata and in this call.
     function setObject(View memory view_, Scene calldata scene, Ambient memory ambient, uint256 number, uint256 moved) internal pure {
         unchecked {
             Object calldata object = scene.objects[number];
@@ -112,7 +112,7 @@ library EffectUniforms {
         }
     }
 
-    /// @dev Where the position of the object is in camera space, by the column and the row at which it is seen.
+    /// @dev Sets the position of the object in camera space, from the column and row at which it appears.
     function setFadePlace() private pure {
         unchecked {
             uint256 clip = load(MATRIX_T) + CLIP_BIAS;
@@ -133,7 +133,7 @@ library EffectUniforms {
         }
     }
 
-    /// @dev The colour of a light as a linear one, to the nearest level.
+    /// @dev Returns the linear value of a light's colour, rounded to the nearest level.
     function linear(uint256 color) private pure returns (uint256 decoded) {
         unchecked {
             for (uint256 i; i != 3 * MIDDLE_AT; i += MIDDLE_AT) {
@@ -142,14 +142,14 @@ library EffectUniforms {
         }
     }
 
-    /// @dev Lanes of bytes times a coefficient (Q16), lanes of Q16 where 255 is one.
+    /// @dev Returns lanes of bytes times a coefficient (Q16): lanes of Q16 where 255 is one.
     function scaled(uint256 color, uint256 k) private pure returns (uint256 light) {
         unchecked {
             for (uint256 i; i != 3 * MIDDLE_AT; i += MIDDLE_AT) light |= (((color >> i) & 0xff) * k / 255) << i;
         }
     }
 
-    /// @dev The colour at the top of a word as lanes of bytes.
+    /// @dev Returns the colour at the top of a word as lanes of bytes.
     function lanes(uint256 content) private pure returns (uint256) {
         unchecked {
             return (content >> 248) << UPPER_AT | ((content >> 240) & 0xff) << MIDDLE_AT | ((content >> 232) & 0xff);

@@ -9,12 +9,12 @@ import {Light, Scene, POINT} from "../scene/Scene.sol";
 import {View} from "./View.sol";
 import "../pipeline/Registers.sol";
 
-/// @dev Over how much of the cosine a spot light fades at least, 2^-10, Q24: 1/1000 in glTF.
+/// @dev The minimum difference of the cosines between which a spot light fades, 2^-10, Q24: 1/1000 in glTF.
 int256 constant MIN_CONE = int256(ONE_24 >> 10);
 
 library Lights {
-    /// @notice Lights in camera space.
-    /// @return extension The first record of the scene's extensions that belongs to no light.
+    /// @notice Sets the lights in camera space.
+    /// @return extension The first record of the scene's extensions that does not belong to a light.
     function set(View memory view_, Scene calldata scene) internal pure returns (uint256 extension) {
         unchecked {
             Light[] calldata lights = scene.lights;
@@ -38,13 +38,13 @@ library Lights {
                 }
                 record += LIGHT_SIZE;
             }
-            // fragments are lit by one light at least, if need be one without light
+            // fragments are lit by at least one light, if necessary a black one
             if (lights.length == 0 && load(EFFECTS) != 0) record += LIGHT_SIZE;
             store(LIGHTS_END, record);
         }
     }
 
-    /// @dev The cone of a light. Where light fades over less than 2^-10 of the cosine, it fades over that.
+    /// @dev Sets the cone of a light. Differences of the cosines below 2^-10 are widened to that.
     function setSpot(View memory view_, uint256 extension, uint256 record) private pure {
         unchecked {
             Vector memory axis = Vector(
@@ -63,7 +63,7 @@ library Lights {
         }
     }
 
-    /// @return Lanes of bytes.
+    /// @return The colour as lanes of bytes.
     function colorLanes(uint256 color) internal pure returns (uint256) {
         return (color & BLUE) | ((color & GREEN) << GREEN_TO_LANE) | ((color & RED) << RED_TO_LANE);
     }

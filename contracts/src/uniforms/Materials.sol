@@ -6,12 +6,12 @@ import {Specular} from "./Specular.sol";
 import {View} from "./View.sol";
 import "../pipeline/Registers.sol";
 
-/// @dev A reach, in squares of sub-pixels, that nothing exceeds.
+/// @dev A reach, in squares of sub-pixels, above any triangle's.
 uint256 constant UNBOUNDED_REACH = 1 << 60;
 
-/// @notice How a surface that is lit answers the lights, and how finely it has to be shaded for that.
+/// @notice Computes how a lit surface reflects the lights, and the precision of shading it requires.
 library Materials {
-    /// @return mode What the material adds to OBJECT_MODE.
+    /// @return mode The bits that the material adds to OBJECT_MODE.
     function set(View memory view_, Scene calldata scene, Material calldata material) internal pure returns (uint256 mode) {
         unchecked {
             setReach(view_, scene, material);
@@ -29,7 +29,7 @@ library Materials {
             if (material.specular.raw() != 0) mode |= HAS_SPECULAR;
             if (grey) mode |= IS_GREY;
             Specular.setTable(uint256(material.specular.raw()), material.shininess);
-            // without lights the normal makes no difference
+            // without lights the normal has no effect
             if (material.shading == FLAT || (lights.length == 0 && load(EFFECTS) == 0)) {
                 mode |= IS_FLAT;
                 store(FRAGMENT_SQUARE, ONE_48);
@@ -40,7 +40,7 @@ library Materials {
                 bool isPoint = load(LIGHTS + LIGHT_IS_POINT) != 0;
                 store(SMOOTH_REACH, smoothReach(focal, uint256(material.diffuse.raw()), isPoint));
                 store(HALF_REACH, Specular.halfReach(uint256(material.specular.raw()), material.shininess));
-                // with several lights most of the work would be done for each of them all the same
+                // with several lights, most of the work would be repeated for each of them
                 if (lights.length == 1 && mode & IS_SPOT_LIT == 0 && !(view_.orthographic && isPoint) && !Specular.isBroad(material)) {
                     mode |= IS_QUADRATIC;
                 }
@@ -49,7 +49,7 @@ library Materials {
         }
     }
 
-    /// @dev Colour bytes times a coefficient (Q32), lanes of Q16 where 255 is one.
+    /// @dev Returns colour bytes times a coefficient (Q32): lanes of Q16 where 255 is one.
     function scaled(uint256 color, int256 coefficient) private pure returns (uint256) {
         unchecked {
             uint256 k = uint256(coefficient) >> (Q32 - Q16);
@@ -64,12 +64,12 @@ library Materials {
         }
     }
 
-    /// @dev A highlight cos^n changes with its angle by n * angle^2 / 2 about its middle, so over d pixels linear interpolation is
-    /// off by n * (d / 2f)^2 / 8, where the focal length f turns pixels into the angle of V, and H turns half as far as V.
-    /// One and a half levels of 255 are allowed.
+    /// @dev A highlight cos^n changes with its angle by n * angle^2 / 2 about its centre, so linear interpolation over d pixels has an
+    /// error of n * (d / 2f)^2 / 8, where the focal length f converts pixels to the angle of V, and H turns by half as much as V. One and a
+    /// half levels of 255 are allowed.
     ///
-    /// H turns up to as far as V, divided by |L + V|. Where the square of that may be below 4/3 on the canvas, for a light ahead of the
-    /// camera, it is taken into account.
+    /// H turns by up to as much as V, divided by |L + V|. If the square of that may be below 4/3 on the canvas, which happens for lights
+    /// ahead of the camera, it is taken into account.
     function setReach(View memory view_, Scene calldata scene, Material calldata material) private pure {
         unchecked {
             uint256 focal = uint256(view_.focal) >> Q32;
@@ -87,7 +87,7 @@ library Materials {
         }
     }
 
-    /// @return least 3/4 of |L + V|^2 = 2 + 2 L.V where it is least on the canvas, or less, of all directional lights, Q24: 0 to 1.
+    /// @return least A lower bound of 3/4 of |L + V|^2 = 2 + 2 L.V on the canvas, for all directional lights, Q24: 0 to 1.
     function turning(Scene calldata scene) private pure returns (uint256 least) {
         least = (2 * ONE_24 + 2) / 3;
         uint256 width = scene.canvas.width;
@@ -108,9 +108,10 @@ library Materials {
         }
     }
 
-    /// @dev The sum of the squares of two edges, in sub-pixels, up to which directions to a lamp may be interpolated in a triangle. Their
-    /// error is at most sum w_i w_j e_ij^2 / 2, where e is an edge by the distance of the lamp, or 5/4 of it by that of the eye: 5/4 is the
-    /// square of how much nearer lamps may be. The sum is at most a quarter of that of two edges. Four levels of 255 are allowed.
+    /// @dev Returns the maximum sum of the squares of two edges, in sub-pixels, for which directions to a lamp can be interpolated in a
+    /// triangle. The error is at most sum w_i w_j e_ij^2 / 2, where e is an edge divided by the distance of the lamp, or 5/4 of the edge
+    /// divided by the distance of the eye: 5/4 is the square of how much nearer lamps may be. The sum is at most a quarter of that of two
+    /// edges. Four levels of 255 are allowed.
     function smoothReach(uint256 focal, uint256 coefficient, bool isPoint) private pure returns (uint256) {
         unchecked {
             // 4 * 4 * 4 / 5 = 13

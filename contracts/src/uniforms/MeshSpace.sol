@@ -7,13 +7,13 @@ import {Scene, Object, Light, POINT} from "../scene/Scene.sol";
 import {View} from "./View.sol";
 import "../pipeline/Registers.sol";
 
-// Flat faces are lit where their corners are small integers: in the space of the mesh.
+// Flat faces are lit in mesh space, where their corners are small integers.
 
-/// @dev The scale that makes Q24 of a unit vector: see storeMeshVector.
+/// @dev The scale that converts a unit vector to Q24: see storeMeshVector.
 int256 constant DIRECTION = int256(1 << (Q32 + Q32 - Q24));
 
 library MeshSpace {
-    /// @notice Scale, and eye and lights in the space of the mesh.
+    /// @notice Sets the scale, and eye and lights in mesh space.
     function set(View memory view_, Scene calldata scene, Object calldata object, Matrix memory rotation) internal pure {
         unchecked {
             int256 scale = object.scale.raw();
@@ -37,7 +37,7 @@ library MeshSpace {
         }
     }
 
-    /// @dev A unit vector, Q24, in signed lanes of 86 bits, z lowest.
+    /// @dev Stores a unit vector, Q24, in signed lanes of 86 bits, z lowest.
     function storeLanes(uint256 pointer, Vector memory v) internal pure {
         unchecked {
             uint256 shift = Q32 - Q24;
@@ -45,8 +45,8 @@ library MeshSpace {
         }
     }
 
-    /// @dev A vector divided by the scale of the mesh, Q32, rounded toward zero; by DIRECTION for a unit vector as Q24. Coordinates of up
-    /// to 2^60 leave room for the shift.
+    /// @dev Stores a vector divided by the scale of the mesh, Q32, rounded toward zero; divided by DIRECTION, a unit vector as Q24.
+    /// Coordinates of up to 2^60 leave room for the shift.
     function storeMeshVector(uint256 pointer, Vector memory v, int256 scale) private pure {
         unchecked {
             storeSigned(pointer, (v.x.raw() << Q32) / scale);

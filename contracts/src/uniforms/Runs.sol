@@ -4,16 +4,16 @@ pragma solidity 0.8.37;
 import {WIREFRAME} from "../scene/Scene.sol";
 import "../pipeline/Registers.sol";
 
-// Which engine draws which objects, and in what order: the opaque ones in the order of the scene, then the others. Objects that follow one
-// another and have the same engine are a run: one call. All is read from the uniforms, as they stand in the call: see Uniforms.
+// Assigns objects to engines, and determines the order: the opaque objects in the order of the scene, then the others. Consecutive objects
+// with the same engine are a run: one call. Everything is read from the uniforms in the calldata: see Uniforms.
 
-/// @dev Turns of objects.
+/// @dev The engine and pass of objects.
 uint256 constant BY_FACES = 0;
 uint256 constant BY_FRAGMENTS = 1;
 uint256 constant BLENDED = 2;
 
-/// @param first Number of the first object, and `count` how many follow; none if there is nothing to draw any more.
-/// @param position Address of the uniforms of the first object; `end` of what follows those of the last.
+/// @param first The number of the first object, and `count` the number of objects; 0 if there is nothing left to draw.
+/// @param position The address of the uniforms of the first object; `end` is the end of those of the last one.
 struct Run {
     uint256 turn;
     uint256 first;
@@ -23,13 +23,13 @@ struct Run {
 }
 
 library Runs {
-    /// @notice The first run of a call.
+    /// @notice Returns the first run of a call.
     function begin(uint256 data) internal pure returns (Run memory) {
         uint256 objects = startOf(data);
         return next(data, Run(BY_FACES, 0, 0, objects, objects));
     }
 
-    /// @notice The run after another one.
+    /// @notice Returns the run after another one.
     function next(uint256 data, Run memory run) internal pure returns (Run memory found) {
         unchecked {
             uint256 objects = load(registerOf(data, OBJECT_TOTAL));
@@ -48,7 +48,7 @@ library Runs {
                     position += load(position);
                 }
                 if (found.count != 0 || isBlended) return found;
-                // once more from the beginning, for those that are not opaque
+                // once more from the beginning, for translucent objects
                 isBlended = true;
                 number = 0;
                 position = startOf(data);
@@ -56,19 +56,19 @@ library Runs {
         }
     }
 
-    /// @param position Address of the uniforms of an object.
+    /// @param position The address of the uniforms of an object.
     function turnOf(uint256 position) private pure returns (uint256) {
         unchecked {
             uint256 mode = load(position + OBJECT_MODE - OBJECT_BYTES);
             if (mode & IS_BLENDED != 0) return BLENDED;
-            // one engine draws all
+            // a single engine draws everything
             if (load(EFFECTS) != 0) return BY_FACES;
             bool isWire = load(position + OBJECT_FLAGS - OBJECT_BYTES) & WIREFRAME != 0;
             return isWire || mode & (IS_SMOOTH | IS_SPOT_LIT) != 0 ? BY_FRAGMENTS : BY_FACES;
         }
     }
 
-    /// @notice Changes a call so that a run is drawn.
+    /// @notice Changes the calldata so that a run is drawn.
     /// @param isLast Whether nothing is drawn after it.
     function set(uint256 data, Run memory run, bool isLast) internal pure {
         unchecked {
@@ -81,32 +81,32 @@ library Runs {
         }
     }
 
-    /// @notice Changes a call: so many objects are in it.
+    /// @notice Sets the number of objects in the calldata.
     function setCount(uint256 data, uint256 count) internal pure {
         store(registerOf(data, OBJECT_COUNT), count);
         store(registerOf(data, OBJECT_TOTAL), count);
     }
 
-    /// @notice Changes a call: pixels and depths that were drawn before stand at this address.
+    /// @notice Sets the address of the pixels and depths drawn before in the calldata.
     function setDrawn(uint256 data, uint256 drawn) internal pure {
         unchecked {
             store(registerOf(data, DRAWN_BEFORE), drawn - data);
         }
     }
 
-    /// @notice Changes a call: the triangles of all objects are counted, and nothing is drawn.
+    /// @notice Changes the calldata so that the triangles of all objects are counted, and nothing is drawn.
     function setOnlyCounts(uint256 data) internal pure {
         store(registerOf(data, ONLY_COUNTS), 1);
     }
 
-    /// @dev Address of the uniforms of the first object.
+    /// @dev Returns the address of the uniforms of the first object.
     function startOf(uint256 data) private pure returns (uint256) {
         unchecked {
             return data + load(registerOf(data, OBJECTS_BEGIN));
         }
     }
 
-    /// @dev Where a register of the frame stands in a call.
+    /// @dev Returns the address of a frame register in the calldata.
     function registerOf(uint256 data, uint256 register) private pure returns (uint256) {
         unchecked {
             return data + 4 + register - FRAME_BEGIN;

@@ -4,19 +4,19 @@ pragma solidity 0.8.37;
 import {Mesh} from "../scene/Mesh.sol";
 import "../pipeline/Registers.sol";
 
-// A sample has 36 bits for its depth. They are spent on the depths that the scene has: these are shifted so that the nearest vertex needs
-// the highest bit or the one below; those of an orthographic camera, which are differences, are told from the farthest vertex on. They
-// depend on all vertices of the scene, so that tiles equal the whole.
+// A sample has 36 bits for its depth, which are fitted to the depths of the scene: these are shifted so that the nearest vertex has the
+// highest bit or the one below; depths of an orthographic camera, which are differences, are relative to the farthest vertex. All vertices
+// of the scene are included, so that tiles match the whole picture.
 
-/// @dev By what depths may leave the range of those of the vertices, which is more than rounding does.
+/// @dev The distance by which depths may leave the range of the vertices; larger than rounding errors.
 uint256 constant SLACK = 1 << 20;
-/// @dev The bits of a lane that a depth may have.
+/// @dev The bits of a lane that a depth may occupy.
 uint256 constant SAMPLE_DEPTH_BITS = 62;
-/// @dev The lowest bit of a lane that is kept: what is seen has it, however far away it is.
+/// @dev The lowest bit of a lane that is kept: every visible depth has it set, at any distance.
 uint256 constant LOWEST_SAMPLE_DEPTH = 1 << 27;
 
 library SampleDepths {
-    /// @notice Widens a range of distances, Q32, by those of the vertices of a mesh. The registers have the matrix of the object.
+    /// @notice Widens a range of distances, Q32, by those of the vertices of a mesh. The registers must contain the matrix of the object.
     function widen(Mesh memory mesh, int256[2] memory range) internal pure {
         unchecked {
             (uint256 bits, uint256 stride, uint256 vertex) = (mesh.bits, mesh.stride, mesh.vertices);
@@ -40,9 +40,9 @@ library SampleDepths {
         }
     }
 
-    /// @notice Sets what depths of samples are told from, and their scale, in a call of an engine.
-    /// @param frame Where the registers of the frame stand there.
-    /// @param range The least and the greatest distance of a vertex.
+    /// @notice Sets the base and scale of sample depths in the calldata of an engine.
+    /// @param frame The address of the frame registers in the calldata.
+    /// @param range The minimum and maximum distance of a vertex.
     function set(uint256 frame, int256[2] memory range) internal pure {
         unchecked {
             int256 nearest = range[0] > loadSigned(NEAR) ? range[0] : loadSigned(NEAR);

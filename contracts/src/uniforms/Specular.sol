@@ -8,14 +8,14 @@ import "../pipeline/Registers.sol";
 /// @dev The square of 1/4, Q40.
 uint256 constant QUARTER_SQUARE = 1 << (Q40 - 4);
 
-/// @notice The highlight of a material.
+/// @notice Computes the highlight of a material.
 library Specular {
     /// @notice Tabulates coefficient * cos^shininess over cos^2, where it is at least half a level.
     function setTable(uint256 coefficient, uint256 shininess) internal pure {
         unchecked {
             store(SPECULAR_ROOT, shininess == 1 ? coefficient >> (Q32 - Q16) : 0);
             if (coefficient == 0 || shininess == 1) {
-                // no square is greater than this
+                // no square exceeds this
                 store(SPECULAR_BEGIN, type(uint256).max);
                 return;
             }
@@ -40,7 +40,7 @@ library Specular {
         }
     }
 
-    /// @dev square^(exponent / 2), where square is Q24 and the result Q32.
+    /// @dev Returns square^(exponent / 2), where square is Q24 and the result Q32.
     function power(uint256 square, uint256 exponent) private pure returns (uint256 result) {
         unchecked {
             uint256 base = square << (Q32 - Q24);
@@ -52,8 +52,9 @@ library Specular {
         }
     }
 
-    /// @dev The square, Q40, of how much unit half vectors may differ in a triangle. If they are interpolated, their direction is off by
-    /// d^2/4 at most for a difference d, and cos^n is steepest with about 0.6 * sqrt(n): four levels of 255 are allowed, or d = 1/4.
+    /// @dev Returns the maximum square, Q40, of the difference of unit half vectors in a triangle. Interpolating them with a difference d
+    /// makes an error of at most d^2/4 in direction, and the maximum slope of cos^n is about 0.6 * sqrt(n): four levels of 255 are allowed,
+    /// or d = 1/4.
     function halfReach(uint256 coefficient, uint256 shininess) internal pure returns (uint256) {
         unchecked {
             uint256 slope = (sqrt(shininess << (Q32 + Q32)) * coefficient) >> Q32;
@@ -64,8 +65,8 @@ library Specular {
         }
     }
 
-    /// @dev The highlight is the cosine itself: over its square, where the others are tabulated, it is too steep near zero to be
-    /// interpolated, and each fragment takes the root.
+    /// @dev Returns whether the highlight is the cosine itself: as a function of its square, which the tables use, it is too steep near
+    /// zero to be interpolated, so each fragment computes the root.
     function isBroad(Material calldata material) internal pure returns (bool) {
         return material.shininess == 1 && material.specular.raw() != 0;
     }

@@ -6,37 +6,37 @@ import {Scene} from "../scene/Scene.sol";
 import {Indices} from "../pipeline/Indices.sol";
 import "../pipeline/Registers.sol";
 
-// Where only a part of the canvas is drawn, most faces lie beyond one of its borders. Those are left out of the call of the engine, and
-// with them the vertices that no other face has, before anything else is computed for them.
+// If only a part of the canvas is drawn, most faces lie beyond one of its borders. These faces, and the vertices that no other face uses,
+// are omitted from the calldata of the engine before anything else is computed for them.
 //
-// A border of the tile is a plane through the eye, and the side of it on which a vertex lies is the sign of a linear function of the place
-// in the mesh: with the clip coordinates X = column * distance and w = distance, the vertex is left of the column `left` where
+// A border of the tile is a plane through the eye. The side on which a vertex lies is the sign of a linear function of its position in the
+// mesh: with the clip coordinates X = column * distance and w = distance, the vertex is left of the column `left` if
 //
 //   left * w - X > 0
 //
-// Nine such functions, each divided by the most that it can be, stand in lanes of one word, so that three multiplications tell all signs:
-// those of the borders of the tile, and of what a vertex must not pass if it is not to be clipped. A face is left out if its three
-// vertices lie beyond the same border of the tile: then the primitive assembly would leave it out, too, and neither pixels nor counts
-// change. Faces of which a vertex may have to be clipped are kept, since cutting rounds.
+// Nine such functions, each divided by its maximum, are the lanes of one word, so that three multiplications yield all signs: those of the
+// borders of the tile, and those of the limits beyond which a vertex is clipped. A face is omitted if its three vertices lie beyond the
+// same border of the tile: primitive assembly would omit it too, so neither pixels nor counts change. Faces with a vertex that may have to
+// be clipped are kept, since clipping rounds.
 //
-// The order of the faces is kept. That of the vertices is not: numbers put only vertices at the same place in order, and a face with two
-// of those is not drawn.
+// The order of the faces is kept. That of the vertices is not: indices only break ties between vertices at the same place, and a face with
+// two of those is not drawn.
 
-/// @dev Meshes of fewer faces are kept whole. The functions take 16,000 gas, and culling n faces pays only where more than about
-/// 0.37 n + 27 of them are left out: never below 43.
+/// @dev Meshes with fewer faces are kept whole. The functions take 16,000 gas, and culling n faces pays only if more than about 0.37 n + 27
+/// of them are omitted: never below 43.
 uint256 constant LEAST_FACES = 48;
-/// @dev Meshes are kept whole, too, if fewer than 3/4 of their vertices lie beyond borders, where one beyond two borders counts twice: the
-/// faces that are kept would cost more to write anew than the others save.
+/// @dev Meshes are also kept whole if fewer than 3/4 of their vertices lie beyond borders, where a vertex beyond two borders counts twice:
+/// rewriting the remaining faces would cost more than is saved.
 uint256 constant CULLED_SHARE = 3;
 uint256 constant CULLED_SHARE_OF = 4;
-/// @dev Borders of the tile; how many vertices lie beyond one, counted in its lane from the sign on.
+/// @dev The borders of the tile; the numbers of vertices beyond each, counted in lanes at the signs.
 uint256 constant BORDERS = 4;
 uint256 constant COUNT_SHIFT = 27;
 uint256 constant COUNT_MASK = 0xfffffff;
-/// @dev Bits of a coordinate that are used.
+/// @dev The bits of a coordinate that are used.
 uint256 constant COORDINATE_BITS = 16;
 uint256 constant COORDINATE_SHIFT = 240;
-/// @dev Bits of a value before it is rounded; of a coefficient, which is such a value by 2^15, below the point.
+/// @dev The bits of a value before rounding; the fraction bits of a coefficient, which is such a value divided by 2^15.
 uint256 constant VALUE_BITS = 40;
 uint256 constant COEFFICIENT_FRACTION = 28;
 /// @dev Scratch memory: of the columns of the matrix X, Y, the distance from the near plane and w, four words each; then the values of a
@@ -45,13 +45,12 @@ uint256 constant PLACES_Y = 0x80;
 uint256 constant PLACES_NEAR = 0x100;
 uint256 constant PLACES_W = 0x180;
 uint256 constant PLACES_VALUE = 0x200;
-/// @dev 1 for each number of a face.
+/// @dev 1 for each vertex index of a face.
 uint256 constant FACE_ONES = 0x100010001;
-/// @dev Where in an entry of the table of vertices the new number stands, counted from 1, below the lowest sign.
+/// @dev The mask of the new index in an entry of the vertex table, counted from 1, below the lowest sign.
 uint256 constant NUMBER_MASK = 0x1ffff;
-/// @dev Bits of the offset of an entry of that table, a word long, that are 0; and where the offset is if a number of a face, at FACE_AT +
-/// FACE_FIRST_AT, FACE_AT + FACE_SECOND_AT and FACE_AT, is multiplied by 32; and
-/// the same of the next face.
+/// @dev The zero bits of an entry's offset in that table, since entries are words; the positions of the offset if a vertex index of a face,
+/// at FACE_AT + FACE_FIRST_AT, FACE_AT + FACE_SECOND_AT and FACE_AT, is multiplied by 32; and the same for the next face.
 uint256 constant ENTRY_BITS = 5;
 uint256 constant FIRST_ENTRY_AT = 235;
 uint256 constant SECOND_ENTRY_AT = 219;
@@ -59,12 +58,12 @@ uint256 constant THIRD_ENTRY_AT = 203;
 uint256 constant NEXT_FIRST_ENTRY_AT = 187;
 uint256 constant NEXT_SECOND_ENTRY_AT = 171;
 uint256 constant NEXT_THIRD_ENTRY_AT = 155;
-/// @dev Bytes of two faces.
+/// @dev The size of two faces in bytes.
 uint256 constant FACE_PAIR = 12;
 
 library TileCulling {
-    /// @notice Whether the meshes stand one behind the other in the call, so that each can be changed by itself. They do in all calls that
-    /// the ABI's encoders make; but offsets of two objects may lead to the same bytes.
+    /// @notice Returns whether the meshes follow one another in the calldata without overlap, so that each can be changed separately. This
+    /// holds for all calldata made by ABI encoders, but the offsets of two objects may point to the same bytes.
     function areApart(Scene calldata scene) internal pure returns (bool) {
         unchecked {
             uint256 behind;
@@ -74,7 +73,7 @@ library TileCulling {
                 assembly ("memory-safe") {
                     begin := data.offset
                 }
-                // the word before it, its length, is not read by the engine
+                // the engine does not read the preceding word, the length of the mesh
                 if (begin < behind + 32) return false;
                 behind = begin + data.length;
             }
@@ -82,11 +81,11 @@ library TileCulling {
         }
     }
 
-    /// @notice Leaves only those faces and vertices in the copy of a mesh that may touch the tile. The registers have the matrix of the
-    /// object and the tile.
-    /// @param mesh Where it is in calldata; its counts are changed.
-    /// @param copied What is to be added to get the address of the copy. Up to 26 bytes behind the copy are lost.
-    /// @param object The number of the object. Reverts if a face has a vertex number that is out of range.
+    /// @notice Keeps only those faces and vertices in the copy of a mesh that may touch the tile. The registers must contain the matrix of
+    /// the object and the tile.
+    /// @param mesh The mesh in calldata. Its counts are changed.
+    /// @param copied The difference between the address of the copy and the calldata offset. Up to 26 bytes after the copy are overwritten.
+    /// @param object The number of the object. Reverts if a face has a vertex index out of range.
     function run(Mesh memory mesh, uint256 copied, uint256 object) internal pure {
         unchecked {
             Indices.check(mesh, object);
@@ -108,16 +107,16 @@ library TileCulling {
         }
     }
 
-    /// @notice The functions of the borders.
-    /// @param columns What in them is multiplied by x, y and z of a vertex, and what is added.
-    /// @param dropped How many of the lowest bits of coordinates are not used.
+    /// @notice Computes the functions of the borders.
+    /// @param columns Their coefficients of x, y and z of a vertex, and their constants.
+    /// @param dropped The number of the lowest coordinate bits that are not used.
     function setColumns(uint256[4] memory columns, uint256 dropped) private pure {
         unchecked {
             uint256 places = freeMemory();
             for (uint256 i; i != 4; ++i) {
                 uint256 column = load(MATRIX_X + 32 * i) + CLIP_BIAS;
                 bool isLast = i == 3;
-                // times the most that a coordinate can be
+                // times the maximum of a coordinate
                 uint256 shift = isLast ? 0 : dropped + COORDINATE_BITS - 1;
                 uint256 place = places + 32 * i;
                 int256 w = int256(column) >> CLIP_W_AT;
@@ -139,9 +138,9 @@ library TileCulling {
         }
     }
 
-    /// @notice Adds one function, place - border * w, or its negative in an even lane. Divided by a little more than the most that they can
-    /// be, values are below 2^27 by 2^18. Of that rounding takes 2^15.7 at most: three coefficients by 0.501 times 2^15, and the bits
-    /// that coordinates have lost, times coefficients that are 2^12 together.
+    /// @notice Adds one function, place - border * w, negated in an even lane. Divided by a little more than their maximum, values are at
+    /// most 2^27 - 2^18. Rounding changes them by at most 2^15.7: three coefficients by 0.501 each, times 2^15, and the dropped coordinate
+    /// bits, times coefficients with a sum of 2^12.
     function setLane(uint256[4] memory columns, uint256 places, uint256 axis, uint256 border, uint256 lane) private pure {
         assembly ("memory-safe") {
             let divisor := 1
@@ -157,7 +156,7 @@ library TileCulling {
             if iszero(and(lane, 1)) { divisor := sub(0, divisor) }
             let rounded := COEFFICIENT_FRACTION
             for { let i := 0 } lt(i, 0x80) { i := add(i, 0x20) } {
-                // the last is no coefficient
+                // the last one is not a coefficient
                 if eq(i, 0x60) { rounded := sub(COEFFICIENT_FRACTION, sub(COORDINATE_BITS, 1)) }
                 value := sdiv(shl(VALUE_BITS, mload(add(add(places, i), PLACES_VALUE))), divisor)
                 value := sar(rounded, add(value, shl(sub(rounded, 1), 1)))
@@ -167,8 +166,8 @@ library TileCulling {
         }
     }
 
-    /// @notice Writes the table of vertices: for each beyond which borders of the tile it lies; none if it may have to be clipped.
-    /// @return beyond How many lie beyond each border, in lanes of BORDER_BITS from COUNT_SHIFT on.
+    /// @notice Writes the vertex table: for each vertex, the borders of the tile beyond which it lies; none if it may have to be clipped.
+    /// @return beyond The numbers of vertices beyond each border, in lanes of BORDER_BITS from COUNT_SHIFT on.
     function classify(Mesh memory mesh, uint256[4] memory columns, uint256 table) private pure returns (uint256 beyond) {
         unchecked {
             (uint256 bits, uint256 stride, uint256 vertex) = (mesh.bits, mesh.stride, mesh.vertices);
@@ -191,7 +190,7 @@ library TileCulling {
         }
     }
 
-    /// @notice Moves the faces that are kept, and their vertices, to the front.
+    /// @notice Moves the kept faces and their vertices to the front.
     function cull(Mesh memory mesh, uint256 table, uint256 copied) private pure {
         unchecked {
             // the bits of offsets of entries
@@ -221,11 +220,11 @@ library TileCulling {
         }
     }
 
-    /// @notice The first face from `face` on that is kept; `end`, or the place of a face behind it, if there is none.
+    /// @notice Returns the first face from `face` on that is kept; `end` or a later position if there is none.
     function nextFace(uint256 face, uint256 end, uint256 table, uint256 mask) private pure returns (uint256) {
         assembly ("memory-safe") {
             for {} lt(face, end) { face := add(face, FACE_PAIR) } {
-                // Two at a time. Of the last the second may be no face: the mask keeps its numbers small, and nobody asks for it.
+                // Two at a time. The second one may be beyond the last face: the mask bounds its indices, and its result is not used.
                 let numbers := calldataload(face)
                 let first := and(
                     and(
@@ -251,9 +250,9 @@ library TileCulling {
         return face;
     }
 
-    /// @notice The new number of a vertex, counted from 1; the first time it is copied there.
-    /// @param offset That of its entry in the table.
-    /// @param vertices The address of the vertices that are kept.
+    /// @notice Returns the new index of a vertex, counted from 1. Copies the vertex the first time.
+    /// @param offset The offset of its entry in the table.
+    /// @param vertices The address of the kept vertices.
     function numberOf(Mesh memory mesh, uint256 table, uint256 offset, uint256 vertices) private pure returns (uint256 number) {
         unchecked {
             uint256 signs = load(table + offset);

@@ -8,9 +8,9 @@ import {Object, Rectangle} from "../scene/Scene.sol";
 import {View} from "./View.sol";
 import "../pipeline/Registers.sol";
 
-/// @notice What takes the vertices of an object to the screen.
+/// @notice Sets the transformation of an object's vertices to the screen.
 library Transform {
-    /// @notice Combines rotation, scale, position, camera and viewport into one affine map from the mesh to clip coordinates.
+    /// @notice Combines rotation, scale, position, camera and viewport into one affine map from mesh space to clip coordinates.
     function setMatrix(View memory view_, Object calldata object, Matrix memory rotation) internal pure {
         Fixed scale = object.scale;
         store(MATRIX_X, clipLanes(view_, view_.toCamera(rotation.x).scale(scale), 0));
@@ -20,7 +20,7 @@ library Transform {
         store(MATRIX_T, clipLanes(view_, view_.toCamera(position.sub(view_.eye)), 1 << 32));
     }
 
-    /// @dev One column of the map. `w` is the last coordinate of the column, Q32: 1 for the translation.
+    /// @dev Returns one column of the map. `w` is the last coordinate of the column, Q32: 1 for the translation.
     function clipLanes(View memory view_, Vector memory v, int256 w) private pure returns (uint256) {
         unchecked {
             if (!view_.orthographic) w = v.z.raw();
@@ -30,7 +30,7 @@ library Transform {
         }
     }
 
-    /// @notice The rotation of normals into camera space, divided by the 511 of the mesh format.
+    /// @notice Sets the rotation of normals into camera space, divided by the 511 of the mesh format.
     function setNormalMatrix(View memory view_, Matrix memory rotation) internal pure {
         store(NORMAL_X, normalLanes(view_.toCamera(rotation.x)));
         store(NORMAL_Y, normalLanes(view_.toCamera(rotation.y)));
@@ -44,8 +44,8 @@ library Transform {
         }
     }
 
-    /// @dev Which rows and columns a vertex touches: for a face the pixel centres from it on, for a line the pixels nearest to it; with
-    /// four samples the outermost of them, and for a line, which is a pixel wide, those half a pixel farther.
+    /// @dev Sets the rows and columns that a vertex touches: for a face the pixel centres from it on, for a line the pixels nearest to it;
+    /// with four samples the outermost of them, and for a line, which is one pixel wide, those half a pixel farther.
     function setRounding(Rectangle memory tile, bool wireframe) internal pure {
         unchecked {
             uint256 wider = wireframe ? 0 : 127;

@@ -16,21 +16,21 @@ import {Transform} from "./Transform.sol";
 import {View, lookAt} from "./View.sol";
 import "../pipeline/Registers.sol";
 
-// What is computed once for a frame or an object. The Renderer fills the registers at the addresses that they have in the engine, and
-// hands them on as they stand. The data of a call of the engine are
+// Computes the constants of a frame or an object. The Renderer fills the registers at their addresses in the engine, and passes them on
+// unchanged. The calldata of an engine consists of
 //
 //   4 bytes            selector
 //   FRAME_SIZE bytes   the registers of the frame
-//                      the scene, as it stands in the call of the Renderer, with all that follows it; the engine reads the meshes of it,
-//                      in which for a tile only those faces are left that may touch it: see TileCulling. Then a word of any content
-//   for each object:   its registers, OBJECT_BYTES bytes; not for those without faces in a tile
-//                      what other engines have drawn before: see DRAWN_BEFORE
+//                      the scene, as in the calldata of the Renderer, with everything after it; the engine reads its meshes. For a
+//                      tile, these contain only the faces that may touch it: see TileCulling. Then a word of any content
+//   for each object:   its registers, OBJECT_BYTES bytes; omitted for objects without faces in a tile
+//                      the pixels and depths drawn by other engines: see DRAWN_BEFORE
 
 library Uniforms {
-    /// @notice Writes the data of the call that has the engine draw a part of the canvas.
-    /// @param room Bytes that are left free before them; free memory begins there.
-    /// @return data Where they begin.
-    /// @return end Where they end.
+    /// @notice Writes the calldata with which the engine draws a part of the canvas.
+    /// @param room The number of bytes to leave free before the calldata, from the free memory pointer on.
+    /// @return data The beginning of the calldata.
+    /// @return end The end of the calldata.
     function write(bytes4 selector, Scene calldata scene, Rectangle memory tile, bool countPixels, uint256 room)
         internal
         pure
@@ -47,14 +47,14 @@ library Uniforms {
             uint256 size;
             uint256 moved;
             bool culls = tile.width < scene.canvas.width || tile.height < scene.canvas.height;
-            // the coordinates of a texture are told by the numbers of vertices, and shadows by those of faces, which culling changes
+            // texture coordinates depend on the vertex indices and shadows on the face numbers, which culling changes
             culls = culls && !Extensions.isLong(scene) && TileCulling.areApart(scene);
             assembly ("memory-safe") {
                 size := sub(calldatasize(), scene)
                 mstore(data, selector)
                 end := add(data, add(4, FRAME_SIZE))
                 calldatacopy(end, scene, size)
-                // the place in the engine's calldata of what is at 0 in these
+                // the difference between positions in the engine's calldata and in this one
                 moved := sub(add(4, FRAME_SIZE), scene)
                 end := add(add(end, size), 32)
                 mstore(OBJECTS, sub(end, data))
@@ -63,7 +63,7 @@ library Uniforms {
             }
             uint256 count;
             for (uint256 i; i != scene.objects.length; ++i) {
-                // what is allocated for an object is given up with it
+                // frees the memory allocated for an object
                 setFreeMemory(end);
                 extension = setOpacity(scene, i, extension);
                 if (!setObject(view_, scene, i, tile, moved, culls ? data + moved : 0, range)) continue;
@@ -79,8 +79,8 @@ library Uniforms {
         }
     }
 
-    /// @notice Tile, background, and lights in camera space.
-    /// @return extension The first record of the scene's extensions that belongs to no light.
+    /// @notice Sets the tile, the background, and the lights in camera space.
+    /// @return extension The first record of the scene's extensions that does not belong to a light.
     function setFrame(View memory view_, Scene calldata scene, Rectangle memory tile) private pure returns (uint256 extension) {
         unchecked {
             store(COLUMN_BEGIN, tile.x + PIXEL_BIAS);
@@ -97,7 +97,7 @@ library Uniforms {
         }
     }
 
-    /// @dev Lanes of Q24: the lowest row of the tile, and the change from row to row upwards.
+    /// @dev Sets lanes of Q24: the lowest row of the tile, and the upward change from row to row.
     function setBackground(Scene calldata scene, Rectangle memory tile) private pure {
         unchecked {
             (uint256 top, uint256 bottom, uint256 height) = (scene.background.top, scene.background.bottom, scene.canvas.height);
@@ -118,7 +118,7 @@ library Uniforms {
     }
 
     /// @param extension The next record of the scene's extensions.
-    /// @return The one after what is read here.
+    /// @return The record after the ones read here.
     function setOpacity(Scene calldata scene, uint256 object, uint256 extension) private pure returns (uint256) {
         unchecked {
             (, uint256 end) = Extensions.bounds(scene);
@@ -131,8 +131,9 @@ library Uniforms {
         }
     }
 
-    /// @param moved How much farther the scene stands in the engine's calldata; may be negative.
-    /// @param copied If not 0, only what may touch the tile is to be left of the mesh; the scene in memory is so much farther.
+    /// @param moved The difference between the scene's positions in the engine's calldata and in this one; may be negative.
+    /// @param copied If not 0, the mesh is reduced to the faces that may touch the tile; the difference between the scene's address in
+    /// memory and its calldata offset.
     /// @param range The distances of all vertices, if the scene is antialiased: see SampleDepths.
     /// @return Whether there is something to draw.
     function setObject(
@@ -170,7 +171,7 @@ library Uniforms {
                 mode |= Materials.set(view_, scene, object.material);
                 if (mode & IS_SMOOTH != 0) Transform.setNormalMatrix(view_, rotation);
                 else MeshSpace.set(view_, scene, object, rotation);
-                // no square is beyond the beginning of a table that is not there
+                // no square exceeds the beginning of an absent table
                 if (load(SPECULAR_BEGIN) != type(uint256).max) end = SPECULAR_TABLE_END;
                 else end = OBJECT_LIGHTS + scene.lights.length * LIGHT_SIZE;
             }

@@ -8,10 +8,11 @@ import {Camera, ORTHOGRAPHIC} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 import "../pipeline/Registers.sol";
 
-/// @notice Where the camera stands and how it projects. Camera space is x to the right, y down, z forward, as the rows of a picture
-/// run; the distance of a point is its z.
+/// @notice The camera and its projection. Camera space has x to the right, y down, z forward, like the rows of a picture; the distance of a
+/// point is its z.
 /// @param focal Sub-pixels per unit at distance 1 (perspective) or per unit (orthographic), Q32.
-/// @param centerX Twice the sub-pixel column of the middle of the canvas as seen from the centre of a pixel, plus one half to round.
+/// @param centerX Twice the sub-pixel column of the canvas centre relative to a pixel centre, plus one half for rounding; `centerY`
+/// likewise.
 struct View {
     Vector eye;
     Vector right;
@@ -25,7 +26,7 @@ struct View {
 
 using {toCamera} for View global;
 
-/// @notice The basis of the camera, and the registers that depend on nothing but camera and canvas.
+/// @notice Computes the basis of the camera, and sets the registers that depend only on camera and canvas.
 function lookAt(Camera calldata camera, uint256 width, uint256 height) pure returns (View memory view_) {
     unchecked {
         view_.eye = camera.eye;
@@ -47,10 +48,10 @@ function lookAt(Camera calldata camera, uint256 width, uint256 height) pure retu
     }
 }
 
-/// @dev The ray through the centre of a pixel, and the constants for its length.
+/// @dev Sets the ray through the centre of a pixel, and the constants for its length.
 function setRays(View memory view_, uint256 width, uint256 height) pure {
     unchecked {
-        // where all rays are parallel, places in world units (Q32) instead
+        // for parallel rays, positions in world units (Q32) instead
         int256 step =
             (view_.orthographic ? int256(1 << (SUBPIXEL_BITS + Q32 + Q32)) : int256(1 << (SUBPIXEL_BITS + Q32 + Q24))) / view_.focal;
         storeSigned(RAY_STEP, step);
@@ -58,7 +59,7 @@ function setRays(View memory view_, uint256 width, uint256 height) pure {
         storeSigned(RAY_TOP, ((int256(1) - int256(height + 2 * PIXEL_BIAS)) * step) / 2);
         if (view_.orthographic) step = 0;
 
-        // The square root is taken from the chord between the middle and the corner of the canvas, raised by half its largest error
+        // The square root is approximated by the chord between the centre and the corner of the canvas, raised by half its maximum error
         uint256 x = width * uint256(step) / 2;
         uint256 y = height * uint256(step) / 2;
         uint256 square = ONE_48 + x * x + y * y;
@@ -67,12 +68,12 @@ function setRays(View memory view_, uint256 width, uint256 height) pure {
         uint256 raised = (corner - ONE_24) * (corner - ONE_24) / (8 * (corner + ONE_24));
         store(LENGTH_SLOPE, slope);
         store(LENGTH_AT_0, ONE_24 - slope + raised);
-        // relative error of the first step: 2^-16 up to 1.3 times the middle; each further step squares it and halves that
+        // relative error of the first step: 2^-16 for corner lengths up to 1.3 times the centre's; each further step squares and halves it
         store(LENGTH_STEPS, corner < ONE_24 * 13 / 10 ? 0 : corner < ONE_24 * 5 / 2 ? 1 : corner < ONE_24 * 6 ? 2 : 12);
     }
 }
 
-/// @notice A direction in camera space.
+/// @notice Returns a direction in camera space.
 function toCamera(View memory view_, Vector memory v) pure returns (Vector memory) {
     return Vector(view_.right.dot(v), view_.down.dot(v), view_.forward.dot(v));
 }

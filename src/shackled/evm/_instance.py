@@ -9,7 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import ChainError
+from ..checks import integer
+from ..errors import ChainError, InputError
 from ._module import new_store
 
 #: The largest memory of an instance in bytes, which tools/build_evm.py writes into the module.
@@ -41,6 +42,8 @@ class Answer(NamedTuple):
 class Instance:
     """An EVM with the rules of Cancun. Every call starts from the state that `put`, `deploy` and `send` left.
 
+    Calls run in the block that `set_block` set: at first number 0, timestamp 1, and a PREVRANDAO of zeros.
+
     For one thread at a time.
 
     Calls release the lock of the interpreter. ChainError if a call needs more memory than `MEMORY`; the instance must
@@ -69,6 +72,20 @@ class Instance:
             self.put(address, b"")
         for address, code in codes.items():
             self.put(address, code)
+
+    def set_block(self, number: int, timestamp: int, prevrandao: bytes) -> None:
+        """Set the block of later calls. timestamp: in seconds since 1970.
+
+        InputError unless both numbers are from 0 to 2^64 - 1 and `prevrandao` has 32 bytes. The 256 blocks before it
+        have hashes: that of block n is the Keccak-256 of n as decimal text, as in pyrevm.
+        """
+        numbers = _word("number", number), _word("timestamp", timestamp)
+        if not isinstance(prevrandao, bytes) or len(prevrandao) != 32:
+            raise InputError(f"`prevrandao` must be 32 bytes, not {prevrandao!r:.60}")
+        place = self._run("allocate", 32)
+        self._memory.write(self._store, prevrandao, place)
+        self._run("set_block", *numbers, place)
+        self._run("release", place, 32)
 
     def call(self, address: bytes, data: bytes, gas: int) -> Answer:
         """Call a contract with at most `gas` for the execution."""
@@ -127,3 +144,11 @@ class Instance:
             raise ChainError(
                 f"the embedded EVM stopped: the call needs more than {MEMORY >> 20:,} MB of memory"
             ) from error
+
+
+def _word(name: str, value: object) -> int:
+    """Return a number of 64 bits; wasmtime would take the last 64 of any other."""
+    whole = integer(value)
+    if whole is None or not 0 <= whole < 1 << 64:
+        raise InputError(f"`{name}` must be a whole number from 0 to 2^64 - 1, not {value!r:.60}")
+    return whole

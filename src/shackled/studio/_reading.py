@@ -7,6 +7,9 @@ from ..errors import VerificationError
 from ..ethereum import checksum_address
 from ._storage import PARTS, POINTED, SCENE, scene_struct, storage_address
 
+#: The parts of a list have at most this many bytes together (Kept.sol).
+MAX_SIZE = 1 << 20
+
 
 def stored_codes(connection: Connection, studio: bytes, pointer: bytes) -> dict[bytes, bytes]:
     """Return code by address of all parts of a stored scene: the scene, its meshes, and their parts.
@@ -15,19 +18,29 @@ def stored_codes(connection: Connection, studio: bytes, pointer: bytes) -> dict[
     """
     codes: dict[bytes, bytes] = {}
 
+    def part(place: bytes) -> bytes:
+        """Return the bytes of one contract; each is read once."""
+        if place not in codes:
+            code = connection.code(place)
+            if not code:
+                raise VerificationError(f"nothing is stored at {checksum_address(place)}")
+            # the first byte is a STOP instruction; the bytes after it determine the address
+            if code[:1] != b"\0" or storage_address(code[1:], studio) != place:
+                raise VerificationError(f"the bytes at {checksum_address(place)} do not belong to that address")
+            codes[place] = code
+        return codes[place][1:]
+
     def read(place: bytes) -> bytes:
-        """Return the bytes stored at an address, joined from their parts."""
-        code = connection.code(place)
-        if not code:
-            raise VerificationError(f"nothing is stored at {checksum_address(place)}")
-        # the first byte is a STOP instruction; the bytes after it determine the address
-        if code[:1] != b"\0" or storage_address(code[1:], studio) != place:
-            raise VerificationError(f"the bytes at {checksum_address(place)} do not belong to that address")
-        codes[place] = code
-        data = code[1:]
+        """Return the bytes stored at an address. As in Kept.sol, the parts of a list are never lists themselves."""
+        data = part(place)
         if data[:1] != bytes([PARTS]):
             return data
-        return b"".join(read(data[at : at + 20]) for at in range(1, len(data), 20))
+        places = [data[1 + 20 * k : 21 + 20 * k] for k in range((len(data) - 1) // 20)]
+        if sum(len(part(each)) for each in places) > MAX_SIZE:
+            raise VerificationError(
+                f"the parts at {checksum_address(place)} have more than {MAX_SIZE:,} bytes together"
+            )
+        return b"".join(part(each) for each in places)
 
     for mesh in stored_meshes(read(pointer)):
         if mesh[:1] == bytes([POINTED]):

@@ -12,10 +12,12 @@ from ..chain import GAS_LEFT, Connection, describe_revert
 from ..errors import ChainError, InputError, NodeError, OutOfGasError, RevertError
 from ..ethereum import checksum_address, to_hex
 from ._contract import Contract
-from ._metadata import Metadata, read_token_uri
+from ._metadata import MAX_LENGTH, Metadata, read_token_uri
 from ._reverts import PHASES
 
 Read = TypeVar("Read")
+#: Maximum size in bytes of the `tokenURI` of an edition: a call of 2^24 gas cannot return more.
+LONGEST = 3_000_000
 #: Maximum number of concurrent requests.
 MAX_REQUESTS = 6
 
@@ -146,7 +148,14 @@ class Collection:
 
     def metadata(self, token: int) -> Metadata:
         """Return the metadata of a token, from its `tokenURI`."""
-        return read_token_uri(self.token_uri(token))
+        return self.parse(self.token_uri(token))
+
+    def parse(self, uri: str) -> Metadata:
+        """Parse a `tokenURI` of the collection. Raises VerificationError if it is invalid or too long.
+
+        Anyone adds editions, so theirs may be longer than marketplaces show.
+        """
+        return read_token_uri(uri, LONGEST if self.kind is EDITIONS else MAX_LENGTH)
 
     def state(self) -> CollectionState:
         """Return the current state of the collection."""

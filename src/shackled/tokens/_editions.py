@@ -28,10 +28,10 @@ MAX_SCALE = 8
 #: Bytes of the JSON of a token without its picture, at most.
 DOCUMENT = 1_500
 #: Gas of `add` that depends on the chain: counters and balances that are new or not, each copy, and the rest.
-ADD_GAS, COPY_GAS = 30_000, 3_000
+ADD_GAS, COPY_GAS = 70_000, 3_000
 #: Gas of `withdraw` for each edition but the first.
 WITHDRAW_GAS = 8_000
-ADDED = b"EditionAdded(uint256,address,address,string,uint256,uint256,uint256,uint256)"
+ADDED = b"EditionAdded(uint256,address,address,string,uint256,bool,uint256,uint256,uint256)"
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,8 @@ class EditionTerms:
 
     name: 1 to 64 bytes. scene: address of the stored scene. price: of a token, in wei. supply: maximum number of
     tokens, `OPEN` for no limit. royalty: in hundredths of a percent. copies: number of tokens minted to the
-    artist free of charge. scale: side of the square that each pixel becomes.
+    artist free of charge. scale: side of the square that each pixel becomes. model: whether the metadata contains the
+    scene as a GLB model.
     """
 
     name: str
@@ -50,6 +51,7 @@ class EditionTerms:
     royalty: int = 500
     copies: int = 1
     scale: int = SCALE
+    model: bool = False
 
     def __post_init__(self) -> None:
         """Raise InputError if the contract would refuse the terms."""
@@ -78,7 +80,7 @@ class EditionTerms:
     @property
     def arguments(self) -> tuple[Any, ...]:
         """The arguments of `add`."""
-        return self.name, self.scene, self.scale, self.price, self.supply, self.royalty, self.copies
+        return self.name, self.scene, self.scale, self.model, self.price, self.supply, self.royalty, self.copies
 
 
 @dataclass(frozen=True)
@@ -96,6 +98,7 @@ class Edition:
     closed: bool
     royalty: int
     scale: int
+    model: bool
 
     @property
     def left(self) -> int:
@@ -131,6 +134,7 @@ class Edition:
             "left": None if is_open and not self.closed else self.left,
             "closed": self.closed,
             "royalty": self.royalty / 100,
+            "model": self.model,
             "proceeds": amount(self.proceeds),
         }
 
@@ -156,8 +160,8 @@ def open_editions(connection: Connection, address: str | None = None) -> Collect
 def edition_at(collection: Collection, number: int) -> Edition:
     """Return an edition by its number. Raises RevertError if there is none."""
     found = collection.contract.call("editionAt", number)
-    artist, scene = (checksum_address(bytes.fromhex(found[place][2:])) for place in (0, 8))
-    return Edition(number, artist, scene, found[9], *found[1:8])
+    artist, scene = (checksum_address(bytes.fromhex(found[place][2:])) for place in (0, 9))
+    return Edition(number, artist, scene, found[10], *found[1:9])
 
 
 def editions_of(collection: Collection, artist: str | None = None) -> list[Edition]:
@@ -180,23 +184,26 @@ def add_gas(terms: EditionTerms, codes: Mapping[bytes, bytes]) -> int:
     for place, code in codes.items():
         local.put(place, code)
     limit = local.ask(EDITIONS.contract, "DRAWING_GAS")
-    request = artifact(STUDIO).interface.encode("renderDataURI(address,uint256)", terms.scene, terms.scale)
+    parts: list[tuple[Any, ...]] = [("renderDataURI(address,uint256)", terms.scene, terms.scale)]
+    if terms.model:
+        parts.append(("glbDataURI", terms.scene))
+    fewer = ", or no model" if terms.model else ""
     too_much = InputError(
-        f"drawing the scene takes more than the {limit:,} gas that an edition may take: choose a smaller size, fewer "
-        "triangles or no antialiasing"
+        f"the tokenURI takes more than the {limit:,} gas that an edition may take: choose a smaller size, fewer "
+        f"triangles or no antialiasing{fewer}"
     )
     try:
         # a contract that runs out of gas cannot always report it; with more gas, other errors can be told apart
-        picture = local.call(STUDIO, request, 16 * limit)
+        drawn = [local.call(STUDIO, artifact(STUDIO).interface.encode(*each), 16 * limit) for each in parts]
     except OutOfGasError:
         raise too_much from None
-    if picture.gas > limit:
+    if sum(each.gas for each in drawn) > limit:
         raise too_much
-    length = (len(picture.output) + DOCUMENT) * 4 // 3
+    length = (sum(len(each.output) for each in drawn) + DOCUMENT) * 4 // 3
     if length > MAX_LENGTH:
         raise InputError(
             f"the tokenURI would have {length:,} bytes, and marketplaces show no more than {MAX_LENGTH:,}: choose a "
-            "smaller size or scale"
+            f"smaller size or scale{fewer}"
         )
     data = interface.encode("add", *terms.arguments)
     silent = interface.encode("add", *EditionTerms(**{**vars(terms), "copies": 0}).arguments)
@@ -218,8 +225,9 @@ def added_edition(collection: Collection, receipt: Receipt, artist: str, terms: 
     if len(logs) != 1 or len(logs[0]["topics"]) != 4:
         raise VerificationError(f"the receipt of the transaction {receipt.hash} names no new edition")
     edition = edition_at(collection, int(logs[0]["topics"][1], 16))
-    found = (edition.name, edition.scene, edition.scale, edition.price, edition.supply, edition.royalty)
-    if edition.artist != artist or found != terms.arguments[:-1]:
+    terms_found = edition.name, edition.scene, edition.scale, edition.model
+    sale_found = edition.price, edition.supply, edition.royalty
+    if edition.artist != artist or (*terms_found, *sale_found) != terms.arguments[:-1]:
         raise VerificationError(
             f"edition {edition.number}, which the {collection.connection.name} reports for the transaction "
             f"{receipt.hash}, does not match the terms"

@@ -28,7 +28,7 @@ PICTURES = {"image/png": "PNG", "image/bmp": "BMP"}
 #: The last chunk of every PNG.
 PNG_END = bytes.fromhex("0000000049454e44ae426082")
 #: Maximum side of a picture, in pixels.
-MAX_SIDE = 2048
+MAX_SIDE = 4096
 
 Trait = str | int | float | bool
 
@@ -69,9 +69,9 @@ class Metadata:
         write_output(path, content)
 
 
-def read_token_uri(uri: str) -> Metadata:
-    """Parse a `tokenURI`. Raises VerificationError if marketplaces would not accept it."""
-    document = _document(uri)
+def read_token_uri(uri: str, max_length: int = MAX_LENGTH) -> Metadata:
+    """Parse a `tokenURI`. Raises VerificationError if it is invalid, or longer than `max_length` bytes."""
+    document = _document(uri, max_length)
     name, description = _text(document, "name"), _text(document, "description")
     image, label = _text(document, "image"), plain(name)[:60]
     media_type, picture = read_data_uri(image, f"the image of {label}")
@@ -135,11 +135,11 @@ def shrink(pixels: NDArray[np.uint8], width: int, height: int) -> NDArray[np.uin
     return small if np.array_equal(whole, pixels) else None
 
 
-def _document(uri: str) -> dict[str, Any]:
+def _document(uri: str, max_length: int) -> dict[str, Any]:
     length = len(uri.encode())
-    if length > MAX_LENGTH:
+    if length > max_length:
         raise VerificationError(
-            f"the tokenURI has {length:,} bytes; wallets and marketplaces show no more than {MAX_LENGTH:,}"
+            f"the tokenURI has {length:,} bytes; wallets and marketplaces show no more than {max_length:,}"
         )
     media_type, content = read_data_uri(uri, "the tokenURI")
     if media_type != "application/json":

@@ -21,7 +21,7 @@ from ._editions import Edition, edition_at
 from ._icons import CollectionIcon, icon_at
 from ._immutables import immutable_places, immutable_values
 from ._launch import CollectionTerms, creation_code, parts_of
-from ._metadata import Metadata, read_data_uri, read_token_uri, shrink
+from ._metadata import Metadata, read_data_uri, shrink
 
 #: The type of the EIP-712 domain of permissions.
 DOMAIN = b"EIP712Domain(string name,string version,uint256 chainId,address verifyingContract)"
@@ -110,7 +110,7 @@ def check_token(collection: Collection, token: int, local: EmbeddedChain, uri: s
     what = f"{collection.name} #{token}"
     try:
         uri = collection.token_uri(token) if uri is None else uri
-        metadata = read_token_uri(uri)
+        metadata = collection.parse(uri)
         if not collection.kind.hidden:
             return Check(f"{what}, {metadata.name}", _scene_failure(collection, token, metadata, local))
         if not collection.is_revealed(token):
@@ -150,6 +150,9 @@ def _scene_failure(collection: Collection, token: int, metadata: Metadata, local
     picture = local.ask(STUDIO, "renderPNG(address,uint256)", kind.scene, kind.scale)
     if metadata.picture != picture:
         return "its picture differs from that of its scene"
+    expected = {"animation_url": local.ask(STUDIO, "glbDataURI", kind.scene)} if getattr(kind, "model", False) else {}
+    if {key: value for key, value in metadata.document.items() if key == "animation_url"} != expected:
+        return "its model differs from that of its scene"
     if metadata.traits != kind.traits or metadata.name != f"{kind.name} #{token}":
         return "its name or its traits differ from those of its scene"
     return ""

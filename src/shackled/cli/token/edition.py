@@ -56,6 +56,7 @@ def add(
     royalty: Annotated[float, option("--royalty", "Share of the price of resales, 0 to 10.", "PERCENT")] = 5,
     copies: Annotated[int, option("--copies", "Tokens minted to you free of charge, 0 to 100.", "N")] = 1,
     scale: Annotated[int, option("--scale", "Side of the square that each pixel becomes.", "N", min=1, max=8)] = 4,
+    model: Annotated[bool, option("--model", "Add the scene as a GLB model to the metadata (animation_url).")] = False,
     as_json: Json = False,
 ) -> None:
     """Add a scene as an edition, of which anyone can mint tokens. It cannot be changed later."""
@@ -70,6 +71,7 @@ def add(
         royalty=round(100 * number(royalty, "--royalty", 0, 10)),
         copies=copies,
         scale=scale,
+        model=model,
     )
     collection = which.open()
     studio = bytes.fromhex(address_of(parts_of(STUDIO, itself=True), STUDIO)[2:])

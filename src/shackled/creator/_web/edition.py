@@ -17,7 +17,7 @@ from .._state import Source
 from .wallet import Tell, Wallet, WalletError, chain_name, events, minted_tokens
 
 #: Topic of the event of a new edition.
-ADDED = to_hex(keccak256(b"EditionAdded(uint256,address,address,string,uint256,uint256,uint256,uint256)"))
+ADDED = to_hex(keccak256(b"EditionAdded(uint256,address,address,string,uint256,bool,uint256,uint256,uint256)"))
 #: Address of a scene that is not known yet.
 UNKNOWN = "0x" + "00" * 20
 
@@ -41,6 +41,7 @@ def parse_terms(fields: Any, source: Source) -> EditionTerms:
         price=parse_ether(price, "the price"),
         supply=int(supply) if supply else OPEN,
         royalty=round(100 * _percent(royalty)),
+        model=fields.get("model") == "on",
     )
 
 
@@ -80,7 +81,8 @@ async def mint_edition(calls: EditionCalls, wallet: Wallet, tell: Tell) -> str:
     """
     await tell("Waiting for the wallet …")
     account = await wallet.account()
-    chain = chain_name(await wallet.number("eth_chainId"))
+    number_of_chain = await wallet.number("eth_chainId")
+    chain = chain_name(number_of_chain)
     if await _code(wallet, calls.collection) != calls.code:
         raise InputError(
             f"{chain} has no collection of editions at {calls.collection}: switch the wallet to a chain that has "
@@ -90,7 +92,7 @@ async def mint_edition(calls: EditionCalls, wallet: Wallet, tell: Tell) -> str:
     for number, each in enumerate(missing, 1):
         await tell(f"Storing the scene, {number} of {len(missing)}: about {each.gas:,} gas. Confirm it in the wallet …")
         transaction = {"from": account, "to": calls.studio, "data": to_hex(each.data), "value": "0x0"}
-        await wallet.send(transaction, tell)
+        await wallet.send(transaction, tell, number_of_chain)
         if await _code(wallet, each.pointer) != each.code:
             raise WalletError(f"the transaction succeeded, but the scene is not at {each.pointer} on {chain}")
     terms, transaction = calls.terms, {"from": account, "to": calls.collection, "data": to_hex(calls.add)}
@@ -98,15 +100,15 @@ async def mint_edition(calls: EditionCalls, wallet: Wallet, tell: Tell) -> str:
         f"Adding the edition: {terms.name}, {ether(terms.price)} a token, about {calls.gas:,} gas. This cannot be "
         "changed later. Confirm it in the wallet …"
     )
-    receipt = await wallet.send(transaction | {"value": "0x0"}, tell)
+    receipt = await wallet.send(transaction | {"value": "0x0"}, tell, number_of_chain)
     added = events(receipt, calls.collection, ADDED)
     if len(added) != 1:
         raise WalletError("the transaction succeeded, but its receipt names no new edition")
     number = added[0][1]
-    artist, price, supply, _, _, _, royalty, scale, scene, name = await wallet.read(
+    artist, price, supply, _, _, _, royalty, scale, model, scene, name = await wallet.read(
         EDITIONS.contract, calls.collection, "editionAt", number
     )
-    found = (name, checksum_address(bytes.fromhex(scene[2:])), scale, price, supply, royalty)
+    found = (name, checksum_address(bytes.fromhex(scene[2:])), scale, model, price, supply, royalty)
     if artist.lower() != account.lower() or found != terms.arguments[:-1]:
         raise WalletError(f"edition {number}, which the wallet reports as added, does not match the terms")
     yours = "".join(f", token {each} is yours" for each in minted_tokens(receipt, calls.collection))

@@ -130,7 +130,7 @@ async def send_reveal(reveal: Reveal, wallet: Wallet, tell: Tell) -> str:
         raise InputError("these tokens are revealed already")
     await tell("Confirm it in the wallet …")
     transaction = {"from": account, "to": reveal.collection, "data": to_hex(reveal.data), "value": "0x0"}
-    await wallet.send(transaction, tell)
+    await wallet.send(transaction, tell, reveal.chain)
     if tuple(await collection.randomness(reveal.rounds)) != reveal.randomness:
         raise WalletError("the transaction succeeded, but the collection does not have the randomness of the blocks")
     return f"Revealed: {reveal.words}. {reveal.later}".strip()

@@ -140,9 +140,15 @@ class Wallet:
             raise WalletError("the wallet has no account")
         return accounts[0]
 
-    async def send(self, transaction: dict[str, Any], tell: Tell) -> dict[str, Any]:
-        """Send a transaction, and return its receipt. WalletError if it failed, or takes too long."""
-        sent = await self.request("eth_sendTransaction", transaction)
+    async def send(self, transaction: dict[str, Any], tell: Tell, chain: int) -> dict[str, Any]:
+        """Send a transaction to a chain, and return its receipt. WalletError if it failed, or takes too long.
+
+        InputError if the wallet is on another chain: there the address has other code, or none, and keeps the ether.
+        """
+        found = await self.number("eth_chainId")
+        if found != chain:
+            raise InputError(f"the wallet is on {chain_name(found)} now, not on {chain_name(chain)}: switch it back")
+        sent = await self.request("eth_sendTransaction", transaction | {"chainId": hex(chain)})
         await tell(f"Sent: {sent}. Waiting until it is included in a block …")
         for _ in range(TRIES):
             receipt = await self.request("eth_getTransactionReceipt", sent)
@@ -209,9 +215,10 @@ async def mint(offer: Offer, wallet: Wallet, tell: Tell) -> str:
     data, price = await sale.order()
     await tell(f"The price is {ether(price)}. Confirm it in the wallet …")
     transaction = {"from": account, "to": sale.address, "data": to_hex(data), "value": hex(price)}
-    tokens = minted_tokens(await wallet.send(transaction, tell), sale.address)
-    which = f": token {tokens[0]} of" if tokens else ", in"
-    return f"Minted{which} {offer.kind.title}, at {sale.address}"
+    tokens = minted_tokens(await wallet.send(transaction, tell, chain), sale.address)
+    if not tokens:
+        raise WalletError("the transaction succeeded, but its receipt names no new token")
+    return f"Minted: token {tokens[0]} of {offer.kind.title}, at {sale.address}"
 
 
 class _Sale:
@@ -225,6 +232,8 @@ class _Sale:
     async def order(self) -> tuple[bytes, int]:
         """Return the calldata that mints one token, and the price in wei. InputError if it is not on sale."""
         phase = await self._read("phase")
+        if phase >= len(PHASES):
+            raise WalletError(f"the wallet says that the sale has the phase {phase}, which there is not")
         if phase != OPEN_FOR_ALL:
             raise InputError(f"the sale is {PHASES[phase]}")
         if self._offer.kind.hidden:

@@ -199,7 +199,7 @@ document.addEventListener("click", (event) => {
 
 // what is typed beside a button: the inputs of its fieldset that have names, unless they are controls of the picture
 function fields(button) {
-  const inputs = $$("input[name]:not([data-path])", button.closest("fieldset") ?? button);
+  const inputs = $$("input[name]:not([data-path], [type=checkbox]:not(:checked))", button.closest("fieldset") ?? button);
   return inputs.length ? { fields: Object.fromEntries(inputs.map(({ name, value }) => [name, value])) } : {};
 }
 
