@@ -42,6 +42,13 @@ def test_numbers_are_aligned_to_the_right(capsys: pytest.CaptureFixture[str]) ->
     assert len(head.rstrip()) == len(first.rstrip())
 
 
+def test_sentences_that_begin_with_a_number_are_not_numbers(capsys: pytest.CaptureFixture[str]) -> None:
+    print_table(("token", "problem", "size"), [("1", "0 bytes", "1,024 x 8"), ("2", "a long problem", "8 x 8")])
+    _, first, last = capsys.readouterr().out.splitlines()
+    assert first.index("0 bytes") == last.index("a long problem")
+    assert len(first.rstrip()) == len(last.rstrip())
+
+
 def test_json_has_no_characters_that_a_terminal_obeys_or_cannot_encode(capsys: pytest.CaptureFixture[str]) -> None:
     document = {"name": "\x9b31m \udcff é"}
     print_json(document)

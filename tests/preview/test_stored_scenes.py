@@ -7,15 +7,13 @@ from pathlib import Path
 
 import pytest
 
-import shackled
 from preview.small_contracts import SVG, answering, contract, output
 from preview.test_preview import HERE, MODULES, needs_solc
 from shackled.chain import RevmChain
 from shackled.cli.app import run
 from shackled.ethereum import checksum_address
 from shackled.library import items
-from shackled.preview import Preview, Project, Request, World, stored_scene
-from shackled.preview._library import library_codes
+from shackled.preview import Preview, Project, Request, World, library_codes, stored_scene
 
 
 @pytest.fixture
@@ -60,8 +58,10 @@ def test_contracts_that_need_the_library_have_it(cache: Path) -> None:
 def test_scenes_of_the_author(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    codes = stored_scene(shackled.load("icons/diamond"))
+    codes = stored_scene("icons/diamond")
     pointer = list(codes)[-1]
+    # that of the library, and of `shackled mint`
+    assert pointer == next(each.pointer for each in items() if each.name == "diamond")
     assert pointer in World(contract(answering(output(SVG))), stored=codes).codes
     monkeypatch.setenv("PATH", str(tmp_path))
     source = tmp_path / "A.sol"

@@ -97,11 +97,10 @@ def _stored(scenes: Sequence[str]) -> dict[bytes, bytes]:
     if not scenes:
         return {}
     from ..preview import stored_scene
-    from .look_options import load_with
 
     found: dict[bytes, bytes] = {}
     for each in scenes:
-        codes = stored_scene(load_with(each, {}))
+        codes = stored_scene(each)
         print_note(f"{each} is stored at {checksum_address(list(codes)[-1])}")
         found |= codes
     return found

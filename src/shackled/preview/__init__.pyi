@@ -1,7 +1,7 @@
 from ._arguments import Call, parse_call, parse_value
 from ._document import Document, File, judge, judge_picture
 from ._findings import folded
-from ._library import stored_scene
+from ._library import library_codes, stored_scene
 from ._preview import Preview, Request, Token
 from ._project import Compiled, CompilerError, Project
 from ._server import Live, make_app, serve
@@ -26,6 +26,7 @@ __all__ = [
     "folded",
     "judge",
     "judge_picture",
+    "library_codes",
     "make_app",
     "parse_call",
     "parse_value",

@@ -9,17 +9,27 @@ from pathlib import Path
 
 from platformdirs import user_cache_path
 
+from .._load import load, locate
+from ..datasets import Piece
 from ..deploy import deployments
-from ..scene import Scene
+from ..scene import READERS
 from ..studio import STUDIO, storage_address, store_scene
+from ..tokens import token_scene
 from ..whole_file import write_whole
 
 #: Bytes of the digest in front of a file.
 DIGEST = 32
 
 
-def stored_scene(scene: Scene) -> dict[bytes, bytes]:
-    """Return the code of the contracts in which the Studio stores a scene, by address; the last is the scene itself."""
+def stored_scene(input: str) -> dict[bytes, bytes]:
+    """Return the code of the contracts in which the Studio stores a scene, by address; the last is the scene itself.
+
+    input: a piece of a dataset, a mesh or a scene file. The scene is that of `shackled mint`.
+    """
+    source = locate(input)
+    is_mesh = not isinstance(source, Piece) and source.suffix.lower() in READERS
+    thing = token_scene(source) if isinstance(source, Piece) else source
+    scene = load(thing, antialias=False if is_mesh else None)
     return {each.pointer: each.code for each in store_scene(scene, deployments([STUDIO])[-1].address)}
 
 
