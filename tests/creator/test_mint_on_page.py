@@ -267,7 +267,7 @@ def test_what_no_collection_has_becomes_an_edition(browser: Any, server: Started
     page.click("text=Make an edition with <b>Toy</b> wallet")
     assert "edition 0 of Shackled Editions, token 0 is yours" in words_of(page, "Added")
     assert chain.collection("editionAt", 0)[1:4] == (10**18, 3, 1)
-    assert chain.collection("editionAt", 0)[9] == 'A "pot"'
+    assert chain.collection("editionAt", 0)[10] == 'A "pot"'
     # wrong fields are told, and nothing is asked
     before = len(chain.sent)
     page.fill("input[name=royalty]", "90")
