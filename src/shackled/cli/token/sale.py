@@ -11,7 +11,16 @@ import typer
 from ...errors import InputError
 from ...ethereum import checksum_address, to_hex
 from ...values import plural
-from ..chain_options import Json, parse_checksum_address, print_json, print_price, with_groups, write_calls
+from ..chain_options import (
+    Calldata,
+    Json,
+    check_calldata,
+    parse_checksum_address,
+    print_json,
+    print_price,
+    with_groups,
+    write_calls,
+)
 from ..option import option
 from ..output import print_line, print_note
 from .options import MAX_NUMBER, AnyCollectionOptions, CollectionOptions, TokenPayerOptions
@@ -80,16 +89,14 @@ def reveal(
     which: CollectionOptions,
     payer: TokenPayerOptions,
     wait: Annotated[bool, option("--wait", "Wait for blocks that are not mined yet.")] = False,
-    calldata: Annotated[
-        Path | None,
-        option("--calldata", "Write the transactions to a JSON file for a wallet, and send nothing.", "FILE"),
-    ] = None,
+    calldata: Calldata = None,
     as_json: Json = False,
 ) -> None:
     """Reveal the tokens whose blocks are mined. Anyone can do this."""
     from ...deploy import current_fees
     from ...tokens import hidden_rounds, price_calls, price_wallet_calls, reveal_calls
 
+    check_calldata(calldata)
     collection = which.open()
     if not collection.kind.hidden:
         raise InputError(f"the tokens of {collection.name} are never hidden: there is nothing to reveal")
