@@ -17,6 +17,7 @@ from docs import draw_library
 from PIL import Image as PillowImage
 from tools.examples import compile_example
 
+from compiler import needs_compiler
 from nodes import KEY, anvil, needs_anvil
 from shackled import load, render
 from shackled.chain import Connection
@@ -34,9 +35,7 @@ pytestmark = [
         not shutil.which("node") or not (HERE / "node_modules" / "web3protocol").is_dir(),
         reason="web3protocol is not installed: python tools/prepare.py node",
     ),
-    pytest.mark.skipif(
-        not (HERE.parents[1] / "contracts" / "node_modules" / "solc").is_dir(), reason="the compiler is not installed"
-    ),
+    needs_compiler,
     needs_anvil,
 ]
 

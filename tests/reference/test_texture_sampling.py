@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from tools.examples import compile_example
 from tools.ledger import World, call_data
 
+from compiler import needs_compiler
 from shackled import Texture
 from shackled.reference.texture import Texture as Packed
 from shackled.scene import FILTERS, WRAPS, pack_texture
@@ -73,7 +74,7 @@ def test_the_reference_is_opengl(shape: tuple[int, int, int], filter: str, wrap:
         assert np.abs(levels - by_opengl(texture, u / ONE, v / ONE)).max() < 0.2
 
 
-@pytest.mark.skipif(not (ROOT / "contracts" / "node_modules" / "solc").is_dir(), reason="the compiler is not installed")
+@needs_compiler
 def test_the_contract_is_the_reference() -> None:
     world = World()
     probe = world.deploy(compile_example("tests/reference/TextureProbe.sol")[0])

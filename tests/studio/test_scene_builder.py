@@ -12,6 +12,7 @@ from eth_abi.abi import decode, encode
 from tools.examples import compile_example
 from tools.ledger import World, call_data
 
+from compiler import needs_compiler
 from shackled import Mesh, RenderError, Texture
 from shackled.artifacts import artifact
 from shackled.image import decode_bmp
@@ -25,9 +26,7 @@ ONE = 1 << 32
 FULL = "full(uint256,uint256)"
 TRIANGLE = [(0, 0, 0, 1), (9, 0, 0, 2), (0, 9, 0, 3)]
 
-pytestmark = pytest.mark.skipif(
-    not (ROOT / "contracts" / "node_modules" / "solc").is_dir(), reason="the compiler is not installed"
-)
+pytestmark = needs_compiler
 
 
 @pytest.fixture(scope="module")

@@ -14,6 +14,7 @@ from tools import lettering
 from tools.examples import compile_example
 from tools.ledger import World, call_data
 
+from compiler import needs_compiler
 from shackled import Mesh, RenderError
 from shackled.scene import NORMAL_UNIT, is_closed, unpack, vertex_normals
 
@@ -22,9 +23,7 @@ CENTER = np.array([10, 20, 30])
 SPHERE, CYLINDER, CONE, RING = range(4)
 MANY = 1 << 200
 
-pytestmark = pytest.mark.skipif(
-    not (ROOT / "contracts" / "node_modules" / "solc").is_dir(), reason="the compiler is not installed"
-)
+pytestmark = needs_compiler
 
 
 class Probe:

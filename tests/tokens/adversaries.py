@@ -11,16 +11,16 @@ import pytest
 from tools import build_contracts as tool
 from tools.tokens.world import Built
 
-ROOT = Path(__file__).resolve().parents[2]
+from compiler import MISSING, SOLC
+
 FOLDER = Path(__file__).with_name("contracts")
-SOLC = ROOT / "contracts" / "node_modules" / "solc"
 
 
 @cache
 def adversary(name: str) -> Built:
     """One of them; the test is skipped where there is no compiler."""
     if name not in _compiled():
-        pytest.skip("the compiler is not installed: npm ci in contracts/")
+        pytest.skip(MISSING)
     return _compiled()[name]
 
 
