@@ -45,8 +45,6 @@ from shackled.creator import (
 from shackled.gas import render_call
 from shackled.scene import simplify_scene
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-
 
 def chain() -> EmbeddedChain:
     found = open_chain()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,6 @@ from shackled import Texture
 from shackled.reference.texture import Texture as Packed
 from shackled.scene import FILTERS, WRAPS, pack_texture
 
-ROOT = Path(__file__).resolve().parents[2]
 NO_UVS = np.zeros((0, 2))
 ONE = 1 << 24
 #: Sides and numbers of colours.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,7 +20,6 @@ from shackled.scene import decode as decode_scene
 from shackled.studio import scene_struct, split_mesh
 
 SCENE_STRUCT = scene_struct()
-ROOT = Path(__file__).resolve().parents[2]
 ONE = 1 << 32
 FULL = "full(uint256,uint256)"
 TRIANGLE = [(0, 0, 0, 1), (9, 0, 0, 2), (0, 9, 0, 3)]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import string
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,7 +17,6 @@ from compiler import needs_compiler
 from shackled import Mesh, RenderError
 from shackled.scene import NORMAL_UNIT, is_closed, unpack, vertex_normals
 
-ROOT = Path(__file__).resolve().parents[2]
 CENTER = np.array([10, 20, 30])
 SPHERE, CYLINDER, CONE, RING = range(4)
 MANY = 1 << 200

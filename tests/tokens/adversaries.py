@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from functools import cache
 from pathlib import Path
 from unittest.mock import patch
 
 import pytest
 from tools import build_contracts as tool
+from tools.compiled_once import compile_once
 from tools.tokens.world import Built
 
 from compiler import MISSING, SOLC
@@ -32,9 +32,9 @@ def _compiled() -> dict[str, Built]:
     request = tool.request(sources, tool.settings(200, True), {"*": {"*": ["abi", "evm.bytecode.object"]}})
     # selfdestruct is outdated, and just what is needed here
     with patch.object(tool, "HARMLESS", tool.HARMLESS | {"5159"}):
-        answer = tool.run_compiler(json.dumps(request))
+        answer = compile_once(request)
     return {
         name: Built(output["abi"], bytes.fromhex(output["evm"]["bytecode"]["object"]))
-        for contracts in answer["contracts"].values()
+        for contracts in answer.values()
         for name, output in contracts.items()
     }
