@@ -43,7 +43,7 @@ class Shelf:
         """Store the items."""
         chain = open_chain()
         assert isinstance(chain, EmbeddedChain)
-        self.addresses = {name: chain.address(name) for name in ("Library", "Web", STUDIO)}
+        self.addresses = {name: chain.address(name) for name in ("Library", "Web", "Genesis", STUDIO)}
         self.evm = Instance()
         self.evm.hold(chain.codes())
         for item in stored:

@@ -19,6 +19,7 @@ from PIL import Image as PillowImage
 from tools.examples import compile_example, picture, token_uri
 from tools.ledger import World
 
+from compiler import needs_compiler
 from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene, load, render
 from shackled.chain import EmbeddedChain, open_chain
 from shackled.image import decode_bmp
@@ -27,7 +28,6 @@ from shackled.studio import store_scene
 
 ROOT = Path(__file__).resolve().parent.parent
 EXAMPLES = ROOT / "examples"
-SOLC = ROOT / "contracts" / "node_modules" / "solc"
 
 
 def run(*command: str | Path, cwd: Path) -> str:
@@ -77,7 +77,7 @@ def test_meshes_are_written_where_they_are_wanted(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["ball.obj"]
 
 
-@pytest.mark.skipif(not SOLC.is_dir(), reason="the compiler is not installed: npm ci in contracts/")
+@needs_compiler
 def test_call_from_contract() -> None:
     chain = open_chain()
     assert isinstance(chain, EmbeddedChain)
@@ -103,7 +103,7 @@ def test_call_from_contract() -> None:
         assert np.array_equal(np.asarray(opened), decode_bmp(bitmap, 64, 64).repeat(4, 0).repeat(4, 1))
 
 
-@pytest.mark.skipif(not SOLC.is_dir(), reason="the compiler is not installed: npm ci in contracts/")
+@needs_compiler
 def test_a_token_with_a_picture_of_the_studio() -> None:
     world = World()
     studio = world.address("Studio")
@@ -123,7 +123,7 @@ def test_a_token_with_a_picture_of_the_studio() -> None:
         token_uri(world, token, 3, 3)
 
 
-@pytest.mark.skipif(not SOLC.is_dir(), reason="the compiler is not installed: npm ci in contracts/")
+@needs_compiler
 def test_a_token_that_builds_its_scene() -> None:
     world = World()
     creation, _ = compile_example("examples/tokens/SkylineToken.sol")

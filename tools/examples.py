@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
 from tools import build_contracts
+from tools.compiled_once import compile_once
 from tools.ledger import World, call_data
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -34,13 +35,11 @@ def compile_example(name: str) -> tuple[bytes, dict[str, bytes]]:
 @cache
 def _compiled(names: tuple[str, ...]) -> dict[str, Any]:
     sources = build_contracts.follow_imports(names, ROOT)
-    selection = {name: {"*": build_contracts.OUTPUTS} for name in names}
+    selection = {name: {"*": ["evm.bytecode.object", "evm.methodIdentifiers"]} for name in names}
     settings = build_contracts.settings(200, True)
     # only the renderer needs the IR pipeline, which takes much longer
     settings["viaIR"] = any("/pipeline/" in name for name in sources)
-    request = build_contracts.request(sources, settings, selection)
-    found: dict[str, Any] = build_contracts.run_compiler(build_contracts._text(request))["contracts"]
-    return found
+    return compile_once(build_contracts.request(sources, settings, selection))
 
 
 def token_uri(world: World, token: bytes, number: int, minted: int) -> str:

@@ -1,7 +1,6 @@
 """Make contracts/src/studio/Glyphs.sol: the letters of `Lettering.sol`.
 
-    python tools/lettering.py            writes the file
-    python tools/lettering.py --check    writes nothing; fails if the file is not up to date
+    python tools/lettering.py
 
 The letters are drawn for Shackled. Each is a list of strokes, and a stroke the points of its middle line, x from 0 to
 11 and y from -3 to 12: capitals are 10 high, small letters 7. A stroke of one point is a dot; one that ends where it
@@ -10,7 +9,7 @@ began is closed.
 
 from __future__ import annotations
 
-import sys
+import argparse
 from pathlib import Path
 
 FILE = Path(__file__).resolve().parent.parent / "contracts" / "src" / "studio" / "Glyphs.sol"
@@ -148,16 +147,11 @@ def _literal(data: bytes) -> str:
     return "\n".join(f'    hex"{data[at : at + 60].hex()}"' for at in range(0, len(data), 60))
 
 
-def main() -> int:
-    """Write or check the file."""
-    if "--check" in sys.argv[1:]:
-        if FILE.read_text("utf-8") == source():
-            return 0
-        print(f"{FILE.name} is not up to date: run python tools/lettering.py", file=sys.stderr)
-        return 1
-    FILE.write_text(source(), "utf-8")
-    return 0
+def main() -> None:
+    """Write the file."""
+    argparse.ArgumentParser(description="Write the letters of Lettering.sol.").parse_args()
+    FILE.write_text(source(), "utf-8", newline="\n")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -1,7 +1,6 @@
 """Write contracts/src/library/Shelf.sol, the table of the library on chain.
 
-    python tools/library.py            writes it
-    python tools/library.py --check    writes nothing; fails if it is not up to date
+    python tools/library.py
 
 The table has the addresses at which the Studio keeps the items, which are made of their bytes and the address of the
 Studio: run it after tools/build_contracts.py whenever the Studio has changed, then compile the group "library".
@@ -10,7 +9,6 @@ Studio: run it after tools/build_contracts.py whenever the Studio has changed, t
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
 from shackled.library import Item, items
@@ -75,20 +73,12 @@ def _literal(digits: str, name: str) -> str:
     return f"            // {name}\n" + "".join(f'            hex"{line}"\n' for line in lines)
 
 
-def main() -> int:
-    """Write or check the table."""
-    parser = argparse.ArgumentParser(description="Write the table of the library on chain.")
-    parser.add_argument("--check", action="store_true", help="write nothing; fail if it is not up to date")
-    check = parser.parse_args().check
-    text = source()
-    if check and SHELF.read_text("utf-8") != text:
-        print("contracts/src/library/Shelf.sol is not up to date: run tools/library.py", file=sys.stderr)
-        return 1
-    if not check:
-        SHELF.write_text(text, "utf-8", newline="\n")
-        print(f"{SHELF.relative_to(ROOT)}: {len(items())} items")
-    return 0
+def main() -> None:
+    """Write the table."""
+    argparse.ArgumentParser(description="Write the table of the library on chain.").parse_args()
+    SHELF.write_text(source(), "utf-8", newline="\n")
+    print(f"{SHELF.relative_to(ROOT)}: {len(items())} items")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

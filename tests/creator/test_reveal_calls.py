@@ -13,6 +13,7 @@ pytest.importorskip("starlette", reason="the page needs starlette")
 from tools.tokens.world import HISTORY_LENGTH
 
 from creator.reveal_chain import RevealChain
+from forged_blocks import forged
 from shackled.artifacts import artifact
 from shackled.creator import (
     DeclinedError,
@@ -25,7 +26,6 @@ from shackled.creator import (
     send_reveal,
 )
 from shackled.errors import InputError, NodeError
-from shackled.ethereum import encode_header
 
 
 def play(work: Any, chain: RevealChain) -> tuple[Any, list[str]]:
@@ -155,10 +155,7 @@ def test_who_refuses_is_not_asked_again(chain: RevealChain, method: str) -> None
 
 def other_block(block: dict[str, Any]) -> dict[str, Any]:
     """A block with another randomness, and the hash that belongs to it."""
-    other = {key: value for key, value in block.items() if key != "hash"} | {"mixHash": "0x" + "77" * 32}
-    with pytest.raises(InputError, match="has the hash") as caught:
-        encode_header(other)
-    return other | {"hash": str(caught.value).partition("has the hash ")[2][:66]}
+    return forged(block, mixHash="0x" + "77" * 32)
 
 
 @pytest.mark.parametrize(

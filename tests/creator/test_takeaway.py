@@ -19,6 +19,7 @@ import requests
 from PIL import Image as PillowImage
 from tools import build_contracts as tool
 
+from compiler import needs_compiler
 from nodes import anvil, needs_anvil
 from shackled import Image, InputError, Scene, load, render
 from shackled.artifacts import RENDERER
@@ -43,9 +44,6 @@ from shackled.creator import (
 )
 from shackled.gas import render_call
 from shackled.scene import simplify_scene
-
-ROOT = Path(__file__).resolve().parent.parent.parent
-SOLC = ROOT / "contracts" / "node_modules" / "solc"
 
 
 def chain() -> EmbeddedChain:
@@ -308,7 +306,7 @@ def test_names_of_contracts(stem: str, name: str) -> None:
     assert contract_name(stem) == name
 
 
-@pytest.mark.skipif(not SOLC.is_dir(), reason="the compiler is not installed: npm ci in contracts/")
+@needs_compiler
 def test_the_solidity_snippets_make_the_picture(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of a scene that a contract holds, and of one whose meshes are brought by the caller."""
     pictures = [Picture("icosahedron", "neon"), Picture("first-render")]

@@ -5,7 +5,9 @@ from __future__ import annotations
 import pytest
 
 from shackled.artifacts import artifact, known_errors
-from shackled.ethereum import SOLIDITY_ERRORS, Interface, decode_error, error_table, word
+from shackled.chain import describe_revert
+from shackled.errors import InputError
+from shackled.ethereum import SOLIDITY_ERRORS, Interface, decode_error, error_table, keccak256, word
 
 # the examples of the specification of the ABI: docs.soliditylang.org/en/latest/abi-spec.html
 FOO = Interface(
@@ -22,6 +24,12 @@ FOO = Interface(
             "name": "sam",
             "inputs": [{"type": "bytes"}, {"type": "bool"}, {"type": "uint256[]"}],
             "outputs": [{"type": "uint256"}, {"type": "uint256"}],
+        },
+        {
+            "type": "function",
+            "name": "say",
+            "inputs": [{"name": "it", "type": "string"}],
+            "outputs": [{"type": "string"}],
         },
     ]
 )
@@ -45,6 +53,22 @@ def test_an_answer_of_another_kind_is_refused() -> None:
             FOO.decode(function, answer)
 
 
+def test_a_text_that_is_not_utf8_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"^96 bytes are not an output of say"):
+        FOO.decode("say", word(32) + word(1) + b"\xff" + bytes(31))
+
+
+def test_values_that_do_not_fit_are_named() -> None:
+    for encode, values, words in (
+        (FOO.encode, ("baz", 2**32, True), "x of baz must be a uint32, not 4294967296"),
+        (FOO.encode, ("baz", 1, "yes"), "y of baz must be a bool, not 'yes'"),
+        (FOO.encode, ("say", "\ud800"), r"it of say must be a string, not '\\ud800'"),
+        (FOO.construct, (-1,), "a of the constructor must be a uint256, not -1"),
+    ):
+        with pytest.raises(InputError, match=f"^{words}$"):
+            encode(*values)
+
+
 def test_the_struct_of_a_scene_is_that_of_the_renderer() -> None:
     kind = artifact("Renderer").interface.parameter_type("render")
     assert kind.startswith("((uint256,uint256),(")
@@ -66,3 +90,17 @@ def test_values_without_a_name_have_that_of_their_type() -> None:
     table = error_table([{"type": "error", "name": "Odd", "inputs": [{"name": "", "type": "address"}]}])
     ((selector, _),) = table.items()
     assert decode_error(selector + word(b"\x77" * 20), table) == ("Odd", {"address": "0x" + 20 * "77"})
+
+
+def test_a_reason_that_is_not_utf8() -> None:
+    data = bytes.fromhex("08c379a0") + word(32) + word(1) + b"\xff" + bytes(31)
+    assert describe_revert(data) == "\ufffd"
+
+
+def test_errors_with_structs() -> None:
+    inner = {"name": "", "type": "tuple", "components": [{"name": "", "type": "bytes2"}]}
+    parameter = {"name": "those", "type": "tuple[]", "components": [{"name": "", "type": "uint8"}, inner]}
+    table = error_table([{"type": "error", "name": "Odd", "inputs": [parameter]}])
+    assert list(table) == [keccak256(b"Odd((uint8,(bytes2))[])")[:4]]
+    data = word(32) + word(1) + word(7) + b"ab".ljust(32, b"\0")
+    assert describe_revert(next(iter(table)) + data, table) == "Odd(those=((7, (0x6162))))"

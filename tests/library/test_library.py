@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from docs.draw_library import Shelf
 from eth_abi.abi import decode as decode_abi
 from eth_utils.crypto import keccak
 from PIL import Image as PillowImage
@@ -18,77 +19,57 @@ import gltf_reader
 from nodes import KEY, anvil, needs_anvil
 from shackled import render
 from shackled.artifacts import artifact
-from shackled.chain import RevmChain, describe_revert
 from shackled.cli.app import run
 from shackled.errors import InputError
 from shackled.ethereum import word
-from shackled.evm import Instance, Status
+from shackled.evm import Status
 from shackled.image import decode_bmp
 from shackled.library import chosen_items, items
 from shackled.scene import encode_scene, fit
 
-GAS = 1_000_000_000
 #: The first byte of a pointer to a mesh (contracts/src/mesh/Kinds.sol).
 POINTED = 0x12
 STORED = ("ethereum", "coin", "cube")
 
 
-class Chain:
-    """The contracts, and a Studio that stores some items."""
-
-    def __init__(self) -> None:
-        chain = RevmChain()
-        self.addresses = {name: chain.address(name) for name in ("Library", "Web", "Studio", "Genesis")}
-        self.evm = Instance()
-        self.evm.hold(chain.codes())
-        for item in chosen_items(STORED):
-            for each in item.transactions:
-                assert self.evm.send(self.addresses["Studio"], each.data, GAS).status == Status.SUCCESS
-
-    def call(self, contract: str, function: str, *values: Any) -> Any:
-        interface = artifact(contract).interface
-        answer = self.evm.call(self.addresses[contract], interface.encode(function, *values), GAS)
-        if answer.status != Status.SUCCESS:
-            raise LookupError(describe_revert(answer.output))
-        return interface.decode(function, answer.output)
-
-    def ask(self, path: str, **parameters: str) -> tuple[int, bytes, dict[str, str]]:
-        """Send a request as a web3:// browser does. The body is raw bytes, which the ABI calls text."""
-        interface = artifact("Web").interface
-        data = interface.encode("request", path.split("/")[1:], list(parameters.items()))
-        answer = self.evm.call(self.addresses["Web"], data, GAS)
-        assert answer.status == Status.SUCCESS
-        status, body, headers = decode_abi(["uint16", "bytes", "(string,string)[]"], answer.output)
-        return status, body, dict(headers)
-
-
 @pytest.fixture(scope="module")
-def chain() -> Chain:
-    return Chain()
+def shelf() -> Shelf:
+    return Shelf(chosen_items(STORED))
+
+
+def call(shelf: Shelf, contract: str, function: str, *values: Any) -> Any:
+    """Call a contract by its name."""
+    interface = artifact(contract).interface
+    return interface.decode(function, shelf.call(shelf.addresses[contract], interface.encode(function, *values)))
+
+
+def ask(shelf: Shelf, path: str, **parameters: str) -> tuple[int, bytes, dict[str, str]]:
+    """Send a request as a web3:// browser does."""
+    return shelf.ask(shelf.addresses["Web"], path, **parameters)
 
 
 def test_the_table_is_up_to_date() -> None:
     assert tool.SHELF.read_text("utf-8") == tool.source(), "run tools/library.py"
 
 
-def test_items_by_name(chain: Chain) -> None:
-    assert chain.call("Library", "names") == tuple(each.name for each in items())
+def test_items_by_name(shelf: Shelf) -> None:
+    assert call(shelf, "Library", "names") == tuple(each.name for each in items())
     assert sum(each.is_icon for each in items()) == 28
     assert {"teapot", "cube", "torus", "cone"} < {each.name for each in items()}
     for each in items():
-        scene, meshes, low, high, triangles, is_icon = chain.call("Library", "find", each.name)
+        scene, meshes, low, high, triangles, is_icon = call(shelf, "Library", "find", each.name)
         assert bytes.fromhex(scene[2:]) == each.pointer
         assert [bytes.fromhex(mesh[2:]) for mesh in meshes] == each.meshes
         assert (low, high) == (tuple(each.low), tuple(each.high))
         assert (triangles, is_icon) == (each.scene.triangles, each.is_icon)
-        assert chain.call("Library", "isStored", each.name) == (each.name in STORED)
+        assert call(shelf, "Library", "isStored", each.name) == (each.name in STORED)
 
 
 @pytest.mark.parametrize("name", STORED)
-def test_objects_that_fit(chain: Chain, name: str) -> None:
+def test_objects_that_fit(shelf: Shelf, name: str) -> None:
     """The longest side is as long as it was asked to be, the middle at the origin; materials are those of the scene."""
     (item,) = chosen_items([name])
-    objects = chain.call("Library", "objects", name, 100 << 32)
+    objects = call(shelf, "Library", "objects", name, 100 << 32)
     interface = artifact("Renderer").interface
     struct = interface.parameter_type("render")
     (scene,) = decode_abi([struct], word(32) + encode_scene(fit(item.scene)))
@@ -102,7 +83,7 @@ def test_objects_that_fit(chain: Chain, name: str) -> None:
         assert flags == 1
 
 
-def test_errors_of_the_library(chain: Chain) -> None:
+def test_errors_of_the_library(shelf: Shelf) -> None:
     for function, values, message in (
         ("find", ["Crown"], "UnknownName(name=Crown)"),
         ("isStored", [""], "UnknownName(name=)"),
@@ -113,48 +94,48 @@ def test_errors_of_the_library(chain: Chain) -> None:
         ("objects", ["cube", 100], "SizeOutOfRange(size=100)"),
     ):
         with pytest.raises(LookupError) as raised:
-            chain.call("Library", function, *values)
+            call(shelf, "Library", function, *values)
         assert str(raised.value).startswith(message)
     with pytest.raises(InputError, match="no 'pot' in the library; its items are ethereum, coin"):
         chosen_items(["pot"])
 
 
-def test_pictures_at_paths(chain: Chain) -> None:
-    assert chain.call("Web", "resolveMode") == b"5219".ljust(32, b"\0")
+def test_pictures_at_paths(shelf: Shelf) -> None:
+    assert call(shelf, "Web", "resolveMode") == b"5219".ljust(32, b"\0")
     coin, cube = chosen_items(["coin", "cube"])
     for path, item in (("/icons/coin.png", coin), ("/objects/cube.png", cube)):
-        status, body, headers = chain.ask(path)
+        status, body, headers = ask(shelf, path)
         assert (status, headers["Content-Type"]) == (200, "image/png")
         assert "immutable" in headers["Cache-Control"]
         pixels = decode_bmp(render(item.scene).bmp, 128, 128)
         with PillowImage.open(io.BytesIO(body)) as opened:
             assert np.array_equal(np.asarray(opened), pixels.repeat(4, 0).repeat(4, 1))
-    with PillowImage.open(io.BytesIO(chain.ask("/icons/coin.png", scale="1", other="x")[1])) as opened:
+    with PillowImage.open(io.BytesIO(ask(shelf, "/icons/coin.png", scale="1", other="x")[1])) as opened:
         assert opened.size == (128, 128)
-    status, body, headers = chain.ask("/objects/cube.glb")
+    status, body, headers = ask(shelf, "/objects/cube.glb")
     assert (status, headers["Content-Type"]) == (200, "model/gltf-binary")
     assert len(gltf_reader.read(body)) == cube.scene.triangles
 
 
-def test_pieces_of_genesis_at_paths(chain: Chain) -> None:
+def test_pieces_of_genesis_at_paths(shelf: Shelf) -> None:
     seed = keccak(text="shackled-12")
-    numbered, named = chain.ask("/genesis/12.png"), chain.ask(f"/genesis/0x{seed.hex()}.png")
+    numbered, named = ask(shelf, "/genesis/12.png"), ask(shelf, f"/genesis/0x{seed.hex()}.png")
     assert numbered == named
-    pixels = decode_bmp(chain.call("Genesis", "render", seed), 128, 128)
+    pixels = decode_bmp(call(shelf, "Genesis", "render", seed), 128, 128)
     with PillowImage.open(io.BytesIO(numbered[1])) as opened:
         assert np.array_equal(np.asarray(opened)[::4, ::4], pixels)
 
 
-def test_too_little_gas_is_no_answer(chain: Chain) -> None:
+def test_too_little_gas_is_no_answer(shelf: Shelf) -> None:
     """A gateway may keep an answer, so a piece that exists is never reported as missing."""
     data = artifact("Web").interface.encode("request", ["genesis", "12.png"], [])
     for gas in range(200_000, 5_000_000, 400_000):
-        assert chain.evm.call(chain.addresses["Web"], data, gas).status != Status.SUCCESS
+        assert shelf.evm.call(shelf.addresses["Web"], data, gas).status != Status.SUCCESS
 
 
 @pytest.mark.parametrize("path", ["", "/"])
-def test_the_page(chain: Chain, path: str) -> None:
-    status, body, headers = chain.ask(path)
+def test_the_page(shelf: Shelf, path: str) -> None:
+    status, body, headers = ask(shelf, path)
     text = body.decode()
     assert (status, headers["Content-Type"]) == (200, "text/html")
     assert "immutable" not in headers["Cache-Control"]
@@ -165,7 +146,7 @@ def test_the_page(chain: Chain, path: str) -> None:
     assert text.count("/genesis/") == 24
 
 
-def test_paths_where_nothing_is(chain: Chain) -> None:
+def test_paths_where_nothing_is(shelf: Shelf) -> None:
     for path in (
         "/icons",
         "/icons/",
@@ -187,12 +168,12 @@ def test_paths_where_nothing_is(chain: Chain) -> None:
         "/../icons/coin.png",
         "/" + "a" * 1000,
     ):
-        status, body, headers = chain.ask(path)
+        status, body, headers = ask(shelf, path)
         assert (path, status) == (path, 404)
         assert headers == {"Content-Type": "text/plain"}
         assert body.decode("ascii").endswith(".")
     for scale in ("0", "9", "", "44", "x"):
-        assert chain.ask("/icons/coin.png", scale=scale)[0] == 400
+        assert ask(shelf, "/icons/coin.png", scale=scale)[0] == 400
 
 
 @needs_anvil

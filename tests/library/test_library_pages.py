@@ -14,6 +14,7 @@ from docs.draw_library import COLUMNS, LABEL, SIDE, Shelf
 from eth_abi.abi import decode, encode
 from PIL import Image as PillowImage
 
+from compiler import needs_compiler
 from shackled import render
 from shackled.artifacts import artifact
 from shackled.datasets import pieces
@@ -22,10 +23,6 @@ from shackled.scene import from_euler, rotate
 
 ROOT = Path(__file__).resolve().parents[2]
 SITE = "examples/library/PedestalSite.sol"
-
-needs_compiler = pytest.mark.skipif(
-    not (ROOT / "contracts" / "node_modules" / "solc").is_dir(), reason="the compiler is not installed"
-)
 
 
 @pytest.fixture(scope="module")

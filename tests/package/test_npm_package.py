@@ -21,6 +21,7 @@ from tools import build_contracts, build_package
 from tools.examples import compile_example
 from tools.ledger import World, call_data
 
+from compiler import needs_compiler
 from shackled import Image, render
 from shackled.artifacts import artifact
 from shackled.cli.app import run as run_shackled
@@ -40,7 +41,7 @@ TOKEN, DEGREES = 3, -25
 
 pytestmark = [
     pytest.mark.skipif(not shutil.which("npm"), reason="npm is not installed"),
-    pytest.mark.skipif(not (MODULES / "solc").is_dir(), reason="the compiler is not installed: npm ci in contracts/"),
+    needs_compiler,
 ]
 
 

@@ -17,6 +17,7 @@ from docs import draw_library
 from PIL import Image as PillowImage
 from tools.examples import compile_example
 
+from compiler import needs_compiler
 from nodes import KEY, anvil, needs_anvil
 from shackled import load, render
 from shackled.chain import Connection
@@ -34,9 +35,7 @@ pytestmark = [
         not shutil.which("node") or not (HERE / "node_modules" / "web3protocol").is_dir(),
         reason="web3protocol is not installed: python tools/prepare.py node",
     ),
-    pytest.mark.skipif(
-        not (HERE.parents[1] / "contracts" / "node_modules" / "solc").is_dir(), reason="the compiler is not installed"
-    ),
+    needs_compiler,
     needs_anvil,
 ]
 
@@ -50,7 +49,7 @@ class Answer:
     body: bytes
 
 
-Fetch = Callable[[str], Answer]
+Fetch = Callable[..., list[Answer]]
 
 
 def deployed() -> list[Deployment]:
@@ -76,12 +75,14 @@ def fetch() -> Iterator[Fetch]:
         deployer.execute(deployer.plan(wanted), transactor)
         store(plan_storage(connection, [SceneToStore(crown.name, crown.scene)]), transactor)
 
-        def get(address: str) -> Answer:
-            command = ["node", str(HERE / "fetch_web3.mjs"), node.url, address.format(**hosts)]
+        def get(*addresses: str) -> list[Answer]:
+            command = ["node", str(HERE / "fetch_web3.mjs"), node.url, *(each.format(**hosts) for each in addresses)]
             result = subprocess.run(command, capture_output=True, text=True)
             assert not result.returncode, result.stderr
-            said = json.loads(result.stdout)
-            return Answer(said["status"], said["headers"], base64.b64decode(said["body"], validate=True))
+            return [
+                Answer(said["status"], said["headers"], base64.b64decode(said["body"], validate=True))
+                for said in map(json.loads, result.stdout.splitlines())
+            ]
 
         yield get
 
@@ -94,13 +95,14 @@ def check_picture(answer: Answer, scene: Scene, scale: int) -> None:
 
 def test_pictures(fetch: Fetch) -> None:
     (crown,) = chosen_items(["crown"])
-    check_picture(fetch("{Web}/icons/crown.png"), crown.scene, 4)
-    check_picture(fetch("{Web}/icons/crown.png?scale=2"), crown.scene, 2)
-    check_picture(fetch("{Web}/genesis/12.png"), load("genesis/12"), 4)
+    normal, small, piece = fetch("{Web}/icons/crown.png", "{Web}/icons/crown.png?scale=2", "{Web}/genesis/12.png")
+    check_picture(normal, crown.scene, 4)
+    check_picture(small, crown.scene, 2)
+    check_picture(piece, load("genesis/12"), 4)
 
 
 def test_the_page(fetch: Fetch) -> None:
-    page = fetch("{Web}/")
+    (page,) = fetch("{Web}/")
     assert (page.status, page.headers["Content-Type"]) == (200, "text/html")
     assert '<a href="/icons/crown.png">' in page.body.decode()
 
@@ -109,21 +111,25 @@ def test_the_auto_mode(fetch: Fetch) -> None:
     """The function and its arguments stand in the path; the type of the file does, too."""
     (crown,) = chosen_items(["crown"])
     pointer = checksum_address(crown.pointer)
-    check_picture(fetch(f"{{Studio}}/renderPNG/{pointer}/4?mime.type=png"), crown.scene, 4)
-    model = fetch(f"{{Studio}}/glb/{pointer}?mime.type=glb")
+    picture, model, bitmap, uri, same_model, same_picture = fetch(
+        f"{{Studio}}/renderPNG/{pointer}/4?mime.type=png",
+        f"{{Studio}}/glb/{pointer}?mime.type=glb",
+        f"{{Genesis}}/render/0x{seed_of(12).hex()}?mime.type=bmp",
+        f"{{Studio}}/renderDataURI/{pointer}/4",
+        "{Web}/icons/crown.glb",
+        "{Web}/icons/crown.png",
+    )
+    check_picture(picture, crown.scene, 4)
     assert model.headers == {"Content-Type": "model/gltf-binary"}
-    assert model.body == fetch("{Web}/icons/crown.glb").body
-    seed = f"0x{seed_of(12).hex()}"
-    bitmap = fetch(f"{{Genesis}}/render/{seed}?mime.type=bmp")
+    assert model.body == same_model.body
     assert bitmap.headers == {"Content-Type": "image/bmp"}
     assert bitmap.body == render(load("genesis/12")).bmp
     # a string in place of bytes
-    uri = fetch(f"{{Studio}}/renderDataURI/{pointer}/4").body.decode("ascii")
-    assert base64.b64decode(uri.removeprefix("data:image/png;base64,")) == fetch("{Web}/icons/crown.png").body
+    assert base64.b64decode(uri.body.decode("ascii").removeprefix("data:image/png;base64,")) == same_picture.body
 
 
 def test_a_site_of_ones_own(fetch: Fetch) -> None:
-    answer = fetch("{PedestalSite}/crown")
+    answer, page, missing = fetch("{PedestalSite}/crown", "{PedestalSite}/", "{PedestalSite}/gold")
     assert (answer.status, answer.headers) == (200, {"Content-Type": "image/png"})
     with (
         PillowImage.open(io.BytesIO(answer.body)) as opened,
@@ -131,12 +137,12 @@ def test_a_site_of_ones_own(fetch: Fetch) -> None:
     ):
         crown = np.asarray(shown)[:128, 128 * draw_library.ON_PEDESTALS.index("crown") :][:, :128]
         assert np.abs(np.asarray(opened)[::4, ::4].astype(int) - crown).mean() < 0.5
-    assert '<a href="/teapot">' in fetch("{PedestalSite}/").body.decode()
-    assert fetch("{PedestalSite}/gold").status == 404
+    assert '<a href="/teapot">' in page.body.decode()
+    assert missing.status == 404
 
 
 def test_what_is_not_there(fetch: Fetch) -> None:
-    for path, status in (("/icons/nothing.png", 404), ("/icons/coin.png", 404), ("/icons/crown.png?scale=9", 400)):
-        answer = fetch("{Web}" + path)
+    wrong = {"/icons/nothing.png": 404, "/icons/coin.png": 404, "/icons/crown.png?scale=9": 400}
+    for answer, status in zip(fetch(*("{Web}" + path for path in wrong)), wrong.values(), strict=True):
         assert (answer.status, answer.headers) == (status, {"Content-Type": "text/plain"})
         assert answer.body.endswith(b".")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,11 +11,11 @@ from numpy.typing import NDArray
 from tools.examples import compile_example
 from tools.ledger import World, call_data
 
+from compiler import needs_compiler
 from shackled import Texture
 from shackled.reference.texture import Texture as Packed
 from shackled.scene import FILTERS, WRAPS, pack_texture
 
-ROOT = Path(__file__).resolve().parents[2]
 NO_UVS = np.zeros((0, 2))
 ONE = 1 << 24
 #: Sides and numbers of colours.
@@ -73,7 +72,7 @@ def test_the_reference_is_opengl(shape: tuple[int, int, int], filter: str, wrap:
         assert np.abs(levels - by_opengl(texture, u / ONE, v / ONE)).max() < 0.2
 
 
-@pytest.mark.skipif(not (ROOT / "contracts" / "node_modules" / "solc").is_dir(), reason="the compiler is not installed")
+@needs_compiler
 def test_the_contract_is_the_reference() -> None:
     world = World()
     probe = world.deploy(compile_example("tests/reference/TextureProbe.sol")[0])

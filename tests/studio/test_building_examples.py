@@ -11,15 +11,14 @@ from docs import draw_building
 from PIL import Image as PillowImage
 from tools.ledger import World
 
+from compiler import needs_compiler
 from shackled import render
 from shackled.artifacts import artifact
 from shackled.scene import decode
 
 ROOT = Path(__file__).resolve().parents[2]
 
-pytestmark = pytest.mark.skipif(
-    not (ROOT / "contracts" / "node_modules" / "solc").is_dir(), reason="the compiler is not installed"
-)
+pytestmark = needs_compiler
 
 
 @pytest.fixture(scope="module")

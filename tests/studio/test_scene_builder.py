@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,7 @@ from eth_abi.abi import decode, encode
 from tools.examples import compile_example
 from tools.ledger import World, call_data
 
+from compiler import needs_compiler
 from shackled import Mesh, RenderError, Texture
 from shackled.artifacts import artifact
 from shackled.image import decode_bmp
@@ -20,14 +20,11 @@ from shackled.scene import decode as decode_scene
 from shackled.studio import scene_struct, split_mesh
 
 SCENE_STRUCT = scene_struct()
-ROOT = Path(__file__).resolve().parents[2]
 ONE = 1 << 32
 FULL = "full(uint256,uint256)"
 TRIANGLE = [(0, 0, 0, 1), (9, 0, 0, 2), (0, 9, 0, 3)]
 
-pytestmark = pytest.mark.skipif(
-    not (ROOT / "contracts" / "node_modules" / "solc").is_dir(), reason="the compiler is not installed"
-)
+pytestmark = needs_compiler
 
 
 @pytest.fixture(scope="module")

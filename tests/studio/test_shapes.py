@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import string
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,17 +13,15 @@ from tools import lettering
 from tools.examples import compile_example
 from tools.ledger import World, call_data
 
+from compiler import needs_compiler
 from shackled import Mesh, RenderError
 from shackled.scene import NORMAL_UNIT, is_closed, unpack, vertex_normals
 
-ROOT = Path(__file__).resolve().parents[2]
 CENTER = np.array([10, 20, 30])
 SPHERE, CYLINDER, CONE, RING = range(4)
 MANY = 1 << 200
 
-pytestmark = pytest.mark.skipif(
-    not (ROOT / "contracts" / "node_modules" / "solc").is_dir(), reason="the compiler is not installed"
-)
+pytestmark = needs_compiler
 
 
 class Probe:

@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-import json
 from functools import cache
 from pathlib import Path
 from unittest.mock import patch
 
 import pytest
 from tools import build_contracts as tool
+from tools.compiled_once import compile_once
 from tools.tokens.world import Built
 
-ROOT = Path(__file__).resolve().parents[2]
+from compiler import MISSING, SOLC
+
 FOLDER = Path(__file__).with_name("contracts")
-SOLC = ROOT / "contracts" / "node_modules" / "solc"
 
 
 @cache
 def adversary(name: str) -> Built:
     """One of them; the test is skipped where there is no compiler."""
     if name not in _compiled():
-        pytest.skip("the compiler is not installed: npm ci in contracts/")
+        pytest.skip(MISSING)
     return _compiled()[name]
 
 
@@ -32,9 +32,9 @@ def _compiled() -> dict[str, Built]:
     request = tool.request(sources, tool.settings(200, True), {"*": {"*": ["abi", "evm.bytecode.object"]}})
     # selfdestruct is outdated, and just what is needed here
     with patch.object(tool, "HARMLESS", tool.HARMLESS | {"5159"}):
-        answer = tool.run_compiler(json.dumps(request))
+        answer = compile_once(request)
     return {
         name: Built(output["abi"], bytes.fromhex(output["evm"]["bytecode"]["object"]))
-        for contracts in answer["contracts"].values()
+        for contracts in answer.values()
         for name, output in contracts.items()
     }

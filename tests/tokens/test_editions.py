@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -25,6 +23,7 @@ from tools.tokens.world import ETHER, GAS, ZERO, Contract, Receipt, Refused, Wor
 from shackled import render
 from shackled.tokens import read_data_uri
 from tokens.adversaries import adversary
+from tokens.refused import refused
 from tokens.show import document, pixels, traits
 
 OPEN = 2**32 - 1
@@ -75,15 +74,6 @@ def show() -> Show:
 def shared() -> Show:
     """For tests that undo what they do."""
     return copy.deepcopy(_shown())
-
-
-@contextmanager
-def refused(name: str, *values: Any) -> Iterator[None]:
-    with pytest.raises(Refused) as caught:
-        yield
-    assert caught.value.name == name, caught.value
-    if values:
-        assert caught.value.values == values
 
 
 # ---- adding ----

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -14,13 +14,14 @@ from PIL import Image as PillowImage
 from nodes import needs_anvil
 from proxies import Liar
 from shackled.artifacts import artifact
+from shackled.chain import Connection
 from shackled.cli.app import run
-from shackled.deploy import local_chain
-from shackled.errors import InputError
+from shackled.errors import InputError, NodeError
 from shackled.ethereum import to_hex
-from shackled.tokens import EDITIONS, OPEN, EditionTerms, editions_address, parts_of
+from shackled.tokens import EDITIONS, OPEN, Collection, EditionTerms, editions_address, editions_of, parts_of
 from tokens.on_a_node import Node, Shackled
 
+ROOT = Path(__file__).resolve().parents[2]
 OWNER, ALICE, BOB = range(3)
 PRICE = 10**16
 TRIANGLE = "v 0 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\n"
@@ -97,6 +98,30 @@ def test_the_whole_way_of_editions(
     assert contract.functions.ownerOf(3).call() == node.accounts[BOB]
     said = shackled("token", "phase", "public", "-c", "editions", "--yes", user=OWNER, expect=2)
     assert "shackled token edition --help" in said.error
+    assert "shackled token edition list" in shackled("token", "list", "-c", "editions", expect=2).error
+
+    # a copy is named in hints; a contract with other code has the name, but takes no ether
+    def copy(place: str, code: str) -> None:
+        node.rpc("anvil_setCode", place, code)
+        for slot in map(hex, range(8)):
+            value = node.rpc("eth_getStorageAt", editions_address(), slot, "latest")
+            node.rpc("anvil_setStorageAt", place, f"0x{int(slot, 16):064x}", value)
+
+    same, other = ("0x" + digits * 20 for digits in ("51", "52"))
+    code = node.rpc("eth_getCode", editions_address(), "latest")
+    copy(same, code)
+    copy(other, code + "00")
+    free = ("--price", "0", "--copies", 0, "--yes")
+    said = shackled(*edition, "add", pointer, "Copied", *free, "-c", same, user=BOB)
+    number = re.search(rf"shackled token edition mint (\d+) -c {same}", said.out)
+    assert number, said
+    said = shackled(*edition, "mint", number[1], "-c", same, "--yes", user=BOB)
+    assert re.search(rf"shackled token show \d+ -c {same} -o", said.out), said
+    shackled(*edition, "list", "-c", other)
+    for command in (("add", pointer, "Fooled", *free), ("mint", 0, "--yes")):
+        said = shackled(*edition, *command, "-c", other, user=BOB, expect=1)
+        assert "nothing was sent to 0x5252" in said.error
+        assert "its code differs from the compiled contract" in said.error
 
     # a token larger than wallets like, with a model, is right all the same
     large = pointer_of(shackled("mint", "triangle.obj", "--licence", "MIT", "--size", 280, "--yes", user=ALICE))
@@ -122,7 +147,7 @@ def test_the_whole_way_of_editions(
 
     count = contract.functions.editionCount().call()
     told = lied({"eth_getTransactionReceipt": renumbered}, "add", pointer, "Mine", *open_sale, user=BOB)
-    assert "edition 0, which the node" in told
+    assert "edition 0, which the receipt" in told
     assert told.endswith("does not match the terms")
     assert contract.functions.editionCount().call() == count + 1
     many = {"eth_estimateGas": lambda gas, _: hex(1000 * int(gas, 16))}
@@ -136,8 +161,12 @@ def test_the_whole_way_of_editions(
     said = shackled(*edition, "withdraw", 0, "--yes", user=BOB, expect=1)
     assert "only its artist" in said.error
     before = node.balance(node.accounts[9])
-    said = shackled(*edition, "withdraw", "--to", node.accounts[9], "--yes", user=ALICE)
-    assert "0.02 ether sent" in said.out
+    with Liar({"eth_call": dearer}).before(node.url) as url:
+        key = ("--private-key-env", node.keys[ALICE])
+        assert not run([*edition, "withdraw", "--to", node.accounts[9], "--yes", "--rpc", url, *key])
+    captured = capsys.readouterr()
+    assert "send 0.04 ether of" in captured.err
+    assert captured.out.startswith("0.02 ether sent to ")
     assert node.balance(node.accounts[9]) - before == 2 * PRICE
     assert node.balance(editions_address()) == 0
     assert "nothing to withdraw" in shackled(*edition, "withdraw", "--yes", user=ALICE).out
@@ -168,5 +197,26 @@ def test_terms_are_checked_before_anything_is_sent(change: dict[str, Any], words
         EditionTerms(**terms)
 
 
-def test_the_address_is_the_same_everywhere() -> None:
-    assert bytes.fromhex(editions_address()[2:]) == local_chain().address("Editions")
+def test_the_address_is_that_of_the_contracts() -> None:
+    addresses = (ROOT / "contracts" / "src" / "Addresses.sol").read_text("utf-8")
+    assert f"EDITIONS = {editions_address()};" in addresses
+
+
+def test_the_collection_may_be_full() -> None:
+    class Full:
+        """As many editions as the contract allows, and more."""
+
+        connection = Connection("http://127.0.0.1:1")
+
+        def __init__(self, count: int) -> None:
+            self.contract, self.count = self, count
+
+        def call(self, function: str, *numbers: int) -> Any:
+            if numbers:
+                raise LookupError("an edition is read")
+            return self.count
+
+    with pytest.raises(LookupError):
+        editions_of(cast("Collection", Full(2**24)))
+    with pytest.raises(NodeError, match="impossible number of editions, 16,777,217"):
+        editions_of(cast("Collection", Full(2**24 + 1)))

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import pytest
@@ -26,6 +24,7 @@ from tools.tokens.world import ETHER, GAS, ZERO, Contract, Refused, keccak
 from shackled import render
 from shackled.image import decode_bmp
 from tokens.adversaries import adversary
+from tokens.refused import refused
 from tokens.show import document, pixels, traits
 
 #: How descriptions end.
@@ -37,15 +36,6 @@ PRICES = [price for _, _, _, price in ICONS.values()]
 @pytest.fixture
 def s() -> Stage:
     return stage()
-
-
-@contextmanager
-def refused(name: str, *values: Any) -> Iterator[None]:
-    with pytest.raises(Refused) as caught:
-        yield
-    assert caught.value.name == name, caught.value
-    if values:
-        assert caught.value.values == values
 
 
 def fresh(s: Stage) -> Contract:

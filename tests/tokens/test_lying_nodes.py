@@ -196,6 +196,16 @@ def test_a_price_above_the_one_that_is_named_is_not_paid(
         assert "a unit of gas costs 2,000,000 gwei now, more than the 50 of --max-fee" in error
 
 
+def test_an_event_without_topics_hides_no_token(
+    node: Anvil, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    odd = {"address": "0x" + "12" * 20, "topics": [], "data": "0x"}
+    lies = {"eth_getTransactionReceipt": lambda receipt, _: receipt | {"logs": [odd, *receipt["logs"]]}}
+    code, paid, said, _ = pay(node, Liar(lies), COMMANDS["mint"], capsys, monkeypatch, yes=True)
+    assert (code, paid > 0) == (0, True), said
+    assert "minted #1, #2" in said
+
+
 @pytest.mark.parametrize("odd", ["zz", {}, {"number": "0x1"}, None])
 def test_blocks_that_are_none_reveal_nothing(
     node: Anvil, odd: Any, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import Any
 
 import pytest
 import rlp
@@ -16,6 +13,7 @@ from tools.tokens.stage import PRICE, Stage, stage
 from tools.tokens.world import ETHER, HISTORY, HISTORY_LENGTH, Refused, keccak
 
 from tokens.adversaries import adversary
+from tokens.refused import refused
 
 ROUND, DELAY = 32, 128
 
@@ -23,15 +21,6 @@ ROUND, DELAY = 32, 128
 @pytest.fixture
 def s() -> Stage:
     return stage()
-
-
-@contextmanager
-def refused(name: str, *values: Any) -> Iterator[None]:
-    with pytest.raises(Refused) as caught:
-        yield
-    assert caught.value.name == name, caught.value
-    if values:
-        assert caught.value.values == values
 
 
 def drawn(s: Stage, token: int) -> bytes:

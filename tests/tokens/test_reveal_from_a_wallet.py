@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from forged_blocks import forged
 from proxies import Liar
 from shackled.chain import Connection
 from shackled.cli.app import run
@@ -130,18 +131,9 @@ def test_a_block_to_come_is_told_or_waited_for(
     assert any(collection.contract.call("randomnessOf", 0))
 
 
-def forged(node: Node, change: dict[str, str]) -> dict[str, Any]:
+def forging(**changes: str) -> dict[str, Any]:
     """A lie about old blocks: another header, with the hash that belongs to it."""
-
-    def lie(block: dict[str, Any], parameters: list[Any]) -> dict[str, Any]:
-        if parameters[0] == "latest":
-            return block
-        other = {key: value for key, value in block.items() if key != "hash"} | change
-        with pytest.raises(ValueError, match="has the hash") as caught:
-            encode_header(other)
-        return other | {"hash": str(caught.value).partition("has the hash ")[2][:66]}
-
-    return {"eth_getBlockByNumber": lie}
+    return {"eth_getBlockByNumber": lambda block, asked: block if asked[0] == "latest" else forged(block, **changes)}
 
 
 def test_a_node_that_lies_about_blocks_gets_nothing_written(
@@ -151,8 +143,8 @@ def test_a_node_that_lies_about_blocks_gets_nothing_written(
     block = mine_until(node, collection, 0)
     parent = node.rpc("eth_getBlockByNumber", hex(block - 1), False)
     for lies in (
-        forged(node, {"mixHash": "0x" + "77" * 32}),
-        forged(node, {"extraData": "0x00"}),
+        forging(mixHash="0x" + "77" * 32),
+        forging(extraData="0x00"),
         {"eth_getBlockByNumber": lambda told, asked: told if asked[0] == "latest" else parent},
     ):
         with Liar(lies).before(node.url) as url:
@@ -168,7 +160,7 @@ def test_a_node_that_lies_about_the_hash_too_is_caught_by_the_simulation(
     node: Node, collection: Collection, capsys: pytest.CaptureFixture[str]
 ) -> None:
     block = mine_until(node, collection, 0)
-    lies = forged(node, {"mixHash": "0x" + "77" * 32})
+    lies = forging(mixHash="0x" + "77" * 32)
     told = lies["eth_getBlockByNumber"](node.rpc("eth_getBlockByNumber", hex(block), False), [hex(block), False])
     asked = "0x" + collection.contract.interface.encode("hashOf", block).hex()
     lies["eth_call"] = lambda answer, parameters: told["hash"] if parameters[0]["data"] == asked else answer

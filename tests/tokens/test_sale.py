@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from typing import Any
 
 import pytest
@@ -18,6 +17,7 @@ from tools.tokens.stage import ALLOW_LIST, CLOSED, LIMIT, PRICE, PUBLIC, RESERVE
 from tools.tokens.world import ETHER, ZERO, Contract, Refused, account, keccak
 
 from tokens.adversaries import adversary
+from tokens.refused import refused
 
 KEY = keccak(b"who signs")
 SIGNER = Account.from_key(KEY).address
@@ -26,15 +26,6 @@ SIGNER = Account.from_key(KEY).address
 @pytest.fixture
 def s() -> Stage:
     return stage()
-
-
-@contextmanager
-def refused(name: str, *values: Any) -> Iterator[None]:
-    with pytest.raises(Refused) as caught:
-        yield
-    assert caught.value.name == name, caught.value
-    if values:
-        assert caught.value.values == values
 
 
 # ---- the public sale ----

@@ -5,13 +5,9 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-import pytest
-
-pytest.importorskip("pyrevm", reason="the tests of tokens need it")
-
 from tools import build_contracts as tool
 
-from tokens.adversaries import SOLC
+from compiler import needs_compiler
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "tokens.md"
 HEAD = """// SPDX-License-Identifier: MIT
@@ -22,7 +18,7 @@ import {Rounds} from "./Rounds.sol";
 LEFT_OUT = 'function contractURI() external pure override returns (string memory) { return ""; }'
 
 
-@pytest.mark.skipif(not SOLC.is_dir(), reason="the compiler is not installed: npm ci in contracts/")
+@needs_compiler
 def test_the_contract_of_the_documentation_compiles() -> None:
     code = PAGE.read_text("utf-8").split("```solidity\n")[1].split("```")[0]
     comment = next(line for line in code.splitlines() if "contractURI likewise" in line)

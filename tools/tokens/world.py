@@ -75,13 +75,15 @@ class Account:
 class Receipt:
     """The result of a transaction.
 
-    gas: of the whole transaction. execution: the gas without intrinsic gas. events: names and values.
+    gas: of the whole transaction. execution: the gas without intrinsic gas. events: names and values. logs: the same
+    as JSON-RPC returns them.
     """
 
     gas: int
     execution: int
     output: bytes
     events: list[tuple[str, dict[str, Any]]]
+    logs: list[dict[str, Any]]
 
 
 @dataclass(frozen=True)
@@ -198,7 +200,7 @@ class World:
                 evm.revert(before)
         if keep:
             self._keep(evm)
-        return Receipt(max(used, least_gas(data)), used - intrinsic, output, _events(logs, abi))
+        return Receipt(max(used, least_gas(data)), used - intrinsic, output, _events(logs, abi), [*map(_log, logs)])
 
     def _kept_evm(self) -> Any:
         """Return an EVM for a call, which must be reverted: that of the last call if the state is the same."""
@@ -331,6 +333,12 @@ def _refusal(message: str, abi: list[dict[str, Any]]) -> Refused:
             except DecodingError:
                 break
     return Refused("0x" + output.hex())
+
+
+def _log(log: Any) -> dict[str, Any]:
+    topics, data = log.data
+    hexadecimal = ["0x" + bytes(each).hex() for each in (*topics, data)]
+    return {"address": log.address, "topics": hexadecimal[:-1], "data": hexadecimal[-1]}
 
 
 def _events(logs: Any, abi: list[dict[str, Any]]) -> list[tuple[str, dict[str, Any]]]:

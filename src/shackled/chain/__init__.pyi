@@ -14,6 +14,7 @@ from ._embedded import (
 from ._failures import describe_revert, out_of_gas, retry_after, revert_data, revert_error
 from ._node import GAS_LEFT, MAX_INIT_CODE, NodeChain, metered
 from ._opening import CHAINS, open_chain, open_node
+from ._reading import Report, read_all
 
 __all__ = [
     "CHAINS",
@@ -34,6 +35,7 @@ __all__ = [
     "NodeChain",
     "PyEvmChain",
     "PyrevmChain",
+    "Report",
     "RevmChain",
     "book_path",
     "count_call",
@@ -44,6 +46,7 @@ __all__ = [
     "out_of_gas",
     "pyrevm_error",
     "quantity",
+    "read_all",
     "retry_after",
     "returned_bytes",
     "returned_counts",

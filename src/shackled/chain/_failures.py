@@ -252,8 +252,14 @@ def describe_revert(data: bytes, errors: Errors | None = None) -> str:
         return str(values["message"])
     if name == "Panic":
         return f"{PANICS.get(values['code'], 'panic')} (Panic {values['code']:#x})"
-    shown = (f"{key}={to_hex(value) if isinstance(value, bytes) else value}" for key, value in values.items())
-    return f"{name}({', '.join(shown)})"
+    return f"{name}({', '.join(f'{key}={_shown(value)}' for key, value in values.items())})"
+
+
+def _shown(value: Any) -> str:
+    """Write a value of an error: bytes as hexadecimal digits, structs and arrays in parentheses."""
+    if isinstance(value, tuple):
+        return f"({', '.join(map(_shown, value))})"
+    return to_hex(value) if isinstance(value, bytes) else str(value)
 
 
 def out_of_gas(limit: int) -> OutOfGasError:

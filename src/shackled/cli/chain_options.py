@@ -20,7 +20,7 @@ from ..errors import InputError
 from ..ethereum import at_most, checksum_address, ether, parse_address, roughly
 from ..untrusted import plain
 from ..values import plural
-from ..whole_file import write_output
+from ..whole_file import check_output_file, write_output
 from .option import option
 from .output import print_line, print_note
 
@@ -42,6 +42,9 @@ MaxFee = Annotated[
     ),
 ]
 Json = Annotated[bool, option("--json", "Print JSON instead of text.")]
+Calldata = Annotated[
+    Path | None, option("--calldata", "Write the transactions to a JSON file for a wallet, and send nothing.", "FILE")
+]
 
 
 @dataclass(frozen=True)
@@ -186,6 +189,12 @@ def print_price(quotes: Sequence[Quote]) -> None:
         + f"about {roughly(likely)} for gas ({gas:,} estimated by the node, {counted:,} counted locally); "
         + f"at most {at_most(sum(each.ceiling for each in quotes))} ether in total"
     )
+
+
+def check_calldata(path: Path | None) -> None:
+    """Raise InputError if --calldata names a file that cannot be written, before the work for it begins."""
+    if path is not None:
+        check_output_file(path, "list of transactions")
 
 
 def write_calls(path: Path, chain_id: int, quotes: Mapping[str, Quote], as_json: bool, **more: str) -> None:

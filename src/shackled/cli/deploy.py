@@ -9,8 +9,10 @@ from ..chain import PATIENCE, Connection
 from ..errors import InputError
 from ..ethereum import GWEI, at_most, checksum_address, rounded
 from .chain_options import (
+    Calldata,
     NodeOptions,
     PayerOptions,
+    check_calldata,
     print_json,
     print_step,
     wallet_calls,
@@ -38,10 +40,7 @@ def deploy(
             "NAMES",
         ),
     ] = None,
-    calldata: Annotated[
-        Path | None,
-        option("--calldata", "Write the transactions to a JSON file for a wallet, and send nothing.", "FILE"),
-    ] = None,
+    calldata: Calldata = None,
     as_json: Annotated[bool, option("--json", "Print one JSON object instead of text.")] = False,
     standard_json: Annotated[
         Path | None,
@@ -54,6 +53,7 @@ def deploy(
 
     node.check()
     payer.check()
+    check_calldata(calldata)
     names = STANDARD if contracts is None else [name.strip() for name in contracts.split(",") if name.strip()]
     if not names:
         raise InputError(f"--contracts is empty: name one or more of {', '.join(CONTRACTS)}")

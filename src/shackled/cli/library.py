@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
@@ -10,8 +9,10 @@ import typer
 from ..errors import InputError
 from ..ethereum import checksum_address
 from .chain_options import (
+    Calldata,
     NodeOptions,
     PayerOptions,
+    check_calldata,
     print_json,
     print_price,
     print_step,
@@ -21,6 +22,7 @@ from .chain_options import (
 )
 from .option import option
 from .output import print_line, print_note, print_table
+from .progress import LateBar
 
 library = typer.Typer(
     no_args_is_help=True, help="List and store the library: icons and common objects that any contract can draw."
@@ -34,13 +36,19 @@ def list_(
     as_json: Annotated[bool, option("--json", "Print one JSON object instead of a table.")] = False,
 ) -> None:
     """List the items: bounds, triangles, bytes, gas to store, pointers; with --rpc, whether they are stored."""
+    from ..chain import read_all
     from ..library import items
 
     stored: dict[str, bool] = {}
-    if node.rpc is not None:
-        connection = node.connect()
-        stored = {each.name: all(connection.code(part.pointer) for part in each.transactions) for each in items()}
-    found = [
+    with LateBar("reading items") as bar:
+        found = items()
+        if node.rpc is not None:
+            connection = node.connect()
+            parts = [(each.name, part.pointer) for each in found for part in each.transactions]
+            codes = read_all(lambda part: connection.code(part[1]), parts, bar.set)
+            for (name, _), code in zip(parts, codes, strict=True):
+                stored[name] = stored.get(name, True) and bool(code)
+    rows = [
         {
             "name": each.name,
             "piece": each.piece,
@@ -53,13 +61,13 @@ def list_(
             "pointer": checksum_address(each.pointer),
             **({"stored": stored[each.name]} if stored else {}),
         }
-        for each in items()
+        for each in found
     ]
     if as_json:
-        print_json({"items": found})
+        print_json({"items": rows})
         return
     head = ["name", "triangles", "size", "bytes", "gas", "pointer", *(["stored"] if stored else [])]
-    print_table(head, [_row(each) for each in found])
+    print_table(head, [_row(each) for each in rows])
 
 
 def _row(item: dict[str, Any]) -> list[str]:
@@ -76,10 +84,7 @@ def store(
     names: Annotated[
         list[str] | None, typer.Argument(help="Items to store; default: all.", metavar="[NAME]...")
     ] = None,
-    calldata: Annotated[
-        Path | None,
-        option("--calldata", "Write the transactions to a JSON file for a wallet, and send nothing.", "FILE"),
-    ] = None,
+    calldata: Calldata = None,
     as_json: Annotated[bool, option("--json", "Print one JSON object instead of text.")] = False,
 ) -> None:
     """Store items of the library on a chain. Skips stored items; prints the price first; cannot be undone."""
@@ -90,11 +95,12 @@ def store(
 
     node.check()
     payer.check()
-    wanted = chosen_items(names or ())
-    connection = node.connect()
-    plan = plan_storage(
-        connection, [SceneToStore(each.name, each.scene) for each in wanted], current_fees(connection, payer.max_wei)
-    )
+    check_calldata(calldata)
+    with LateBar("reading items"):
+        wanted = chosen_items(names or ())
+        connection = node.connect()
+        scenes = [SceneToStore(each.name, each.scene) for each in wanted]
+        plan = plan_storage(connection, scenes, current_fees(connection, payer.max_wei))
     if plan.pointers != tuple(checksum_address(each.pointer) for each in wanted):
         raise InputError("the Studio of this chain is not that of this version: see `shackled deploy`")
     gas = 0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -10,8 +9,10 @@ import typer
 from ..errors import InputError
 from ..image import FORMATS, one_of
 from .chain_options import (
+    Calldata,
     NodeOptions,
     PayerOptions,
+    check_calldata,
     print_json,
     print_price,
     print_step,
@@ -21,6 +22,7 @@ from .chain_options import (
 )
 from .option import option, parse_size
 from .output import print_line, print_note
+from .progress import LateBar
 
 
 @with_groups
@@ -42,10 +44,7 @@ def mint(
         int | None,
         option("--position-bits", "Round positions to a grid of 2^N steps, 4 to 16, to save gas. Default: exact.", "N"),
     ] = None,
-    calldata: Annotated[
-        Path | None,
-        option("--calldata", "Write the transactions to a JSON file for a wallet, and send nothing.", "FILE"),
-    ] = None,
+    calldata: Calldata = None,
     as_json: Annotated[bool, option("--json", "Print one JSON object instead of text.")] = False,
 ) -> None:
     """Store an object on a chain, so that any contract can draw it (mints no token).
@@ -65,6 +64,7 @@ def mint(
             "--calldata sends nothing, so no chain can draw the picture that --output writes: leave one out"
         )
     path = None if output is None else check_output(output)
+    check_calldata(calldata)
     pixels = None if size is None else parse_size(size)
     source = locate(input)
     terms = licence_of(source, licence)
@@ -75,7 +75,8 @@ def mint(
     scene = load(thing, pixels, max_triangles=max_triangles, antialias=False if is_mesh else None)
     wanted = SceneToStore(input, scene, position_bits)
     connection = node.connect()
-    storage = plan_storage(connection, [wanted], current_fees(connection, payer.max_wei))
+    with LateBar("reading the chain"):
+        storage = plan_storage(connection, [wanted], current_fees(connection, payer.max_wei))
     pointer = storage.pointers[0]
     if isinstance(source, Piece) and source.notice:
         print_note(source.notice)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
-from ..chain import Connection, quantity
+from ..chain import Connection, quantity, read_all
 from ..errors import ChainError, NoAnswerError, NodeError, TransactionError
 from ..ethereum import GWEI, to_hex
 
@@ -156,7 +157,7 @@ def make_quotes(
     Where the node cannot give an estimate yet, the gas counted here is multiplied by the highest ratio of estimate to
     count among the others and the quotes in `known`. Raises TransactionError as `make_quote`.
     """
-    estimates = [_estimate(connection, call, sender) for call in calls]
+    estimates = list(read_all(partial(_estimate, connection, sender), calls))
     pairs = [(each.estimate, each.call.gas) for each in known]
     pairs += [(estimate, call.gas) for estimate, call in zip(estimates, calls, strict=True)]
     rate = max([1.0, *(estimate / counted for estimate, counted in pairs if estimate is not None)])
@@ -165,7 +166,7 @@ def make_quotes(
     ]
 
 
-def _estimate(connection: Connection, call: Call, sender: bytes | None) -> int | None:
+def _estimate(connection: Connection, sender: bytes | None, call: Call) -> int | None:
     """Return the gas that a node estimates; None if it cannot, as for a contract that is not deployed yet."""
     plain: list[Any] = [call.request(sender)]
     overrides = {to_hex(place): {"code": to_hex(code)} for place, code in call.needs.items()}

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import re
 import threading
+import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from itertools import count
 
 from ..artifacts import known_errors
 from ..chain import RevmChain, describe_revert
 from ..deploy import CONTRACTS
 from ..errors import InputError
-from ..ethereum import Errors, error_table, intrinsic_gas
+from ..ethereum import Errors, error_table, intrinsic_gas, keccak256, word
 from ..evm import Answer, Instance, Status
 from ._arguments import Call, constructor_arguments, contract_of
 from ._library import library_codes
@@ -21,6 +23,9 @@ from ._project import Compiled
 MOST_GAS = 1_000_000_000
 #: The gas of one transaction on Ethereum (EIP-7825), and of a call on some nodes.
 MAX_GAS = 1 << 24
+#: The block of the deployment; each transaction has a block of its own.
+FIRST_BLOCK = 20_000_000
+SECONDS_PER_BLOCK = 12
 #: Precompiled contracts of Cancun that the embedded EVM does not have.
 PRECOMPILED = {
     1: "ecrecover",
@@ -51,6 +56,7 @@ class World:
         constructor or a call fails.
         """
         self.contract, self.setup = contract, setup
+        self._now = int(time.time())
         chain = RevmChain()
         addresses = {name: chain.address(name) for name in CONTRACTS}
         #: Code of the contracts of the package and of what the Studio stores, by address.
@@ -99,6 +105,8 @@ class World:
     def _new(self) -> Instance:
         evm = Instance()
         evm.hold(self.codes)
+        blocks = count(FIRST_BLOCK)
+        self._begin_block(evm, next(blocks))
         made = evm.deploy(self._creation, MOST_GAS)
         if made.status != Status.SUCCESS:
             reason = self.reason(made)
@@ -109,19 +117,26 @@ class World:
         problems = []
         gas = made.gas + _creation_gas(self._creation)
         if gas > MAX_GAS:
-            problems.append(_too_dear(f"the deployment of {self.contract.name}", gas))
+            problems.append(_too_expensive(f"the deployment of {self.contract.name}", gas))
         for call in self.setup:
             most = 0
             for number in range(call.times):
+                self._begin_block(evm, next(blocks))
                 answer = evm.send(self.address, call.data, MOST_GAS, call.value)
                 if answer.status != Status.SUCCESS:
                     which = f" (number {number + 1} of {call.times})" if call.times > 1 else ""
                     raise InputError(f"the call {call.text}{which} failed: {self.reason(answer)}")
                 most = max(most, answer.gas + intrinsic_gas(call.data))
             if most > MAX_GAS:
-                problems.append(_too_dear(f"the call {call.text}", most))
+                problems.append(_too_expensive(f"the call {call.text}", most))
+        self._begin_block(evm, next(blocks))
         self.problems = problems
         return evm
+
+    def _begin_block(self, evm: Instance, number: int) -> None:
+        """Set the block of the following calls: seconds pass, and the random value follows from the number."""
+        seconds = SECONDS_PER_BLOCK * (number - FIRST_BLOCK)
+        evm.set_block(number, self._now + seconds, keccak256(b"shackled preview" + word(number)))
 
 
 def _needs_library(contract: Compiled, library: bytes) -> bool:
@@ -135,5 +150,5 @@ def _creation_gas(creation: bytes) -> int:
     return intrinsic_gas(creation) + 32_000 + 2 * -(-len(creation) // 32)
 
 
-def _too_dear(what: str, gas: int) -> str:
+def _too_expensive(what: str, gas: int) -> str:
     return f"{what} takes {gas:,} gas, more than {MAX_GAS:,}, the most of one transaction"

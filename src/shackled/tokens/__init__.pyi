@@ -9,7 +9,7 @@ from ._editions import (
     Edition,
     EditionTerms,
     add_gas,
-    added_edition,
+    added_number,
     edition_at,
     edition_mint_call,
     editions_address,
@@ -17,6 +17,7 @@ from ._editions import (
     open_editions,
     withdraw_gas,
 )
+from ._events import minted_tokens, withdrawn
 from ._gallery import ActionCost, comparison, page, tokens_json
 from ._icons import ICON_PRICE, SCALE, add_call, check_sale, chosen_pieces, find_icon, icons_of, token_scene
 from ._immutables import immutable_places, immutable_values
@@ -74,7 +75,7 @@ __all__ = [
     "Trait",
     "add_call",
     "add_gas",
-    "added_edition",
+    "added_number",
     "address_of",
     "allows",
     "check_code",
@@ -102,6 +103,7 @@ __all__ = [
     "licence_of",
     "make_allow_list",
     "mint_call",
+    "minted_tokens",
     "open_collection",
     "open_editions",
     "page",
@@ -129,4 +131,5 @@ __all__ = [
     "token_scene",
     "tokens_json",
     "withdraw_gas",
+    "withdrawn",
 ]

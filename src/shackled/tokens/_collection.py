@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, TypeVar
+from typing import Any
 
-from ..chain import GAS_LEFT, Connection, describe_revert
+from ..chain import GAS_LEFT, Connection, describe_revert, read_all
 from ..errors import ChainError, InputError, NodeError, OutOfGasError, RevertError
 from ..ethereum import checksum_address, to_hex
 from ._contract import Contract
 from ._metadata import MAX_LENGTH, Metadata, read_token_uri
 from ._reverts import PHASES
 
-Read = TypeVar("Read")
 #: Maximum size in bytes of the `tokenURI` of an edition: a call of 2^24 gas cannot return more.
 LONGEST = 3_000_000
-#: Maximum number of concurrent requests.
-MAX_REQUESTS = 6
 
 
 @dataclass(frozen=True)
@@ -106,16 +102,10 @@ class Collection:
         """Return a token. Raises InputError if it does not exist."""
         return Token(number, self.owner_of(number), self.is_revealed(number))
 
-    def tokens(self, numbers: Iterable[int] | None = None) -> Iterator[Token]:
+    def tokens(self, numbers: Sequence[int] | None = None) -> Iterator[Token]:
         """Yield tokens by their numbers, in order; by default all."""
         wanted = range(self.minted()) if numbers is None else numbers
-        yield from self.read_all(self.token, wanted)
-
-    @staticmethod
-    def read_all(read: Callable[[int], Read], numbers: Iterable[int]) -> Iterator[Read]:
-        """Yield what `read` returns of each number, in order; several are read concurrently."""
-        with ThreadPoolExecutor(MAX_REQUESTS) as pool:
-            yield from pool.map(read, numbers)
+        yield from read_all(self.token, wanted)
 
     def is_revealed(self, token: int) -> bool:
         """Return whether a token shows its picture."""

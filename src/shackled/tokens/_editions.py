@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from ..artifacts import artifact
-from ..chain import Connection
-from ..deploy import Receipt, local_chain
+from ..chain import Connection, Report, read_all
+from ..deploy import local_chain
 from ..errors import InputError, NodeError, OutOfGasError, RenderError, VerificationError
-from ..ethereum import amount, checksum_address, ether, intrinsic_gas, keccak256
+from ..ethereum import amount, checksum_address, ether, intrinsic_gas
 from ..studio import STUDIO
 from ._collection import EDITIONS, Collection
 from ._contract import USUAL_GAS
+from ._events import find_events
 from ._icons import SCALE
 from ._launch import MAX_ROYALTY
 from ._metadata import MAX_LENGTH
@@ -31,7 +33,9 @@ DOCUMENT = 1_500
 ADD_GAS, COPY_GAS = 70_000, 3_000
 #: Gas of `withdraw` for each edition but the first.
 WITHDRAW_GAS = 8_000
-ADDED = b"EditionAdded(uint256,address,address,string,uint256,bool,uint256,uint256,uint256)"
+#: The maximum number of editions.
+MOST = 1 << 24
+ADDED = "EditionAdded(uint256,address,address,string,uint256,bool,uint256,uint256,uint256)"
 
 
 @dataclass(frozen=True)
@@ -100,6 +104,12 @@ class Edition:
     scale: int
     model: bool
 
+    @classmethod
+    def from_answer(cls, number: int, answer: Sequence[Any]) -> Edition:
+        """Return an edition from what the contract returns for `editionAt`."""
+        artist, scene = (checksum_address(bytes.fromhex(answer[place][2:])) for place in (0, 9))
+        return cls(number, artist, scene, answer[10], *answer[1:9])
+
     @property
     def left(self) -> int:
         """Number of tokens that can still be minted."""
@@ -119,6 +129,14 @@ class Edition:
     def traits(self) -> dict[str, Any]:
         """The attributes of its tokens."""
         return {"Edition": self.number, "Artist": self.artist, "Supply": self.limit}
+
+    def check(self, artist: str, terms: EditionTerms) -> None:
+        """Raise VerificationError unless it is what this artist added with these terms."""
+        found = (self.name, self.scene, self.scale, self.model, self.price, self.supply, self.royalty)
+        if self.artist.lower() != artist.lower() or found != terms.arguments[:-1]:
+            raise VerificationError(
+                f"edition {self.number}, which the receipt of the transaction names, does not match the terms"
+            )
 
     def document(self) -> dict[str, Any]:
         """Return the edition for JSON, with amounts in ether. supply, left: null for no limit."""
@@ -159,17 +177,15 @@ def open_editions(connection: Connection, address: str | None = None) -> Collect
 
 def edition_at(collection: Collection, number: int) -> Edition:
     """Return an edition by its number. Raises RevertError if there is none."""
-    found = collection.contract.call("editionAt", number)
-    artist, scene = (checksum_address(bytes.fromhex(found[place][2:])) for place in (0, 9))
-    return Edition(number, artist, scene, found[10], *found[1:9])
+    return Edition.from_answer(number, collection.contract.call("editionAt", number))
 
 
-def editions_of(collection: Collection, artist: str | None = None) -> list[Edition]:
+def editions_of(collection: Collection, artist: str | None = None, report: Report | None = None) -> list[Edition]:
     """Return all editions, or those of an artist."""
     count = collection.contract.call("editionCount")
-    if count >= 1 << 24:
+    if count > MOST:
         raise NodeError(f"the {collection.connection.name} reports an impossible number of editions, {count:,}")
-    found = collection.read_all(lambda number: edition_at(collection, number), range(count))
+    found = read_all(partial(edition_at, collection), range(count), report)
     return [each for each in found if artist in (None, each.artist)]
 
 
@@ -215,24 +231,15 @@ def add_gas(terms: EditionTerms, codes: Mapping[bytes, bytes]) -> int:
     return adding.gas + intrinsic_gas(data) + ADD_GAS + COPY_GAS * terms.copies
 
 
-def added_edition(collection: Collection, receipt: Receipt, artist: str, terms: EditionTerms) -> Edition:
-    """Return the edition that a transaction added, read from the chain.
+def added_number(logs: Iterable[Any], address: str) -> int:
+    """Return the number of the edition that a transaction added to a collection.
 
-    Raises VerificationError if the receipt names none, or if what the node returns differs from the terms.
+    logs: of its receipt. Raises VerificationError if they do not name one edition.
     """
-    topic, place = f"0x{keccak256(ADDED).hex()}", int(collection.address, 16)
-    logs = [log for log in receipt.logs if int(log["address"], 16) == place and log["topics"][:1] == [topic]]
-    if len(logs) != 1 or len(logs[0]["topics"]) != 4:
-        raise VerificationError(f"the receipt of the transaction {receipt.hash} names no new edition")
-    edition = edition_at(collection, int(logs[0]["topics"][1], 16))
-    terms_found = edition.name, edition.scene, edition.scale, edition.model
-    sale_found = edition.price, edition.supply, edition.royalty
-    if edition.artist != artist or (*terms_found, *sale_found) != terms.arguments[:-1]:
-        raise VerificationError(
-            f"edition {edition.number}, which the {collection.connection.name} reports for the transaction "
-            f"{receipt.hash}, does not match the terms"
-        )
-    return edition
+    added = find_events(logs, address, ADDED)
+    if len(added) != 1:
+        raise VerificationError("the transaction succeeded, but its receipt names no new edition")
+    return added[0][0]
 
 
 def withdraw_gas(collection: Collection, editions: Sequence[int], to: str) -> int:

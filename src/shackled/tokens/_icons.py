@@ -5,13 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from importlib.resources import files
 from typing import Any
 
 from attrs import evolve
 
 from ..artifacts import artifact
+from ..chain import read_all
 from ..datasets import Piece, find, pieces
 from ..deploy import Call, local_chain
 from ..errors import InputError
@@ -76,7 +77,7 @@ def icon_at(collection: Collection, number: int) -> CollectionIcon:
 
 def icons_of(collection: Collection) -> list[CollectionIcon]:
     """Return all icons of a collection."""
-    return [icon_at(collection, number) for number in range(collection.contract.call("iconCount"))]
+    return list(read_all(partial(icon_at, collection), range(collection.contract.call("iconCount"))))
 
 
 def find_icon(collection: Collection, text: str) -> CollectionIcon:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from .._render import render
-from ..chain import Connection
+from ..chain import Connection, read_all
 from ..deploy import (
     Call,
     Deployer,
@@ -86,21 +86,22 @@ def plan_storage(connection: Connection, wanted: Iterable[SceneToStore], fees: F
     fees = current_fees(connection) if fees is None else fees
     parts = parts_of(STUDIO, itself=True)
     studio = address_of(parts, STUDIO)
-    missing: dict[bytes, tuple[str, StoreTransaction]] = {}
-    pointers, codes = [], {}
+    stored: dict[bytes, tuple[str, StoreTransaction]] = {}
+    pointers = []
     for each in wanted:
         render(each.scene)
         transactions = store_scene(each.scene, bytes.fromhex(studio[2:]), each.position_bits, each.normal_bits)
         pointers.append(checksum_address(transactions[-1].pointer))
         for transaction in transactions:
-            codes[transaction.pointer] = transaction.code
-            if transaction.pointer not in missing and not connection.code(transaction.pointer):
-                missing[transaction.pointer] = each.name, transaction
+            stored.setdefault(transaction.pointer, (each.name, transaction))
+    is_there = read_all(partial(_is_stored, connection), list(stored))
+    missing = [part for part, is_stored in zip(stored.values(), is_there, strict=True) if not is_stored]
     plan = Deployer(connection).plan(parts, fees)
     place = bytes.fromhex(studio[2:])
-    calls = [Call(place, each.data, each.gas, needs=plan.codes) for _, each in missing.values()]
+    calls = [Call(place, each.data, each.gas, needs=plan.codes) for _, each in missing]
     quotes = make_quotes(connection, calls, fees, plan.quotes)
-    quoted = (QuotedStorage(*named, quote) for named, quote in zip(missing.values(), quotes, strict=True))
+    quoted = (QuotedStorage(*named, quote) for named, quote in zip(missing, quotes, strict=True))
+    codes = {pointer: each.code for pointer, (_, each) in stored.items()}
     return StoragePlan(plan, studio, tuple(quoted), tuple(pointers), codes)
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ..chain import Report, read_all
 from ._collection import Collection, Token
 from ._metadata import Metadata
 
@@ -69,14 +70,14 @@ def read_view(collection: Collection, number: int) -> TokenView:
     return view_of(collection, token, metadata, collection.contract.gas("tokenURI", number))
 
 
-def read_views(collection: Collection) -> Iterator[TokenView]:
+def read_views(collection: Collection, report: Report | None = None) -> Iterator[TokenView]:
     """Yield all tokens in the order of their numbers; several are read concurrently."""
 
     def read(number: int) -> TokenView:
         metadata = collection.metadata(number)
         return view_of(collection, collection.token(number), metadata)
 
-    yield from collection.read_all(read, range(collection.minted()))
+    yield from read_all(read, range(collection.minted()), report)
 
 
 def shorten(address: str) -> str:

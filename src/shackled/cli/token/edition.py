@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ...checks import number
+from ...errors import VerificationError
 from ...ethereum import amount, ether, parse_ether
 from ...tokens import OPEN
 from ...values import plural
 from ..chain_options import Json, NodeOptions, parse_checksum_address, print_json, with_groups
 from ..option import option
 from ..output import print_line, print_table
+from ..progress import LateBar
 from .options import MAX_NUMBER, TokenPayerOptions
-from .sale import minted_numbers
 
 if TYPE_CHECKING:
     from ...tokens import Collection
@@ -34,12 +35,26 @@ class EditionsOptions(NodeOptions):
         option("-c --collection", "Address of the collection. Default: the same on every chain.", "ADDRESS"),
     ] = None
 
-    def open(self) -> Collection:
-        """Return the collection. InputError if it is not on the chain."""
-        from ...tokens import open_editions
+    def open(self, exact: bool = False) -> Collection:
+        """Return the collection. InputError if it is not on the chain.
+
+        exact: also compare its code, before something is added or paid. VerificationError if it differs.
+        """
+        from ...tokens import check_collection_code, open_editions
 
         address = None if self.collection is None else parse_checksum_address(self.collection, "--collection")
-        return open_editions(self.connect(), address)
+        collection = open_editions(self.connect(), address)
+        if exact:
+            try:
+                check_collection_code(collection)
+            except VerificationError as error:
+                raise VerificationError(f"nothing was sent to {collection.address}: {error}") from None
+        return collection
+
+    @property
+    def again(self) -> str:
+        """The option that names the same collection in another command."""
+        return "" if self.collection is None else f" -c {self.collection}"
 
 
 @edition.command()
@@ -60,8 +75,9 @@ def add(
     as_json: Json = False,
 ) -> None:
     """Add a scene as an edition, of which anyone can mint tokens. It cannot be changed later."""
+    from ...deploy import local_chain
     from ...studio import STUDIO, stored_codes
-    from ...tokens import EditionTerms, add_gas, added_edition, address_of, parts_of
+    from ...tokens import EditionTerms, add_gas, added_number, edition_at, minted_tokens
 
     terms = EditionTerms(
         name=name,
@@ -73,22 +89,23 @@ def add(
         scale=scale,
         model=model,
     )
-    collection = which.open()
-    studio = bytes.fromhex(address_of(parts_of(STUDIO, itself=True), STUDIO)[2:])
+    collection = which.open(exact=True)
+    scene, studio = bytes.fromhex(terms.scene[2:]), local_chain().address(STUDIO)
     # fails before the confirmation if the scene cannot be drawn
-    gas = add_gas(terms, stored_codes(collection.connection, studio, bytes.fromhex(terms.scene[2:])))
+    gas = add_gas(terms, stored_codes(collection.connection, studio, scene))
     tokens = "any number of tokens" if supply is None else plural(supply, "token")
     title = f"add {name}, {tokens} at {ether(terms.price)}; this cannot be changed later"
     receipt = payer.send(collection, title, "add", *terms.arguments, gas=gas)
-    added = added_edition(collection, receipt, str(payer.signer.address), terms)
-    numbers = minted_numbers(receipt, collection.address)
+    added = edition_at(collection, added_number(receipt.logs, collection.address))
+    added.check(str(payer.signer.address), terms)
+    numbers = minted_tokens(receipt.logs, collection.address)
     if as_json:
         print_json(added.document() | {"tokens": numbers, "transaction": receipt.hash, "gas": receipt.gas})
         return
     print_line(f"edition {added.number}: {added.name}; {receipt.gas:,} gas")
     if numbers:
         print_line(f"yours: {', '.join(f'#{each}' for each in numbers)}")
-    print_line(f"anyone can mint it: shackled token edition mint {added.number}")
+    print_line(f"anyone can mint it: shackled token edition mint {added.number}{which.again}")
 
 
 @edition.command()
@@ -101,21 +118,22 @@ def mint(
     as_json: Json = False,
 ) -> None:
     """Mint tokens of an edition. Prints the price first."""
-    from ...tokens import edition_at, edition_mint_call
+    from ...tokens import edition_at, edition_mint_call, minted_tokens
 
-    collection = which.open()
+    collection = which.open(exact=True)
     chosen = edition_at(collection, edition)
     call = edition_mint_call(chosen, quantity)
     left = "" if chosen.supply == OPEN else f", {chosen.left} left"
     title = f"mint {quantity} of {chosen.name} by {chosen.artist}{left}"
     receipt = payer.send(collection, title, call.function, *call.arguments, value=call.value)
-    numbers = minted_numbers(receipt, collection.address)
+    numbers = minted_tokens(receipt.logs, collection.address)
     if as_json:
         print_json({"tokens": numbers, "transaction": receipt.hash, "gas": receipt.gas, "wei": call.value})
         return
     names = ", ".join(f"#{each}" for each in numbers)
     print_line(f"minted {names}; {receipt.gas:,} gas, transaction {receipt.hash}")
-    print_line(f"view it: shackled token show {numbers[0] if numbers else 'ID'} -c editions -o FILE.png")
+    place = which.again or " -c editions"
+    print_line(f"view it: shackled token show {numbers[0] if numbers else 'ID'}{place} -o FILE.png")
 
 
 @edition.command("list")
@@ -130,7 +148,8 @@ def list_(
 
     account = None if artist is None else parse_checksum_address(artist, "--artist")
     collection = which.open()
-    found = editions_of(collection, account)
+    with LateBar("reading editions") as bar:
+        found = editions_of(collection, account, bar.set)
     if as_json:
         print_json(
             {
@@ -184,7 +203,7 @@ def withdraw(
     to: Annotated[str | None, option("--to", "Receiver; default: you.", "ADDRESS")] = None,
 ) -> None:
     """Withdraw the proceeds of your editions."""
-    from ...tokens import edition_at, editions_of, withdraw_gas
+    from ...tokens import edition_at, editions_of, withdraw_gas, withdrawn
 
     account = str(payer.signer.address)
     receiver = account if to is None else parse_checksum_address(to, "--to")
@@ -192,7 +211,8 @@ def withdraw(
     if editions:
         found = [edition_at(collection, each) for each in dict.fromkeys(editions)]
     else:
-        found = [each for each in editions_of(collection, account) if each.proceeds]
+        with LateBar("reading editions") as bar:
+            found = [each for each in editions_of(collection, account, bar.set) if each.proceeds]
     total = sum(each.proceeds for each in found)
     if not total:
         print_line("there is nothing to withdraw")
@@ -201,4 +221,4 @@ def withdraw(
     title = f"send {ether(total)} of {plural(len(found), 'edition')} to {receiver}"
     gas = withdraw_gas(collection, numbers, receiver)
     receipt = payer.send(collection, title, "withdraw", numbers, receiver, gas=gas)
-    print_line(f"{ether(total)} sent to {receiver}; {receipt.gas:,} gas")
+    print_line(f"{ether(withdrawn(receipt.logs, collection.address))} sent to {receiver}; {receipt.gas:,} gas")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from ...chain import AddressBook
 from ...errors import InputError
@@ -27,21 +27,25 @@ MAX_NUMBER = 2**64 - 1
 class CollectionOptions(NodeOptions):
     """The collection that a command uses, and the node."""
 
+    accepts_editions: ClassVar[bool] = False
     collection: Annotated[
         str, option("-c --collection", "Name in the address book, genesis or icons, or an ADDRESS.", "COLLECTION")
     ] = "genesis"
 
     def open(self) -> Collection:
         """Return the collection. InputError if there is none of that name or at that address."""
-        from ...tokens import open_collection
+        from ...tokens import open_collection, open_editions
 
-        if self.collection == EDITIONS.name:
+        name = self.collection
+        if name == EDITIONS.name and not self.accepts_editions:
             raise InputError(
                 "the collection of editions has no owner and no sale phases: see shackled token edition --help"
             )
-        name, connection = self.collection, self.connect()
+        connection = self.connect()
+        if name == EDITIONS.name:
+            return open_editions(connection)
         if name.startswith("0x"):
-            return open_collection(connection, parse_checksum_address(name, "--collection"))
+            return open_collection(connection, parse_checksum_address(name, "--collection"), self.accepts_editions)
         if name not in KINDS:
             raise InputError(f"--collection must be {', '.join(KINDS)} or an address, not {name!r}")
         place = AddressBook().find(connection.chain_id, KINDS[name].contract)
@@ -62,20 +66,11 @@ class CollectionOptions(NodeOptions):
 class AnyCollectionOptions(CollectionOptions):
     """Any collection, and the node: for commands that accept every token."""
 
+    accepts_editions = True
     collection: Annotated[
         str,
         option("-c --collection", "editions; genesis or icons, from the address book; or an ADDRESS.", "COLLECTION"),
     ] = "genesis"
-
-    def open(self) -> Collection:
-        """Return the collection. InputError if there is none of that name or at that address."""
-        from ...tokens import open_collection, open_editions
-
-        if self.collection == EDITIONS.name:
-            return open_editions(self.connect())
-        if self.collection.startswith("0x"):
-            return open_collection(self.connect(), parse_checksum_address(self.collection, "--collection"), True)
-        return super().open()
 
 
 @dataclass(frozen=True)

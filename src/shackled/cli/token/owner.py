@@ -35,6 +35,8 @@ def withdraw(
     to: Annotated[str | None, option("--to", "Receiver; default: the owner.", "ADDRESS")] = None,
 ) -> None:
     """Withdraw the ether of the sale. For the owner."""
+    from ...tokens import withdrawn
+
     collection = which.open()
     receiver = str(payer.signer.address) if to is None else parse_checksum_address(to, "--to")
     balance = collection.state().balance
@@ -42,7 +44,7 @@ def withdraw(
         print_line("there is nothing to withdraw")
         return
     receipt = payer.send(collection, f"send {ether(balance)} to {receiver}", "withdraw", receiver)
-    print_line(f"{ether(balance)} sent to {receiver}; {receipt.gas:,} gas")
+    print_line(f"{ether(withdrawn(receipt.logs, collection.address))} sent to {receiver}; {receipt.gas:,} gas")
 
 
 @with_groups

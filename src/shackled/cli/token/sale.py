@@ -9,15 +9,24 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ...errors import InputError
-from ...ethereum import checksum_address, keccak256, to_hex
+from ...ethereum import checksum_address, to_hex
 from ...values import plural
-from ..chain_options import Json, parse_checksum_address, print_json, print_price, with_groups, write_calls
+from ..chain_options import (
+    Calldata,
+    Json,
+    check_calldata,
+    parse_checksum_address,
+    print_json,
+    print_price,
+    with_groups,
+    write_calls,
+)
 from ..option import option
 from ..output import print_line, print_note
 from .options import MAX_NUMBER, AnyCollectionOptions, CollectionOptions, TokenPayerOptions
 
 if TYPE_CHECKING:
-    from ...deploy import Quote, Receipt
+    from ...deploy import Quote
     from ...tokens import Collection, RevealCall, Round
 
 #: Seconds between two requests while waiting for a block.
@@ -46,7 +55,7 @@ def mint(
     as_json: Json = False,
 ) -> None:
     """Mint tokens. Prints the price first."""
-    from ...tokens import find_icon, mint_call
+    from ...tokens import find_icon, mint_call, minted_tokens
 
     if sum(each is not None for each in (allow_list, permission, reserve_to)) > 1:
         raise InputError("--allow-list, --permission and --reserve-to exclude each other: give one of them")
@@ -63,7 +72,7 @@ def mint(
     first = collection.minted()
     title = f"mint {quantity}" if chosen is None else f"mint {quantity} of {chosen.name}, {chosen.left} left"
     receipt = payer.send(collection, title, call.function, *call.arguments, value=call.value)
-    numbers = minted_numbers(receipt, collection.address)
+    numbers = minted_tokens(receipt.logs, collection.address)
     if as_json:
         print_json({"tokens": numbers, "transaction": receipt.hash, "gas": receipt.gas, "wei": call.value})
         return
@@ -75,28 +84,19 @@ def mint(
         print_line(f"block {block:,} determines the seeds; then anyone can reveal them: shackled token reveal")
 
 
-def minted_numbers(receipt: Receipt, address: str) -> list[int]:
-    """Return the tokens that a transaction minted, from the Transfer events of its receipt."""
-    transfer = "0x" + keccak256(b"Transfer(address,address,uint256)").hex()
-    logs = [log for log in receipt.logs if log["topics"][0] == transfer and len(log["topics"]) == 4]
-    return [int(log["topics"][3], 16) for log in logs if int(log["address"], 16) == int(address, 16)]
-
-
 @with_groups
 def reveal(
     which: CollectionOptions,
     payer: TokenPayerOptions,
     wait: Annotated[bool, option("--wait", "Wait for blocks that are not mined yet.")] = False,
-    calldata: Annotated[
-        Path | None,
-        option("--calldata", "Write the transactions to a JSON file for a wallet, and send nothing.", "FILE"),
-    ] = None,
+    calldata: Calldata = None,
     as_json: Json = False,
 ) -> None:
     """Reveal the tokens whose blocks are mined. Anyone can do this."""
     from ...deploy import current_fees
     from ...tokens import hidden_rounds, price_calls, price_wallet_calls, reveal_calls
 
+    check_calldata(calldata)
     collection = which.open()
     if not collection.kind.hidden:
         raise InputError(f"the tokens of {collection.name} are never hidden: there is nothing to reveal")

@@ -12,10 +12,12 @@ from ...animation import DURATION
 from ...errors import InputError, VerificationError
 from ...ethereum import amount, ether
 from ...image import check_output, one_of
+from ...tokens import EDITIONS
 from ...whole_file import check_output_file, write_output
 from ..chain_options import Json, NodeOptions, parse_checksum_address, print_json, with_groups
 from ..option import option, parse_size
 from ..output import print_line, print_table
+from ..progress import LateBar
 from .options import MAX_NUMBER, PHASES, AnyCollectionOptions, CollectionOptions
 
 
@@ -58,10 +60,13 @@ def list_(which: CollectionOptions, as_json: Json = False) -> None:
     """List the tokens with owners and traits, and the state of the collection."""
     from ...tokens import icons_of, read_views
 
+    if which.collection == EDITIONS.name:
+        raise InputError("editions have no sale phases: shackled token edition list lists them")
     collection = which.open()
     state = collection.state()
-    icons = [] if collection.kind.hidden else icons_of(collection)
-    views = list(read_views(collection))
+    with LateBar("reading tokens") as bar:
+        icons = [] if collection.kind.hidden else icons_of(collection)
+        views = list(read_views(collection, bar.set))
     if as_json:
         print_json(
             {

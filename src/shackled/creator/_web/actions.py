@@ -18,9 +18,9 @@ from .._scene import filled
 from .._state import Backdrop, Size, Source
 from . import dialogs
 from .edition import parse_terms
+from .mint import offer_of
 from .reveal import parse_collection
 from .visitor import Message, Visitor
-from .wallet import offer_of
 
 
 async def act(visitor: Visitor, message: object) -> None:
@@ -258,21 +258,16 @@ async def _answer(visitor: Visitor, message: Message) -> None:
 
 
 async def _mint(visitor: Visitor, message: Message) -> None:
-    offer, number = offer_of(visitor.state.source), int(_number(message, "wallet"))
-    if offer is None or not 0 <= number < len(visitor.wallets):
-        raise InputError("there is nothing to mint, or no such wallet")
-    if visitor.is_at("mint"):
-        raise InputError("a token is being minted: answer in your wallet, or wait until it is done")
+    offer, number = offer_of(visitor.state.source), _wallet(visitor, message)
+    if offer is None:
+        raise InputError("there is nothing to mint")
+    _check_not_at(visitor, "mint", "a token is being minted")
     visitor.job("mint", lambda: dialogs.mint_token(visitor, offer, number))
 
 
 async def _edition(visitor: Visitor, message: Message) -> None:
-    number = int(_number(message, "wallet"))
-    terms = parse_terms(message.get("fields"), visitor.state.source)
-    if not 0 <= number < len(visitor.wallets):
-        raise InputError("there is no such wallet")
-    if visitor.is_at("mint"):
-        raise InputError("a token is being minted: answer in your wallet, or wait until it is done")
+    number, terms = _wallet(visitor, message), parse_terms(message.get("fields"), visitor.state.source)
+    _check_not_at(visitor, "mint", "a token is being minted")
     visitor.job("mint", lambda: dialogs.make_edition(visitor, terms, number))
 
 
@@ -281,10 +276,8 @@ async def _reveal_open(visitor: Visitor, message: Message) -> None:
 
 
 async def _reveal(visitor: Visitor, message: Message) -> None:
-    number, collection = int(_number(message, "wallet")), parse_collection(message.get("fields"))
-    if not 0 <= number < len(visitor.wallets):
-        raise InputError("there is no such wallet")
-    _check_not_revealing(visitor)
+    number, collection = _wallet(visitor, message), parse_collection(message.get("fields"))
+    _check_not_at(visitor, "reveal-send", "tokens are being revealed")
     visitor.collection = collection
     # it may wait for a block: another search replaces it
     visitor.job("reveal", lambda: dialogs.find_tokens(visitor, collection, number))
@@ -294,13 +287,21 @@ async def _reveal_send(visitor: Visitor, message: Message) -> None:
     reveal = visitor.reveal
     if reveal is None:
         raise InputError("there is no transaction to send: look for tokens to reveal first")
-    _check_not_revealing(visitor)
+    _check_not_at(visitor, "reveal-send", "tokens are being revealed")
     visitor.job("reveal-send", lambda: dialogs.reveal_tokens(visitor, reveal))
 
 
-def _check_not_revealing(visitor: Visitor) -> None:
-    if visitor.is_at("reveal-send"):
-        raise InputError("tokens are being revealed: answer in your wallet, or wait until it is done")
+def _wallet(visitor: Visitor, message: Message) -> int:
+    """Return the place in the list of the wallet that a message names."""
+    number = int(_number(message, "wallet"))
+    if not 0 <= number < len(visitor.wallets):
+        raise InputError("there is no such wallet")
+    return number
+
+
+def _check_not_at(visitor: Visitor, job: str, what: str) -> None:
+    if visitor.is_at(job):
+        raise InputError(f"{what}: answer in your wallet, or wait until it is done")
 
 
 ACTIONS: dict[str, Callable[[Visitor, Message], Awaitable[None]]] = {

@@ -14,10 +14,11 @@ from .._scene import filled
 from .._state import Size
 from .._takeaway import MAX_PNG, SCALES
 from .edition import can_be_sold, mint_edition
+from .mint import Offer, mint, offer_of
 from .page import SNIPPETS, TURNTABLES, fragment
 from .reveal import COMMAND, Reveal, find_reveal, known_collection, send_reveal
 from .visitor import Message, Visitor
-from .wallet import DeclinedError, Offer, Tell, Wallet, mint, offer_of
+from .wallet import DeclinedError, Tell, Wallet
 
 #: Number of characters of a snippet that are shown; copies are complete.
 SHOWN = 1500

@@ -10,14 +10,12 @@ from typing import Any
 
 from ...datasets import require
 from ...errors import InputError
-from ...ethereum import checksum_address, ether, keccak256, parse_ether, to_hex
-from ...tokens import EDITIONS, OPEN, EditionTerms, allows
+from ...ethereum import ether, parse_ether, to_hex
+from ...tokens import EDITIONS, OPEN, Edition, EditionTerms, added_number, allows, minted_tokens
 from .._edition import EditionCalls
 from .._state import Source
-from .wallet import Tell, Wallet, WalletError, chain_name, events, minted_tokens
+from .wallet import Tell, Wallet, WalletError, chain_name
 
-#: Topic of the event of a new edition.
-ADDED = to_hex(keccak256(b"EditionAdded(uint256,address,address,string,uint256,bool,uint256,uint256,uint256)"))
 #: Address of a scene that is not known yet.
 UNKNOWN = "0x" + "00" * 20
 
@@ -76,8 +74,8 @@ def _percent(text: str) -> float:
 async def mint_edition(calls: EditionCalls, wallet: Wallet, tell: Tell) -> str:
     """Store the scene where it is missing, add the edition, and return a sentence that says which it is.
 
-    tell: called with a sentence on each step. InputError if the chain has no collection, WalletError if the wallet
-    refuses or returns an invalid answer.
+    tell: called with a sentence on each step. InputError if the chain has no collection; WalletError or
+    VerificationError if the wallet refuses or returns an invalid answer.
     """
     await tell("Waiting for the wallet …")
     account = await wallet.account()
@@ -101,17 +99,11 @@ async def mint_edition(calls: EditionCalls, wallet: Wallet, tell: Tell) -> str:
         "changed later. Confirm it in the wallet …"
     )
     receipt = await wallet.send(transaction | {"value": "0x0"}, tell, number_of_chain)
-    added = events(receipt, calls.collection, ADDED)
-    if len(added) != 1:
-        raise WalletError("the transaction succeeded, but its receipt names no new edition")
-    number = added[0][1]
-    artist, price, supply, _, _, _, royalty, scale, model, scene, name = await wallet.read(
-        EDITIONS.contract, calls.collection, "editionAt", number
-    )
-    found = (name, checksum_address(bytes.fromhex(scene[2:])), scale, model, price, supply, royalty)
-    if artist.lower() != account.lower() or found != terms.arguments[:-1]:
-        raise WalletError(f"edition {number}, which the wallet reports as added, does not match the terms")
-    yours = "".join(f", token {each} is yours" for each in minted_tokens(receipt, calls.collection))
+    logs = receipt.get("logs") or ()
+    number = added_number(logs, calls.collection)
+    answer = await wallet.read(EDITIONS.contract, calls.collection, "editionAt", number)
+    Edition.from_answer(number, answer).check(account, terms)
+    yours = "".join(f", token {each} is yours" for each in minted_tokens(logs, calls.collection))
     return f"Added: edition {number} of {EDITIONS.title}{yours}, at {calls.collection} on {chain}"
 
 
