@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,7 @@ import pytest
 from preview.small_contracts import DEAR, ENDLESS, REVERT, SVG, Made, answering, contract, function, output
 from shackled.ethereum import keccak256, word
 from shackled.evm import Answer
-from shackled.preview import Compiled, Preview, Request, Token, folded
+from shackled.preview import Call, Compiled, Preview, Request, Token, World, folded
 
 PANIC = bytes.fromhex("4e487b71")
 SUPPLY = function("totalSupply", output="uint256")
@@ -117,6 +118,22 @@ def test_transactions_that_take_more_gas_than_one_may(preview: Any) -> None:
     (problem,) = preview(Compiled("Dear", found.abi, DEAR)).problems
     assert problem.startswith("the deployment of Dear takes 17,")
     assert preview(contract(answering(output(SVG)))).problems == []
+
+
+def test_each_transaction_has_a_block_of_its_own(preview: Any) -> None:
+    # without data it stores NUMBER, TIMESTAMP and PREVRANDAO in slots 0 to 2; with a number it returns that slot
+    code = bytes.fromhex("3660105743 5f55 42600155 44600255 00 5b 600435 54 5f52 60205ff3".replace(" ", ""))
+    first, second = (World(contract(code), setup=[Call(b"", 0, times, "write")]) for times in (1, 2))
+
+    def kept(world: World) -> list[int]:
+        return [int.from_bytes(world.call(bytes(4) + word(slot)).output, "big") for slot in range(3)]
+
+    (number, seconds, random), (later, more_seconds, other) = kept(first), kept(second)
+    assert later == number + 1 > 256
+    assert 10 <= more_seconds - seconds <= 14
+    assert abs(seconds - time.time()) < 120
+    assert 0 != random != other
+    assert kept(World(contract(code), setup=[Call(b"", 0, 1, "write")]))[2] == random
 
 
 def test_a_hint_where_no_token_can_be_read(preview: Any) -> None:

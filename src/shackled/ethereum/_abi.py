@@ -46,7 +46,7 @@ class Interface:
         try:
             values = decode(get_abi_output_types(self._functions[function]), answer)
         except (DecodingError, OverflowError, UnicodeDecodeError) as error:
-            raise ValueError(f"{len(answer)} bytes are not an output of {function}: {error}") from None
+            raise ValueError(f"{len(answer)} bytes are not an output of {function}: {error}") from error
         return values[0] if len(values) == 1 else values
 
     def construct(self, *arguments: Any) -> bytes:

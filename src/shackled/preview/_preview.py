@@ -169,8 +169,8 @@ def _output_fault(output: bytes, error: ValueError) -> str:
     """Return what is wrong with the output of a function that returns text or bytes."""
     if not output:
         return "nothing"
-    if isinstance(error, UnicodeDecodeError):
-        return f"no valid {unicode_fault(error)}"
+    if isinstance(error.__cause__, UnicodeDecodeError):
+        return f"no valid {unicode_fault(error.__cause__)}"
     return f"{len(output)} bytes that are not text or bytes as the ABI encodes them"
 
 
