@@ -83,6 +83,8 @@ def build() -> bytes:
         "RUSTFLAGS": f"{FLAGS} --remap-path-prefix={home}=cargo",
         "CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER": LINKER,
         "CARGO_TARGET_DIR": str(TARGET_FOLDER),
+        # cargo would warn that it cannot use the job server of make
+        "MAKEFLAGS": "",
     }
     command = [
         CARGO,
