@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from ..chain import AddressBook, Connection
+from ..chain import AddressBook, Connection, read_all
 from ..errors import ChainError, NoAnswerError, TransactionError, WrongChainError
 from ..ethereum import PROXY, checksum_address, rounded, to_hex
 from ._contract import PROXY_CODE, Deployment
@@ -96,7 +96,7 @@ class Deployer:
         prices are implausible (`current_fees`, `make_quote`); WrongChainError if the chain's rules are too old.
         """
         fees = current_fees(self.connection) if fees is None else fees
-        deployed = [self.is_deployed(each) for each in wanted]
+        deployed = list(read_all(self.is_deployed, wanted))
         missing = [each for each, done in zip(wanted, deployed, strict=True) if not done]
         steps, codes = [], {}
         if missing:

@@ -27,18 +27,9 @@ def add(
     reserve: Annotated[int, option("--reserve", "Number of these tokens reserved for the team.", "N")] = 1,
 ) -> None:
     """Add an icon, whose scene is stored already, to a collection that is not sealed. For the owner."""
+    from ...deploy import local_chain
     from ...studio import STUDIO, stored_codes
-    from ...tokens import (
-        SCALE,
-        SceneToStore,
-        add_call,
-        address_of,
-        check_sale,
-        chosen_pieces,
-        parts_of,
-        plan_storage,
-        token_scene,
-    )
+    from ...tokens import SCALE, SceneToStore, add_call, check_sale, chosen_pieces, plan_storage, token_scene
 
     wei = parse_ether(price, "--price")
     check_sale([], wei, supply, reserve)
@@ -55,8 +46,7 @@ def add(
         name, place = piece.title, storage.pointers[0]
     arguments = (name, place, SCALE, wei, supply, reserve)
     # fails before the confirmation if the scene cannot be drawn
-    studio = bytes.fromhex(address_of(parts_of(STUDIO, itself=True), STUDIO)[2:])
-    codes = stored_codes(collection.connection, studio, bytes.fromhex(place[2:]))
+    codes = stored_codes(collection.connection, local_chain().address(STUDIO), bytes.fromhex(place[2:]))
     gas = add_call(collection.contract.interface, collection.address, arguments, codes).gas
     receipt = payer.send(collection, f"add {name}", "add", *arguments, gas=gas)
     print_line(f"{name} is added; {receipt.gas:,} gas")
