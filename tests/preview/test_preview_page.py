@@ -128,7 +128,8 @@ def test_the_page_through_saves_until_the_end(folder: Path, server: subprocess.P
     assert page.locator("#tokens.old .token").count() == COUNT
     cards.nth(3).click()
     page.locator("#details[open]").wait_for()
-    page.wait_for_function("() => [...document.images].filter((each) => each.offsetParent).every((each) => each.complete)")
+    shown = "[...document.images].filter((each) => each.offsetParent)"
+    page.wait_for_function(f"() => {shown}.every((each) => each.complete)")
     (folder / "Small.sol").write_text("contract Small {}   // first")
     done.wait_for()
     assert page.locator("#tokens.old").count() == 0
