@@ -12,6 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from PIL import Image as PillowImage
 
 from preview.small_contracts import SVG, Made, answering, contract, function, output
@@ -305,6 +307,7 @@ WRONG = {
     "external_url": ("javascript:alert(1)", "an address such as"),
     "attributes": ([{"trait_type": "a"}], "attribute 0 has no value"),
     "animation_url": ("data:model/gltf-binary;base64,Z2xURg==", "not a complete GLB"),
+    "attributes ": ([{"value": 1, "display_type": {}}], "display_type {} is none of"),
     "image": ("data:text/html,<script>", "image has the type text/html"),
 }
 
@@ -312,7 +315,7 @@ WRONG = {
 @pytest.mark.parametrize("key", WRONG)
 def test_fields_that_are_wrong(key: str) -> None:
     value, message = WRONG[key]
-    (problem,) = judge(uri({"name": "One", "image": picture()} | {key: value})).problems
+    (problem,) = judge(uri({"name": "One", "image": picture()} | {key.strip(): value})).problems
     assert message in problem
 
 
@@ -322,6 +325,32 @@ def test_token_uris_that_marketplaces_do_not_show() -> None:
     assert problem.endswith("bytes; marketplaces show no more than 100,000")
     (problem,) = judge("data:application/json," + json.dumps({"name": "Token #1", "image": picture()})).problems
     assert "the tokenURI has a # at position 38, where browsers end it: write %23" in problem
+
+
+def film(kind: str, frames: int, side: int = 4) -> bytes:
+    """Return a picture that moves."""
+    stream = io.BytesIO()
+    made = [PillowImage.new("RGB", (side, side), (25 * number, 0, 0)) for number in range(frames)]
+    made[0].save(stream, kind, save_all=True, append_images=made[1:])
+    return stream.getvalue()
+
+
+def test_films() -> None:
+    for kind in ("gif", "webp"):
+        found = judge_picture(film(kind, 3))
+        assert (found.problems, found.image and found.image.frames) == ([], 3)
+    (problem,) = judge_picture(film("gif", 9, 4096)).problems
+    assert "its 9 frames have more than 134,217,728 pixels together" in problem
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.data())
+def test_damaged_films_are_a_problem_of_one_line(data: st.DataObject) -> None:
+    """Decoders fail at them in many ways."""
+    whole = bytearray(film("gif", 3))
+    for _ in range(3):
+        whole[data.draw(st.integers(10, len(whole) - 1))] = data.draw(st.integers(0, 255))
+    assert all(problem and "\n" not in problem for problem in judge_picture(bytes(whole)).problems)
 
 
 def test_pictures_that_cannot_be_decoded() -> None:
@@ -339,6 +368,8 @@ def test_pictures_that_cannot_be_decoded() -> None:
         ("<svg/>", "xmlns is missing: write <svg xmlns="),
         (b"<svg>\xff</svg>", "not a valid UTF-8: byte 5 is 0xff"),
         (b"", "not a valid SVG: it is empty"),
+        ("data:text/html,<script>", "the picture has the type text/html"),
+        (b"glTF" + bytes(8), "the picture has the type model/gltf-binary"),
         ("", "the picture is empty"),
         ("data:image/svg+xml," + SVG.replace("/>", " fill='#fff'/>"), "a # at position 65, where browsers end it"),
         ("data:image/svg+xml," + SVG.replace("/>", " width='50%'/>"), "a % at position 68 without two hexadecimal"),
@@ -352,7 +383,9 @@ def test_the_command_checks(source: Path, tmp_path: Path, capsys: pytest.Capture
     sheet = tmp_path / "sheet.png"
     words = ["preview", str(source), "--arg", "0", "--setup", "mint(4)", "--check"]
     assert run([*words, "--tokens", "1", "-o", str(sheet)]) == 0
-    assert "1 tokens" in capsys.readouterr().out
+    out = capsys.readouterr().out
+    assert "1 tokens" in out
+    assert "sheet.png; 1 tokens have none or an SVG, and are left out" in "".join(out.splitlines())
     with PillowImage.open(sheet) as opened:
         assert opened.size == (128, 128)
     assert run([*words, "--tokens", "2", "--json"]) == 1

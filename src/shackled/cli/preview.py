@@ -123,8 +123,7 @@ def _check(project: Project, request: Request, as_json: bool, output: Path | Non
         for token in made.tokens():
             found.append(token)
             bar.set(len(found), made.count)
-    if output is not None:
-        write_sheet(output, found)
+    drawn = write_sheet(output, found) if output is not None else 0
     wrong = [token for token in found if token.problems]
     gas = [token.gas for token in found if token.gas is not None]
     if as_json:
@@ -149,7 +148,10 @@ def _check(project: Project, request: Request, as_json: bool, output: Path | Non
                 f"average, {most.gas or 0:,} at most (token {most.number}), {request.max_gas:,} allowed"
             )
         if output is not None:
-            print_line(f"pictures: {output}")
+            left_out = (
+                f"; {len(found) - drawn} tokens have none or an SVG, and are left out" if drawn < len(found) else ""
+            )
+            print_line(f"pictures: {output}{left_out}")
     if wrong:
         hint = made.hint(found)
         raise VerificationError(f"{len(wrong)} of {len(found)} tokens have problems{f'; {hint}' if hint else ''}")

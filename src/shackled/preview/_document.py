@@ -11,6 +11,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 from PIL import Image as PillowImage
+from PIL import UnidentifiedImageError
 
 from ..errors import VerificationError
 from ..tokens import MAX_LENGTH, read_data_uri
@@ -26,8 +27,9 @@ PICTURES = {
     "image/webp": "WEBP",
 }
 SVG, GLB, HTML = "image/svg+xml", "model/gltf-binary", "text/html"
-#: The largest side of a picture, in pixels, and the most bytes of a document that is shown.
+#: The largest side of a picture, and the most pixels of all its frames.
 MAX_SIDE = 4096
+MAX_PIXELS = 1 << 27
 #: What `display_type` may be (OpenSea's metadata standards).
 DISPLAY_TYPES = {"number", "boost_number", "boost_percentage", "date"}
 #: A % that does not escape a byte.
@@ -117,6 +119,8 @@ def judge_picture(content: bytes | str) -> Document:
         found.image = _file(content, "the picture", found.problems.append)
         return found
     media_type = next((kind for mark, kind in MARKS.items() if content.startswith(mark)), SVG)
+    if content[:4] == b"RIFF" and content[8:12] == b"WEBP":
+        media_type = "image/webp"
     found.image = _checked(File(media_type, content), "the picture", found.problems.append)
     return found
 
@@ -139,7 +143,7 @@ def attribute_problems(attributes: Any) -> list[str]:
             found.append(
                 f"the value of attribute {number} must be text or a number, not {plain(json.dumps(value))[:60]}"
             )
-        if kind is not None and kind not in DISPLAY_TYPES:
+        if kind is not None and (not isinstance(kind, str) or kind not in DISPLAY_TYPES):
             found.append(f"display_type {plain(json.dumps(kind))[:40]} is none of {', '.join(sorted(DISPLAY_TYPES))}")
         elif kind is not None and (isinstance(value, bool) or not isinstance(value, int | float)):
             found.append(f"attribute {number} has the display_type {kind}, so its value must be a number")
@@ -200,8 +204,8 @@ def _checked(file: File, key: str, note: Callable[[str], None]) -> File | None:
             note(f"{key} is not a valid {_svg_fault(content, error)}")
             return None
         return file
-    if key == "image":
-        note(f"image has the type {kind}; marketplaces show {', '.join([*PICTURES, SVG])}")
+    if key != "animation_url":
+        note(f"{key} has the type {kind}; marketplaces show {', '.join([*PICTURES, SVG])}")
         return None
     if kind == GLB and (content[:4] != b"glTF" or content[8:12] != len(content).to_bytes(4, "little")):
         note(f"{key} is not a complete GLB")
@@ -227,10 +231,20 @@ def _picture(file: File, key: str, note: Callable[[str], None]) -> File | None:
                     f"it has {opened.size[0]} x {opened.size[1]} pixels, more than {MAX_SIDE} along a side"
                 )
             frames = int(getattr(opened, "n_frames", 1))
+            if frames * opened.width * opened.height > MAX_PIXELS:
+                raise ValueError(f"its {frames} frames have more than {MAX_PIXELS:,} pixels together")
             for number in range(frames):
                 opened.seek(number)
                 opened.load()
-    except (OSError, ValueError, SyntaxError, EOFError, PillowImage.DecompressionBombError) as error:
-        note(f"{key} is not a complete {file.media_type}: {' '.join(str(error).split())[:100]}")
+    except Exception as error:
+        # decoders fail in many ways at damaged files, some without words
+        note(f"{key} is not a complete {file.media_type}: {_words(error)}")
         return None
     return File(file.media_type, file.content, frames)
+
+
+def _words(error: Exception) -> str:
+    """Return what a decoder says of a damaged picture, in one line."""
+    if isinstance(error, UnidentifiedImageError):
+        return "it is damaged"
+    return " ".join(str(error).split())[:100] or type(error).__name__

@@ -25,8 +25,12 @@ def check_sheet(path: Path) -> None:
     check_output_file(path, "sheet")
 
 
-def write_sheet(path: Path, tokens: Sequence[Token]) -> None:
-    """Write the pictures in rows into one PNG; tokens without one leave their places empty."""
+def write_sheet(path: Path, tokens: Sequence[Token]) -> int:
+    """Write the pictures in rows into one PNG, and return how many there are.
+
+    Tokens without a picture, and those with an SVG, leave their places empty.
+    """
+    drawn = 0
     columns = isqrt(max(0, len(tokens) - 1)) + 1
     rows = -(-len(tokens) // columns)
     sheet = PillowImage.new("RGBA", (columns * SIDE, rows * SIDE))
@@ -34,6 +38,7 @@ def write_sheet(path: Path, tokens: Sequence[Token]) -> None:
         image = token.document.image
         if image is None or image.media_type not in PICTURES:
             continue
+        drawn += 1
         row, column = divmod(number, columns)
         with PillowImage.open(io.BytesIO(image.content)) as picture:
             small = picture.convert("RGBA")
@@ -42,3 +47,4 @@ def write_sheet(path: Path, tokens: Sequence[Token]) -> None:
     stream = io.BytesIO()
     sheet.save(stream, "png")
     write_output(path, stream.getvalue())
+    return drawn
