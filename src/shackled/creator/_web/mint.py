@@ -89,7 +89,7 @@ class _Sale:
         """Return the calldata that mints one token, and the price in wei. InputError if it is not on sale."""
         phase = await self._read("phase")
         if phase >= len(PHASES):
-            raise WalletError(f"the wallet says that the sale has the phase {phase}, which there is not")
+            raise WalletError(f"the wallet reports an invalid phase of the sale: {phase}")
         if phase != OPEN_FOR_ALL:
             raise InputError(f"the sale is {PHASES[phase]}")
         if self._offer.kind.hidden:
