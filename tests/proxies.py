@@ -35,6 +35,11 @@ def after(count: int, manner: str) -> Manners:
     return lambda number: manner if number >= count else ""
 
 
+def before(count: int, manner: str) -> Manners:
+    """Misbehaves at first."""
+    return lambda number: manner if number < count else ""
+
+
 def at(count: int, manner: str) -> Manners:
     """Misbehaves once."""
     return lambda number: manner if number == count else ""

@@ -11,7 +11,7 @@ from attrs import evolve
 
 import shackled
 from nodes import Reply, anvil, failure, forward, free_port, needs_anvil, serving
-from proxies import after, always, at, each_third, proxy
+from proxies import after, always, at, before, each_third, proxy
 from shackled import ChainError, Image, load
 from shackled.chain import open_chain
 from shackled.errors import NodeError
@@ -180,9 +180,10 @@ def test_a_large_picture_is_compared_in_samples(node: str, monkeypatch: pytest.M
 
 
 def test_a_node_that_turns_bad(node: str, right: Image) -> None:
+    """The other one is slow at first, so that it does not draw nearly all by itself."""
     notes = Notes()
-    with proxy(node, after(5, "wrong")) as url:
-        job = render_frames([SCENE], Where(rpc=(url, node), tile=(64, 2)), listener=notes)
+    with proxy(node, after(5, "wrong")) as url, proxy(node, before(5, "slow")) as other:
+        job = render_frames([SCENE], Where(rpc=(url, other), tile=(64, 2)), listener=notes)
     assert job.images[0].bmp == right.bmp
     assert len(notes.warnings) == 1
     assert "answers wrongly" in notes.warnings[0]
