@@ -97,6 +97,14 @@ abstract contract PixelRasterizer is Rasterizer {
             edges := add(edges, mul(add(add(shl(EDGE_SUBPIXEL_SHIFT, x), CEIL_48), shl(EDGE_ADDRESS_FRACTION, a)), ONES_128))
             mstore(SLOPES, sub(slopes, mload(STRIDE_LANES)))
         }
+        if (load(MODE) & IS_TURNED_AWAY != 0) {
+            // DX_8 is the change over an eighth of a pixel, DY over a pixel
+            unchecked {
+                uint256 dx = uint256(loadSigned(DX_8) >> (ACCUMULATOR_DEPTH_AT + 3));
+                uint256 dy = uint256(loadSigned(DY) >> (ACCUMULATOR_DEPTH_AT + 6));
+                store(START, load(START) - (setBack(dx, dy, 0) << ACCUMULATOR_DEPTH_AT));
+            }
+        }
         drawParts(edges, b, a);
     }
 
@@ -135,8 +143,8 @@ abstract contract PixelRasterizer is Rasterizer {
             store(DX, load(DX_8) << 3);
             if (load(MODE) & IS_DEEP != 0) {
                 start += load(DEEP_START);
-                store(DX, load(DX) + load(DEEP_DX));
-                store(DY, load(DY) + load(DEEP_DY));
+                store(DX, load(DX) + (load(DEEP_DX) << ATTRIBUTE_DEPTH_AT));
+                store(DY, load(DY) + (load(DEEP_DY) << ATTRIBUTE_DEPTH_AT));
             }
             uint256 stride = load(DEPTH_STRIDE);
             uint256 slopes = load(SLOPES);

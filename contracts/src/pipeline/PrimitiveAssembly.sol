@@ -60,7 +60,7 @@ abstract contract PrimitiveAssembly is Rasterizer {
                 if (area <= loadSigned(LEAST_AREA)) continue;
                 if (area < HALF_AREA) {
                     if (area > -HALF_AREA) continue;
-                    (b, c) = (c, b);
+                    (a, b, c) = (a | IS_BACK, c, b);
                     area = -area;
                 }
                 uint256 crossing = (a | b | c) & IS_NOT_PLAIN;
@@ -82,7 +82,7 @@ abstract contract PrimitiveAssembly is Rasterizer {
                     shade(a, b, c, crossing);
                     drawTriangle(a, b, c);
                 } else {
-                    store(LIST, Triangles.pack(load(LIST), a, b, c, ALL_EDGES));
+                    store(LIST, Triangles.pack(load(LIST), a, b, c, ALL_EDGES + load(ZERO_SLOT)));
                 }
             }
         }
@@ -90,6 +90,6 @@ abstract contract PrimitiveAssembly is Rasterizer {
 
     /// @dev Converts the combined flags of a triangle's vertices to bits of its mode.
     function crossingOf(uint256 flags) private pure returns (uint256) {
-        return (flags & IS_BESIDE != 0 ? IS_CROSSING : 0) | (flags & IS_OVER != 0 ? IS_CUT : 0);
+        return (flags & IS_BESIDE != 0 ? IS_CROSSING : 0) | (flags & IS_OVER != 0 ? IS_CUT : 0) | ((flags & IS_BACK) >> IS_BACK_SHIFT);
     }
 }

@@ -9,12 +9,33 @@ import "./Registers.sol";
 abstract contract Rasterizer {
     /// @notice Selects how a triangle is shaded, and sets the registers for it: MODE, ATTRIBUTE_0, DELTA_1, DELTA_2 and others.
     /// @param a, b, c The screen words of its vertices, the topmost first, counter-clockwise.
-    /// @param crossing IS_CROSSING, IS_CUT, both or neither.
+    /// @param crossing The sum of IS_CROSSING, IS_CUT and IS_TURNED_AWAY, or of some of them.
     function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure virtual;
 
     /// @notice Draws a triangle for which `shade` was called.
     /// @param a, b, c The screen words of its vertices, the topmost first, counter-clockwise.
     function drawTriangle(uint256 a, uint256 b, uint256 c) internal pure virtual;
+
+    /// @dev Returns by how much the depth of the current triangle, which is turned away from the eye, is reduced, so that a face turned to
+    /// the eye in the same place is seen: by its change over 1/64 of a pixel, since rounding moves vertices by up to 1/512, and two units of
+    /// the depths of vertices. At most half of the least depth above a base, so that it remains above it, and nothing if the triangle
+    /// IS_DEEP. Removes IS_TURNED_AWAY from MODE.
+    /// @param dx, dy The changes of the depth over 1/64 of a pixel.
+    function setBack(uint256 dx, uint256 dy, uint256 base) internal pure returns (uint256 depth) {
+        assembly ("memory-safe") {
+            mstore(MODE, xor(mload(MODE), IS_TURNED_AWAY))
+            // depths of vertices: of the first and of the farthest
+            depth := 0
+            let change := sar(ATTRIBUTE_DEPTH_AT, mload(DELTA_1))
+            if slt(change, depth) { depth := change }
+            change := sar(ATTRIBUTE_DEPTH_AT, mload(DELTA_2))
+            if slt(change, depth) { depth := change }
+            depth := sub(add(depth, shr(ACCUMULATOR_VERTEX_DEPTH_AT, mload(ATTRIBUTE_0))), sar(8, base))
+            depth := mul(shl(7, depth), iszero(and(mload(MODE), IS_DEEP)))
+            change := add(add(xor(dx, sar(255, dx)), xor(dy, sar(255, dy))), 512)
+            if lt(change, depth) { depth := change }
+        }
+    }
 
     /// @notice Returns whether a small triangle covers nothing. May return false even then.
     /// @param a, b, c As for `drawTriangle`.
@@ -33,7 +54,8 @@ abstract contract Rasterizer {
                 uint256 a = load((word >> TRIANGLE_A_AT) & TRIANGLE_A_MASK);
                 uint256 b = load((word >> TRIANGLE_B_AT) & TRIANGLE_B_MASK);
                 uint256 c = load(word & TRIANGLE_C_MASK);
-                shade(a, b, c, ((word >> TRIANGLE_CROSSING_SHIFT) & IS_CROSSING) | (top < bandTop || bottom > bandBottom ? IS_CUT : 0));
+                uint256 mode = (word >> TRIANGLE_CROSSING_SHIFT) & (IS_CROSSING | IS_TURNED_AWAY);
+                shade(a, b, c, mode | (top < bandTop || bottom > bandBottom ? IS_CUT : 0));
                 drawTriangle(a, b, c);
             }
         }

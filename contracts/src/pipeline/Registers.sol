@@ -10,7 +10,7 @@ import "./Words.sol";
 
 /// @dev The beginning of the registers: the maximum end of the compiler's variables in memory.
 uint256 constant REGISTERS = 0x800;
-uint256 constant REGISTERS_END = 0x3fc0;
+uint256 constant REGISTERS_END = 0x4000;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- frame
 // The uniforms of the frame, which the Renderer fills. Pixel columns and rows are counted from -PIXEL_BIAS, so that everything inside the
@@ -141,348 +141,352 @@ uint256 constant SCALE_PER_NEAR = 0x15e0;
 uint256 constant AMBIENT = 0x1600;
 /// @dev The square of the distance, in sub-pixels, over which light is approximately linear.
 uint256 constant REACH = 0x1620;
-/// @dev The maximum sum of the squares of two edges for which the light of smooth triangles is bounded; and the maximum square of the
-/// difference of unit half vectors, Q40.
+/// @dev The maximum sums of the squares of two edges for which directions can be interpolated in smooth triangles: linearly, and with
+/// errors of third order.
 uint256 constant SMOOTH_REACH = 0x1640;
-uint256 constant HALF_REACH = 0x1660;
+uint256 constant SMOOTH_REACH_3 = 0x1660;
+/// @dev The slope of the highlight at its maximum, in 84ths of a level of 255, Q10; and a cos^2, Q20, below which it is at most half of
+/// that.
+uint256 constant HALF_SLOPE = 0x1680;
+uint256 constant FAR_FROM_HIGHLIGHT = 0x16a0;
 /// @dev The light of a smooth object that does not depend on the fragment, lanes of Q40.
-uint256 constant FACE_LIGHT_40 = 0x1680;
+uint256 constant FACE_LIGHT_40 = 0x16c0;
 /// @dev The square and the length of a fragment's normal, Q48 and Q24: one, unless normals are interpolated.
-uint256 constant FRAGMENT_SQUARE = 0x16a0;
-uint256 constant FRAGMENT_NORMAL_LENGTH = 0x16c0;
+uint256 constant FRAGMENT_SQUARE = 0x16e0;
+uint256 constant FRAGMENT_NORMAL_LENGTH = 0x1700;
 /// @dev The beginning of the highlight's table, as cos^2 in Q24; its entries per unit, Q16; their product, Q24.
-uint256 constant SPECULAR_BEGIN = 0x16e0;
-uint256 constant SPECULAR_SCALE = 0x1700;
-uint256 constant SPECULAR_OFFSET = 0x1720;
+uint256 constant SPECULAR_BEGIN = 0x1720;
+uint256 constant SPECULAR_SCALE = 0x1740;
+uint256 constant SPECULAR_OFFSET = 0x1760;
 /// @dev The specular coefficient, Q16, if the shininess is 1, otherwise 0.
-uint256 constant SPECULAR_ROOT = 0x1740;
+uint256 constant SPECULAR_ROOT = 0x1780;
 /// @dev The other halves of the records at LIGHTS.
-uint256 constant OBJECT_LIGHTS = 0x1760;
+uint256 constant OBJECT_LIGHTS = 0x17a0;
 /// @dev 65 entries: the value of the highlight in the upper half, the increase to the next entry in the lower half, both Q16.
-uint256 constant SPECULAR_TABLE = 0x1ce0;
+uint256 constant SPECULAR_TABLE = 0x1d20;
 /// @dev The following uniform is for scenes with effects.
-uint256 constant SPECULAR_TABLE_END = 0x2500;
+uint256 constant SPECULAR_TABLE_END = 0x2540;
 /// @dev The number of the object in the scene.
-uint256 constant OBJECT_NUMBER = 0x2500;
-uint256 constant OBJECT_END = 0x2520;
+uint256 constant OBJECT_NUMBER = 0x2540;
+uint256 constant OBJECT_END = 0x2560;
 
 // ------------------------------------------------------------------------------------------------------------------------------- triangle
 
 /// @dev The shading of fragments: see the mode.
-uint256 constant MODE = 0x2520;
+uint256 constant MODE = 0x2560;
 /// @dev The accumulator at the first vertex, with the bias of its lanes; and the differences of the other attribute words to the first.
-uint256 constant ATTRIBUTE_0 = 0x2540;
-uint256 constant DELTA_1 = 0x2560;
-uint256 constant DELTA_2 = 0x2580;
+uint256 constant ATTRIBUTE_0 = 0x2580;
+uint256 constant DELTA_1 = 0x25a0;
+uint256 constant DELTA_2 = 0x25c0;
 /// @dev The calldata offset of the face.
-uint256 constant FACE = 0x25a0;
+uint256 constant FACE = 0x25e0;
 /// @dev The accumulator at column 0 of the first row, and its change per pixel and per row.
-uint256 constant START = 0x25c0;
-uint256 constant DX = 0x25e0;
-uint256 constant DY = 0x2600;
+uint256 constant START = 0x2600;
+uint256 constant DX = 0x2620;
+uint256 constant DY = 0x2640;
 /// @dev Colour at the first vertex, and its differences to the others.
-uint256 constant COLOR_0 = 0x2620;
-uint256 constant COLOR_1 = 0x2640;
-uint256 constant COLOR_2 = 0x2660;
+uint256 constant COLOR_0 = 0x2660;
+uint256 constant COLOR_1 = 0x2680;
+uint256 constant COLOR_2 = 0x26a0;
 /// @dev Depths at the second and third vertex.
-uint256 constant DEPTH_1 = 0x2680;
-uint256 constant DEPTH_2 = 0x26a0;
+uint256 constant DEPTH_1 = 0x26c0;
+uint256 constant DEPTH_2 = 0x26e0;
 /// @dev The side in pixels of the cells over which colours are quadratic; 0 if they are quadratic over the whole triangle, 1 if each is
 /// exact.
-uint256 constant PATCH_SIZE = 0x26c0;
+uint256 constant PATCH_SIZE = 0x2700;
 /// @dev The normal of a flat face, with a length of twice its area, in units of the mesh: signed lanes of 86 bits.
-uint256 constant FACE_NORMAL = 0x26e0;
+uint256 constant FACE_NORMAL = 0x2720;
 /// @dev The square of its length, and its length, Q16.
-uint256 constant FACE_SQUARE = 0x2700;
-uint256 constant FACE_LENGTH = 0x2720;
+uint256 constant FACE_SQUARE = 0x2740;
+uint256 constant FACE_LENGTH = 0x2760;
 /// @dev Unit normal times ray, Q48: FACE_N_DOT_RAY + FACE_N_DOT_RAY_SLOPE * depth >> 94.
-uint256 constant FACE_N_DOT_RAY = 0x2740;
-uint256 constant FACE_N_DOT_RAY_SLOPE = 0x2760;
+uint256 constant FACE_N_DOT_RAY = 0x2780;
+uint256 constant FACE_N_DOT_RAY_SLOPE = 0x27a0;
 /// @dev Normals of a smooth triangle whose fragments are shaded individually: the normal at the first vertex (Q36), and the differences to
 /// the others (Q20).
-uint256 constant NORMALS_0 = 0x2780;
-uint256 constant NORMALS_1 = 0x27a0;
-uint256 constant NORMALS_2 = 0x27c0;
+uint256 constant NORMALS_0 = 0x27c0;
+uint256 constant NORMALS_1 = 0x27e0;
+uint256 constant NORMALS_2 = 0x2800;
 
 // ------------------------------------------------------------------------------------------------------------------------------- textures
 // For the EffectsEngine: see Texture.
 
 /// @dev The array of the lists of all objects, 0 before they are drawn; the address of the object's vertex records.
-uint256 constant LISTS = 0x27e0;
-uint256 constant RECORDS = 0x2800;
+uint256 constant LISTS = 0x2820;
+uint256 constant RECORDS = 0x2840;
 /// @dev Texture coordinates at the first vertex, Q40, and their differences to the others, Q16: two lanes of 128 bits, u below.
-uint256 constant UV_0 = 0x2820;
-uint256 constant UV_1 = 0x2840;
-uint256 constant UV_2 = 0x2860;
+uint256 constant UV_0 = 0x2860;
+uint256 constant UV_1 = 0x2880;
+uint256 constant UV_2 = 0x28a0;
 /// @dev The three corners of a clipped face, with coordinates in place of colours.
-uint256 constant TEXTURE_CORNERS = 0x2880;
+uint256 constant TEXTURE_CORNERS = 0x28c0;
 
 // ------------------------------------------------------------------------------------------------------------------- effects of the frame
 // The uniforms of the frame that the contract Effects computes: see EffectUniforms.
 
 /// @dev The beginning of these registers, and their size in bytes.
-uint256 constant EFFECT_FRAME_BEGIN = 0x2ac0;
+uint256 constant EFFECT_FRAME_BEGIN = 0x2b00;
 uint256 constant EFFECT_FRAME_SIZE = 0x380;
 /// @dev The y axis of the world in camera space, Q24.
-uint256 constant UP_X = 0x2ac0;
-uint256 constant UP_Y = 0x2ae0;
-uint256 constant UP_Z = 0x2b00;
+uint256 constant UP_X = 0x2b00;
+uint256 constant UP_Y = 0x2b20;
+uint256 constant UP_Z = 0x2b40;
 /// @dev The light at the silhouettes of objects, lanes of bytes, and the exponent of its falloff.
-uint256 constant RIM_COLOR = 0x2b20;
-uint256 constant RIM_POWER = 0x2b40;
+uint256 constant RIM_COLOR = 0x2b60;
+uint256 constant RIM_POWER = 0x2b80;
 /// @dev The colour of the fog, lanes of Q10; the distance at which it begins, and the additional distance at which it is opaque, Q32: 0
 /// without fog.
-uint256 constant FOG_COLOR = 0x2b60;
-uint256 constant FOG_NEAR = 0x2b80;
-uint256 constant FOG_RANGE = 0x2ba0;
+uint256 constant FOG_COLOR = 0x2ba0;
+uint256 constant FOG_NEAR = 0x2bc0;
+uint256 constant FOG_RANGE = 0x2be0;
 /// @dev 1 if there is a rim, a tone or fog.
-uint256 constant IS_CHANGED = 0x2bc0;
+uint256 constant IS_CHANGED = 0x2c00;
 /// @dev 1 if there is a TONE with an effect; the exposure, Q16, and its flags.
-uint256 constant IS_TONED = 0x2be0;
-uint256 constant EXPOSURE = 0x2c00;
-uint256 constant TONE_FLAGS = 0x2c20;
+uint256 constant IS_TONED = 0x2c20;
+uint256 constant EXPOSURE = 0x2c40;
+uint256 constant TONE_FLAGS = 0x2c60;
 /// @dev The offset of the shadows in the answer, 0 if no light casts any: see Shadows. In the engine: their calldata offset.
-uint256 constant SHADOWS = 0x2c40;
+uint256 constant SHADOWS = 0x2c80;
 /// @dev The record of the light that casts shadows, 0 if none does.
-uint256 constant SHADOW_LIGHT = 0x2c60;
+uint256 constant SHADOW_LIGHT = 0x2ca0;
 /// @dev LIGHT_COLOR of each light.
-uint256 constant LIGHT_COLORS = 0x2c80;
+uint256 constant LIGHT_COLORS = 0x2cc0;
 /// @dev 16 bits each: the linear level of every fourth level of sRGB, Q7: see Gamma.
-uint256 constant DECODE_TABLE = 0x2d00;
+uint256 constant DECODE_TABLE = 0x2d40;
 /// @dev 16 bits each: the level of a linear value, eight for each power of two from 2^7 in Q16 on, Q8.
-uint256 constant ENCODE_TABLE = 0x2da0;
+uint256 constant ENCODE_TABLE = 0x2de0;
 
 // ------------------------------------------------------------------------------------------------------------------- effects of an object
 // The uniforms of an object that the contract Effects computes.
 
 /// @dev The beginning of these registers, and their size in bytes.
-uint256 constant EFFECT_OBJECT_BEGIN = 0x2e40;
+uint256 constant EFFECT_OBJECT_BEGIN = 0x2e80;
 uint256 constant EFFECT_OBJECT_SIZE = 0x220;
 /// @dev The light from above and from below times the ambient coefficient, lanes of Q16.
-uint256 constant HEMISPHERE_SKY = 0x2e40;
-uint256 constant HEMISPHERE_GROUND = 0x2e60;
+uint256 constant HEMISPHERE_SKY = 0x2e80;
+uint256 constant HEMISPHERE_GROUND = 0x2ea0;
 /// @dev AMBIENT of the object.
-uint256 constant OBJECT_AMBIENT = 0x2e80;
+uint256 constant OBJECT_AMBIENT = 0x2ec0;
 /// @dev LIGHT_DIFFUSE of each light.
-uint256 constant LIGHT_DIFFUSES = 0x2ea0;
+uint256 constant LIGHT_DIFFUSES = 0x2ee0;
 /// @dev The y axis of the world in mesh space, Q24, signed lanes of 86 bits, z lowest.
-uint256 constant UP_IN_MESH = 0x2f20;
+uint256 constant UP_IN_MESH = 0x2f60;
 /// @dev The calldata offset of its texture, 0 if it has none; and of the texture coordinates of its vertices.
-uint256 constant TEXTURE = 0x2f40;
-uint256 constant TEXTURE_UVS = 0x2f60;
+uint256 constant TEXTURE = 0x2f80;
+uint256 constant TEXTURE_UVS = 0x2fa0;
 /// @dev The calldata offset of the opacities of its vertices, 0 if they have none.
-uint256 constant OPACITIES = 0x2f80;
+uint256 constant OPACITIES = 0x2fc0;
 /// @dev 1 if it has a texture or opacities, or colours are decoded from sRGB.
-uint256 constant HAS_DETAILS = 0x2fa0;
+uint256 constant HAS_DETAILS = 0x2fe0;
 /// @dev The fading of an object: the square of its outer radius, minus that of the inner one (0 if it does not fade); and its position in
 /// camera space, Q32. See Ground.
-uint256 constant FADE_SQUARE = 0x2fc0;
-uint256 constant FADE_RANGE = 0x2fe0;
-uint256 constant FADE_X = 0x3000;
-uint256 constant FADE_Y = 0x3020;
-uint256 constant FADE_Z = 0x3040;
+uint256 constant FADE_SQUARE = 0x3000;
+uint256 constant FADE_RANGE = 0x3020;
+uint256 constant FADE_X = 0x3040;
+uint256 constant FADE_Y = 0x3060;
+uint256 constant FADE_Z = 0x3080;
 
 // -------------------------------------------------------------------------------------------------- shadows, uniform triangles, opacities
 // For the EffectsEngine: see ShadowRows and EffectSamples.
 
 /// @dev OPACITY of the object, if that of its fragments differs from it.
-uint256 constant OBJECT_OPACITY = 0x3060;
+uint256 constant OBJECT_OPACITY = 0x30a0;
 /// @dev LIGHT_COLOR and LIGHT_DIFFUSE of the light that casts shadows, outside shadows.
-uint256 constant SHADOW_COLOR = 0x3080;
-uint256 constant SHADOW_DIFFUSE = 0x30a0;
+uint256 constant SHADOW_COLOR = 0x30c0;
+uint256 constant SHADOW_DIFFUSE = 0x30e0;
 /// @dev The fraction of the fragment that this light reaches, by which they are scaled: see ShadowRows.
-uint256 constant SHADOW_SHARE = 0x30c0;
+uint256 constant SHADOW_SHARE = 0x3100;
 /// @dev The entry of the face, or the calldata offset of its list; the first edge that is not above the row.
-uint256 constant SHADOW_LIST = 0x30e0;
-uint256 constant SHADOW_BEGIN = 0x3100;
+uint256 constant SHADOW_LIST = 0x3120;
+uint256 constant SHADOW_BEGIN = 0x3140;
 /// @dev The calldata offset of the entries of the object's faces.
-uint256 constant SHADOW_FACES = 0x3120;
+uint256 constant SHADOW_FACES = 0x3160;
 /// @dev The address of a word for each column: the samples of the row that are in shadow.
-uint256 constant SHADOW_ROW = 0x3140;
+uint256 constant SHADOW_ROW = 0x3180;
 /// @dev 1 if all fragments of the triangle have one colour except for shadows; the SHADOW_SHARE of the last colour plus 1, 0 if there is
 /// none yet; the last colour.
-uint256 constant IS_UNIFORM = 0x3160;
-uint256 constant UNIFORM_SHARE = 0x3180;
-uint256 constant UNIFORM_COLOR = 0x31a0;
+uint256 constant IS_UNIFORM = 0x31a0;
+uint256 constant UNIFORM_SHARE = 0x31c0;
+uint256 constant UNIFORM_COLOR = 0x31e0;
 
 // ------------------------------------------------------------------------------------------------------- triangle of a scene with effects
 
 /// @dev The y component of a flat face's unit normal in world space, Q24, -1..1.
-uint256 constant FACE_UP = 0x31c0;
+uint256 constant FACE_UP = 0x3200;
 
 // ------------------------------------------------------------------------------------------------------------------------------- fragment
 
 /// @dev The position of the fragment beside the line of sight of an orthographic camera, Q16.
-uint256 constant FRAGMENT_PLACE_X = 0x31e0;
-uint256 constant FRAGMENT_PLACE_Y = 0x3200;
+uint256 constant FRAGMENT_PLACE_X = 0x3220;
+uint256 constant FRAGMENT_PLACE_Y = 0x3240;
 /// @dev The normal of the fragment, Q24, and its product with the ray.
-uint256 constant FRAGMENT_NORMAL_X = 0x3220;
-uint256 constant FRAGMENT_NORMAL_Y = 0x3240;
-uint256 constant FRAGMENT_NORMAL_Z = 0x3260;
-uint256 constant FRAGMENT_NORMAL_RAY = 0x3280;
+uint256 constant FRAGMENT_NORMAL_X = 0x3260;
+uint256 constant FRAGMENT_NORMAL_Y = 0x3280;
+uint256 constant FRAGMENT_NORMAL_Z = 0x32a0;
+uint256 constant FRAGMENT_NORMAL_RAY = 0x32c0;
 /// @dev Half the magnitude of the last square of a normal; of that of a face, a multiple of 3.
-uint256 constant NORMAL_HINT = 0x32a0;
-uint256 constant FACE_HINT = 0x32c0;
+uint256 constant NORMAL_HINT = 0x32e0;
+uint256 constant FACE_HINT = 0x3300;
 /// @dev The fraction of a light's intensity that its cone lets through, Q16.
-uint256 constant FRAGMENT_CONE = 0x32e0;
+uint256 constant FRAGMENT_CONE = 0x3320;
 /// @dev The light that modulates the fragment's colour, lanes of Q40.
-uint256 constant FRAGMENT_LIGHT = 0x3300;
+uint256 constant FRAGMENT_LIGHT = 0x3340;
 /// @dev The length of the fragment's ray, Q24, if there is a rim.
-uint256 constant FRAGMENT_RAY_LENGTH = 0x3320;
+uint256 constant FRAGMENT_RAY_LENGTH = 0x3360;
 /// @dev If colours are multiplied by their depths, the nearest depth of the triangle, with 8 more bits than in a vertex; otherwise 0.
-uint256 constant PATCH_WEIGHT = 0x3340;
+uint256 constant PATCH_WEIGHT = 0x3380;
 /// @dev The first column of the cell that is drawn, and the one after its last.
-uint256 constant PATCH_BEGIN = 0x3360;
-uint256 constant PATCH_END = 0x3380;
+uint256 constant PATCH_BEGIN = 0x33a0;
+uint256 constant PATCH_END = 0x33c0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- edges
 
 /// @dev Not zero if a vertex of the object lies outside the guard band or nearer than the near plane.
-uint256 constant HAS_CLIPPED = 0x33a0;
+uint256 constant HAS_CLIPPED = 0x33e0;
 /// @dev DEPTH_STRIDE in both lanes of edges: see PixelRasterizer.
-uint256 constant STRIDE_LANES = 0x33c0;
+uint256 constant STRIDE_LANES = 0x3400;
 /// @dev The change of the accumulator per byte of depths, an eighth of DX; and the change of START per row, if it refers to address 0.
-uint256 constant DX_8 = 0x33e0;
-uint256 constant ROW_STEP = 0x3400;
+uint256 constant DX_8 = 0x3420;
+uint256 constant ROW_STEP = 0x3440;
 /// @dev The lower part of a triangle, in which the edge from the second to the third vertex replaces the one that has ended: the number of
 /// its rows; its edges = the edges of the upper part & LOWER_KEPT | LOWER_EDGE; their changes per row.
-uint256 constant LOWER_ROWS = 0x3420;
-uint256 constant LOWER_KEPT = 0x3440;
-uint256 constant LOWER_EDGE = 0x3460;
-uint256 constant LOWER_SLOPES = 0x3480;
-/// @dev Depths of a triangle that is IS_DEEP: addends of START, DX and DY.
-uint256 constant DEEP_START = 0x34a0;
-uint256 constant DEEP_DX = 0x34c0;
-uint256 constant DEEP_DY = 0x34e0;
+uint256 constant LOWER_ROWS = 0x3460;
+uint256 constant LOWER_KEPT = 0x3480;
+uint256 constant LOWER_EDGE = 0x34a0;
+uint256 constant LOWER_SLOPES = 0x34c0;
+/// @dev Depths of a triangle that is IS_DEEP: an addend of START; changes of the depth for DX and DY, Q32.
+uint256 constant DEEP_START = 0x34e0;
+uint256 constant DEEP_DX = 0x3500;
+uint256 constant DEEP_DY = 0x3520;
 /// @dev The address for the next triangle of the list; 0 if faces are drawn immediately.
-uint256 constant LIST = 0x3500;
+uint256 constant LIST = 0x3540;
 /// @dev The number of the object's faces that were drawn or listed.
-uint256 constant DRAWN = 0x3520;
+uint256 constant DRAWN = 0x3560;
 /// @dev Faces with twice an area, Q192, not above this are not drawn: they are back faces.
-uint256 constant LEAST_AREA = 0x3540;
+uint256 constant LEAST_AREA = 0x3580;
 /// @dev The changes of edges per row.
-uint256 constant SLOPES = 0x3560;
+uint256 constant SLOPES = 0x35a0;
 /// @dev The end of the faces in calldata.
-uint256 constant FACES_END = 0x3580;
+uint256 constant FACES_END = 0x35c0;
 
 // -------------------------------------------------------------------------------------------------------------------- quadratic functions
 
 /// @dev The coefficients of quadratic functions over a triangle, signed lanes of 85 bits: see Quadratic.
-uint256 constant QUADRATIC_1 = 0x35a0;
-uint256 constant QUADRATIC_S = 0x35c0;
-uint256 constant QUADRATIC_T = 0x35e0;
-uint256 constant QUADRATIC_SS = 0x3600;
-uint256 constant QUADRATIC_ST = 0x3620;
-uint256 constant QUADRATIC_TT = 0x3640;
+uint256 constant QUADRATIC_1 = 0x35e0;
+uint256 constant QUADRATIC_S = 0x3600;
+uint256 constant QUADRATIC_T = 0x3620;
+uint256 constant QUADRATIC_SS = 0x3640;
+uint256 constant QUADRATIC_ST = 0x3660;
+uint256 constant QUADRATIC_TT = 0x3680;
 /// @dev The values at column 0 of the first row, and their first and second differences to the next column and row.
-uint256 constant QUADRATIC_START = 0x3660;
-uint256 constant QUADRATIC_DX = 0x3680;
-uint256 constant QUADRATIC_DY = 0x36a0;
-uint256 constant QUADRATIC_DXX = 0x36c0;
-uint256 constant QUADRATIC_DXY = 0x36e0;
-uint256 constant QUADRATIC_DYY = 0x3700;
+uint256 constant QUADRATIC_START = 0x36a0;
+uint256 constant QUADRATIC_DX = 0x36c0;
+uint256 constant QUADRATIC_DY = 0x36e0;
+uint256 constant QUADRATIC_DXX = 0x3700;
+uint256 constant QUADRATIC_DXY = 0x3720;
+uint256 constant QUADRATIC_DYY = 0x3740;
 /// @dev Changes over a word of eight colours: the quadratic part of each channel.
-uint256 constant BEND_BLUE = 0x3720;
-uint256 constant BEND_GREEN = 0x3740;
-uint256 constant BEND_RED = 0x3760;
+uint256 constant BEND_BLUE = 0x3760;
+uint256 constant BEND_GREEN = 0x3780;
+uint256 constant BEND_RED = 0x37a0;
 
 // ----------------------------------------------------------------------------------------------------------------------- smooth triangles
 
 /// @dev The normals at the vertices, times their weights, Q30; each followed by the same with reversed lanes.
-uint256 constant NORMAL_0 = 0x3780;
-uint256 constant NORMAL_1 = 0x37c0;
-uint256 constant NORMAL_2 = 0x3800;
+uint256 constant NORMAL_0 = 0x37c0;
+uint256 constant NORMAL_1 = 0x3800;
+uint256 constant NORMAL_2 = 0x3840;
 /// @dev The largest square of the changes of the half vector from vertex to vertex, Q40.
-uint256 constant HALF_CHANGE = 0x3840;
+uint256 constant HALF_CHANGE = 0x3880;
 /// @dev Half the magnitudes of the last squares of a ray, and of a half vector.
-uint256 constant RAY_HINT = 0x3860;
-uint256 constant HALF_HINT = 0x3880;
+uint256 constant RAY_HINT = 0x38a0;
+uint256 constant HALF_HINT = 0x38c0;
 /// @dev The record of a vertex at the midpoint of an edge.
-uint256 constant MIDDLE = 0x38a0;
-/// @dev 1 if the depth of a vertex is less than 7/8 of the greatest, 2 if less than 3/4; otherwise 0.
-uint256 constant DEPTHS_DIFFER = 0x39a0;
+uint256 constant MIDDLE = 0x38e0;
+/// @dev The largest change of shape of a product N * H along an edge, Q20: see SmoothLight.correction.
+uint256 constant HALF_SKEW = 0x39e0;
 /// @dev Half of QUADRATIC_DXX, by which QUADRATIC_DX is reduced while rows are drawn.
-uint256 constant QUADRATIC_HALF_DXX = 0x39c0;
+uint256 constant QUADRATIC_HALF_DXX = 0x3a00;
 /// @dev The greatest depth of the vertices, Q24 relative to bit 192 of an accumulator.
-uint256 constant NEAREST = 0x39e0;
+uint256 constant NEAREST = 0x3a20;
 
 // -------------------------------------------------------------------------------------------------------------------------------- samples
 // For the engines that take four samples per pixel: see Samples and SampleRasterizer.
 
 /// @dev The columns and rows that have samples in memory: the first, and the one after the last.
-uint256 constant SAMPLE_BEGIN = 0x3a00;
-uint256 constant SAMPLE_END = 0x3a20;
-uint256 constant SAMPLE_TOP = 0x3a40;
-uint256 constant SAMPLE_BOTTOM = 0x3a60;
+uint256 constant SAMPLE_BEGIN = 0x3a40;
+uint256 constant SAMPLE_END = 0x3a60;
+uint256 constant SAMPLE_TOP = 0x3a80;
+uint256 constant SAMPLE_BOTTOM = 0x3aa0;
 /// @dev The size of a row of samples in bytes; the address of the samples of row 0, column 0, extrapolated, which may be negative. Rows go
 /// down in memory, as in a bitmap.
-uint256 constant SAMPLE_STRIDE = 0x3a80;
-uint256 constant SAMPLE_ORIGIN = 0x3aa0;
+uint256 constant SAMPLE_STRIDE = 0x3ac0;
+uint256 constant SAMPLE_ORIGIN = 0x3ae0;
 /// @dev The address of the colour of row 0, column 0, extrapolated; rows of TILE_WIDTH pixels go down.
-uint256 constant SAMPLE_IMAGE = 0x3ac0;
+uint256 constant SAMPLE_IMAGE = 0x3b00;
 /// @dev The colour of a pixel of the current row with its samples at p is at ROW_IMAGE + 3 * (p / 32); the decrease of that to the next
 /// row.
-uint256 constant ROW_IMAGE = 0x3ae0;
-uint256 constant ROW_IMAGE_STEP = 0x3b00;
+uint256 constant ROW_IMAGE = 0x3b20;
+uint256 constant ROW_IMAGE_STEP = 0x3b40;
 /// @dev The list of the pixels whose samples may differ: the address of the samples, and of the colour.
-uint256 constant MIXED = 0x3b20;
-uint256 constant MIXED_END = 0x3b40;
+uint256 constant MIXED = 0x3b60;
+uint256 constant MIXED_END = 0x3b80;
 /// @dev The row to which START refers; an eighth of DY.
-uint256 constant START_ROW = 0x3b60;
-uint256 constant DY_8 = 0x3b80;
+uint256 constant START_ROW = 0x3ba0;
+uint256 constant DY_8 = 0x3bc0;
 /// @dev The differences of the samples' depths from SAMPLE_SCALE times the depth of the pixel centre, signed lanes; the depth relative to
 /// SAMPLE_BASE that they refer to.
-uint256 constant DEPTH_OFFSETS = 0x3ba0;
-uint256 constant DEPTH_BASE = 0x3bc0;
+uint256 constant DEPTH_OFFSETS = 0x3be0;
+uint256 constant DEPTH_BASE = 0x3c00;
 /// @dev The row to which sides and bounds refer: the first with a sample of the triangle in the band.
-uint256 constant SIDE_ROW = 0x3be0;
+uint256 constant SIDE_ROW = 0x3c20;
 /// @dev The sides of the triangle at that row: see SampleRasterizer; and their changes per row.
-uint256 constant SIDE_LEFT = 0x3c00;
-uint256 constant SIDE_RIGHT = 0x3c20;
-uint256 constant SIDE_LEFT_STEP = 0x3c40;
-uint256 constant SIDE_RIGHT_STEP = 0x3c60;
+uint256 constant SIDE_LEFT = 0x3c40;
+uint256 constant SIDE_RIGHT = 0x3c60;
+uint256 constant SIDE_LEFT_STEP = 0x3c80;
+uint256 constant SIDE_RIGHT_STEP = 0x3ca0;
 /// @dev The addresses of the first pixel that may be covered, and of the one after the last, Q37 in lanes of 128 bits; their changes per
 /// row; the insets, which added to them bound the pixels whose samples are all covered.
-uint256 constant BOUNDS = 0x3c80;
-uint256 constant BOUND_STEPS = 0x3ca0;
-uint256 constant INSETS = 0x3cc0;
+uint256 constant BOUNDS = 0x3cc0;
+uint256 constant BOUND_STEPS = 0x3ce0;
+uint256 constant INSETS = 0x3d00;
 /// @dev The row in which one side continues with the edge from the second to the third vertex; that side: the address of SIDE_LEFT or
 /// SIDE_RIGHT.
-uint256 constant KINK_ROW = 0x3ce0;
-uint256 constant KINK_SIDE = 0x3d00;
+uint256 constant KINK_ROW = 0x3d20;
+uint256 constant KINK_SIDE = 0x3d40;
 /// @dev The lanes of its samples that lie on that edge; that edge at that row, and its change per row.
-uint256 constant KINK_MASK = 0x3d20;
-uint256 constant KINK_EDGE = 0x3d40;
-uint256 constant KINK_STEP = 0x3d60;
+uint256 constant KINK_MASK = 0x3d60;
+uint256 constant KINK_EDGE = 0x3d80;
+uint256 constant KINK_STEP = 0x3da0;
 /// @dev From that row on: the mask of the bounds that remain, and the replacement of the others; their changes, and INSETS.
-uint256 constant KINK_KEPT = 0x3d80;
-uint256 constant KINK_BOUND = 0x3da0;
-uint256 constant KINK_BOUND_STEPS = 0x3dc0;
-uint256 constant KINK_INSETS = 0x3de0;
+uint256 constant KINK_KEPT = 0x3dc0;
+uint256 constant KINK_BOUND = 0x3de0;
+uint256 constant KINK_BOUND_STEPS = 0x3e00;
+uint256 constant KINK_INSETS = 0x3e20;
 /// @dev Whether SPAN_BEGIN and SPAN_END must be applied in each row: the bounds may be far outside.
-uint256 constant IS_CLAMPED = 0x3e00;
+uint256 constant IS_CLAMPED = 0x3e40;
 /// @dev The columns between which fragments may lie: of the triangle, of the tile, and of the cell that is drawn.
-uint256 constant SPAN_BEGIN = 0x3e20;
-uint256 constant SPAN_END = 0x3e40;
+uint256 constant SPAN_BEGIN = 0x3e60;
+uint256 constant SPAN_END = 0x3e80;
 /// @dev SAMPLE_STRIDE in the format of sample addresses, Q37.
-uint256 constant STRIDE_37 = 0x3e60;
+uint256 constant STRIDE_37 = 0x3ea0;
 /// @dev The change of START per row, if it refers to address 0.
-uint256 constant ROW_STEP_32 = 0x3e80;
+uint256 constant ROW_STEP_32 = 0x3ec0;
 /// @dev The bounds of the row that drawSpans draws, and their changes.
-uint256 constant ROW_BOUNDS = 0x3ea0;
-uint256 constant ROW_BOUND_STEPS = 0x3ec0;
+uint256 constant ROW_BOUNDS = 0x3ee0;
+uint256 constant ROW_BOUND_STEPS = 0x3f00;
 /// @dev The changes of its sides.
-uint256 constant ROW_LEFT_STEP = 0x3ee0;
-uint256 constant ROW_RIGHT_STEP = 0x3f00;
+uint256 constant ROW_LEFT_STEP = 0x3f20;
+uint256 constant ROW_RIGHT_STEP = 0x3f40;
 /// @dev The addresses of the first pixel of the row whose samples are all covered, and of the one after the last.
-uint256 constant INNER_BEGIN = 0x3f20;
-uint256 constant INNER_END = 0x3f40;
+uint256 constant INNER_BEGIN = 0x3f60;
+uint256 constant INNER_END = 0x3f80;
 /// @dev The change of a quadratic function at column 0 to the next row.
-uint256 constant QUADRATIC_DOWN = 0x3f60;
+uint256 constant QUADRATIC_DOWN = 0x3fa0;
 /// @dev The row to which the quadratic functions refer.
-uint256 constant QUADRATIC_ROW = 0x3f80;
+uint256 constant QUADRATIC_ROW = 0x3fc0;
 /// @dev The least depth of the vertices, with 8 more bits than in a vertex.
-uint256 constant FARTHEST = 0x3fa0;
+uint256 constant FARTHEST = 0x3fe0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- light
 // The properties of a light for the frame, at LIGHTS.
@@ -510,13 +514,13 @@ uint256 constant LIGHT_SIZE = 0x160;
 // The properties of a light for the object, at OBJECT_LIGHTS, in records of the same size: offsets from the record at LIGHTS.
 
 /// @dev The position in mesh space, Q32; or the direction in MESH_X, Q24, signed lanes of 86 bits, z lowest.
-uint256 constant LIGHT_MESH_X = 0xb00;
-uint256 constant LIGHT_MESH_Y = 0xb20;
-uint256 constant LIGHT_MESH_Z = 0xb40;
+uint256 constant LIGHT_MESH_X = 0xb40;
+uint256 constant LIGHT_MESH_Y = 0xb60;
+uint256 constant LIGHT_MESH_Z = 0xb80;
 /// @dev Colour times the diffuse coefficient, lanes of Q16.
-uint256 constant LIGHT_DIFFUSE = 0xb60;
+uint256 constant LIGHT_DIFFUSE = 0xba0;
 /// @dev Normal of the face times the vector to the light: Q24 for a direction, Q16 for a position.
-uint256 constant LIGHT_N_DOT_L = 0xb80;
+uint256 constant LIGHT_N_DOT_L = 0xbc0;
 
 // --------------------------------------------------------------------------------------------------------------------------------- vertex
 // The beginning of every vertex record; for the rest see VertexShader and SmoothLight.
@@ -588,3 +592,5 @@ uint256 constant IS_SPOT_LIT = 0x4000;
 uint256 constant IS_BLENDED = 0x8000;
 /// @dev The first of its two passes, which finds those fragments.
 uint256 constant IS_DEPTH_PASS = 0x10000;
+/// @dev The face is turned away from the eye: it is moved back a little.
+uint256 constant IS_TURNED_AWAY = 0x20000;

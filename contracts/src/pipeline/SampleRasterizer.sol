@@ -49,6 +49,12 @@ abstract contract SampleRasterizer is Rasterizer {
             prepare(a, b, c);
             setSides(a, b, c, row);
             setGradients(a, b, c);
+            if (load(MODE) & IS_TURNED_AWAY != 0) {
+                uint256 dx = uint256(loadSigned(DX) >> (ACCUMULATOR_DEPTH_AT + 6));
+                uint256 dy = uint256(loadSigned(DY) >> (ACCUMULATOR_DEPTH_AT + 6));
+                uint256 depth = setBack(dx, dy, load(SAMPLE_BASE)) << load(SAMPLE_SHIFT);
+                store(DEPTH_OFFSETS, load(DEPTH_OFFSETS) - depth * ONES_64 - SAMPLE_DEPTH_UNIT);
+            }
             if (load(IS_CLAMPED) != 0) setSpan(a, b, c);
             drawFragments(row, last);
         }
@@ -86,24 +92,27 @@ abstract contract SampleRasterizer is Rasterizer {
             start := add(start, mul(toB, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, c), mul(y, xc)))))
             b := sub(mul(toC, b), mul(toB, c))
             c := sub(mul(toB, xc), mul(toC, xb))
-            x := 0
-            y := 0
+            // Depths of thin triangles change by more than a lane holds. Where a sample is covered, its depth is right modulo 2^64, if
+            // eighths are taken before they overflow.
+            x := sar(ACCUMULATOR_DEPTH_AT, b)
+            y := sar(ACCUMULATOR_DEPTH_AT, c)
+            mstore(DX, shl(3, b))
+            mstore(DY, shl(3, c))
             if and(mload(MODE), or(IS_PATCHED, IS_QUADRATIC)) {
                 mstore(DX_8, b)
                 mstore(DY_8, c)
                 if and(mload(MODE), IS_DEEP) {
                     start := add(start, mload(DEEP_START))
-                    x := mload(DEEP_DX)
-                    y := mload(DEEP_DY)
+                    b := mload(DEEP_DX)
+                    c := mload(DEEP_DY)
+                    x := add(x, signextend(7, sar(DEEP_8_AT, b)))
+                    y := add(y, signextend(7, sar(DEEP_8_AT, c)))
+                    mstore(DX, add(mload(DX), shl(ATTRIBUTE_DEPTH_AT, b)))
+                    mstore(DY, add(mload(DY), shl(ATTRIBUTE_DEPTH_AT, c)))
                 }
             }
-            b := add(shl(3, b), x)
-            c := add(shl(3, c), y)
             mstore(START, start)
-            mstore(DX, b)
-            mstore(DY, c)
-            b := add(mul(sar(DEPTH_8_AT, b), SAMPLE_X_8), mul(sar(DEPTH_8_AT, c), SAMPLE_Y_8))
-            mstore(DEPTH_OFFSETS, sub(shl(mload(SAMPLE_SHIFT), b), mload(DEPTH_BASE)))
+            mstore(DEPTH_OFFSETS, sub(shl(mload(SAMPLE_SHIFT), add(mul(x, SAMPLE_X_8), mul(y, SAMPLE_Y_8))), mload(DEPTH_BASE)))
         }
     }
 

@@ -22,7 +22,8 @@ abstract contract SampleWires is SampleRasterizer, SmoothShading {
                 uint256 b = load((word >> TRIANGLE_B_AT) & TRIANGLE_B_MASK);
                 uint256 c = load(word & TRIANGLE_C_MASK);
                 store(FACE, load(MESH_FACES) + FACE_SIZE * ((word >> TRIANGLE_FACE_AT) & TRIANGLE_FACE_MASK));
-                shadeExact(a, b, c, 0);
+                // not a literal, for which the compiler would make a copy of each function that is called
+                shadeExact(a, b, c, load(ZERO_SLOT));
                 (uint256 start, uint256 toB, uint256 toC) = (load(ATTRIBUTE_0), load(DELTA_1), load(DELTA_2));
                 uint256 mode = load(MODE);
                 if (mode & IS_DEEP != 0) {
@@ -67,7 +68,7 @@ abstract contract SampleWires is SampleRasterizer, SmoothShading {
             uint256 c = screenWord(x + dx - acrossX, y + dy - acrossY);
             uint256 d = screenWord(x + dx + acrossX, y + dy + acrossY);
             // a and b have the attributes of p, c and d those of q
-            triangle(a, b, c, attribute, 0, change);
+            triangle(a, b, c, attribute, load(ZERO_SLOT), change);
             triangle(a, c, d, attribute, change, change);
         }
     }

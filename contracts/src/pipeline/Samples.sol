@@ -37,7 +37,7 @@ library Samples {
         assembly ("memory-safe") {
             there := add(attribute, add(mul(x, mload(DX_8)), mul(y, mload(DY_8))))
             if and(mload(MODE), IS_DEEP) {
-                x := add(mul(x, sar(ATTRIBUTE_DEPTH_AT, mload(DEEP_DX))), mul(y, sar(ATTRIBUTE_DEPTH_AT, mload(DEEP_DY))))
+                x := add(mul(x, mload(DEEP_DX)), mul(y, mload(DEEP_DY)))
                 there := add(there, shl(ATTRIBUTE_DEPTH_AT, sar(3, x)))
             }
         }

@@ -167,8 +167,8 @@ library Shading {
             let area := sub(mul(xc, b), mul(xb, c))
             let dx := sdiv(shl(40, sub(mul(zc, b), mul(zb, c))), area)
             let dy := sdiv(shl(40, sub(mul(zb, xc), mul(zc, xb))), area)
-            mstore(DEEP_DX, shl(ATTRIBUTE_DEPTH_AT, dx))
-            mstore(DEEP_DY, shl(ATTRIBUTE_DEPTH_AT, dy))
+            mstore(DEEP_DX, dx)
+            mstore(DEEP_DY, dy)
             // from the first vertex to the centre of pixel 0 in the first row
             mstore(DEEP_START, shl(ATTRIBUTE_DEPTH_AT, add(shl(32, z), sar(8, sub(mul(and(sub(0, a), SUBPIXEL_MASK), dy), mul(x, dx))))))
         }

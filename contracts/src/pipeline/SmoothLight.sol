@@ -24,12 +24,18 @@ import "./Registers.sol";
 //   - Between two points seen at an angle d and at different distances, a linearly interpolated direction has an error of at most
 //     d * (ratio of the distances - 1) / 4; for an edge of length e in distances neither factor is above e, and the product not
 //     above e^2 / 2, so the error is at most e^2 / 8: see Materials.smoothReach. Lamps must not be much nearer than the eye.
-//   - Half vectors change by at most the root of HALF_REACH: see Specular.halfReach. Between unit vectors the interpolated one is too short
-//     by the factor 1 - sum w_i w_j (H_i - H_j)^2 / 2; this is compensated for N * H near |N|, where highlights are.
-//   - If the squares of both exceed these bounds, but not eight times the bounds, or 6.5 times for half vectors, and depths differ by
-//     at most a third, their products are made exact at the edge midpoints too. Errors are of third order then: 0.008 times the third
-//     derivative, which is at most 3 e^3 for the direction to a point, for an edge of length e in distances. With a diffuse coefficient
-//     of 0.7 that is two levels; for a half vector that turns by d it is 0.024 d^3, or 2.6 levels by the fourth root of the shininess.
+//   - H turns with the ray and with the direction to the lamp, both by up to an edge e, and the sum L + V, of the length s, is divided by s:
+//     its second derivative across is a sum of terms e^2 / s and e^2 / s^2. The error of its direction is at most 0.15 e^2 for s^2 >= 3,
+//     0.6 e^2 for s^2 >= 1 (the largest found by a search over triangles, tests/test_smooth_light.py, is 0.13 and 0.55), where e^2 is the
+//     sum of the squares of two edges, and for lamps of the change of depth too. Times the steepest slope of cos^n: see Specular.
+//   - Between unit vectors the interpolated H is too short by the factor 1 - sum w_i w_j (H_i - H_j)^2 / 2; this is compensated for N * H
+//     where |N| = 1. If |N| is less, by perspective or between vertices, the product is too large by (1 - |N|) / |N| of that: with q for the
+//     least N * N, by at most d^2 / 6 * (1 - q) / 2q for half vectors that differ by d. Times n, the slope of cos^n where it is 1.
+//   - If the first is above four levels, or the second above three and a half, products are made exact at the edge midpoints too. Errors
+//     are of third order then: along each edge s (1 - s) (1 - 2s) times a skew, which is at most 1/9 of it, and in the middle the product of
+//     the three weights. The skews are measured, and so is the error at the point (1/2, 1/4, 1/4): together at most 3.5 levels, unless
+//     no point of the triangle can be near the highlight, on triangles of at most 16 times the size. The largest sum of all errors that
+//     the search finds is 7.6 levels.
 //   - Colours are perspective-correct where linear ones would be too inaccurate (Shading.isAffine): they are multiplied by the weights of
 //     the normals, and divided at each fragment by its depth, which is the sum of the weights.
 //   - N * N is 1/4 to 17/16; in this range one step of Newton's method from a linear function gives its root to 1/1300. In a triangle it is
@@ -37,7 +43,7 @@ import "./Registers.sol";
 
 /// @dev Words of a vertex record: the normal; the normal with reversed lanes; the direction to the light with reversed lanes, Q21 and even;
 /// the half vector, Q29; the half vector with reversed lanes, Q21 and even. LIT if they are present and bounded, UNBOUNDED if they cannot
-/// be used, otherwise 0.
+/// be used, otherwise 0; and OPEN if |L + V|^2 is at least 3.
 uint256 constant VERTEX_NORMAL = 0x40;
 uint256 constant VERTEX_REVERSED = 0x60;
 uint256 constant VERTEX_LIGHT = 0x80;
@@ -46,6 +52,7 @@ uint256 constant VERTEX_HALF_REVERSED = 0xc0;
 uint256 constant VERTEX_STATE = 0xe0;
 uint256 constant LIT = 1;
 uint256 constant UNBOUNDED = 2;
+uint256 constant OPEN = 4;
 
 /// @dev The results of `setLight`.
 uint256 constant UNBOUNDED_LIGHT = 0;
@@ -67,14 +74,19 @@ uint256 constant Q20_TO_Q29 = 9;
 /// @dev 15/16 and 1/8, Q40: the minimum of the squares of normals and their range.
 uint256 constant LEAST_SQUARE = 0xf000000000;
 uint256 constant SQUARES = 0x2000000000;
-/// @dev 1/4, Q40: half vectors L + V shorter than one half turn too fast.
-uint256 constant LEAST_HALF_SQUARE = 0x4000000000;
-/// @dev 3/4, Q20: three times the minimum square of an interpolated normal.
+/// @dev 1, Q40: half vectors L + V shorter than one turn too fast; and 3, one less.
+uint256 constant LEAST_HALF_SQUARE = 0x10000000000;
+uint256 constant BELOW_OPEN_HALF_SQUARE = 0x2ffffffffff;
+/// @dev Q20: three times the minimum square of an interpolated normal, 3/4; and three times one.
 uint256 constant LEAST_SQUARE_3 = 0xc0000;
-/// @dev Weights (Q10): 1 - 11/255 (43.5 of 1,024), 7/8 and 3/4.
+uint256 constant THREE_20 = 0x300000;
+/// @dev A weight (Q10): 1 - 11/255 (43.5 of 1,024).
 uint256 constant NEAR_ONE = 980;
-uint256 constant SEVEN_EIGHTHS = 896;
-uint256 constant THREE_QUARTERS = 768;
+/// @dev 3/8, Q40: the maximum square of a change of half vectors between vertices.
+uint256 constant MOST_HALF_CHANGE = 0x6000000000;
+/// @dev Three and a half levels of 12 (Q50), and of 16 * 2 (Q30), in the unit of HALF_SLOPE.
+uint256 constant THREE_AND_A_HALF = 0x2000000000000;
+uint256 constant THREE_AND_A_HALF_32 = 0x55555555;
 
 /// @dev The offset from a vertex normal to the normal with reversed lanes.
 uint256 constant REVERSED = 0x20;
@@ -159,6 +171,7 @@ library SmoothLight {
                 length := add(add(mul(lx, lx), mul(ly, ly)), mul(lz, lz))
                 // not opposite to the light, where it turns arbitrarily fast
                 bounded := and(bounded, gt(length, LEAST_HALF_SQUARE))
+                let open := shl(2, gt(length, BELOW_OPEN_HALF_SQUARE))
                 length := root(length, HALF_HINT)
                 lx := sdiv(shl(Q20, lx), length)
                 ly := sdiv(shl(Q20, ly), length)
@@ -171,7 +184,7 @@ library SmoothLight {
                 mstore(add(vertex, VERTEX_REVERSED), y)
                 // the square of the normal, Q40, must be 15/16 to 17/16
                 bounded := and(bounded, lt(sub(sar(SQUARE_AT, mul(x, y)), LEAST_SQUARE), SQUARES))
-                mstore(add(vertex, VERTEX_STATE), sub(UNBOUNDED, bounded))
+                mstore(add(vertex, VERTEX_STATE), or(open, sub(UNBOUNDED, bounded)))
             }
 
             // lanes: n * r, n * l, m * h, where r, l, h have reversed lanes; n and m are Q30, the sums Q20. A dot product is in the
@@ -203,33 +216,45 @@ library SmoothLight {
                 packed := products(n, sub(mload(add(placeV, REVERSED)), mload(add(placeU, REVERSED))), square, sub(n, h), reversed)
             }
 
-            // The correction that makes the light at the midpoint exact: four times the error there, (N_u + N_v) * (L_u + L_v - 2 L), and
-            // the same for H, which is not too short there
-            function correction(u, v, placeU, placeV) -> packed {
+            // sets MIDDLE to the middle of two vertices, with the normal of one
+            function setMiddle(u, v) {
                 mstore(MIDDLE, shl(SCREEN_COLUMN_AT, shr(1, add(shr(SCREEN_COLUMN_AT, mload(u)), shr(SCREEN_COLUMN_AT, mload(v))))))
-                mstore(
-                    add(MIDDLE, VERTEX_ATTRIBUTES),
-                    shl(
-                        ATTRIBUTE_DEPTH_AT,
-                        shr(
-                            1,
-                            add(
-                                shr(ATTRIBUTE_DEPTH_AT, mload(add(u, VERTEX_ATTRIBUTES))),
-                                shr(ATTRIBUTE_DEPTH_AT, mload(add(v, VERTEX_ATTRIBUTES)))
-                            )
-                        )
-                    )
-                )
-                mstore(add(MIDDLE, VERTEX_NORMAL), mload(add(u, VERTEX_NORMAL)))
+                u := add(u, VERTEX_ATTRIBUTES)
+                v := shr(ATTRIBUTE_DEPTH_AT, mload(add(v, VERTEX_ATTRIBUTES)))
+                v := shl(ATTRIBUTE_DEPTH_AT, shr(1, add(shr(ATTRIBUTE_DEPTH_AT, mload(u)), v)))
+                mstore(add(MIDDLE, VERTEX_ATTRIBUTES), v)
+                mstore(add(MIDDLE, VERTEX_NORMAL), mload(add(u, sub(VERTEX_NORMAL, VERTEX_ATTRIBUTES))))
                 setVertex(MIDDLE)
+            }
+
+            function size20(value) -> positive { positive := xor(value, sar(255, value)) }
+            function lowest(packed) -> value { value := sar(LOWER_85_TO_TOP, shl(LOWER_85_TO_TOP, packed)) }
+
+            // the maximum of a cos^2 and of that of N and H, Q20, from products that are multiplied by 2^shift
+            function nearer(packed, shift, square) -> most {
+                most := lowest(packed)
+                most := div(mul(mul(most, most), sgt(most, 0)), shl(shift, sar(UPPER_85_AT, packed)))
+                if lt(most, square) { most := square }
+            }
+
+            // The correction that makes the light at the midpoint exact: four times the error there, (N_u + N_v) * (L_u + L_v - 2 L), and
+            // the same for H, which is not too short there. What remains along the edge is s (1 - s) (1 - 2s) times a skew, of which HALF_SKEW
+            // has twice the largest: the change of the turning of H, 2 H * (H_v - H_u), and that of N, (N_v - N_u) * (H_u + H_v - 2 H).
+            function correction(u, v, placeU, placeV) -> packed {
+                setMiddle(u, v)
                 let n := add(mload(placeU), mload(placeV))
                 let t := sub(add(mload(add(u, VERTEX_LIGHT)), mload(add(v, VERTEX_LIGHT))), shl(1, mload(add(MIDDLE, VERTEX_LIGHT))))
                 packed := and(sar(PRODUCT_TO_MIDDLE, mul(n, t)), UPPER_LANES_85)
                 t := add(mload(add(u, VERTEX_HALF_REVERSED)), mload(add(v, VERTEX_HALF_REVERSED)))
-                packed := add(packed, sar(PRODUCT_TO_LOWER, mul(n, sub(t, shl(1, mload(add(MIDDLE, VERTEX_HALF_REVERSED)))))))
+                t := sub(t, shl(1, mload(add(MIDDLE, VERTEX_HALF_REVERSED))))
+                packed := add(packed, sar(PRODUCT_TO_LOWER, mul(n, t)))
+                let skew := size20(sar(PRODUCT_TO_LOWER, mul(sub(mload(placeV), mload(placeU)), t)))
                 n := sub(mload(add(u, VERTEX_HALF)), mload(add(v, VERTEX_HALF)))
                 t := sub(mload(add(u, VERTEX_HALF_REVERSED)), mload(add(v, VERTEX_HALF_REVERSED)))
                 packed := add(packed, sar(PRODUCT_TO_LOWER, mul(n, t)))
+                // half vectors are Q29, normals Q30
+                skew := shl(1, add(skew, size20(sar(sub(PRODUCT_TO_LOWER, 2), mul(mload(add(MIDDLE, VERTEX_HALF)), t)))))
+                if gt(skew, mload(HALF_SKEW)) { mstore(HALF_SKEW, skew) }
             }
 
             a := and(a, SCREEN_RECORD_MASK)
@@ -240,35 +265,38 @@ library SmoothLight {
                 if iszero(mload(add(a, VERTEX_STATE))) { setVertex(a) }
                 if iszero(mload(add(b, VERTEX_STATE))) { setVertex(b) }
                 if iszero(mload(add(c, VERTEX_STATE))) { setVertex(c) }
-                kind := and(and(and(mload(add(a, VERTEX_STATE)), mload(add(b, VERTEX_STATE))), mload(add(c, VERTEX_STATE))), LIT)
+                kind := and(and(mload(add(a, VERTEX_STATE)), mload(add(b, VERTEX_STATE))), mload(add(c, VERTEX_STATE)))
             }
-            if kind {
+            switch and(kind, LIT)
+            case 0 { kind := UNBOUNDED_LIGHT }
+            default {
                 let p := ONE_10
                 let q := ONE_10
                 let r := ONE_10
+                let isOpen := and(kind, OPEN)
+                kind := AFFINE_LIGHT
                 if iszero(mload(FRAME_IS_ORTHOGRAPHIC)) {
                     // depths relative to the greatest of them
                     p := shr(ATTRIBUTE_DEPTH_AT, mload(add(a, VERTEX_ATTRIBUTES)))
                     q := shr(ATTRIBUTE_DEPTH_AT, mload(add(b, VERTEX_ATTRIBUTES)))
                     r := shr(ATTRIBUTE_DEPTH_AT, mload(add(c, VERTEX_ATTRIBUTES)))
-                    let nearest := p
-                    if gt(q, nearest) { nearest := q }
-                    if gt(r, nearest) { nearest := r }
-                    p := div(shl(Q10, p), nearest)
-                    q := div(shl(Q10, q), nearest)
-                    r := div(shl(Q10, r), nearest)
+                    let depth := p
+                    if gt(q, depth) { depth := q }
+                    if gt(r, depth) { depth := r }
+                    p := div(shl(Q10, p), depth)
+                    q := div(shl(Q10, q), depth)
+                    r := div(shl(Q10, r), depth)
                     // colours of up to 255 may differ by any amount if depths differ by at most 12 / 255: see Shading.isAffine
                     kind := add(AFFINE_LIGHT, or(or(lt(p, NEAR_ONE), lt(q, NEAR_ONE)), lt(r, NEAR_ONE)))
-                    mstore(DEPTHS_DIFFER, 0)
-                    if eq(kind, STEEP_LIGHT) {
-                        mstore(
-                            DEPTHS_DIFFER,
-                            add(
-                                or(or(lt(p, SEVEN_EIGHTHS), lt(q, SEVEN_EIGHTHS)), lt(r, SEVEN_EIGHTHS)),
-                                or(or(lt(p, THREE_QUARTERS), lt(q, THREE_QUARTERS)), lt(r, THREE_QUARTERS))
-                            )
-                        )
+                    if and(mload(add(LIGHTS, LIGHT_IS_POINT)), shr(1, kind)) {
+                        depth := p
+                        if lt(q, depth) { depth := q }
+                        if lt(r, depth) { depth := r }
+                        // the change of depth, as long as it would be on the screen; weights below a half have N * N below 1/4
+                        depth := div(shl(Q32, sub(ONE_10, depth)), mul(add(depth, 1), mload(RAY_STEP)))
+                        size := add(size, mul(depth, depth))
                     }
+                    if iszero(isOpen) { size := shl(2, size) }
                 }
                 p := atVertex(a, p, NORMAL_0)
                 q := atVertex(b, q, NORMAL_1)
@@ -277,25 +305,54 @@ library SmoothLight {
                 let ab := along(a, b, NORMAL_0, NORMAL_1)
                 let ac := along(a, c, NORMAL_0, NORMAL_2)
                 let bc := along(b, c, NORMAL_1, NORMAL_2)
+                // the least N * N is the minimum of the vertices minus a third of the largest square of a change: three times that
+                let least := p
+                if slt(q, least) { least := q }
+                if slt(r, least) { least := r }
+                least := mul(3, sar(UPPER_85_AT, least))
                 {
-                    // the minimum of N * N minus a third of the largest square of a change must be at least 1/4: three times that
-                    let least := p
-                    if slt(q, least) { least := q }
-                    if slt(r, least) { least := r }
-                    least := sub(mul(3, sar(UPPER_85_AT, least)), LEAST_SQUARE_3)
-                    least := and(and(slt(sar(UPPER_85_AT, ab), least), slt(sar(UPPER_85_AT, ac), least)), slt(sar(UPPER_85_AT, bc), least))
-                    kind := mul(kind, least)
+                    let most := sub(least, LEAST_SQUARE_3)
+                    most := and(and(slt(sar(UPPER_85_AT, ab), most), slt(sar(UPPER_85_AT, ac), most)), slt(sar(UPPER_85_AT, bc), most))
+                    kind := mul(kind, most)
                 }
-                // an eighth of the reach if depths differ, since then the lengths of N differ, which the compensation for |H| = 1 uses
-                if or(gt(shl(mul(3, mload(DEPTHS_DIFFER)), mload(HALF_CHANGE)), mload(HALF_REACH)), iszero(lt(size, mload(SMOOTH_REACH)))) {
-                    kind := mul(kind, iszero(or(gt(shl(1, mload(HALF_CHANGE)), mul(13, mload(HALF_REACH))), gt(mload(DEPTHS_DIFFER), 1))))
-                    if kind {
-                        ab := add(ab, correction(a, b, NORMAL_0, NORMAL_1))
-                        kind := mul(kind, and(mload(add(MIDDLE, VERTEX_STATE)), LIT))
-                        ac := add(ac, correction(a, c, NORMAL_0, NORMAL_2))
-                        kind := mul(kind, and(mload(add(MIDDLE, VERTEX_STATE)), LIT))
-                        bc := add(bc, correction(b, c, NORMAL_1, NORMAL_2))
-                        kind := mul(kind, and(mload(add(MIDDLE, VERTEX_STATE)), LIT))
+                let change := mload(HALF_CHANGE)
+                // 3 - 3q is at most three times 3q
+                if and(or(gt(mul(mul(3, change), mload(HALF_SLOPE)), THREE_AND_A_HALF), iszero(lt(size, mload(SMOOTH_REACH)))), gt(kind, 0)) {
+                    let most := ab
+                    if sgt(ac, most) { most := ac }
+                    if sgt(bc, most) { most := bc }
+                    most := sar(UPPER_85_AT, most)
+                    least := sub(least, most)
+                    // 1 if the products must be exact at the midpoints
+                    let isLarge := sgt(mul(mul(change, mload(HALF_SLOPE)), sub(THREE_20, least)), mul(least, THREE_AND_A_HALF))
+                    if or(isLarge, iszero(lt(size, mload(SMOOTH_REACH)))) {
+                        kind := mul(kind, and(lt(size, mload(SMOOTH_REACH_3)), lt(change, MOST_HALF_CHANGE)))
+                        if kind {
+                            mstore(HALF_SKEW, 0)
+                            ab := add(ab, correction(a, b, NORMAL_0, NORMAL_1))
+                            kind := mul(kind, and(mload(add(MIDDLE, VERTEX_STATE)), LIT))
+                            ac := add(ac, correction(a, c, NORMAL_0, NORMAL_2))
+                            kind := mul(kind, and(mload(add(MIDDLE, VERTEX_STATE)), LIT))
+                            bc := add(bc, correction(b, c, NORMAL_1, NORMAL_2))
+                            kind := mul(kind, and(mload(add(MIDDLE, VERTEX_STATE)), LIT))
+                            setMiddle(a, MIDDLE)
+                            // 16 times the products at (1/2, 1/4, 1/4), and the error of N * H there, in the lowest lane
+                            let inner := sub(add(shl(3, p), shl(2, add(q, r))), add(shl(1, add(ab, ac)), bc))
+                            let error := add(add(shl(1, mload(NORMAL_0)), mload(NORMAL_1)), mload(NORMAL_2))
+                            error := shl(2, sar(PRODUCT_TO_LOWER, mul(error, mload(add(MIDDLE, VERTEX_HALF_REVERSED)))))
+                            error := add(size20(lowest(sub(error, inner))), mload(HALF_SKEW))
+                            error := mul(mul(error, mload(HALF_SLOPE)), add(THREE_20, least))
+                            if gt(error, mul(least, THREE_AND_A_HALF_32)) {
+                                // not near the highlight, by the nodes, between which vectors turn by less than half as much
+                                error := nearer(inner, 4, 0)
+                                error := nearer(sub(shl(1, add(p, q)), ab), 2, error)
+                                error := nearer(sub(shl(1, add(p, r)), ac), 2, error)
+                                error := nearer(sub(shl(1, add(q, r)), bc), 2, error)
+                                error := nearer(p, 0, nearer(q, 0, nearer(r, 0, error)))
+                                error := add(error, shr(2, add(most, shr(Q20, change))))
+                                kind := mul(kind, slt(error, mload(FAR_FROM_HIGHLIGHT)))
+                            }
+                        }
                     }
                 }
                 mstore(QUADRATIC_1, p)

@@ -7,24 +7,24 @@ import "./Registers.sol";
 // Smooth surfaces lit by a single lamp, with four samples per pixel: the products of SmoothLight, at the centroid of the samples that the
 // triangle covers.
 
-/// @dev The additional bits of eight times a product.
-uint256 constant EIGHT_BITS = 3;
+/// @dev The additional bits of 128 times a product.
+uint256 constant MORE_BITS = 7;
 
 library SmoothSamples {
     /// @notice Draws the fragments of a row: see SampleRasterizer.drawSpan.
     function draw(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
         assembly ("memory-safe") {
-            // a colour in lanes of Q10, from the accumulator and eight times the products: see SmoothLight
+            // a colour in lanes of Q10, from the accumulator and 128 times the products: see SmoothLight
             function colorAt(attribute, light) -> color {
-                let square := shr(add(UPPER_85_AT, EIGHT_BITS), light)
+                let square := shr(add(UPPER_85_AT, MORE_BITS), light)
                 let length := add(shr(ROOT_SHIFT, mul(ROOT_SLOPE, square)), ROOT_AT_0)
                 length := add(length, div(square, length))
                 let factor := mload(FACE_LIGHT_40)
                 color := HALF_LEVEL
-                let t := sar(add(N_DOT_L_AT, EIGHT_BITS), shl(MIDDLE_85_TO_TOP, light))
+                let t := sar(add(N_DOT_L_AT, MORE_BITS), shl(MIDDLE_85_TO_TOP, light))
                 if sgt(t, 0) {
                     factor := add(factor, mul(mload(add(LIGHTS, LIGHT_DIFFUSE)), div(t, length)))
-                    t := sar(add(N_DOT_H_AT, EIGHT_BITS), shl(LOWER_85_TO_TOP, light))
+                    t := sar(add(N_DOT_H_AT, MORE_BITS), shl(LOWER_85_TO_TOP, light))
                     if sgt(t, 0) {
                         t := div(mul(t, t), square)
                         if gt(t, mload(SPECULAR_BEGIN)) {
@@ -83,16 +83,19 @@ library SmoothSamples {
                 let seen := and(and(covered, sub(add(z, BELOW_TOPS_64), old)), TOPS_64)
                 if seen {
                     row := attribute
-                    let color := shl(EIGHT_BITS, light)
+                    let color := shl(MORE_BITS, light)
                     covered := and(covered, TOPS_64)
                     if xor(covered, TOPS_64) {
                         covered := and(shr(SET_AT, mul(shr(63, covered), COVERED_TO_SET)), SET_MASK)
-                        let by := signextend(0, shr(add(8, covered), CENTROIDS))
-                        row := add(row, mul(by, mload(DX_8)))
-                        color := add(color, mul(by, step))
-                        by := signextend(0, shr(covered, CENTROIDS))
-                        row := add(row, mul(by, mload(DY_8)))
-                        color := add(color, mul(by, add(mload(QUADRATIC_DOWN), mul(column, mload(QUADRATIC_DXY)))))
+                        // With the forward differences d at the centre, and x and y in eighths of a pixel, the quadratic function is
+                        // f + (x dx + y dy) / 8 + (x (x - 8) dxx + 2 x y dxy + y (y - 8) dyy) / 128 there: exact, however thin the triangle
+                        let x := signextend(0, shr(add(8, covered), CENTROIDS))
+                        let y := signextend(0, shr(covered, CENTROIDS))
+                        row := add(row, add(mul(x, mload(DX_8)), mul(y, mload(DY_8))))
+                        let slope := add(mul(sub(x, 8), mload(QUADRATIC_DXX)), mul(shl(1, y), mload(QUADRATIC_DXY)))
+                        color := add(color, mul(x, add(shl(4, step), slope)))
+                        slope := add(mload(QUADRATIC_DOWN), mul(column, mload(QUADRATIC_DXY)))
+                        color := add(color, mul(y, add(shl(4, slope), mul(sub(y, 8), mload(QUADRATIC_DYY)))))
                     }
                     color := colorAt(row, color)
                     z := or(z, mul(color, ONES_64))

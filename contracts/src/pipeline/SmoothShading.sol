@@ -20,7 +20,7 @@ abstract contract SmoothShading is Rasterizer {
             if (mode & (IS_QUADRATIC | IS_BLENDED) == IS_QUADRATIC) {
                 uint256 size = Shading.squareSize(a, b, c);
                 // skip triangles that are too large
-                if (size < 8 * load(SMOOTH_REACH)) kind = SmoothLight.setLight(a, b, c, size);
+                if (size < load(SMOOTH_REACH_3)) kind = SmoothLight.setLight(a, b, c, size);
             }
             if (kind == UNBOUNDED_LIGHT) return shadeExact(a, b, c, crossing);
             (uint256 attributesA, uint256 attributesB, uint256 attributesC) = Shading.attributesOf(a, b, c);

@@ -31,7 +31,7 @@ library Triangles {
             int256 area = (column(c) - column(a)) * (row(b) - row(a)) - (column(b) - column(a)) * (row(c) - row(a));
             if (area == 0 || (cull && area < 0) || a & b & c & IS_OUTSIDE != 0) return (list, 0);
             if (area < 0) {
-                (b, c) = (c, b);
+                (a, b, c) = (a | IS_BACK, c, b);
                 edges = (edges >> 2) | (edges & 2) | ((edges & 1) << 2);
             }
             while (a > b || a > c) {
@@ -50,6 +50,7 @@ library Triangles {
             if (top >= bottom) return list;
             uint256 face = (load(FACE) - load(MESH_FACES)) / FACE_SIZE;
             uint256 crossing = (a | b | c) & IS_BESIDE == 0 ? 0 : CROSSING_BIT;
+            if ((a | b | c) & IS_BACK != 0) crossing |= BACK_BIT;
             store(
                 list,
                 crossing | (edges << TRIANGLE_EDGES_AT) | (face << TRIANGLE_FACE_AT) | (bottom << TRIANGLE_BOTTOM_AT)

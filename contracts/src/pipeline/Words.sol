@@ -218,8 +218,8 @@ uint256 constant SAMPLES_ABOVE = 192;
 uint256 constant LEAST_WIDTH = 0x200000000;
 uint256 constant ABOVE_LEAST_WIDTH = 0xfffffffffffffffffffffffffffffffffffffffffffffffffffffffc00000000;
 uint256 constant HALF_DEPTH = 0x800000000000000000000000000000000000000000;
-/// @dev An eighth of a depth in an accumulator.
-uint256 constant DEPTH_8_AT = 195;
+/// @dev An eighth of a change of DEEP_DX or DEEP_DY, in the unit of depths in an accumulator.
+uint256 constant DEEP_8_AT = 27;
 /// @dev Multiplier that collects bits 0, 64, 128, 192 as the number of a set, times 16; the bits of it.
 uint256 constant COVERED_TO_SET = 0x1000000000000000200000000000000040000000000000008;
 uint256 constant SET_AT = 188;
@@ -340,6 +340,8 @@ uint256 constant IS_LEFT = 0x200000000;
 uint256 constant IS_RIGHT = 0x400000000;
 uint256 constant IS_ABOVE = 0x800000000;
 uint256 constant IS_BELOW = 0x1000000000;
+/// @dev Of the first vertex of a triangle: the face is turned away from the eye.
+uint256 constant IS_BACK = 0x2000000000;
 /// @dev Sub-pixel column.
 uint256 constant SCREEN_COLUMN_AT = 64;
 uint256 constant SCREEN_COLUMN_MASK = 0xfffff;
@@ -385,6 +387,8 @@ uint256 constant TRIANGLE_EDGES_AT = 144;
 uint256 constant TRIANGLE_EDGES_MASK = 7;
 /// @dev Whether it reaches beyond the left or right border of the tile.
 uint256 constant CROSSING_BIT = 0x8000000000000000000000000000000000000;
+/// @dev Whether it is turned away from the eye.
+uint256 constant BACK_BIT = 0x002000000000000000000000000000000000000000;
 
 // ----------------------------------------------------------------------------------------------------------------------- clip coordinates
 // Column * distance, row * distance and distance, all Q32. The first two are signed, and CLIP_BIAS adds half their range to them.
@@ -412,7 +416,7 @@ uint256 constant EDGES_RIGHT_COLUMN_MASK = 0xffff;
 uint256 constant IS_BESIDE = 0x600000000;
 uint256 constant IS_OVER = 0x1800000000;
 uint256 constant IS_OUTSIDE = 0x1e00000000;
-uint256 constant IS_NOT_PLAIN = 0x1f00000000;
+uint256 constant IS_NOT_PLAIN = 0x3f00000000;
 /// @dev The bits that select the loop for the rows of a smooth triangle.
 uint256 constant IS_GREY_OR_STEEP = 0xc00;
 uint256 constant IS_CUT_OR_CROSSING = 0x2080;
@@ -421,8 +425,10 @@ uint256 constant IS_CLAMPED_MODE = 0x380;
 
 // ----------------------------------------------------------------------------------------------------------------- flags that are shifted
 
-/// @dev From a triangle of a list to its mode.
+/// @dev From a triangle of a list to its mode, for both of its bits there.
 uint256 constant TRIANGLE_CROSSING_SHIFT = 140;
+/// @dev From a vertex to the mode.
+uint256 constant IS_BACK_SHIFT = 20;
 
 // -------------------------------------------------------------------------------------------------------------------- borders of the tile
 // Four lanes of 28 bits for the left, right, upper and lower border: positive if a vertex lies beyond it. See TileCulling.
@@ -482,6 +488,8 @@ uint256 constant BYTES_24 = 0x1fe0001fe0001fe0001fe0001fe0001fe0001fe0001fe00;
 uint256 constant ONES_64 = 0x1000000000000000100000000000000010000000000000001;
 /// @dev The depths.
 uint256 constant SAMPLE_DEPTHS = 0x7ffffffff80000007ffffffff80000007ffffffff80000007ffffffff8000000;
+/// @dev Their unit.
+uint256 constant SAMPLE_DEPTH_UNIT = 0x8000000000000000800000000000000080000000000000008000000;
 /// @dev Below the depth, for translucent objects: found by the first pass; drawn by the second pass; and the mask of all bits that
 /// distinguish them: see BlendedSamples.
 uint256 constant FOUND_SAMPLES = 0x1000000000000000100000000000000010000000000000001000000;

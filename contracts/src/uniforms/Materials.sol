@@ -2,12 +2,9 @@
 pragma solidity 0.8.37;
 
 import {Light, Material, Scene, POINT, FLAT} from "../scene/Scene.sol";
-import {Specular} from "./Specular.sol";
+import {Specular, UNBOUNDED_REACH} from "./Specular.sol";
 import {View} from "./View.sol";
 import "../pipeline/Registers.sol";
-
-/// @dev A reach, in squares of sub-pixels, above any triangle's.
-uint256 constant UNBOUNDED_REACH = 1 << 60;
 
 /// @notice Computes how a lit surface reflects the lights, and the precision of shading it requires.
 library Materials {
@@ -38,8 +35,9 @@ library Materials {
                 store(FACE_LIGHT_40, load(AMBIENT) << (Q40 - Q16));
                 uint256 focal = uint256(view_.focal) >> Q32;
                 bool isPoint = load(LIGHTS + LIGHT_IS_POINT) != 0;
-                store(SMOOTH_REACH, smoothReach(focal, uint256(material.diffuse.raw()), isPoint));
-                store(HALF_REACH, Specular.halfReach(uint256(material.specular.raw()), material.shininess));
+                uint256 reach = smoothReach(focal, uint256(material.diffuse.raw()), isPoint);
+                if (view_.orthographic) focal = 0;
+                Specular.setReaches(uint256(material.specular.raw()), material.shininess, reach, focal);
                 // with several lights, most of the work would be repeated for each of them
                 if (lights.length == 1 && mode & IS_SPOT_LIT == 0 && !(view_.orthographic && isPoint) && !Specular.isBroad(material)) {
                     mode |= IS_QUADRATIC;

@@ -12,8 +12,8 @@ import "../pipeline/Registers.sol";
 uint256 constant SLACK = 1 << 20;
 /// @dev The bits of a lane that a depth may occupy.
 uint256 constant SAMPLE_DEPTH_BITS = 62;
-/// @dev The lowest bit of a lane that is kept: every visible depth has it set, at any distance.
-uint256 constant LOWEST_SAMPLE_DEPTH = 1 << 27;
+/// @dev Twice the lowest bit of a lane that is kept: every visible depth has it set, at any distance, that of a back face too.
+uint256 constant LOWEST_SAMPLE_DEPTH = 1 << 28;
 
 library SampleDepths {
     /// @notice Widens a range of distances, Q32, by those of the vertices of a mesh. The registers must contain the matrix of the object.
@@ -52,8 +52,9 @@ library SampleDepths {
                 most = load(DEPTH_SCALE) / uint256(nearest) << DEPTH_FRACTION;
             } else {
                 int256 farthest = range[1] > nearest ? range[1] : nearest;
-                base = ((load(DEPTH_SCALE) - uint256(farthest >> 8)) << DEPTH_FRACTION) - SLACK;
-                most = uint256((farthest >> 8) - (nearest >> 8)) << DEPTH_FRACTION;
+                // a sixteenth more, by part of which back faces may be moved: see Rasterizer.setBack
+                most = uint256((farthest >> 8) - (nearest >> 8)) * (17 << (DEPTH_FRACTION - 4));
+                base = ((load(DEPTH_SCALE) - uint256(nearest >> 8)) << DEPTH_FRACTION) - most - SLACK;
             }
             most += 2 * SLACK;
             uint256 shift = SAMPLE_DEPTH_BITS;

@@ -5,8 +5,8 @@ import {sqrt} from "../math/Roots.sol";
 import {Material} from "../scene/Scene.sol";
 import "../pipeline/Registers.sol";
 
-/// @dev The square of 1/4, Q40.
-uint256 constant QUARTER_SQUARE = 1 << (Q40 - 4);
+/// @dev A reach, in squares of sub-pixels, above any triangle's.
+uint256 constant UNBOUNDED_REACH = 1 << 60;
 
 /// @notice Computes the highlight of a material.
 library Specular {
@@ -52,16 +52,19 @@ library Specular {
         }
     }
 
-    /// @dev Returns the maximum square, Q40, of the difference of unit half vectors in a triangle. Interpolating them with a difference d
-    /// makes an error of at most d^2/4 in direction, and the maximum slope of cos^n is about 0.6 * sqrt(n): four levels of 255 are allowed,
-    /// or d = 1/4.
-    function halfReach(uint256 coefficient, uint256 shininess) internal pure returns (uint256) {
+    /// @notice Sets how far half vectors can be interpolated: see SmoothLight.
+    /// @param lampReach The maximum sum of the squares of two edges, in sub-pixels, for which directions to a lamp can be.
+    /// @param focal The focal length in sub-pixels; 0 for an orthographic camera, for which half vectors are constant.
+    function setReaches(uint256 coefficient, uint256 shininess, uint256 lampReach, uint256 focal) internal pure {
         unchecked {
+            // the maximum slope of cos^n is 0.6 * sqrt(n): 4 / (255 * 0.6 * 0.15) = 0.174 = 11 / 63
             uint256 slope = (sqrt(shininess << (Q32 + Q32)) * coefficient) >> Q32;
-            if (slope == 0) return QUARTER_SQUARE;
-            // 4 * 4 / (0.6 * 255) = 0.1
-            uint256 reach = (ONE_32 << Q40) / (10 * slope);
-            return reach > QUARTER_SQUARE ? QUARTER_SQUARE : reach;
+            uint256 reach = slope == 0 || focal == 0 ? UNBOUNDED_REACH : (11 * focal * focal << (Q32 - 6)) / slope;
+            store(SMOOTH_REACH, lampReach < reach ? lampReach : reach);
+            store(SMOOTH_REACH_3, lampReach < 2 * reach ? 8 * lampReach : 16 * reach);
+            store(HALF_SLOPE, (3109 * shininess * coefficient) >> Q32);
+            // 2.8 = 2936013 / 2^20
+            store(FAR_FROM_HIGHLIGHT, (1 << Q20) - 2936013 / shininess);
         }
     }
 

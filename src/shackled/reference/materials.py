@@ -33,8 +33,12 @@ def set_material(view: View, scene: Scene, material: Material, registers: Regist
         registers.face_light_40 = registers.ambient << 24
         focal = view.focal >> 32
         is_point = any(record.is_point for record in registers.lights[:1])
-        registers.smooth_reach = smooth_reach(focal, material.diffuse, is_point)
-        registers.half_reach = specular.half_reach(material.specular, material.shininess)
+        lamp = smooth_reach(focal, material.diffuse, is_point)
+        half = specular.half_reach(material.specular, material.shininess, 0 if view.orthographic else focal)
+        registers.smooth_reach = min(lamp, half)
+        registers.smooth_reach_3 = min(8 * lamp, 16 * half)
+        registers.half_slope = specular.half_slope(material.specular, material.shininess)
+        registers.far_from_highlight = (1 << 20) - 2936013 // material.shininess
         # with several lights most of the work would be repeated for each
         is_simple = len(scene.lights) == 1 and mode & IS_SPOT_LIT == 0 and not specular.is_broad(material)
         if is_simple and not (view.orthographic and is_point):

@@ -24,6 +24,7 @@ class Triangle(NamedTuple):
     face: number of the face in its mesh.
     edges: which edges belong to the face, the sum of 1 (a to b), 2 (b to c) and 4 (c to a).
     outside: whether it reaches beyond the left or right border of the tile.
+    turned_away: whether its back is seen.
     """
 
     a: Vertex
@@ -34,6 +35,7 @@ class Triangle(NamedTuple):
     face: int
     edges: int
     outside: bool
+    turned_away: bool
 
 
 def run(mesh: Mesh, vertices: list[Vertex], cull: bool, index: int, registers: Registers) -> tuple[list[Triangle], int]:
@@ -92,7 +94,7 @@ def append(
     bottom = (max(b.word, c.word) + registers.round_bottom) >> SCREEN_PIXEL_ROW_AT
     if top < bottom:
         beside = (a.outside | b.outside | c.outside) & BESIDE != 0
-        triangles.append(Triangle(a, b, c, top, bottom, face, edges, beside))
+        triangles.append(Triangle(a, b, c, top, bottom, face, edges, beside, area < 0))
     return True
 
 

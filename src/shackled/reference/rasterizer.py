@@ -9,7 +9,7 @@ from .mesh import Mesh
 from .primitive_assembly import Triangle
 from .registers import IS_IN_PASSES, Registers
 from .vertex_shader import Vertex
-from .words import MASK, divide_signed
+from .words import MASK, divide_signed, signed
 
 
 def run(triangles: list[Triangle], mesh: Mesh, registers: Registers) -> None:
@@ -46,7 +46,7 @@ def halves_of(triangle: Triangle, registers: Registers) -> Iterator[tuple[int, i
     top, bottom = max(triangle.top, r.band_top), min(triangle.bottom, r.band_bottom)
     if top >= bottom:
         return
-    edges, slopes, middle = set_up(triangle.a, triangle.b, triangle.c, top, r)
+    edges, slopes, middle = set_up(triangle, top, r)
     middle = min(middle, bottom)
     if top < middle:
         yield edges, slopes, r.start, top, middle
@@ -57,7 +57,7 @@ def halves_of(triangle: Triangle, registers: Registers) -> Iterator[tuple[int, i
         yield edges, slopes, r.start + r.dy * (middle - top), middle, bottom
 
 
-def set_up(a: Vertex, b: Vertex, c: Vertex, top: int, registers: Registers) -> tuple[int, int, int]:
+def set_up(triangle: Triangle, top: int, registers: Registers) -> tuple[int, int, int]:
     """Set up what changes linearly over a triangle, at row `top`; set the accumulator at column 0 and its changes.
 
     Returns the left edge, from a to b, and the right one, from a to c, in lanes of 128 bits: columns, Q48, such that
@@ -65,6 +65,7 @@ def set_up(a: Vertex, b: Vertex, c: Vertex, top: int, registers: Registers) -> t
     below the upper of b and c, where one edge ends and another begins.
     """
     r = registers
+    a, b, c = triangle.a, triangle.b, triangle.c
     x = a.x
     xb, yb, xc, yc = b.x - x, b.y - a.y, c.x - x, c.y - a.y
     middle = (min(b.y, c.y) + 255) >> 8
@@ -96,7 +97,25 @@ def set_up(a: Vertex, b: Vertex, c: Vertex, top: int, registers: Registers) -> t
     r.start = start & MASK
     r.dx = (8 * (delta_c * yb - delta_b * yc) + (dx << layout.ATTRIBUTE_DEPTH_AT)) & MASK
     r.dy = (8 * (delta_b * xc - delta_c * xb) + (dy << layout.ATTRIBUTE_DEPTH_AT)) & MASK
+    if triangle.turned_away:
+        dx = signed(delta_c * yb - delta_b * yc) >> layout.ACCUMULATOR_DEPTH_AT + 3
+        dy = signed(r.dy) >> layout.ACCUMULATOR_DEPTH_AT + 6
+        attributes = r.attribute_0, r.attribute_1, r.attribute_2
+        r.start = (r.start - (set_back(attributes, dx, dy, 0, r) << layout.ACCUMULATOR_DEPTH_AT)) & MASK
     return edges & MASK, slopes & MASK, middle
+
+
+def set_back(attributes: tuple[int, int, int], dx: int, dy: int, base: int, r: Registers) -> int:
+    """Return by how much the depth of a triangle is reduced that is turned away from the eye: see the contract.
+
+    dx, dy: changes of the depth over 1/64 of a pixel.
+    """
+    if r.mode & layout.IS_DEEP:
+        return 0
+    first = attributes[0]
+    least = min(0, *(word - first >> layout.ATTRIBUTE_DEPTH_AT for word in attributes[1:]))
+    depth = (least + (first >> layout.ATTRIBUTE_DEPTH_AT) - (signed(base) >> 8) << 7) & MASK
+    return min((dx ^ dx >> 255) + (dy ^ dy >> 255) + 512, depth)
 
 
 def lower_edges(upper: int, upper_slopes: int, b: Vertex, c: Vertex, top: int, middle: int) -> tuple[int, int]:

@@ -72,6 +72,7 @@ class Registers:
     #: what depths of samples are less than those of accumulators, and by how many bits they are shifted
     sample_base: int = 0
     sample_shift: int = 0
+    set_back: int = 0
 
     # frame
     frame_is_orthographic: bool = False
@@ -132,7 +133,9 @@ class Registers:
     opacity: int = 0
     reach: int = 0
     smooth_reach: int = 0
-    half_reach: int = 0
+    smooth_reach_3: int = 0
+    half_slope: int = 0
+    far_from_highlight: int = 0
     hemisphere_sky: int = 0
     hemisphere_ground: int = 0
     up_in_mesh: int = 0

@@ -20,6 +20,7 @@ from .fragment_shader import shade_quadratic
 from .mesh import Mesh
 from .primitive_assembly import Triangle
 from .quadratic import Differences
+from .rasterizer import set_back
 from .registers import IS_IN_PASSES, Registers
 from .roots import sqrt
 from .shadow_table import LIT
@@ -31,6 +32,8 @@ from .words import MASK, divide, divide_signed, signed
 OFFSETS = ((-1, -3), (3, -1), (-3, 1), (1, 3))
 #: The bits of a sample that are its depth, and the two of objects that are not opaque: found, drawn.
 DEPTH, FOUND, DRAWN = 0x7FFFFFFFF8000000, 1 << 24, 1 << 25
+#: The lowest bit of each lane.
+ONES = sum(1 << 64 * i for i in range(4))
 #: By what depths may leave the range of those of the vertices.
 SLACK = 1 << 20
 #: A barycentric coordinate that changes by more than 16 from pixel to pixel, Q29.
@@ -73,11 +76,18 @@ class Gradients(NamedTuple):
 
     def depths(self, word: int, r: Registers) -> list[int]:
         """Return the depths of the samples of a pixel with this accumulator at its centre."""
-        # an eighth of the changes of the depth, added in lanes that carry into each other
-        dx, dy = signed(self.dx) >> 195, signed(self.dy) >> 195
+        # an eighth of the changes of the depth, before they overflow, added in lanes that carry into each other
+        dx, dy = (signed(eighth & MASK) >> 192 for eighth in (self.dx_8, self.dy_8))
+        dx, dy = dx + _lane(self.deep_dx >> 27), dy + _lane(self.deep_dy >> 27)
         z = (word >> 192) - r.sample_base
         lanes = sum((z + x * dx + y * dy) << (64 * i + r.sample_shift) for i, (x, y) in enumerate(OFFSETS)) & MASK
+        lanes = (lanes - r.set_back * ONES) & MASK
         return [(lanes >> 64 * i) & DEPTH for i in range(4)]
+
+
+def _lane(value: int) -> int:
+    """Return an integer modulo 2^64, signed."""
+    return (value + (1 << 63)) % (1 << 64) - (1 << 63)
 
 
 def run(triangles: list[Triangle], mesh: Mesh, wireframe: bool, r: Registers) -> None:
@@ -89,13 +99,14 @@ def run(triangles: list[Triangle], mesh: Mesh, wireframe: bool, r: Registers) ->
             shading.prepare_exact(triangle, mesh, r)
             set_shadow(triangle, r)
             for corners, attributes in rectangles(triangle, r):
-                draw(*corners, attributes, r)
+                draw(*corners, attributes, False, r)
         else:
             shading.prepare(triangle, mesh, r)
             # the brightest saturate anyway
             r.mode &= ~layout.IS_LINEAR
             set_shadow(triangle, r)
-            draw(triangle.a, triangle.b, triangle.c, (r.attribute_0, r.attribute_1, r.attribute_2), r)
+            attributes = (r.attribute_0, r.attribute_1, r.attribute_2)
+            draw(triangle.a, triangle.b, triangle.c, attributes, triangle.turned_away, r)
 
 
 def set_shadow(triangle: Triangle, r: Registers) -> None:
@@ -112,13 +123,14 @@ def set_depths(distances: list[int], r: Registers) -> None:
     base = 0
     if r.frame_is_orthographic:
         farthest = max(max(distances, default=nearest), nearest)
-        base = ((r.depth_scale - (farthest >> 8)) << 8) - SLACK
-        most = ((farthest >> 8) - (nearest >> 8)) << 8
+        # a sixteenth more, by part of which back faces may be moved
+        most = ((farthest >> 8) - (nearest >> 8)) * 17 << 4
+        base = ((r.depth_scale - (nearest >> 8)) << 8) - most - SLACK
     else:
         most = divide(r.depth_scale, nearest) << 8
     r.sample_shift = max(0, 62 - (most + 2 * SLACK).bit_length())
     # what is seen has the lowest bit, however far away it is
-    r.sample_base = base - (1 << 27 >> r.sample_shift)
+    r.sample_base = base - (1 << 28 >> r.sample_shift)
 
 
 def resolve(r: Registers) -> None:
@@ -202,10 +214,14 @@ def gradients(a: Vertex, b: Vertex, c: Vertex, attributes: tuple[int, int, int],
     return Gradients(start, row, to_c * yb - to_b * yc, to_b * xc - to_c * xb, deep_dx, deep_dy)
 
 
-def draw(a: Vertex, b: Vertex, c: Vertex, attributes: tuple[int, int, int], r: Registers) -> None:
+def draw(a: Vertex, b: Vertex, c: Vertex, attributes: tuple[int, int, int], turned_away: bool, r: Registers) -> None:
     """Draw a triangle that is prepared. attributes: the attribute words at its vertices."""
     g = gradients(a, b, c, attributes, r)
     r.dx, r.dy = g.dx, g.dy
+    r.set_back = 0
+    if turned_away:
+        dx, dy = (signed(change) >> layout.ACCUMULATOR_DEPTH_AT + 6 for change in (g.dx, g.dy))
+        r.set_back = (set_back(attributes, dx, dy, r.sample_base, r) << r.sample_shift) + (1 << 27)
     farthest = min(word >> 168 for word in attributes) << 8
     cells: dict[tuple[int, int], Differences] = {}
     for column, row, samples in covered(a, b, c, r):
@@ -281,12 +297,13 @@ def exact(word: int, samples: list[int], place: tuple[int, int], g: Gradients, r
 def smooth(word: int, samples: list[int], column: int, row: int, g: Gradients, r: Registers) -> Color:
     """Return the colour of a smooth surface in the light of one lamp, in the middle of the samples that are covered."""
     q = r.quadratic
-    light = 8 * q.at(column, row)
+    light = 128 * q.at(column, row)
     if len(samples) < 4:
         x, y = centroid(samples)
         word = g.moved(word, x, y)
-        light += x * (q.dx + row * q.dxy + column * q.dxx) + y * (q.dy + row * q.dyy + column * q.dxy)
-    return pack_lanes(shade_quadratic(word, light, r, 3) + layout.HALF_LEVEL)
+        dx, dy = q.dx + row * q.dxy + column * q.dxx, q.dy + row * q.dyy + column * q.dxy
+        light += 16 * (x * dx + y * dy) + x * (x - 8) * q.dxx + 2 * x * y * q.dxy + y * (y - 8) * q.dyy
+    return pack_lanes(shade_quadratic(word, light, r, 7) + layout.HALF_LEVEL)
 
 
 def blend(word: int, depths: list[int], samples: list[int], place: tuple[int, int], g: Gradients, r: Registers) -> None:

@@ -24,6 +24,9 @@ VECTOR_BIAS = 0x100000000000000000000080000000000000000000040000000
 
 UNBOUNDED_LIGHT, AFFINE_LIGHT, STEEP_LIGHT = 0, 1, 2
 
+#: Three and a half levels of 12 (Q50), and of 16 * 2 (Q30): see the contract.
+LEVELS_12, LEVELS_32 = 1 << 49, 0x55555555
+
 
 def product(a: int, b: int) -> int:
     """Return the scalar product of two vectors in lanes, one of them reversed."""
@@ -43,20 +46,25 @@ def set_light(triangle: Triangle, size: int, registers: Registers) -> int:
     vertices are so near to each other that colours may be interpolated linearly, else STEEP_LIGHT.
     """
     r = registers
-    if size >= 8 * r.smooth_reach:
+    if size >= r.smooth_reach_3:
         return UNBOUNDED_LIGHT
     vertices = (triangle.a, triangle.b, triangle.c)
     for vertex in vertices:
         if vertex.smooth is None:
             vertex.smooth = smooth_vertex(vertex, r)
+    corners = [vertex.smooth for vertex in vertices if vertex.smooth and vertex.smooth.is_bounded]
+    if len(corners) < 3:
+        return UNBOUNDED_LIGHT
     weights = [1024, 1024, 1024]
     if not r.frame_is_orthographic:
         # depths divided by the greatest
         depths = [vertex.attributes >> 168 for vertex in vertices]
         weights = [divide(depth << 10, max(depths)) for depth in depths]
-    corners = [vertex.smooth for vertex in vertices if vertex.smooth and vertex.smooth.is_bounded]
-    if len(corners) < 3:
-        return UNBOUNDED_LIGHT
+        if min(weights) < 980 and r.lights[0].is_point:
+            # the change of depth, as long as it would be on the screen
+            size += divide((1024 - min(weights)) << 32, (min(weights) + 1) * r.ray_step) ** 2
+        if not all(corner.is_open for corner in corners):
+            size *= 4
     normals = [weight * vertex.normal for weight, vertex in zip(weights, vertices, strict=True)]
     turned = [weight * corner.reversed for weight, corner in zip(weights, corners, strict=True)]
     a, b, c = (
@@ -71,19 +79,34 @@ def set_light(triangle: Triangle, size: int, registers: Registers) -> int:
         half, half_reversed = v.half - u.half, v.half_reversed - u.half_reversed
         changes = max(changes, product(half, half_reversed))
         edges.append(products(n, turned[j] - turned[i], v.light - u.light, n - (half << 9), half_reversed))
-    # the least N * N less a third of the largest square of a change is to be 1/4 or more: three times that
-    least = 3 * (signed(min(signed(a), signed(b), signed(c))) >> 170) - 0xC0000
-    if any(signed(edge) >> 170 >= least for edge in edges):
+    # three times the least N * N: that of the vertices less a third of the largest square of a change
+    most = max(map(signed, edges)) >> 170
+    least = 3 * (signed(min(signed(a), signed(b), signed(c))) >> 170) - most
+    if least <= 3 << 18:
         return UNBOUNDED_LIGHT
-    depths_differ = (min(weights) < 896) + (min(weights) < 768)
-    if size >= r.smooth_reach or changes << 3 * depths_differ > r.half_reach:
-        if 2 * changes > 13 * r.half_reach or depths_differ > 1:
+    if size >= r.smooth_reach or changes * r.half_slope * ((3 << 20) - least) > least * LEVELS_12:
+        if size >= r.smooth_reach_3 or changes >= 3 << 37:
             return UNBOUNDED_LIGHT
+        skew = 0
         for edge, (i, j) in enumerate(pairs):
             middle = middle_vertex(vertices[i], vertices[j], r)
-            if not middle.is_bounded:
+            if not middle.smooth or not middle.smooth.is_bounded:
                 return UNBOUNDED_LIGHT
-            edges[edge] += correction(normals[i] + normals[j], corners[i], corners[j], middle)
+            added, bend = correction(normals[i], normals[j], corners[i], corners[j], middle.smooth)
+            edges[edge] += added
+            skew = max(skew, bend)
+        place = middle_vertex(vertices[0], middle, r).smooth
+        assert place
+        # 16 times the products at (1/2, 1/4, 1/4), and the error of N * H there
+        inner = 8 * a + 4 * (b + c) - 2 * (edges[0] + edges[1]) - edges[2]
+        error = 4 * (product(2 * normals[0] + normals[1] + normals[2], place.half_reversed) >> 30) - inner
+        error = _size(_lowest(error)) + skew
+        if error * r.half_slope * ((3 << 20) + least) > least * LEVELS_32:
+            # not near the highlight
+            nodes = [(inner, 4), *((value, 0) for value in (a, b, c))]
+            nodes += [(2 * (u + v) - edge, 2) for u, v, edge in zip((a, a, b), (b, c, c), edges, strict=True)]
+            if max(_square(*node) for node in nodes) + (most + (changes >> 20) >> 2) >= r.far_from_highlight:
+                return UNBOUNDED_LIGHT
     ab, ac, bc = edges
     coefficients = quadratic.Coefficients(a, b - a - ab, c - a - ac, ab, ab + ac - bc, ac)
     r.quadratic = quadratic.differences(triangle.a, triangle.b, triangle.c, 0, coefficients)
@@ -91,21 +114,43 @@ def set_light(triangle: Triangle, size: int, registers: Registers) -> int:
     return STEEP_LIGHT if min(weights) < 980 else AFFINE_LIGHT
 
 
-def middle_vertex(a: Vertex, b: Vertex, registers: Registers) -> SmoothVertex:
-    """Return the vertex in the middle of an edge."""
+def _size(value: int) -> int:
+    """Return a number without its sign; one less where it is negative."""
+    return value ^ value >> 255
+
+
+def _lowest(packed: int) -> int:
+    """Return the lowest lane."""
+    return signed(packed << 171) >> 171
+
+
+def _square(packed: int, shift: int) -> int:
+    """Return the cos^2 of N and H, Q20, from products that are multiplied by 2^shift."""
+    cosine = max(_lowest(packed), 0)
+    return divide(cosine * cosine, (signed(packed) >> 170) << shift)
+
+
+def middle_vertex(a: Vertex, b: Vertex, registers: Registers) -> Vertex:
+    """Return the vertex in the middle of two, with the normal of the first."""
     depth = (a.attributes >> 168) + (b.attributes >> 168) >> 1
-    return smooth_vertex(Vertex(0, a.x + b.x >> 1, a.y + b.y >> 1, False, False, depth << 168, a.normal), registers)
+    vertex = Vertex(0, a.x + b.x >> 1, a.y + b.y >> 1, False, False, depth << 168, a.normal)
+    vertex.smooth = smooth_vertex(vertex, registers)
+    return vertex
 
 
-def correction(n: int, a: SmoothVertex, b: SmoothVertex, middle: SmoothVertex) -> int:
-    """Return what to add to the products of the changes along an edge, so that they are right in its middle.
+def correction(n: int, m: int, a: SmoothVertex, b: SmoothVertex, middle: SmoothVertex) -> tuple[int, int]:
+    """Return what to add to the products of the changes along an edge, so that they are right in its middle, and twice
+    the skew that remains: see the contract.
 
     Four times the error there, (N_a + N_b) * (L_a + L_b - 2 L), and the same of H, which is not too short there.
     """
-    diffuse = product(n, a.light + b.light - 2 * middle.light) >> 30
-    specular = product(n, a.half_reversed + b.half_reversed - 2 * middle.half_reversed) >> 30
-    shortness = product(a.half - b.half, a.half_reversed - b.half_reversed) >> 21
-    return (diffuse << 85) + specular + shortness
+    diffuse = product(n + m, a.light + b.light - 2 * middle.light) >> 30
+    bend = a.half_reversed + b.half_reversed - 2 * middle.half_reversed
+    specular = product(n + m, bend) >> 30
+    turn = a.half_reversed - b.half_reversed
+    shortness = product(a.half - b.half, turn) >> 21
+    skew = 2 * (_size(product(m - n, bend) >> 30) + _size(product(middle.half, turn) >> 19))
+    return (diffuse << 85) + specular + shortness, skew
 
 
 def smooth_vertex(vertex: Vertex, registers: Registers) -> SmoothVertex:
@@ -133,8 +178,8 @@ def smooth_vertex(vertex: Vertex, registers: Registers) -> SmoothVertex:
     length = sqrt(x * x + y * y + (1 << 48))
     hx, hy, hz = (component - divide_signed(ray << 20, length) for component, ray in ((lx, x), (ly, y), (lz, 1 << 24)))
     square = hx * hx + hy * hy + hz * hz
-    # not where the light is nearly in the direction of the ray: H is almost zero there
-    bounded = bounded and square > 1 << 38
+    # not where the light is ahead of the eye: H turns fast there
+    bounded, is_open = bounded and square > 1 << 40, square >= 3 << 40
     length = sqrt(square)
     hx, hy, hz = (divide_signed(component << 20, length) for component in (hx, hy, hz))
     lanes = (vertex.normal + VECTOR_BIAS) & MASK
@@ -143,6 +188,7 @@ def smooth_vertex(vertex: Vertex, registers: Registers) -> SmoothVertex:
     bounded = bounded and 0 <= product(vertex.normal, reversed_normal) - (15 << 36) < 1 << 37
     return SmoothVertex(
         bounded,
+        is_open,
         reversed_normal & MASK,
         lz + (ly << 85) + (lx << 170),
         hx + (hy << 85) + (hz << 170),

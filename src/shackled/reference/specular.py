@@ -47,14 +47,18 @@ def power(square: int, exponent: int) -> int:
     return result
 
 
-def half_reach(coefficient: int, shininess: int) -> int:
-    """Return the square, Q40, of how much unit half vectors may differ in a triangle.
+def half_reach(coefficient: int, shininess: int, focal: int) -> int:
+    """Return up to which sum of the squares of two edges, in sub-pixels, half vectors may be interpolated.
 
-    If they are interpolated, their direction is off by d^2/4 at most for a difference d, and cos^n is steepest with
-    about 0.6 * sqrt(n): four levels of 255 are allowed, or d = 1/4.
+    focal: in sub-pixels; 0 for an orthographic camera, for which they are constant. See the contract.
     """
     slope = (sqrt(shininess << 64) * coefficient) >> 32
-    return min((1 << 72) // (10 * slope), 1 << 36) if slope else 1 << 36
+    return (11 * focal * focal << 26) // slope if slope and focal else 1 << 60
+
+
+def half_slope(coefficient: int, shininess: int) -> int:
+    """Return the slope of the highlight at its maximum, in 84ths of a level of 255, Q10."""
+    return (3109 * shininess * coefficient) >> 32
 
 
 def is_broad(material: Material) -> bool:

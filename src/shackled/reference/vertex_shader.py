@@ -19,10 +19,12 @@ BESIDE = layout.IS_BESIDE >> OUTSIDE_SHIFT
 class SmoothVertex:
     """The values of a vertex for smooth shading with one light: see `smooth_light`.
 
-    Normal and direction to the light with reversed lanes, the half vector, and the same reversed.
+    Normal and direction to the light with reversed lanes, the half vector, and the same reversed. is_open: whether the
+    square of the sum of the directions to light and eye is at least 3.
     """
 
     is_bounded: bool
+    is_open: bool
     reversed: int
     light: int
     half: int
