@@ -101,6 +101,9 @@ gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens
 	$(BIN)/python -m benchmarks.icons
 	$(BIN)/python -m benchmarks.motion
 
+golden: $(DEV) ## write tests/golden.json: digests of pixels, and gas, of 300 small scenes
+	$(BIN)/python tests/golden.py --write
+
 bench: $(DEV) ## measure: the tables of benchmarks/, those of the README, of docs/antialiasing.md and docs/library.md
 	$(BIN)/python -m benchmarks
 	$(BIN)/python -m benchmarks.parallel
