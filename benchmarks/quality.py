@@ -159,6 +159,10 @@ def table(figures: dict[str, Figures]) -> str:
 
 def main() -> int:
     """Measure, print and write the figures."""
+    try:
+        opengl.context()
+    except opengl.Unavailable as error:
+        raise SystemExit(str(error)) from None
     old = recorded()
     # the threads of an OpenGL do not survive a fork
     with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
