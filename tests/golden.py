@@ -275,7 +275,7 @@ KINDS: tuple[tuple[Kind, int, tuple[Iterable[str], ...]], ...] = (
     ("tame", 1, (SHADINGS, SAMPLING, ("slivers",))),
     ("tame", 1, (SHADINGS, SAMPLING, ("contacts",))),
     ("tame", 1, (LIT, EFFECTS, PROJECTION)),
-    ("tame", 1, (LIT, ("gradient", "inverted"))),
+    ("tame", 1, (LIT, ("gradient", "inverted", "both sides"))),
     ("tame", 1, (("unlit", "wireframe"), ("all effects",))),
     ("tame", 1, (("flat", "smooth"), TEXTURES)),
     ("tame", 1, (LIT, SHADOWS, ("", "ground"))),
@@ -289,7 +289,7 @@ KINDS: tuple[tuple[Kind, int, tuple[Iterable[str], ...]], ...] = (
 )
 PIECES = (
     *("teapot", "cornell-box", "cylinder", "dodecahedron", "icons/ethereum", "icons/diamond", "icons/crown"),
-    *(f"genesis/{number}" for number in range(6)),
+    *(f"genesis/{number}" for number in range(4)),
 )
 #: Words for the kinds.
 ADJECTIVES = {"tame": "", "close": "clipped", "wild": "huge or tiny"}
