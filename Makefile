@@ -13,7 +13,7 @@ ifndef CHECKS
 .NOTPARALLEL:
 endif
 .DEFAULT_GOAL := help
-.PHONY: help browser opengl demo creator test lint types contracts evm evm-check web docs unit build npm gas bench paper fuzz conformance pictures clean
+.PHONY: help browser opengl demo creator test lint types contracts evm evm-check web docs unit build npm gas golden bench paper fuzz conformance pictures clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -101,10 +101,14 @@ gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens
 	$(BIN)/python -m benchmarks.icons
 	$(BIN)/python -m benchmarks.motion
 
-bench: $(DEV) ## measure: the tables of benchmarks/, those of the README, of docs/antialiasing.md and docs/library.md
+golden: $(DEV) ## write tests/golden.json: digests of pixels, and gas, of 300 small scenes
+	$(BIN)/python tests/golden.py --write
+
+bench: $(DEV) opengl ## measure: the tables of benchmarks/, those of the README, of docs/antialiasing.md and docs/library.md
 	$(BIN)/python -m benchmarks
 	$(BIN)/python -m benchmarks.parallel
 	$(BIN)/python -m benchmarks.antialiasing
+	$(BIN)/python -m benchmarks.quality
 	$(BIN)/python -m benchmarks.shadows
 	$(BIN)/python -m benchmarks.seeds
 	$(BIN)/python -m benchmarks.deployment

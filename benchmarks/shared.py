@@ -20,9 +20,11 @@ from shackled.bench.scenes import GLOSSY, UNLIT
 from .scenes import LAMP
 
 ROOT = Path(__file__).resolve().parent.parent
-FOLDER = Path(os.environ.get("SHACKLED_SHARED") or ROOT.parent / "shared") / "scenes"
+SHARED = Path(os.environ.get("SHACKLED_SHARED") or ROOT.parent / "shared")
+FOLDER = SHARED / "scenes"
 
 SKIPPED = "skipped: the scenes of the cost table are missing (SHACKLED_SHARED names the folder that contains them)"
+MESHES_SKIPPED = SKIPPED.replace("scenes of the cost table", "meshes of the cost table")
 
 FRONTAL_LAMP = Light("point", (0, 0, -1500))
 
@@ -44,6 +46,11 @@ def scene(name: str) -> Scene:
 def objects() -> list[str]:
     """Return the names of the scenes of real meshes."""
     return sorted(path.stem for path in FOLDER.glob("obj_*_cull.json"))
+
+
+def meshes() -> list[Path]:
+    """Return the files of the real meshes, about 1,000 triangles each; none if they are missing."""
+    return sorted((SHARED / "meshes" / "decimated").glob("*.ply"))
 
 
 def genesis() -> list[str]:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from shackled import Mesh
+from shackled.artifacts import artifact
 from shackled.bench import scenes
 from shackled.datasets import require
 from shackled.datasets.genesis import seed_of
@@ -32,6 +33,18 @@ LIGHT = {
     "lightColDiff": WHITE,
     "lightColAmbi": WHITE,
 }
+#: Its keys in the order of the struct.
+LIGHTING_KEYS = [
+    "applyLighting",
+    "lightAmbiPower",
+    "lightDiffPower",
+    "lightSpecPower",
+    "inverseShininess",
+    "lightPos",
+    "lightColSpec",
+    "lightColDiff",
+    "lightColAmbi",
+]
 #: Where light comes from.
 DIRECTIONS = {"left": [-50, 0, 0], "above": [0, 50, 0], "behind the eye": [0, 0, 50], "behind": [30, 0, -40]}
 #: Built-in pieces of one object, of about 1,000 triangles.
@@ -53,6 +66,26 @@ def document(side: int = 64, light: dict[str, Any] | None = None, **changes: Any
         "wireframe": False,
         **changes,
     }
+
+
+def call_data(document: Document, svg: bool = False) -> bytes:
+    """A call of `render` of the original's interface."""
+    keys = {**document.get("renderParams", {}), **document}
+    lighting = {"applyLighting": False, **keys.get("lightingParams", {})}
+    white = dict.fromkeys(("lightColSpec", "lightColDiff", "lightColAmbi"), [255] * 3)
+    defaults: dict[str, Any] = {"lightPos": [0] * 3, **white}
+    given = (
+        keys["faces"],
+        keys["verts"],
+        keys["cols"],
+        keys.get("objPosition", [0, 0, 0]),
+        keys.get("objScale", 1),
+        keys.get("backgroundColor", [[0] * 3] * 2),
+        tuple(lighting.get(key, defaults.get(key, 0)) for key in LIGHTING_KEYS),
+        *(bool(keys.get(key, default)) for key, default in (("perspCamera", True), ("backfaceCulling", True))),
+        *(bool(keys.get(key, False)) for key in ("invert", "wireframe")),
+    )
+    return artifact("Original").interface.encode("render", given, document["canvasDim"], svg)
 
 
 def mesh_keys(mesh: Mesh) -> dict[str, Any]:

@@ -5,33 +5,18 @@ from __future__ import annotations
 import base64
 import io
 import xml.etree.ElementTree as ElementTree
-from functools import cache
 from typing import Any
 
-import eth_abi
 import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
-from float64 import type_of
-from original_scenes import documents
+from original_scenes import call_data, documents
 from pictures import Pixels, chain, dynamic
 from shackled import RenderError, Scene
 from shackled.artifacts import artifact
 from shackled.image import decode_bmp
 from shackled.scene import original_scene
-
-LIGHTING_KEYS = [
-    "applyLighting",
-    "lightAmbiPower",
-    "lightDiffPower",
-    "lightSpecPower",
-    "inverseShininess",
-    "lightPos",
-    "lightColSpec",
-    "lightColDiff",
-    "lightColAmbi",
-]
 
 CUBE: dict[str, Any] = {
     "canvasDim": 40,
@@ -84,35 +69,8 @@ MADE = {
 }
 
 
-@cache
-def types() -> list[str]:
-    function = next(entry for entry in artifact("Original").abi if entry.get("name") == "render")
-    return [type_of(parameter) for parameter in function["inputs"]]
-
-
-def parameters(document: dict[str, Any]) -> tuple[Any, ...]:
-    """RenderParams of a scene in the original's JSON."""
-    keys = {**document.get("renderParams", {}), **document}
-    lighting = {"applyLighting": False, **keys.get("lightingParams", {})}
-    white = dict.fromkeys(("lightColSpec", "lightColDiff", "lightColAmbi"), [255] * 3)
-    defaults: dict[str, Any] = {"lightPos": [0] * 3, **white}
-    return (
-        keys["faces"],
-        keys["verts"],
-        keys["cols"],
-        keys.get("objPosition", [0, 0, 0]),
-        keys.get("objScale", 1),
-        keys.get("backgroundColor", [[0] * 3] * 2),
-        tuple(lighting.get(key, defaults.get(key, 0)) for key in LIGHTING_KEYS),
-        *(bool(keys.get(key, default)) for key, default in (("perspCamera", True), ("backfaceCulling", True))),
-        *(bool(keys.get(key, False)) for key in ("invert", "wireframe")),
-    )
-
-
 def original_call(document: dict[str, Any], svg: bool = False) -> str:
-    values = (parameters(document), document["canvasDim"], svg)
-    data = artifact("Original").selectors["render"] + eth_abi.encode(types(), values)  # type: ignore[attr-defined]
-    return dynamic(chain().call("Original", data).output).decode("ascii")
+    return dynamic(chain().call("Original", call_data(document, svg)).output).decode("ascii")
 
 
 def picture_of(uri: str) -> Pixels:

@@ -10,8 +10,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 
-def update(pages: dict[Path, Callable[[str], str]], command: str, check: bool = False) -> int:
-    """Write the results of functions between the marks of pages.
+def update(pages: dict[Path, Callable[[str], str | None]], command: str, check: bool = False) -> int:
+    """Write the results of functions of the names of marks between these marks of pages; None leaves what there is.
 
     command: that brings the pages up to date. check: nothing is written, and pages that are not up to date are named.
     Returns the exit code: 1 if the check fails.
@@ -29,11 +29,12 @@ def update(pages: dict[Path, Callable[[str], str]], command: str, check: bool = 
     return 1 if check and stale else 0
 
 
-def filled(page: Path, content: Callable[[str], str]) -> str:
+def filled(page: Path, content: Callable[[str], str | None]) -> str:
     """Return the text of a page with new content between its marks."""
 
     def fill(match: re.Match[str]) -> str:
-        return f"{match[1]}\n{content(match[2])}\n<!-- end {match[2]} -->"
+        new = content(match[2])
+        return match[0] if new is None else f"{match[1]}\n{new}\n<!-- end {match[2]} -->"
 
     text, count = re.subn(r"(<!-- begin (\w+) -->)\n.*?<!-- end \2 -->", fill, page.read_text("utf-8"), flags=re.DOTALL)
     if not count:

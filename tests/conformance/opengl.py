@@ -38,19 +38,24 @@ VERTEX = {
 }
 
 VERTEX_SHADER = """
-#version 330
 in vec4 clip;
 in float inside, nearness, number;
 in vec3 color, to_eye, to_light_0, to_light_1, to_light_2, to_light_3, normal, facing;
 in vec2 uv;
-out vec2 f_uv;
-out float f_nearness;
-out vec3 f_color, f_to_eye, f_to_light[4], f_normal;
+THROUGH out vec2 f_uv;
+THROUGH out float f_nearness;
+THROUGH out vec3 f_color, f_to_eye, f_to_light[4], f_normal;
 flat out vec3 f_facing;
 flat out float f_number;
+uniform bool perspective;
+uniform float near;
 
 void main() {
     gl_Position = clip;
+#ifdef MULTISAMPLED
+    // each sample has a depth of its own, as the fixed functions compute it
+    gl_Position.z = perspective ? 2.0 * near - clip.w : 2.0 * nearness - 1.0;
+#endif
     gl_ClipDistance[0] = inside;
     f_nearness = nearness;
     f_color = color;
@@ -68,13 +73,12 @@ MOST_TEXELS = 1.0
 
 FRAGMENT_SHADER = (
     f"""
-#version 330
 #define MOST_TEXELS {MOST_TEXELS}
 """
     + """
-in float f_nearness;
-in vec2 f_uv;
-in vec3 f_color, f_to_eye, f_to_light[4], f_normal;
+THROUGH in float f_nearness;
+THROUGH in vec2 f_uv;
+THROUGH in vec3 f_color, f_to_eye, f_to_light[4], f_normal;
 flat in vec3 f_facing;
 flat in float f_number;
 out vec4 result;
@@ -98,7 +102,9 @@ float power(float base, int exponent) {
 }
 
 void main() {
+#ifndef MULTISAMPLED
     gl_FragDepth = perspective ? gl_FragCoord.w * near : f_nearness;
+#endif
     vec3 color = f_color;
     float unsure = 0.0;
     if (textured) {
@@ -130,10 +136,19 @@ void main() {
         }
         color = color * surface + 255.0 * highlight;
     }
-    result = vec4(clamp(color, 0.0, 255.0), 16.0 * (f_number + 1.0) + float(shining) + unsure);
+    float code = 16.0 * (f_number + 1.0) + float(shining) + unsure;
+#ifdef MULTISAMPLED
+    // always 1, though the compiler does not know: it keeps the uniforms
+    code = min(code, 1.0);
+#endif
+    result = vec4(clamp(color, 0.0, 255.0), code);
 }
 """
 )
+
+#: What comes before both shaders. With several samples in a pixel, light is that of the middle of the covered ones.
+ONE_SAMPLE = "#version 330\n#define THROUGH\n"
+MULTISAMPLED = "#version 330\n#define MULTISAMPLED\n#define THROUGH centroid\n"
 
 GL_CLIP_DISTANCE0 = 0x3000
 GL_RENDERBUFFER = 0x8D41
@@ -171,8 +186,8 @@ def context() -> moderngl.Context:
 
 
 @cache
-def _program() -> moderngl.Program:
-    return context().program(VERTEX_SHADER, FRAGMENT_SHADER)
+def _program(head: str) -> moderngl.Program:
+    return context().program(head + VERTEX_SHADER, head + FRAGMENT_SHADER)
 
 
 @cache
@@ -194,9 +209,39 @@ def draw(world: World, threshold: float = 0.0, place: tuple[float, float] = (0.0
     """The picture of a world. threshold: N.L above which a light reaches a surface. place: the column and the row from
     the centre of each pixel at which it is sampled, in pixels.
     """
-    gl, program = context(), _program()
-    program["threshold"] = threshold
     canvas = _canvas(world.width, world.height)
+    _render(world, canvas, _program(ONE_SAMPLE), threshold, place)
+    pixels = _read(canvas)
+    code = pixels[..., 3].astype(np.int64)
+    return Drawing(code // 16 - 1, pixels[..., :3], code % 16, pixels[..., 3] != code)
+
+
+def multisample(world: World, samples: int = 4) -> tuple[Array, Array]:
+    """The picture of a world by OpenGL's own multisampling: (H, W, 3) the sum of the light of its samples, 0..255 each,
+    over their number, and (H, W, 1) the part of them that shows anything.
+    """
+    gl, size = context(), (world.width, world.height)
+    canvas = gl.framebuffer(
+        gl.renderbuffer(size, 4, samples=samples, dtype="f4"), gl.depth_renderbuffer(size, samples=samples)
+    )
+    resolved = gl.framebuffer(gl.renderbuffer(size, 4, dtype="f4"))
+    _render(world, canvas, _program(MULTISAMPLED))
+    gl.copy_framebuffer(resolved, canvas)
+    pixels = _read(resolved)
+    for each in (*canvas.color_attachments, canvas.depth_attachment, canvas, *resolved.color_attachments, resolved):
+        each.release()
+    return pixels[..., :3], pixels[..., 3:]
+
+
+def _render(
+    world: World,
+    canvas: moderngl.Framebuffer,
+    program: moderngl.Program,
+    threshold: float = 0.0,
+    place: tuple[float, float] = (0.0, 0.0),
+) -> None:
+    gl = context()
+    program["threshold"] = threshold
     canvas.use()
     canvas.clear(0.0, 0.0, 0.0, 0.0, depth=0.0)
     gl.enable_only(moderngl.DEPTH_TEST)
@@ -211,11 +256,13 @@ def draw(world: World, threshold: float = 0.0, place: tuple[float, float] = (0.0
         image.release()
         array.release()
         buffer.release()
+
+
+def _read(canvas: moderngl.Framebuffer) -> Array:
+    """(H, W, 4)."""
     values = np.frombuffer(canvas.read(components=4, dtype="f4"), np.float32).astype(np.float64)
     # the first row is the lowest
-    pixels = values.reshape(world.height, world.width, 4)[::-1]
-    code = pixels[..., 3].astype(np.int64)
-    return Drawing(code // 16 - 1, pixels[..., :3], code % 16, pixels[..., 3] != code)
+    return values.reshape(canvas.height, canvas.width, 4)[::-1]
 
 
 def _vertices(world: World, place: tuple[float, float]) -> list[NDArray[np.float32]]:

@@ -1,0 +1,35 @@
+"""No pixel and no gas of tests/golden.json may change unnoticed."""
+
+from __future__ import annotations
+
+import golden
+from pictures import chain
+from shackled.artifacts import artifact
+from shackled.gas import engine_calls
+
+
+def test_pixels_and_gas() -> None:
+    new = golden.take()
+    changed = golden.differences(golden.recorded(), new)
+    title = f"{len(changed)} of {len(new)} scenes differ from tests/golden.json; if this is meant, run `make golden`:"
+    assert not changed, "\n  ".join([title, *changed])
+
+
+def test_every_engine_draws_some_of_them() -> None:
+    engines = [call.engine for scene in golden.scenes().values() for call in engine_calls(scene, chain())]
+    parts = [name for name in artifact("Renderer").parts if name.endswith("Engine")]
+    assert len(parts) == 5
+    assert min(engines.count(name) for name in parts) > 20
+
+
+def test_what_changed_is_told() -> None:
+    old = {"a": ("00", 1000), "b": ("00", 1000), "c": ("00", 1000), "d": ("00", 0), "e": ("OutOfGasError", 0)}
+    new = {"a": ("01", 1000), "b": ("00", 990), "c": ("00", 1000), "e": ("00", 5), "f": ("00", 0)}
+    assert golden.differences(old, new) == [
+        "a: pixels 00 -> 01",
+        "d: is not made any more",
+        "e: pixels OutOfGasError -> 00, gas 0 -> 5 (+5)",
+        "f: is not recorded yet",
+        "b: gas 1,000 -> 990 (-10, -1.00%)",
+    ]
+    assert golden.differences(new, new) == []
