@@ -81,7 +81,7 @@ def mixed(seed: int) -> frozenset[str]:
 
 
 CASES = {kind: frozenset([kind]) for kind in KINDS} | {"all": frozenset(KINDS), "none": frozenset[str]()}
-CASES |= {"-".join(sorted(each)): each for each in map(mixed, range(18))}
+CASES |= {"-".join(sorted(each)): each for each in map(mixed, range(12))}
 
 
 def bipyramid(rng: Rng, corners: int) -> Mesh:
@@ -134,12 +134,10 @@ def scene_of(case: str) -> Scene:
             lights[k] = Light("spot", lights[k].vector, lights[k].color, -lights[k].vector, *((0, 60), (60, 90))[k - 1])
     shadow = int(rng.integers(3)) if "shadow" in kinds else None
     flat = rng.random() < 0.5
-    camera = Camera(
-        (10, 30, 600), (0, 0, 0), (0, 1, 0), "orthographic" if flat else "perspective", 125 if flat else 0.2
-    )
+    projection, half_height, near = ("orthographic", 125, -1000) if flat else ("perspective", 0.2, 1)
     return Scene(
         objects,
-        evolve(camera, near=-1000 if flat else 1),
+        Camera((10, 30, 600), (0, 0, 0), (0, 1, 0), projection, half_height, near),
         [evolve(light, shadow=k == shadow) for k, light in enumerate(lights)],
         Background((20, 40, 90), (200, 160, 90)),
         (200, 210, 255),
@@ -372,7 +370,7 @@ def test_records_belong_to_their_objects(case: str) -> None:
     assert len(np.unique(whole.reshape(-1, 3), axis=0)) > HEIGHT
 
 
-@few_cases
+@pytest.mark.parametrize("case", ["shadow", "ground", "all"])
 def test_numbers_of_two_bytes(case: str) -> None:
     """Objects behind 257 others, which lie outside of the picture."""
     scene = fit(SCENES[case])
@@ -515,7 +513,7 @@ def damaged(seed: int) -> bytes:
     return data[:at] + bytes([int(rng.choice([0, 1, 2, 7, 8, 12, 255, data[at] ^ 1]))]) + data[at + 1 :]
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(30))
 def test_damaged_records(seed: int) -> None:
     """Each reader comes to an end, and says of what it checks where it is wrong."""
     scene, data = fit(SCENES["all"]), damaged(seed)
