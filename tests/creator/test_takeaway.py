@@ -308,33 +308,34 @@ def test_names_of_contracts(stem: str, name: str) -> None:
 
 @needs_compiler
 def test_the_solidity_snippets_make_the_picture(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of a scene that a contract holds, and of one whose meshes are brought by the caller."""
-    pictures = [Picture("icosahedron", "neon"), Picture("first-render")]
+    """Of a scene that a contract holds, and of two of which the caller brings the meshes, or the extensions, too."""
+    pictures = [Picture("icosahedron", "neon"), Picture("first-render"), Picture("icosahedron", "neon")]
     sources = []
-    for picture, most in zip(pictures, (10**9, 0), strict=True):
+    for picture, most in zip(pictures, (10**9, 0, 0), strict=True):
         monkeypatch.setattr("shackled.creator._solidity.MAX_CONSTANT", most)
         sources.append(picture.take("solidity", link="http://127.0.0.1/#1abc").data.decode())
     evm, place = chain(), b"\x7e" * 20
     for picture, (creation, selectors) in zip(pictures, compiled(sources), strict=True):
         ((signature, selector),) = ((key, value) for key, value in selectors.items() if key.startswith("bitmap("))
-        arguments = meshes(picture.scene) if "bytes[]" in signature else b""
+        arguments = parts(picture.scene, signature.partition("(")[2][:-1].split(",")) if "bytes" in signature else b""
         evm._codes[place] = evm.create("Picture", creation + evm.address("Renderer").rjust(32, b"\0"))
         try:
             output = evm._run(place, bytes.fromhex(selector) + arguments, 10**9).output
         finally:
             del evm._codes[place]
         assert returned_bytes(output, 0) == picture.image.bmp
-    assert ["bytes[] calldata" in source for source in sources] == [False, True]
+    assert ["bytes[] calldata" in source for source in sources] == [False, True, True]
+    assert ["bytes calldata" in source for source in sources] == [False, False, True]
 
 
-def meshes(scene: Scene) -> bytes:
-    """The packed meshes as the argument of type bytes[]."""
+def parts(scene: Scene, kinds: list[str]) -> bytes:
+    """The packed meshes as an argument of type bytes[], and the extensions as another of type bytes."""
     from eth_abi.abi import encode
 
-    from shackled.scene import fit, pack
+    from shackled.scene import extensions, fit, pack
 
     packed = [pack(o.mesh, smooth=o.material.shading == "smooth") for o in fit(scene).objects]
-    return encode(["bytes[]"], [packed])
+    return encode(kinds, [packed, extensions(fit(scene))][: len(kinds)])
 
 
 def compiled(contracts: list[str]) -> list[tuple[bytes, dict[str, str]]]:

@@ -12,7 +12,7 @@ import pytest
 from attrs import evolve
 
 import shackled
-from shackled import ChainError, Image, InputError, Nodes, Processes, Scene, load
+from shackled import Camera, ChainError, Ground, Image, InputError, Nodes, Processes, Scene, load
 from shackled.chain import RevmChain, open_chain
 from shackled.parallel import (
     COMPARED_GAS,
@@ -73,6 +73,13 @@ def test_parts_fit_their_gas() -> None:
     assert sum(gas is not None and gas <= limit for gas in fitting) > len(tiles) // 2
     with pytest.raises(ChainError, match=r"even for a tile of .*; raise `gas_limit` or use `max_triangles`$"):
         render_frames([SCENE], Where(gas_limit=500_000))
+
+
+def test_a_ground_covers_pixels() -> None:
+    """It is a part of what is drawn, not of the background: here of the lower half."""
+    camera, ground = Camera((0, 1, 9), (0, 1, 0)), Ground("white", 0, 100)
+    scene = evolve(load("cube"), camera=camera, ground=ground, background="black")
+    assert 1.7 < estimate(scene, open_chain()).density < 2.3  # type: ignore[arg-type]
 
 
 def test_the_cost_is_told_about_right() -> None:

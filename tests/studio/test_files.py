@@ -60,7 +60,11 @@ def test_a_model(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert made.data_uri().startswith("data:model/gltf-binary;base64,Z2xURgIAAA")
     assert run(["export", "icons/lightning", "--size", "16", "-o", str(tmp_path / "b.glb")]) == 0
     assert (tmp_path / "b.glb").read_bytes() == made.content
-    assert f"{made.gas:,}" in capsys.readouterr().out
+    said = capsys.readouterr()
+    assert f"{made.gas:,}" in said.out
+    assert not said.err
+    assert run(["export", "cube", "--shadow", "--ground", "white", "-o", str(tmp_path / "b.glb")]) == 0
+    assert "the model leaves out shadows, the fading of the ground\n" in capsys.readouterr().err
     assert run(["export", "icons/lightning", "-o", str(tmp_path / "b.glb"), "--title", "A"]) == 2
 
 

@@ -127,11 +127,7 @@ library Glb {
 
     function next(uint256 record) private pure returns (uint256) {
         unchecked {
-            uint256 size;
-            assembly ("memory-safe") {
-                size := shr(240, calldataload(add(record, 3)))
-            }
-            return record + RECORD_HEADER + size;
+            return record + RECORD_HEADER + Extensions.sizeOf(record);
         }
     }
 

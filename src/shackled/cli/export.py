@@ -13,6 +13,7 @@ import typer
 from .._load import locate
 from ..datasets import Piece
 from ..errors import InputError
+from ..scene import Scene
 from ..studio import make_glb
 from ..web import check_page
 from ..web import export as write_page
@@ -57,7 +58,8 @@ def export(
         if title is not None:
             raise InputError("--title is for pages: a model has no title")
         with LateBar("writing"):
-            made = make_glb(load_with(input, look))
+            scene = load_with(input, look)
+            made = make_glb(scene)
             made.save(path)
         report = {
             "input": input,
@@ -66,6 +68,8 @@ def export(
             "output": str(path),
             "bytes": len(made.content),
         }
+        if missing := _left_out(scene):
+            print(f"the model leaves out {missing}", file=sys.stderr)
         text = f"model    {path}, {report['bytes']:,} bytes\ngas      {made.gas:,}\ntime     {report['seconds']:.3f} s"
         print(json.dumps(report) if as_json else text)
         return
@@ -94,6 +98,17 @@ def export(
             file=sys.stderr,
         )
     print(json.dumps(report) if as_json else _words(report, path))
+
+
+def _left_out(scene: Scene) -> str:
+    """Return in words what a model does not have of the surfaces of a scene, or nothing."""
+    parts = {
+        "textures": any(each.material.texture is not None for each in scene.objects),
+        "opacities of vertices": any(each.mesh.opacities is not None for each in scene.objects),
+        "shadows": any(each.shadow for each in scene.lights),
+        "the fading of the ground": scene.ground is not None or any(each.fade is not None for each in scene.objects),
+    }
+    return ", ".join(name for name, is_there in parts.items() if is_there)
 
 
 def _words(report: dict[str, Any], path: Path) -> str:

@@ -14,7 +14,8 @@ from ..image import Image
 from ..scene import CULL_BACKFACES, LIGHTS, ONE, PROJECTIONS, SHADINGS, WIREFRAME, Scene, extensions, fit, pack
 from ._programs import Subject
 
-#: Bytes of meshes that fit into a contract (EIP-170 allows 24,576 with its code), and overhead of each object.
+#: Bytes of meshes and extensions that fit into a contract (EIP-170 allows 24,576 with its code), and overhead of each
+#: object.
 MAX_CONSTANT, PER_OBJECT = 18_000, 400
 #: Hexadecimal digits of a string literal on one line.
 DIGITS = 120
@@ -85,11 +86,13 @@ $body
 def solidity_contract(subject: Subject, image: Image) -> str:
     """Return a source that compiles with the contracts of Shackled, imported as the package "shackled-contracts".
 
-    Meshes that do not fit into a contract become parameters, packed as in the calldata. image: the picture.
+    Meshes and extensions that do not fit into a contract become parameters, as in the calldata. image: the picture.
     """
     fitted = fit(subject.scene)
     meshes = [pack(o.mesh, smooth=o.material.shading == "smooth") for o in fitted.objects]
-    inside = sum(map(len, meshes)) + PER_OBJECT * len(meshes) <= MAX_CONSTANT
+    more = extensions(fitted)
+    inside = sum(map(len, [*meshes, more])) + PER_OBJECT * len(meshes) <= MAX_CONSTANT
+    given = {} if inside else {"meshes": "bytes[]"} | ({"extensions": "bytes"} if more else {})
     about = [
         f"@notice {image.width} x {image.height} pixels, {image.triangles:,} triangles, {image.gas or 0:,} gas.",
         f"SHA-256 of the pixels: {hashlib.sha256(image.pixels.tobytes()).hexdigest()}",
@@ -97,17 +100,17 @@ def solidity_contract(subject: Subject, image: Image) -> str:
     ]
     if not inside:
         about.append(
-            f"@dev The meshes have {sum(map(len, meshes)):,} bytes, too many for a contract: the caller passes"
+            f"@dev {' and '.join(given)} have {sum(map(len, [*meshes, more])):,} bytes, too many for a contract: the"
         )
-        about.append("them. The SHA-256 of each:")
-        about += [hashlib.sha256(mesh).hexdigest() for mesh in meshes]
+        about.append("caller passes them. The SHA-256 of each:")
+        about += [hashlib.sha256(each).hexdigest() for each in ([*meshes, more] if more else meshes)]
     return _CONTRACT.substitute(
         licence=spdx(subject.facts.licence) if inside else OWN,
         about="\n".join(f"/// {line}" for line in about),
         name=contract_name(subject.stem),
-        parameters="" if inside else "bytes[] calldata meshes",
-        arguments="" if inside else "meshes",
-        body="\n".join(_indented(_body(fitted, meshes if inside else None, _notices(subject)), 8)),
+        parameters=", ".join(f"{kind} calldata {name}" for name, kind in given.items()),
+        arguments=", ".join(given),
+        body="\n".join(_indented(_body(fitted, meshes if inside else None, more, _notices(subject)), 8)),
     )
 
 
@@ -136,7 +139,8 @@ def contract_name(stem: str) -> str:
     return name if name[:1].isalpha() and name not in (*_IMPORTED, "Vector") else f"Picture{name}"
 
 
-def _body(scene: Scene, meshes: Sequence[bytes] | None, notices: Sequence[str]) -> list[str]:
+def _body(scene: Scene, meshes: Sequence[bytes] | None, more: bytes, notices: Sequence[str]) -> list[str]:
+    """Return the lines that make a scene. meshes: None if they and the extensions, `more`, are parameters."""
     camera = scene.camera
     lines = [
         f"s.canvas = Canvas({scene.width}, {scene.height});",
@@ -183,9 +187,9 @@ def _body(scene: Scene, meshes: Sequence[bytes] | None, notices: Sequence[str]) 
             f"    flags: {CULL_BACKFACES * o.cull + WIREFRAME * o.wireframe}",
             "});",
         ]
-    more = extensions(scene)
     if more:
-        lines += ["", "// what the structs do not hold: see Extensions.sol", f's.extensions = hex"{more.hex()}";']
+        value = "extensions" if meshes is None else f'hex"{more.hex()}"'
+        lines += ["", "// what the structs do not hold: see Extensions.sol", f"s.extensions = {value};"]
     return lines
 
 

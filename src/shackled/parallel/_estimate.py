@@ -62,7 +62,7 @@ def estimate(scene: Scene, chain: ContractChain) -> Estimate:
     gas = [(drawing.gas or 0) - memory_gas(count) for drawing, count in zip(drawings, pixels, strict=True)]
     slope = max(1.0, (gas[1] - gas[0]) / max(1, pixels[1] - pixels[0]))
     corner = chain.draw(large, Rectangle(0, 0, 1, 1))
-    empty = chain.draw(evolve(small, objects=[]))
+    empty = chain.draw(evolve(small, objects=[], ground=None))
     return Estimate(
         area=scene.width * scene.height,
         fixed=max(0.0, gas[0] - slope * pixels[0]),

@@ -238,7 +238,8 @@ def _move_object(o: Object, scene: Scene, factor: float) -> Object:
     positions = o.mesh.positions
     center, step = np.zeros(3), 1.0
     if not is_integral(positions) or o.scale * factor > MAX_SCALE[_bits(positions)]:
-        center, radius = _box(positions)
+        # the radii of a fade are about the object's position, which therefore stays
+        center, radius = _box(positions) if o.fade is None else (center, float(np.abs(positions).max()))
         step = radius / _steps(o, radius, scene, factor)
         grid = np.rint((positions - center) / step) if step else np.zeros_like(positions)
         o = evolve(o, mesh=evolve(o.mesh, positions=grid))

@@ -91,8 +91,8 @@ class Object(Value):
 
     @property
     def is_opaque(self) -> bool:
-        """Whether it hides all that is behind it."""
-        return self.opacity == 1 and self.mesh.opacities is None
+        """Whether it hides all that is behind it: the contracts have opacities in steps of 2^-24."""
+        return round(self.opacity * 2**24) == 2**24 and self.mesh.opacities is None
 
     def world_positions(self) -> Floats:
         """Return the vertices of the mesh in the world, (n, 3)."""

@@ -125,8 +125,11 @@ def quantize(o: Object, bits: int) -> Object:
         raise InputError(f"a grid has 4 to 16 bits a side, not {bits}")
     positions = o.mesh.positions
     low, high = positions.min(axis=0), positions.max(axis=0)
-    center = (low + high) / 2
-    step = float((high - low).max()) / ((1 << bits) - 2) or 1.0
+    center, span = (low + high) / 2, float((high - low).max())
+    if o.fade is not None:
+        # its radii are about the object's position, which therefore stays
+        center, span = np.zeros(3), 2 * float(np.abs(positions).max())
+    step = span / ((1 << bits) - 2) or 1.0
     mesh = evolve(o.mesh, positions=np.rint((positions - center) / step))
     place = o.position + rotate(o.rotation, center * o.scale)
     return evolve(o, mesh=mesh, position=place, scale=o.scale * step)

@@ -8,7 +8,7 @@ import { checkedScene, type Light, type Scene as CheckedScene, type SceneObject 
 import * as check from "./checks.js";
 import type { Rgb } from "./checks.js";
 import { fit, type FittedScene } from "./fit.js";
-import { shadowRule } from "./ground.js";
+import { OPAQUE, isOpaque, shadowRule } from "./ground.js";
 import { pack } from "./mesh.js";
 import { packTexture } from "./texture.js";
 import type { Rectangle, Scene } from "./types.js";
@@ -42,8 +42,6 @@ export const FIRST_IN_WORDS = 8;
 /** The largest outer and inner radius of a ground, Q32; both are numbers without loss. */
 const MAX_FADE = 2n ** 58n;
 const MAX_INNER_FADE = MAX_FADE - 64n;
-/** One, in opacities. */
-const OPAQUE = 2 ** 24;
 /** One, in exposures. */
 const EXPOSURE = 2 ** 16;
 
@@ -122,10 +120,9 @@ function extensions(scene: CheckedScene): Uint8Array {
         records.push(record(SPOT, index, content));
     });
     scene.objects.forEach((object, index) => {
-        const opacity = rint(object.opacity * OPAQUE);
-        if (opacity >= OPAQUE) return;
+        if (isOpaque(object)) return;
         const content = new DataView(new ArrayBuffer(4));
-        content.setUint32(0, opacity);
+        content.setUint32(0, rint(object.opacity * OPAQUE));
         records.push(record(OPACITY, index, content));
     });
     if (scene.antialias) records.push(record(ANTIALIAS, 0, new DataView(new ArrayBuffer(0))));

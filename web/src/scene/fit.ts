@@ -236,7 +236,9 @@ function moveObject(object: SceneObject, scene: Scene, factor: number): SceneObj
     let center: Vector = [0, 0, 0];
     let step = 1;
     if (!isIntegral(mesh.positions) || object.scale * factor > maxScale(mesh.positions)) {
-        const box = boxOf(mesh.positions);
+        // the radii of a fade are about the object's position, which therefore stays
+        const radius = mesh.positions.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+        const box = object.fade ? { center, radius } : boxOf(mesh.positions);
         center = box.center;
         step = box.radius / stepsOf(object, box.radius, scene, factor);
         const grid = mesh.positions.map((x, index) => (step ? rint((x - (center[index % 3] as number)) / step) : 0));

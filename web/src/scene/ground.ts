@@ -10,6 +10,8 @@ import { worldPositions, type Ground, type Scene, type SceneObject } from "./che
 const [REACH, INNER, GAP] = [2.25, 0.4, 2 ** -10];
 /** Its coordinates are multiples of the half diagonal, rounded up to a power of two, times 2^-20. */
 const STEP_BITS = 20;
+/** One, in opacities. */
+export const OPAQUE = 2 ** 24;
 const CORNERS = [-1, 0, -1, -1, 0, 1, 1, 0, 1, 1, 0, -1];
 
 /** Return the objects of a scene, with its ground as the last. */
@@ -56,9 +58,14 @@ function groundUnder({ color, height, radius }: Ground, points: Vector[]): Scene
  */
 export function shadowRule({ objects }: Scene): number {
     const casters = objects.filter(
-        (each) => each.cull && !each.wireframe && each.opacity === 1 && !each.mesh.opacities && !each.fade,
+        (each) => each.cull && !each.wireframe && isOpaque(each) && !each.mesh.opacities && !each.fade,
     );
     return areClosed(casters) ? 2 : 1;
+}
+
+/** Return whether the opacity of an object is 1 for the contracts, which have it in steps of 2^-24. */
+export function isOpaque({ opacity }: SceneObject): boolean {
+    return rint(opacity * OPAQUE) === OPAQUE;
 }
 
 /** Return whether each edge has as many faces on one side as on the other, and they bound a volume from outside. */
