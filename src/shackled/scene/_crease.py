@@ -119,12 +119,23 @@ def _without_dead_ends(hard: Flags, weak: Flags, corners: Ints, proper: Ints, li
     inner = np.bincount(ends.ravel(), minlength=count)
     around = np.bincount(corners[proper].ravel(), minlength=count)
     degree = np.bincount(ends[hard].ravel(), minlength=count) + 2 * (inner != around)
-    while True:
-        dead = hard & weak & (degree[ends] == 1).any(axis=1)
-        if not dead.any():
-            return hard
-        hard = hard & ~dead
-        degree -= np.bincount(ends[dead].ravel(), minlength=count)
+    # the sum of the creases at each vertex: where one is left, that one
+    sums = np.zeros(count, np.int64)
+    np.add.at(sums, ends[hard], np.flatnonzero(hard)[:, None])
+    left, degrees, only, pairs, is_weak = hard.copy(), degree.tolist(), sums.tolist(), ends.tolist(), weak.tolist()
+    waiting = np.flatnonzero(degree == 1).tolist()
+    while waiting:
+        vertex = waiting.pop()
+        edge = only[vertex]
+        if degrees[vertex] != 1 or not is_weak[edge]:
+            continue
+        left[edge] = False
+        for end in pairs[edge]:
+            degrees[end] -= 1
+            only[end] -= edge
+            if degrees[end] == 1:
+                waiting.append(end)
+    return left
 
 
 @np.errstate(over="ignore", invalid="ignore")

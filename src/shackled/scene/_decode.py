@@ -254,7 +254,7 @@ def _records(data: bytes, counts: Mapping[int, int]) -> Records:
         header = data[place : place + RECORD_HEADER]
         size = int.from_bytes(header[3:], "big")
         size *= WORD if header[0] >= FIRST_IN_WORDS else 1
-        content = data[place + RECORD_HEADER :][:size]
+        content = data[place + RECORD_HEADER : place + RECORD_HEADER + size]
         if len(header) < RECORD_HEADER or len(content) < size:
             raise InputError(f"the extensions are cut off at byte {place}")
         key = int.from_bytes(header[:3], "big")
