@@ -52,7 +52,7 @@ _BACKGROUND = ("top", "bottom")
 _HEMISPHERE = ("sky", "ground")
 _RIM = ("color", "power")
 _FOG = ("color", "near", "far")
-_GROUND = ("color", "height", "radius")
+_GROUND = ("color", "height", "radius", "center", "inner")
 _LIGHT = ("kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow")
 _MESH = ("positions", "faces", "colors", "normals", "uvs", "opacities")
 _TEXTURE = ("image", "width", "height", "pixels", "filter", "wrap")
@@ -214,7 +214,9 @@ def _fog(keys: Table, setting: Setting) -> Fog:
 
 def _ground(keys: Table, setting: Setting) -> Ground:
     inside = keys.table(setting.name, _GROUND)
-    given = {name: inside.number(name) for name in ("height", "radius") if name in inside}
+    given: dict[str, Any] = {name: inside.number(name) for name in ("height", "radius", "inner") if name in inside}
+    if "center" in inside:
+        given["center"] = inside.numbers("center", (0, 0))
     with about(inside.where):
         return Ground(inside.color("color"), **given)
 
