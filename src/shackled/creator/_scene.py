@@ -15,6 +15,8 @@ from numpy.typing import ArrayLike
 
 from ..checks import Color, Floats
 from ..scene import (
+    CREASE,
+    SIMPLIFIED_CREASE,
     Background,
     Camera,
     Fog,
@@ -30,6 +32,7 @@ from ..scene import (
     multiply,
     painted_object,
     rotate,
+    shaded,
     simplify_scene,
 )
 from ._controls import tidy, within
@@ -217,11 +220,13 @@ def _lights(lamps: Sequence[Lamp] | None, scene: Scene, bounds: Bounds) -> Seque
 
 
 def _object(o: Object, state: State, bounds: Bounds, number: int) -> Object:
+    crease = CREASE if state.max_triangles is None else SIMPLIFIED_CREASE
     surface = state.surface
     given = {name: value for name in MATERIAL if (value := getattr(surface, name)) is not None}
     changes: dict[str, Any] = {name: value for name in OBJECT if (value := getattr(state, name)) is not None}
     if surface.color is not None:
         o = painted_object(o, surface.color)
+    shading = given.pop("shading", o.material.shading)
     if given:
         changes["material"] = evolve(o.material, **given)
     opacity = state.opacities[number] if number < len(state.opacities) else None
@@ -230,7 +235,8 @@ def _object(o: Object, state: State, bounds: Bounds, number: int) -> Object:
         changes["opacity"] = opacity
     if state.pose != Pose():
         changes |= _posed(o, state.pose, bounds)
-    return evolve(o, **changes) if changes else o
+    o = evolve(o, **changes) if changes else o
+    return o if shading == o.material.shading else shaded(o, shading, crease)
 
 
 def _posed(o: Object, pose: Pose, bounds: Bounds) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ._arithmetic import cosine, dot, length
 from ._files.weld import weld
+from ._material import Shading
 from ._mesh import MAX_FACES, MAX_VERTICES, Mesh, components
 from ._object import Object
 
@@ -41,6 +42,17 @@ def creased(mesh: Mesh, degrees: float = CREASE) -> Mesh:
     split = weld(mesh.positions, mesh.faces, mesh.rgba[mesh.faces], normals, corner_uvs(mesh))
     too_many = len(split.positions) > MAX_VERTICES and mesh.triangles <= MAX_FACES
     return without_normals(mesh) if too_many or is_flat(mesh.positions, mesh.faces, normals) else split
+
+
+def shaded(o: Object, shading: Shading, degrees: float = CREASE, anew: bool = False) -> Object:
+    """Return the object in another shading. One that becomes smooth, and has no normals, gets those of `smoothed`.
+
+    anew: whether smooth shading replaces normals, too.
+    """
+    is_given = o.mesh.normals is not None or o.material.shading == "smooth"
+    if shading == "smooth" and (anew or not is_given):
+        return smoothed(o, degrees)
+    return evolve(o, material=evolve(o.material, shading=shading))
 
 
 def smoothed(o: Object, degrees: float) -> Object:
