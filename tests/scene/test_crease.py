@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -183,10 +182,10 @@ WAYS: dict[str, Callable[[Mesh, Path], Object]] = {
 }
 
 
-def in_the_creator(mesh: Mesh, **changes: Any) -> Object:
+def in_the_creator(mesh: Mesh) -> Object:
     scene = Scene([Object(mesh)])
     facts = describe(Source("piece", "x"), scene, "")
-    return to_scene(State(facts.source, surface=Surface("smooth"), **changes), scene).objects[0]
+    return to_scene(State(facts.source, surface=Surface("smooth")), scene).objects[0]
 
 
 @pytest.mark.parametrize("way", WAYS.values(), ids=WAYS)
@@ -212,9 +211,3 @@ def test_all_of_a_mesh_is_smooth_if_asked_for() -> None:
     # and if an object says so by itself
     smooth = Object(CUBE, material=Material("smooth"))
     assert load(Scene([smooth]), smooth=True, size=9).objects == (smooth,)
-
-
-def test_simplified_meshes_are_smooth_up_to_a_larger_angle() -> None:
-    prism = made(trimesh.creation.cylinder(1, 2, sections=8))
-    assert in_the_creator(prism).mesh.normals is None
-    assert in_the_creator(prism, max_triangles=1000).mesh.normals is not None

@@ -15,8 +15,6 @@ from numpy.typing import ArrayLike
 
 from ..checks import Color, Floats
 from ..scene import (
-    CREASE,
-    SIMPLIFIED_CREASE,
     Background,
     Camera,
     Fog,
@@ -220,7 +218,6 @@ def _lights(lamps: Sequence[Lamp] | None, scene: Scene, bounds: Bounds) -> Seque
 
 
 def _object(o: Object, state: State, bounds: Bounds, number: int) -> Object:
-    crease = CREASE if state.max_triangles is None else SIMPLIFIED_CREASE
     surface = state.surface
     given = {name: value for name in MATERIAL if (value := getattr(surface, name)) is not None}
     changes: dict[str, Any] = {name: value for name in OBJECT if (value := getattr(state, name)) is not None}
@@ -236,7 +233,7 @@ def _object(o: Object, state: State, bounds: Bounds, number: int) -> Object:
     if state.pose != Pose():
         changes |= _posed(o, state.pose, bounds)
     o = evolve(o, **changes) if changes else o
-    return o if shading == o.material.shading else shaded(o, shading, crease)
+    return o if shading == o.material.shading else shaded(o, shading)
 
 
 def _posed(o: Object, pose: Pose, bounds: Bounds) -> dict[str, Any]:
