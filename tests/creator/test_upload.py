@@ -141,7 +141,6 @@ def test_the_ground_of_a_picture_is_no_object(visitor: Visitor) -> None:
     assert (facts.objects, facts.triangles, facts.closed) == (1, 12, True)
 
 
-
 @pytest.mark.parametrize("name", ["a.gltf", "a.glb"])
 def test_gltf(visitor: Visitor, name: str) -> None:
     document = gltf()
