@@ -189,6 +189,9 @@ def test_each_setting_changes_the_scene(name: str, kind: str) -> None:
     # meshes are antialiased by default, scenes are not
     value: Any = not plain.antialias if name == "antialias" else VALUES[name]
     other = load(thing, **{name: value})
+    if (name, kind) == ("smooth", "mesh"):
+        assert plain == other  # it is smooth by itself
+        return
     assert plain != other
     assert load(thing, **{name: None}) == plain
     # a ball alone has nothing to cast its shadow on

@@ -137,7 +137,8 @@ def test_scenes_are_decoded() -> None:
     decoded = decode(data)
     assert render_call(decoded) == data
     assert [light.shadow for light in decoded.lights] == [True, False]
-    assert decoded.objects[-1].fade is not None
+    assert len(decoded.objects) == len(scene.objects)
+    assert decoded.ground is not None
 
 
 def test_scene_files(tmp_path: Path) -> None:

@@ -73,7 +73,7 @@ def test_limits_of_the_search_and_no_stages(capsys: pytest.CaptureFixture[str]) 
 
 def test_the_look_changes_the_gas(capsys: pytest.CaptureFixture[str]) -> None:
     plain = report(capsys, "--no-stages")["gas"]
-    for options in (["--smooth"], ["--unlit"], ["--wireframe"], ["--no-cull"], ["--rotate", "40,0,0"]):
+    for options in (["--crease", "180"], ["--unlit"], ["--wireframe"], ["--no-cull"], ["--rotate", "40,0,0"]):
         assert report(capsys, "--no-stages", *options)["gas"] != plain
 
 

@@ -100,7 +100,7 @@ def test_every_chain_makes_the_same_picture(capsys: pytest.CaptureFixture[str]) 
         ["--color", "#336699"],
         ["--background", "#ffffff"],
         ["--background", "#ff0000,#0000ff"],
-        ["--shading", "smooth"],
+        ["--shading", "smooth", "--crease", "180"],
         ["--unlit"],
         ["--wireframe"],
         ["--opacity", "0.5"],

@@ -6,6 +6,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from attrs import evolve
 
 from shackled import load, render
 from shackled.creator import (
@@ -75,3 +76,18 @@ def test_a_look_is_lit_alike_from_every_side() -> None:
             state = set_value(state, facts, f"camera.target.{axis}", 0)
         pictures.append(render(to_scene(apply_look(look, state, facts), ball)).pixels.astype(int))
     assert np.abs(pictures[0] - pictures[1]).mean() < 12
+
+
+@pytest.mark.parametrize("name", [look.name for look in PRESETS if look.surface.shading == "smooth"])
+def test_a_look_keeps_the_edges_of_a_cube(name: str) -> None:
+    """Faces that are flat cost less than a cube whose edges are melted."""
+    look = preset(name)
+    assert look is not None
+    cube = load("cube", 48)
+    facts = describe(Source("piece", "cube"), cube, "")
+    scene = to_scene(apply_look(look, State(facts.source), facts), cube, facts.bounds)
+    (thing,) = scene.objects
+    assert thing.material.shading == "flat"
+    melted = evolve(scene, objects=[evolve(thing, material=evolve(thing.material, shading="smooth"))])
+    gas, more = (render(each).gas or 0 for each in (scene, melted))
+    assert 0 < gas < 0.6 * more

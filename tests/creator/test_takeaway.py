@@ -103,7 +103,13 @@ def dressed(state: State, facts: Facts, look: str) -> State:
     return state
 
 
-PICTURES = [("tetrahedron", ""), ("icons/coin", "neon"), ("genesis/7", "xray"), ("cornell-box", "blueprint")]
+PICTURES = [
+    ("tetrahedron", ""),
+    ("icons/crystals", "clay"),
+    ("icons/coin", "neon"),
+    ("genesis/7", "xray"),
+    ("cornell-box", "blueprint"),
+]
 
 
 @pytest.mark.parametrize("name", ["teapot", "icons/coin", "genesis/3"])

@@ -135,6 +135,12 @@ def test_a_picture_brings_its_scene(visitor: Visitor) -> None:
     assert visitor.upload(None, beside).facts.triangles == 1
 
 
+def test_the_ground_of_a_picture_is_no_object(visitor: Visitor) -> None:
+    drawn = render(load("cube", 16, ground="tan", shadow=True))
+    facts = visitor.upload("cube.png", drawn.encode(".png")).facts
+    assert (facts.objects, facts.triangles, facts.closed) == (1, 12, True)
+
+
 @pytest.mark.parametrize("name", ["a.gltf", "a.glb"])
 def test_gltf(visitor: Visitor, name: str) -> None:
     document = gltf()

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
+
 import numpy as np
 import pytest
 import trimesh
 from numpy.typing import NDArray
 
-from shackled import Material, Mesh, Object, Scene, load
+from shackled import Material, Mesh, Object, Scene, load, render
+from shackled.creator import Source, State, Surface, describe, to_scene
 from shackled.datasets.common import shapes
-from shackled.scene import MAX_VERTICES, creased, simplify_scene
+from shackled.scene import MAX_VERTICES, creased, simplify_scene, stage
 
 
 def made(mesh: trimesh.Trimesh) -> Mesh:
@@ -140,7 +144,70 @@ def test_the_look_of_a_mesh() -> None:
     assert load(ball).objects[0].mesh is ball
     assert load(ball, crease=30).objects[0].mesh == creased(ball, 30)
     assert load(CYLINDER, shading="flat").objects[0].mesh is CYLINDER
-    assert load(CYLINDER, smooth=True).objects[0].mesh is CYLINDER
     assert load(Scene([Object(CYLINDER)]), crease=40).objects[0] == Object(
         creased(CYLINDER), material=Material("smooth")
     )
+
+
+def written(mesh: Mesh, folder: Path) -> Path:
+    """A file without normals."""
+    path = folder / "mesh.obj"
+    path.write_text(
+        "".join(f"v {x} {y} {z}\n" for x, y, z in mesh.positions.tolist())
+        + "".join(f"f {a} {b} {c}\n" for a, b, c in (mesh.faces + 1).tolist())
+    )
+    return path
+
+
+def in_a_scene_file(mesh: Mesh, folder: Path) -> Object:
+    path = folder / "scene.toml"
+    path.write_text(f'[[objects]]\nmesh = "{written(mesh, folder).name}"\nmaterial = {{ shading = "smooth" }}\n')
+    return load(path).objects[0]
+
+
+def from_a_picture(mesh: Mesh, folder: Path) -> Object:
+    render(Scene([Object(mesh)]), 8).save(folder / "scene.png")
+    return load(folder / "scene.png", smooth=True).objects[0]
+
+
+WAYS: dict[str, Callable[[Mesh, Path], Object]] = {
+    "mesh": lambda mesh, folder: load(mesh, shading="smooth").objects[0],
+    "plain mesh": lambda mesh, folder: stage(mesh, shading="smooth").objects[0],
+    "file": lambda mesh, folder: load(written(mesh, folder), smooth=True).objects[0],
+    "scene": lambda mesh, folder: load(Scene([Object(mesh)]), shading="smooth").objects[0],
+    "unlit": lambda mesh, folder: load(Object(mesh, material=Material("unlit")), smooth=True).objects[0],
+    "scene file": in_a_scene_file,
+    "picture": from_a_picture,
+    "creator": lambda mesh, folder: in_the_creator(mesh),
+}
+
+
+def in_the_creator(mesh: Mesh) -> Object:
+    scene = Scene([Object(mesh)])
+    facts = describe(Source("piece", "x"), scene, "")
+    return to_scene(State(facts.source, surface=Surface("smooth")), scene).objects[0]
+
+
+@pytest.mark.parametrize("way", WAYS.values(), ids=WAYS)
+def test_a_flat_mesh_that_becomes_smooth_keeps_its_creases(way: Callable[[Mesh, Path], Object], tmp_path: Path) -> None:
+    """By whatever asks for it."""
+    cube = way(CUBE, tmp_path)
+    assert (cube.material.shading, cube.mesh.normals) == ("flat", None)
+    assert cube.mesh.triangles == 12
+    round_one = way(CYLINDER, tmp_path)
+    assert round_one.material.shading == "smooth"
+    assert len(round_one.mesh.positions) == len(creased(CYLINDER).positions)
+    # normals that are given stay
+    if way not in (WAYS["picture"], WAYS["scene file"], WAYS["file"]):
+        given = Mesh(CUBE.positions, CUBE.faces, normals=CUBE.positions)
+        assert np.array_equal(way(given, tmp_path).mesh.normals, CUBE.positions)  # type: ignore[arg-type]
+        assert way(given, tmp_path).material.shading == "smooth"
+
+
+def test_all_of_a_mesh_is_smooth_if_asked_for() -> None:
+    for cube in (load(CUBE, crease=180), load(Scene([Object(CUBE)]), smooth=True, crease=180)):
+        assert cube.objects[0].material.shading == "smooth"
+        assert len(cube.objects[0].mesh.positions) == 8
+    # and if an object says so by itself
+    smooth = Object(CUBE, material=Material("smooth"))
+    assert load(Scene([smooth]), smooth=True, size=9).objects == (smooth,)

@@ -255,6 +255,7 @@ WRONG: tuple[dict[str, Any], ...] = (
     {"rim": {"zzz": 1}},
     {"fog": {"zzz": 1}},
     {"tone": {"zzz": 1}},
+    {"ground": {"zzz": 1}},
     {"objects": [{"zzz": 1}]},
     {"objects": [{"mesh": {"zzz": 1}}]},
     {"objects": [{"mesh": {"positions": [[0, 0, 0]], "faces": [[0, 0, 0]]}, "material": {"zzz": 1}}]},
@@ -389,7 +390,11 @@ def test_shadows_and_grounds(tmp_path: Path) -> None:
         scene = conformance_shadows.random_scene(seed, 32)
         calls.add(f"shadows {seed}", encode_scene_file(scene).decode(), scene)
         color = tuple(np.random.default_rng(seed).integers(0, 256, 3).tolist())
-        ground = Ground(color) if seed % 2 else Ground(color, height=-1.5, radius=7)
+        kinds: list[dict[str, Any]] = [{}, {"height": -1.5, "radius": 7}, {"center": (1 / 3, -2), "inner": 0.01}]
+        ground = Ground(color, **kinds[seed % 3])
         scene = evolve(scene, objects=[each for each in scene.objects if each.fade is None], ground=ground)
         calls.add(f"ground {seed}", encode_scene_file(scene).decode(), scene)
+        scene = decode(render_call(scene))
+        assert scene.ground is not None
+        calls.add(f"decoded ground {seed}", encode_scene_file(scene).decode(), scene)
     assert calls.differences(tmp_path) == []

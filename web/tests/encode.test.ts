@@ -141,3 +141,28 @@ test("wrong scene files are refused, with the place", () => {
     ];
     for (const [text, message] of cases) assert.throws(() => parseScene(text), { name: "InputError", message });
 });
+
+test("the time of an encoding is in proportion to the number of objects", () => {
+    const of = (count: number): Scene => ({
+        objects: Array.from({ length: count }, (_, index) => ({
+            mesh: { positions: MESH.positions.map((row) => row.map((x) => x * (1 + index / 7))), faces: MESH.faces },
+            position: [Math.sin(index), Math.cos(index), index % 7],
+            opacity: index % 2 ? 1 : 0.5,
+        })),
+        ground: { color: "tomato" },
+        lights: [{ kind: "point", position: [9, 9, 9], shadow: true }],
+    });
+    const seconds = (scene: Scene): number => {
+        const times = Array.from({ length: 5 }, () => {
+            // of the processor, however busy the machine is
+            const start = process.cpuUsage();
+            encode(scene);
+            return process.cpuUsage(start).user;
+        });
+        return Math.min(...times);
+    };
+    const [few, many] = [of(200), of(1600)];
+    seconds(few);
+    // 64 times as long where each object looks at all others
+    assert.ok(seconds(many) < 24 * seconds(few));
+});

@@ -16,7 +16,7 @@ from ..chain import CallResult, EmbeddedChain
 from ..errors import InputError
 from ..gas import KEPT, floor_gas, render_call
 from ..image import Image
-from ..scene import Fog, Hemisphere, Light, Rim, Scene, Tone
+from ..scene import Fog, Hemisphere, Light, Rim, Scene, Tone, look_at
 from ._link import LOCAL, is_local
 from ._scene import EFFECTS, FLAGS, MATERIAL, Facts
 from ._state import State
@@ -58,9 +58,13 @@ class Subject:
 
 def python_program(subject: Subject, image: Image) -> str:
     """Return a program that renders the picture from its source, saves it, and fails if it is not this image."""
-    loaded = _loaded(subject)
+    loaded, source = _loaded(subject), subject.source
+    if subject.state.surface.shading == "smooth" and not _is_packed(subject):
+        source = look_at(source, {"shading": "smooth"})
+        if source != subject.source:
+            loaded.append('scene = shackled.load(scene, shading="smooth")')
     with_size = subject.stored is not None  # its canvas may have been reduced
-    changes = [] if _is_packed(subject) else _changes(subject.source, subject.scene, with_size)
+    changes = [] if _is_packed(subject) else _changes(source, subject.scene, with_size)
     if changes:
         loaded.append(f"scene = shackled.replace(\n    scene,\n{''.join(changes)})")
     sha256 = hashlib.sha256(image.pixels.tobytes()).hexdigest()

@@ -30,6 +30,7 @@ from ..scene import (
     multiply,
     painted_object,
     rotate,
+    shaded,
     simplify_scene,
 )
 from ._controls import tidy, within
@@ -222,6 +223,7 @@ def _object(o: Object, state: State, bounds: Bounds, number: int) -> Object:
     changes: dict[str, Any] = {name: value for name in OBJECT if (value := getattr(state, name)) is not None}
     if surface.color is not None:
         o = painted_object(o, surface.color)
+    shading = given.pop("shading", o.material.shading)
     if given:
         changes["material"] = evolve(o.material, **given)
     opacity = state.opacities[number] if number < len(state.opacities) else None
@@ -230,7 +232,8 @@ def _object(o: Object, state: State, bounds: Bounds, number: int) -> Object:
         changes["opacity"] = opacity
     if state.pose != Pose():
         changes |= _posed(o, state.pose, bounds)
-    return evolve(o, **changes) if changes else o
+    o = evolve(o, **changes) if changes else o
+    return o if shading == o.material.shading else shaded(o, shading)
 
 
 def _posed(o: Object, pose: Pose, bounds: Bounds) -> dict[str, Any]:

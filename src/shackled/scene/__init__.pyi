@@ -22,7 +22,7 @@ from ._codec import (
     extensions,
     render_call,
 )
-from ._crease import CREASE, SIMPLIFIED_CREASE, creased
+from ._crease import CREASE, SIMPLIFIED_CREASE, creased, shaded
 from ._decode import decode
 from ._effects import EXPOSURES, POWERS, Fog, Hemisphere, Rim, Tone
 from ._files.colors import sample
@@ -177,6 +177,7 @@ __all__ = [
     "rotate",
     "sample",
     "scene_chunk",
+    "shaded",
     "signed_volume",
     "simplify",
     "simplify_scene",

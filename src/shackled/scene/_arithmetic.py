@@ -25,6 +25,12 @@ def dot(a: Array, b: Array) -> Array:
     return np.asarray(total)
 
 
+def cross(a: Array, b: Array) -> Array:
+    """Return the vector products of vectors, (3,) or (n, 3); for few of them faster than `np.cross`, which is equal."""
+    (ax, ay, az), (bx, by, bz) = a.T, b.T
+    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=-1)
+
+
 def length(v: Array) -> Array:
     """Return the length along the last axis; infinite where a square is beyond what a float holds."""
     return np.asarray(np.sqrt(dot(v, v)))

@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+from attrs import evolve
 from numpy.typing import ArrayLike
 
 from ..artifacts import artifact
@@ -110,7 +111,7 @@ def encode_scene(scene: Scene) -> bytes:
         ]
     )
     lights = _words([len(scene.lights)]) + b"".join(map(_light, scene.lights))
-    objects = _array_of_dynamic([_object(o) for o in scene.objects])
+    objects = _array_of_dynamic([encode_object(o) for o in scene.objects])
     more = extensions(scene)
     first = len(head) + 3 * 32
     offsets = [first, first + len(lights), first + len(lights) + len(objects)]
@@ -167,8 +168,14 @@ def shadow_rule(scene: Scene) -> int:
     """Return which faces of culled objects cast shadows: all, or those turned away from the light, if all of them
     together are closed.
     """
-    casters = [o for o in scene.objects if o.cull and not o.wireframe and o.is_opaque and o.fade is None]
+    casters = [_as_sent(o) for o in scene.objects if o.cull and not o.wireframe and o.is_opaque and o.fade is None]
     return TURNED_AWAY if are_closed(casters) else ALL_FACES
+
+
+def _as_sent(o: Object) -> Object:
+    """Return the object with the place that its Q32 numbers give it, where a decoded one is."""
+    position, rotation, scale = (np.rint(np.multiply(each, ONE)) / ONE for each in (o.position, o.rotation, o.scale))
+    return evolve(o, position=position, rotation=rotation, scale=scale)
 
 
 def _record(kind: int, index: int, content: bytes) -> bytes:
@@ -185,7 +192,8 @@ def _light(light: Light) -> bytes:
     return _words([LIGHTS[light.kind], *_q32(light.vector), _rgb(light.color)])
 
 
-def _object(o: Object) -> bytes:
+def encode_object(o: Object) -> bytes:
+    """Return the struct Object of an object from `fit`."""
     material = o.material
     fields = [
         *_q32(o.position),

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ._arithmetic import cosine, dot, length
 from ._files.weld import weld
+from ._material import Shading
 from ._mesh import MAX_FACES, MAX_VERTICES, Mesh, components
 from ._object import Object
 
@@ -41,6 +42,17 @@ def creased(mesh: Mesh, degrees: float = CREASE) -> Mesh:
     split = weld(mesh.positions, mesh.faces, mesh.rgba[mesh.faces], normals, corner_uvs(mesh))
     too_many = len(split.positions) > MAX_VERTICES and mesh.triangles <= MAX_FACES
     return without_normals(mesh) if too_many or is_flat(mesh.positions, mesh.faces, normals) else split
+
+
+def shaded(o: Object, shading: Shading, degrees: float = CREASE, anew: bool = False) -> Object:
+    """Return the object in another shading. One that becomes smooth, and has no normals, gets those of `smoothed`.
+
+    anew: whether smooth shading replaces normals, too.
+    """
+    is_given = o.mesh.normals is not None or o.material.shading == "smooth"
+    if shading == "smooth" and (anew or not is_given):
+        return smoothed(o, degrees)
+    return evolve(o, material=evolve(o.material, shading=shading))
 
 
 def smoothed(o: Object, degrees: float) -> Object:
@@ -119,12 +131,23 @@ def _without_dead_ends(hard: Flags, weak: Flags, corners: Ints, proper: Ints, li
     inner = np.bincount(ends.ravel(), minlength=count)
     around = np.bincount(corners[proper].ravel(), minlength=count)
     degree = np.bincount(ends[hard].ravel(), minlength=count) + 2 * (inner != around)
-    while True:
-        dead = hard & weak & (degree[ends] == 1).any(axis=1)
-        if not dead.any():
-            return hard
-        hard = hard & ~dead
-        degree -= np.bincount(ends[dead].ravel(), minlength=count)
+    # the sum of the creases at each vertex: where one is left, that one
+    sums = np.zeros(count, np.int64)
+    np.add.at(sums, ends[hard], np.flatnonzero(hard)[:, None])
+    left, degrees, only, pairs, is_weak = hard.copy(), degree.tolist(), sums.tolist(), ends.tolist(), weak.tolist()
+    waiting = np.flatnonzero(degree == 1).tolist()
+    while waiting:
+        vertex = waiting.pop()
+        edge = only[vertex]
+        if degrees[vertex] != 1 or not is_weak[edge]:
+            continue
+        left[edge] = False
+        for end in pairs[edge]:
+            degrees[end] -= 1
+            only[end] -= edge
+            if degrees[end] == 1:
+                waiting.append(end)
+    return left
 
 
 @np.errstate(over="ignore", invalid="ignore")

@@ -37,11 +37,14 @@ from ._codec import (
     TONE,
     WIREFRAME,
     WORD,
+    encode_object,
+    extensions,
     shadow_rule,
 )
 from ._effects import EXPOSURES, Fog, Hemisphere, Rim, Tone
 from ._files.table import about
 from ._fit import MAX_COORDINATE, MAX_SCALE
+from ._ground import Ground
 from ._light import Light
 from ._material import COEFFICIENTS, EXPONENTS, Material
 from ._mesh import Mesh
@@ -108,8 +111,9 @@ def decode(data: bytes) -> Scene:
     if words.place != len(words.data):
         raise InputError(f"{len(words.data) - words.place:,} bytes follow the scene; none must")
     lights = [evolve(each, shadow=(SHADOW, index) in records) for index, each in enumerate(lights)]
+    objects, ground = _without_ground([_with_records(each, records, index) for index, each in enumerate(objects)])
     scene = Scene(
-        [_with_records(each, records, index) for index, each in enumerate(objects)],
+        objects,
         camera,
         [_with_spot(each, records.get((SPOT, index)), f"lights[{index}]") for index, each in enumerate(lights)],
         background,
@@ -119,6 +123,7 @@ def decode(data: bytes) -> Scene:
         height,
         (ANTIALIAS, 0) in records,
         **_effects(records),
+        ground=ground,
     )
     for (kind, _), content in records.items():
         if kind == SHADOW and int.from_bytes(content, "big") != shadow_rule(scene):
@@ -302,6 +307,23 @@ def _with_records(thing: Object, records: Records, index: int) -> Object:
         radii = [int.from_bytes(record[at : at + 8], "big") for at in (0, 8)]
         thing = evolve(thing, fade=[_number(each, "a radius of a ground", 0, MAX_COORDINATE) for each in radii])
     return thing
+
+
+def _without_ground(objects: list[Object]) -> tuple[list[Object], Ground | None]:
+    """Return the objects without the last one, and the ground that it is; all of them, if it is none."""
+    if not objects or (fade := objects[-1].fade) is None:
+        return objects, None
+    *others, last = objects
+    (x, height, z), (inner, radius), color = last.position, fade, last.mesh.colors[0]
+    for given in (None, inner):
+        ground = Ground(color, height, radius, (x, z), given)
+        if _bytes_of(ground.under(np.zeros((0, 3)))) == _bytes_of(last):
+            return others, ground
+    return objects, None
+
+
+def _bytes_of(thing: Object) -> bytes:
+    return encode_object(thing) + extensions(Scene([thing], Camera()))
 
 
 def _with_opacities(mesh: Mesh, record: bytes, where: str) -> Mesh:

@@ -65,7 +65,7 @@ def fit(scene: Scene) -> Scene:
         factor = _factor(scene)
         camera = _move_camera(scene, factor)
         lights = [_move_light(light, scene.camera.eye, factor) for light in scene.lights]
-        objects = [_move_object(o, scene, factor) for o in scene.objects]
+        objects = [_move_object(o, scene, factor, camera.near or 0.0) for o in scene.objects]
         fog = scene.fog and _move_fog(scene.fog, factor)
     camera = evolve(camera, up=_direction(camera.up))
     objects = [evolve(o, rotation=_direction(o.rotation)) for o in objects]
@@ -234,13 +234,14 @@ def _move_fog(fog: Fog, factor: float) -> Fog:
     return evolve(fog, near=min(fog.near * factor, MAX_COORDINATE - 1), far=far)
 
 
-def _move_object(o: Object, scene: Scene, factor: float) -> Object:
+def _move_object(o: Object, scene: Scene, factor: float, near: float) -> Object:
+    """Return the object about the eye. near: the distance of the near plane, times the factor."""
     positions = o.mesh.positions
     center, step = np.zeros(3), 1.0
     if not is_integral(positions) or o.scale * factor > MAX_SCALE[_bits(positions)]:
         # the radii of a fade are about the object's position, which therefore stays
         center, radius = _box(positions) if o.fade is None else (center, float(np.abs(positions).max()))
-        step = radius / _steps(o, radius, scene, factor)
+        step = radius / _steps(o, radius, scene, factor, near)
         grid = np.rint((positions - center) / step) if step else np.zeros_like(positions)
         o = evolve(o, mesh=evolve(o.mesh, positions=grid))
     place = o.position + rotate(o.rotation, o.scale * center) - scene.camera.eye
@@ -248,14 +249,14 @@ def _move_object(o: Object, scene: Scene, factor: float) -> Object:
     return evolve(o, position=place * factor, scale=o.scale * step * factor, fade=fade)
 
 
-def _steps(o: Object, radius: float, scene: Scene, factor: float) -> int:
+def _steps(o: Object, radius: float, scene: Scene, factor: float, near: float) -> int:
     """Return how many steps the grid of an object has across half its largest side."""
     camera = scene.camera
     pixels = scene.height / (2 * camera.half_height)
     if camera.projection == "perspective":
         forward = unit(camera.target - camera.eye)
         places = o.world_positions() - camera.eye
-        pixels /= max(float(dot(places, forward).min()), near_plane(scene, factor, most=MAX_COORDINATE) / factor)
+        pixels /= max(float(dot(places, forward).min()), near / factor)
     size = o.scale * radius
     if size * pixels <= STEP_IN_PIXELS * MAX_SHORT:
         return MAX_SHORT

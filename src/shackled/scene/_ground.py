@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 from attrs import field, frozen
+from numpy.typing import ArrayLike
 
-from ..checks import Color, Floats, color, number
+from ..checks import Color, Floats, color, number, vector
 from ..errors import InputError
 from ..values import checked, with_names
 from ._arithmetic import length
@@ -29,22 +30,39 @@ def _optional(value: Any, name: str = "", low: float = -math.inf) -> float | Non
     return None if value is None else number(value, name, low)
 
 
+def _center(value: ArrayLike | None) -> tuple[float, float] | None:
+    if value is None:
+        return None
+    x, z = vector(value, "the center of a ground", 2).tolist()
+    return x, z
+
+
 @frozen(field_transformer=with_names)
 class Ground:
     """A level, matte disc under the objects, which receives shadows and fades into the background; it is drawn last.
 
     height: its y in the world; just below the lowest vertex by default.
     radius: where nothing is left of it, in world units, above 0; a multiple of the size of the objects by default.
+    center: its x and z in the world; the middle of the objects by default.
+    inner: where it begins to fade, in world units, at least 0 and below the radius; 0.4 of the radius by default.
     """
 
     color: Color = field(converter=color, metadata=checked("the colour of a ground"))
     height: float | None = field(default=None, converter=_optional, metadata=checked("the height of a ground"))
     radius: float | None = field(default=None, converter=_optional, metadata=checked("the radius of a ground", 0))
+    center: tuple[float, float] | None = field(default=None, converter=_center)
+    inner: float | None = field(default=None, converter=_optional, metadata=checked("the inner radius of a ground", 0))
 
     def __attrs_post_init__(self) -> None:
-        """Check the radius."""
+        """Check the radii."""
         if self.radius == 0:
             raise InputError("the radius of a ground must be above 0")
+        if self.radius is not None and self.inner is not None:
+            self._check_inner(self.inner, self.radius)
+
+    def _check_inner(self, inner: float, radius: float) -> None:
+        if inner >= radius:
+            raise InputError(f"the inner radius of a ground, {inner:g}, must be below its radius, {radius:g}")
 
     def under(self, points: Floats) -> Object:
         """Return the object that is this ground under points of the world, (n, 3)."""
@@ -58,11 +76,15 @@ class Ground:
             return math.floor(value / step) * step
 
         x, _, z = (on_grid(float(value)) for value in low + high)
+        if self.center is not None:
+            x, z = self.center
         height = on_grid(2 * float(low[1]) - GAP * half) if self.height is None else self.height
         radius = on_grid(REACH * half) if self.radius is None else self.radius
+        inner = INNER * radius if self.inner is None else self.inner
+        self._check_inner(inner, radius)
         corners = [(-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1)]
         mesh = Mesh(corners, [(0, 1, 2), (0, 2, 3)], self.color)
-        return Object(mesh, (x, height, z), scale=radius, material=MATERIAL, fade=(INNER * radius, radius))
+        return Object(mesh, (x, height, z), scale=radius, material=MATERIAL, fade=(inner, radius))
 
 
 def ground_of(value: Any, name: str = "the ground") -> Ground | None:

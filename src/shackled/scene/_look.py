@@ -15,7 +15,7 @@ from ..errors import InputError
 from ._arithmetic import dot, length
 from ._background import Background, background_of
 from ._camera import DEFAULT_HALF_HEIGHT, FIELDS_OF_VIEW, Camera, Projection, half_height_of
-from ._crease import CREASE, CREASES, SIMPLIFIED_CREASE, is_flat, smoothed, without_normals
+from ._crease import CREASE, CREASES, SIMPLIFIED_CREASE, is_flat, shaded, without_normals
 from ._effects import EXPOSURES, NONE, Fog, Hemisphere, Rim, Tone, fog_or_color, hemisphere_of, rim_of
 from ._ground import Ground, ground_of
 from ._light import Light
@@ -269,7 +269,7 @@ SETTINGS = (
         "Compute normals for smooth shading, except across edges of more than this angle.",
         *CREASES,
         "degrees",
-        f"the normals of mesh files, or {CREASE:g} where there are none",
+        f"the normals of the mesh, or {CREASE:g} where there are none",
     ),
     Setting("smooth", "flag", None, "Light", "Same as --shading smooth.", option="--smooth"),
     Setting("unlit", "flag", None, "Light", "Same as --shading unlit.", option="--unlit"),
@@ -469,11 +469,11 @@ def _shaded(o: Object, look: Mapping[str, Any]) -> tuple[Object, Mapping[str, An
     says which.
     """
     mesh = o.mesh
-    if o.material.shading == "unlit" or {"shading", "crease"} & look.keys():
+    if o.material.shading == "unlit" or "crease" in look or look.get("shading", "smooth") != "smooth":
         return o, look
     if mesh.normals is None:
         return o, {**look, "crease": CREASE}
-    if is_flat(mesh.positions, mesh.faces, mesh.normals[mesh.faces]):
+    if "shading" not in look and is_flat(mesh.positions, mesh.faces, mesh.normals[mesh.faces]):
         return evolve(o, mesh=without_normals(mesh)), {**look, "shading": "flat"}
     return o, {**look, "shading": "smooth"}
 
@@ -513,8 +513,10 @@ def _object(o: Object, look: Mapping[str, Any]) -> Object:
     changes = _given(look, settings_of("object"))
     if "color" in changes:
         o = painted_object(o, changes.pop("color"))
-    o = evolve(o, material=evolve(o.material, **_given(look, settings_of("material"))), **changes)
-    return smoothed(o, look["crease"]) if "crease" in look else o
+    material = _given(look, settings_of("material"))
+    shading = material.pop("shading", "smooth" if "crease" in look else o.material.shading)
+    o = evolve(o, material=evolve(o.material, **material), **changes)
+    return shaded(o, shading, look.get("crease", CREASE), anew="crease" in look)
 
 
 def _tone(tone: Tone | None, look: Mapping[str, Any]) -> Tone | None:

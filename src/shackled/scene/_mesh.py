@@ -233,6 +233,8 @@ def components(links: NDArray[np.int64], count: int) -> NDArray[np.int64]:
         least = label[links].min(axis=1)
         new = label.copy()
         for column in links.T:
+            # also of what the vertex belongs to, or a chain would take a round for each of its links
+            np.minimum.at(new, label[column], least)
             np.minimum.at(new, column, least)
         new = new[new]
         if np.array_equal(new, label):

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..checks import Floats, number, vector
 from ..errors import InputError
-from ._arithmetic import cosine, dot, length, sine, unit
+from ._arithmetic import cosine, cross, dot, length, sine, unit
 
 IDENTITY = vector((0, 0, 0, 1), size=4)
 
@@ -58,8 +58,8 @@ def rotate(quaternion: ArrayLike, points: ArrayLike) -> NDArray[np.float64]:
     if not q.any():
         raise InputError("a rotation must not be the zero quaternion; the identity is (0, 0, 0, 1)")
     q = unit(q)
-    t = 2 * np.cross(q[:3], p)
-    return np.asarray(p + q[3] * t + np.cross(q[:3], t))
+    t = 2 * cross(q[:3], p)
+    return np.asarray(p + q[3] * t + cross(q[:3], t))
 
 
 def matrix_of(value: ArrayLike, size: int, name: str) -> NDArray[np.float64]:

@@ -109,7 +109,7 @@ def test_every_key_in_toml(folder: Path) -> None:
     np.testing.assert_allclose(rotate(second.rotation, [1, 0, 0]), [0, 1, 0], atol=1e-12)
     assert first.mesh.colors.tolist() == [[9, 8, 7]] * 3
     assert (first.scale, first.cull, first.wireframe) == (2.5, False, True)
-    assert first.material == Material("smooth", 0.1, 0.2, 0.3, 44)
+    assert first.material == Material("flat", 0.1, 0.2, 0.3, 44)
     assert (first.opacity, second.opacity) == (0.25, 1)
     assert (second.scale, second.cull, second.wireframe, second.material) == (1, True, False, Material())
 

@@ -42,7 +42,7 @@ const HEMISPHERE = ["sky", "ground"] as const;
 const RIM = ["color", "power"] as const;
 const FOG = ["color", "near", "far"] as const;
 const TONE = ["exposure", "filmic", "gamma"] as const;
-const GROUND = ["color", "height", "radius"] as const;
+const GROUND = ["color", "height", "radius", "center", "inner"] as const;
 const LIGHTS = {
     directional: ["kind", "direction", "color", "shadow"],
     point: ["kind", "position", "color", "shadow"],
@@ -143,6 +143,8 @@ export interface Ground {
     color: Rgb;
     height: number | undefined;
     radius: number | undefined;
+    center: readonly [number, number] | undefined;
+    inner: number | undefined;
 }
 
 export interface Scene {
@@ -456,14 +458,23 @@ function checkedFog(value: given.Fog): Fog {
 }
 
 function checkedGround(value: given.Ground): Ground {
-    const { color, height, radius } = check.fields(value, "ground", GROUND);
+    const { color, height, radius, center, inner } = check.fields(value, "ground", GROUND);
     const ground = {
         color: check.color(color, "ground.color"),
         height: height === undefined ? undefined : check.number(height, "ground.height"),
         radius: radius === undefined ? undefined : check.number(radius, "ground.radius", 0),
+        center: center && (check.numbers(center, "ground.center", 2) as [number, number]),
+        inner: inner === undefined ? undefined : check.number(inner, "ground.inner", 0),
     };
     if (ground.radius === 0) throw new InputError("ground.radius must be above 0");
+    if (ground.radius !== undefined && ground.inner !== undefined) checkInner(ground.inner, ground.radius);
     return ground;
+}
+
+/** Check the inner radius of a ground against its radius. */
+export function checkInner(inner: number, radius: number): void {
+    if (inner < radius) return;
+    throw new InputError(`ground.inner, ${inner}, must be below the radius of the ground, ${radius}`);
 }
 
 function checkedTone(value: given.Tone): Tone {

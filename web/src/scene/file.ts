@@ -41,6 +41,7 @@ const CAMERA = [...PLACES, ...ANGLES, "fov", "half_height", "near", "projection"
 const LIGHT = ["kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow"];
 const OBJECT = ["color", "cull", "wireframe", "opacity", "fade", "mesh", "position", "rotation", "scale", "material"];
 const MATERIAL = ["texture", "shading", "ambient", "diffuse", "specular", "shininess"];
+const GROUND = ["color", "height", "radius", "center", "inner"];
 const TEXTURE = ["image", "width", "height", "pixels", "filter", "wrap"];
 
 /**
@@ -71,7 +72,7 @@ export function parseScene(json: string | object): given.Scene {
         rim: table.has("rim") ? rimOf(table.table("rim", ["color", "power"])) : undefined,
         fog: table.has("fog") ? fogOf(table.table("fog", ["color", "near", "far"])) : undefined,
         tone: table.has("tone") ? toneOf(table.table("tone", ["exposure", "filmic", "gamma"])) : undefined,
-        ground: table.has("ground") ? groundOf(table.table("ground", ["color", "height", "radius"])) : undefined,
+        ground: table.has("ground") ? groundOf(table.table("ground", GROUND)) : undefined,
         width,
         height,
     };
@@ -127,6 +128,8 @@ function groundOf(keys: Table): given.Ground {
         color: check.color(keys.get("color"), keys.place("color")),
         height: keys.number("height"),
         radius: keys.number("radius", 0),
+        center: keys.read("center", (value, where) => check.numbers(value, where, 2) as [number, number]),
+        inner: keys.number("inner", 0),
     };
 }
 

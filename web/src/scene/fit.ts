@@ -64,7 +64,7 @@ export function fit(scene: Scene): FittedScene {
         near = nearPlane(prepared, factor, MAX_COORDINATE);
         camera = moveCamera(camera, factor);
         lights = lights.map((light) => moveLight(light, scene.camera.eye, factor));
-        objects = objects.map((object) => moveObject(object, prepared, factor));
+        objects = objects.map((object) => moveObject(object, prepared, factor, near));
         fog = fog && moveFog(fog, factor);
     }
     return {
@@ -231,7 +231,8 @@ function moveFog(fog: Fog, factor: number): Fog {
     return { ...fog, near: Math.min(fog.near * factor, MAX_COORDINATE - 1), far };
 }
 
-function moveObject(object: SceneObject, scene: Scene, factor: number): SceneObject {
+/** Return the object about the eye. near: the distance of the near plane, times the factor. */
+function moveObject(object: SceneObject, scene: Scene, factor: number, near: number): SceneObject {
     let { mesh } = object;
     let center: Vector = [0, 0, 0];
     let step = 1;
@@ -240,7 +241,7 @@ function moveObject(object: SceneObject, scene: Scene, factor: number): SceneObj
         const radius = mesh.positions.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
         const box = object.fade ? { center, radius } : boxOf(mesh.positions);
         center = box.center;
-        step = box.radius / stepsOf(object, box.radius, scene, factor);
+        step = box.radius / stepsOf(object, box.radius, scene, factor, near);
         const grid = mesh.positions.map((x, index) => (step ? rint((x - (center[index % 3] as number)) / step) : 0));
         mesh = { ...mesh, positions: grid };
     }
@@ -251,14 +252,14 @@ function moveObject(object: SceneObject, scene: Scene, factor: number): SceneObj
 }
 
 /** Return how many steps the grid of an object has across half its largest side. */
-function stepsOf(object: SceneObject, radius: number, scene: Scene, factor: number): number {
+function stepsOf(object: SceneObject, radius: number, scene: Scene, factor: number, near: number): number {
     const { camera } = scene;
     let pixels = scene.height / (2 * camera.halfHeight);
     if (camera.projection === "perspective") {
         const forward = unit(subtract(camera.target, camera.eye));
         const depths = worldPositions(object).map((place) => dot(subtract(place, camera.eye), forward));
         const nearest = depths.reduce((least, depth) => Math.min(least, depth));
-        pixels /= Math.max(nearest, nearPlane(scene, factor, MAX_COORDINATE) / factor);
+        pixels /= Math.max(nearest, near / factor);
     }
     const size = object.scale * radius;
     if (size * pixels <= STEP_IN_PIXELS * MAX_SHORT) return MAX_SHORT;

@@ -1,7 +1,7 @@
 /** A ground under the objects of a scene, and what casts shadows on it. */
 
 import { cross, dot, exponentOf, length, powerOfTwo, rint, type Vector } from "./arithmetic.js";
-import { worldPositions, type Ground, type Scene, type SceneObject } from "./checked.js";
+import { checkInner, worldPositions, type Ground, type Scene, type SceneObject } from "./checked.js";
 
 /**
  * The radius of a ground, as a multiple of half the diagonal of the box around the objects; the part of the radius at
@@ -19,7 +19,7 @@ export function withGround({ objects, ground }: Scene): SceneObject[] {
     return ground ? [...objects, groundUnder(ground, objects.flatMap(worldPositions))] : objects;
 }
 
-function groundUnder({ color, height, radius }: Ground, points: Vector[]): SceneObject {
+function groundUnder({ color, height, radius, center, inner }: Ground, points: Vector[]): SceneObject {
     const bounds = [0, 1, 2].map((axis) => {
         const values = points.length ? points.map((point) => point[axis] as number) : [0];
         const low = values.reduce((least, value) => Math.min(least, value));
@@ -31,6 +31,8 @@ function groundUnder({ color, height, radius }: Ground, points: Vector[]): Scene
     const [x, , z] = bounds.map(([low, high]) => onGrid(low + high)) as [number, number, number];
     const lowest = (bounds[1] as readonly [number, number])[0];
     const scale = radius ?? onGrid(REACH * half);
+    const start = inner ?? INNER * scale;
+    checkInner(start, scale);
     return {
         mesh: {
             positions: Float64Array.from(CORNERS),
@@ -40,7 +42,7 @@ function groundUnder({ color, height, radius }: Ground, points: Vector[]): Scene
             uvs: undefined,
             opacities: undefined,
         },
-        position: [x, height ?? onGrid(2 * lowest - GAP * half), z],
+        position: [center?.[0] ?? x, height ?? onGrid(2 * lowest - GAP * half), center?.[1] ?? z],
         rotation: [0, 0, 0, 1],
         scale,
         // matte
@@ -48,7 +50,7 @@ function groundUnder({ color, height, radius }: Ground, points: Vector[]): Scene
         cull: true,
         wireframe: false,
         opacity: 1,
-        fade: [INNER * scale, scale],
+        fade: [start, scale],
     };
 }
 
@@ -60,7 +62,13 @@ export function shadowRule({ objects }: Scene): number {
     const casters = objects.filter(
         (each) => each.cull && !each.wireframe && isOpaque(each) && !each.mesh.opacities && !each.fade,
     );
-    return areClosed(casters) ? 2 : 1;
+    return areClosed(casters.map(asSent)) ? 2 : 1;
+}
+
+/** Return the object with the place that its Q32 numbers give it. */
+function asSent({ position, rotation, scale, ...rest }: SceneObject): SceneObject {
+    const sent = <V extends readonly number[]>(v: V): V => v.map((x) => rint(x * 2 ** 32) / 2 ** 32) as unknown as V;
+    return { ...rest, position: sent(position), rotation: sent(rotation), scale: sent([scale] as const)[0] };
 }
 
 /** Return whether the opacity of an object is 1 for the contracts, which have it in steps of 2^-24. */

@@ -171,6 +171,10 @@ export interface Ground {
     height?: number | undefined;
     /** Where nothing is left of it, above 0; a multiple of the size of the objects by default. */
     radius?: number | undefined;
+    /** Its x and z in the world; the middle of the objects by default. */
+    center?: readonly [number, number] | undefined;
+    /** Where it begins to fade, at least 0 and below the radius; 0.4 of the radius by default. */
+    inner?: number | undefined;
 }
 
 /**

@@ -20,6 +20,7 @@ from ...errors import InputError
 from ...whole_file import check_output_file, write_output
 from .._background import Background
 from .._camera import PROJECTIONS, Camera
+from .._crease import shaded
 from .._effects import Fog, Hemisphere, Rim, Tone
 from .._ground import Ground
 from .._light import LIGHT_KINDS, WHITE, Light
@@ -52,7 +53,7 @@ _BACKGROUND = ("top", "bottom")
 _HEMISPHERE = ("sky", "ground")
 _RIM = ("color", "power")
 _FOG = ("color", "near", "far")
-_GROUND = ("color", "height", "radius")
+_GROUND = ("color", "height", "radius", "center", "inner")
 _LIGHT = ("kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow")
 _MESH = ("positions", "faces", "colors", "normals", "uvs", "opacities")
 _TEXTURE = ("image", "width", "height", "pixels", "filter", "wrap")
@@ -214,7 +215,9 @@ def _fog(keys: Table, setting: Setting) -> Fog:
 
 def _ground(keys: Table, setting: Setting) -> Ground:
     inside = keys.table(setting.name, _GROUND)
-    given = {name: inside.number(name) for name in ("height", "radius") if name in inside}
+    given: dict[str, Any] = {name: inside.number(name) for name in ("height", "radius", "inner") if name in inside}
+    if "center" in inside:
+        given["center"] = inside.numbers("center", (0, 0))
     with about(inside.where):
         return Ground(inside.color("color"), **given)
 
@@ -297,6 +300,10 @@ def _objects(value: object, where: str, folder: Path) -> list[Object]:
     given = _settings(keys, "object")
     surface = keys.table("material", _keys("material", "texture"))
     fields = _settings(surface, "material")
+    # a mesh from a file is given normals, one in the table is as it is
+    shading = fields.get("shading", "flat")
+    if isinstance(keys.get("mesh"), str):
+        fields["shading"] = "flat"
     texture = _texture(surface, folder) if "texture" in surface else None
     position, rotation, scale = keys.numbers("position", (0, 0, 0)), _rotation(keys), keys.number("scale", 1)
     if "fade" in keys:
@@ -307,6 +314,7 @@ def _objects(value: object, where: str, folder: Path) -> list[Object]:
         for part in parts:
             material = Material(**fields, texture=texture or part.material.get("texture"))
             thing = Object(part.mesh, position, rotation, scale, material, **{"opacity": part.opacity, **given})
+            thing = shaded(thing, shading)
             objects.append(thing if color is None else painted_object(thing, color))
         return objects
 

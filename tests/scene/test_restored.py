@@ -1,0 +1,328 @@
+"""Every property of a scene comes back from its call, and from its scene file: none is lost or becomes another."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from attrs import evolve, fields
+from numpy.typing import ArrayLike, NDArray
+
+from conformance.shadows import random_scene
+from random_scenes import random_case
+from shackled import (
+    Background,
+    Camera,
+    Fog,
+    Ground,
+    Light,
+    Material,
+    Mesh,
+    Object,
+    Rim,
+    Scene,
+    Texture,
+    Tone,
+    load,
+    render,
+)
+from shackled.errors import InputError
+from shackled.scene import (
+    FILTERS,
+    MAX_COORDINATE,
+    WRAPS,
+    Hemisphere,
+    decode,
+    fit_factor,
+    read_scene,
+    render_call,
+    write_scene,
+)
+
+Floats = NDArray[np.float64]
+Rng = np.random.Generator
+
+#: The largest errors, as docs/scene-files.md states them: of vertices, as a part of half the largest side of their mesh
+#: and in units of the decoded scene, with coordinates of 16 and of 24 bits; and of numbers that are multiples of 2^-32.
+OF_SIZE, OF_UNIT, Q32 = 2.0**-15, {16: 2.0**-17, 24: 2.0**-9}, 2.0**-33
+#: Lights beyond this are moved nearer.
+FAR = 2.0**25
+
+
+def whole(seed: int) -> Scene:
+    """A scene with all there is, in any units: several objects of every kind, all lights, effects and a ground."""
+    rng = np.random.default_rng([31, seed])
+    unit = 10.0 ** rng.uniform(-6, 6)
+    base = random_scene(seed, 32)
+    objects = [
+        Object(
+            evolve(
+                o.mesh,
+                positions=o.mesh.positions * (own := rng.uniform(0.01, 100)),
+                colors=rng.integers(0, 256, (len(o.mesh.positions), 3)),
+                normals=rng.normal(size=o.mesh.positions.shape),
+                uvs=rng.uniform(-2, 2, (len(o.mesh.positions), 2)),
+                opacities=rng.uniform(size=len(o.mesh.positions)) if rng.random() < 0.3 else None,
+            ),
+            rng.normal(size=3) * 0.1 * unit,
+            rng.normal(size=4),
+            unit / own,
+            Material(
+                ("unlit", "flat", "smooth")[rng.integers(3)],
+                rng.uniform(0, 4),
+                rng.uniform(0, 4),
+                rng.uniform(0, 4),
+                int(rng.integers(1, 129)),
+                texture(rng) if rng.random() < 0.4 else None,
+            ),
+            bool(rng.random() < 0.5),
+            bool(rng.random() < 0.2),
+            float(rng.choice([1, rng.uniform()])),
+        )
+        for o in base.objects
+        if o.fade is None
+    ]
+    lights = [
+        Light.directional(rng.normal(size=3), rng.integers(0, 256, 3)),
+        Light.point(rng.normal(size=3) * 3 * unit, rng.integers(0, 256, 3)),
+        Light.spot(rng.normal(size=3) * 3 * unit, rng.normal(size=3) * unit, "tomato", *sorted(rng.uniform(0, 180, 2))),
+    ]
+    shadowed = int(rng.integers(4))
+    camera = Camera(
+        rng.normal(size=3) * 2 * unit + [0, 0, 6 * unit],
+        rng.normal(size=3) * 0.1 * unit,
+        (0.1, 1, 0.2),
+        near=None if rng.random() < 0.5 else 0.01 * unit,
+    )
+    if rng.random() < 0.4:
+        camera = evolve(camera, projection="orthographic", half_height=2 * unit)
+    grounds: list[dict[str, Any]] = [
+        {},
+        {"height": -1.7 * unit, "radius": rng.uniform(1, 9) * unit},
+        {"center": rng.normal(size=2) * unit, "inner": 1e-3 * unit},
+        {"radius": rng.uniform(1, 9) * unit, "inner": 0},
+    ]
+    return Scene(
+        objects,
+        camera,
+        [evolve(light, shadow=number == shadowed) for number, light in enumerate(lights)],
+        Background(*rng.integers(0, 256, (2, 3))),
+        rng.integers(0, 256, 3),
+        bool(rng.random() < 0.5),
+        int(rng.integers(1, 2049)),
+        int(rng.integers(1, 2049)),
+        bool(rng.random() < 0.5),
+        Hemisphere(*rng.integers(0, 256, (2, 3))),
+        Rim(rng.integers(0, 256, 3), int(rng.integers(1, 17))),
+        Fog(rng.integers(0, 256, 3), rng.uniform(0, 3) * unit, rng.uniform(4, 9) * unit),
+        Tone(rng.uniform(0, 4), bool(rng.random() < 0.5), bool(rng.random() < 0.5)),
+        Ground(rng.integers(0, 256, 3), **grounds[seed % 4]),
+    )
+
+
+def texture(rng: Rng) -> Texture:
+    filter, wrap = FILTERS[rng.integers(2)], WRAPS[rng.integers(2)]
+    return Texture(rng.integers(0, 256, (*rng.integers(1, 9, 2), 3), dtype=np.uint8), filter, wrap)
+
+
+def near(found: Any, expected: Any, error: float) -> None:
+    np.testing.assert_allclose(found, expected, rtol=0, atol=error)
+
+
+def alike(found: Floats, expected: Floats, error: float = 2.0**-20) -> None:
+    """Directions."""
+    near(
+        found / np.linalg.norm(found),
+        expected / np.abs(expected).max() / np.linalg.norm(expected / np.abs(expected).max()),
+        error,
+    )
+
+
+def assert_restored(found: Scene, scene: Scene) -> None:
+    """Each field of what was decoded is that of the scene; lengths are multiplied by a factor, about an eye."""
+    factor = fit_factor(scene)
+    eye = scene.camera.eye - found.camera.eye / factor
+
+    def placed(points: ArrayLike) -> Floats:
+        return np.asarray((np.asarray(points) - eye) * factor)
+
+    checked = {"objects", "camera", "lights", "fog", "tone", "ground"}
+    for field in fields(Scene):
+        if field.name not in checked:
+            assert getattr(found, field.name) == getattr(scene, field.name), field.name
+    assert_camera(found.camera, scene.camera, factor)
+    assert len(found.lights) == len(scene.lights)
+    for one, light in zip(found.lights, scene.lights, strict=True):
+        assert_light(one, light, placed)
+    assert len(found.objects) == len(scene.objects)
+    for thing, o in zip(found.objects, scene.objects, strict=True):
+        assert_object(thing, o, placed, factor)
+    assert (found.fog is None) == (scene.fog is None)
+    if found.fog and scene.fog:
+        assert found.fog.color == scene.fog.color
+        far = min(max(scene.fog.far * factor, 2 * Q32), MAX_COORDINATE)
+        near([found.fog.near, found.fog.far], [min(scene.fog.near * factor, MAX_COORDINATE - 1), far], 3 * Q32)
+    assert (found.tone is None) == (scene.tone is None)
+    if found.tone and scene.tone:
+        assert found.tone.exposure == max(round(scene.tone.exposure * 2**16), 1) / 2**16
+        assert (found.tone.filmic, found.tone.gamma) == (scene.tone.filmic, scene.tone.gamma)
+    assert (found.ground is None) == (scene.ground is None)
+    if found.ground and scene.ground:
+        assert found.ground.color == scene.ground.color
+        ours = [each.under(one.world_positions()) for each, one in ((found.ground, found), (scene.ground, scene))]
+        near(ours[0].position, placed(ours[1].position), 2 * Q32)
+        near(ours[0].fade or (), np.multiply(ours[1].fade or (), factor), 2 * Q32)
+
+
+def assert_camera(found: Camera, camera: Camera, factor: float) -> None:
+    assert found.projection == camera.projection
+    forward = camera.target - camera.eye
+    alike(found.target - found.eye, forward)
+    alike(np.cross(found.target - found.eye, found.up), np.cross(forward / np.abs(forward).max(), camera.up))
+    half_height = camera.half_height * (factor if camera.projection == "orthographic" else 1)
+    near(found.half_height, half_height, Q32)
+    if camera.near is not None:
+        # no near plane is one that is as far behind the eye as can be
+        distance = -MAX_COORDINATE if found.near is None else found.near
+        near(distance, min(max(camera.near * factor, -MAX_COORDINATE), MAX_COORDINATE), 2 * Q32)
+
+
+def assert_light(found: Light, light: Light, placed: Any) -> None:
+    assert (found.kind, found.color, found.shadow) == (light.kind, light.color, light.shadow)
+    if light.kind == "directional":
+        return alike(found.vector, light.vector)
+    place = placed(light.vector)
+    if np.abs(place).max() > FAR:
+        alike(found.vector, place)
+        assert np.abs(found.vector).max() >= FAR
+    else:
+        near(found.vector, place, Q32)
+    if light.direction is not None and found.direction is not None:
+        alike(found.direction, light.direction)
+        angles = np.radians([[each.inner_angle, each.outer_angle] for each in (found, light)])
+        near(np.cos(angles[0]), np.cos(angles[1]), 2 * Q32)
+    return None
+
+
+def assert_object(found: Object, o: Object, placed: Any, factor: float) -> None:
+    used = np.unique(o.mesh.faces)
+    for name in ("cull", "wireframe"):
+        assert getattr(found, name) == getattr(o, name)
+    near(found.opacity, o.opacity, 2.0**-25)
+    assert (found.material.shading, found.material.shininess) == (o.material.shading, o.material.shininess)
+    for name in ("ambient", "diffuse", "specular"):
+        near(getattr(found.material, name), getattr(o.material, name), Q32)
+    assert found.material.texture == o.material.texture
+    assert (found.fade is None) == (o.fade is None)
+    near(found.fade or (), np.multiply(o.fade or (), factor), 2 * Q32)
+    bits = 16 if np.abs(found.mesh.positions).max() <= 2**15 else 24
+    positions = o.mesh.positions[used]
+    size = float(np.ptp(positions, axis=0).max()) / 2 * o.scale * factor
+    world = o.world_positions()[used]
+    rounded = 2.0**-50 * float(np.abs(world).max()) * factor  # by the sums of this test itself
+    near(found.world_positions(), placed(world), OF_SIZE * size + OF_UNIT[bits] + rounded)
+    mesh = found.mesh
+    assert np.array_equal(used[mesh.faces], o.mesh.faces)
+    assert np.array_equal(mesh.rgba, o.mesh.rgba[used])
+    if o.material.texture is not None and o.mesh.uvs is not None:
+        near(mesh.uvs, o.mesh.uvs[used], 2.0**-17)
+    if o.material.shading == "smooth" and o.mesh.normals is not None:
+        near(units(mesh.normals), units(o.mesh.normals[used]), 2 / 511)
+
+
+def units(rows: Any) -> Floats:
+    return np.asarray(rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), 1e-300))
+
+
+@pytest.mark.parametrize("seeds", [range(first, first + 60) for first in range(0, 240, 60)])
+def test_from_calls(seeds: range) -> None:
+    for seed in seeds:
+        scene = whole(seed)
+        call = render_call(scene)
+        found = decode(call)
+        assert_restored(found, scene)
+        assert render_call(found) == call
+
+
+@pytest.mark.parametrize("seeds", [range(first, first + 100) for first in range(0, 400, 100)])
+def test_from_calls_of_random_scenes(seeds: range) -> None:
+    """Those whose numbers are not changed, of any size."""
+    for seed in seeds:
+        scene = random_case(seed).scene
+        assert_restored(decode(render_call(scene)), scene)
+
+
+def test_from_scene_files(tmp_path: Path) -> None:
+    path = tmp_path / "scene.json"
+    for seed in range(150):
+        for scene in (whole(seed), random_case(seed).scene):
+            write_scene(scene, path)
+            found = read_scene(path)
+            assert found == scene
+            # also with what only a decoded scene has
+            write_scene(decoded := decode(render_call(scene)), path)
+            assert read_scene(path) == decoded
+
+
+def test_a_ground_from_a_picture_is_a_ground(tmp_path: Path) -> None:
+    scene = load("torus", 48, shadow=True, ground="tan", color="tomato")
+    image = render(scene)
+    image.save(tmp_path / "scene.png")
+    found = load(tmp_path / "scene.png")
+    assert len(found.objects) == 1
+    assert found.triangles == scene.triangles
+    assert found.ground is not None
+    assert found.ground.color == (210, 180, 140)
+    assert found.ground.inner is None
+    assert np.array_equal(render(found).pixels, image.pixels)
+    # a look is of the objects, and the ground can be removed or replaced
+    blue = load(tmp_path / "scene.png", color="blue")
+    assert blue.ground == found.ground
+    assert load(tmp_path / "scene.png", ground="none").ground is None
+    np.testing.assert_allclose(np.abs(found.bounds).max(), np.abs(found.objects[0].world_positions()).max())
+
+
+def test_a_disc_that_is_no_ground_stays_an_object() -> None:
+    disc = Ground("tan", 0, 2, (0, 0)).under(np.zeros((0, 3)))
+    ball = Object(Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))
+    camera = Camera((0, 2, 4), (0, 0, 0), near=0.25)
+
+    def objects(*things: Object) -> tuple[int, bool]:
+        found = decode(render_call(Scene(things, camera)))
+        return len(found.objects), found.ground is not None
+
+    assert objects(ball, disc) == (1, True)
+    assert objects(disc) == (0, True)
+    assert objects(disc, disc) == (1, True)
+    assert objects(disc, ball) == (2, False)
+    for other in (
+        evolve(disc, cull=False),
+        evolve(disc, opacity=0.5),
+        evolve(disc, rotation=(0, 90, 0)),
+        evolve(disc, material=Material("flat", 0.5)),
+        evolve(disc, mesh=evolve(disc.mesh, colors=[(1, 2, 3), (1, 2, 3), (1, 2, 3), (1, 2, 4)])),
+        evolve(disc, mesh=evolve(disc.mesh, opacities=[1, 1, 1, 0.5])),
+        evolve(disc, fade=(1, 3)),
+    ):
+        assert objects(ball, other) == (2, False)
+    found = decode(render_call(Scene([ball, evolve(disc, fade=(1, 2))], camera)))
+    assert found.ground == Ground("tan", 0, 2, (0, 0), 1)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"inner": 2, "radius": 2}, "the inner radius of a ground, 2, must be below its radius, 2"),
+        ({"inner": -1}, "the inner radius of a ground must be a finite number, at least 0, not -1"),
+        ({"center": 1}, "the center of a ground must be 2 finite numbers, not 1"),
+    ],
+)
+def test_wrong_grounds(changes: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        Ground("tan", **changes)
+    with pytest.raises(InputError, match="the inner radius of a ground, 9, must be below its radius"):
+        render_call(
+            Scene([Object(Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))], ground=Ground("tan", inner=9))
+        )
