@@ -92,12 +92,12 @@ contract EffectsEngine is SampleBuffer, SampleWires {
                 setFaceUp();
                 mode |= IS_LIT | IS_DIFFUSE;
             }
-            store(SHADOW_LIST, 0);
-            if (mode & IS_LIT != 0 && load(SHADOWS) != 0) ShadowRows.setFace();
+            if (mode & IS_LIT != 0 && load(SHADOWS) != 0) mode |= ShadowRows.setFace();
             (uint256 attributesA, uint256 attributesB, uint256 attributesC) = Shading.attributesOf(a, b, c);
             Shading.setExact(a, b, c, attributesA, attributesB, attributesC, mode | crossing);
             store(IS_UNIFORM, isUniform(mode) ? 1 : 0);
-            store(UNIFORM_SHARE, 0);
+            store(UNIFORM_LIT, 0);
+            store(UNIFORM_DARK, 0);
             if (mode & IS_DEPTH_PASS != 0) return;
             if (load(TEXTURE) != 0) Texture.setTriangle(a, b, c, recordShift(mode));
             if (load(OPACITIES) != 0) Texture.setOpacities(a, b, c, recordShift(mode));

@@ -10,7 +10,7 @@ import "./Words.sol";
 
 /// @dev The beginning of the registers: the maximum end of the compiler's variables in memory.
 uint256 constant REGISTERS = 0x800;
-uint256 constant REGISTERS_END = 0x4000;
+uint256 constant REGISTERS_END = 0x3fe0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- frame
 // The uniforms of the frame, which the Renderer fills. Pixel columns and rows are counted from -PIXEL_BIAS, so that everything inside the
@@ -294,199 +294,198 @@ uint256 constant OBJECT_OPACITY = 0x30a0;
 /// @dev LIGHT_COLOR and LIGHT_DIFFUSE of the light that casts shadows, outside shadows.
 uint256 constant SHADOW_COLOR = 0x30c0;
 uint256 constant SHADOW_DIFFUSE = 0x30e0;
-/// @dev The fraction of the fragment that this light reaches, by which they are scaled: see ShadowRows.
-uint256 constant SHADOW_SHARE = 0x3100;
-/// @dev The entry of the face, or the calldata offset of its list; the first edge that is not above the row.
-uint256 constant SHADOW_LIST = 0x3120;
-uint256 constant SHADOW_BEGIN = 0x3140;
+/// @dev UNIFORM_DARK - UNIFORM_LIT while this light is off, for samples that it does not reach; otherwise 0.
+uint256 constant IS_DARK = 0x3100;
+/// @dev The calldata offset of the first edge of the list of the face that is not above the row.
+uint256 constant SHADOW_BEGIN = 0x3120;
 /// @dev The calldata offset of the entries of the object's faces.
-uint256 constant SHADOW_FACES = 0x3160;
+uint256 constant SHADOW_FACES = 0x3140;
 /// @dev The address of a word for each column: the samples of the row that are in shadow.
-uint256 constant SHADOW_ROW = 0x3180;
-/// @dev 1 if all fragments of the triangle have one colour except for shadows; the SHADOW_SHARE of the last colour plus 1, 0 if there is
-/// none yet; the last colour.
-uint256 constant IS_UNIFORM = 0x31a0;
-uint256 constant UNIFORM_SHARE = 0x31c0;
-uint256 constant UNIFORM_COLOR = 0x31e0;
+uint256 constant SHADOW_ROW = 0x3160;
+/// @dev 1 if all fragments of the triangle have one colour except for shadows; that colour, and that in shadow, plus ONE_24; 0 if it is not
+/// computed yet.
+uint256 constant IS_UNIFORM = 0x3180;
+uint256 constant UNIFORM_LIT = 0x31a0;
+uint256 constant UNIFORM_DARK = 0x31c0;
 
 // ------------------------------------------------------------------------------------------------------- triangle of a scene with effects
 
 /// @dev The y component of a flat face's unit normal in world space, Q24, -1..1.
-uint256 constant FACE_UP = 0x3200;
+uint256 constant FACE_UP = 0x31e0;
 
 // ------------------------------------------------------------------------------------------------------------------------------- fragment
 
 /// @dev The position of the fragment beside the line of sight of an orthographic camera, Q16.
-uint256 constant FRAGMENT_PLACE_X = 0x3220;
-uint256 constant FRAGMENT_PLACE_Y = 0x3240;
+uint256 constant FRAGMENT_PLACE_X = 0x3200;
+uint256 constant FRAGMENT_PLACE_Y = 0x3220;
 /// @dev The normal of the fragment, Q24, and its product with the ray.
-uint256 constant FRAGMENT_NORMAL_X = 0x3260;
-uint256 constant FRAGMENT_NORMAL_Y = 0x3280;
-uint256 constant FRAGMENT_NORMAL_Z = 0x32a0;
-uint256 constant FRAGMENT_NORMAL_RAY = 0x32c0;
+uint256 constant FRAGMENT_NORMAL_X = 0x3240;
+uint256 constant FRAGMENT_NORMAL_Y = 0x3260;
+uint256 constant FRAGMENT_NORMAL_Z = 0x3280;
+uint256 constant FRAGMENT_NORMAL_RAY = 0x32a0;
 /// @dev Half the magnitude of the last square of a normal; of that of a face, a multiple of 3.
-uint256 constant NORMAL_HINT = 0x32e0;
-uint256 constant FACE_HINT = 0x3300;
+uint256 constant NORMAL_HINT = 0x32c0;
+uint256 constant FACE_HINT = 0x32e0;
 /// @dev The fraction of a light's intensity that its cone lets through, Q16.
-uint256 constant FRAGMENT_CONE = 0x3320;
+uint256 constant FRAGMENT_CONE = 0x3300;
 /// @dev The light that modulates the fragment's colour, lanes of Q40.
-uint256 constant FRAGMENT_LIGHT = 0x3340;
+uint256 constant FRAGMENT_LIGHT = 0x3320;
 /// @dev The length of the fragment's ray, Q24, if there is a rim.
-uint256 constant FRAGMENT_RAY_LENGTH = 0x3360;
+uint256 constant FRAGMENT_RAY_LENGTH = 0x3340;
 /// @dev If colours are multiplied by their depths, the nearest depth of the triangle, with 8 more bits than in a vertex; otherwise 0.
-uint256 constant PATCH_WEIGHT = 0x3380;
+uint256 constant PATCH_WEIGHT = 0x3360;
 /// @dev The first column of the cell that is drawn, and the one after its last.
-uint256 constant PATCH_BEGIN = 0x33a0;
-uint256 constant PATCH_END = 0x33c0;
+uint256 constant PATCH_BEGIN = 0x3380;
+uint256 constant PATCH_END = 0x33a0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- edges
 
 /// @dev Not zero if a vertex of the object lies outside the guard band or nearer than the near plane.
-uint256 constant HAS_CLIPPED = 0x33e0;
+uint256 constant HAS_CLIPPED = 0x33c0;
 /// @dev DEPTH_STRIDE in both lanes of edges: see PixelRasterizer.
-uint256 constant STRIDE_LANES = 0x3400;
+uint256 constant STRIDE_LANES = 0x33e0;
 /// @dev The change of the accumulator per byte of depths, an eighth of DX; and the change of START per row, if it refers to address 0.
-uint256 constant DX_8 = 0x3420;
-uint256 constant ROW_STEP = 0x3440;
+uint256 constant DX_8 = 0x3400;
+uint256 constant ROW_STEP = 0x3420;
 /// @dev The lower part of a triangle, in which the edge from the second to the third vertex replaces the one that has ended: the number of
 /// its rows; its edges = the edges of the upper part & LOWER_KEPT | LOWER_EDGE; their changes per row.
-uint256 constant LOWER_ROWS = 0x3460;
-uint256 constant LOWER_KEPT = 0x3480;
-uint256 constant LOWER_EDGE = 0x34a0;
-uint256 constant LOWER_SLOPES = 0x34c0;
+uint256 constant LOWER_ROWS = 0x3440;
+uint256 constant LOWER_KEPT = 0x3460;
+uint256 constant LOWER_EDGE = 0x3480;
+uint256 constant LOWER_SLOPES = 0x34a0;
 /// @dev Depths of a triangle that is IS_DEEP: an addend of START; changes of the depth for DX and DY, Q32.
-uint256 constant DEEP_START = 0x34e0;
-uint256 constant DEEP_DX = 0x3500;
-uint256 constant DEEP_DY = 0x3520;
+uint256 constant DEEP_START = 0x34c0;
+uint256 constant DEEP_DX = 0x34e0;
+uint256 constant DEEP_DY = 0x3500;
 /// @dev The address for the next triangle of the list; 0 if faces are drawn immediately.
-uint256 constant LIST = 0x3540;
+uint256 constant LIST = 0x3520;
 /// @dev The number of the object's faces that were drawn or listed.
-uint256 constant DRAWN = 0x3560;
+uint256 constant DRAWN = 0x3540;
 /// @dev Faces with twice an area, Q192, not above this are not drawn: they are back faces.
-uint256 constant LEAST_AREA = 0x3580;
+uint256 constant LEAST_AREA = 0x3560;
 /// @dev The changes of edges per row.
-uint256 constant SLOPES = 0x35a0;
+uint256 constant SLOPES = 0x3580;
 /// @dev The end of the faces in calldata.
-uint256 constant FACES_END = 0x35c0;
+uint256 constant FACES_END = 0x35a0;
 
 // -------------------------------------------------------------------------------------------------------------------- quadratic functions
 
 /// @dev The coefficients of quadratic functions over a triangle, signed lanes of 85 bits: see Quadratic.
-uint256 constant QUADRATIC_1 = 0x35e0;
-uint256 constant QUADRATIC_S = 0x3600;
-uint256 constant QUADRATIC_T = 0x3620;
-uint256 constant QUADRATIC_SS = 0x3640;
-uint256 constant QUADRATIC_ST = 0x3660;
-uint256 constant QUADRATIC_TT = 0x3680;
+uint256 constant QUADRATIC_1 = 0x35c0;
+uint256 constant QUADRATIC_S = 0x35e0;
+uint256 constant QUADRATIC_T = 0x3600;
+uint256 constant QUADRATIC_SS = 0x3620;
+uint256 constant QUADRATIC_ST = 0x3640;
+uint256 constant QUADRATIC_TT = 0x3660;
 /// @dev The values at column 0 of the first row, and their first and second differences to the next column and row.
-uint256 constant QUADRATIC_START = 0x36a0;
-uint256 constant QUADRATIC_DX = 0x36c0;
-uint256 constant QUADRATIC_DY = 0x36e0;
-uint256 constant QUADRATIC_DXX = 0x3700;
-uint256 constant QUADRATIC_DXY = 0x3720;
-uint256 constant QUADRATIC_DYY = 0x3740;
+uint256 constant QUADRATIC_START = 0x3680;
+uint256 constant QUADRATIC_DX = 0x36a0;
+uint256 constant QUADRATIC_DY = 0x36c0;
+uint256 constant QUADRATIC_DXX = 0x36e0;
+uint256 constant QUADRATIC_DXY = 0x3700;
+uint256 constant QUADRATIC_DYY = 0x3720;
 /// @dev Changes over a word of eight colours: the quadratic part of each channel.
-uint256 constant BEND_BLUE = 0x3760;
-uint256 constant BEND_GREEN = 0x3780;
-uint256 constant BEND_RED = 0x37a0;
+uint256 constant BEND_BLUE = 0x3740;
+uint256 constant BEND_GREEN = 0x3760;
+uint256 constant BEND_RED = 0x3780;
 
 // ----------------------------------------------------------------------------------------------------------------------- smooth triangles
 
 /// @dev The normals at the vertices, times their weights, Q30; each followed by the same with reversed lanes.
-uint256 constant NORMAL_0 = 0x37c0;
-uint256 constant NORMAL_1 = 0x3800;
-uint256 constant NORMAL_2 = 0x3840;
+uint256 constant NORMAL_0 = 0x37a0;
+uint256 constant NORMAL_1 = 0x37e0;
+uint256 constant NORMAL_2 = 0x3820;
 /// @dev The largest square of the changes of the half vector from vertex to vertex, Q40.
-uint256 constant HALF_CHANGE = 0x3880;
+uint256 constant HALF_CHANGE = 0x3860;
 /// @dev Half the magnitudes of the last squares of a ray, and of a half vector.
-uint256 constant RAY_HINT = 0x38a0;
-uint256 constant HALF_HINT = 0x38c0;
+uint256 constant RAY_HINT = 0x3880;
+uint256 constant HALF_HINT = 0x38a0;
 /// @dev The record of a vertex at the midpoint of an edge.
-uint256 constant MIDDLE = 0x38e0;
+uint256 constant MIDDLE = 0x38c0;
 /// @dev The largest change of shape of a product N * H along an edge, Q20: see SmoothLight.correction.
-uint256 constant HALF_SKEW = 0x39e0;
+uint256 constant HALF_SKEW = 0x39c0;
 /// @dev Half of QUADRATIC_DXX, by which QUADRATIC_DX is reduced while rows are drawn.
-uint256 constant QUADRATIC_HALF_DXX = 0x3a00;
+uint256 constant QUADRATIC_HALF_DXX = 0x39e0;
 /// @dev The greatest depth of the vertices, Q24 relative to bit 192 of an accumulator.
-uint256 constant NEAREST = 0x3a20;
+uint256 constant NEAREST = 0x3a00;
 
 // -------------------------------------------------------------------------------------------------------------------------------- samples
 // For the engines that take four samples per pixel: see Samples and SampleRasterizer.
 
 /// @dev The columns and rows that have samples in memory: the first, and the one after the last.
-uint256 constant SAMPLE_BEGIN = 0x3a40;
-uint256 constant SAMPLE_END = 0x3a60;
-uint256 constant SAMPLE_TOP = 0x3a80;
-uint256 constant SAMPLE_BOTTOM = 0x3aa0;
+uint256 constant SAMPLE_BEGIN = 0x3a20;
+uint256 constant SAMPLE_END = 0x3a40;
+uint256 constant SAMPLE_TOP = 0x3a60;
+uint256 constant SAMPLE_BOTTOM = 0x3a80;
 /// @dev The size of a row of samples in bytes; the address of the samples of row 0, column 0, extrapolated, which may be negative. Rows go
 /// down in memory, as in a bitmap.
-uint256 constant SAMPLE_STRIDE = 0x3ac0;
-uint256 constant SAMPLE_ORIGIN = 0x3ae0;
+uint256 constant SAMPLE_STRIDE = 0x3aa0;
+uint256 constant SAMPLE_ORIGIN = 0x3ac0;
 /// @dev The address of the colour of row 0, column 0, extrapolated; rows of TILE_WIDTH pixels go down.
-uint256 constant SAMPLE_IMAGE = 0x3b00;
+uint256 constant SAMPLE_IMAGE = 0x3ae0;
 /// @dev The colour of a pixel of the current row with its samples at p is at ROW_IMAGE + 3 * (p / 32); the decrease of that to the next
 /// row.
-uint256 constant ROW_IMAGE = 0x3b20;
-uint256 constant ROW_IMAGE_STEP = 0x3b40;
+uint256 constant ROW_IMAGE = 0x3b00;
+uint256 constant ROW_IMAGE_STEP = 0x3b20;
 /// @dev The list of the pixels whose samples may differ: the address of the samples, and of the colour.
-uint256 constant MIXED = 0x3b60;
-uint256 constant MIXED_END = 0x3b80;
+uint256 constant MIXED = 0x3b40;
+uint256 constant MIXED_END = 0x3b60;
 /// @dev The row to which START refers; an eighth of DY.
-uint256 constant START_ROW = 0x3ba0;
-uint256 constant DY_8 = 0x3bc0;
+uint256 constant START_ROW = 0x3b80;
+uint256 constant DY_8 = 0x3ba0;
 /// @dev The differences of the samples' depths from SAMPLE_SCALE times the depth of the pixel centre, signed lanes; the depth relative to
 /// SAMPLE_BASE that they refer to.
-uint256 constant DEPTH_OFFSETS = 0x3be0;
-uint256 constant DEPTH_BASE = 0x3c00;
+uint256 constant DEPTH_OFFSETS = 0x3bc0;
+uint256 constant DEPTH_BASE = 0x3be0;
 /// @dev The row to which sides and bounds refer: the first with a sample of the triangle in the band.
-uint256 constant SIDE_ROW = 0x3c20;
+uint256 constant SIDE_ROW = 0x3c00;
 /// @dev The sides of the triangle at that row: see SampleRasterizer; and their changes per row.
-uint256 constant SIDE_LEFT = 0x3c40;
-uint256 constant SIDE_RIGHT = 0x3c60;
-uint256 constant SIDE_LEFT_STEP = 0x3c80;
-uint256 constant SIDE_RIGHT_STEP = 0x3ca0;
+uint256 constant SIDE_LEFT = 0x3c20;
+uint256 constant SIDE_RIGHT = 0x3c40;
+uint256 constant SIDE_LEFT_STEP = 0x3c60;
+uint256 constant SIDE_RIGHT_STEP = 0x3c80;
 /// @dev The addresses of the first pixel that may be covered, and of the one after the last, Q37 in lanes of 128 bits; their changes per
 /// row; the insets, which added to them bound the pixels whose samples are all covered.
-uint256 constant BOUNDS = 0x3cc0;
-uint256 constant BOUND_STEPS = 0x3ce0;
-uint256 constant INSETS = 0x3d00;
+uint256 constant BOUNDS = 0x3ca0;
+uint256 constant BOUND_STEPS = 0x3cc0;
+uint256 constant INSETS = 0x3ce0;
 /// @dev The row in which one side continues with the edge from the second to the third vertex; that side: the address of SIDE_LEFT or
 /// SIDE_RIGHT.
-uint256 constant KINK_ROW = 0x3d20;
-uint256 constant KINK_SIDE = 0x3d40;
+uint256 constant KINK_ROW = 0x3d00;
+uint256 constant KINK_SIDE = 0x3d20;
 /// @dev The lanes of its samples that lie on that edge; that edge at that row, and its change per row.
-uint256 constant KINK_MASK = 0x3d60;
-uint256 constant KINK_EDGE = 0x3d80;
-uint256 constant KINK_STEP = 0x3da0;
+uint256 constant KINK_MASK = 0x3d40;
+uint256 constant KINK_EDGE = 0x3d60;
+uint256 constant KINK_STEP = 0x3d80;
 /// @dev From that row on: the mask of the bounds that remain, and the replacement of the others; their changes, and INSETS.
-uint256 constant KINK_KEPT = 0x3dc0;
-uint256 constant KINK_BOUND = 0x3de0;
-uint256 constant KINK_BOUND_STEPS = 0x3e00;
-uint256 constant KINK_INSETS = 0x3e20;
+uint256 constant KINK_KEPT = 0x3da0;
+uint256 constant KINK_BOUND = 0x3dc0;
+uint256 constant KINK_BOUND_STEPS = 0x3de0;
+uint256 constant KINK_INSETS = 0x3e00;
 /// @dev Whether SPAN_BEGIN and SPAN_END must be applied in each row: the bounds may be far outside.
-uint256 constant IS_CLAMPED = 0x3e40;
+uint256 constant IS_CLAMPED = 0x3e20;
 /// @dev The columns between which fragments may lie: of the triangle, of the tile, and of the cell that is drawn.
-uint256 constant SPAN_BEGIN = 0x3e60;
-uint256 constant SPAN_END = 0x3e80;
+uint256 constant SPAN_BEGIN = 0x3e40;
+uint256 constant SPAN_END = 0x3e60;
 /// @dev SAMPLE_STRIDE in the format of sample addresses, Q37.
-uint256 constant STRIDE_37 = 0x3ea0;
+uint256 constant STRIDE_37 = 0x3e80;
 /// @dev The change of START per row, if it refers to address 0.
-uint256 constant ROW_STEP_32 = 0x3ec0;
+uint256 constant ROW_STEP_32 = 0x3ea0;
 /// @dev The bounds of the row that drawSpans draws, and their changes.
-uint256 constant ROW_BOUNDS = 0x3ee0;
-uint256 constant ROW_BOUND_STEPS = 0x3f00;
+uint256 constant ROW_BOUNDS = 0x3ec0;
+uint256 constant ROW_BOUND_STEPS = 0x3ee0;
 /// @dev The changes of its sides.
-uint256 constant ROW_LEFT_STEP = 0x3f20;
-uint256 constant ROW_RIGHT_STEP = 0x3f40;
+uint256 constant ROW_LEFT_STEP = 0x3f00;
+uint256 constant ROW_RIGHT_STEP = 0x3f20;
 /// @dev The addresses of the first pixel of the row whose samples are all covered, and of the one after the last.
-uint256 constant INNER_BEGIN = 0x3f60;
-uint256 constant INNER_END = 0x3f80;
+uint256 constant INNER_BEGIN = 0x3f40;
+uint256 constant INNER_END = 0x3f60;
 /// @dev The change of a quadratic function at column 0 to the next row.
-uint256 constant QUADRATIC_DOWN = 0x3fa0;
+uint256 constant QUADRATIC_DOWN = 0x3f80;
 /// @dev The row to which the quadratic functions refer.
-uint256 constant QUADRATIC_ROW = 0x3fc0;
+uint256 constant QUADRATIC_ROW = 0x3fa0;
 /// @dev The least depth of the vertices, with 8 more bits than in a vertex.
-uint256 constant FARTHEST = 0x3fe0;
+uint256 constant FARTHEST = 0x3fc0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- light
 // The properties of a light for the frame, at LIGHTS.
@@ -594,3 +593,5 @@ uint256 constant IS_BLENDED = 0x8000;
 uint256 constant IS_DEPTH_PASS = 0x10000;
 /// @dev The face is turned away from the eye: it is moved back a little.
 uint256 constant IS_TURNED_AWAY = 0x20000;
+/// @dev Parts of the triangle are in shadow: see ShadowRows.
+uint256 constant IS_PARTLY_DARK = 0x40000;

@@ -8,10 +8,8 @@ import "./Registers.sol";
 // than end to the left of the sample: see Receivers. Each edge changes the words of the pixels it crosses; the prefix sums of the words
 // from the left are the result.
 //
-// The light that casts shadows is scaled by the fraction of the samples of a fragment that it reaches.
+// The light that casts shadows is switched off while what is in shadow is drawn.
 
-/// @dev The fraction for a fragment whose samples are all lit.
-uint256 constant ALL_SAMPLES = 1 << 8;
 /// @dev The size of an entry in bytes, and its position in a word; the entry of a dark face.
 uint256 constant SHADOW_ENTRY_SIZE = 4;
 uint256 constant SHADOW_ENTRY_AT = 224;
@@ -36,18 +34,21 @@ library ShadowRows {
             uint256 light = load(SHADOW_LIGHT);
             store(SHADOW_COLOR, load(light + LIGHT_COLOR));
             store(SHADOW_DIFFUSE, load(light + LIGHT_DIFFUSE));
-            store(SHADOW_SHARE, ALL_SAMPLES);
+            store(IS_DARK, 0);
         }
     }
 
-    /// @notice Finds the shadows on the face at FACE.
-    function setFace() internal pure {
+    /// @notice Finds the shadows on the face at FACE, and switches the light on or off if all of it is lit or in shadow.
+    /// @return mode IS_PARTLY_DARK if parts of it are in shadow, otherwise 0.
+    function setFace() internal pure returns (uint256 mode) {
         unchecked {
             uint256 entry = load(SHADOW_FACES) + SHADOW_ENTRY_SIZE * ((load(FACE) - load(MESH_FACES)) / FACE_SIZE);
             entry = loadCalldata(entry) >> SHADOW_ENTRY_AT;
-            if (entry > SHADOW_DARK) entry += load(SHADOWS);
-            store(SHADOW_LIST, entry);
-            store(SHADOW_BEGIN, entry);
+            if (entry > SHADOW_DARK) {
+                store(SHADOW_BEGIN, entry + load(SHADOWS));
+                return IS_PARTLY_DARK;
+            }
+            setLight(entry);
         }
     }
 
@@ -119,43 +120,22 @@ library ShadowRows {
         }
     }
 
-    /// @notice Scales the light by the fraction of a fragment that is not in shadow.
-    /// @param covered The highest bits of the lanes of the fragment's samples.
-    function setShare(uint256 covered, uint256 column) internal pure {
+    /// @notice Returns which of the samples of a pixel are in shadow: the highest bits of their lanes.
+    function darkOf(uint256 samples, uint256 column) internal pure returns (uint256) {
         unchecked {
-            uint256 dark;
-            bool isKnown;
-            assembly ("memory-safe") {
-                let list := mload(SHADOW_LIST)
-                if list {
-                    dark := covered
-                    if gt(list, SHADOW_DARK) { dark := and(dark, mload(add(mload(SHADOW_ROW), shl(5, sub(column, mload(COLUMN_BEGIN)))))) }
-                }
-                isKnown := iszero(or(dark, sub(mload(SHADOW_SHARE), ALL_SAMPLES)))
-            }
-            if (isKnown) return;
-            uint256 total = count(covered);
-            uint256 visible = total - count(dark);
-            uint256 share = visible == total ? ALL_SAMPLES : visible == 0 ? 0 : (visible << 4) | total;
-            if (share == load(SHADOW_SHARE)) return;
-            store(SHADOW_SHARE, share);
+            return samples & load(load(SHADOW_ROW) + 32 * (column - load(COLUMN_BEGIN)));
+        }
+    }
+
+    /// @notice Switches the light on, or off if `dark` is not zero.
+    function setLight(uint256 dark) internal pure {
+        unchecked {
+            if (dark != 0) dark = UNIFORM_DARK - UNIFORM_LIT;
+            if (dark == load(IS_DARK)) return;
+            store(IS_DARK, dark);
             uint256 light = load(SHADOW_LIGHT);
-            store(light + LIGHT_COLOR, part(load(SHADOW_COLOR), visible, total));
-            store(light + LIGHT_DIFFUSE, part(load(SHADOW_DIFFUSE), visible, total));
-        }
-    }
-
-    /// @dev Returns how many of the highest bits of four lanes are set.
-    function count(uint256 lanes) private pure returns (uint256) {
-        unchecked {
-            return ((lanes >> 63) * ONES_64) >> 192;
-        }
-    }
-
-    /// @dev Returns the lanes of a colour times visible / total.
-    function part(uint256 color, uint256 visible, uint256 total) private pure returns (uint256 weaker) {
-        unchecked {
-            for (uint256 i; i != 3 * MIDDLE_AT; i += MIDDLE_AT) weaker |= (((color >> i) & LANE_32) * visible / total) << i;
+            store(light + LIGHT_COLOR, dark == 0 ? load(SHADOW_COLOR) : 0);
+            store(light + LIGHT_DIFFUSE, dark == 0 ? load(SHADOW_DIFFUSE) : 0);
         }
     }
 }

@@ -1,7 +1,8 @@
 """Draw triangles and lines with four samples for each pixel.
 
-A fragment is a pixel of which a triangle covers a sample. Its colour is computed once: linear and quadratic colours for
-the centre of the pixel, others for the middle of the samples that are covered.
+A fragment is a pixel of which a triangle covers a sample. Its colour is computed once, or once in shadow and once
+outside it: linear and quadratic colours for the centre of the pixel, others for the middle of the samples that are
+covered.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from .rasterizer import set_back
 from .registers import IS_IN_PASSES, Registers
 from .roots import sqrt
 from .shadow_table import LIT
-from .surface_light import set_share, surface_color
+from .surface_light import parts, surface_color
 from .vertex_shader import Vertex
 from .words import MASK, divide, divide_signed, signed
 
@@ -235,26 +236,27 @@ def draw(a: Vertex, b: Vertex, c: Vertex, attributes: tuple[int, int, int], turn
         seen = [i for i in samples if depths[i] > int(old[i])]
         if not seen:
             continue
-        if r.mode & layout.IS_QUADRATIC:
-            color = smooth(word, samples, column, row, g, r)
-        elif r.mode & layout.IS_PATCHED == 0:
-            color = linear(word)
-        elif r.patch_size == 1:
-            color = exact(word, samples, place, g, r)
-        else:
-            if r.patch_size:
-                cell = column // r.patch_size, row // r.patch_size
-                if cell not in cells:
-                    top = cell[1] * r.patch_size
-                    patches.fit(cell[0] * r.patch_size, top, g.at(0, top), r.patch_size, r)
-                    cells[cell] = r.patch
-                r.patch, r.patch_row = cells[cell], cell[1] * r.patch_size
-            color = quadratic(word, column, row, farthest, r)
-        for i in seen:
-            r.sample_depths[place][i] = depths[i]
-            r.sample_colors[place][i] = over(color, r.sample_colors[place][i], r) if r.fade_range else color
-        if r.fade_range:
-            r.opacity = OPAQUE
+        for part in parts(seen, column - layout.PIXEL_BIAS, row - layout.PIXEL_BIAS, r):
+            if r.mode & layout.IS_QUADRATIC:
+                color = smooth(word, samples, column, row, g, r)
+            elif r.mode & layout.IS_PATCHED == 0:
+                color = linear(word)
+            elif r.patch_size == 1:
+                color = exact(word, samples, place, g, r)
+            else:
+                if r.patch_size:
+                    cell = column // r.patch_size, row // r.patch_size
+                    if cell not in cells:
+                        top = cell[1] * r.patch_size
+                        patches.fit(cell[0] * r.patch_size, top, g.at(0, top), r.patch_size, r)
+                        cells[cell] = r.patch
+                    r.patch, r.patch_row = cells[cell], cell[1] * r.patch_size
+                color = quadratic(word, column, row, farthest, r)
+            for i in part:
+                r.sample_depths[place][i] = depths[i]
+                r.sample_colors[place][i] = over(color, r.sample_colors[place][i], r) if r.fade_range else color
+            if r.fade_range:
+                r.opacity = OPAQUE
 
 
 def linear(word: int) -> Color:
@@ -288,8 +290,6 @@ def exact(word: int, samples: list[int], place: tuple[int, int], g: Gradients, r
         r.opacity = ground.opacity_at(word >> 192, x, y, r)
     if r.opacities is not None:
         r.opacity = opacities.opacity_at(word >> 192, s, t, r)
-    if r.shadows:
-        set_share(samples, column - layout.PIXEL_BIAS, row - layout.PIXEL_BIAS, r)
     color = (surface_color if r.has_effects else color_at)(word >> 192, s, t, x, y, r)
     return patches.pack(((color << 48) + patches.HALF_85) & MASK)
 
@@ -317,10 +317,12 @@ def blend(word: int, depths: list[int], samples: list[int], place: tuple[int, in
     seen = [i for i in samples if int(old[i]) == depths[i] | FOUND]
     if not seen:
         return
-    color = exact(word, samples, place, g, r)
-    for i in seen:
-        old[i] = depths[i] | DRAWN
-        r.sample_colors[place][i] = over(color, r.sample_colors[place][i], r)
+    column, row = place[1] + r.column_begin, place[0] + r.band_top
+    for part in parts(seen, column - layout.PIXEL_BIAS, row - layout.PIXEL_BIAS, r):
+        color = exact(word, samples, place, g, r)
+        for i in part:
+            old[i] = depths[i] | DRAWN
+            r.sample_colors[place][i] = over(color, r.sample_colors[place][i], r)
 
 
 def over(color: Color, behind: NDArray[np.uint8], r: Registers) -> Color:

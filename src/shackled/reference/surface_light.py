@@ -11,6 +11,8 @@ Narkowicz.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from . import gamma, texture
 from .effect_records import TONE_FILMIC, TONE_GAMMA
 from .fragment_light import WEIGHTED_BIAS, color_at, corrected, ray_length
@@ -32,16 +34,17 @@ def set_albedo(r: Registers) -> None:
     r.color_0, r.color_1, r.color_2 = WEIGHTED_BIAS, 0, 0
 
 
-def set_share(samples: list[int], column: int, row: int, r: Registers) -> None:
-    """Weaken the light that casts shadows by the share of the samples of a fragment that it reaches."""
-    assert r.shadows is not None
+def parts(seen: list[int], column: int, row: int, r: Registers) -> Iterator[list[int]]:
+    """Yield the samples of a fragment that are in shadow, and the others; the light that casts shadows is off or on."""
+    if r.shadows is None:
+        yield seen
+        return
     dark = dark_samples(r.shadow, column, row)
-    visible = sum(not dark[i] for i in samples)
     light = r.lights[r.shadows.light]
-    light.color, light.diffuse = (
-        sum((lanes >> at & 0xFFFFFFFF) * visible // len(samples) << at for at in (0, 56, 112))
-        for lanes in (r.shadow_color, r.shadow_diffuse)
-    )
+    for is_dark in (True, False):
+        light.color, light.diffuse = (0, 0) if is_dark else (r.shadow_color, r.shadow_diffuse)
+        if part := [i for i in seen if dark[i] == is_dark]:
+            yield part
 
 
 def surface_color(depth: int, s: int, t: int, x: int, y: int, r: Registers) -> int:
