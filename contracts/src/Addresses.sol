@@ -6,21 +6,21 @@ pragma solidity ^0.8.25;
 /// @title Addresses: the contract addresses of `shackled deploy`, the same on every chain.
 /// @notice Derived from the bytecode: another version of a contract has another address.
 library Addresses {
-    address internal constant ENGINE = 0xF46B349Cf677E4E4A953e490Fc183Bc79aD09a41;
-    address internal constant FRAGMENT_ENGINE = 0x46eE9DEc67ab95D23bc9b08A8b56b126714C65fa;
-    address internal constant ANTIALIASED_ENGINE = 0x59703FB76f4aeE7AeB4e1400e35C097f941fd6da;
-    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x670718e190aA67528134c65EC6C9BC097a31D1bc;
-    address internal constant EFFECTS_ENGINE = 0x221BD61D9c9609392891B7f07A8cAb6ECDC1f30e;
-    address internal constant EFFECTS = 0xD292e1096b5e64589e95345124bF149a73CFfE11;
-    address internal constant RENDERER = 0x3a4Ce0Fb14b7B882015b6Ae173A73F51b3d2C08F;
-    address internal constant ORIGINAL = 0xb43e2f4aE55a140347A62a2c97Dc3b8c2412d4F3;
-    address internal constant GENESIS = 0x7bDB96a46969Cf487eFd8e73c7d5df0Db4745003;
+    address internal constant ENGINE = 0x761af8Cf678220FE5b5a7e469BFA02e5fDcD565F;
+    address internal constant FRAGMENT_ENGINE = 0xdEd5CE6d6b37A7c18D575162aAa0f13D8f08d81a;
+    address internal constant ANTIALIASED_ENGINE = 0x777C17DDd7DE4Fb231A5CdD1b1d0CD3fe16d8702;
+    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x9D396947F68cf369884E081B448Be430B9b249D4;
+    address internal constant EFFECTS_ENGINE = 0x00fB3ed02A969b4ae8BfdDb3e51DBd7a579311D7;
+    address internal constant EFFECTS = 0xD4B5c78e3E36fd228b7353eF3f9CC278B5936459;
+    address internal constant RENDERER = 0x5094717578D76a8d87b1bE185731AF217D7c5833;
+    address internal constant ORIGINAL = 0x987Ba8Bd5218AeC063f3E775D269Ec9Ebfb63d48;
+    address internal constant GENESIS = 0xDA81E5a261ad5284e2C5E2DB20A7E383383D17E3;
     address internal constant PNG_ENCODER = 0xD35d1Fe27b16DC0b1c5526981643a50eAc5c7e0e;
-    address internal constant TURNTABLE = 0x9fe10CA7597Fc6Bc26C10e78ad87E2DDe48F8717;
-    address internal constant GLB_ENCODER = 0x1a839Be185c1924644175712A16a34E19341160d;
-    address internal constant STUDIO = 0x986c25516AD978c1dcf27D34A47f3df6ec24c2b7;
-    address internal constant LIBRARY = 0x7b98e9Ef1030dD413cF5Ab0D79bD694BFBEf3d1c;
-    address internal constant WEB = 0xD3a167BC29F2173c2bA163390553b18A9cdEa4A7;
-    address internal constant EDITIONS = 0x5C6aad3430e48757e1e1fc7eCc54C5B7ceD40CaA;
-    address internal constant GENESIS_METADATA = 0x31955971B0A1c97714d6D74C39b5488f815D867D;
+    address internal constant TURNTABLE = 0x0FeAed2e4DFD46D8cDaaacC31b5e0E6Bdc1e5D9B;
+    address internal constant GLB_ENCODER = 0xDc1780BBD46D9065a22bf449BEA3cF54a2314383;
+    address internal constant STUDIO = 0x942343677288b7F5A52c42EFA6B81DF15369099a;
+    address internal constant LIBRARY = 0xD80bB0e7276377484F63706661BCc176b2CF8F80;
+    address internal constant WEB = 0x46463EAdb5aab75Be08dcF4bCf3f0D85C88B7cc9;
+    address internal constant EDITIONS = 0x276160D7Bbf196bDA896A8b537F581Da76aC1850;
+    address internal constant GENESIS_METADATA = 0x29411D08ce04f7bdCf9dEB57aBE20BE841450ff7;
 }
