@@ -100,9 +100,8 @@ abstract contract PixelRasterizer is Rasterizer {
         if (load(MODE) & IS_TURNED_AWAY != 0) {
             // DX_8 is the change over an eighth of a pixel, DY over a pixel
             unchecked {
-                uint256 dx = uint256(loadSigned(DX_8) >> (ACCUMULATOR_DEPTH_AT + 3));
-                uint256 dy = uint256(loadSigned(DY) >> (ACCUMULATOR_DEPTH_AT + 6));
-                store(START, load(START) - (setBack(dx, dy, 0) << ACCUMULATOR_DEPTH_AT));
+                uint256 depth = setBack(uint256(loadSigned(DX_8) >> 3), uint256(loadSigned(DY) >> 6), 0);
+                store(START, load(START) - (depth << ACCUMULATOR_DEPTH_AT));
             }
         }
         drawParts(edges, b, a);

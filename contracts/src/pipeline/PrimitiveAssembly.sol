@@ -46,6 +46,7 @@ abstract contract PrimitiveAssembly is Rasterizer {
                 uint256 b;
                 uint256 c;
                 int256 area;
+                uint256 crossing;
                 assembly ("memory-safe") {
                     c := shr(down, calldataload(face))
                     face := add(face, FACE_SIZE)
@@ -62,11 +63,12 @@ abstract contract PrimitiveAssembly is Rasterizer {
                     if (area > -HALF_AREA) continue;
                     (a, b, c) = (a | IS_BACK, c, b);
                     area = -area;
+                    crossing = IS_TURNED_AWAY;
                 }
-                uint256 crossing = (a | b | c) & IS_NOT_PLAIN;
-                if (crossing != 0) {
-                    if (crossing & MUST_CLIP != 0 || a & b & c & IS_OUTSIDE != 0) continue;
-                    crossing = crossingOf(crossing);
+                uint256 flags = (a | b | c) & IS_NOT_PLAIN;
+                if (flags != 0) {
+                    if (flags & MUST_CLIP != 0 || a & b & c & IS_OUTSIDE != 0) continue;
+                    crossing |= crossingOf(flags);
                 }
                 assembly ("memory-safe") {
                     mstore(DRAWN, add(mload(DRAWN), 1))
@@ -89,7 +91,9 @@ abstract contract PrimitiveAssembly is Rasterizer {
     }
 
     /// @dev Converts the combined flags of a triangle's vertices to bits of its mode.
-    function crossingOf(uint256 flags) private pure returns (uint256) {
-        return (flags & IS_BESIDE != 0 ? IS_CROSSING : 0) | (flags & IS_OVER != 0 ? IS_CUT : 0) | ((flags & IS_BACK) >> IS_BACK_SHIFT);
+    function crossingOf(uint256 flags) private pure returns (uint256 mode) {
+        assembly ("memory-safe") {
+            mode := add(mul(IS_CROSSING, gt(and(flags, IS_BESIDE), 0)), mul(IS_CUT, gt(and(flags, IS_OVER), 0)))
+        }
     }
 }

@@ -17,23 +17,24 @@ abstract contract Rasterizer {
     function drawTriangle(uint256 a, uint256 b, uint256 c) internal pure virtual;
 
     /// @dev Returns by how much the depth of the current triangle, which is turned away from the eye, is reduced, so that a face turned to
-    /// the eye in the same place is seen: by its change over 1/64 of a pixel, since rounding moves vertices by up to 1/512, and two units of
-    /// the depths of vertices. At most half of the least depth above a base, so that it remains above it, and nothing if the triangle
-    /// IS_DEEP. Removes IS_TURNED_AWAY from MODE.
-    /// @param dx, dy The changes of the depth over 1/64 of a pixel.
+    /// the eye in the same place is seen: by at least its change over 1/64 of a pixel along the axes, since rounding moves vertices by up to
+    /// 1/512 (not more than the sum of both), and two units of the depths of vertices. At most half of the least depth above a base, so
+    /// that it remains above it; nothing if the triangle IS_DEEP. Removes IS_TURNED_AWAY from MODE.
+    /// @param dx, dy The changes of the accumulator over 1/64 of a pixel.
     function setBack(uint256 dx, uint256 dy, uint256 base) internal pure returns (uint256 depth) {
         assembly ("memory-safe") {
-            mstore(MODE, xor(mload(MODE), IS_TURNED_AWAY))
-            // depths of vertices: of the first and of the farthest
-            depth := 0
-            let change := sar(ATTRIBUTE_DEPTH_AT, mload(DELTA_1))
-            if slt(change, depth) { depth := change }
-            change := sar(ATTRIBUTE_DEPTH_AT, mload(DELTA_2))
-            if slt(change, depth) { depth := change }
-            depth := sub(add(depth, shr(ACCUMULATOR_VERTEX_DEPTH_AT, mload(ATTRIBUTE_0))), sar(8, base))
-            depth := mul(shl(7, depth), iszero(and(mload(MODE), IS_DEEP)))
-            change := add(add(xor(dx, sar(255, dx)), xor(dy, sar(255, dy))), 512)
-            if lt(change, depth) { depth := change }
+            let mode := mload(MODE)
+            mstore(MODE, xor(mode, IS_TURNED_AWAY))
+            if iszero(and(mode, IS_DEEP)) {
+                depth := add(shr(ACCUMULATOR_DEPTH_AT, or(xor(dx, sar(255, dx)), xor(dy, sar(255, dy)))), 512)
+                // of the vertices: of the first, then of the farthest
+                dx := mload(DELTA_1)
+                dy := mload(DELTA_2)
+                if slt(dy, dx) { dx := dy }
+                dx := mul(sar(ATTRIBUTE_DEPTH_AT, dx), slt(dx, 0))
+                dx := shl(7, sub(add(dx, shr(ACCUMULATOR_VERTEX_DEPTH_AT, mload(ATTRIBUTE_0))), sar(8, base)))
+                if lt(dx, depth) { depth := dx }
+            }
         }
     }
 

@@ -402,7 +402,7 @@ uint256 constant RAY_HINT = 0x3880;
 uint256 constant HALF_HINT = 0x38a0;
 /// @dev The record of a vertex at the midpoint of an edge.
 uint256 constant MIDDLE = 0x38c0;
-/// @dev The largest change of shape of a product N * H along an edge, Q20: see SmoothLight.correction.
+/// @dev Twice the largest skew of a product N * H along an edge, Q20: see SmoothLight.correction.
 uint256 constant HALF_SKEW = 0x39c0;
 /// @dev Half of QUADRATIC_DXX, by which QUADRATIC_DX is reduced while rows are drawn.
 uint256 constant QUADRATIC_HALF_DXX = 0x39e0;

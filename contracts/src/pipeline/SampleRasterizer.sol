@@ -50,9 +50,8 @@ abstract contract SampleRasterizer is Rasterizer {
             setSides(a, b, c, row);
             setGradients(a, b, c);
             if (load(MODE) & IS_TURNED_AWAY != 0) {
-                uint256 dx = uint256(loadSigned(DX) >> (ACCUMULATOR_DEPTH_AT + 6));
-                uint256 dy = uint256(loadSigned(DY) >> (ACCUMULATOR_DEPTH_AT + 6));
-                uint256 depth = setBack(dx, dy, load(SAMPLE_BASE)) << load(SAMPLE_SHIFT);
+                uint256 depth = setBack(uint256(loadSigned(DX) >> 6), uint256(loadSigned(DY) >> 6), load(SAMPLE_BASE));
+                depth <<= load(SAMPLE_SHIFT);
                 store(DEPTH_OFFSETS, load(DEPTH_OFFSETS) - depth * ONES_64 - SAMPLE_DEPTH_UNIT);
             }
             if (load(IS_CLAMPED) != 0) setSpan(a, b, c);

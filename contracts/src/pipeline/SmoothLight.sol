@@ -33,8 +33,8 @@ import "./Registers.sol";
 //     least N * N, by at most d^2 / 6 * (1 - q) / 2q for half vectors that differ by d. Times n, the slope of cos^n where it is 1.
 //   - If the first is above four levels, or the second above three and a half, products are made exact at the edge midpoints too. Errors
 //     are of third order then: along each edge s (1 - s) (1 - 2s) times a skew, which is at most 1/9 of it, and in the middle the product of
-//     the three weights. The skews are measured, and so is the error at the point (1/2, 1/4, 1/4): together at most 3.5 levels, unless
-//     no point of the triangle can be near the highlight, on triangles of at most 16 times the size. The largest sum of all errors that
+//     the three weights. The skews are measured, and so is the error at the point (1/2, 1/4, 1/4): together at most three levels, unless
+//     no point of the triangle can be near the highlight, on triangles of at most 20 times the size. The largest sum of all errors that
 //     the search finds is 7.6 levels.
 //   - Colours are perspective-correct where linear ones would be too inaccurate (Shading.isAffine): they are multiplied by the weights of
 //     the normals, and divided at each fragment by its depth, which is the sum of the weights.
@@ -84,9 +84,9 @@ uint256 constant THREE_20 = 0x300000;
 uint256 constant NEAR_ONE = 980;
 /// @dev 3/8, Q40: the maximum square of a change of half vectors between vertices.
 uint256 constant MOST_HALF_CHANGE = 0x6000000000;
-/// @dev Three and a half levels of 12 (Q50), and of 16 * 2 (Q30), in the unit of HALF_SLOPE.
+/// @dev Three and a half levels of 12 (Q50), and three of 16 * 2 (Q30), in the unit of HALF_SLOPE.
 uint256 constant THREE_AND_A_HALF = 0x2000000000000;
-uint256 constant THREE_AND_A_HALF_32 = 0x55555555;
+uint256 constant THREE_LEVELS = 1227133513;
 
 /// @dev The offset from a vertex normal to the normal with reversed lanes.
 uint256 constant REVERSED = 0x20;
@@ -273,7 +273,8 @@ library SmoothLight {
                 let p := ONE_10
                 let q := ONE_10
                 let r := ONE_10
-                let isOpen := and(kind, OPEN)
+                // where H turns fast, a fourth of the reach
+                let reach := shr(shl(1, iszero(and(kind, OPEN))), mload(SMOOTH_REACH))
                 kind := AFFINE_LIGHT
                 if iszero(mload(FRAME_IS_ORTHOGRAPHIC)) {
                     // depths relative to the greatest of them
@@ -296,7 +297,6 @@ library SmoothLight {
                         depth := div(shl(Q32, sub(ONE_10, depth)), mul(add(depth, 1), mload(RAY_STEP)))
                         size := add(size, mul(depth, depth))
                     }
-                    if iszero(isOpen) { size := shl(2, size) }
                 }
                 p := atVertex(a, p, NORMAL_0)
                 q := atVertex(b, q, NORMAL_1)
@@ -317,7 +317,7 @@ library SmoothLight {
                 }
                 let change := mload(HALF_CHANGE)
                 // 3 - 3q is at most three times 3q
-                if and(or(gt(mul(mul(3, change), mload(HALF_SLOPE)), THREE_AND_A_HALF), iszero(lt(size, mload(SMOOTH_REACH)))), gt(kind, 0)) {
+                if and(or(gt(mul(mul(3, change), mload(HALF_SLOPE)), THREE_AND_A_HALF), iszero(lt(size, reach))), gt(kind, 0)) {
                     let most := ab
                     if sgt(ac, most) { most := ac }
                     if sgt(bc, most) { most := bc }
@@ -325,7 +325,7 @@ library SmoothLight {
                     least := sub(least, most)
                     // 1 if the products must be exact at the midpoints
                     let isLarge := sgt(mul(mul(change, mload(HALF_SLOPE)), sub(THREE_20, least)), mul(least, THREE_AND_A_HALF))
-                    if or(isLarge, iszero(lt(size, mload(SMOOTH_REACH)))) {
+                    if or(isLarge, iszero(lt(size, reach))) {
                         kind := mul(kind, and(lt(size, mload(SMOOTH_REACH_3)), lt(change, MOST_HALF_CHANGE)))
                         if kind {
                             mstore(HALF_SKEW, 0)
@@ -342,7 +342,7 @@ library SmoothLight {
                             error := shl(2, sar(PRODUCT_TO_LOWER, mul(error, mload(add(MIDDLE, VERTEX_HALF_REVERSED)))))
                             error := add(size20(lowest(sub(error, inner))), mload(HALF_SKEW))
                             error := mul(mul(error, mload(HALF_SLOPE)), add(THREE_20, least))
-                            if gt(error, mul(least, THREE_AND_A_HALF_32)) {
+                            if gt(error, mul(least, THREE_LEVELS)) {
                                 // not near the highlight, by the nodes, between which vectors turn by less than half as much
                                 error := nearer(inner, 4, 0)
                                 error := nearer(sub(shl(1, add(p, q)), ab), 2, error)

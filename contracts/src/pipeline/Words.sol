@@ -416,7 +416,7 @@ uint256 constant EDGES_RIGHT_COLUMN_MASK = 0xffff;
 uint256 constant IS_BESIDE = 0x600000000;
 uint256 constant IS_OVER = 0x1800000000;
 uint256 constant IS_OUTSIDE = 0x1e00000000;
-uint256 constant IS_NOT_PLAIN = 0x3f00000000;
+uint256 constant IS_NOT_PLAIN = 0x1f00000000;
 /// @dev The bits that select the loop for the rows of a smooth triangle.
 uint256 constant IS_GREY_OR_STEEP = 0xc00;
 uint256 constant IS_CUT_OR_CROSSING = 0x2080;
@@ -427,8 +427,6 @@ uint256 constant IS_CLAMPED_MODE = 0x380;
 
 /// @dev From a triangle of a list to its mode, for both of its bits there.
 uint256 constant TRIANGLE_CROSSING_SHIFT = 140;
-/// @dev From a vertex to the mode.
-uint256 constant IS_BACK_SHIFT = 20;
 
 // -------------------------------------------------------------------------------------------------------------------- borders of the tile
 // Four lanes of 28 bits for the left, right, upper and lower border: positive if a vertex lies beyond it. See TileCulling.

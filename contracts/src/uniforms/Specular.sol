@@ -61,7 +61,7 @@ library Specular {
             uint256 slope = (sqrt(shininess << (Q32 + Q32)) * coefficient) >> Q32;
             uint256 reach = slope == 0 || focal == 0 ? UNBOUNDED_REACH : (11 * focal * focal << (Q32 - 6)) / slope;
             store(SMOOTH_REACH, lampReach < reach ? lampReach : reach);
-            store(SMOOTH_REACH_3, lampReach < 2 * reach ? 8 * lampReach : 16 * reach);
+            store(SMOOTH_REACH_3, lampReach < 5 * reach / 2 ? 8 * lampReach : 20 * reach);
             store(HALF_SLOPE, (3109 * shininess * coefficient) >> Q32);
             // 2.8 = 2936013 / 2^20
             store(FAR_FROM_HIGHLIGHT, (1 << Q20) - 2936013 / shininess);

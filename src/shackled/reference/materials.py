@@ -36,7 +36,7 @@ def set_material(view: View, scene: Scene, material: Material, registers: Regist
         lamp = smooth_reach(focal, material.diffuse, is_point)
         half = specular.half_reach(material.specular, material.shininess, 0 if view.orthographic else focal)
         registers.smooth_reach = min(lamp, half)
-        registers.smooth_reach_3 = min(8 * lamp, 16 * half)
+        registers.smooth_reach_3 = 8 * lamp if lamp < 5 * half // 2 else 20 * half
         registers.half_slope = specular.half_slope(material.specular, material.shininess)
         registers.far_from_highlight = (1 << 20) - 2936013 // material.shininess
         # with several lights most of the work would be repeated for each

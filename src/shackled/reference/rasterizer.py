@@ -98,8 +98,7 @@ def set_up(triangle: Triangle, top: int, registers: Registers) -> tuple[int, int
     r.dx = (8 * (delta_c * yb - delta_b * yc) + (dx << layout.ATTRIBUTE_DEPTH_AT)) & MASK
     r.dy = (8 * (delta_b * xc - delta_c * xb) + (dy << layout.ATTRIBUTE_DEPTH_AT)) & MASK
     if triangle.turned_away:
-        dx = signed(delta_c * yb - delta_b * yc) >> layout.ACCUMULATOR_DEPTH_AT + 3
-        dy = signed(r.dy) >> layout.ACCUMULATOR_DEPTH_AT + 6
+        dx, dy = signed(delta_c * yb - delta_b * yc) >> 3, signed(r.dy) >> 6
         attributes = r.attribute_0, r.attribute_1, r.attribute_2
         r.start = (r.start - (set_back(attributes, dx, dy, 0, r) << layout.ACCUMULATOR_DEPTH_AT)) & MASK
     return edges & MASK, slopes & MASK, middle
@@ -108,14 +107,14 @@ def set_up(triangle: Triangle, top: int, registers: Registers) -> tuple[int, int
 def set_back(attributes: tuple[int, int, int], dx: int, dy: int, base: int, r: Registers) -> int:
     """Return by how much the depth of a triangle is reduced that is turned away from the eye: see the contract.
 
-    dx, dy: changes of the depth over 1/64 of a pixel.
+    dx, dy: changes of the accumulator over 1/64 of a pixel.
     """
     if r.mode & layout.IS_DEEP:
         return 0
     first = attributes[0]
     least = min(0, *(word - first >> layout.ATTRIBUTE_DEPTH_AT for word in attributes[1:]))
     depth = (least + (first >> layout.ATTRIBUTE_DEPTH_AT) - (signed(base) >> 8) << 7) & MASK
-    return min((dx ^ dx >> 255) + (dy ^ dy >> 255) + 512, depth)
+    return min(((dx ^ dx >> 255 | dy ^ dy >> 255) >> layout.ACCUMULATOR_DEPTH_AT) + 512, depth)
 
 
 def lower_edges(upper: int, upper_slopes: int, b: Vertex, c: Vertex, top: int, middle: int) -> tuple[int, int]:

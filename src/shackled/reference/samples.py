@@ -221,7 +221,7 @@ def draw(a: Vertex, b: Vertex, c: Vertex, attributes: tuple[int, int, int], turn
     r.dx, r.dy = g.dx, g.dy
     r.set_back = 0
     if turned_away:
-        dx, dy = (signed(change) >> layout.ACCUMULATOR_DEPTH_AT + 6 for change in (g.dx, g.dy))
+        dx, dy = signed(g.dx) >> 6, signed(g.dy) >> 6
         r.set_back = (set_back(attributes, dx, dy, r.sample_base, r) << r.sample_shift) + (1 << 27)
     farthest = min(word >> 168 for word in attributes) << 8
     cells: dict[tuple[int, int], Differences] = {}

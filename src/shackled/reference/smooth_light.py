@@ -24,8 +24,8 @@ VECTOR_BIAS = 0x100000000000000000000080000000000000000000040000000
 
 UNBOUNDED_LIGHT, AFFINE_LIGHT, STEEP_LIGHT = 0, 1, 2
 
-#: Three and a half levels of 12 (Q50), and of 16 * 2 (Q30): see the contract.
-LEVELS_12, LEVELS_32 = 1 << 49, 0x55555555
+#: Three and a half levels of 12 (Q50), and three of 16 * 2 (Q30): see the contract.
+LEVELS_12, LEVELS_32 = 1 << 49, 1227133513
 
 
 def product(a: int, b: int) -> int:
@@ -63,8 +63,6 @@ def set_light(triangle: Triangle, size: int, registers: Registers) -> int:
         if min(weights) < 980 and r.lights[0].is_point:
             # the change of depth, as long as it would be on the screen
             size += divide((1024 - min(weights)) << 32, (min(weights) + 1) * r.ray_step) ** 2
-        if not all(corner.is_open for corner in corners):
-            size *= 4
     normals = [weight * vertex.normal for weight, vertex in zip(weights, vertices, strict=True)]
     turned = [weight * corner.reversed for weight, corner in zip(weights, corners, strict=True)]
     a, b, c = (
@@ -84,7 +82,9 @@ def set_light(triangle: Triangle, size: int, registers: Registers) -> int:
     least = 3 * (signed(min(signed(a), signed(b), signed(c))) >> 170) - most
     if least <= 3 << 18:
         return UNBOUNDED_LIGHT
-    if size >= r.smooth_reach or changes * r.half_slope * ((3 << 20) - least) > least * LEVELS_12:
+    # where H turns fast, a fourth of the reach
+    reach = r.smooth_reach >> (0 if all(corner.is_open for corner in corners) else 2)
+    if size >= reach or changes * r.half_slope * ((3 << 20) - least) > least * LEVELS_12:
         if size >= r.smooth_reach_3 or changes >= 3 << 37:
             return UNBOUNDED_LIGHT
         skew = 0
