@@ -1,0 +1,86 @@
+"""Which points a light does not reach: docs/shadows.md.
+
+A face shades what is behind it, in the pyramid or prism of its three sides and the light. Glass, wires and grounds cast
+no shadows; of culled objects only the faces that the rule of the shadow names do. A face does not shade itself.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .calldata import ALL_FACES, TURNED_AWAY, Array, Booleans, Integers, World
+from .visibility import AROUND, TOLERANCE
+
+#: Points that are looked at together, in the order of the pixels.
+TILE = 256
+#: Distances that are smaller than this part of the coordinates are none.
+NOTHING = 1e-9
+
+
+class Shadows:
+    """The shadows of a world. planes: (n, 4, 4) of each face that casts one, positive in the shadow."""
+
+    def __init__(self, world: World) -> None:
+        assert world.shadow is not None
+        number, rule = world.shadow
+        lamp = world.lamps[number]
+        planes, numbers = [np.empty((0, 4, 4))], [np.empty(0, np.int64)]
+        for surface in world.surfaces:
+            if surface.is_wire or not surface.is_opaque:
+                continue
+            corners = surface.positions[surface.faces]
+            normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+            toward = lamp.vector - corners[:, 0] if lamp.is_point else np.broadcast_to(lamp.vector, normal.shape)
+            side = (normal * toward).sum(axis=1)
+            casts = side != 0
+            if surface.cull and rule != ALL_FACES:
+                casts = side < 0 if rule == TURNED_AWAY else side > 0
+            corners, normal, side = corners[casts], normal[casts], side[casts]
+            begin, way = corners, np.roll(corners, -1, 1) - corners
+            toward = lamp.vector - begin if lamp.is_point else np.broadcast_to(lamp.vector, begin.shape)
+            # inward, if the corners are counter-clockwise as the light sees them
+            normals = np.concatenate([np.cross(toward, way), -normal[:, None]], axis=1) * np.sign(side)[:, None, None]
+            normals /= np.maximum(np.linalg.norm(normals, axis=2, keepdims=True), 1e-300)
+            through = np.concatenate([begin, begin[:, :1]], axis=1)
+            planes.append(np.concatenate([normals, -(normals * through).sum(axis=2, keepdims=True)], axis=2))
+            numbers.append(surface.first + np.flatnonzero(casts))
+        self.planes, self.faces = np.concatenate(planes), np.concatenate(numbers)
+        self.extent = max((np.abs(s.positions).max(initial=0) for s in world.surfaces), default=1.0)
+
+    def on(self, points: Array, across: Array, down: Array, face: Integers) -> tuple[Booleans, Booleans]:
+        """Whether points (n, 3) may be lit, and whether they may be dark.
+
+        across, down: how they change by TOLERANCE pixels to the right and down. face: the faces on which they are.
+        """
+        may_be_lit, may_be_dark = np.ones(len(points), bool), np.zeros(len(points), bool)
+        for start in range(0, len(points), TILE):
+            part = slice(start, start + TILE)
+            lit, dark = self._tile(points[part], across[part], down[part], face[part])
+            may_be_lit[part], may_be_dark[part] = lit, dark
+        return may_be_lit, may_be_dark
+
+    def _tile(self, points: Array, across: Array, down: Array, face: Integers) -> tuple[Booleans, Booleans]:
+        reach = np.abs(across) + np.abs(down)
+        low, high = (points - reach).min(axis=0), (points + reach).max(axis=0)
+        normals, constant = self.planes[:, :, :3], self.planes[:, :, 3]
+        most = normals @ ((low + high) / 2) + constant + np.abs(normals) @ ((high - low) / 2)
+        near = np.flatnonzero((most > 0).all(axis=1))
+        lit, dark = np.ones(len(points), bool), np.zeros(len(points), bool)
+        if not len(near):
+            return lit, dark
+        # a face in the plane of its neighbour is not behind it
+        nothing = NOTHING * self.extent * np.array([-1, -1, -1, 1])
+        flat, constant = normals[near].reshape(-1, 3), constant[near].ravel()
+        value = (points @ flat.T + constant).reshape(len(points), -1, 4)
+        change = np.hypot(across @ flat.T, down @ flat.T).reshape(value.shape)
+        other = face[:, None] != self.faces[near]
+        dark = ((value > nothing - change).all(axis=2) & other).any(axis=1)
+        unsure = np.flatnonzero(dark & ~((value > change + np.abs(nothing)).all(axis=2) & other).any(axis=1))
+        lit = ~dark
+        if len(unsure):
+            steps = AROUND / TOLERANCE
+            moved = across[unsure, None] * steps[:, :1] + down[unsure, None] * steps[:, 1:]
+            value = value[unsure, None] + (moved @ flat.T).reshape(len(unsure), len(steps), -1, 4)
+            inside = (value > nothing).all(axis=3) & other[unsure, None]
+            lit[unsure] = ~inside.any(axis=2).all(axis=1)
+        return lit, dark
