@@ -136,14 +136,15 @@ class Composition:
             return
         parts = [pieces_of(self.frame, world.surfaces[i], world.antialias) for i in numbers]
         pieces = joined([part[part.is_cut == cut] for part in parts for cut in (False, True)])
-        floor, rows = self._visible(pieces)
+        reached, rows = self._visible(pieces)
+        floor = reached.floor
         # what is there may hide them, and they what is there
         before = canvas.floor.min(axis=2)[rows.pixel, rows.sample]
         rows = rows.chosen(rows.most >= before)
         samples = rows.pixel * len(self.places) + rows.sample
         sure = (floor > canvas.ceiling[..., None]).all(axis=2)
         likely = self._likely(pieces, rows, samples)
-        found = fragments(world, self.shadows, pieces, rows, self.places)
+        found = fragments(world, self.shadows, pieces, rows, reached, self.places)
         for colors, color in ((canvas.colors, found.color), (canvas.slivers, found.sliver)):
             _blend(colors, color, found.opacity, samples, sure, likely)
         flat = canvas.nearness.reshape(-1)
@@ -153,8 +154,8 @@ class Composition:
         np.maximum(canvas.floor, floor, out=canvas.floor)
         self.only.append(self._only(pieces.face[rows.piece], rows, sure, found))
 
-    def _visible(self, pieces: Pieces) -> tuple[Array, Seen]:
-        """The floor of some pieces, and the rows of those that their own do not hide."""
+    def _visible(self, pieces: Pieces) -> tuple[Seen, Seen]:
+        """All that pieces reach, and of this what others of them do not hide."""
         if not self.world.antialias and pieces.is_wire.any():
             wire = np.flatnonzero(pieces.is_wire)
             fill = np.flatnonzero(~pieces.is_wire)
@@ -168,13 +169,12 @@ class Composition:
         rows = found.chosen(found.most >= found.floor.min(axis=2)[found.pixel, found.sample])
         # where a front and a back face are in the same place, the front face is seen
         front = np.full(found.floor.shape[:2], -np.inf)
-        is_front = pieces.front[rows.piece]
+        is_front = pieces.front[rows.piece] | pieces.is_wire[rows.piece]
         certain = rows.covers & is_front & ~pieces.doubtful[rows.piece]
         np.maximum.at(front, (rows.pixel[certain], rows.sample[certain]), rows.nearness[certain])
         nearest = front[rows.pixel, rows.sample]
-        with np.errstate(invalid="ignore"):
-            same = np.abs(rows.nearness - nearest) <= SAME_DEPTH * np.abs(nearest)
-        return found.floor, rows.chosen(is_front | ~same)
+        same = np.isfinite(nearest) & (np.abs(rows.nearness - nearest) <= SAME_DEPTH * np.abs(rows.nearness))
+        return found, rows.chosen(is_front | ~same)
 
     def _likely(self, pieces: Pieces, rows: Seen, samples: Integers) -> Integers:
         """The rows that are most likely seen: the nearest of a sample, the first of those at equal depth."""

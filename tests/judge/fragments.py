@@ -33,22 +33,30 @@ class Fragments:
     dark: Booleans
 
 
-def fragments(world: World, shadows: Shadows | None, pieces: Pieces, rows: Seen, places: Array) -> Fragments:
-    """Return the colours of rows; `places` are those of the samples."""
+def fragments(
+    world: World, shadows: Shadows | None, pieces: Pieces, rows: Seen, reached: Seen, places: Array
+) -> Fragments:
+    """Return the colours of rows; `reached` are those of all samples that pieces may cover, also hidden ones, and
+    `places` those of the samples.
+    """
     pixels = np.int64(world.frame.width * world.frame.height)
     keys, key = np.unique(rows.piece * pixels + rows.pixel, return_inverse=True)
     count, piece = len(keys), keys // pixels
     center = np.zeros((count, 2))
     center[key] = rows.center
-    own = rows.center + places[rows.sample]
     place, owner = [center], [np.arange(count)]
-    if len(places) > 1:
-        covered = np.bincount(key[rows.covers], minlength=count)
+    if len(places) > 1 and count:
+        other = reached.piece * pixels + reached.pixel
+        which = np.minimum(np.searchsorted(keys, other), count - 1)
+        known = keys[which] == other
+        which, covers = which[known], reached.covers[known]
+        samples = (reached.center + places[reached.sample])[known]
+        covered = np.bincount(which[covers], minlength=count)
         part = np.flatnonzero((covered > 0) & (covered < len(places)))
-        middle = np.stack([np.bincount(key[rows.covers], own[rows.covers, axis], count) for axis in (0, 1)], axis=1)
-        edge = np.flatnonzero(covered[key] < len(places))
-        place += [own[edge], middle[part] / covered[part, None]]
-        owner += [key[edge], part]
+        middle = np.stack([np.bincount(which[covers], samples[covers, axis], count) for axis in (0, 1)], axis=1)
+        edge = covered[which] < len(places)
+        place += [samples[edge], middle[part] / covered[part, None]]
+        owner += [which[edge], part]
     at, to = np.concatenate(place), np.concatenate(owner)
     # only at the centre of the pixel, colours are computed outside of the triangle
     inside = np.arange(len(at)) >= count
@@ -63,7 +71,7 @@ def fragments(world: World, shadows: Shadows | None, pieces: Pieces, rows: Seen,
     weights = np.concatenate([weights, pieces.weights[piece[thin]].reshape(-1, 3)])
     end, to = len(to), np.concatenate([to, np.repeat(thin, 3)])
     lit, dark, opacity = _shaded(world, surface[piece[to]], pieces.face[piece[to]], weights)
-    may_be_lit, may_be_dark = _reached(world, shadows, pieces, rows, own, surface)
+    may_be_lit, may_be_dark = _reached(world, shadows, pieces, rows, places, surface)
     mixed = []
     for part in (slice(end), slice(None)):
         both = [_extent(values[:, part], to[part], count)[:, key] for values in (lit, dark)]
@@ -99,9 +107,10 @@ def _either(lit: Array, dark: Array, may_be_lit: Booleans, may_be_dark: Booleans
 
 
 def _reached(
-    world: World, shadows: Shadows | None, pieces: Pieces, rows: Seen, own: Array, surface: Integers
+    world: World, shadows: Shadows | None, pieces: Pieces, rows: Seen, places: Array, surface: Integers
 ) -> tuple[Booleans, Booleans]:
     """Whether the light with shadows may reach the samples, and whether it may not."""
+    own = rows.center + places[rows.sample]
     lit, dark = np.ones(len(own), bool), np.zeros(len(own), bool)
     if shadows is None:
         return lit, dark

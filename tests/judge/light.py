@@ -39,7 +39,7 @@ def colors(world: World, surface: Surface, face: Integers, weights: Array) -> Co
     frame, effects = world.frame, world.effects
     corners = surface.faces[face]
     point = mix(surface.positions[corners], weights)
-    base = np.clip(mix(surface.colors[corners], weights), 0, 255)
+    base = mix(surface.colors[corners], weights)
     if surface.texture is not None and surface.uvs is not None:
         base = base * color_at(surface.texture, mix(surface.uvs[corners], weights)) / 255
     radiance = _radiance(world, surface, corners, weights, point, _light(effects, base))
@@ -90,6 +90,8 @@ def _radiance(
 def _light(effects: Effects, color: Array) -> Array:
     """A colour 0..255 as light 0..1."""
     x = color / 255
+    if effects.gamma:
+        x = np.maximum(x, 0)
     return np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055) ** 2.4) if effects.gamma else x
 
 
