@@ -15,6 +15,8 @@ from .calldata import Array, Booleans, Frame, Integers, Surface
 SUBPIXELS = 256.0
 #: Triangles of less height, in pixels, can be turned round by rounding.
 TURNABLE = 0.01
+#: Pixels by which the corners of the rectangle of a wire may be rounded.
+ROUNDED = 0.02
 
 
 @dataclass(frozen=True)
@@ -24,7 +26,8 @@ class Pieces:
     face: (n,) counted through all objects. corners: (n, 3, 2) columns and rows in sub-pixels. nearness: (n, 3), see
     Frame. divisor: (n, 3) of the projection. weights: (n, 3, 3) of the corners of the face, for each corner.
     front: (n,) whether it is turned to the eye. doubtful: (n,) whether it may be culled, or not. height: (n,) the least,
-    in pixels. is_cut: (n,) whether the near plane cuts its face. is_wire: (n,).
+    in pixels. is_cut: (n,) whether the near plane cuts its face. is_wire: (n,). slack: (n, 3) how far inside of the edges
+    across from the corners a place must be to be covered for sure, in sub-pixels.
     """
 
     face: Integers
@@ -37,6 +40,7 @@ class Pieces:
     height: Array
     is_cut: Booleans
     is_wire: Booleans
+    slack: Array
 
     def __getitem__(self, chosen: Integers | Booleans) -> Pieces:
         return Pieces(*(getattr(self, each.name)[chosen] for each in fields(self)))
@@ -109,6 +113,7 @@ def _made(
         height,
         cut[face],
         np.full(len(face), surface.is_wire),
+        np.where(doubtful[:, None], np.inf, np.zeros(3)),
     )[kept]
 
 
@@ -137,14 +142,19 @@ def _wires(made: Pieces, antialias: bool) -> Pieces:
         edges, length = made[is_edge], length[is_edge]
         aside = way[is_edge][:, ::-1] * [-1, 1] / length * SUBPIXELS / 2
         p, q = edges.corners[:, i], edges.corners[:, j]
-        rectangle = (((i, j, j), (p - aside, q + aside, q - aside)), ((i, i, j), (p - aside, p + aside, q + aside)))
-        for ends, corners in rectangle if antialias else (((i, j, j), (p, q, q + aside)),):
+        # the triangles of a rectangle share an edge; the others can be rounded otherwise than those of other wires
+        parts = (
+            ((i, j, j), (p - aside, q + aside, q - aside), (1, 1, 0)),
+            ((i, i, j), (p - aside, p + aside, q + aside), (1, 0, 1)),
+        )
+        for ends, corners, own in parts if antialias else (((i, j, j), (p, q, q + aside), (0, 0, 0)),):
             changes = {
                 "corners": np.stack(corners, axis=1),
                 "nearness": edges.nearness[:, ends],
                 "divisor": edges.divisor[:, ends],
                 "weights": edges.weights[:, ends],
                 "height": np.minimum(1.0, length[:, 0] / SUBPIXELS),
+                "slack": np.maximum(edges.slack, ROUNDED * SUBPIXELS * np.array(own)),
             }
             found.append(replace(edges, **changes))
     return joined(found)

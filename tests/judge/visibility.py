@@ -60,6 +60,7 @@ def seen(pieces: Pieces, frame: Frame, places: Array) -> Seen:
     moved = SUBPIXELS * (inner + places[:, None] + AROUND)
     own = moved[:, :, 0].reshape(-1, 2)
     shift, least, most = _depths(pieces)
+    least_edges = pieces.slack * np.linalg.norm(lines[:, :3, :2], axis=2)
     lowest = np.full((across * down, moved.size // 2), -np.inf)
     rows = []
     for start in range(0, len(numbers), CHUNK):
@@ -68,7 +69,7 @@ def seen(pieces: Pieces, frame: Frame, places: Array) -> Seen:
         local = lines[number]
         local[:, :, 2] += np.einsum("pij,pj->pi", local[:, :, :2], corner[part])
         values = local[:, :4] @ _columns(moved.reshape(-1, 2))
-        covers = (values[:, :3] >= 0).all(axis=1) & ~pieces.doubtful[number, None]
+        covers = (values[:, :3] >= least_edges[number, :, None]).all(axis=1)
         depth = np.maximum(values[:, 3] - shift[number, None], least[number, None])
         depth = np.where(covers, depth - SAME_DEPTH * np.abs(depth), -np.inf)
         firsts = np.flatnonzero(np.diff(block, prepend=-1))
