@@ -22,6 +22,7 @@ if __package__ in (None, ""):
 
 from benchmarks.shared import FOLDER
 
+from judge.verdict import RARE
 from judge import KINDS, Verdict, draw_in_tiles, judge, random_scene
 from shackled import load
 from shackled.errors import ShackledError
@@ -57,12 +58,12 @@ def table(rows: dict[str, Verdict]) -> str:
     width = max(map(len, rows))
     lines = [
         f"{'':{width}} {'scenes':>6} {'lit':>10} {'interior':>10} {'mean':>6} {'>4':>5} {'>8':>5} {'worst':>6} "
-        f"{'outside':>7} {'slivers':>7}"
+        f"{'outside':>7}" + "".join(f" {rule:>7}" for rule in RARE)
     ]
     for name, r in rows.items():
         lines.append(
             f"{name:{width}} {r.scenes:6,} {r.lit:10,} {r.interior:10,} {r.mean:6.3f} {r.many:5,} {r.far:5,} "
-            f"{r.worst:6.1f} {r.outside:7,} {r.slivers:7,}"
+            f"{r.worst:6.1f} {r.outside:7,}" + "".join(f" {r.explained[rule]:7,}" for rule in RARE)
         )
     return "\n".join(lines)
 

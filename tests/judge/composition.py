@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .calldata import SMOOTH, Array, Booleans, Integers, World, read
-from .fragments import Fragments, fragments
+from .fragments import RULES, Fragments, fragments
 from .pieces import Pieces, joined, pieces_of
 from .shadows import Shadows
 from .visibility import AROUND, CENTER, SAME_DEPTH, SAMPLES, Seen, seen
@@ -27,8 +27,8 @@ STEP = 1.0
 class Picture:
     """A picture, and what is seen in it.
 
-    exact: (H, W, 3), as it most likely is. low, high: (H, W, 3), between what it may be. sliver_low, sliver_high: the
-    same if slivers have the colours of their vertices. triangle: (H, W) number of the face that is seen at the first
+    exact: (H, W, 3), as it most likely is. low, high: (H, W, 3), between what it may be. explained: (2, H, W, 3),
+    the same with each of the RULES. triangle: (H, W) number of the face that is seen at the first
     sample, counted through all objects; -1 for the background. lit: whether anything may be seen.
     interior: whether a pixel and its neighbours show one triangle of each layer, without steps.
     corners: (n, 3) numbers of the vertices of each face, counted through all objects. is_smooth: (n,).
@@ -37,8 +37,7 @@ class Picture:
     exact: Array
     low: Array
     high: Array
-    sliver_low: Array
-    sliver_high: Array
+    explained: dict[str, Array]
     triangle: Integers
     lit: Booleans
     interior: Booleans
@@ -53,13 +52,12 @@ class Picture:
 
 @dataclass
 class _Canvas:
-    """What is there so far. colors: (3, pixels, samples, 3), the least, the likely and the most; slivers: the same if
-    slivers have the colours of their vertices. floor, ceiling: how near it is at least in each place of a sample, and at
-    most in a sample. nearness, triangle: of what is likely.
+    """What is there so far. colors: (1 + rules, 3, pixels, samples, 3), the least, the likely and the most; by the
+    formulas, and with each of the rules. floor, ceiling: how near it is at least in each place of a sample, and at most
+    in a sample. nearness, triangle: of what is likely.
     """
 
     colors: Array
-    slivers: Array
     floor: Array
     ceiling: Array
     nearness: Array
@@ -83,11 +81,10 @@ class Composition:
         part = (np.arange(height) / max(height - 1, 1))[:, None]
         background = np.repeat(world.top + (world.bottom - world.top) * part, width, axis=0)[None, :, None]
         shape = (height * width, len(self.places))
-        full = np.empty((3, *shape, 3))
+        full = np.empty((1 + len(RULES), 3, *shape, 3))
         full[:] = background
         self.canvas = _Canvas(
             full,
-            full.copy(),
             np.full((*shape, len(AROUND)), -np.inf),
             np.full(shape, -np.inf),
             np.full(shape, -np.inf),
@@ -99,16 +96,21 @@ class Composition:
     def picture(self) -> Picture:
         """Draw all."""
         surfaces = self.world.surfaces
-        opaque = [i for i, surface in enumerate(surfaces) if surface.is_opaque]
-        others = [i for i, surface in enumerate(surfaces) if not surface.is_opaque and surface.opacities.any()]
-        self._draw(opaque, True)
-        for i in others:
-            self._draw([i], False)
+        # a ground fades into what is before it in the scene
+        solid: list[list[int]] = [[]]
+        for i, surface in enumerate(surfaces):
+            if surface.fade is not None:
+                solid += [[i], []]
+            elif surface.is_opaque:
+                solid[-1].append(i)
+        glass = [[i] for i, s in enumerate(surfaces) if not s.is_opaque and s.fade is None and s.opacities.any()]
+        for numbers in filter(None, solid + glass):
+            self._draw(numbers)
         shape = (self.frame.height, self.frame.width)
-        low, exact, high = self.canvas.colors.mean(axis=2).reshape(3, *shape, 3)
-        wide = self.canvas.slivers.mean(axis=2).reshape(3, *shape, 3)[::2]
+        colors = self.canvas.colors.mean(axis=3).reshape(-1, 3, *shape, 3)
         if self.world.invert:
-            low, exact, high, wide = 255 - high, 255 - exact, 255 - low, 255 - wide[::-1]
+            colors = 255 - colors[:, ::-1]
+        low, exact, high = colors[0]
         only = np.stack(self.only).reshape(-1, *shape)
         interior = (only >= 0).any(axis=0) & (only > -2).all(axis=0) & (high - low <= STEP).all(axis=2)
         padded = np.pad(only, [(0, 0), (1, 1), (1, 1)], mode="edge")
@@ -121,7 +123,7 @@ class Composition:
             exact,
             low,
             high,
-            *wide,
+            dict(zip(RULES, colors[1:, ::2], strict=True)),
             self.canvas.triangle[:, 0].reshape(shape),
             (only != -1).any(axis=0),
             interior,
@@ -129,11 +131,9 @@ class Composition:
             np.concatenate([np.empty(0, bool), *smooth]),
         )
 
-    def _draw(self, numbers: list[int], is_opaque: bool) -> None:
+    def _draw(self, numbers: list[int]) -> None:
         """Draw some surfaces at once."""
         canvas, world = self.canvas, self.world
-        if not numbers:
-            return
         parts = [pieces_of(self.frame, world.surfaces[i], world.antialias) for i in numbers]
         pieces = joined([part[part.is_cut == cut] for part in parts for cut in (False, True)])
         reached, rows = self._visible(pieces)
@@ -145,8 +145,8 @@ class Composition:
         sure = (floor > canvas.ceiling[..., None]).all(axis=2)
         likely = self._likely(pieces, rows, samples)
         found = fragments(world, self.shadows, pieces, rows, reached, self.places)
-        for colors, color in ((canvas.colors, found.color), (canvas.slivers, found.sliver)):
-            _blend(colors, color, found.opacity, samples, sure, likely)
+        for there, color in zip(canvas.colors, found.colors, strict=True):
+            _blend(there, color, found.opacity, samples, sure, likely)
         flat = canvas.nearness.reshape(-1)
         flat[samples[likely]] = rows.nearness[likely]
         canvas.triangle.reshape(-1)[samples[likely]] = pieces.face[rows.piece[likely]]

@@ -16,18 +16,20 @@ from .pieces import Pieces
 from .shadows import Shadows
 from .visibility import AROUND, TOLERANCE, Seen
 
+#: What is documented beside the formulas: the colour of slivers; that a face is not in shadow if it is seen from the side
+#: that is turned away from the light.
+RULES = ("slivers", "backs")
 #: Antialiased triangles of less height, in pixels, have the colour of their first vertex if they are not smooth.
 SLIVER = 1 / 16
 
 
 @dataclass(frozen=True)
 class Fragments:
-    """For each row of what is seen: its colour (3, n, 3) and opacity (3, n, 1), the least, the likely and the most; the
-    colour if slivers have those of their vertices; whether the light with shadows may reach it, and may not.
+    """For each row of what is seen: its colours (1 + rules, 3, n, 3) and opacity (3, n, 1), the least, the likely and the
+    most; by the formulas, and with each of the rules. Whether the light with shadows may reach it, and may not.
     """
 
-    color: Array
-    sliver: Array
+    colors: Array
     opacity: Array
     lit: Booleans
     dark: Booleans
@@ -72,11 +74,14 @@ def fragments(
     end, to = len(to), np.concatenate([to, np.repeat(thin, 3)])
     lit, dark, opacity = _shaded(world, surface[piece[to]], pieces.face[piece[to]], weights)
     may_be_lit, may_be_dark = _reached(world, shadows, pieces, rows, places, surface)
-    mixed = []
-    for part in (slice(end), slice(None)):
+    unseen = may_be_lit if shadows is None else may_be_lit | shadows.backs[pieces.face[rows.piece]]
+    colors = []
+    for part, reach in ((slice(end), may_be_lit), (slice(None), may_be_lit), (slice(end), unseen)):
         both = [_extent(values[:, part], to[part], count)[:, key] for values in (lit, dark)]
-        mixed.append(_either(both[0], both[1], may_be_lit, may_be_dark))
-    return Fragments(*mixed, _extent(opacity[:, :end], to[:end], count)[:, key], may_be_lit, may_be_dark)
+        colors.append(_either(both[0], both[1], reach, may_be_dark))
+    return Fragments(
+        np.stack(colors), _extent(opacity[:, :end], to[:end], count)[:, key], may_be_lit, may_be_dark
+    )
 
 
 def _shaded(world: World, surface: Integers, face: Integers, weights: Array) -> tuple[Array, Array, Array]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .calldata import ALL_FACES, TURNED_AWAY, Array, Booleans, Integers, World
+from .calldata import ALL_FACES, TURNED_AWAY, Array, Booleans, Integers, Lamp, Surface, World
 from .visibility import AROUND, TOLERANCE
 
 #: Points that are looked at together, in the order of the pixels.
@@ -18,14 +18,19 @@ NOTHING = 1e-9
 
 
 class Shadows:
-    """The shadows of a world. planes: (n, 4, 4) of each face that casts one, positive in the shadow."""
+    """The shadows of a world.
+
+    planes: (n, 4, 4) of each face that casts one, positive in the shadow. faces: (n,) their numbers. backs: for each
+    face of the world whether the eye is on one side of it and the light on the other.
+    """
 
     def __init__(self, world: World) -> None:
         assert world.shadow is not None
         number, rule = world.shadow
         lamp = world.lamps[number]
-        planes, numbers = [np.empty((0, 4, 4))], [np.empty(0, np.int64)]
+        planes, numbers, backs = [np.empty((0, 4, 4))], [np.empty(0, np.int64)], [np.empty(0, bool)]
         for surface in world.surfaces:
+            backs.append(_behind(world, surface, lamp))
             if surface.is_wire or not surface.is_opaque:
                 continue
             corners = surface.positions[surface.faces]
@@ -45,6 +50,7 @@ class Shadows:
             planes.append(np.concatenate([normals, -(normals * through).sum(axis=2, keepdims=True)], axis=2))
             numbers.append(surface.first + np.flatnonzero(casts))
         self.planes, self.faces = np.concatenate(planes), np.concatenate(numbers)
+        self.backs = np.concatenate(backs)
         self.extent = max((np.abs(s.positions).max(initial=0) for s in world.surfaces), default=1.0)
 
     def on(self, points: Array, across: Array, down: Array, face: Integers) -> tuple[Booleans, Booleans]:
@@ -84,3 +90,14 @@ class Shadows:
             inside = (value > nothing).all(axis=3) & other[unsure, None]
             lit[unsure] = ~inside.any(axis=2).all(axis=1)
         return lit, dark
+
+
+def _behind(world: World, surface: Surface, lamp: Lamp) -> Booleans:
+    """Whether the eye is on one side of a face, and the light on the other."""
+    corners = surface.positions[surface.faces]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    toward = lamp.vector - corners[:, 0] if lamp.is_point else np.broadcast_to(lamp.vector, normal.shape)
+    frame = world.frame
+    view = frame.eye - corners[:, 0] if frame.perspective else np.broadcast_to(-frame.axes[2], normal.shape)
+    out: Booleans = (normal * toward).sum(axis=1) * (normal * view).sum(axis=1) <= 0
+    return out

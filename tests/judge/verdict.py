@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields
 
@@ -21,8 +22,8 @@ Array = NDArray[np.float64]
 MOST, MANY, FEW = 8.0, 4.0, 10_000
 #: The mean error of a channel of an interior pixel, over a run.
 MEAN = 0.35
-#: One in so many pixels may have a colour that only the rule for slivers explains.
-RARE = 1_000
+#: One in so many pixels may have a colour that only a rule explains.
+RARE = {"slivers": 1_000, "backs": 100}
 #: Interior pixels of a run for which these shares hold.
 LEAST_RUN = 100_000
 #: Faults of a scene that are described.
@@ -36,7 +37,7 @@ class Verdict:
     scenes: how many. lit: pixels that show anything. interior: those that, as their neighbours, show one triangle
     without steps. many, far: of these, those off by more than MANY and MOST levels. worst, error: the largest of their
     errors, and the sum of those of all channels. outside: other pixels that are more than MOST levels outside of their
-    range. slivers: those that are not if slivers have the colour of a vertex. faults: what is wrong, in words.
+    range. explained: those that are not with one of the RULES. faults: what is wrong, in words.
     """
 
     scenes: int = 0
@@ -47,7 +48,7 @@ class Verdict:
     worst: float = 0.0
     error: float = 0.0
     outside: int = 0
-    slivers: int = 0
+    explained: Counter[str] = field(default_factory=Counter)
     faults: list[str] = field(default_factory=list)
 
     def __add__(self, other: Verdict) -> Verdict:
@@ -68,8 +69,9 @@ class Verdict:
             found.append(f"{self.many} of {self.interior} interior pixels are off by more than {MANY:g} levels")
         if self.mean > MEAN:
             found.append(f"the mean error of interior pixels is {self.mean:.3f} levels")
-        if self.slivers * RARE > self.lit:
-            found.append(f"{self.slivers} of {self.lit} pixels have the colour of a sliver's vertex")
+        for rule, few in RARE.items():
+            if self.explained[rule] * few > self.lit:
+                found.append(f"{self.explained[rule]} of {self.lit} pixels are explained by the rule {rule!r} only")
         return found
 
 
@@ -83,23 +85,27 @@ def judge_pixels(name: str, drawn: Pixels, right: Picture) -> Verdict:
     """Judge the pixels (H, W, 3) of a picture; `name` begins its faults."""
     inner = right.interior
     error = np.abs(drawn - right.exact)
-    largest = error.max(axis=2)
-    strict, wide = outside(drawn, right.low, right.high), outside(drawn, right.sliver_low, right.sliver_high)
-    edge = ~inner & (strict > MOST)
-    wrong = (inner & (largest > MOST)) | (edge & (wide > MOST))
+    largest = np.where(inner, error.max(axis=2), outside(drawn, right.low, right.high))
+    wrong = largest > MOST
+    explained: Counter[str] = Counter()
+    for rule, (low, high) in right.explained.items():
+        found = wrong & (outside(drawn, low, high) <= MOST)
+        explained[rule] = int(found.sum())
+        wrong &= ~found
+        largest[found] = 0
     places = np.argwhere(wrong)
-    order = np.argsort(-np.where(inner, largest, wide)[wrong])
+    order = np.argsort(-largest[wrong])
     faults = [_fault(name, len(places), drawn, right, *places[i]) for i in order[:SHOWN]]
     return Verdict(
         scenes=1,
         lit=int(right.lit.sum()),
         interior=int(inner.sum()),
         many=int((largest[inner] > MANY).sum()),
-        far=int((largest[inner] > MOST).sum()),
+        far=int((wrong & inner).sum()),
         worst=float(largest[inner].max(initial=0.0)),
         error=float(error[inner].sum()),
-        outside=int((edge & (wide > MOST)).sum()),
-        slivers=int((edge & (wide <= MOST)).sum()),
+        outside=int((wrong & ~inner).sum()),
+        explained=explained,
         faults=faults,
     )
 
