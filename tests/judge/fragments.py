@@ -63,8 +63,8 @@ def fragments(
     # only at the centre of the pixel, colours are computed outside of the triangle
     inside = np.arange(len(at)) >= count
     surface = np.searchsorted([s.first for s in world.surfaces], pieces.face, side="right") - 1
-    steps = np.array([s.texture is not None and not s.texture.bilinear for s in world.surfaces], bool)
-    near = np.flatnonzero(steps[surface[piece[to]]])
+    textured = np.array([s.texture is not None for s in world.surfaces], bool)
+    near = np.flatnonzero(textured[surface[piece[to]]])
     at = np.concatenate([at, (at[near, None] + AROUND[1:]).reshape(-1, 2)])
     to, inside = (np.concatenate([each, np.repeat(each[near], len(AROUND) - 1)]) for each in (to, inside))
     weights = pieces.weights_at(piece[to], at, inside)

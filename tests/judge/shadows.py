@@ -13,8 +13,9 @@ from .visibility import AROUND, TOLERANCE
 
 #: Points that are looked at together, in the order of the pixels.
 TILE = 256
-#: Distances that are smaller than this part of the coordinates are none.
-NOTHING = 1e-9
+#: A face does not shade what is in its plane. Whether a point is before or behind it is not sure if its distance is a
+#: smaller part of the extent of the scene.
+IN_PLANE, NEAR_PLANE = 2.0**-42, 2.0**-24
 
 
 class Shadows:
@@ -70,25 +71,24 @@ class Shadows:
         low, high = (points - reach).min(axis=0), (points + reach).max(axis=0)
         normals, constant = self.planes[:, :, :3], self.planes[:, :, 3]
         most = normals @ ((low + high) / 2) + constant + np.abs(normals) @ ((high - low) / 2)
-        near = np.flatnonzero((most > 0).all(axis=1))
+        near = np.flatnonzero((most > -NEAR_PLANE * self.extent).all(axis=1))
         lit, dark = np.ones(len(points), bool), np.zeros(len(points), bool)
         if not len(near):
             return lit, dark
-        # a face in the plane of its neighbour is not behind it
-        nothing = NOTHING * self.extent * np.array([-1, -1, -1, 1])
         flat, constant = normals[near].reshape(-1, 3), constant[near].ravel()
         value = (points @ flat.T + constant).reshape(len(points), -1, 4)
         change = np.hypot(across @ flat.T, down @ flat.T).reshape(value.shape)
-        other = face[:, None] != self.faces[near]
-        dark = ((value > nothing - change).all(axis=2) & other).any(axis=1)
-        unsure = np.flatnonzero(dark & ~((value > change + np.abs(nothing)).all(axis=2) & other).any(axis=1))
+        change[..., 3] += NEAR_PLANE * self.extent
+        other = (face[:, None] != self.faces[near]) & (np.abs(value[..., 3]) > IN_PLANE * self.extent)
+        dark = ((value > -change).all(axis=2) & other).any(axis=1)
+        unsure = np.flatnonzero(dark & ~((value > change).all(axis=2) & other).any(axis=1))
         lit = ~dark
         if len(unsure):
             steps = AROUND / TOLERANCE
             moved = across[unsure, None] * steps[:, :1] + down[unsure, None] * steps[:, 1:]
             value = value[unsure, None] + (moved @ flat.T).reshape(len(unsure), len(steps), -1, 4)
-            inside = (value > nothing).all(axis=3) & other[unsure, None]
-            lit[unsure] = ~inside.any(axis=2).all(axis=1)
+            value[..., 3] -= NEAR_PLANE * self.extent
+            lit[unsure] = ~((value > 0).all(axis=3) & other[unsure, None]).any(axis=2).all(axis=1)
         return lit, dark
 
 
