@@ -122,7 +122,7 @@ def _reached(
     shaded = np.array([s.shading != UNLIT for s in world.surfaces], bool)
     chosen = np.flatnonzero(shaded[surface[rows.piece]])
     # in blocks of the canvas, so that few faces shade those that are looked at together
-    chosen = chosen[np.lexsort(own[chosen].T // 16)]
+    chosen = chosen[np.lexsort((*(own[chosen].T // 8), surface[rows.piece[chosen]]))]
     piece = rows.piece[chosen]
     face, which = pieces.face[piece], surface[piece]
     points = []

@@ -12,7 +12,7 @@ from .calldata import ALL_FACES, TURNED_AWAY, Array, Booleans, Integers, Lamp, S
 from .visibility import AROUND, TOLERANCE
 
 #: Points that are looked at together, in the order of the pixels.
-TILE = 256
+TILE = 128
 #: A face does not shade what is in its plane. Whether a point is before or behind it is not sure if its distance is a
 #: smaller part of the extent of the scene.
 IN_PLANE, NEAR_PLANE = 2.0**-42, 2.0**-24
@@ -75,8 +75,11 @@ class Shadows:
         lit, dark = np.ones(len(points), bool), np.zeros(len(points), bool)
         if not len(near):
             return lit, dark
-        flat, constant = normals[near].reshape(-1, 3), constant[near].ravel()
-        value = (points @ flat.T + constant).reshape(len(points), -1, 4)
+        value = (points @ normals[near].reshape(-1, 3).T + constant[near].ravel()).reshape(len(points), -1, 4)
+        least = -np.linalg.norm(reach, axis=1).max() - NEAR_PLANE * self.extent
+        close = (value > least).all(axis=2).any(axis=0)
+        near, value = near[close], value[:, close]
+        flat = normals[near].reshape(-1, 3)
         change = np.hypot(across @ flat.T, down @ flat.T).reshape(value.shape)
         change[..., 3] += NEAR_PLANE * self.extent
         other = (face[:, None] != self.faces[near]) & (np.abs(value[..., 3]) > IN_PLANE * self.extent)

@@ -56,9 +56,8 @@ def test_hidden_sliver() -> None:
     points = [[0.2587, -0.11947, -0.25788], [0.10937, 0.04867, -0.19408], [0.02856, -0.04968, -0.20884]]
     more = [[-0.0268, -0.24966, -0.22255], [-0.23304, 0.10114, -0.0881], [0.18191, 0.12812, -0.22516]]
     more += [[-0.38492, -0.37568, 0.06491], [0.06972, -0.60243, 0.01368], [-0.19955, -0.60026, 0.43955]]
-    near = Mesh(points, [[0, 1, 2]], [[87, 193, 175], [41, 50, 190], [183, 47, 122]])
-    colors = [[78, 150, 91], [38, 24, 0], [26, 89, 245], [83, 220, 10], [230, 17, 44], [199, 15, 20]]
-    objects = [Object(mesh, material=Material("unlit")) for mesh in (near, Mesh(more, [[0, 1, 2], [3, 4, 5]], colors))]
+    colors = [(200, 0, 0)] * 3 + [(0, 200, 0)] * 3 + [(0, 0, 200)] * 3
+    mesh = Mesh(points + more, [[1, 0, 2], [3, 4, 5], [6, 7, 8]], colors)
     camera = Camera(
         (-0.37104, -0.02131, -0.14791),
         (0.1359, -0.04761, -0.01887),
@@ -66,7 +65,9 @@ def test_hidden_sliver() -> None:
         half_height=0.4662,
         near=0.02,
     )
-    scene = Scene(objects, camera, [], BLACK, width=128, height=128, antialias=True)
+    thing = Object(mesh, material=Material("unlit"))
+    scene = Scene([thing], camera, [], BLACK, width=128, height=128, antialias=True)
+    assert draw(fit(scene))[119, 69].tolist() == [0, 200, 0]
     assert judge("sliver", scene).faults == []
 
 
@@ -138,7 +139,7 @@ def test_light_of_a_sphere(shading: Shading) -> None:
     z = np.sqrt(np.where(inside, 1 - x**2 - y**2, 1))
     expected = 255 * np.maximum(0, np.stack([x, y, z], axis=-1) @ light)
     # faces are about a tenth of the radius wide
-    assert np.abs(right.exact[..., 0] - expected)[inside].max() < (30 if shading == "flat" else 4)
+    assert np.abs(right.exact[..., 0] - expected)[inside].max() < (40 if shading == "flat" else 4)
 
 
 # ---- it finds what is wrong ----
