@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
-from float64 import type_of
+from judge.calldata import type_of
 from original_scenes import documents
 from pictures import Pixels, chain, dynamic
 from shackled import RenderError, Scene

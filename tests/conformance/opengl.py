@@ -14,8 +14,6 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from shackled import Texture
-
 from .world import ALL_THROUGH, Array, Solid, World
 
 #: What a vertex consists of: name and count of numbers.
@@ -34,7 +32,6 @@ VERTEX = {
     "normal": 3,
     "facing": 3,
     "number": 1,
-    "uv": 2,
 }
 
 VERTEX_SHADER = """
@@ -42,8 +39,6 @@ VERTEX_SHADER = """
 in vec4 clip;
 in float inside, nearness, number;
 in vec3 color, to_eye, to_light_0, to_light_1, to_light_2, to_light_3, normal, facing;
-in vec2 uv;
-out vec2 f_uv;
 out float f_nearness;
 out vec3 f_color, f_to_eye, f_to_light[4], f_normal;
 flat out vec3 f_facing;
@@ -59,21 +54,12 @@ void main() {
     f_normal = normal;
     f_facing = facing;
     f_number = number;
-    f_uv = uv;
 }
 """
 
-#: Texels that a pixel may have along a side. Where it has more, parts of a pixel by which corners are rounded count.
-MOST_TEXELS = 1.0
-
-FRAGMENT_SHADER = (
-    f"""
+FRAGMENT_SHADER = """
 #version 330
-#define MOST_TEXELS {MOST_TEXELS}
-"""
-    + """
 in float f_nearness;
-in vec2 f_uv;
 in vec3 f_color, f_to_eye, f_to_light[4], f_normal;
 flat in vec3 f_facing;
 flat in float f_number;
@@ -83,8 +69,6 @@ uniform float near, ambient, diffuse, specular, threshold;
 uniform int lights, shininess;
 uniform vec3 ambient_light, light[4], axis[4];
 uniform vec2 cosines[4];
-uniform bool textured, nearest;
-uniform sampler2D image;
 
 vec3 unit(vec3 v) {
     float square = dot(v, v);
@@ -100,14 +84,6 @@ float power(float base, int exponent) {
 void main() {
     gl_FragDepth = perspective ? gl_FragCoord.w * near : f_nearness;
     vec3 color = f_color;
-    float unsure = 0.0;
-    if (textured) {
-        color *= texture(image, f_uv).rgb;
-        vec2 texel = f_uv * textureSize(image, 0), change = fwidth(texel);
-        vec2 border = abs(texel - round(texel));
-        bool small = max(change.x, change.y) > MOST_TEXELS;
-        if (small || nearest && any(lessThan(border, 0.08 + 0.2 * change))) unsure = 0.5;
-    }
     // the lights that give highlights, a bit each
     int shining = 0;
     if (lit) {
@@ -130,10 +106,9 @@ void main() {
         }
         color = color * surface + 255.0 * highlight;
     }
-    result = vec4(clamp(color, 0.0, 255.0), 16.0 * (f_number + 1.0) + float(shining) + unsure);
+    result = vec4(clamp(color, 0.0, 255.0), 16.0 * (f_number + 1.0) + float(shining));
 }
 """
-)
 
 GL_CLIP_DISTANCE0 = 0x3000
 GL_RENDERBUFFER = 0x8D41
@@ -147,14 +122,12 @@ class Unavailable(Exception):
 @dataclass(frozen=True)
 class Drawing:
     """triangle: (H, W) the number of the triangle that is seen, -1 for none. color: (H, W, 3) its light, 0..255.
-    shining: (H, W) the lights that reach it, where they give highlights: a bit each. unsure: (H, W) whether roundings
-    within the bounds may change the texel that is seen.
+    shining: (H, W) the lights that reach it, where they give highlights: a bit each.
     """
 
     triangle: NDArray[np.int64]
     color: Array
     shining: NDArray[np.int64]
-    unsure: NDArray[np.bool_]
 
 
 @cache
@@ -190,10 +163,8 @@ def _canvas(width: int, height: int) -> moderngl.Framebuffer:
     return context().framebuffer(context().renderbuffer((width, height), 4, dtype="f4"), depth)
 
 
-def draw(world: World, threshold: float = 0.0, place: tuple[float, float] = (0.0, 0.0)) -> Drawing:
-    """The picture of a world. threshold: N.L above which a light reaches a surface. place: the column and the row from
-    the centre of each pixel at which it is sampled, in pixels.
-    """
+def draw(world: World, threshold: float = 0.0) -> Drawing:
+    """The picture of a world. threshold: N.L above which a light reaches a surface."""
     gl, program = context(), _program()
     program["threshold"] = threshold
     canvas = _canvas(world.width, world.height)
@@ -201,29 +172,26 @@ def draw(world: World, threshold: float = 0.0, place: tuple[float, float] = (0.0
     canvas.clear(0.0, 0.0, 0.0, 0.0, depth=0.0)
     gl.enable_only(moderngl.DEPTH_TEST)
     gl.depth_func = ">"
-    for solid, vertices in zip(world.solids, _vertices(world, place), strict=True):
+    for solid, vertices in zip(world.solids, _vertices(world), strict=True):
         gl.enable_only(moderngl.DEPTH_TEST | (moderngl.CULL_FACE if solid.cull else 0))
         _set_uniforms(program, world, solid)
         buffer = gl.buffer(vertices.tobytes())
         array = gl.vertex_array(program, buffer, *VERTEX)
-        image = _bind_texture(solid.material.texture)
         array.render(moderngl.TRIANGLES)
-        image.release()
         array.release()
         buffer.release()
     values = np.frombuffer(canvas.read(components=4, dtype="f4"), np.float32).astype(np.float64)
     # the first row is the lowest
     pixels = values.reshape(world.height, world.width, 4)[::-1]
     code = pixels[..., 3].astype(np.int64)
-    return Drawing(code // 16 - 1, pixels[..., :3], code % 16, pixels[..., 3] != code)
+    return Drawing(code // 16 - 1, pixels[..., :3], code % 16)
 
 
-def _vertices(world: World, place: tuple[float, float]) -> list[NDArray[np.float32]]:
+def _vertices(world: World) -> list[NDArray[np.float32]]:
     """For each solid three rows for each triangle."""
     distances = -world.corners[..., 2]
     low, span = (distances.min(), np.ptp(distances) or 1.0) if distances.size else (0.0, 1.0)
     across = np.array([world.width / world.height, 1.0]) * world.half_height
-    shift = np.array([-2 * place[0] / world.width, 2 * place[1] / world.height])
     found = []
     for solid in world.solids:
         points = solid.corners.reshape(-1, 3)
@@ -232,7 +200,7 @@ def _vertices(world: World, place: tuple[float, float]) -> list[NDArray[np.float
         lights = [lamp.vector - points * lamp.is_point for lamp in world.lamps]
         unused = [np.zeros_like(points)] * (4 - len(lights))
         columns = [
-            np.hstack([points[:, :2] / across + shift * w, 0 * w, w]),
+            np.hstack([points[:, :2] / across, 0 * w, w]),
             distance - world.near if np.isfinite(world.near) else np.ones_like(w),
             0.25 + 0.5 * (low + span - distance) / span,
             solid.colors.reshape(-1, 3),
@@ -242,22 +210,9 @@ def _vertices(world: World, place: tuple[float, float]) -> list[NDArray[np.float
             solid.normals.reshape(-1, 3),
             np.repeat(solid.facing, 3, axis=0),
             np.repeat(solid.first + np.arange(len(solid.corners)), 3)[:, None],
-            solid.uvs.reshape(-1, 2),
         ]
         found.append(np.hstack(columns).astype(np.float32))
     return found
-
-
-def _bind_texture(texture: Texture | None) -> moderngl.Texture:
-    """An image of floats, so that it is filtered in floats."""
-    pixels = np.ones((1, 1, 3)) if texture is None else texture.pixels / 255
-    made = context().texture(pixels.shape[1::-1], 3, pixels.astype("f4").tobytes(), dtype="f4")
-    if texture is not None:
-        one = moderngl.NEAREST if texture.filter == "nearest" else moderngl.LINEAR
-        made.filter = one, one
-        made.repeat_x = made.repeat_y = texture.wrap == "repeat"
-    made.use(0)
-    return made
 
 
 def _set_uniforms(program: moderngl.Program, world: World, solid: Solid) -> None:
@@ -265,8 +220,6 @@ def _set_uniforms(program: moderngl.Program, world: World, solid: Solid) -> None
     hues = [tuple(lamp.color / 255) for lamp in world.lamps]
     values = {
         "perspective": world.perspective,
-        "textured": material.texture is not None,
-        "nearest": material.texture is not None and material.texture.filter == "nearest",
         "lit": material.shading != "unlit",
         "smooth_normals": material.shading == "smooth",
         "near": world.near if np.isfinite(world.near) else 0.0,

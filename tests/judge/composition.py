@@ -32,6 +32,8 @@ class Picture:
     sample, counted through all objects; -1 for the background. lit: whether anything may be seen.
     interior: whether a pixel and its neighbours show one triangle of each layer, without steps.
     corners: (n, 3) numbers of the vertices of each face, counted through all objects. is_smooth: (n,).
+    shown: (n, 2) numbers of pixels, row by row, and of a face that each may show. free: (H, W) whether a pixel may show
+    the background.
     """
 
     exact: Array
@@ -43,6 +45,13 @@ class Picture:
     interior: Booleans
     corners: Integers
     is_smooth: Booleans
+    shown: Integers
+    free: Booleans
+
+    def may_show(self, column: int, row: int) -> Integers:
+        """Return the numbers of the faces that a pixel may show, and -1 if it may show the background."""
+        faces = np.unique(self.shown[self.shown[:, 0] == row * self.free.shape[1] + column, 1])
+        return np.append(faces, -1) if self.free[row, column] else faces
 
     @property
     def pixels(self) -> NDArray[np.uint8]:
@@ -92,6 +101,7 @@ class Composition:
         )
         #: of each layer, the only face that the samples of a pixel show, -1 for none, -2 where it is not sure
         self.only: list[Integers] = []
+        self.shown: list[Integers] = []
 
     def picture(self) -> Picture:
         """Draw all."""
@@ -129,6 +139,8 @@ class Composition:
             interior,
             np.concatenate([np.empty((0, 3), np.int64), *corners]),
             np.concatenate([np.empty(0, bool), *smooth]),
+            np.concatenate([np.empty((0, 2), np.int64), *self.shown]),
+            np.isneginf(self.canvas.floor).any(axis=(1, 2)).reshape(shape),
         )
 
     def _draw(self, numbers: list[int]) -> None:
@@ -142,6 +154,7 @@ class Composition:
         before = canvas.floor.min(axis=2)[rows.pixel, rows.sample]
         rows = rows.chosen(rows.most >= before)
         samples = rows.pixel * len(self.places) + rows.sample
+        self.shown.append(np.stack([rows.pixel, pieces.face[rows.piece]], axis=1))
         sure = (floor > canvas.ceiling[..., None]).all(axis=2)
         likely = self._likely(pieces, rows, samples)
         found = fragments(world, self.shadows, pieces, rows, reached, self.places)
