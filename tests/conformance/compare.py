@@ -94,7 +94,11 @@ def compare(name: str, scene: Scene, is_piece: bool = False) -> Result:
     largest = error.max(axis=2)
     faults = []
     different = np.argwhere(ours.triangle != theirs.triangle)
-    wrong = _wrong(render(call_data("render", contracts.solid(scene))), ours.triangle, theirs.triangle, different) if len(different) else []
+    wrong = (
+        _wrong(render(call_data("render", contracts.solid(scene))), ours.triangle, theirs.triangle, different)
+        if len(different)
+        else []
+    )
     if wrong:
         faults.append(f"{name}: {len(wrong)} pixels show a wrong triangle; {wrong[0]}")
     far = np.argwhere(inner & (largest > MOST))

@@ -15,7 +15,7 @@ from shackled.errors import InputError
 from shackled.scene import fit
 
 from . import contracts, opengl
-from .compare import MEAN_OF_RUN, MOST, Result, compare
+from .compare import MOST, Result, compare
 from .neighbours import interior
 from .world import before_camera
 

@@ -22,8 +22,8 @@ if __package__ in (None, ""):
 
 from benchmarks.shared import FOLDER
 
-from judge.verdict import RARE
 from judge import KINDS, Verdict, draw_in_tiles, judge, random_scene
+from judge.verdict import RARE
 from shackled import load
 from shackled.errors import ShackledError
 

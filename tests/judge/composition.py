@@ -121,7 +121,7 @@ class Composition:
         if self.world.invert:
             colors = 255 - colors[:, ::-1]
         low, exact, high = colors[0]
-        only = np.stack(self.only).reshape(-1, *shape)
+        only = np.stack([np.full(shape, -1).ravel(), *self.only]).reshape(-1, *shape)
         interior = (only >= 0).any(axis=0) & (only > -2).all(axis=0) & (high - low <= STEP).all(axis=2)
         padded = np.pad(only, [(0, 0), (1, 1), (1, 1)], mode="edge")
         for dy, dx in np.ndindex(3, 3):
@@ -206,9 +206,7 @@ class Composition:
         return np.where(most < 0, -1, np.where((least == most) & sure.all(axis=1), most, -2))
 
 
-def _blend(
-    there: Array, color: Array, opacity: Array, samples: Integers, sure: Booleans, likely: Integers
-) -> None:
+def _blend(there: Array, color: Array, opacity: Array, samples: Integers, sure: Booleans, likely: Integers) -> None:
     """Lay the colours of rows, and their opacities, over those of samples that are there.
 
     sure: whether a sample shows any of the rows. likely: the rows that are seen most likely.

@@ -1,7 +1,7 @@
 """The colours that triangles may have in pixels.
 
-The colour of a triangle in a pixel is computed once, somewhere in it: at the centre of the pixel, at a sample, or at the
-middle of the samples that the triangle covers. Only whether a light with shadows reaches it is decided for each sample.
+The colour of a triangle in a pixel is computed once, somewhere in it: at its centre, at a sample, or at the middle of
+the samples that the triangle covers. Only whether a light with shadows reaches it is decided for each sample.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from .pieces import Pieces
 from .shadows import Shadows
 from .visibility import AROUND, TOLERANCE, Seen
 
-#: What is documented beside the formulas: the colour of slivers; that a face is not in shadow if it is seen from the side
-#: that is turned away from the light.
+#: What is documented beside the formulas: the colour of slivers; that a face is not in shadow if it is seen from the
+#: side that is turned away from the light.
 RULES = ("slivers", "backs")
 #: Antialiased triangles of less height, in pixels, have the colour of their first vertex if they are not smooth.
 SLIVER = 1 / 16
@@ -25,8 +25,8 @@ SLIVER = 1 / 16
 
 @dataclass(frozen=True)
 class Fragments:
-    """For each row of what is seen: its colours (1 + rules, 3, n, 3) and opacity (3, n, 1), the least, the likely and the
-    most; by the formulas, and with each of the rules. Whether the light with shadows may reach it, and may not.
+    """For each row of what is seen: its colours (1 + rules, 3, n, 3) and opacity (3, n, 1), the least, the likely and
+    the most; by the formulas, and with each of the rules. Whether the light with shadows may reach it, and may not.
     """
 
     colors: Array
@@ -79,9 +79,7 @@ def fragments(
     for part, reach in ((slice(end), may_be_lit), (slice(None), may_be_lit), (slice(end), unseen)):
         both = [_extent(values[:, part], to[part], count)[:, key] for values in (lit, dark)]
         colors.append(_either(both[0], both[1], reach, may_be_dark))
-    return Fragments(
-        np.stack(colors), _extent(opacity[:, :end], to[:end], count)[:, key], may_be_lit, may_be_dark
-    )
+    return Fragments(np.stack(colors), _extent(opacity[:, :end], to[:end], count)[:, key], may_be_lit, may_be_dark)
 
 
 def _shaded(world: World, surface: Integers, face: Integers, weights: Array) -> tuple[Array, Array, Array]:

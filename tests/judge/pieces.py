@@ -25,9 +25,9 @@ class Pieces:
 
     face: (n,) counted through all objects. corners: (n, 3, 2) columns and rows in sub-pixels. nearness: (n, 3), see
     Frame. divisor: (n, 3) of the projection. weights: (n, 3, 3) of the corners of the face, for each corner.
-    front: (n,) whether it is turned to the eye. doubtful: (n,) whether it may be culled, or not. height: (n,) the least,
-    in pixels. is_cut: (n,) whether the near plane cuts its face. is_wire: (n,). slack: (n, 3) how far inside of the edges
-    across from the corners a place must be to be covered for sure, in sub-pixels.
+    front: (n,) whether it is turned to the eye. doubtful: (n,) whether it may be culled, or not. height: (n,) the
+    least, in pixels. is_cut: (n,) whether the near plane cuts its face. is_wire: (n,). slack: (n, 3) how far inside of
+    the edges across from the corners a place must be to be covered for sure, in sub-pixels.
     """
 
     face: Integers
@@ -89,9 +89,7 @@ def pieces_of(frame: Frame, surface: Surface, antialias: bool) -> Pieces:
     return _wires(made, antialias) if surface.is_wire else made
 
 
-def _made(
-    frame: Frame, corners: Array, surface: Surface, face: Integers, weights: Array, cut: Booleans
-) -> Pieces:
+def _made(frame: Frame, corners: Array, surface: Surface, face: Integers, weights: Array, cut: Booleans) -> Pieces:
     points = weights @ corners[face]
     on_screen = np.floor(SUBPIXELS * frame.project(points) + 0.5)
     areas = area(on_screen)
@@ -131,7 +129,7 @@ def _clip(beyond: Array) -> list[Array]:
 
 
 def _wires(made: Pieces, antialias: bool) -> Pieces:
-    """The edges of faces, from p to q, but not those that the cut made: rectangles, or triangles that begin with p, q."""
+    """The edges of faces, from p to q, without those of the cut: rectangles, or triangles that begin with p, q."""
     found = []
     for i in range(3):
         j = (i + 1) % 3

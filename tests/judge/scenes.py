@@ -171,7 +171,7 @@ def _models(rng: Rng) -> Scene:
         options["crease"] = rng.uniform(20, 80)
     if options["shading" if "shading" in options else "crease"] != "unlit" and rng.random() < 0.4:
         options |= {"shadow": True, "ground": "tan"}
-        options |= {"lights": Light.directional(_direction(rng) + [0, 1.2, 0])}
+        options |= {"lights": Light.directional(_direction(rng) + np.array([0, 1.2, 0]))}
     scene = load(name, **options)
     return _effects(rng, scene) if rng.random() < 0.25 else scene
 
@@ -189,8 +189,8 @@ def _shadows(rng: Rng) -> Scene:
         turned = evolve(thing, position=at, rotation=rng.normal(size=4) if not rests else (0, 0, 0, 1))
         points = turned.position + rotate(turned.rotation, turned.scale * turned.mesh.positions)
         if rests:
-            turned = evolve(turned, position=turned.position + [0, at[1] - points[:, 1].min(), 0])
-            points = points + [0, at[1] - points[:, 1].min(), 0]
+            step = np.array([0, at[1] - points[:, 1].min(), 0])
+            turned, points = evolve(turned, position=turned.position + step), points + step
         objects.append(turned)
         return float(points[:, 1].max())
 

@@ -1,4 +1,4 @@
-"""The part of `make conformance` that is quick enough for every run of the tests; and that the judge finds what is wrong."""
+"""The part of `make conformance` that is quick enough for every run of the tests; and what the judge finds."""
 
 from __future__ import annotations
 
@@ -153,7 +153,7 @@ def teapot() -> tuple[Scene, Picture]:
 
 def test_one_pixel_is_found(teapot: tuple[Scene, Picture]) -> None:
     """Any pixel of the picture that is changed by nine levels, and more than its range is wide."""
-    scene, right = teapot
+    _, right = teapot
     drawn = np.floor(right.exact + 0.5).astype(np.uint8)
     assert judge_pixels("teapot", drawn, right).faults == []
     rng = np.random.default_rng(1)

@@ -18,7 +18,7 @@ def color_at(texture: Texture, uvs: Array) -> Array:
     found = np.zeros((len(uvs), 3))
     for du, dv in np.broadcast(u, v):
         share = np.where(du, part[..., 0], 1 - part[..., 0]) * np.where(dv, part[..., 1], 1 - part[..., 1])
-        found += share * _texel(texture, first.astype(np.int64) + [du, dv])
+        found += share * _texel(texture, first.astype(np.int64) + np.array([du, dv]))
     return found
 
 

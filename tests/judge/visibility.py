@@ -76,8 +76,11 @@ def seen(pieces: Pieces, frame: Frame, places: Array) -> Seen:
         np.maximum(lowest[block[firsts]], np.maximum.reduceat(depth, firsts, axis=0), out=depth[: len(firsts)])
         lowest[block[firsts]] = depth[: len(firsts)]
         rows.append(_near(pieces, number, local @ _columns(own), shift, least, most, start))
-    pair, place, nearness, high, covers = (np.concatenate(each) for each in zip(*rows, strict=True)) if rows else (
-        np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0), np.empty(0), np.empty(0, bool))
+    pair, place, nearness, high, covers = (
+        (np.concatenate(each) for each in zip(*rows, strict=True))
+        if rows
+        else (np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0), np.empty(0), np.empty(0, bool))
+    )
     at = np.rint(own[place] / SUBPIXELS - 0.5 - places[place % len(places)]) + corner[pair] / SUBPIXELS
     floor = lowest.reshape(down, across, BLOCK, BLOCK, len(places), 9).swapaxes(1, 2)
     floor = floor.reshape(down * BLOCK, across * BLOCK, len(places), 9)[: frame.height, : frame.width]
@@ -121,7 +124,13 @@ def _near(
     )
     pair, place = np.nonzero(inside | met.any(axis=1))
     nearness, high_depth = nearest[pair, place], high_depth[pair, place]
-    return start + pair, place, nearness, high_depth + SAME_DEPTH * np.abs(high_depth), _owned(pieces, number, edges)[pair, place]
+    return (
+        start + pair,
+        place,
+        nearness,
+        high_depth + SAME_DEPTH * np.abs(high_depth),
+        _owned(pieces, number, edges)[pair, place],
+    )
 
 
 def _owned(pieces: Pieces, number: Integers, edges: Array) -> Booleans:

@@ -1,4 +1,4 @@
-"""Wires of plain pictures: the pixel nearest to the line in each column, or in each row if it is steep (docs/explain.md)."""
+"""Wires of plain pictures: in each column, or row of steep lines, the pixel nearest to the line (docs/explain.md)."""
 
 from __future__ import annotations
 
@@ -48,4 +48,3 @@ def seen_wires(pieces: Pieces, frame: Frame) -> Seen:
             row = (number, pixel, np.zeros_like(pixel), nearness, nearness + shift, covers, center)
             rows.append([each[known] for each in row])
     return Seen(floor, *(np.concatenate(each) for each in zip(*rows, strict=True)))
-
