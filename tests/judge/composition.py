@@ -155,7 +155,7 @@ class Composition:
         rows = rows.chosen(rows.most >= before)
         samples = rows.pixel * len(self.places) + rows.sample
         self.shown.append(np.stack([rows.pixel, pieces.face[rows.piece]], axis=1))
-        sure = (floor > canvas.ceiling[..., None]).all(axis=2)
+        sure = np.asarray((floor > canvas.ceiling[..., None]).all(axis=2))
         likely = self._likely(pieces, rows, samples)
         found = fragments(world, self.shadows, pieces, rows, reached, self.places)
         for there, color in zip(canvas.colors, found.colors, strict=True):

@@ -76,8 +76,8 @@ def fragments(
     may_be_lit, may_be_dark = _reached(world, shadows, pieces, rows, places, surface)
     unseen = may_be_lit if shadows is None else may_be_lit | shadows.backs[pieces.face[rows.piece]]
     colors = []
-    for part, reach in ((slice(end), may_be_lit), (slice(None), may_be_lit), (slice(end), unseen)):
-        both = [_extent(values[:, part], to[part], count)[:, key] for values in (lit, dark)]
+    for points, reach in ((slice(end), may_be_lit), (slice(None), may_be_lit), (slice(end), unseen)):
+        both = [_extent(values[:, points], to[points], count)[:, key] for values in (lit, dark)]
         colors.append(_either(both[0], both[1], reach, may_be_dark))
     return Fragments(np.stack(colors), _extent(opacity[:, :end], to[:end], count)[:, key], may_be_lit, may_be_dark)
 

@@ -4,9 +4,9 @@
              + sum_i specular * max(0, N.H_i)^shininess * C_i
 
 C_i is the colour of a light, times what its cone lets through; highlights are where N.L_i > 0. A hemisphere adds
-ground + (sky - ground) * (1 + N.y) / 2 to A, a rim its colour * (1 - max(0, N.V))^power to the sum. With gamma, surface, A, C_i, hemisphere and rim are decoded
-from sRGB. The sum times the exposure, clamped or compressed by the filmic curve, and encoded with gamma, is the colour.
-Fog covers it by the distance along the line of sight.
+ground + (sky - ground) * (1 + N.y) / 2 to A, a rim its colour * (1 - max(0, N.V))^power to the sum. With gamma,
+surface, A, C_i, hemisphere and rim are decoded from sRGB. The sum times the exposure, clamped or compressed by the
+filmic curve, and encoded with gamma, is the colour. Fog covers it by the distance along the line of sight.
 """
 
 from __future__ import annotations

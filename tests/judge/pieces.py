@@ -77,7 +77,7 @@ def pieces_of(frame: Frame, surface: Surface, antialias: bool) -> Pieces:
     """Return what of a surface may be seen."""
     corners = frame.to_camera(surface.positions)[surface.faces]
     beyond = corners[..., 2] - frame.near
-    cut = (beyond < 0).any(axis=1)
+    cut = np.asarray((beyond < 0).any(axis=1))
     faces, weights = [np.flatnonzero(~cut)], [np.broadcast_to(np.eye(3), ((~cut).sum(), 3, 3))]
     for number in np.flatnonzero(cut & (beyond >= 0).any(axis=1)):
         polygon = _clip(beyond[number])

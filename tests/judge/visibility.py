@@ -100,7 +100,7 @@ def seen(pieces: Pieces, frame: Frame, places: Array) -> Seen:
 
 def _near(
     pieces: Pieces, number: Integers, values: Array, shift: Array, least: Array, most: Array, start: int
-) -> tuple[Array, ...]:
+) -> tuple[Integers, Integers, Array, Array, Booleans]:
     """Where pieces may be: pair, place, nearness, the most of it, and whether they are there.
 
     values: (pairs, 7, places) of the lines of the pieces. Of slivers, the depth is taken along the edges within reach:
@@ -125,7 +125,7 @@ def _near(
     pair, place = np.nonzero(inside | met.any(axis=1))
     nearness, high_depth = nearest[pair, place], high_depth[pair, place]
     return (
-        start + pair,
+        np.asarray(start + pair),
         place,
         nearness,
         high_depth + SAME_DEPTH * np.abs(high_depth),
