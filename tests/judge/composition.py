@@ -85,7 +85,6 @@ class Composition:
         self.world, self.frame = world, world.frame
         self.places = SAMPLES if world.antialias else CENTER
         self.shadows = Shadows(world) if world.shadow is not None else None
-        self.firsts = np.array([surface.first for surface in world.surfaces], np.int64)
         height, width = self.frame.height, self.frame.width
         part = (np.arange(height) / max(height - 1, 1))[:, None]
         background = np.repeat(world.top + (world.bottom - world.top) * part, width, axis=0)[None, :, None]

@@ -12,7 +12,7 @@ from .calldata import ALL_FACES, TURNED_AWAY, Array, Booleans, Integers, Lamp, S
 from .visibility import AROUND, TOLERANCE
 
 #: Points that are looked at together, in the order of the pixels.
-TILE = 128
+TILE = 64
 #: A face does not shade what is in its plane. Whether a point is before or behind it is not sure if its distance is a
 #: smaller part of the extent of the scene.
 IN_PLANE, NEAR_PLANE = 2.0**-42, 2.0**-24
@@ -51,6 +51,7 @@ class Shadows:
             planes.append(np.concatenate([normals, -(normals * through).sum(axis=2, keepdims=True)], axis=2))
             numbers.append(surface.first + np.flatnonzero(casts))
         self.planes, self.faces = np.concatenate(planes), np.concatenate(numbers)
+        self.sizes = np.abs(self.planes[..., :3].reshape(-1, 3))
         self.backs = np.concatenate(backs)
         self.extent = max((np.abs(s.positions).max(initial=0) for s in world.surfaces), default=1.0)
 
@@ -60,26 +61,29 @@ class Shadows:
         across, down: how they change by TOLERANCE pixels to the right and down. face: the faces on which they are.
         """
         may_be_lit, may_be_dark = np.ones(len(points), bool), np.zeros(len(points), bool)
-        for start in range(0, len(points), TILE):
-            part = slice(start, start + TILE)
-            lit, dark = self._tile(points[part], across[part], down[part], face[part])
-            may_be_lit[part], may_be_dark[part] = lit, dark
+        firsts = np.arange(0, len(points), TILE)
+        if not len(firsts) or not len(self.planes):
+            return may_be_lit, may_be_dark
+        reach = np.abs(across) + np.abs(down)
+        low, high = np.minimum.reduceat(points - reach, firsts), np.maximum.reduceat(points + reach, firsts)
+        normals, constant = self.planes[..., :3].reshape(-1, 3), self.planes[..., 3].ravel()
+        for first, middle, half in zip(firsts, (low + high) / 2, (high - low) / 2, strict=True):
+            most = normals @ middle + constant + self.sizes @ half
+            near = np.flatnonzero((most.reshape(-1, 4) > -NEAR_PLANE * self.extent).all(axis=1))
+            if len(near):
+                part = slice(first, first + TILE)
+                lit, dark = self._tile(points[part], across[part], down[part], face[part], near)
+                may_be_lit[part], may_be_dark[part] = lit, dark
         return may_be_lit, may_be_dark
 
-    def _tile(self, points: Array, across: Array, down: Array, face: Integers) -> tuple[Booleans, Booleans]:
-        reach = np.abs(across) + np.abs(down)
-        low, high = (points - reach).min(axis=0), (points + reach).max(axis=0)
-        normals, constant = self.planes[:, :, :3], self.planes[:, :, 3]
-        most = normals @ ((low + high) / 2) + constant + np.abs(normals) @ ((high - low) / 2)
-        near = np.flatnonzero((most > -NEAR_PLANE * self.extent).all(axis=1))
-        lit, dark = np.ones(len(points), bool), np.zeros(len(points), bool)
-        if not len(near):
-            return lit, dark
-        value = (points @ normals[near].reshape(-1, 3).T + constant[near].ravel()).reshape(len(points), -1, 4)
-        least = -np.linalg.norm(reach, axis=1).max() - NEAR_PLANE * self.extent
+    def _tile(
+        self, points: Array, across: Array, down: Array, face: Integers, near: Integers
+    ) -> tuple[Booleans, Booleans]:
+        normals, constant = self.planes[near, :, :3], self.planes[near, :, 3]
+        value = (points @ normals.reshape(-1, 3).T + constant.ravel()).reshape(len(points), -1, 4)
+        least = -(np.abs(across) + np.abs(down)).sum(axis=1).max() - NEAR_PLANE * self.extent
         close = (value > least).all(axis=2).any(axis=0)
-        near, value = near[close], value[:, close]
-        flat = normals[near].reshape(-1, 3)
+        near, value, flat = near[close], value[:, close], normals[close].reshape(-1, 3)
         change = np.hypot(across @ flat.T, down @ flat.T).reshape(value.shape)
         change[..., 3] += NEAR_PLANE * self.extent
         other = (face[:, None] != self.faces[near]) & (np.abs(value[..., 3]) > IN_PLANE * self.extent)

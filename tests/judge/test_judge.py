@@ -76,11 +76,7 @@ def test_highlight_of_a_wide_triangle() -> None:
     points = [[-0.2398, 0.5557, -0.5069], [0.104, 0.7156, -0.3806], [-0.2, 0.3712, -0.134]]
     mesh = Mesh(points, [[0, 1, 2]], GREY, [[-0.41, 1.761, -0.489], [0.655, 1.121, 0.412], [-0.87, 1.432, 0.601]])
     camera = Camera(
-        (-1.0626, 1.3077, -0.633),
-        (0.0082, -0.3957, 0.2187),
-        (-0.5361, -2.3816, -0.5222),
-        half_height=0.4662,
-        near=0.02,
+        (-1.0626, 1.3077, -0.633), (0.0082, -0.3957, 0.2187), (-0.5361, -2.3816, -0.5222), half_height=0.4662, near=0.02
     )
     thing = Object(mesh, material=Material("smooth", 0.36, 0.79, 0.6, 128), cull=False)
     scene = Scene([thing], camera, [Light.directional((1.2063, 1.1997, 0.2594))], BLACK, width=128, height=128)
