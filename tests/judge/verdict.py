@@ -86,13 +86,13 @@ def judge_pixels(name: str, drawn: Pixels, right: Picture) -> Verdict:
     inner = right.interior
     error = np.abs(drawn - right.exact)
     largest = np.where(inner, error.max(axis=2), outside(drawn, right.low, right.high))
-    wrong = largest > MOST
+    bound = np.where(inner, MANY, MOST)
     explained: Counter[str] = Counter()
     for rule, (low, high) in right.explained.items():
-        found = wrong & (outside(drawn, low, high) <= MOST)
+        found = (largest > bound) & (outside(drawn, low, high) <= bound)
         explained[rule] = int(found.sum())
-        wrong &= ~found
         largest[found] = 0
+    wrong = largest > MOST
     places = np.argwhere(wrong)
     order = np.argsort(-largest[wrong])
     faults = [_fault(name, len(places), drawn, right, *places[i]) for i in order[:SHOWN]]
