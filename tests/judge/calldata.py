@@ -120,7 +120,9 @@ class Effects:
 
 @dataclass(frozen=True)
 class World:
-    """All that the calldata says. shadow: the number of the light that casts shadows, and the rule; None without."""
+    """All that the calldata says. exact: whether the light of each fragment is computed by itself. shadow: the number
+    of the light that casts shadows, and the rule; None without.
+    """
 
     frame: Frame
     top: Array
@@ -131,6 +133,7 @@ class World:
     surfaces: list[Surface]
     effects: Effects
     antialias: bool
+    exact: bool
     shadow: tuple[int, int] | None
 
 
@@ -180,6 +183,7 @@ def read(data: bytes) -> World:
         surfaces,
         _effects({kind: content for (kind, _), content in records.items()}),
         any(kind >= ANTIALIAS for kind, _ in records),
+        any(kind > ANTIALIAS for kind, _ in records),
         shadows[0] if shadows else None,
     )
 

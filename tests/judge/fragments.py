@@ -19,7 +19,8 @@ from .visibility import AROUND, TOLERANCE, Seen
 #: What is documented beside the formulas: the colour of slivers; that a face is not in shadow if it is seen from the
 #: side that is turned away from the light.
 RULES = ("slivers", "backs")
-#: Antialiased triangles of less height, in pixels, have the colour of their first vertex if they are not smooth.
+#: Antialiased triangles of less height, in pixels, have the colour of their first vertex if they are not smooth and the
+#: scene has no effects.
 SLIVER = 1 / 16
 
 
@@ -68,7 +69,7 @@ def fragments(
     at = np.concatenate([at, (at[near, None] + AROUND[1:]).reshape(-1, 2)])
     to, inside = (np.concatenate([each, np.repeat(each[near], len(AROUND) - 1)]) for each in (to, inside))
     weights = pieces.weights_at(piece[to], at, inside)
-    faceted = np.array([s.shading <= FLAT for s in world.surfaces], bool) & (len(places) > 1)
+    faceted = np.array([s.shading <= FLAT for s in world.surfaces], bool) & (world.antialias and not world.exact)
     thin = np.flatnonzero((pieces.height[piece] < SLIVER) & faceted[surface[piece]])
     weights = np.concatenate([weights, pieces.weights[piece[thin]].reshape(-1, 3)])
     end, to = len(to), np.concatenate([to, np.repeat(thin, 3)])

@@ -85,11 +85,13 @@ def judge_pixels(name: str, drawn: Pixels, right: Picture) -> Verdict:
     """Judge the pixels (H, W, 3) of a picture; `name` begins its faults."""
     inner = right.interior
     error = np.abs(drawn - right.exact)
-    largest = np.where(inner, error.max(axis=2), outside(drawn, right.low, right.high))
+    strict = outside(drawn, right.low, right.high)
+    largest = np.where(inner, error.max(axis=2), strict)
     bound = np.where(inner, MANY, MOST)
     explained: Counter[str] = Counter()
     for rule, (low, high) in right.explained.items():
-        found = (largest > bound) & (outside(drawn, low, high) <= bound)
+        wide = outside(drawn, low, high)
+        found = (largest > bound) & (wide <= bound) & (wide < strict)
         explained[rule] = int(found.sum())
         largest[found] = 0
     wrong = largest > MOST
