@@ -54,18 +54,13 @@ def tasks(count: int, seed: int, only: str | None) -> Iterator[tuple[str, str | 
 
 
 def table(rows: dict[str, Verdict]) -> str:
-    """Return the counts, a line for each row."""
-    width = max(map(len, rows))
-    lines = [
-        f"{'':{width}} {'scenes':>6} {'lit':>10} {'interior':>10} {'mean':>6} {'>4':>5} {'>8':>5} {'worst':>6} "
-        f"{'outside':>7}" + "".join(f" {rule:>7}" for rule in RARE)
-    ]
+    """Return the counts as a table in Markdown, a line for each row."""
+    heads = ["", "scenes", "lit pixels", "interior", "mean error", "> 4", "> 8", "worst", "others outside", *RARE]
+    lines = [" | ".join(heads), "---|" * (len(heads) - 1) + "---"]
     for name, r in rows.items():
-        lines.append(
-            f"{name:{width}} {r.scenes:6,} {r.lit:10,} {r.interior:10,} {r.mean:6.3f} {r.many:5,} {r.far:5,} "
-            f"{r.worst:6.1f} {r.outside:7,}" + "".join(f" {r.explained[rule]:7,}" for rule in RARE)
-        )
-    return "\n".join(lines)
+        counts = f"{r.scenes:,} | {r.lit:,} | {r.interior:,} | {r.mean:.3f} | {r.many:,} | {r.far:,} | {r.worst:.1f}"
+        lines.append(" | ".join([name, counts, f"{r.outside:,}", *(f"{r.explained[rule]:,}" for rule in RARE)]))
+    return "\n".join(f"| {line} |" if line[0] != "-" else f"|{line}|" for line in lines)
 
 
 def main() -> int:
