@@ -133,7 +133,8 @@ fuzz: $(DEV) ## contracts against the reference over 2,000 random scenes, proper
 	$(BIN)/python tests/differential.py --count 2000
 	HYPOTHESIS_PROFILE=new $(BIN)/pytest -n 2 tests/evm tests/scene tests/test_bad_input_on_chain.py tests/test_differential.py tests/test_properties.py
 
-conformance: $(DEV) opengl ## contracts against OpenGL over 500 random scenes and every built-in piece
+conformance: $(DEV) opengl ## contracts against the judge over 1,000 random scenes, and OpenGL
+	$(BIN)/python tests/judge
 	$(BIN)/python tests/conformance
 
 clean: ## remove what was made here, but for the repository

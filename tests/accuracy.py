@@ -22,14 +22,14 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
 
-import float64
+import judge
 from original_scenes import OBJECTS, documents, genesis_document, object_document
 from pictures import UNLIT, chain
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
 from shackled.bench.scenes import GLOSSY, SUN, turned_cube
 from shackled.datasets import teapot
 from shackled.image import decode_bmp
-from shackled.scene import original_scene, vertex_normals
+from shackled.scene import original_scene, render_call, vertex_normals
 
 MEAN_BOUND = 0.6
 LEVELS = 4
@@ -60,7 +60,7 @@ class Accuracy:
 
 def measure(scene: Scene) -> Accuracy:
     """Compares the contract's picture of a scene with the float64 one."""
-    expected = float64.render(scene)
+    expected = judge.render(render_call(scene))
     pixels = decode_bmp(chain().draw(scene).bmp, scene.width, scene.height)
     error = np.abs(pixels.astype(int) - expected.pixels)
     largest = error.max(axis=2)
@@ -77,7 +77,7 @@ def measure(scene: Scene) -> Accuracy:
     )
 
 
-def interior(picture: float64.Picture) -> NDArray[np.bool_]:
+def interior(picture: judge.Picture) -> NDArray[np.bool_]:
     """(H, W): drawn pixels away from silhouettes and edges."""
     padded = np.pad(picture.triangle, 1, mode="edge")
     height, width = picture.triangle.shape

@@ -9,8 +9,7 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
 
-from conformance.coverage import project
-from conformance.world import World, before_camera
+from conformance.world import World, before_camera, project
 from shackled.scene import (
     FILTERS,
     WRAPS,

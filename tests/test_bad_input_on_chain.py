@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from float64 import scene_type
+from judge.calldata import scene_type
 from pictures import chain, dynamic, words
 from shackled import Background, Camera, ChainError, Light, Material, Mesh, Object, RenderError, Scene
 from shackled.artifacts import artifact

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-import float64
+import judge
 from accuracy import LEVELS, interior
 from pictures import Pixels, call_data, chain, draw
 from shackled import Camera, Light, Material, Mesh, Object, Scene, load
@@ -95,7 +95,7 @@ def test_overexposed_faces(lights: int, far: int) -> None:
             Mesh(corners, [[0, 1, 2], [0, 2, 3]], colors), material=Material("flat", 4, 4, specular, 20), cull=False
         )
         scene = Scene([thing], Camera(near=1), suns, width=48, height=48)
-        expected = float64.render_call(call_data("render", scene))
+        expected = judge.render(call_data("render", scene))
         error = np.abs(draw(scene).astype(int) - expected.pixels).max(axis=2)[interior(expected)]
         assert len(error) > 100
         assert error.max() <= LEVELS

@@ -10,7 +10,7 @@ import pytest
 from attrs import evolve
 from numpy.typing import NDArray
 
-import float64
+import judge
 from pictures import UNLIT, call_data, counts, covered, draw, on_pixel_grid, pixel_grid_camera, soup, unlit_scene
 from shackled import Camera, Light, Material, Mesh, Object, Scene
 from shackled.scene import Shading, vertex_normals
@@ -57,7 +57,7 @@ CLIPPED: dict[str, Callable[[], Iterator[Scene]]] = {
 def test_clipped_triangles_cover_what_they_should(name: str) -> None:
     different, total = 0, 0
     for scene in CLIPPED[name]():
-        expected = float64.render_call(call_data("render", scene)).triangle >= 0
+        expected = judge.render(call_data("render", scene)).triangle >= 0
         found = covered(scene)
         different += int((found != expected).sum())
         total += int(expected.sum())
@@ -76,7 +76,7 @@ def test_clipped_triangles_cover_what_they_should(name: str) -> None:
 def test_clipped_triangles_have_the_right_colors(name: str) -> None:
     errors = []
     for scene in CLIPPED[name]():
-        expected = float64.render_call(call_data("render", scene))
+        expected = judge.render(call_data("render", scene))
         seen = (expected.triangle >= 0) & covered(scene)
         errors.append(np.abs(draw(scene).astype(int) - expected.pixels)[seen])
     error = np.concatenate(errors)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-import float64
+import judge
 from pictures import UNLIT, call_data, draw, recolored, soup, unlit_scene
 from shackled import Camera, Light, Material, Mesh, Object, Scene
 
@@ -173,7 +173,7 @@ def test_a_face_whose_depths_differ_by_more_than_their_precision() -> None:
         face = Object(soup([np.clip(corners, -(2**23), 2**23 - 1)], RED), place, scale=0.5, material=UNLIT, cull=False)
         for objects in ([face, plane], [plane, face]):
             scene = unlit_scene(objects, camera, size)
-            expected = float64.render_call(call_data("render", scene)).pixels
+            expected = judge.render(call_data("render", scene)).pixels
             picture = draw(scene)
             assert (picture == expected).all(), np.argwhere((picture != expected).any(axis=2))
             seen += int((picture == RED).all(axis=2).sum())

@@ -1,7 +1,7 @@
 """What must not change a picture, or only in one direction, over scenes that hypothesis makes.
 
 Colours are compared where both pictures show one triangle on all sides of a pixel. What triangles pixels show may
-differ where `conformance.coverage` allows it: at edges, and at equal depth.
+differ where `judge` allows it: at edges, and at equal depth.
 """
 
 from __future__ import annotations
@@ -15,10 +15,9 @@ from hypothesis import strategies as st
 from numpy.typing import ArrayLike, NDArray
 
 from conformance import contracts
-from conformance.coverage import judge
 from conformance.neighbours import around, interior
-from conformance.world import before_camera
-from pictures import call
+from judge import render
+from pictures import call, call_data
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
 from shackled.scene import Rectangle, Shading, fit, vertex_normals
 
@@ -132,7 +131,7 @@ def assert_same_picture(
     """
     first = drawn or contracts.picture(before)
     shown = after.triangle if numbers is None else np.append(numbers, -1)[after.triangle]
-    judged = judge(before_camera(before))
+    judged = render(call_data("render", fit(before)))
     for row, column in np.argwhere(first.triangle != shown).tolist():
         allowed = judged.may_show(column, row)
         assert np.isin([first.triangle[row, column], shown[row, column]], allowed).all(), (column, row)

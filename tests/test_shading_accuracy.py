@@ -1,4 +1,4 @@
-"""The contracts' colours, against a float64 renderer of the same formulas: see accuracy.py."""
+"""The contracts' colours, against the judge: see accuracy.py."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 from attrs import evolve
 from benchmarks.shared import FOLDER
 
-import float64
+import judge
 from accuracy import (
     LEVELS,
     MEAN_BOUND,
@@ -73,7 +73,7 @@ def test_random_scenes_together(kind: Kind, seeds: range) -> None:
             pixels = draw(scene)
         except ChainError:
             continue
-        expected = float64.render_call(call_data("render", scene))
+        expected = judge.render(call_data("render", scene))
         errors.append(np.abs(pixels.astype(int) - expected.pixels)[interior(expected)])
     error = np.concatenate(errors)
     assert len(error) > 5000
@@ -92,7 +92,7 @@ def test_colors_next_to_black_and_white_do_not_wrap() -> None:
         for corners in triangles:
             thing = Object(Mesh(corners, [[0, 1, 2]], colors, normals), (0, 0, -5000), material=material, cull=False)
             scene = Scene([thing], Camera(near=1), [Light("directional", (0, 0, 1))], width=96, height=96)
-            expected = float64.render_call(call_data("render", scene))
+            expected = judge.render(call_data("render", scene))
             error = np.abs(draw(scene).astype(int) - expected.pixels).max(axis=2)
             assert error.max() <= 40, f"{shading} {corners.tolist()}, at row, column {np.argwhere(error > 40)[0]}"
 
@@ -102,7 +102,7 @@ def test_colors_of_a_far_triangle_do_not_wrap() -> None:
     corners = [[103303, 101361, -6891344], [-19907, 1838851, 1023926], [-5195858, 25530, 7157482]]
     mesh = Mesh(corners, [[0, 1, 2]], [[255, 0, 0], [0, 255, 0], [0, 0, 255]])
     scene = Scene([Object(mesh, material=Material("unlit"), cull=False)], Camera(near=1), width=32, height=32)
-    expected = float64.render_call(call_data("render", scene))
+    expected = judge.render(call_data("render", scene))
     error = np.abs(draw(scene).astype(int) - expected.pixels).max(axis=2)
     assert (expected.triangle >= 0).any()
     assert error.max() <= 40

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-import float64
+import judge
 from accuracy import LEVELS
 from pictures import call_data, draw
 from shackled import Camera, Light, Material, Mesh, Object, Scene
@@ -52,8 +52,8 @@ def ways(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> list[int]:
 
 
 def error(scene: Scene) -> int:
-    """How far the contract's picture is from the float64 one where there is a triangle away from its edges."""
-    expected = float64.render_call(call_data("render", scene))
+    """How far the contract's picture is from the judge's where there is a triangle away from its edges."""
+    expected = judge.render(call_data("render", scene))
     inner = expected.triangle >= 0
     inner[1:] &= expected.triangle[:-1] >= 0
     inner[:-1] &= expected.triangle[1:] >= 0

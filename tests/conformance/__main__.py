@@ -58,21 +58,16 @@ def main() -> int:
     print(f"the random scenes are those of the seeds {seed} to {seed + arguments.count - 1}", flush=True)
     started = time.perf_counter()
     rows: dict[str, Result] = {}
-    # the bounds of a run hold for plain pictures: nothing is summed up of the light of antialiased ones
-    plain, antialiased = Result(), Result()
+    whole = Result()
     for task, result in run(list(tasks(arguments.count, seed, arguments.only)), arguments.jobs):
         rows[task.row] = rows.get(task.row, Result()) + result
-        if task.samples or task.effects or task.glass:
-            antialiased += result
-        else:
-            plain += result
+        whole += result
         for fault in result.faults:
             print(fault, flush=True)
-    print(table(rows | {"all plain": plain, "all antialiased": antialiased}))
-    of_run = plain.faults_of_run()[len(plain.faults) :]
-    for fault in of_run:
+    print(table(rows | {"all": whole}))
+    found = whole.faults_of_run()
+    for fault in found[len(whole.faults) :]:
         print(fault)
-    found = plain.faults + of_run + antialiased.faults
     print(f"{len(found)} out of bounds, in {time.perf_counter() - started:.0f} s")
     return 1 if found else 0
 

@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from judge import Picture, render
+from pictures import call_data
 from shackled import Scene
 
 from . import contracts, opengl
-from .coverage import Judge, judge
 from .neighbours import around, interior, uniform
 from .world import before_camera
 
@@ -33,9 +34,8 @@ class Result:
     """The comparison of one scene, or the sum of those of many.
 
     scenes: how many. empty: in how many OpenGL draws nothing. pixels: that either drew. interior: those of which the
-    eight neighbours show the same triangle too, and of which the texel is sure; only their colours are compared.
-    differing: pixels that show
-    different triangles. error: the sum of the errors of all channels. many: pixels off by more than MANY levels.
+    eight neighbours show the same triangle too; only their colours are compared. differing: pixels that show different
+    triangles. error: the sum of the errors of all channels. many: pixels off by more than MANY levels.
     worst: the largest error. faults: what is out of bounds, in words.
     """
 
@@ -87,17 +87,18 @@ def compare(name: str, scene: Scene, is_piece: bool = False) -> Result:
     error = np.abs(ours.pixels - expected)
     step = ~uniform(theirs.shining)
     error[step] = beyond(ours.pixels, expected)[step]
-    inner = interior(theirs.triangle) & (ours.triangle == theirs.triangle) & ~theirs.unsure
-    if any(o.material.texture is not None for o in scene.objects):
-        # with four samples, what is beyond the border of the canvas may be in a pixel at it
-        inner[[0, -1]] = inner[:, [0, -1]] = False
+    inner = interior(theirs.triangle) & (ours.triangle == theirs.triangle)
     if (error[inner] > MANY).any():
         both = np.stack([opengl.draw(world, threshold).color for threshold in (-GRAZING, GRAZING)])
         error = np.minimum(error, outside(ours.pixels, 255 - both if scene.invert else both))
     largest = error.max(axis=2)
     faults = []
     different = np.argwhere(ours.triangle != theirs.triangle)
-    wrong = _wrong(judge(world), ours.triangle, theirs.triangle, different) if len(different) else []
+    wrong = (
+        _wrong(render(call_data("render", contracts.solid(scene))), ours.triangle, theirs.triangle, different)
+        if len(different)
+        else []
+    )
     if wrong:
         faults.append(f"{name}: {len(wrong)} pixels show a wrong triangle; {wrong[0]}")
     far = np.argwhere(inner & (largest > MOST))
@@ -130,12 +131,12 @@ def compare(name: str, scene: Scene, is_piece: bool = False) -> Result:
     return result
 
 
-def _wrong(judge: Judge, ours: Triangles, theirs: Triangles, places: Triangles) -> list[str]:
-    """Those of the pixels that may not show what one of the two pictures shows, in words."""
+def _wrong(right: Picture, ours: Triangles, theirs: Triangles, places: Triangles) -> list[str]:
+    """Those of the pixels that may not show what the contracts draw, in words."""
     found = []
     for row, column in places.tolist():
-        allowed = judge.may_show(column, row)
-        if not np.isin((ours[row, column], theirs[row, column]), allowed).all():
+        allowed = right.may_show(column, row)
+        if ours[row, column] not in allowed:
             found.append(
                 f"pixel ({column}, {row}) shows {_triangle(ours[row, column])}, with OpenGL "
                 f"{_triangle(theirs[row, column])}; it may show {' or '.join(map(_triangle, allowed))}"

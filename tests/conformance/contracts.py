@@ -27,11 +27,15 @@ class Drawing:
 
 def picture(scene: Scene) -> Drawing:
     """The picture of a scene without wires."""
-    # the same numbers for both
-    scene = fit(evolve(scene, objects=[o for o in scene.objects if not o.wireframe]))
+    scene = solid(scene)
     numbers = 1 + np.arange(sum(len(o.mesh.faces) for o in scene.objects))
     channels = draw(painted(scene, numbers[:, None] >> [16, 8, 0] & 255)).astype(np.int64)
     return Drawing(draw(scene), (channels << [16, 8, 0]).sum(axis=2) - 1)
+
+
+def solid(scene: Scene) -> Scene:
+    """The scene without wires, in the numbers that the contracts get."""
+    return fit(evolve(scene, objects=[o for o in scene.objects if not o.wireframe]))
 
 
 def painted(scene: Scene, colors: NDArray[np.int64]) -> Scene:

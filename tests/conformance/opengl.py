@@ -14,8 +14,6 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from shackled import Texture
-
 from .world import ALL_THROUGH, Array, Solid, World
 
 #: What a vertex consists of: name and count of numbers.
@@ -34,15 +32,12 @@ VERTEX = {
     "normal": 3,
     "facing": 3,
     "number": 1,
-    "uv": 2,
 }
 
 VERTEX_SHADER = """
 in vec4 clip;
 in float inside, nearness, number;
 in vec3 color, to_eye, to_light_0, to_light_1, to_light_2, to_light_3, normal, facing;
-in vec2 uv;
-THROUGH out vec2 f_uv;
 THROUGH out float f_nearness;
 THROUGH out vec3 f_color, f_to_eye, f_to_light[4], f_normal;
 flat out vec3 f_facing;
@@ -64,20 +59,11 @@ void main() {
     f_normal = normal;
     f_facing = facing;
     f_number = number;
-    f_uv = uv;
 }
 """
 
-#: Texels that a pixel may have along a side. Where it has more, parts of a pixel by which corners are rounded count.
-MOST_TEXELS = 1.0
-
-FRAGMENT_SHADER = (
-    f"""
-#define MOST_TEXELS {MOST_TEXELS}
-"""
-    + """
+FRAGMENT_SHADER = """
 THROUGH in float f_nearness;
-THROUGH in vec2 f_uv;
 THROUGH in vec3 f_color, f_to_eye, f_to_light[4], f_normal;
 flat in vec3 f_facing;
 flat in float f_number;
@@ -87,8 +73,6 @@ uniform float near, ambient, diffuse, specular, threshold;
 uniform int lights, shininess;
 uniform vec3 ambient_light, light[4], axis[4];
 uniform vec2 cosines[4];
-uniform bool textured, nearest;
-uniform sampler2D image;
 
 vec3 unit(vec3 v) {
     float square = dot(v, v);
@@ -106,14 +90,6 @@ void main() {
     gl_FragDepth = perspective ? gl_FragCoord.w * near : f_nearness;
 #endif
     vec3 color = f_color;
-    float unsure = 0.0;
-    if (textured) {
-        color *= texture(image, f_uv).rgb;
-        vec2 texel = f_uv * textureSize(image, 0), change = fwidth(texel);
-        vec2 border = abs(texel - round(texel));
-        bool small = max(change.x, change.y) > MOST_TEXELS;
-        if (small || nearest && any(lessThan(border, 0.08 + 0.2 * change))) unsure = 0.5;
-    }
     // the lights that give highlights, a bit each
     int shining = 0;
     if (lit) {
@@ -136,7 +112,7 @@ void main() {
         }
         color = color * surface + 255.0 * highlight;
     }
-    float code = 16.0 * (f_number + 1.0) + float(shining) + unsure;
+    float code = 16.0 * (f_number + 1.0) + float(shining);
 #ifdef MULTISAMPLED
     // always 1, though the compiler does not know: it keeps the uniforms
     code = min(code, 1.0);
@@ -144,7 +120,6 @@ void main() {
     result = vec4(clamp(color, 0.0, 255.0), code);
 }
 """
-)
 
 #: What comes before both shaders. With several samples in a pixel, light is that of the middle of the covered ones.
 ONE_SAMPLE = "#version 330\n#define THROUGH\n"
@@ -162,14 +137,12 @@ class Unavailable(Exception):
 @dataclass(frozen=True)
 class Drawing:
     """triangle: (H, W) the number of the triangle that is seen, -1 for none. color: (H, W, 3) its light, 0..255.
-    shining: (H, W) the lights that reach it, where they give highlights: a bit each. unsure: (H, W) whether roundings
-    within the bounds may change the texel that is seen.
+    shining: (H, W) the lights that reach it, where they give highlights: a bit each.
     """
 
     triangle: NDArray[np.int64]
     color: Array
     shining: NDArray[np.int64]
-    unsure: NDArray[np.bool_]
 
 
 @cache
@@ -213,7 +186,7 @@ def draw(world: World, threshold: float = 0.0, place: tuple[float, float] = (0.0
     _render(world, canvas, _program(ONE_SAMPLE), threshold, place)
     pixels = _read(canvas)
     code = pixels[..., 3].astype(np.int64)
-    return Drawing(code // 16 - 1, pixels[..., :3], code % 16, pixels[..., 3] != code)
+    return Drawing(code // 16 - 1, pixels[..., :3], code % 16)
 
 
 def multisample(world: World, samples: int = 4) -> tuple[Array, Array]:
@@ -251,9 +224,7 @@ def _render(
         _set_uniforms(program, world, solid)
         buffer = gl.buffer(vertices.tobytes())
         array = gl.vertex_array(program, buffer, *VERTEX)
-        image = _bind_texture(solid.material.texture)
         array.render(moderngl.TRIANGLES)
-        image.release()
         array.release()
         buffer.release()
 
@@ -289,22 +260,9 @@ def _vertices(world: World, place: tuple[float, float]) -> list[NDArray[np.float
             solid.normals.reshape(-1, 3),
             np.repeat(solid.facing, 3, axis=0),
             np.repeat(solid.first + np.arange(len(solid.corners)), 3)[:, None],
-            solid.uvs.reshape(-1, 2),
         ]
         found.append(np.hstack(columns).astype(np.float32))
     return found
-
-
-def _bind_texture(texture: Texture | None) -> moderngl.Texture:
-    """An image of floats, so that it is filtered in floats."""
-    pixels = np.ones((1, 1, 3)) if texture is None else texture.pixels / 255
-    made = context().texture(pixels.shape[1::-1], 3, pixels.astype("f4").tobytes(), dtype="f4")
-    if texture is not None:
-        one = moderngl.NEAREST if texture.filter == "nearest" else moderngl.LINEAR
-        made.filter = one, one
-        made.repeat_x = made.repeat_y = texture.wrap == "repeat"
-    made.use(0)
-    return made
 
 
 def _set_uniforms(program: moderngl.Program, world: World, solid: Solid) -> None:
@@ -312,8 +270,6 @@ def _set_uniforms(program: moderngl.Program, world: World, solid: Solid) -> None
     hues = [tuple(lamp.color / 255) for lamp in world.lamps]
     values = {
         "perspective": world.perspective,
-        "textured": material.texture is not None,
-        "nearest": material.texture is not None and material.texture.filter == "nearest",
         "lit": material.shading != "unlit",
         "smooth_normals": material.shading == "smooth",
         "near": world.near if np.isfinite(world.near) else 0.0,

@@ -28,8 +28,7 @@ class Solid:
     """An object in the space of the camera: right, up, and toward the viewer.
 
     corners, colors, normals: (n, 3, 3) of the corners of n triangles. facing: (n, 3) their own unit normals.
-    uvs: (n, 3, 2), where the corners are on the texture of the material; zeros without one. first: the number of its
-    first triangle, counted through all objects.
+    first: the number of its first triangle, counted through all objects.
     """
 
     corners: Array
@@ -39,7 +38,6 @@ class Solid:
     material: Material
     cull: bool
     first: int
-    uvs: Array
 
 
 @dataclass(frozen=True)
@@ -108,7 +106,6 @@ def before_camera(scene: Scene) -> World:
                     material=o.material,
                     cull=o.cull,
                     first=first,
-                    uvs=np.zeros((len(faces), 3, 2)) if mesh.uvs is None else _floats(mesh.uvs)[faces],
                 )
             )
         first += len(faces) * (not o.wireframe)
@@ -124,6 +121,14 @@ def before_camera(scene: Scene) -> World:
         lamps,
         _floats(scene.ambient_light),
     )
+
+
+def project(world: World, points: Array) -> Array:
+    """Columns and rows of (..., 3) points before the camera."""
+    divisor = -points[..., 2] if world.perspective else 1.0
+    column = world.width / 2 + world.focal * points[..., 0] / divisor
+    row = world.height / 2 - world.focal * points[..., 1] / divisor
+    return np.stack([column, row], axis=-1)
 
 
 def _lamp(light: Light, eye: Array, axes: Array) -> Lamp:

@@ -17,7 +17,7 @@ from attrs import evolve
 from PIL import ImageColor
 
 import shackled
-from conformance import shadows as conformance_shadows
+from judge import random_scene
 from node_scripts import answers
 from original_scenes import document as original_document
 from original_scenes import documents as original_documents
@@ -387,7 +387,7 @@ def thing(rng: np.random.Generator) -> dict[str, Any]:
 def test_shadows_and_grounds(tmp_path: Path) -> None:
     calls = Calls()
     for seed in range(40):
-        scene = conformance_shadows.random_scene(seed, 32)
+        scene = evolve(random_scene("shadows", seed), width=32, height=32)
         calls.add(f"shadows {seed}", encode_scene_file(scene).decode(), scene)
         color = tuple(np.random.default_rng(seed).integers(0, 256, 3).tolist())
         kinds: list[dict[str, Any]] = [{}, {"height": -1.5, "radius": 7}, {"center": (1 / 3, -2), "inner": 0.01}]

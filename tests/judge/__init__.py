@@ -1,0 +1,11 @@
+"""Judge pictures by a renderer in float64, written from the formulas of the documentation alone.
+
+It reads the same calldata as the contracts, so that both see the same numbers, and shares nothing else with them. For
+each pixel it finds the range in which its colour may lie when samples move by 0.04 pixels.
+"""
+
+from .composition import Picture, render
+from .scenes import KINDS, random_scene
+from .verdict import Verdict, draw_in_tiles, judge, judge_pixels
+
+__all__ = ["KINDS", "Picture", "Verdict", "draw_in_tiles", "judge", "judge_pixels", "random_scene", "render"]

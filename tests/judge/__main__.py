@@ -1,0 +1,95 @@
+"""Judge what the contracts draw: random scenes of all kinds, and models with the default look.
+
+    make conformance
+    python tests/judge --count 1000 --seed 1      the random scenes of these seeds
+    python tests/judge --only shadows             one kind; `meshes` are the models of ../shared/meshes/decimated
+
+A wrong pixel is printed with its scene, what is drawn and what would be right. The exit code is 1 then.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+
+if __package__ in (None, ""):
+    sys.path[:0] = [str(Path(__file__).parents[n]) for n in (1, 2)]
+
+from benchmarks.shared import FOLDER
+
+from judge import KINDS, Verdict, draw_in_tiles, judge, random_scene
+from judge.verdict import RARE
+from shackled import load
+from shackled.errors import ShackledError
+
+#: Of so many random scenes, one is drawn in tiles.
+TILED = 10
+MESHES = FOLDER.parent / "meshes" / "decimated"
+SIZES = (128, 256)
+
+
+def judged(task: tuple[str, str | int, int]) -> tuple[str, Verdict]:
+    """Judge a random scene by its kind and seed, or a mesh file by its path and size."""
+    kind, which, size = task
+    if isinstance(which, str):
+        return f"{kind}, {size}", judge(f"{Path(which).stem} at {size}", load(which, size=size))
+    name, scene = f"{kind} {which}", random_scene(kind, which)
+    try:
+        return kind, judge(name, scene, draw_in_tiles) if which % TILED == 0 else judge(name, scene)
+    except ShackledError as error:
+        return kind, Verdict(scenes=1, faults=[f"{name}: {error}"])
+
+
+def tasks(count: int, seed: int, only: str | None) -> Iterator[tuple[str, str | int, int]]:
+    """So many random scenes, of all kinds or of one; and the meshes."""
+    kinds = [kind for kind in KINDS if only in (None, kind)]
+    yield from ((kinds[i % len(kinds)], seed + i // len(kinds), 0) for i in range(count if kinds else 0))
+    if only in (None, "meshes"):
+        yield from (("meshes", str(path), size) for size in SIZES for path in sorted(MESHES.glob("*.ply")))
+
+
+def table(rows: dict[str, Verdict]) -> str:
+    """Return the counts as a table in Markdown, a line for each row."""
+    heads = ["", "scenes", "lit pixels", "interior", "mean error", "> 4", "> 8", "worst", "others outside", *RARE]
+    lines = [" | ".join(heads), "---|" * (len(heads) - 1) + "---"]
+    for name, r in rows.items():
+        counts = f"{r.scenes:,} | {r.lit:,} | {r.interior:,} | {r.mean:.3f} | {r.many:,} | {r.far:,} | {r.worst:.1f}"
+        lines.append(" | ".join([name, counts, f"{r.outside:,}", *(f"{r.explained[rule]:,}" for rule in RARE)]))
+    return "\n".join(f"| {line} |" if line[0] != "-" else f"|{line}|" for line in lines)
+
+
+def main() -> int:
+    """The command."""
+    parser = argparse.ArgumentParser(prog="tests/judge", description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--count", type=int, default=1000, help="how many random scenes (1000)")
+    parser.add_argument("--seed", type=int, default=1, help="the first seed of each kind (1)")
+    parser.add_argument("--only", choices=[*KINDS, "meshes"], help="one kind")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes")
+    arguments = parser.parse_args()
+    started = time.perf_counter()
+    rows: dict[str, Verdict] = {}
+    if arguments.only in (None, "meshes") and not MESHES.is_dir():
+        print(f"there are no meshes in {MESHES}: they are left out")
+    with ProcessPoolExecutor(arguments.jobs) as pool:
+        for row, verdict in pool.map(judged, tasks(arguments.count, arguments.seed, arguments.only), chunksize=2):
+            rows[row] = rows.get(row, Verdict()) + verdict
+            for fault in verdict.faults:
+                print(fault, flush=True)
+    whole = sum(rows.values(), Verdict())
+    if not whole.scenes:
+        return 0
+    print(table(rows | {"all": whole}))
+    of_run = whole.faults_of_run()
+    for fault in of_run:
+        print(fault)
+    print(f"{whole.far + whole.outside} wrong pixels, in {time.perf_counter() - started:.0f} s")
+    return 1 if whole.faults or of_run else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
