@@ -7,20 +7,20 @@ pragma solidity ^0.8.25;
 /// @notice Derived from the bytecode: another version of a contract has another address.
 library Addresses {
     address internal constant ENGINE = 0x67cC395a7C4D1d8154A2cCdC2Ea418ab889c6974;
-    address internal constant FRAGMENT_ENGINE = 0x787ef99222FF9Aa06903d3CaabFff1D7B6f2582A;
+    address internal constant FRAGMENT_ENGINE = 0x39a991b1f9aEba26DC3951Ea4A488A11c439FC8f;
     address internal constant ANTIALIASED_ENGINE = 0xA436EbdF828eeF01E9247B4135A100591410746B;
-    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x21C9227bF7C6C23Cc91A4E71bDf95F35932847a5;
-    address internal constant EFFECTS_ENGINE = 0xf824F26F3D17651A968522E9f47387926D35D0D3;
-    address internal constant EFFECTS = 0xD4B5c78e3E36fd228b7353eF3f9CC278B5936459;
-    address internal constant RENDERER = 0x4f2F763912AbA4478317E8c21aBb6eF02105De13;
-    address internal constant ORIGINAL = 0xdFE208868bF3dBEA18Cf7f6426D6Bcf5D88F7E02;
-    address internal constant GENESIS = 0xDd7213BeB0d95b0218ed6B79B4A9dA6546DeE29b;
+    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x1dc593b58fd7a0C1E909B71682bD8190c8A2bE66;
+    address internal constant EFFECTS_ENGINE = 0xa7C59A1C402D3A216C85965be06BDC734C1d36b9;
+    address internal constant EFFECTS = 0x03bED4605644c03eb9DEf76085c64ED54e22CF97;
+    address internal constant RENDERER = 0xd7Cbd9B410aE456429A459e045A9Ec68ac433F33;
+    address internal constant ORIGINAL = 0x49EDE54934D25A97480A600847896201e3237F7C;
+    address internal constant GENESIS = 0xd0840955a079791De01D1904e66AfB0428f99477;
     address internal constant PNG_ENCODER = 0xD35d1Fe27b16DC0b1c5526981643a50eAc5c7e0e;
-    address internal constant TURNTABLE = 0xFA73eB02087C3D72B47e4eD42cBD30E1AcB2097D;
+    address internal constant TURNTABLE = 0x079F8fd64204D8b68236FC5622D8b0235d707647;
     address internal constant GLB_ENCODER = 0xDc1780BBD46D9065a22bf449BEA3cF54a2314383;
-    address internal constant STUDIO = 0xAac610738B1F4641881119B5E2be5A49df2F57ff;
-    address internal constant LIBRARY = 0xEad131527c2426d34ee4385b093BBC02Aa72767a;
-    address internal constant WEB = 0x8d93640E4910014A69D835cCDAF1d1eDb1214dc9;
-    address internal constant EDITIONS = 0xAf930F5C3cF814F2198258e3dd519B73D42181a6;
-    address internal constant GENESIS_METADATA = 0x4C5eBC80A7122c9AF48ce957976a9cb8fd4CaB38;
+    address internal constant STUDIO = 0xEcba130eAea9B72B0400FB60cC39E7805fc90f3C;
+    address internal constant LIBRARY = 0xa31Efd9Ad1267Fc2C037e85863caA5CBf39dCE62;
+    address internal constant WEB = 0x6563328DE7d61964e557B4a387c49da8136832c5;
+    address internal constant EDITIONS = 0x0819Eb310648e20146b672A98a019FeC7bCF4D59;
+    address internal constant GENESIS_METADATA = 0x1806f215fcAB0c27DE9329923E08D1E8cAE12568;
 }
