@@ -124,6 +124,10 @@ contract EffectsEngine is SampleBuffer, SampleWires {
         }
     }
 
+    function setGradients(uint256 a, uint256 b, uint256 c) internal pure override {
+        EffectSamples.setGradients(a, b, c);
+    }
+
     function drawFragments(uint256 row, uint256 last) internal pure override {
         drawSpans(row, last);
     }

@@ -7,18 +7,22 @@ the samples that the triangle covers. Only whether a light with shadows reaches 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
 from .calldata import FLAT, UNLIT, Array, Booleans, Integers, World
 from .light import colors, mix
-from .pieces import Pieces
+from .pieces import SUBPIXELS, Pieces
 from .shadows import Shadows
 from .visibility import AROUND, TOLERANCE, Seen
 
 #: What is documented beside the formulas: the colour of slivers; that a face is not in shadow if it is seen from the
-#: side that is turned away from the light.
-RULES = ("slivers", "backs")
+#: side that is turned away from the light; that a face which is clipped is drawn as several triangles, so that pixels
+#: between them have several fragments.
+RULES = ("slivers", "backs", "fans")
+#: The guard band, in pixels: faces that leave it are clipped.
+GUARD_BAND = (-1536, 2560)
 #: Antialiased triangles of less height, in pixels, have the colour of their first vertex if they are not smooth and the
 #: scene has no effects.
 SLIVER = 1 / 16
@@ -72,13 +76,23 @@ def fragments(
     faceted = np.array([s.shading <= FLAT for s in world.surfaces], bool) & (world.antialias and not world.exact)
     thin = np.flatnonzero((pieces.height[piece] < SLIVER) & faceted[surface[piece]])
     weights = np.concatenate([weights, pieces.weights[piece[thin]].reshape(-1, 3)])
-    end, to = len(to), np.concatenate([to, np.repeat(thin, 3)])
+    parts = [places[list(part)].mean(axis=0) for size in (1, 2, 3) for part in combinations(range(len(places)), size)]
+    offsets = (np.unique(parts, axis=0)[:, None] + AROUND[[0, 1, 3, 5, 7]]).reshape(-1, 2)
+    low, high = (SUBPIXELS * edge for edge in GUARD_BAND)
+    clipped = pieces.is_cut | ((pieces.corners < low) | (pieces.corners >= high)).any(axis=(1, 2))
+    fan = np.flatnonzero(textured[surface[piece]] & clipped[piece] & (len(places) > 1))
+    owner_of_fan = np.repeat(fan, len(offsets))
+    at = (center[fan, None] + offsets).reshape(-1, 2)
+    weights = np.concatenate([weights, pieces.weights_at(piece[owner_of_fan], at, np.ones(len(at), bool))])
+    end, to = len(to), np.concatenate([to, np.repeat(thin, 3), owner_of_fan])
+    points = np.arange(len(to))
+    plain, slivers, fans = points[:end], points[: len(to) - len(at)], np.delete(points, slice(end, end + 3 * len(thin)))
     lit, dark, opacity = _shaded(world, surface[piece[to]], pieces.face[piece[to]], weights)
     may_be_lit, may_be_dark = _reached(world, shadows, pieces, rows, places, surface)
     unseen = may_be_lit if shadows is None else may_be_lit | shadows.backs[pieces.face[rows.piece]]
     colors = []
-    for points, reach in ((slice(end), may_be_lit), (slice(None), may_be_lit), (slice(end), unseen)):
-        both = [_extent(values[:, points], to[points], count)[:, key] for values in (lit, dark)]
+    for chosen, reach in ((plain, may_be_lit), (slivers, may_be_lit), (plain, unseen), (fans, may_be_lit)):
+        both = [_extent(values[:, chosen], to[chosen], count)[:, key] for values in (lit, dark)]
         colors.append(_either(both[0], both[1], reach, may_be_dark))
     return Fragments(np.stack(colors), _extent(opacity[:, :end], to[:end], count)[:, key], may_be_lit, may_be_dark)
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from pictures import call_data, draw
-from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, load
+from pictures import WHITE, call_data, draw
+from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, Texture, load
 from shackled.scene import Shading, fit
 
-from . import KINDS, Picture, Verdict, judge, judge_pixels, random_scene, render
+from . import KINDS, Picture, Verdict, draw_in_tiles, judge, judge_pixels, random_scene, render
 from .visibility import SAMPLES
 
 BLACK = Background((0, 0, 0))
@@ -83,6 +83,28 @@ def test_highlight_of_a_wide_triangle() -> None:
     verdict = judge("highlight", scene)
     assert verdict.faults == []
     assert verdict.worst <= 8
+
+
+def test_texture_of_a_clipped_face() -> None:
+    """A board that the near plane clips, so that depths differ by a factor of 80: borders of texels in the distance."""
+    checks = np.repeat(255 * np.eye(2, dtype=np.uint8)[:, :, None], 3, axis=2)
+    corners = [[-3, 0, 2], [3, 0, 2], [3, 0, -8], [-3, 0, -8]]
+    board = Mesh(corners, [[0, 1, 2], [0, 2, 3]], WHITE, uvs=4 * np.array([[0, 0], [0.6, 0], [0.6, 1], [0, 1]]))
+    thing = Object(board, material=Material("unlit", texture=Texture(checks, "nearest", "repeat")), cull=False)
+    camera = Camera((0.2, 0.6, 0.5), (0.1, -0.3, -3), half_height=0.6, near=0.1)
+    scene = Scene([thing], camera, [], BLACK, width=128, height=128)
+    drawn = draw(fit(scene))
+    assert set(drawn[55, 125:, 0].tolist()) == {255}
+    assert judge("board", scene).faults == []
+    assert np.array_equal(drawn, draw_in_tiles(fit(scene)))
+
+
+@pytest.mark.parametrize(("kind", "seed"), [("textures", 16), ("textures", 114), ("mixed", 19)])
+def test_texture_around_the_eye(kind: str, seed: int) -> None:
+    """Few pixels, between the triangles of a face that is clipped, have two fragments."""
+    verdict = judge(f"{kind} {seed}", random_scene(kind, seed))
+    assert verdict.faults == []
+    assert verdict.explained["fans"] <= 3
 
 
 # ---- many scenes ----

@@ -60,7 +60,7 @@ abstract contract SampleRasterizer is Rasterizer {
     }
 
     /// @dev Sets the accumulator at column 0 of the row of the first pixel centres below the first vertex, and its changes.
-    function setGradients(uint256 a, uint256 b, uint256 c) private pure {
+    function setGradients(uint256 a, uint256 b, uint256 c) internal pure virtual {
         assembly ("memory-safe") {
             let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
             let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)

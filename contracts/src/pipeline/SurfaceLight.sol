@@ -40,25 +40,31 @@ uint256 constant BEYOND_ALBEDO = 0xfffc0000000000fffc0000000000fffc0000;
 
 library SurfaceLight {
     /// @notice Returns the colour for this accumulator and ray.
-    /// @param attribute The accumulator of barycentric coordinates.
+    /// @param attribute The accumulator of fine barycentric coordinates.
     /// @param x, y As for FragmentLight.
     /// @return color Three bytes, blue uppermost.
     function colorAt(uint256 attribute, uint256 x, uint256 y) internal pure returns (uint256 color) {
         uint256 s;
         uint256 t;
         assembly ("memory-safe") {
-            s := sar(ACCUMULATOR_S_AT, signextend(ACCUMULATOR_S_LAST_BYTE, attribute))
-            t := sar(ACCUMULATOR_T_AT, signextend(ACCUMULATOR_T_LAST_BYTE, attribute))
+            s := sar(FINE_S_AT, signextend(FINE_S_LAST_BYTE, attribute))
+            t := signextend(FINE_T_LAST_BYTE, attribute)
             attribute := shr(ACCUMULATOR_DEPTH_AT, attribute)
             // as in FragmentLight
             let mode := mload(MODE)
-            if iszero(and(mode, IS_ORTHOGRAPHIC)) {
-                s := sdiv(mul(s, mload(DEPTH_1)), attribute)
-                t := sdiv(mul(t, mload(DEPTH_2)), attribute)
+            switch and(mode, IS_ORTHOGRAPHIC)
+            case 0 {
+                let divisor := shl(FINE_TO_24, attribute)
+                s := sdiv(mul(s, mload(DEPTH_1)), divisor)
+                t := sdiv(mul(t, mload(DEPTH_2)), divisor)
                 if and(mode, IS_STEEP) {
                     if sgt(s, ONE_24) { s := ONE_24 }
                     if sgt(t, ONE_24) { t := ONE_24 }
                 }
+            }
+            default {
+                s := sar(FINE_TO_24, s)
+                t := sar(FINE_TO_24, t)
             }
         }
         uint256 albedo = albedoAt(s, t);

@@ -93,8 +93,21 @@ uint256 constant ACCUMULATOR_T_AT = 8;
 uint256 constant ACCUMULATOR_T_LAST_BYTE = 6;
 /// @dev Bias of the lanes: half a level for colours.
 uint256 constant COLOR_BIAS = 0x100000000000200000000000002000000000000020000000000;
-/// @dev 2^-15 for barycentric coordinates, so that rounded gradients (see PixelRasterizer) leave none below zero.
+/// @dev 2^-15 for barycentric coordinates, so that rounded gradients (see PixelRasterizer) leave none below zero; 2^-27 if they are fine.
 uint256 constant WEIGHT_BIAS = 0x100000000000000000000000000000002000000000000020000;
+/// @dev Fine barycentric coordinates, of scenes with effects, have 12 more bits: Q44. The lane of s is wider, so that t is still below it;
+/// lanes of 56 bits hold -2048 to 2048.
+uint256 constant FINE_BITS = 12;
+/// @dev GRADIENT_SHIFT for them; the factor minus 1; the position of s, and the last bytes of the lanes.
+uint256 constant FINE_GRADIENT_SHIFT = 49;
+uint256 constant FINE_FACTOR_LESS_1 = 0xfff;
+uint256 constant FINE_S_AT = 56;
+uint256 constant FINE_S_LAST_BYTE = 18;
+uint256 constant FINE_T_LAST_BYTE = 6;
+/// @dev The shift from such a coordinate to Q24.
+uint256 constant FINE_TO_24 = 20;
+/// @dev The last byte of both lanes in an attribute word or an accumulator with coordinates that are not fine.
+uint256 constant WEIGHTS_LAST_BYTE = 20;
 
 // --------------------------------------------------------------------------------------------------------------------- parts of triangles
 

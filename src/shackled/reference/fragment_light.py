@@ -50,9 +50,14 @@ def color_at(depth: int, s: int, t: int, x: int, y: int, r: Registers) -> int:
 
 
 def corrected(depth: int, s: int, t: int, r: Registers) -> tuple[int, int]:
-    """Return barycentric coordinates on the screen as those of the surface, Q24: correct in perspective."""
-    if r.mode & IS_ORTHOGRAPHIC == 0:
-        s, t = divide_signed(s * r.depth_1, depth), divide_signed(t * r.depth_2, depth)
+    """Return barycentric coordinates on the screen, Q44 with effects, as those of the surface, Q24: correct in
+    perspective.
+    """
+    bits = 20 if r.has_effects else 0
+    if r.mode & IS_ORTHOGRAPHIC:
+        s, t = s >> bits, t >> bits
+    else:
+        s, t = divide_signed(s * r.depth_1, depth << bits), divide_signed(t * r.depth_2, depth << bits)
         if r.mode & IS_STEEP:
             # rounding counts much where a near vertex meets a far fragment
             s, t = min(s, 1 << 24), min(t, 1 << 24)

@@ -195,6 +195,7 @@ def gradients(a: Vertex, b: Vertex, c: Vertex, attributes: tuple[int, int, int],
     xb, yb, xc, yc = b.x - x, b.y - a.y, c.x - x, c.y - a.y
     area = xc * yb - xb * yc
     first, to_b, to_c = attributes[0], attributes[1] - attributes[0], attributes[2] - attributes[0]
+    bits = layout.FINE_BITS if r.has_effects else 0
     start = deep_dx = deep_dy = 0
     if r.mode & layout.IS_DEEP:
         # depths in a separate word: see rasterizer.set_up
@@ -203,16 +204,24 @@ def gradients(a: Vertex, b: Vertex, c: Vertex, attributes: tuple[int, int, int],
         deep_dy = divide_signed((zb * xc - zc * xb) << 40, area)
         start = ((z << 32) + ((y * deep_dy - x * deep_dx) >> 8)) << layout.ATTRIBUTE_DEPTH_AT
         first, to_b, to_c = 0, layout.ATTRIBUTE_S, 1
-    xb, xc, yb, yc = (divide_signed(value << layout.GRADIENT_SHIFT, area) for value in (xb, xc, yb, yc))
+    first, to_b, to_c = (_fine(word, bits) for word in (first, to_b, to_c))
+    xb, xc, yb, yc = (divide_signed(value << layout.GRADIENT_SHIFT + bits, area) for value in (xb, xc, yb, yc))
     if r.mode & (layout.IS_PATCHED | layout.IS_QUADRATIC) == 0 and not all(
         -STEEP <= value < STEEP for value in (xb, xc, yb, yc)
     ):
         # colours would leave their lanes outside so thin a triangle
         depths = [word >> 168 for word in attributes]
         to_b, to_c = (depths[1] - depths[0]) << 168, (depths[2] - depths[0]) << 168
-    start += (first << 32) + r.lane_bias
+    start += (first << 32 + bits) + r.lane_bias
     start += to_b * ((y * xc + x * yc) >> 5) - to_c * ((x * yb + y * xb) >> 5)
     return Gradients(start, row, to_c * yb - to_b * yc, to_b * xc - to_c * xb, deep_dx, deep_dy)
+
+
+def _fine(word: int, bits: int) -> int:
+    """Return an attribute word whose depth is so many bits lower: those that barycentric coordinates gain."""
+    low = word & ((1 << 168) - 1)
+    low -= low >> 167 << 168
+    return (word - low >> bits) + low
 
 
 def draw(a: Vertex, b: Vertex, c: Vertex, attributes: tuple[int, int, int], turned_away: bool, r: Registers) -> None:
@@ -281,8 +290,10 @@ def exact(word: int, samples: list[int], place: tuple[int, int], g: Gradients, r
     """Return the colour in the middle of the samples that are covered."""
     x, y = centroid(samples)
     word = g.moved(word, x, y)
-    low, lowest = word & ((1 << 168) - 1), word & ((1 << 56) - 1)
-    s, t = (low - (low >> 167 << 168)) >> 64, (lowest - (lowest >> 55 << 56)) >> 8
+    # Q44 in scenes with effects, otherwise Q24
+    end, drop = (152, 0) if r.has_effects else (168, 8)
+    low, lowest = word & ((1 << end) - 1), word & ((1 << 56) - 1)
+    s, t = (low - (low >> end - 1 << end)) >> 56 + drop, (lowest - (lowest >> 55 << 56)) >> drop
     row, column = place[0] + r.band_top, place[1] + r.column_begin
     x = r.ray_left + column * r.ray_step + (x * r.ray_step >> 3)
     y = r.ray_top + row * r.ray_step + (y * r.ray_step >> 3)
