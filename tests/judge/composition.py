@@ -27,8 +27,8 @@ STEP = 1.0
 class Picture:
     """A picture, and what is seen in it.
 
-    exact: (H, W, 3), as it most likely is. low, high: (H, W, 3), between what it may be. explained: (2, H, W, 3),
-    the same with each of the RULES. triangle: (H, W) number of the face that is seen at the first
+    exact: (H, W, 3), as it most likely is. low, high: (H, W, 3), between what it may be. explained: of
+    each of the RULES, (2, H, W, 3), the same with it. triangle: (H, W) number of the face that is seen at the first
     sample, counted through all objects; -1 for the background. lit: whether anything may be seen.
     interior: whether a pixel and its neighbours show one triangle of each layer, without steps.
     corners: (n, 3) numbers of the vertices of each face, counted through all objects. is_smooth: (n,).

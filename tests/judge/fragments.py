@@ -17,8 +17,8 @@ from .shadows import Shadows
 from .visibility import AROUND, TOLERANCE, Seen
 
 #: What is documented beside the formulas: the colour of slivers; that a face is not in shadow if it is seen from the
-#: side that is turned away from the light.
-RULES = ("slivers", "backs")
+#: side that is turned away from the light; the lines of sight of wires.
+RULES = ("slivers", "backs", "wires")
 #: Antialiased triangles of less height, in pixels, have the colour of their first vertex if they are not smooth and the
 #: scene has no effects.
 SLIVER = 1 / 16
@@ -47,7 +47,9 @@ def fragments(
     count, piece = len(keys), keys // pixels
     center = np.zeros((count, 2))
     center[key] = rows.center
-    place, owner = [center], [np.arange(count)]
+    # a wire of about 45 degrees is looked at in its column and in its row
+    second = np.flatnonzero((rows.center != center[key]).any(axis=1))
+    place, owner = [center, rows.center[second]], [np.arange(count), key[second]]
     if len(places) > 1 and count:
         other = reached.piece * pixels + reached.pixel
         which = np.minimum(np.searchsorted(keys, other), count - 1)
@@ -73,22 +75,34 @@ def fragments(
     thin = np.flatnonzero((pieces.height[piece] < SLIVER) & faceted[surface[piece]])
     weights = np.concatenate([weights, pieces.weights[piece[thin]].reshape(-1, 3)])
     end, to = len(to), np.concatenate([to, np.repeat(thin, 3)])
-    lit, dark, opacity = _shaded(world, surface[piece[to]], pieces.face[piece[to]], weights)
+    shaded = _shaded(world, surface[piece[to]], pieces.face[piece[to]], weights)
+    wire = np.flatnonzero(pieces.is_wire[piece[to[:end]]])
+    all_but_wires, formulas, to_wire = np.arange(len(to)), np.arange(end), to[wire]
+    # plain wires are looked at on the line, but drawn at centres
+    row, column = np.divmod(keys[to_wire] % pixels, world.frame.width)
+    spots = at[wire] if world.antialias else np.stack([column, row], axis=1) + 0.5
+    beside = _shaded(world, surface[piece[to_wire]], pieces.face[piece[to_wire]], weights[wire], spots)
+    by_wires, to = np.append(formulas, len(to) + np.arange(len(wire))), np.concatenate([to, to_wire])
+    lit, dark, opacity = (np.concatenate(both, axis=1) for both in zip(shaded, beside, strict=True))
     may_be_lit, may_be_dark = _reached(world, shadows, pieces, rows, places, surface)
     unseen = may_be_lit if shadows is None else may_be_lit | shadows.backs[pieces.face[rows.piece]]
     colors = []
-    for points, reach in ((slice(end), may_be_lit), (slice(None), may_be_lit), (slice(end), unseen)):
+    points_of = (formulas, all_but_wires, formulas, by_wires)
+    for points, reach in zip(points_of, (may_be_lit, may_be_lit, unseen, may_be_lit), strict=True):
         both = [_extent(values[:, points], to[points], count)[:, key] for values in (lit, dark)]
         colors.append(_either(both[0], both[1], reach, may_be_dark))
     return Fragments(np.stack(colors), _extent(opacity[:, :end], to[:end], count)[:, key], may_be_lit, may_be_dark)
 
 
-def _shaded(world: World, surface: Integers, face: Integers, weights: Array) -> tuple[Array, Array, Array]:
-    """Colours (3, n, 3), lit and dark, and opacities (3, n, 1) of points."""
+def _shaded(
+    world: World, surface: Integers, face: Integers, weights: Array, places: Array | None = None
+) -> tuple[Array, Array, Array]:
+    """Colours (3, n, 3), lit and dark, and opacities (3, n, 1) of points. places: see `colors`."""
     lit, dark, opacity = np.zeros((3, len(face), 3)), np.zeros((3, len(face), 3)), np.ones((3, len(face), 1))
     for number in np.unique(surface):
         each, chosen = world.surfaces[number], np.flatnonzero(surface == number)
-        found = colors(world, each, face[chosen] - each.first, weights[chosen])
+        spots = None if places is None else places[chosen]
+        found = colors(world, each, face[chosen] - each.first, weights[chosen], spots)
         lit[:, chosen], dark[:, chosen], opacity[:, chosen, 0] = found.lit, found.dark, found.opacity
     return lit, dark, opacity
 
@@ -118,7 +132,7 @@ def _reached(
     lit, dark = np.ones(len(own), bool), np.zeros(len(own), bool)
     if shadows is None:
         return lit, dark
-    shaded = np.array([s.shading != UNLIT for s in world.surfaces], bool)
+    shaded = np.array([s.shading != UNLIT and not s.is_wire for s in world.surfaces], bool)
     chosen = np.flatnonzero(shaded[surface[rows.piece]])
     # in blocks of the canvas, so that few faces shade those that are looked at together
     chosen = chosen[np.lexsort((*(own[chosen].T // 8), surface[rows.piece[chosen]]))]
