@@ -52,6 +52,13 @@ class Frame:
         scale = self.focal / self.divisor(points)
         return np.stack([self.width / 2 + points[..., 0] * scale, self.height / 2 - points[..., 1] * scale], axis=-1)
 
+    def unproject(self, places: Array, distance: Array) -> Array:
+        """Return the points of the world (n, 3) that are seen at places (n, 2) in pixels, at distances (n, 1)."""
+        beside = (places - [self.width / 2, self.height / 2]) * [1, -1] / self.focal
+        camera = np.concatenate([beside * (distance if self.perspective else 1), distance], axis=1)
+        out: Array = self.eye + camera @ self.axes
+        return out
+
     def nearness(self, points: Array) -> Array:
         """Return what is linear on the screen, and larger where a point in camera space is nearer."""
         out: Array = 1 / points[..., 2] if self.perspective else -points[..., 2]

@@ -19,8 +19,8 @@ from .visibility import AROUND, TOLERANCE, Seen
 
 #: What is documented beside the formulas: the colour of slivers; that a face is not in shadow if it is seen from the
 #: side that is turned away from the light; that a face which is clipped is drawn as several triangles, so that pixels
-#: between them have several fragments.
-RULES = ("slivers", "backs", "fans")
+#: between them have several fragments; the lines of sight of wires.
+RULES = ("slivers", "backs", "fans", "wires")
 #: The guard band, in pixels: faces that leave it are clipped.
 GUARD_BAND = (-1536, 2560)
 #: Antialiased triangles of less height, in pixels, have the colour of their first vertex if they are not smooth and the
@@ -51,7 +51,9 @@ def fragments(
     count, piece = len(keys), keys // pixels
     center = np.zeros((count, 2))
     center[key] = rows.center
-    place, owner = [center], [np.arange(count)]
+    # a wire of about 45 degrees is looked at in its column and in its row
+    second = np.flatnonzero((rows.center != center[key]).any(axis=1))
+    place, owner = [center, rows.center[second]], [np.arange(count), key[second]]
     if len(places) > 1 and count:
         other = reached.piece * pixels + reached.pixel
         which = np.minimum(np.searchsorted(keys, other), count - 1)
@@ -82,27 +84,39 @@ def fragments(
     clipped = pieces.is_cut | ((pieces.corners < low) | (pieces.corners >= high)).any(axis=(1, 2))
     fan = np.flatnonzero(textured[surface[piece]] & clipped[piece] & (len(places) > 1))
     owner_of_fan = np.repeat(fan, len(offsets))
-    at = (center[fan, None] + offsets).reshape(-1, 2)
-    weights = np.concatenate([weights, pieces.weights_at(piece[owner_of_fan], at, np.ones(len(at), bool))])
+    within = (center[fan, None] + offsets).reshape(-1, 2)
+    weights = np.concatenate([weights, pieces.weights_at(piece[owner_of_fan], within, np.ones(len(within), bool))])
     end, to = len(to), np.concatenate([to, np.repeat(thin, 3), owner_of_fan])
-    points = np.arange(len(to))
-    plain, slivers, fans = points[:end], points[: len(to) - len(at)], np.delete(points, slice(end, end + 3 * len(thin)))
-    lit, dark, opacity = _shaded(world, surface[piece[to]], pieces.face[piece[to]], weights)
+    points, formulas = np.arange(len(to)), np.arange(end)
+    slivers, fans = points[: len(to) - len(within)], np.delete(points, slice(end, end + 3 * len(thin)))
+    shaded = _shaded(world, surface[piece[to]], pieces.face[piece[to]], weights)
+    wire = np.flatnonzero(pieces.is_wire[piece[to[:end]]])
+    to_wire = to[wire]
+    # plain wires are looked at on the line, but drawn at centres
+    row, column = np.divmod(keys[to_wire] % pixels, world.frame.width)
+    spots = at[wire] if world.antialias else np.stack([column, row], axis=1) + 0.5
+    beside = _shaded(world, surface[piece[to_wire]], pieces.face[piece[to_wire]], weights[wire], spots)
+    wires, to = np.append(formulas, len(to) + np.arange(len(wire))), np.concatenate([to, to_wire])
+    lit, dark, opacity = (np.concatenate(both, axis=1) for both in zip(shaded, beside, strict=True))
     may_be_lit, may_be_dark = _reached(world, shadows, pieces, rows, places, surface)
     unseen = may_be_lit if shadows is None else may_be_lit | shadows.backs[pieces.face[rows.piece]]
     colors = []
-    for chosen, reach in ((plain, may_be_lit), (slivers, may_be_lit), (plain, unseen), (fans, may_be_lit)):
+    for rule, chosen in enumerate((formulas, slivers, formulas, fans, wires)):
+        reach = unseen if rule == 2 else may_be_lit
         both = [_extent(values[:, chosen], to[chosen], count)[:, key] for values in (lit, dark)]
         colors.append(_either(both[0], both[1], reach, may_be_dark))
     return Fragments(np.stack(colors), _extent(opacity[:, :end], to[:end], count)[:, key], may_be_lit, may_be_dark)
 
 
-def _shaded(world: World, surface: Integers, face: Integers, weights: Array) -> tuple[Array, Array, Array]:
-    """Colours (3, n, 3), lit and dark, and opacities (3, n, 1) of points."""
+def _shaded(
+    world: World, surface: Integers, face: Integers, weights: Array, places: Array | None = None
+) -> tuple[Array, Array, Array]:
+    """Colours (3, n, 3), lit and dark, and opacities (3, n, 1) of points. places: see `colors`."""
     lit, dark, opacity = np.zeros((3, len(face), 3)), np.zeros((3, len(face), 3)), np.ones((3, len(face), 1))
     for number in np.unique(surface):
         each, chosen = world.surfaces[number], np.flatnonzero(surface == number)
-        found = colors(world, each, face[chosen] - each.first, weights[chosen])
+        spots = None if places is None else places[chosen]
+        found = colors(world, each, face[chosen] - each.first, weights[chosen], spots)
         lit[:, chosen], dark[:, chosen], opacity[:, chosen, 0] = found.lit, found.dark, found.opacity
     return lit, dark, opacity
 
@@ -132,7 +146,7 @@ def _reached(
     lit, dark = np.ones(len(own), bool), np.zeros(len(own), bool)
     if shadows is None:
         return lit, dark
-    shaded = np.array([s.shading != UNLIT for s in world.surfaces], bool)
+    shaded = np.array([s.shading != UNLIT and not s.is_wire for s in world.surfaces], bool)
     chosen = np.flatnonzero(shaded[surface[rows.piece]])
     # in blocks of the canvas, so that few faces shade those that are looked at together
     chosen = chosen[np.lexsort((*(own[chosen].T // 8), surface[rows.piece[chosen]]))]

@@ -35,16 +35,20 @@ class Colors:
     opacity: Array
 
 
-def colors(world: World, surface: Surface, face: Integers, weights: Array) -> Colors:
-    """Return the colours of points of a surface; `face` (n,) and `weights` (n, 3) say which."""
+def colors(world: World, surface: Surface, face: Integers, weights: Array, places: Array | None = None) -> Colors:
+    """Return the colours of points of a surface; `face` (n,) and `weights` (n, 3) say which.
+
+    places: (n, 2) of the canvas, in pixels, where lines of sight and to lights begin, at the depths of the points.
+    """
     frame, effects = world.frame, world.effects
     corners = surface.faces[face]
     point = mix(surface.positions[corners], weights)
     base = mix(surface.colors[corners], weights)
     if surface.texture is not None and surface.uvs is not None:
         base = base * color_at(surface.texture, mix(surface.uvs[corners], weights)) / 255
-    radiance = _radiance(world, surface, corners, weights, point, _light(effects, base))
     distance = frame.to_camera(point)[:, 2:]
+    beside = point if places is None else frame.unproject(places, distance)
+    radiance = _radiance(world, surface, corners, weights, point, beside, _light(effects, base))
     lit, dark = (_fogged(effects, _toned(effects, each), distance) for each in radiance)
     opacity = np.clip(mix(surface.opacities[corners][..., None], weights)[:, 0], 0, 1)
     if surface.fade is not None:
@@ -55,9 +59,13 @@ def colors(world: World, surface: Surface, face: Integers, weights: Array) -> Co
 
 
 def _radiance(
-    world: World, surface: Surface, corners: Integers, weights: Array, point: Array, base: Array
+    world: World, surface: Surface, corners: Integers, weights: Array, point: Array, beside: Array, base: Array
 ) -> tuple[Array, Array]:
-    """The light of points, 0..1 and brighter, (3, n, 3): of all lights, and without that of which there are shadows."""
+    """The light of points, 0..1 and brighter, (3, n, 3): of all lights, and without that of which there are shadows.
+
+    beside: where lines of sight and to lights begin; how far the eye and lights are before a flat face is that of
+    `point`.
+    """
     effects, frame = world.effects, world.frame
     if surface.shading == UNLIT:
         alone = np.broadcast_to(base, (3, *base.shape))
@@ -67,18 +75,20 @@ def _radiance(
         normal = unit(np.cross(b - a, c - a))
     else:
         normal = unit(mix(surface.normals[corners], weights))
-    view = unit(frame.eye - point) if frame.perspective else np.broadcast_to(-frame.axes[2], point.shape)
+    rise = _dot(normal, beside - point) * (surface.shading == FLAT)
+    view = unit(frame.eye - beside) if frame.perspective else np.broadcast_to(-frame.axes[2], point.shape)
+    seen = _dot(normal, view) + (rise / _length(frame.eye - beside) if frame.perspective else 0)
     sky, ground = _light(effects, effects.sky), _light(effects, effects.ground)
     hemisphere = ground + (sky - ground) * (1 + normal[:, 1:2]) / 2
     modulate = surface.ambient * (_light(effects, world.ambient) + hemisphere)
-    rim = _light(effects, effects.rim) * (1 - np.clip(_dot(normal, view), 0, 1)) ** effects.power
+    rim = _light(effects, effects.rim) * (1 - np.clip(seen, 0, 1)) ** effects.power
     dark = np.repeat((base * modulate + rim)[None], 3, axis=0)
     shaded = np.zeros_like(dark)
     for number, lamp in enumerate(world.lamps):
-        toward = unit(lamp.vector - point if lamp.is_point else np.broadcast_to(lamp.vector, point.shape))
-        facing = _dot(normal, toward)
+        toward = unit(lamp.vector - beside if lamp.is_point else np.broadcast_to(lamp.vector, point.shape))
+        facing = _dot(normal, toward) + (rise / _length(lamp.vector - beside) if lamp.is_point else 0)
         hue = _light(effects, lamp.color) * (1.0 if lamp.cone is None else _through(lamp.cone, toward))
-        gloss = np.maximum(0, _dot(normal, unit(toward + view))) ** surface.shininess
+        gloss = np.clip((facing + seen) / _length(toward + view), 0, 1) ** surface.shininess
         reached = facing > np.array([GRAZING, 0, -GRAZING])[:, None, None]
         light = hue * (base * surface.diffuse * np.maximum(0, facing) + surface.specular * gloss * reached)
         if world.shadow is not None and number == world.shadow[0]:
@@ -127,6 +137,11 @@ def _through(cone: Array, toward: Array) -> Array:
 def mix(values: Array, weights: Array) -> Array:
     """Return (n, 3, k) values of corners as (n, k) values of points."""
     out: Array = np.einsum("nij,ni->nj", values, weights)
+    return out
+
+
+def _length(vectors: Array) -> Array:
+    out: Array = np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-300)
     return out
 
 

@@ -1,7 +1,8 @@
 """Which points a light does not reach: docs/shadows.md.
 
 A face shades what is behind it, in the pyramid or prism of its three sides and the light. Glass, wires and grounds cast
-no shadows; of culled objects only the faces that the rule of the shadow names do. A face does not shade itself.
+no shadows; of culled objects only the faces that the rule of the shadow names do. A face does not shade itself, and
+nothing shades wires.
 """
 
 from __future__ import annotations

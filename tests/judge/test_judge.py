@@ -11,6 +11,7 @@ from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, T
 from shackled.scene import Shading, fit
 
 from . import KINDS, Picture, Verdict, draw_in_tiles, judge, judge_pixels, random_scene, render
+from .verdict import outside
 from .visibility import SAMPLES
 
 BLACK = Background((0, 0, 0))
@@ -105,6 +106,47 @@ def test_texture_around_the_eye(kind: str, seed: int) -> None:
     verdict = judge(f"{kind} {seed}", random_scene(kind, seed))
     assert verdict.faults == []
     assert verdict.explained["fans"] <= 3
+
+
+@pytest.mark.parametrize("antialias", [False, True])
+def test_no_shadow_falls_on_wires(antialias: bool) -> None:
+    """A wired square below another one, that hides the light from a part of it."""
+    corners = np.array([[-1, 0, -1], [-1, 0, 1], [1, 0, 1], [1, 0, -1]], float)
+    look = Material("flat", 0.2, 0.8, 0)
+    low, high = (
+        Object(Mesh(size * corners + [0, y, 0], [[0, 1, 2], [0, 2, 3]], GREY), material=look, cull=False)
+        for y, size in ((0, 2), (1, 0.5))
+    )
+    camera = Camera((0.5, 2, 6), (0, 0, 0), half_height=0.5)
+    things, light = [evolve(low, wireframe=True), high], Light("directional", (0.3, 1, 0.1), shadow=True)
+    scene = Scene(things, camera, [light], BLACK, width=64, height=64, antialias=antialias)
+    # a pixel in which no sample of a wire is covered, or 1 to 4 are: 200 * (0.2 + 0.8 * N.L) is 193
+    assert set(draw(fit(scene)).ravel().tolist()) == {0, 48, 97, 145, 193}
+    assert judge("wires", scene).faults == []
+
+
+def tilted_wire(slope: float, size: int, shininess: int, antialias: bool) -> Scene:
+    """A wired triangle with one vertical line, on which a light is reflected to the eye."""
+    mesh = Mesh(np.array([[0, -1, 0], [0, 1, 0], [-1, 0, -slope]]), [[0, 1, 2]], GREY)
+    thing = Object(mesh, material=Material("flat", 0, 0, 1, shininess), cull=False, wireframe=True)
+    normal = np.array([-slope, 0, 1]) / np.hypot(slope, 1)
+    light = Light.directional(2 * normal[2] * normal - [0, 0, 1])
+    camera = Camera((0, 0, 4), (0, 0, 0), half_height=0.5)
+    return Scene([thing], camera, [light], BLACK, width=size, height=size, antialias=antialias)
+
+
+#: Pixels, shininess, and by how many levels highlights on wires are off, plain and antialiased: docs/antialiasing.md.
+ERRORS = [(128, 20, 23, 15), (128, 128, 103, 57), (512, 20, 6, 4), (512, 128, 35, 25)]
+
+
+@pytest.mark.parametrize(("size", "shininess", "plain", "antialiased"), ERRORS)
+def test_highlight_of_wires(size: int, shininess: int, plain: int, antialiased: int) -> None:
+    """Steep wires are off by what is documented, and are as the rule of wires says."""
+    for antialias, most in ((False, plain), (True, antialiased)):
+        scene = fit(tilted_wire(4, size, shininess, antialias))
+        drawn, right = draw(scene), render(call_data("render", scene))
+        assert round(outside(drawn, right.low, right.high).max()) == most
+        assert outside(drawn, *right.explained["wires"]).max() < 0.5
 
 
 # ---- many scenes ----

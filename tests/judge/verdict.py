@@ -23,7 +23,7 @@ MOST, MANY, FEW = 8.0, 4.0, 10_000
 #: The mean error of a channel of an interior pixel, over a run.
 MEAN = 0.35
 #: One in so many pixels may have a colour that only a rule explains.
-RARE = {"slivers": 1_000, "backs": 100, "fans": 10_000}
+RARE = {"slivers": 1_000, "backs": 100, "fans": 10_000, "wires": 1_000}
 #: Interior pixels of a run for which these shares hold.
 LEAST_RUN = 100_000
 #: Faults of a scene that are described.
