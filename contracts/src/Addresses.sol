@@ -6,21 +6,21 @@ pragma solidity ^0.8.25;
 /// @title Addresses: the contract addresses of `shackled deploy`, the same on every chain.
 /// @notice Derived from the bytecode: another version of a contract has another address.
 library Addresses {
-    address internal constant ENGINE = 0x761af8Cf678220FE5b5a7e469BFA02e5fDcD565F;
-    address internal constant FRAGMENT_ENGINE = 0xdEd5CE6d6b37A7c18D575162aAa0f13D8f08d81a;
-    address internal constant ANTIALIASED_ENGINE = 0x777C17DDd7DE4Fb231A5CdD1b1d0CD3fe16d8702;
-    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x9D396947F68cf369884E081B448Be430B9b249D4;
-    address internal constant EFFECTS_ENGINE = 0x00fB3ed02A969b4ae8BfdDb3e51DBd7a579311D7;
+    address internal constant ENGINE = 0x67cC395a7C4D1d8154A2cCdC2Ea418ab889c6974;
+    address internal constant FRAGMENT_ENGINE = 0x787ef99222FF9Aa06903d3CaabFff1D7B6f2582A;
+    address internal constant ANTIALIASED_ENGINE = 0xA436EbdF828eeF01E9247B4135A100591410746B;
+    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x21C9227bF7C6C23Cc91A4E71bDf95F35932847a5;
+    address internal constant EFFECTS_ENGINE = 0xf824F26F3D17651A968522E9f47387926D35D0D3;
     address internal constant EFFECTS = 0xD4B5c78e3E36fd228b7353eF3f9CC278B5936459;
-    address internal constant RENDERER = 0x5094717578D76a8d87b1bE185731AF217D7c5833;
-    address internal constant ORIGINAL = 0x987Ba8Bd5218AeC063f3E775D269Ec9Ebfb63d48;
-    address internal constant GENESIS = 0xDA81E5a261ad5284e2C5E2DB20A7E383383D17E3;
+    address internal constant RENDERER = 0x4f2F763912AbA4478317E8c21aBb6eF02105De13;
+    address internal constant ORIGINAL = 0xdFE208868bF3dBEA18Cf7f6426D6Bcf5D88F7E02;
+    address internal constant GENESIS = 0xDd7213BeB0d95b0218ed6B79B4A9dA6546DeE29b;
     address internal constant PNG_ENCODER = 0xD35d1Fe27b16DC0b1c5526981643a50eAc5c7e0e;
-    address internal constant TURNTABLE = 0x0FeAed2e4DFD46D8cDaaacC31b5e0E6Bdc1e5D9B;
+    address internal constant TURNTABLE = 0xFA73eB02087C3D72B47e4eD42cBD30E1AcB2097D;
     address internal constant GLB_ENCODER = 0xDc1780BBD46D9065a22bf449BEA3cF54a2314383;
-    address internal constant STUDIO = 0x942343677288b7F5A52c42EFA6B81DF15369099a;
-    address internal constant LIBRARY = 0xD80bB0e7276377484F63706661BCc176b2CF8F80;
-    address internal constant WEB = 0x46463EAdb5aab75Be08dcF4bCf3f0D85C88B7cc9;
-    address internal constant EDITIONS = 0x276160D7Bbf196bDA896A8b537F581Da76aC1850;
-    address internal constant GENESIS_METADATA = 0x29411D08ce04f7bdCf9dEB57aBE20BE841450ff7;
+    address internal constant STUDIO = 0xAac610738B1F4641881119B5E2be5A49df2F57ff;
+    address internal constant LIBRARY = 0xEad131527c2426d34ee4385b093BBC02Aa72767a;
+    address internal constant WEB = 0x8d93640E4910014A69D835cCDAF1d1eDb1214dc9;
+    address internal constant EDITIONS = 0xAf930F5C3cF814F2198258e3dd519B73D42181a6;
+    address internal constant GENESIS_METADATA = 0x4C5eBC80A7122c9AF48ce957976a9cb8fd4CaB38;
 }

@@ -212,7 +212,8 @@ library FragmentLight {
                 switch and(mode, IS_SMOOTH)
                 case 0 { mstore(FRAGMENT_NORMAL_RAY, add(mload(FACE_N_DOT_RAY), sar(94, mul(mload(FACE_N_DOT_RAY_SLOPE), depth)))) }
                 default { interpolateNormal(s, t, x, y) }
-                color := and(shr(6, light(depth, x, y)), LANES_24)
+                // colours of lights are Q10 with effects
+                color := and(shr(16, light(depth, x, y)), LANES_24)
                 if mload(RIM_COLOR) { mstore(FRAGMENT_RAY_LENGTH, rayLength(x, y)) }
             }
             default {

@@ -231,7 +231,7 @@ uint256 constant EFFECT_FRAME_SIZE = 0x380;
 uint256 constant UP_X = 0x2b00;
 uint256 constant UP_Y = 0x2b20;
 uint256 constant UP_Z = 0x2b40;
-/// @dev The light at the silhouettes of objects, lanes of bytes, and the exponent of its falloff.
+/// @dev The light at the silhouettes of objects, lanes of Q10, and the exponent of its falloff.
 uint256 constant RIM_COLOR = 0x2b60;
 uint256 constant RIM_POWER = 0x2b80;
 /// @dev The colour of the fog, lanes of Q10; the distance at which it begins, and the additional distance at which it is opaque, Q32: 0
@@ -249,7 +249,7 @@ uint256 constant TONE_FLAGS = 0x2c60;
 uint256 constant SHADOWS = 0x2c80;
 /// @dev The record of the light that casts shadows, 0 if none does.
 uint256 constant SHADOW_LIGHT = 0x2ca0;
-/// @dev LIGHT_COLOR of each light.
+/// @dev LIGHT_COLOR of each light, with effects in lanes of Q10.
 uint256 constant LIGHT_COLORS = 0x2cc0;
 /// @dev 16 bits each: the linear level of every fourth level of sRGB, Q7: see Gamma.
 uint256 constant DECODE_TABLE = 0x2d40;

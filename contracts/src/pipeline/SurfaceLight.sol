@@ -150,7 +150,7 @@ library SurfaceLight {
     /// @dev Returns a colour plus the rim at this strength, Q24.
     function withRim(uint256 color, uint256 strength) private pure returns (uint256) {
         unchecked {
-            return color + (((load(RIM_COLOR) * strength) >> (Q24 - Q10)) & LANES_24);
+            return color + (((load(RIM_COLOR) * strength) >> Q24) & LANES_24);
         }
     }
 

@@ -60,17 +60,13 @@ library EffectUniforms {
                 }
             }
             store(IS_CHANGED, load(RIM_COLOR) | load(IS_TONED) | load(FOG_RANGE) != 0 ? 1 : 0);
-            ambient.light = Lights.colorLanes(scene.ambientLight);
+            if (load(TONE_FLAGS) & TONE_GAMMA != 0) Gamma.setTables();
+            ambient.light = lightOf(Lights.colorLanes(scene.ambientLight));
+            ambient.sky = lightOf(ambient.sky);
+            ambient.ground = lightOf(ambient.ground);
+            store(RIM_COLOR, lightOf(load(RIM_COLOR)));
             Light[] calldata lights = scene.lights;
-            for (uint256 i; i != lights.length; ++i) store(LIGHT_COLORS + 32 * i, Lights.colorLanes(lights[i].color));
-            if (load(TONE_FLAGS) & TONE_GAMMA != 0) {
-                Gamma.setTables();
-                for (uint256 i; i != lights.length; ++i) store(LIGHT_COLORS + 32 * i, linear(load(LIGHT_COLORS + 32 * i)));
-                ambient.light = linear(ambient.light);
-                ambient.sky = linear(ambient.sky);
-                ambient.ground = linear(ambient.ground);
-                store(RIM_COLOR, linear(load(RIM_COLOR)));
-            }
+            for (uint256 i; i != lights.length; ++i) store(LIGHT_COLORS + 32 * i, lightOf(Lights.colorLanes(lights[i].color)));
         }
     }
 
@@ -133,19 +129,21 @@ library EffectUniforms {
         }
     }
 
-    /// @dev Returns the linear value of a light's colour, rounded to the nearest level.
-    function linear(uint256 color) private pure returns (uint256 decoded) {
+    /// @dev Converts the colour of a light from lanes of bytes to lanes of Q10, linear values if light is linear.
+    function lightOf(uint256 color) private pure returns (uint256 light) {
         unchecked {
-            for (uint256 i; i != 3 * MIDDLE_AT; i += MIDDLE_AT) {
-                decoded |= ((Gamma.decode(((color >> i) & 0xff) << Q10) + (ONE_10 >> 1)) >> Q10) << i;
-            }
+            light = color << Q10;
+            if (load(TONE_FLAGS) & TONE_GAMMA == 0) return light;
+            color = light;
+            light = 0;
+            for (uint256 i; i != 3 * MIDDLE_AT; i += MIDDLE_AT) light |= Gamma.decode((color >> i) & LANE_24) << i;
         }
     }
 
-    /// @dev Returns lanes of bytes times a coefficient (Q16): lanes of Q16 where 255 is one.
+    /// @dev Returns lanes of Q10 times a coefficient (Q16): lanes of Q16 where 255 is one.
     function scaled(uint256 color, uint256 k) private pure returns (uint256 light) {
         unchecked {
-            for (uint256 i; i != 3 * MIDDLE_AT; i += MIDDLE_AT) light |= (((color >> i) & 0xff) * k / 255) << i;
+            for (uint256 i; i != 3 * MIDDLE_AT; i += MIDDLE_AT) light |= (((color >> i) & LANE_24) * k / (255 << Q10)) << i;
         }
     }
 

@@ -142,7 +142,8 @@ def light_of(depth: int, x: int, y: int, r: Registers) -> int:
                 divisor = distance * (length << 1) * (distance * length - light_ray)
                 value = specular(divide((n_dot_l * n_dot_l) << 24, r.fragment_square * divisor), r)
                 total += light.color * (value * strength >> 16)
-    return (total >> 6) & LANES_24
+    # colours of lights are Q10 with effects
+    return (total >> (16 if r.has_effects else 6)) & LANES_24
 
 
 def interpolate_normal(s: int, t: int, x: int, y: int, r: Registers) -> None:

@@ -35,8 +35,3 @@ def encode(value: int) -> int:
     rest = value - (entry << shift)
     index = 8 * (shift - 4) + entry - 8
     return ENCODE[index] + ((ENCODE[index + 1] - ENCODE[index]) * rest >> shift)
-
-
-def decode_color(color: int) -> int:
-    """Return the linear colour of a colour, both three bytes."""
-    return sum((decode((color >> at & 0xFF) << 10) + 512 >> 10) << at for at in (0, 8, 16))

@@ -64,7 +64,7 @@ def surface_color(depth: int, s: int, t: int, x: int, y: int, r: Registers) -> i
             light = r.fragment_light >> (56 * i) & ((1 << 56) - 1)
             channel = channel * (light >> 24) >> 16
             channel += highlights >> (85 * i) & ((1 << 85) - 1)
-            channel += (r.rim_color >> (56 * i) & 0xFF) * rim >> 14
+            channel += (r.rim_color >> (56 * i) & 0xFFFFFF) * rim >> 24
         channel = toned(channel, r)
         if fog:
             channel = channel * ((1 << 16) - fog) + ((r.fog_color >> (56 * i) & 0xFF) << 10) * fog >> 16
