@@ -25,17 +25,17 @@ import "./Registers.sol";
 //     d * (ratio of the distances - 1) / 4; for an edge of length e in distances neither factor is above e, and the product not
 //     above e^2 / 2, so the error is at most e^2 / 8: see Materials.smoothReach. Lamps must not be much nearer than the eye.
 //   - H turns with the ray and with the direction to the lamp, both by up to an edge e, and the sum L + V, of the length s, is divided by s:
-//     its second derivative across is a sum of terms e^2 / s and e^2 / s^2. The error of its direction is at most 0.15 e^2 for s^2 >= 3,
-//     0.6 e^2 for s^2 >= 1 (the largest found by a search over triangles, tests/test_smooth_light.py, is 0.13 and 0.55), where e^2 is the
-//     sum of the squares of two edges, and for lamps of the change of depth too. Times the steepest slope of cos^n: see Specular.
+//     its second derivative across is a sum of terms e^2 / s and e^2 / s^2. The error of its direction is taken as 0.15 e^2 for s^2 >= 3,
+//     as 0.6 e^2 for s^2 >= 1, where e^2 is the sum of the squares of two edges, and for lamps of the change of depth too. Times the
+//     steepest slope of cos^n: see Specular.
 //   - Between unit vectors the interpolated H is too short by the factor 1 - sum w_i w_j (H_i - H_j)^2 / 2; this is compensated for N * H
 //     where |N| = 1. If |N| is less, by perspective or between vertices, the product is too large by (1 - |N|) / |N| of that: with q for the
 //     least N * N, by at most d^2 / 6 * (1 - q) / 2q for half vectors that differ by d. Times n, the slope of cos^n where it is 1.
 //   - If the first is above four levels, or the second above three and a half, products are made exact at the edge midpoints too. Errors
 //     are of third order then: along each edge s (1 - s) (1 - 2s) times a skew, which is at most 1/9 of it, and in the middle the product of
-//     the three weights. The skews are measured, and so is the error at the point (1/2, 1/4, 1/4): together at most three levels, unless
-//     no point of the triangle can be near the highlight, on triangles of at most 20 times the size. The largest sum of all errors that
-//     the search finds is 7.6 levels.
+//     the three weights. The skews are measured, and so is the error at the point (1/2, 1/4, 1/4): together at most 3.5 levels, unless
+//     no point of the triangle can be near the highlight, on triangles of at most 20 times the size.
+//   - A search for the worst triangles finds no sum of all these errors above 8.8 levels: see tests/test_smooth_light.py.
 //   - Colours are perspective-correct where linear ones would be too inaccurate (Shading.isAffine): they are multiplied by the weights of
 //     the normals, and divided at each fragment by its depth, which is the sum of the weights.
 //   - N * N is 1/4 to 17/16; in this range one step of Newton's method from a linear function gives its root to 1/1300. In a triangle it is
@@ -84,9 +84,9 @@ uint256 constant THREE_20 = 0x300000;
 uint256 constant NEAR_ONE = 980;
 /// @dev 3/8, Q40: the maximum square of a change of half vectors between vertices.
 uint256 constant MOST_HALF_CHANGE = 0x6000000000;
-/// @dev Three and a half levels of 12 (Q50), and three of 16 * 2 (Q30), in the unit of HALF_SLOPE.
+/// @dev Three and a half levels, as 12 times as much (Q50) and as 32 times (Q30), in the unit of HALF_SLOPE.
 uint256 constant THREE_AND_A_HALF = 0x2000000000000;
-uint256 constant THREE_LEVELS = 1227133513;
+uint256 constant THREE_AND_A_HALF_16 = 1431655765;
 
 /// @dev The offset from a vertex normal to the normal with reversed lanes.
 uint256 constant REVERSED = 0x20;
@@ -342,7 +342,7 @@ library SmoothLight {
                             error := shl(2, sar(PRODUCT_TO_LOWER, mul(error, mload(add(MIDDLE, VERTEX_HALF_REVERSED)))))
                             error := add(size20(lowest(sub(error, inner))), mload(HALF_SKEW))
                             error := mul(mul(error, mload(HALF_SLOPE)), add(THREE_20, least))
-                            if gt(error, mul(least, THREE_LEVELS)) {
+                            if gt(error, mul(least, THREE_AND_A_HALF_16)) {
                                 // not near the highlight, by the nodes, between which vectors turn by less than half as much
                                 error := nearer(inner, 4, 0)
                                 error := nearer(sub(shl(1, add(p, q)), ab), 2, error)

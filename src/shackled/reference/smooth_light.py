@@ -24,8 +24,8 @@ VECTOR_BIAS = 0x100000000000000000000080000000000000000000040000000
 
 UNBOUNDED_LIGHT, AFFINE_LIGHT, STEEP_LIGHT = 0, 1, 2
 
-#: Three and a half levels of 12 (Q50), and three of 16 * 2 (Q30): see the contract.
-LEVELS_12, LEVELS_32 = 1 << 49, 1227133513
+#: Three and a half levels, as 12 times as much (Q50) and as 32 times (Q30): see the contract.
+LEVELS_12, LEVELS_32 = 1 << 49, 0x55555555
 
 
 def product(a: int, b: int) -> int:
