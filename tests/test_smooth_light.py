@@ -129,7 +129,7 @@ def test_the_half_vector_against_the_light_is_not_interpolated(monkeypatch: pyte
 
 # ---- the documented bounds, against light in float64 ----
 
-Array = NDArray[np.float64]
+Array, Booleans = NDArray[np.float64], NDArray[np.bool_]
 #: Many triangles: places on the screen (m, 3, 2), by the focal length; depths (m, 3); normals (m, 3, 3); whether
 #: the light is a lamp; its direction and its place (m, 3); shininess, specular and diffuse coefficients (m,).
 Triangles = dict[str, Array]
@@ -187,7 +187,7 @@ def changed(rng: np.random.Generator, t: Triangles) -> Triangles:
     }
 
 
-def vectors(t: Triangles, at: Array) -> tuple[Array, Array, Array, Array, Array]:
+def vectors(t: Triangles, at: Array) -> tuple[Array, Array, Array, Array, Booleans]:
     """At (p, 3): N times the relative depth word, L, H, |L + V|^2, and whether the lamp is far enough; (m, p, ...)."""
     ray = np.concatenate([at @ t["xy"], np.ones((len(t["n"]), len(at), 1))], axis=2)
     word = 1 / t["depth"]
@@ -200,7 +200,7 @@ def vectors(t: Triangles, at: Array) -> tuple[Array, Array, Array, Array, Array]
     return normal, light, unit(half), dot(half, half), far
 
 
-def judged(t: Triangles, exact_middles: bool, old: bool) -> tuple[Array, Array]:
+def judged(t: Triangles, exact_middles: bool, old: bool) -> tuple[Booleans, Array]:
     """Whether triangles are accepted, by the bounds of SmoothLight.sol or old ones, and their errors in levels."""
     n, k, kd = t["n"], t["k"], np.maximum(t["kd"], 1e-9)
     normal, light, half, length, far = vectors(t, NODES)
