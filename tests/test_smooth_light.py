@@ -129,7 +129,8 @@ def test_the_half_vector_against_the_light_is_not_interpolated(monkeypatch: pyte
 
 # ---- the documented bounds, against light in float64 ----
 
-Array, Booleans = NDArray[np.float64], NDArray[np.bool_]
+Array = NDArray[np.float64]
+Booleans = NDArray[np.bool_]
 #: Many triangles: places on the screen (m, 3, 2), by the focal length; depths (m, 3); normals (m, 3, 3); whether
 #: the light is a lamp; its direction and its place (m, 3); shininess, specular and diffuse coefficients (m,).
 Triangles = dict[str, Array]
