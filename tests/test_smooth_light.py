@@ -7,6 +7,7 @@ import itertools
 import numpy as np
 import pytest
 from attrs import evolve
+from numpy.typing import NDArray
 
 import judge
 from accuracy import LEVELS
@@ -124,3 +125,156 @@ def test_large_triangles(size: float, shininess: int) -> None:
 def test_the_half_vector_against_the_light_is_not_interpolated(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = one_triangle([AHEAD] * 3, Light("directional", (0.05, 0, -1)), 0.2)
     assert ways(scene, monkeypatch) == [UNBOUNDED_LIGHT]
+
+
+# ---- the documented bounds, against light in float64 ----
+
+Array = NDArray[np.float64]
+Booleans = NDArray[np.bool_]
+#: Many triangles: places on the screen (m, 3, 2), by the focal length; depths (m, 3); normals (m, 3, 3); whether
+#: the light is a lamp; its direction and its place (m, 3); shininess, specular and diffuse coefficients (m,).
+Triangles = dict[str, Array]
+
+ENDS = ([0, 0, 1], [1, 2, 2])
+#: Barycentric coordinates: the vertices, the middles of the edges, and the inner point; and all over a triangle.
+NODES = np.vstack([np.eye(3), (np.eye(3)[ENDS[0]] + np.eye(3)[ENDS[1]]) / 2, [[0.5, 0.25, 0.25]]])
+GRID = np.array([(i, j, 8 - i - j) for i in range(9) for j in range(9 - i)]) / 8
+#: Levels that no accepted triangle may be off, and that some exceed under bounds on the turn of half vectors alone; and
+#: the largest specular coefficient.
+FOUND, TOO_FAR, SPECULAR = 12.5, 25.0, 1.5
+
+
+def dot(a: Array, b: Array) -> Array:
+    return np.asarray((a * b).sum(axis=-1))
+
+
+def unit(v: Array) -> Array:
+    return np.asarray(v / np.linalg.norm(v, axis=-1, keepdims=True))
+
+
+def some_triangles(rng: np.random.Generator, m: int) -> Triangles:
+    """Of all sizes, with a highlight on most of them."""
+    xy = rng.uniform(-1, 1, (m, 1, 2)) * rng.choice([0.2, 0.6, 1], (m, 1, 1))
+    xy = xy + rng.normal(size=(m, 3, 2)) * 10 ** rng.uniform(-2.2, -0.2, (m, 1, 1))
+    depth = np.exp(rng.uniform(-1, 1, (m, 3)) * 10 ** rng.uniform(-3, -0.3, (m, 1)))
+    toward = unit(rng.normal(size=(m, 3)))
+    middle = (np.dstack([xy, np.ones((m, 3))]) * depth[..., None]).mean(axis=1)
+    t = {"xy": xy, "depth": depth, "lamp": rng.random(m) < 0.4, "toward": toward}
+    t |= {"place": middle + toward * 10 ** rng.uniform(-0.2, 1.5, (m, 1)), "n": 2.0 ** rng.integers(1, 8, m)}
+    t |= {"k": np.exp(rng.uniform(np.log(0.1), np.log(SPECULAR), m)), "kd": rng.uniform(-0.4, 1, m).clip(0)}
+    spread = rng.normal(size=(m, 1, 3)) * 10 ** rng.uniform(-3, -0.3, (m, 1, 1))
+    spread = spread + rng.normal(size=(m, 3, 3)) * 10 ** rng.uniform(-2.5, 0.1, (m, 1, 1))
+    t["normal"] = np.zeros((m, 3, 3))
+    return t | {"normal": unit(vectors(t, NODES[:3])[2].mean(axis=1, keepdims=True) + spread)}
+
+
+def changed(rng: np.random.Generator, t: Triangles) -> Triangles:
+    """A little."""
+    m = len(t["n"])
+    amount = 10 ** rng.uniform(-3, -0.5, m)
+
+    def noise(name: str, factor: float) -> Array:
+        shape = t[name].shape
+        return np.asarray(rng.normal(size=shape) * factor * amount.reshape(m, *[1] * (len(shape) - 1)))
+
+    return t | {
+        "xy": t["xy"] + noise("xy", 0.3) * rng.integers(0, 2, (m, 1, 1)),
+        "depth": t["depth"] * np.exp(noise("depth", 0.3)),
+        "normal": unit(t["normal"] + noise("normal", 0.5) * rng.integers(0, 2, (m, 1, 1))),
+        "toward": unit(t["toward"] + noise("toward", 0.5) * rng.integers(0, 2, (m, 1))),
+        "place": t["place"] + noise("place", 1),
+        "n": (t["n"] * 2.0 ** rng.integers(-1, 2, m)).clip(2, 128),
+        "k": (t["k"] * np.exp(noise("k", 1))).clip(0.05, SPECULAR),
+    }
+
+
+def vectors(t: Triangles, at: Array) -> tuple[Array, Array, Array, Array, Booleans]:
+    """At (p, 3): N times the relative depth word, L, H, |L + V|^2, and whether the lamp is far enough; (m, p, ...)."""
+    ray = np.concatenate([at @ t["xy"], np.ones((len(t["n"]), len(at), 1))], axis=2)
+    word = 1 / t["depth"]
+    point = ray / (word @ at.T)[..., None]
+    to_lamp, lamp = t["place"][:, None] - point, t["lamp"][:, None].astype(bool)
+    light = np.where(lamp[..., None], unit(to_lamp), t["toward"][:, None])
+    half = light - unit(ray)
+    normal = at @ (t["normal"] * (word / word.max(axis=1, keepdims=True))[..., None])
+    far = ~lamp | (dot(point, point) <= 1.25 * dot(to_lamp, to_lamp))
+    return normal, light, unit(half), dot(half, half), far
+
+
+def judged(t: Triangles, exact_middles: bool, old: bool) -> tuple[Booleans, Array]:
+    """Whether triangles are accepted, by the bounds of SmoothLight.sol or old ones, and their errors in levels."""
+    n, k, kd = t["n"], t["k"], np.maximum(t["kd"], 1e-9)
+    normal, light, half, length, far = vectors(t, NODES)
+    bends, turns = (v[:, ENDS[0]] - v[:, ENDS[1]] for v in (normal, half))
+    bend, turn = (dot(v, v).max(axis=1) for v in (bends, turns))
+    square = dot(normal, normal)
+    q = square[:, :3].min(axis=1) - bend / 3
+    # products at the nodes, and between them
+    sums = [v[:, ENDS[0]] + v[:, ENDS[1]] for v in (light, half)]
+    diffuse, specular = dot(normal, light), dot(normal, half)
+    if not exact_middles:
+        diffuse[:, 3:6] = dot(normal[:, 3:6], sums[0]) / 2
+        specular[:, 3:6] = dot(normal[:, 3:6], sums[1]) / 2 + dot(turns, turns) / 8
+    shape = [np.hstack([w * (2 * w - 1), 4 * w[:, ENDS[0]] * w[:, ENDS[1]]]).T for w in (GRID, NODES[6:])]
+    products = [v[:, :6] @ shape[0] for v in (square, diffuse, specular)]
+    # the light of these, and that of each point
+    true = vectors(t, GRID)
+    lit, shine = (dot(unit(true[0]), v) for v in true[1:3])
+    root = np.sqrt(products[0].clip(1e-9))
+    cosine = np.where(products[1] > 0, (products[2] / root).clip(0, 1), 0)
+    error = 255 * t["kd"][:, None] * np.abs(products[1].clip(0) / root - lit.clip(0))
+    highlight = np.abs(cosine ** n[:, None] - np.where(lit > 0, shine.clip(0) ** n[:, None], 0))
+    # where the light is in the surface the highlight ends
+    error += 255 * k[:, None] * highlight * (np.abs(lit) >= 0.04)
+    # bounds
+    word = t["depth"].min(axis=1) / t["depth"].max(axis=1)
+    size = ((t["xy"][:, 1:] - t["xy"][:, :1]) ** 2).sum(axis=(1, 2))
+    lamp_reach = np.where(t["lamp"], 13 / (255 * kd), np.inf)
+    nodes = 6 if exact_middles else 3
+    good = (q >= 0.25) & far[:, :nodes].all(axis=1) & (length[:, :nodes] > (0.25 if old else 1)).all(axis=1)
+    # a plausible field of view
+    good &= (np.abs(t["xy"]) < 1.1).all(axis=(1, 2)) & (np.abs(np.log(t["depth"])) < 3).all(axis=1)
+    levels = 255 * k * n
+    if old:
+        reach, steps = np.minimum(1 / (10 * np.sqrt(n) * k), 1 / 16), (word < 7 / 8) * 1 + (word < 3 / 4)
+        plain = (turn * 8.0**steps <= reach) & (size < lamp_reach)
+        cubic = (2 * turn <= 13 * reach) & (steps < 2) & (size < 8 * lamp_reach)
+        return good & (cubic if exact_middles else plain), error.max(axis=1)
+    size = size + t["lamp"] * (word < 980 / 1024) * ((1 - word) / word) ** 2
+    reach = 0.174 / (k * np.sqrt(n))
+    if not exact_middles:
+        reach = np.minimum(reach, lamp_reach) / np.where((length[:, :3] >= 3).all(axis=1), 1, 4)
+        good &= (size < reach) & (levels * turn * (1 - q) / (12 * q) <= 3.5)
+        return good, error.max(axis=1)
+    good &= (size < np.minimum(20 * reach, 8 * lamp_reach)) & (turn < 3 / 8)
+    skew = 2 * np.abs(dot(half[:, 3:6], turns)) + np.abs(dot(bends, 2 * half[:, 3:6] - sums[1]))
+    inner = np.abs(specular[:, :6] @ shape[1][:, 0] - specular[:, 6])
+    near = (specular.clip(0) ** 2 / square).max(axis=1) > 1 - 2.8 / n - (bend + turn) / 4
+    good &= ~near | ((skew.max(axis=1) / 8 + inner) * levels * (1 + q) / (2 * q) <= 3.5)
+    return good, error.max(axis=1)
+
+
+def worst(exact_middles: bool, old: bool, generations: int, seed: int) -> float:
+    """The largest error of an accepted triangle: of random ones, and of those that resemble the worst."""
+    rng, best, scores = np.random.default_rng(seed), some_triangles(np.random.default_rng(seed), 1), np.full(1, -1.0)
+    for generation in range(generations):
+        count = 400 if generation > 3 else 1500
+        more = some_triangles(rng, count)
+        near = changed(rng, {name: v[rng.integers(0, len(scores), 1500 - count)] for name, v in best.items()})
+        more = {name: np.concatenate([best[name], near[name], v]) for name, v in more.items()}
+        good, error = judged({name: v[len(scores) :] for name, v in more.items()}, exact_middles, old)
+        scores = np.concatenate([scores, np.where(good, error, -1)])
+        order = np.argsort(-scores)[:100]
+        best, scores = {name: v[order] for name, v in more.items()}, scores[order]
+    return float(scores[0])
+
+
+@pytest.mark.parametrize("exact_middles", [False, True], ids=["vertices", "midpoints"])
+def test_accepted_triangles_have_the_light_of_their_points(exact_middles: bool) -> None:
+    """Within the bounds that SmoothLight.sol documents, for products of vertices and of midpoints too."""
+    assert 4 < worst(exact_middles, False, 14, 0) < FOUND
+
+
+def test_the_search_finds_what_is_far_off() -> None:
+    """Where only the turn of half vectors is bounded, as it once was."""
+    assert worst(True, True, 8, 0) > TOO_FAR

@@ -10,7 +10,7 @@ import pytest
 from attrs import evolve, fields
 from numpy.typing import ArrayLike, NDArray
 
-from conformance.shadows import random_scene
+from judge import random_scene
 from random_scenes import random_case
 from shackled import (
     Background,
@@ -55,7 +55,7 @@ def whole(seed: int) -> Scene:
     """A scene with all there is, in any units: several objects of every kind, all lights, effects and a ground."""
     rng = np.random.default_rng([31, seed])
     unit = 10.0 ** rng.uniform(-6, 6)
-    base = random_scene(seed, 32)
+    base = random_scene("shadows", seed)
     objects = [
         Object(
             evolve(
