@@ -10,17 +10,17 @@ library Addresses {
     address internal constant FRAGMENT_ENGINE = 0x39a991b1f9aEba26DC3951Ea4A488A11c439FC8f;
     address internal constant ANTIALIASED_ENGINE = 0xA436EbdF828eeF01E9247B4135A100591410746B;
     address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x1dc593b58fd7a0C1E909B71682bD8190c8A2bE66;
-    address internal constant EFFECTS_ENGINE = 0xa7C59A1C402D3A216C85965be06BDC734C1d36b9;
+    address internal constant EFFECTS_ENGINE = 0x1112D07c06290747279b6866C4556bbD4735EB8c;
     address internal constant EFFECTS = 0x03bED4605644c03eb9DEf76085c64ED54e22CF97;
-    address internal constant RENDERER = 0xd7Cbd9B410aE456429A459e045A9Ec68ac433F33;
-    address internal constant ORIGINAL = 0x49EDE54934D25A97480A600847896201e3237F7C;
-    address internal constant GENESIS = 0xd0840955a079791De01D1904e66AfB0428f99477;
+    address internal constant RENDERER = 0x09C22ac6189e478b9AE355AC1Ca8ee593AD23751;
+    address internal constant ORIGINAL = 0x5a5B8528EBf3e117975075112d9f0CFcd80933c0;
+    address internal constant GENESIS = 0xc409aD206Fd58e9Ce1864E2067BE3693D1FB0E02;
     address internal constant PNG_ENCODER = 0xD35d1Fe27b16DC0b1c5526981643a50eAc5c7e0e;
-    address internal constant TURNTABLE = 0x079F8fd64204D8b68236FC5622D8b0235d707647;
+    address internal constant TURNTABLE = 0x800E0e32822e0a0cD8eb3a8fC396CcCeF02BA317;
     address internal constant GLB_ENCODER = 0xDc1780BBD46D9065a22bf449BEA3cF54a2314383;
-    address internal constant STUDIO = 0xEcba130eAea9B72B0400FB60cC39E7805fc90f3C;
-    address internal constant LIBRARY = 0xa31Efd9Ad1267Fc2C037e85863caA5CBf39dCE62;
-    address internal constant WEB = 0x6563328DE7d61964e557B4a387c49da8136832c5;
-    address internal constant EDITIONS = 0x0819Eb310648e20146b672A98a019FeC7bCF4D59;
-    address internal constant GENESIS_METADATA = 0x1806f215fcAB0c27DE9329923E08D1E8cAE12568;
+    address internal constant STUDIO = 0xC7921841490654200d578B00e6f2ffdCB9A67a57;
+    address internal constant LIBRARY = 0x036bAC247f4b1986572F255448d06F9295F827D8;
+    address internal constant WEB = 0xE222641C28372242D86C73e251ac330aCc7272BB;
+    address internal constant EDITIONS = 0x1F24fa3147C1Dca9C28f202Dc9a38917e3CF7803;
+    address internal constant GENESIS_METADATA = 0x8534580c24A3B611D2226A6F14A306784107a2e7;
 }

@@ -55,7 +55,7 @@ def whole(seed: int) -> Scene:
     """A scene with all there is, in any units: several objects of every kind, all lights, effects and a ground."""
     rng = np.random.default_rng([31, seed])
     unit = 10.0 ** rng.uniform(-6, 6)
-    base = random_scene("shadows", seed)
+    base = random_scene("contacts", seed)
     objects = [
         Object(
             evolve(
