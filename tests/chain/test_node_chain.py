@@ -266,7 +266,7 @@ def large_scene(triangles: int) -> Scene:
 
 
 def test_a_mesh_that_has_to_be_packed(bare: Anvil, embedded: EmbeddedChain) -> None:
-    scene = large_scene(1500)
+    scene = large_scene(1400)
     size = len(encode(artifact("Renderer").selectors["render"], scene))
     assert size + sum(len(artifact(name).creation) for name in RENDERER) > MAX_INIT_CODE
     with without_overrides(bare.url) as url:
@@ -355,7 +355,7 @@ def test_too_little_gas_on_a_node(bare: Anvil) -> None:
 @pytest.mark.parametrize("cap", [300_000, 3_000_000, 10_000_000])
 def test_too_little_gas_to_bring_the_contracts_along(bare: Anvil, cap: int) -> None:
     """That is what is told, and no smaller picture is advised, since none would do."""
-    scene = large_scene(1500)
+    scene = large_scene(1400)
     words = r"allows a call too little gas for this: [\d,]+, and it has no state overrides: creating the"
     with serving(lambda request: geth(request, bare.url, cap)) as url, without_overrides(url) as other:
         for draw in (open_node(other).draw, lambda scene: render(scene, on=Nodes(other))):
@@ -434,7 +434,7 @@ def test_public_limits(embedded: EmbeddedChain) -> None:
         assert open_node(node.url).draw(SCENES["smooth"]) == embedded.draw(SCENES["smooth"])
 
 
-@pytest.mark.parametrize("triangles", [200, 1500])
+@pytest.mark.parametrize("triangles", [200, 1400])
 def test_the_limit_of_a_creation_call_is_kept(bare: Anvil, embedded: EmbeddedChain, triangles: int) -> None:
     """What it costs to bring the contracts along is subtracted, even if they and a large mesh have to be unpacked."""
     scene = large_scene(triangles)

@@ -411,7 +411,8 @@ def test_where_objects_differ_no_shading_is_chosen(visit: NewPage) -> None:
     flat = after(page, lambda: row.locator("[value=flat]").click())
     assert row.locator("input:checked").get_attribute("value") == "flat"
     smooth = after(page, lambda: row.locator("[value=smooth]").click())
-    assert len({mixed, flat, smooth}) == 3
+    # its creases remain, so that the smooth coin may be the mixed one
+    assert flat not in (mixed, smooth)
     assert after(page, lambda: row.locator(".reset").click()) == mixed
     assert row.locator("input:checked").count() == 0
 

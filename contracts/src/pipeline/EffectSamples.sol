@@ -187,7 +187,11 @@ library EffectSamples {
     }
 
     /// @dev Returns the accumulator and the ray at the centroid of the covered samples.
-    function centroid(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure returns (uint256, uint256 x, uint256 y) {
+    function centroid(uint256 attribute, uint256 covered, uint256 column, uint256 row)
+        private
+        pure
+        returns (uint256, uint256 x, uint256 y)
+    {
         unchecked {
             x = load(RAY_LEFT) + column * load(RAY_STEP);
             y = load(RAY_TOP) + row * load(RAY_STEP);

@@ -17,8 +17,8 @@ abstract contract Rasterizer {
     function drawTriangle(uint256 a, uint256 b, uint256 c) internal pure virtual;
 
     /// @dev Returns by how much the depth of the current triangle, which is turned away from the eye, is reduced, so that a face turned to
-    /// the eye in the same place is seen: by at least its change over 1/64 of a pixel along the axes, since rounding moves vertices by up to
-    /// 1/512 (not more than the sum of both), and two units of the depths of vertices. At most half of the least depth above a base, so
+    /// the eye in the same place is seen: by at least its change over 1/64 of a pixel along the axes, since rounding moves vertices by up
+    /// to 1/512 (not more than the sum of both), and two units of the depths of vertices. At most half of the least depth above a base, so
     /// that it remains above it; nothing if the triangle IS_DEEP. Removes IS_TURNED_AWAY from MODE.
     /// @param dx, dy The changes of the accumulator over 1/64 of a pixel.
     function setBack(uint256 dx, uint256 dy, uint256 base) internal pure returns (uint256 depth) {

@@ -24,16 +24,16 @@ import "./Registers.sol";
 //   - Between two points seen at an angle d and at different distances, a linearly interpolated direction has an error of at most
 //     d * (ratio of the distances - 1) / 4; for an edge of length e in distances neither factor is above e, and the product not
 //     above e^2 / 2, so the error is at most e^2 / 8: see Materials.smoothReach. Lamps must not be much nearer than the eye.
-//   - H turns with the ray and with the direction to the lamp, both by up to an edge e, and the sum L + V, of the length s, is divided by s:
-//     its second derivative across is a sum of terms e^2 / s and e^2 / s^2. The error of its direction is taken as 0.15 e^2 for s^2 >= 3,
+//   - H turns with the ray and with the direction to the lamp, both by up to an edge e, and L + V, of the length s, is divided by s: its
+//     second derivative across is a sum of terms e^2 / s and e^2 / s^2. The error of its direction is taken as 0.15 e^2 for s^2 >= 3,
 //     as 0.6 e^2 for s^2 >= 1, where e^2 is the sum of the squares of two edges, and for lamps of the change of depth too. Times the
 //     steepest slope of cos^n: see Specular.
 //   - Between unit vectors the interpolated H is too short by the factor 1 - sum w_i w_j (H_i - H_j)^2 / 2; this is compensated for N * H
-//     where |N| = 1. If |N| is less, by perspective or between vertices, the product is too large by (1 - |N|) / |N| of that: with q for the
-//     least N * N, by at most d^2 / 6 * (1 - q) / 2q for half vectors that differ by d. Times n, the slope of cos^n where it is 1.
+//     where |N| = 1. If |N| is less, by perspective or between vertices, the product is too large by (1 - |N|) / |N| of that: with q for
+//     the least N * N, by at most d^2 / 6 * (1 - q) / 2q for half vectors that differ by d. Times n, the slope of cos^n where it is 1.
 //   - If the first is above four levels, or the second above three and a half, products are made exact at the edge midpoints too. Errors
-//     are of third order then: along each edge s (1 - s) (1 - 2s) times a skew, which is at most 1/9 of it, and in the middle the product of
-//     the three weights. The skews are measured, and so is the error at the point (1/2, 1/4, 1/4): together at most 3.5 levels, unless
+//     are of third order then: along each edge s (1 - s) (1 - 2s) times a skew, which is at most 1/9 of it, and in the middle the product
+//     of the three weights. The skews are measured, and so is the error at the point (1/2, 1/4, 1/4): together at most 3.5 levels, unless
 //     no point of the triangle can be near the highlight, on triangles of at most 20 times the size.
 //   - A search for the worst triangles, with specular coefficients of up to 1.5, finds sums of all these errors of 12 levels (before these
 //     bounds 55): see tests/test_smooth_light.py. Random scenes stay below 4: see docs/conformance.md.
@@ -239,8 +239,9 @@ library SmoothLight {
             }
 
             // The correction that makes the light at the midpoint exact: four times the error there, (N_u + N_v) * (L_u + L_v - 2 L), and
-            // the same for H, which is not too short there. What remains along the edge is s (1 - s) (1 - 2s) times a skew, of which HALF_SKEW
-            // has twice the largest: the change of the turning of H, 2 H * (H_v - H_u), and that of N, (N_v - N_u) * (H_u + H_v - 2 H).
+            // the same for H, which is not too short there. What remains along the edge is s (1 - s) (1 - 2s) times a skew, of which
+            // HALF_SKEW has twice the largest: the change of the turning of H, 2 H * (H_v - H_u), and that of N, (N_v - N_u) * (H_u + H_v -
+            // 2 H).
             function correction(u, v, placeU, placeV) -> packed {
                 setMiddle(u, v)
                 let n := add(mload(placeU), mload(placeV))
