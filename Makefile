@@ -13,7 +13,7 @@ ifndef CHECKS
 .NOTPARALLEL:
 endif
 .DEFAULT_GOAL := help
-.PHONY: help browser opengl demo creator test lint types contracts evm evm-check web docs unit build npm gas golden bench paper fuzz conformance pictures clean
+.PHONY: help browser opengl demo creator test lint types contracts evm evm-check web docs unit verify build npm gas golden bench paper fuzz conformance pictures clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -128,6 +128,9 @@ pictures: $(DEV) ## draw the pictures of the documentation, except those of docs
 	$(BIN)/python -m tools.readme
 
 # ---- long runs ----
+
+verify: $(DEV) $(NODE) ## the inputs with which explorers verify the contracts: each, compiled alone, makes their code
+	VERIFY=all $(BIN)/pytest -n 2 tests/deploy/test_verification.py
 
 fuzz: $(DEV) ## contracts against the reference over 2,000 random scenes, property tests on new examples
 	$(BIN)/python tests/differential.py --count 2000

@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 from tools import build_contracts as tool
 
-from shackled.artifacts import contracts
+from compiler import needs_compiler
+from shackled.artifacts import contracts, standard_input
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -20,10 +21,12 @@ def test_a_closed_pipe_leaves_no_old_artifacts(tmp_path: Path, monkeypatch: pyte
     """As `tools/build_contracts.py | head -1`: what was built is written before anything is printed."""
     text = '{"contract": "Thing", "deployedBytecode": "00", "group": "calls"}\n'
     monkeypatch.setattr(tool, "ARTIFACTS", tmp_path)
-    monkeypatch.setattr(tool, "build", lambda **_: {"Thing.json": text, tool.SOURCE_MAPS: "{}"})
+    monkeypatch.setattr(
+        tool, "build", lambda **_: {"Thing.json": text, tool.SOURCE_MAPS: "{}", tool.SOURCE_TEXTS: "{}"}
+    )
     monkeypatch.setattr(sys, "argv", ["build_contracts.py", "--group", "calls"])
     (tmp_path / "Old.json").write_text(text)
-    (tmp_path / "standard-input-old.json").write_text("{}")
+    (tmp_path / "of-no-group.json").write_text("{}")
 
     def closed(*_: object, **__: object) -> None:
         raise BrokenPipeError
@@ -31,7 +34,7 @@ def test_a_closed_pipe_leaves_no_old_artifacts(tmp_path: Path, monkeypatch: pyte
     monkeypatch.setattr(builtins, "print", closed)
     with pytest.raises(BrokenPipeError):
         tool.main()
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["Thing.json", tool.SOURCE_MAPS]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["Thing.json", tool.SOURCE_MAPS, tool.SOURCE_TEXTS]
 
 
 def test_every_contract_is_in_one_group(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -45,6 +48,30 @@ def test_every_contract_is_in_one_group(monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.setattr(tool, "GROUPS", {"one": {"contracts": [*found, "Engine", "Nothing"]}})
     with pytest.raises(SystemExit, match="each contract once: Engine, Nothing"):
         tool.find_contracts()
+
+
+@needs_compiler
+def test_inputs_of_the_package_are_those_of_the_sources() -> None:
+    for group in tool.GROUPS:
+        assert standard_input(group) == tool.standard_input(group), f"run tools/build_contracts.py --group {group}"
+
+
+def test_sources_of_some_groups(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The texts of other groups stay, what no group has goes, and contracts of another text are named."""
+    monkeypatch.setattr(tool, "ARTIFACTS", tmp_path)
+    old = {"other.sol": "kept", "scene/Scene.sol": "old"}
+    engine = {"group": "engine", "sources": {path: tool.digest(text) for path, text in old.items()}}
+    (tmp_path / "Engine.json").write_text(json.dumps(engine))
+    (tmp_path / tool.SOURCE_TEXTS).write_text(json.dumps(old | {"gone.sol": ""}))
+    texts = tool.source_texts(["glb"])
+    assert texts == {"other.sol": "kept"} | tool.read_sources(["GlbEncoder"])
+    told = ["Engine was compiled from another text of scene/Scene.sol: compile its group, too"]
+    assert tool.outdated(["glb"], texts) == told
+    # and the build fails
+    monkeypatch.setattr(tool, "build", lambda **_: {tool.SOURCE_TEXTS: json.dumps(texts)})
+    monkeypatch.setattr(sys, "argv", ["build_contracts.py", "--group", "glb"])
+    assert tool.main() == 1
+    assert json.loads((tmp_path / tool.SOURCE_TEXTS).read_text()) == texts
 
 
 def test_source_maps_of_groups_are_merged() -> None:

@@ -19,6 +19,8 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 from tools import build_package
 
+from shackled.artifacts import contracts, sources
+
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "src" / "shackled"
 PROJECT: dict[str, Any] = tomllib.loads((ROOT / "pyproject.toml").read_text())
@@ -132,16 +134,11 @@ def test_what_the_package_says_of_itself() -> None:
 
 
 def test_notices_of_all_whose_code_is_compiled_in() -> None:
-    """Each library that the compiler's inputs name, in the version that is installed, with its licence in full."""
+    """Each library of the sources, in the version that is installed, with its licence in full, and its contracts."""
     notices = (ROOT / "THIRD-PARTY-NOTICES").read_text()
-    sources = {
-        source
-        for path in (PACKAGE / "artifacts").glob("standard-input*.json")
-        for source in json.loads(path.read_text())["sources"]
-    }
     locked = json.loads((ROOT / "contracts" / "package-lock.json").read_text())["packages"]
     folders = {name.removeprefix("node_modules/"): entry for name, entry in locked.items() if name}
-    libraries = {name for name in folders for source in sources if source.startswith(f"{name}/")}
+    libraries = {name for name in folders for source in sources() if source.startswith(f"{name}/")}
     assert libraries >= {"@openzeppelin/contracts", "erc721a", "solady"}
     for name in libraries:
         section = notices.partition(f"{folders[name]['version']} ({name})")[2].partition("\n---")[2]
@@ -151,6 +148,13 @@ def test_notices_of_all_whose_code_is_compiled_in() -> None:
         shipped = ROOT / "contracts" / "node_modules" / name / "LICENSE.txt"
         if shipped.exists():
             assert shipped.read_text().strip() in notices
+        users = {
+            contract
+            for contract in contracts()
+            for source in json.loads((PACKAGE / "artifacts" / f"{contract}.json").read_text())["sources"]
+            if source.startswith(f"{name}/")
+        }
+        assert users <= set(re.findall(r"\w+", notices.partition("\n---")[0])), name
 
 
 def test_the_package_of_the_contracts_has_the_same_notices() -> None:

@@ -28,7 +28,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
-from Crypto.Hash import keccak
+from shackled.artifacts import OUTPUTS
 
 ROOT = Path(__file__).resolve().parent.parent
 CONTRACTS = ROOT / "contracts"
@@ -37,17 +37,20 @@ LIBRARIES = CONTRACTS / "node_modules"
 #: How contracts outside import these sources: as the npm package of tools/build_package.py.
 PACKAGE = "shackled-contracts/"
 ARTIFACTS = ROOT / "src" / "shackled" / "artifacts"
-STANDARD_INPUT = "standard-input"
 #: The source maps, for profiles.
 SOURCE_MAPS = "source-maps.json"
+#: The texts of all sources, by path, libraries too: what compiles to these contracts must be in the package.
+SOURCE_TEXTS = "sources.json"
+#: The artifacts of no contract, common to all groups.
+COMMON = {SOURCE_MAPS, SOURCE_TEXTS}
 
 #: The contracts and optimizer settings of each group.
 GROUPS: dict[str, dict[str, Any]] = tomllib.loads((CONTRACTS / "groups.toml").read_text("utf-8"))
 
 #: EIP-170: the largest size of a contract.
 MAX_RUNTIME_SIZE = 24576
-#: The largest file that verifiers of sources accept.
-MAX_INPUT_SIZE = 1 << 20
+#: The largest input that Blockscout's verifier accepts by default, in bytes.
+MAX_INPUT_SIZE = 2 << 20
 
 #: A missing licence or pragma, an old annotation of memory-safe assembly (in libraries), and the size of a contract,
 #: which is checked here.
@@ -59,7 +62,6 @@ OPTIMIZER_STEPS = (
     "dhfoDgvulfnTUtnIf[exa[r]EescLMVcul [j]Trpeulxa[r]ecLgvefMCTUca[r]LSsTFOtfDnca[r]eIulcescCTUtgvefM]"
     "jmul[jul] VcTOcul jmul:fDnTOcmu"
 )
-OUTPUTS = ["abi", "metadata", "evm.bytecode.object", "evm.deployedBytecode.object", "evm.methodIdentifiers"]
 
 
 def group_of(contract: str) -> str:
@@ -191,16 +193,16 @@ def build(groups: Sequence[str] = tuple(GROUPS)) -> dict[str, str]:
         files |= built
         maps.append(source_maps(answer, functions.result()))
     files[SOURCE_MAPS] = merge_maps(maps)
-    for name, text in files.items():
-        if name.startswith((SOURCE_MAPS, STANDARD_INPUT)) and len(text) > MAX_INPUT_SIZE:
-            raise SystemExit(f"{name} has {len(text):,} bytes, more than {MAX_INPUT_SIZE:,}")
+    files[SOURCE_TEXTS] = _text(source_texts(groups))
     return files
 
 
 def build_group(group: str) -> tuple[dict[str, str], dict[str, Any]]:
     """Return the text of every artifact file of a group, by name, and the compiler's answer."""
     asked = standard_input(group)
-    files = {input_name(group): _text(without_libraries(asked))}
+    if (size := len(_text(asked))) > MAX_INPUT_SIZE:
+        raise SystemExit(f"the compiler's input of {group} has {size:,} bytes, more than {MAX_INPUT_SIZE:,}")
+    files: dict[str, str] = {}
     answer = run_compiler(_text(with_maps(asked)))
     for source, contracts in answer["contracts"].items():
         for name, output in contracts.items():
@@ -213,7 +215,7 @@ def build_group(group: str) -> tuple[dict[str, str], dict[str, Any]]:
                     "source": source,
                     "compiler": metadata["compiler"]["version"],
                     "settings": settings_of(name),
-                    "sources": {path: hashlib.sha256(text.encode()).hexdigest() for path, text in texts.items()},
+                    "sources": {path: digest(text) for path, text in texts.items()},
                     "methodIdentifiers": output["evm"]["methodIdentifiers"],
                     "abi": output["abi"],
                     "bytecode": output["evm"]["bytecode"]["object"],
@@ -223,23 +225,39 @@ def build_group(group: str) -> tuple[dict[str, str], dict[str, Any]]:
     return files, answer
 
 
-def input_name(group: str) -> str:
-    """Return the name of the file with the compiler's input of a group."""
-    return f"{STANDARD_INPUT}-{group}.json"
+def digest(text: str) -> str:
+    """Return the SHA-256 of a text."""
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
-def without_libraries(request: dict[str, Any]) -> dict[str, Any]:
-    """Return the request with third-party sources replaced by their place and hash, so that they are not copied."""
-    sources = {
-        name: source
-        if (SOURCES / name).is_file()
-        else {
-            "keccak256": "0x" + keccak.new(digest_bits=256, data=source["content"].encode()).hexdigest(),
-            "urls": [f"node_modules/{name}"],
-        }
-        for name, source in request["sources"].items()
-    }
-    return request | {"sources": sources}
+def source_texts(groups: Sequence[str]) -> dict[str, str]:
+    """Return the sources of these groups, by path, and those on disk of which only the other groups are made."""
+    path = ARTIFACTS / SOURCE_TEXTS
+    kept: dict[str, str] = json.loads(path.read_text("utf-8")) if path.is_file() else {}
+    others = {name for hashes in _hashes_of_others(groups).values() for name in hashes}
+    texts = {name: text for name, text in kept.items() if name in others}
+    return texts | read_sources(contract for group in groups for contract in GROUPS[group]["contracts"])
+
+
+def outdated(groups: Sequence[str], texts: dict[str, str]) -> list[str]:
+    """Return the contracts of other groups than these that were compiled from other texts, one line each."""
+    digests = {name: digest(text) for name, text in texts.items()}
+    return [
+        f"{contract} was compiled from another text of {', '.join(changed)}: compile its group, too"
+        for contract, hashes in _hashes_of_others(groups).items()
+        if (changed := [name for name, value in hashes.items() if digests.get(name) != value])
+    ]
+
+
+def _hashes_of_others(groups: Sequence[str]) -> dict[str, dict[str, str]]:
+    """Return the hashes of the sources of each contract on disk that is in none of these groups."""
+    files = {contract: ARTIFACTS / f"{contract}.json" for contract in _others(groups)}
+    return {name: json.loads(path.read_text("utf-8"))["sources"] for name, path in files.items() if path.is_file()}
+
+
+def _others(groups: Sequence[str]) -> list[str]:
+    """Return the contracts of other groups than these."""
+    return [contract for name, group in GROUPS.items() if name not in groups for contract in group["contracts"]]
 
 
 def with_maps(asked: dict[str, Any]) -> dict[str, Any]:
@@ -289,7 +307,7 @@ def source_maps(answer: dict[str, Any], functions: dict[str, list[list[Any]]]) -
 
 def _kept_maps(groups: Sequence[str]) -> dict[str, Any]:
     """Return the source maps on disk of the contracts of other groups than these."""
-    others = {contract for name, group in GROUPS.items() if name not in groups for contract in group["contracts"]}
+    others = _others(groups)
     path = ARTIFACTS / SOURCE_MAPS
     maps: dict[str, Any] = json.loads(path.read_text("utf-8")) if path.is_file() and others else {"sources": {}}
     return maps | {"contracts": {name: each for name, each in maps.get("contracts", {}).items() if name in others}}
@@ -335,12 +353,9 @@ def artifacts_of(groups: Sequence[str]) -> set[str]:
     """Return the names of the artifact files on disk that belong to these groups."""
     names = set()
     for path in ARTIFACTS.glob("*.json"):
-        if path.name.startswith(STANDARD_INPUT):
-            group = path.stem.removeprefix(f"{STANDARD_INPUT}-")
-        elif path.name != SOURCE_MAPS:
-            group = json.loads(path.read_text("utf-8"))["group"]
-        # the source maps are common to all; files of groups that no longer exist belong to none
-        if path.name == SOURCE_MAPS or group in groups or group not in GROUPS:
+        group = "" if path.name in COMMON else json.loads(path.read_text("utf-8")).get("group")
+        # files of groups that no longer exist belong to none
+        if group in groups or group not in GROUPS:
             names.add(path.name)
     return names
 
@@ -366,7 +381,7 @@ def report_sizes(files: dict[str, str]) -> bool:
     """Print the size of every contract; return whether all are within the limit."""
     fits = True
     for name, text in files.items():
-        if name != SOURCE_MAPS and not name.startswith(STANDARD_INPUT):
+        if name not in COMMON:
             size = len(json.loads(text)["deployedBytecode"]) // 2
             fits &= size <= MAX_RUNTIME_SIZE
             remark = "" if size <= MAX_RUNTIME_SIZE else ", TOO LARGE"
@@ -386,9 +401,10 @@ def main() -> int:
         return 0
     groups = (options.group,) if options.group else tuple(GROUPS)
     files = build(groups=groups)
+    others = outdated(groups, json.loads(files[SOURCE_TEXTS]))
     if options.check:
         fits = report_sizes(files)
-        lines = differences(files, groups)
+        lines = differences(files, groups) + others
         for line in lines:
             print(line, file=sys.stderr)
         if lines:
@@ -399,7 +415,10 @@ def main() -> int:
     for name, text in files.items():
         (ARTIFACTS / name).write_text(text, "utf-8", newline="\n")
     # last, since a closed pipe ends the command
-    return 0 if report_sizes(files) else 1
+    fits = report_sizes(files)
+    for line in others:
+        print(line, file=sys.stderr)
+    return 0 if fits and not others else 1
 
 
 if __name__ == "__main__":

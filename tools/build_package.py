@@ -5,7 +5,7 @@
 
 Run `npm pack` or `npm publish` in build/npm afterwards. The folder contains the sources of contracts/src, the files of
 contracts/npm, docs/contract-authors.md as README, and files generated from the compiled contracts: artifacts, ABIs with
-types, addresses, and the code for the Foundry fixture.
+types, addresses, the code for the Foundry fixture, and what verify.js makes the compiler's input of.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from shackled.artifacts import artifact
+from shackled.artifacts import artifact, sources, standard_input
 from shackled.deploy import CONTRACTS, Deployment, deployments
 from shackled.ethereum import checksum_address
 
@@ -35,6 +35,7 @@ PACKAGE = ROOT / "build" / "npm"
 
 #: Artifacts of contracts without an address of their own: ABI and bytecode only.
 WITHOUT_ADDRESS = ("GenesisCollection", "IconsCollection")
+PACKED = (*CONTRACTS, *WITHOUT_ADDRESS)
 #: Bytes of a string literal. The compiler's optimizers take a time that grows with the square of it.
 CHUNK = 1024
 
@@ -121,11 +122,20 @@ def scripts(contracts: list[Deployment]) -> dict[str, str]:
     }
 
 
+def verification() -> dict[str, str]:
+    """Return the compiler's input of each group, with paths of sources for the sources, and sources of libraries."""
+    inputs = [standard_input(group) for group in sorted({artifact(name).group for name in PACKED})]
+    libraries = {path: text for path, text in sources().items() if not (SOURCES / path).is_file()}
+    return {"verify.json": _json([each | {"sources": list(each["sources"])} for each in inputs])} | {
+        f"verify/{path}": text for path, text in libraries.items()
+    }
+
+
 def package_files() -> dict[str, bytes]:
     """Return the files of the package that are not sources of contracts/src, by path."""
     contracts = deployments(CONTRACTS)
-    made = {f"artifacts/{name}.json": hardhat_artifact(name) for name in (*CONTRACTS, *WITHOUT_ADDRESS)}
-    made |= scripts(contracts)
+    made = {f"artifacts/{name}.json": hardhat_artifact(name) for name in PACKED}
+    made |= scripts(contracts) | verification()
     made["Addresses.sol"] = addresses(contracts)
     made["test/ShackledCode.sol"] = runtime_codes(contracts)
     made["runtime.json"] = _json({each.name: f"0x{each.code.hex()}" for each in contracts})

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import json
 import xml.etree.ElementTree as ElementTree
-from importlib.resources import files
 
 import pytest
 
 from shackled import Scene, load
-from shackled.artifacts import artifact
+from shackled.artifacts import artifact, sources
 from shackled.chain import ContractChain, open_chain
 from shackled.deploy import STANDARD
 from shackled.gas import (
@@ -107,14 +106,10 @@ def depth(frame: CallFrame) -> int:
 
 
 def test_lines_are_in_their_files(profiles: dict[str, Profile]) -> None:
-    sources: dict[str, dict[str, str]] = {}
-    for group in ("engine", "renderer"):
-        text = files("shackled.artifacts").joinpath(f"standard-input-{group}.json").read_text("utf-8")
-        sources |= json.loads(text)["sources"]
     for found in profiles.values():
         for cost in found.costs:
             if cost.file:
-                lines = sources[cost.file]["content"].splitlines()
+                lines = sources()[cost.file].splitlines()
                 assert 1 <= cost.line <= len(lines)
                 assert lines[cost.line - 1].strip()
     # functions of Yul are found within their block of assembly; a constant may be told to be where it is declared
@@ -123,7 +118,7 @@ def test_lines_are_in_their_files(profiles: dict[str, Profile]) -> None:
         for name in ("light", "specular", "interpolateNormal", "rayLength"):
             if function == f"FragmentLight.{name}" and place.startswith("pipeline/FragmentLight.sol"):
                 file, _, line = place.rpartition(":")
-                assert f"function {name}(" in sources[file]["content"].splitlines()[int(line) - 1]
+                assert f"function {name}(" in sources()[file].splitlines()[int(line) - 1]
                 found_in_assembly += 1
     assert found_in_assembly == 4
 

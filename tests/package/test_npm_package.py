@@ -18,12 +18,13 @@ import pytest
 from eth_abi.abi import decode as decode_abi
 from PIL import Image as PillowImage
 from tools import build_contracts, build_package
+from tools.compiled_once import compile_once
 from tools.examples import compile_example
 from tools.ledger import World, call_data
 
 from compiler import needs_compiler
 from shackled import Image, render
-from shackled.artifacts import artifact
+from shackled.artifacts import artifact, standard_input
 from shackled.cli.app import run as run_shackled
 from shackled.deploy import CONTRACTS, deployments
 from shackled.ethereum import to_hex
@@ -148,6 +149,22 @@ def test_sources_compile_with_default_settings(optimized: bool) -> None:
 
 def test_generated_source_is_up_to_date() -> None:
     assert build_package.ADDRESSES.read_text() == build_package.addresses(deployments(CONTRACTS))
+
+
+def test_inputs_of_the_compiler(project: Path) -> None:
+    """The package has all that its bytecode is made of; one small contract is compiled."""
+    script = """
+        const { standardInput } = require("shackled-contracts/verify");
+        console.log(JSON.stringify(process.argv.slice(1).map(standardInput)));
+    """
+    said = run("node", "-e", script, *build_package.PACKED, cwd=project)
+    assert json.loads(said.stdout) == [standard_input(artifact(name).group) for name in build_package.PACKED]
+    installed = project / "node_modules" / "shackled-contracts"
+    command = run("node", installed / "verify.js", "PngEncoder", cwd=project)
+    packed = json.loads((installed / "artifacts" / "PngEncoder.json").read_text())
+    made = compile_once(json.loads(command.stdout))["encode/PngEncoder.sol"]["PngEncoder"]
+    assert "0x" + made["evm"]["bytecode"]["object"] == packed["bytecode"]
+    assert "there is no contract Cube" in run("node", installed / "verify.js", "Cube", cwd=project).stderr
 
 
 def test_javascript(project: Path) -> None:

@@ -21,6 +21,9 @@ RENDERER = (
     "Renderer",
 )
 
+#: What the compiler is asked for; it does not change the bytecode.
+OUTPUTS = ["abi", "metadata", "evm.bytecode.object", "evm.deployedBytecode.object", "evm.methodIdentifiers"]
+
 
 @dataclass(frozen=True)
 class Artifact:
@@ -53,7 +56,7 @@ class Artifact:
 @cache
 def artifact(name: str) -> Artifact:
     """Return the compiled contract of a name."""
-    data = json.loads(files(__package__).joinpath(f"{name}.json").read_text("utf-8"))
+    data = _read(name)
     return Artifact(
         name=name,
         group=data["group"],
@@ -75,8 +78,31 @@ def artifact(name: str) -> Artifact:
 
 def contracts() -> list[str]:
     """Return the names of all compiled contracts."""
-    names = (file.name.removesuffix(".json") for file in files(__package__).iterdir() if file.name.endswith(".json"))
-    return sorted(name for name in names if not name.startswith(("standard-input", "source-maps")))
+    names = {file.name.removesuffix(".json") for file in files(__package__).iterdir() if file.name.endswith(".json")}
+    return sorted(names - {"sources", "source-maps"})
+
+
+@cache
+def sources() -> dict[str, str]:
+    """Return the texts of the sources of all contracts, by path, those of libraries too."""
+    return _read("sources")
+
+
+def standard_input(group: str) -> dict[str, Any]:
+    """Return the standard JSON input from which the compiler makes the contracts of a group, every source included."""
+    built = [_read(name) for name in contracts() if artifact(name).group == group]
+    selection = {each["source"]: {each["contract"]: OUTPUTS} for each in built}
+    paths = sorted({path for each in built for path in each["sources"]})
+    return {
+        "language": "Solidity",
+        "settings": built[0]["settings"] | {"outputSelection": selection},
+        "sources": {path: {"content": sources()[path]} for path in paths},
+    }
+
+
+def _read(name: str) -> dict[str, Any]:
+    data: dict[str, Any] = json.loads(files(__package__).joinpath(f"{name}.json").read_text("utf-8"))
+    return data
 
 
 @cache

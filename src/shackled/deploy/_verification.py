@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
 
+from ..artifacts import standard_input
 from ..ethereum import checksum_address
 from ..whole_file import make_output_folder, write_output
 from ._contract import Deployment
@@ -17,6 +18,8 @@ SUMMARY = "contracts.json"
 def write_verification(folder: Path, chain_id: int, deployed: Sequence[Deployment]) -> list[Path]:
     """Write the compiler's input as standard JSON, and a list of contracts with addresses and constructor arguments.
 
+    Every source is in the input as text, since explorers refuse those that it only names.
+
     Raises InputError or OutputError if the folder cannot be written to.
     """
     contracts, inputs = [], {}
@@ -25,7 +28,7 @@ def write_verification(folder: Path, chain_id: int, deployed: Sequence[Deploymen
         built = json.loads(artifacts.joinpath(f"{each.name}.json").read_text("utf-8"))
         # one input for each group of contracts that are compiled together
         name = f"standard-input-{built['group']}.json"
-        inputs[name] = artifacts.joinpath(name).read_bytes()
+        inputs[name] = json.dumps(standard_input(built["group"]), indent=1).encode() + b"\n"
         contracts.append(
             {
                 "name": f"{built['source']}:{each.name}",

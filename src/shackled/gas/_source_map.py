@@ -10,7 +10,7 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from ..artifacts import artifact
+from ..artifacts import artifact, sources
 
 _PUSH1, _PUSH32 = 0x60, 0x7F
 
@@ -130,15 +130,10 @@ def _data() -> dict[str, Any]:
 @cache
 def _sources() -> dict[int, SourceFile]:
     """Return the source files by the compiler's numbers."""
-    texts: dict[str, dict[str, str]] = {}
-    for group in {artifact(contract).group for contract in _data()["contracts"]}:
-        request = json.loads(files("shackled.artifacts").joinpath(f"standard-input-{group}.json").read_text("utf-8"))
-        texts |= request["sources"]
-    sources = {}
+    found = {}
     for number, source in _data()["sources"].items():
-        # third-party sources are not included
-        text = texts[source["name"]].get("content", "").encode()
+        text = sources()[source["name"]].encode()
         functions = tuple(Function(name, begin, begin + length) for name, begin, length in source["functions"])
         begins = (0, *(match.end() for match in re.finditer(rb"\n", text)))
-        sources[int(number)] = SourceFile(source["name"], text, functions, begins)
-    return sources
+        found[int(number)] = SourceFile(source["name"], text, functions, begins)
+    return found

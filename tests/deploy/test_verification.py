@@ -1,0 +1,41 @@
+"""The files with which explorers verify the sources: complete, and what they compile to."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+from tools.compiled_once import compile_once
+
+from compiler import needs_compiler
+from shackled.artifacts import artifact, contracts, standard_input
+from shackled.deploy import CONTRACTS, deployments, write_verification
+
+#: `make verify` compiles all groups, `make test` one with sources of a library.
+CHOSEN = os.environ.get("VERIFY", "png")
+GROUPS = sorted({artifact(name).group for name in contracts()}) if CHOSEN == "all" else CHOSEN.split()
+
+
+def test_every_source_is_in_the_files(tmp_path: Path) -> None:
+    """Explorers refuse sources that are only named, by `urls`."""
+    written = write_verification(tmp_path, 1, deployments(CONTRACTS))
+    entries = json.loads((tmp_path / "contracts.json").read_text("utf-8"))["contracts"]
+    assert [entry["name"].partition(":")[2] for entry in entries] == [each.name for each in deployments(CONTRACTS)]
+    assert {path.name for path in written} == {"contracts.json", *(entry["standardInput"] for entry in entries)}
+    for entry in entries:
+        path, _, name = entry["name"].partition(":")
+        request = json.loads((tmp_path / entry["standardInput"]).read_text("utf-8"))
+        assert request == standard_input(artifact(name).group)
+        assert name in request["settings"]["outputSelection"][path]
+        assert all(source.keys() == {"content"} for source in request["sources"].values())
+
+
+@needs_compiler
+@pytest.mark.parametrize("group", GROUPS)
+def test_an_input_compiles_alone(group: str) -> None:
+    """The compiler gets no other file, and makes the creation code."""
+    made = compile_once(standard_input(group))
+    codes = {name: output["evm"]["bytecode"]["object"] for each in made.values() for name, output in each.items()}
+    assert codes == {name: artifact(name).creation.hex() for name in contracts() if artifact(name).group == group}
