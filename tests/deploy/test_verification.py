@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from pathlib import Path
+from typing import Any
+from unittest.mock import Mock
 
 import pytest
 from tools.compiled_once import compile_once
@@ -12,6 +15,7 @@ from tools.compiled_once import compile_once
 from compiler import needs_compiler
 from shackled.artifacts import artifact, contracts, standard_input
 from shackled.deploy import CONTRACTS, deployments, write_verification
+from shackled.ethereum import checksum_address
 
 #: `make verify` compiles all groups, `make test` one with sources of a library.
 CHOSEN = os.environ.get("VERIFY", "png")
@@ -30,6 +34,30 @@ def test_every_source_is_in_the_files(tmp_path: Path) -> None:
         assert request == standard_input(artifact(name).group)
         assert name in request["settings"]["outputSelection"][path]
         assert all(source.keys() == {"content"} for source in request["sources"].values())
+
+
+def test_the_program_of_the_documentation(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    page = (Path(__file__).parents[2] / "docs" / "nodes.md").read_text("utf-8")
+    program = re.search(r"```python\n([^`]*stdJsonInput[^`]*)```", page)
+    assert program
+    write_verification(tmp_path / "deployed-1", 1, deployments(["GlbEncoder"]))
+    sent: list[tuple[str, dict[str, Any]]] = []
+
+    def post(url: str, json: dict[str, Any], timeout: float) -> Mock:
+        sent.append((url, json))
+        return Mock()
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("requests.post", post)
+    exec(program[1], {})
+    ((url, body),) = sent
+    (contract,) = deployments(["GlbEncoder"])
+    assert url == f"https://sourcify.dev/server/v2/verify/1/{checksum_address(contract.address)}"
+    assert re.fullmatch(r"0\.8\.37\+commit\.[0-9a-f]{8}", body.pop("compilerVersion"))
+    assert body == {
+        "stdJsonInput": standard_input("glb"),
+        "contractIdentifier": "encode/GlbEncoder.sol:GlbEncoder",
+    }
 
 
 @needs_compiler
