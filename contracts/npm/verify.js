@@ -9,8 +9,8 @@ const inputs = require("./verify.json");
  * have one input.
  */
 function standardInput(contract) {
-  const input = inputs.find(({ settings }) => Object.values(settings.outputSelection).some((names) => contract in names));
-  if (!input) throw new RangeError(`there is no contract ${contract}; a name is, for example, Studio`);
+  const input = inputs.find(({ settings }) => Object.values(settings.outputSelection).some((names) => Object.hasOwn(names, contract)));
+  if (!input) throw new RangeError(`there is no contract ${contract}: give a name such as Studio`);
   // sources of libraries are in the folder verify
   const read = (path) => readFileSync([path, join("verify", path)].map((each) => join(__dirname, each)).find(existsSync), "utf8");
   return { ...input, sources: Object.fromEntries(input.sources.map((path) => [path, { content: read(path) }])) };
@@ -19,5 +19,10 @@ function standardInput(contract) {
 module.exports = { standardInput };
 
 if (require.main === module) {
-  console.log(JSON.stringify(standardInput(process.argv[2]), null, 1));
+  try {
+    console.log(JSON.stringify(standardInput(process.argv[2]), null, 1));
+  } catch (fault) {
+    console.error(fault.message);
+    process.exitCode = 1;
+  }
 }

@@ -164,7 +164,9 @@ def test_inputs_of_the_compiler(project: Path) -> None:
     packed = json.loads((installed / "artifacts" / "PngEncoder.json").read_text())
     made = compile_once(json.loads(command.stdout))["encode/PngEncoder.sol"]["PngEncoder"]
     assert "0x" + made["evm"]["bytecode"]["object"] == packed["bytecode"]
-    assert "there is no contract Cube" in run("node", installed / "verify.js", "Cube", cwd=project).stderr
+    wrong = run("node", installed / "verify.js", "toString", cwd=project)
+    told = "there is no contract toString: give a name such as Studio\n"
+    assert (wrong.returncode, wrong.stdout, wrong.stderr) == (1, "", told)
 
 
 def test_javascript(project: Path) -> None:
