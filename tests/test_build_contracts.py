@@ -57,7 +57,7 @@ def test_inputs_of_the_package_are_those_of_the_sources() -> None:
 
 
 def test_sources_of_some_groups(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The texts of other groups stay, what no group has goes, and contracts of another text are named."""
+    """The texts of other groups stay, what no group has goes, and groups of another text are named."""
     monkeypatch.setattr(tool, "ARTIFACTS", tmp_path)
     old = {"other.sol": "kept", "scene/Scene.sol": "old"}
     engine = {"group": "engine", "sources": {path: tool.digest(text) for path, text in old.items()}}
@@ -65,8 +65,7 @@ def test_sources_of_some_groups(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     (tmp_path / tool.SOURCE_TEXTS).write_text(json.dumps(old | {"gone.sol": ""}))
     texts = tool.source_texts(["glb"])
     assert texts == {"other.sol": "kept"} | tool.read_sources(["GlbEncoder"])
-    told = ["Engine was compiled from another text of scene/Scene.sol: compile its group, too"]
-    assert tool.outdated(["glb"], texts) == told
+    assert tool.outdated(["glb"], texts) == ["compile the groups engine, too: scene/Scene.sol has changed"]
     # and the build fails
     monkeypatch.setattr(tool, "build", lambda **_: {tool.SOURCE_TEXTS: json.dumps(texts)})
     monkeypatch.setattr(sys, "argv", ["build_contracts.py", "--group", "glb"])

@@ -240,13 +240,14 @@ def source_texts(groups: Sequence[str]) -> dict[str, str]:
 
 
 def outdated(groups: Sequence[str], texts: dict[str, str]) -> list[str]:
-    """Return the contracts of other groups than these that were compiled from other texts, one line each."""
+    """Return a line for each source of which other groups than these were compiled from another text, and them."""
     digests = {name: digest(text) for name, text in texts.items()}
-    return [
-        f"{contract} was compiled from another text of {', '.join(changed)}: compile its group, too"
-        for contract, hashes in _hashes_of_others(groups).items()
-        if (changed := [name for name, value in hashes.items() if digests.get(name) != value])
-    ]
+    users: dict[str, set[str]] = {}
+    for contract, hashes in _hashes_of_others(groups).items():
+        for name, value in hashes.items():
+            if digests.get(name) != value:
+                users.setdefault(name, set()).add(group_of(contract))
+    return [f"compile the groups {', '.join(sorted(users[name]))}, too: {name} has changed" for name in sorted(users)]
 
 
 def _hashes_of_others(groups: Sequence[str]) -> dict[str, dict[str, str]]:
