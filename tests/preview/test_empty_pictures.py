@@ -12,18 +12,21 @@ from PIL import Image as PillowImage
 
 import shackled
 from preview.small_contracts import Made, answering, contract, function, output
+from shackled.cli.app import run
 from shackled.preview import Preview, Request, Token, folded
 
 TRIANGLE = shackled.Mesh([(0, 0, 0), (100, 0, 0), (0, 100, 0)], [(0, 2, 1)])
 LINE = "the picture shows only the background: faces may be clockwise (swap two indices, or set object.flags = 0)"
 
 
-def problems(folder: Path, file: bytes, **request: Any) -> list[str]:
+def project(folder: Path, file: bytes) -> Made:
     source = folder / "Small.sol"
     source.write_text("contract Small {}")
-    small = contract(answering(output(file)), function("image", "uint256", output="bytes"))
-    made = Preview(Made(source, small), Request(count=1, **request))
-    return made.token(0).problems
+    return Made(source, contract(answering(output(file)), function("image", "uint256", output="bytes")))
+
+
+def problems(folder: Path, file: bytes, **request: Any) -> list[str]:
+    return Preview(project(folder, file), Request(count=1, **request)).token(0).problems
 
 
 def encoded(pixels: list[PillowImage.Image], kind: str) -> bytes:
@@ -60,6 +63,15 @@ def test_one_pixel_is_enough(tmp_path: Path) -> None:
     # formats that the renderer does not have, and pictures the rows of which cannot have two colours
     assert problems(tmp_path, encoded([empty], "GIF")) == []
     assert problems(tmp_path, encoded([PillowImage.fromarray(rows[:, :1])], "PNG")) == []
+
+
+def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    made = project(tmp_path, encoded([PillowImage.new("RGB", (8, 8))], "PNG"))
+    monkeypatch.setattr("shackled.preview.Project", lambda source: made)
+    words = ["preview", str(made.source), "--check", "--tokens", "1"]
+    assert run(words) == 1
+    assert LINE in capsys.readouterr().out
+    assert run([*words, "--allow-empty"]) == 0
 
 
 def test_equal_words_are_one_line_whatever_numbers_they_have() -> None:

@@ -71,7 +71,7 @@ def test_pictures_that_load_from_outside(content: str, named: str) -> None:
     "content",
     [
         svg("<a href='https://example.org'><text>a</text></a><use href='#a'/><rect fill='url(#g)' filter=''/>"),
-        svg("<style>/* url(https://example.org) */ a{src:url(data:font/woff2;base64,AA)}</style>"),
+        svg("<style>@namespace url(http://n/); /* url(https://example.org) */ a{src:url(data:font/woff2,A)}</style>"),
         svg("<metadata>https://example.org</metadata><!-- <script/> --><animate attributeName='x'/>"),
         svg("", '<!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" "http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd">'),
     ],
@@ -136,6 +136,7 @@ def test_pictures_within_pictures() -> None:
         ),
         ("<script>x = await fetch(`https://example.org/api`)</script>", "https://example.org/api"),
         ("<script>r.open('GET', '//example.org/r')</script>", "//example.org/r"),
+        ("<svg><use xlink:href='a.svg#a'/></svg>", "a.svg#a"),
         ('<script>new Image().src = "ipfs://q"</script>', "ipfs://q"),
         (f'<img src="{NESTED}">', LOGO),
     ],

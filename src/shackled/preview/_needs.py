@@ -21,7 +21,8 @@ LINKS = {"a", "area"}
 LOADED = {"stylesheet", "preload", "modulepreload"}
 #: Between the addresses of `srcset`.
 DESCRIPTOR = re.compile(r"\s+(?:[\d.]+[wxh]\s*)?,?\s*|,\s+")
-CSS_COMMENT = re.compile(r"/\*.*?(?:\*/|\Z)", re.DOTALL)
+#: Comments, and addresses that are names.
+CSS_UNLOADED = re.compile(r"/\*.*?(?:\*/|\Z)|@namespace[^;]{0,200};", re.DOTALL)
 #: The beginnings of addresses suffice.
 CSS_ADDRESS = re.compile(r"""(?:url\(\s{0,99}["']?|@import\s{0,99}["'])([^)"']{0,200})""", re.IGNORECASE)
 STYLESHEET = re.compile(rb"<\?xml-stylesheet\b[^>]{0,200}?\bhref\s*=\s*[\"']([^\"']{0,200})")
@@ -116,7 +117,7 @@ def _loaded_by(element: Element) -> Iterator[str]:
         else:
             yield from CSS_ADDRESS.findall(value)
     if tag == "style":
-        yield from CSS_ADDRESS.findall(CSS_COMMENT.sub(" ", element.text))
+        yield from CSS_ADDRESS.findall(CSS_UNLOADED.sub(" ", element.text))
     elif tag == "script":
         is_map = attributes.get("type") == "importmap"
         yield from (MAP_ADDRESS if is_map else SCRIPT_ADDRESS).findall(element.text)
@@ -153,7 +154,7 @@ class _Page(HTMLParser):
         self.close()
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.elements.append(Element(tag, {name: value or "" for name, value in attrs}))
+        self.elements.append(Element(tag, {name.rpartition(":")[2]: value or "" for name, value in attrs}))
 
     def handle_endtag(self, tag: str) -> None:
         # what follows is not inside
