@@ -12,6 +12,7 @@ import pytest
 
 from preview.small_contracts import SVG, answering, contract, output
 from shackled.errors import InputError
+from shackled.ethereum import keccak256
 from shackled.preview import CompilerError, Project
 
 Tool = Callable[[str, str], Path]
@@ -41,8 +42,14 @@ def write(path: Path, document: dict[str, Any]) -> None:
     path.write_text(json.dumps(document))
 
 
-def forge_writes(folder: Path, place: str, source: str, name: str, **more: Any) -> None:
-    metadata = {"settings": {"compilationTarget": {source: name}}}
+def hashes(**contents: str) -> dict[str, Any]:
+    """Return the sources in the metadata of a compiler."""
+    return {name: {"keccak256": "0x" + keccak256(content.encode()).hex()} for name, content in contents.items()}
+
+
+def forge_writes(folder: Path, place: str, source: str, name: str, content: str = "", **more: Any) -> None:
+    sources = hashes(**{source: content or f"contract {name} {{}}"})
+    metadata = {"settings": {"compilationTarget": {source: name}}, "sources": sources}
     write(folder / "out" / place, {"abi": [], "bytecode": {"object": CREATION}, "metadata": metadata, **more})
 
 
@@ -65,9 +72,10 @@ def test_files_of_one_name(tool: Tool) -> None:
 
 def test_contracts_that_were_renamed(tool: Tool) -> None:
     folder = tool("forge", FORGE)
+    content = "// was OldName\ncontract Token {}"
     for name in ("OldName", "Token"):
-        forge_writes(folder, f"T.sol/{name}.json", "src/T.sol", name)
-    project = source(folder, "src/T.sol", "// was OldName\ncontract Token {}")
+        forge_writes(folder, f"T.sol/{name}.json", "src/T.sol", name, content)
+    project = source(folder, "src/T.sol", content)
     assert [each.name for each in project.compile()] == ["Token"]
 
 
@@ -88,6 +96,71 @@ def test_what_the_tools_say(tool: Tool) -> None:
         source(folder, "src/T.sol", "contract T {}").compile()
 
 
+@pytest.mark.parametrize(
+    "said",
+    [
+        "Error: Compiler run failed:\nError (6933): Expected primary expression.\n --> src/T.sol:4:28:",
+        "Compiler run failed",
+        "Error: solc exited with exit status: 1",
+        "TypeError: Wrong argument count.\n --> contracts/T.sol:1:2:",
+        "Error HH600: Compilation failed",
+    ],
+)
+@pytest.mark.parametrize("name", ["forge", "hardhat"])
+def test_failures_of_tools_that_end_with_0(tool: Tool, name: str, said: str) -> None:
+    """As the forge of npm does, with and without what an earlier run wrote."""
+    folder = tool(name, f"""[ "$1" = config ] && echo '{{"out":"out"}}' || printf 'Compiling\n{said}\n' """)
+    place = {"forge": "src/T.sol", "hardhat": HARDHAT}[name]
+    forge_writes(folder, "T.sol/T.json", "src/T.sol", "T")
+    hardhat_writes(folder, "contract T {}")
+    with pytest.raises(CompilerError) as raised:
+        source(folder, place, "contract T {}").compile()
+    assert raised.value.said == f"Compiling\n{said}"
+
+
+@pytest.mark.parametrize("said", ["Warning (2072): Unused.", "1 | Error: no", "Errors: none", "note: TypeError: no"])
+def test_warnings_are_no_failures(tool: Tool, said: str) -> None:
+    folder = tool("forge", f"""[ "$1" = config ] && echo '{{"out":"out"}}' || echo '{said}' """)
+    forge_writes(folder, "T.sol/T.json", "src/T.sol", "T")
+    assert source(folder, "src/T.sol", "contract T {}").compile()
+
+
+def test_artifacts_of_other_sources(tool: Tool) -> None:
+    """The hashes decide, also those of imports, and the times where there is none."""
+    folder = tool("forge", FORGE)
+    forge_writes(folder, "T.sol/T.json", "src/T.sol", "T", "contract T {}\n")
+    project = source(folder, "src/T.sol", "contract T {}\r\n")
+    assert project.compile()
+    built = folder / "out" / "T.sol" / "T.json"
+    os.utime(built, (1, 1))
+    assert project.compile()
+    message = r"T\.json was not made of src/{} as it is now: run `forge build --force`"
+    source(folder, "src/T.sol", "contract T { }\n")
+    os.utime(built)
+    with pytest.raises(InputError, match=message.format("T.sol")):
+        project.compile()
+    document = json.loads(built.read_text())
+    document["metadata"]["sources"] = hashes(**{"src/T.sol": "contract T { }\n", "src/B.sol": "contract B {}"})
+    write(built, document)
+    assert project.compile()
+    source(folder, "src/B.sol", "contract B { }")
+    with pytest.raises(InputError, match=message.format("B.sol")):
+        project.compile()
+    write(built, document | {"metadata": None})
+    assert project.compile()
+    os.utime(built, (1, 1))
+    with pytest.raises(InputError, match=message.format("T.sol")):
+        project.compile()
+
+
+def test_a_solc_that_fails_without_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "solc").write_text("#!/bin/sh\necho '{}'; exit 1")
+    (tmp_path / "solc").chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}{os.pathsep}{os.environ['PATH']}")
+    with pytest.raises(CompilerError, match=r"T\.sol does not compile"):
+        source(tmp_path, "T.sol", "contract T {}").compile()
+
+
 HARDHAT = "contracts/T.sol"
 
 
@@ -99,14 +172,37 @@ def hardhat_writes(folder: Path, content: str) -> None:
     write(folder / "artifacts" / "build-info" / "1.json", build)
 
 
+def hardhat_3_writes(folder: Path, sources: dict[str, Any]) -> None:
+    name = f"project/{HARDHAT}"
+    artifact = {"sourceName": HARDHAT, "inputSourceName": name, "buildInfoId": "1", "abi": [], "bytecode": CREATION}
+    write(folder / "artifacts" / HARDHAT / "T.json", artifact)
+    metadata = json.dumps({"sources": {f"project/{each}": kept for each, kept in sources.items()}})
+    build = {"output": {"contracts": {name: {"T": {"metadata": metadata}}}}}
+    write(folder / "artifacts" / "build-info" / "1.output.json", build)
+
+
 def test_hardhat_must_write_where_artifacts_are_looked_for(tool: Tool) -> None:
     folder = tool("hardhat", "exit 0")
     hardhat_writes(folder, "contract T {}")
     assert [each.name for each in source(folder, HARDHAT, "contract T {}").compile()] == ["T"]
-    with pytest.raises(
-        InputError, match=r"hardhat wrote no contract of contracts/T\.sol to .*: leave `paths.artifacts`"
-    ):
-        source(folder, HARDHAT, "contract T { uint256 x; }").compile()
+    changed = source(folder, HARDHAT, "contract T { uint256 x; }")
+    message = r"T\.json was not made of contracts/{}\.sol as it is now: leave `paths\.artifacts` at its default"
+    with pytest.raises(InputError, match=message.format("T")):
+        changed.compile()
+    (folder / "artifacts" / HARDHAT / "T.json").unlink()
+    with pytest.raises(InputError, match=r"hardhat wrote no contract of contracts/T\.sol to .*: leave `paths"):
+        changed.compile()
+    (folder / "artifacts" / HARDHAT / "T.dbg.json").unlink()
+    contents = {
+        HARDHAT: "contract T { uint256 x; }",
+        "contracts/B.sol": "contract B {}",
+        "npm/c/C.sol": "contract C {}",
+    }
+    hardhat_3_writes(folder, hashes(**contents))
+    assert changed.compile()
+    source(folder, "contracts/B.sol", "contract B { }")
+    with pytest.raises(InputError, match=message.format("B")):
+        changed.compile()
 
 
 def test_errors_of_hardhat_without_its_own_places(tool: Tool) -> None:

@@ -12,6 +12,7 @@ from preview.small_contracts import DEAR, ENDLESS, REVERT, SVG, Made, answering,
 from shackled.ethereum import keccak256, word
 from shackled.evm import Answer
 from shackled.preview import Call, Compiled, Preview, Request, Token, World, folded
+from shackled.preview._quantities import in_units
 
 PANIC = bytes.fromhex("4e487b71")
 SUPPLY = function("totalSupply", output="uint256")
@@ -83,6 +84,38 @@ def test_first_tokens_up_to_the_greatest_number(preview: Any) -> None:
 )
 def test_outputs_that_cannot_be_read(preview: Any, data: bytes, ends: int, problem: str) -> None:
     assert preview(contract(answering(data, zero_ends=ends)), first=0).token(0).problems == [problem]
+
+
+@pytest.mark.parametrize(
+    ("signature", "values", "said"),
+    [
+        ("CoefficientOutOfRange(uint256,int256)", (1, 35 << 32), "CoefficientOutOfRange(object=1, value=35)"),
+        (
+            "CoefficientOutOfRange(uint256,int256)",
+            (1, (4 << 32) + 1),
+            "CoefficientOutOfRange(object=1, value=4.00000000023)",
+        ),
+        ("ScaleOutOfRange(uint256,int256)", (0, -1 << 32), "ScaleOutOfRange(object=0, scale=-1)"),
+        ("FogOutOfRange(int256,int256)", (900 << 32, 100 << 32), "FogOutOfRange(near=900, far=100)"),
+        ("OpacityOutOfRange(uint256,uint256)", (0, 3 << 23), "OpacityOutOfRange(object=0, opacity=1.5)"),
+        ("ExposureOutOfRange(uint256)", (129 << 15,), "ExposureOutOfRange(exposure=64.5)"),
+        (
+            "PositionOutOfRange(uint256,int256,int256,int256)",
+            (2, 1 << 60, 0, -(1 << 59)),
+            "x=268435456, y=0, z=-134217728)",
+        ),
+        ("ScaleLooksUnscaled(uint256,int256)", (0, 2), "ScaleLooksUnscaled(object=0, scale=2)"),
+        ("CanvasSize(uint256,uint256)", (0, 4096), "CanvasSize(width=0, height=4096)"),
+    ],
+)
+def test_quantities_of_errors(preview: Any, signature: str, values: tuple[int, ...], said: str) -> None:
+    """In units, where the contracts of the package have fixed-point numbers."""
+    data = keccak256(signature.encode())[:4] + b"".join(word(value % (1 << 256)) for value in values)
+    (problem,) = preview(contract(answering(data, zero_ends=REVERT)), first=0).token(0).problems
+    assert problem.startswith("image(0) fails: ")
+    assert problem.endswith(said)
+    # of the scene builder, whose errors are in the author's contract
+    assert in_units("PositionOutOfRange(x=40000, y=0, z=0)") == "PositionOutOfRange(x=40000, y=0, z=0)"
 
 
 def test_a_precompiled_contract_that_is_missing(preview: Any) -> None:

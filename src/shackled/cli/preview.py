@@ -62,6 +62,7 @@ def preview(
         option("--function", "Function to read (default: tokenURI, uri, image, render or svg).", "NAME"),
     ] = None,
     max_gas: Annotated[int, option("--max-gas", "Gas that a read may take (default: 2^24).", "GAS", min=1)] = MAX_GAS,
+    allow_empty: Annotated[bool, option("--allow-empty", "Accept pictures that show only the background.")] = False,
     check: Annotated[
         bool, option("--check", "No page: check all tokens; the exit code is 1 if one has a problem.")
     ] = False,
@@ -83,7 +84,9 @@ def preview(
         raise InputError("the page needs more packages: pip install 'shackled[creator]'; --check needs none")
     project = Project(source)
     stored = _stored(store or ())
-    request = Request(contract, tuple(arg or ()), tuple(setup or ()), function, first, tokens, max_gas, stored)
+    request = Request(
+        contract, tuple(arg or ()), tuple(setup or ()), function, first, tokens, max_gas, stored, allow_empty
+    )
     if check:
         _check(project, request, as_json, output)
         return

@@ -10,12 +10,14 @@ from dataclasses import dataclass, field
 from typing import Any
 from xml.etree import ElementTree
 
+import numpy as np
 from PIL import Image as PillowImage
 from PIL import UnidentifiedImageError
 
 from ..errors import VerificationError
 from ..tokens import MAX_LENGTH, read_data_uri
 from ..untrusted import plain, read_json
+from ._needs import gltf_problems, html_problems, svg_problems
 
 #: Media types of pictures, and Pillow's names of them; SVG is read as XML.
 PICTURES = {
@@ -26,7 +28,7 @@ PICTURES = {
     "image/jpeg": "JPEG",
     "image/webp": "WEBP",
 }
-SVG, GLB, HTML = "image/svg+xml", "model/gltf-binary", "text/html"
+SVG, GLB, GLTF, HTML = "image/svg+xml", "model/gltf-binary", "model/gltf+json", "text/html"
 #: The largest side of a picture, and the most pixels of all its frames.
 MAX_SIDE = 4096
 MAX_PIXELS = 1 << 27
@@ -43,11 +45,16 @@ TEXTS = {
 
 @dataclass(frozen=True)
 class File:
-    """A file in a `data:` URI. frames: of a picture that moves, else 1."""
+    """A file in a `data:` URI.
+
+    frames: of a picture that moves, else 1. is_empty: whether it is a PNG or BMP, the formats of the renderer, in which
+    each row has one colour, as the background has.
+    """
 
     media_type: str
     content: bytes
     frames: int = 1
+    is_empty: bool = False
 
 
 @dataclass
@@ -100,33 +107,41 @@ def judge(uri: str) -> Document:
     found.problems += attribute_problems(fields.get("attributes", []))
     if "image" not in fields and "image_data" not in fields:
         note("there is no image")
-    for key in ("image", "animation_url"):
-        if key in fields:
-            file = _file(fields[key], key, note)
-            if key == "image":
-                found.image = file
-            else:
-                found.animation = file
+    found.image = _file(fields["image"], "image", note) if "image" in fields else None
+    if "image_data" in fields and found.image is None:
+        found.image = _svg_or_file(fields["image_data"], "image_data", note)
+    if "animation_url" in fields:
+        found.animation = _file(fields["animation_url"], "animation_url", note)
     return found
 
 
 def judge_picture(content: bytes | str) -> Document:
     """Read what a function such as `image` or `render` returned: a `data:` URI, an SVG, or the bytes of a picture."""
     found = Document()
-    if isinstance(content, str) and content.lstrip().startswith("<"):
-        content = content.encode()
+    key, note = "the picture", found.problems.append
     if isinstance(content, str):
-        found.image = _file(content, "the picture", found.problems.append)
-        return found
-    media_type = next((kind for mark, kind in MARKS.items() if content.startswith(mark)), SVG)
-    if content[:4] == b"RIFF" and content[8:12] == b"WEBP":
-        media_type = "image/webp"
-    found.image = _checked(File(media_type, content), "the picture", found.problems.append)
+        found.image = _svg_or_file(content, key, note)
+    else:
+        found.image = _checked(File(_kind_of(content) or SVG, content), key, note)
     return found
 
 
-#: What files of pictures begin with.
-MARKS = {b"\x89PNG": "image/png", b"GIF8": "image/gif", b"BM": "image/bmp", b"\xff\xd8": "image/jpeg", b"glTF": GLB}
+#: What files begin with.
+MARKS = {
+    b"\x89PNG": "image/png",
+    b"GIF8": "image/gif",
+    b"BM": "image/bmp",
+    b"\xff\xd8": "image/jpeg",
+    b"glTF": GLB,
+    b"<svg": SVG,
+}
+
+
+def _kind_of(content: bytes) -> str | None:
+    """Return the media type of a file by its first bytes; None if they do not tell."""
+    if content[:4] == b"RIFF" and content[8:12] == b"WEBP":
+        return "image/webp"
+    return next((kind for mark, kind in MARKS.items() if content.startswith(mark)), None)
 
 
 def attribute_problems(attributes: Any) -> list[str]:
@@ -172,37 +187,53 @@ def unicode_fault(error: UnicodeError) -> str:
     return "JSON: it has half of a surrogate pair"
 
 
+def _svg_or_file(text: Any, key: str, note: Callable[[str], None]) -> File | None:
+    """Return the file of an SVG or of a `data:` URI."""
+    if isinstance(text, str) and text.lstrip().startswith("<"):
+        return _checked(File(SVG, text.encode()), key, note)
+    return _file(text, key, note)
+
+
 def _file(uri: Any, key: str, note: Callable[[str], None]) -> File | None:
     """Return the file of a `data:` URI."""
     if not isinstance(uri, str):
         note(f"{key} must be text, not {plain(json.dumps(uri))[:60]}")
         return None
-    if key == "animation_url" and re.match(r"(https?|ipfs|ar|web3):", uri):
+    if key == "animation_url" and re.match(r"(https|ipfs|ar|web3):", uri):
         return None  # not on the chain, or by a gateway: allowed there
     try:
         media_type, content = _read(uri, key, note)
     except VerificationError as error:
         note(str(error))
         return None
+    if media_type == HTML and key == "animation_url":
+        for problem in html_problems(content, key, uri.partition(",")[0]):
+            note(problem)
     return _checked(File(media_type, content), key, note)
 
 
 def _checked(file: File, key: str, note: Callable[[str], None]) -> File | None:
     """Return the file if it can be decoded."""
     kind, content = file.media_type, file.content
+    real = _kind_of(content)
+    if real and kind in (*PICTURES, SVG) and PICTURES.get(real) != PICTURES.get(kind):
+        note(f"{key} has the type {kind}, but is {real}: write data:{real}")
+        return None
     if kind in PICTURES:
         return _picture(file, key, note)
     if kind == SVG:
         try:
             # entities that grow without bound are refused by the parser
-            tag = ElementTree.fromstring(content).tag
-            if tag == "svg":
+            root = ElementTree.fromstring(content)
+            if root.tag == "svg":
                 raise ValueError("xmlns is missing: write <svg xmlns='http://www.w3.org/2000/svg'>")
-            if tag != "{http://www.w3.org/2000/svg}svg":
-                raise ValueError(f"its root is {plain(tag)[:40]}")
+            if root.tag != "{http://www.w3.org/2000/svg}svg":
+                raise ValueError(f"its root is {plain(root.tag)[:40]}")
         except (ElementTree.ParseError, ValueError) as error:
             note(f"{key} is not a valid {_svg_fault(content, error)}")
             return None
+        for problem in svg_problems(root, content, key):
+            note(problem)
         return file
     if key != "animation_url":
         note(f"{key} has the type {kind}; marketplaces show {', '.join([*PICTURES, SVG])}")
@@ -210,6 +241,9 @@ def _checked(file: File, key: str, note: Callable[[str], None]) -> File | None:
     if kind == GLB and (content[:4] != b"glTF" or content[8:12] != len(content).to_bytes(4, "little")):
         note(f"{key} is not a complete GLB")
         return None
+    if kind in (GLB, GLTF):
+        for problem in gltf_problems(content, key):
+            note(problem)
     return file
 
 
@@ -233,14 +267,22 @@ def _picture(file: File, key: str, note: Callable[[str], None]) -> File | None:
             frames = int(getattr(opened, "n_frames", 1))
             if frames * opened.width * opened.height > MAX_PIXELS:
                 raise ValueError(f"its {frames} frames have more than {MAX_PIXELS:,} pixels together")
+            is_empty = PICTURES[file.media_type] in ("PNG", "BMP") and opened.width > 1
             for number in range(frames):
                 opened.seek(number)
                 opened.load()
+                is_empty = is_empty and _is_background(opened)
     except Exception as error:
         # decoders fail in many ways at damaged files, some without words
         note(f"{key} is not a complete {file.media_type}: {_words(error)}")
         return None
-    return File(file.media_type, file.content, frames)
+    return File(file.media_type, file.content, frames, is_empty)
+
+
+def _is_background(picture: PillowImage.Image) -> bool:
+    """Return whether each row has one colour."""
+    pixels = np.asarray(picture.convert("RGBA"))
+    return bool((pixels == pixels[:, :1]).all())
 
 
 def _words(error: Exception) -> str:

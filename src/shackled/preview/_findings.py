@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Sequence
 
 from ._preview import Token
@@ -17,10 +18,12 @@ def folded(tokens: Iterable[Token]) -> list[tuple[str, str]]:
     Problems that differ only in the number of the token and in gas are one; the words are those of the first token.
     """
     groups: dict[str, list[tuple[int, str]]] = {}
-    for token in tokens:
-        for problem in token.problems:
-            alike = re.sub(rf"[\d,]+ gas\b|\b{token.number}\b", "#", problem)
-            groups.setdefault(alike, []).append((token.number, problem))
+    found = [(token.number, problem) for token in tokens for problem in token.problems]
+    # equal words may have the number of one of their tokens by chance
+    times = Counter(problem for _, problem in found)
+    for number, problem in found:
+        alike = problem if times[problem] > 1 else re.sub(rf"[\d,]+ gas\b|\b{number}\b", "#", problem)
+        groups.setdefault(alike, []).append((number, problem))
     return [(_ranges([number for number, _ in group]), _words(group)) for group in groups.values()]
 
 

@@ -30,6 +30,11 @@ NONEXISTENT = re.compile(r"non.?existent|not.?exist|not.?minted|unminted|invalid
 FUNCTIONS = ("tokenURI", "uri", "image", "render", "svg")
 #: Functions that return metadata; others return pictures.
 METADATA = ("tokenURI", "uri")
+#: What is said of a picture without an object.
+EMPTY = (
+    "the picture shows only the background: faces may be clockwise (swap two indices, or set object.flags = 0) "
+    "or out of sight (call stage.fit last); see docs/building.md#visible-sides"
+)
 
 
 @dataclass(frozen=True)
@@ -40,6 +45,7 @@ class Request:
     first token is read. function: that is read; None for the first of `FUNCTIONS`. first: the first token; None
     for 0, or 1 where there is no token 0. count: how many tokens; None for as many as `totalSupply` says, up to 256.
     max_gas: of a read, with that of its data. stored: code of contracts that are there already, by address.
+    allow_empty: whether pictures may show only the background.
     """
 
     contract: str | None = None
@@ -50,6 +56,7 @@ class Request:
     count: int | None = None
     max_gas: int = MAX_GAS
     stored: Mapping[bytes, bytes] = field(default_factory=dict)
+    allow_empty: bool = False
 
 
 @dataclass
@@ -135,6 +142,9 @@ class Preview:
             fault = f"{name}{self._shown(number)} returns {_output_fault(answer.output, error)}"
             return Token(number, answer.gas + intrinsic, problems=[*problems, fault])
         document = judge(value) if name in METADATA else judge_picture(value)
+        files = (document.image, document.animation)
+        if not self.request.allow_empty and any(file and file.is_empty for file in files):
+            problems.append(EMPTY)
         size = len(value.encode() if isinstance(value, str) else value)
         return Token(number, answer.gas + intrinsic, size, document, problems + document.problems)
 

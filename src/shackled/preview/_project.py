@@ -14,6 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..ethereum import keccak256
+from ._freshness import changed_source
 
 #: Files in the folder of a project, the most telling first.
 MARKS = ("foundry.toml", "hardhat.config.js", "hardhat.config.ts", "hardhat.config.cjs", "remappings.txt")
@@ -25,6 +27,8 @@ PATIENCE = 600
 #: Of the compiler of a file without a project.
 SETTINGS = {"evmVersion": "cancun", "optimizer": {"enabled": True, "runs": 200}}
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+#: A line that begins as those in which compilers say that they failed. The forge of npm ends with 0 all the same.
+FAILED = re.compile(r"^(?:\w*Error(?: [^:\n]{1,20})?:|Compiler run failed)", re.MULTILINE)
 INSTALL = (
     "no compiler was found: install Foundry (forge), put solc on the PATH, or run `npm install solc` in the project"
 )
@@ -110,9 +114,9 @@ class Project:
             raise InputError(f"foundry.toml cannot be read: {_shown(said)}") from None
 
     def _run_compiler(self, command: list[str]) -> None:
-        """Run a compiler that writes files. CompilerError with what it says if it fails."""
+        """Run a compiler that writes files. CompilerError with what it says if it fails, or says that it failed."""
         said = self._run(command)
-        if not said.returncode:
+        if not said.returncode and not FAILED.search(said.stdout):
             return
         absent = re.search("Failed to install solc.*", said.stdout)
         if absent:
@@ -122,37 +126,54 @@ class Project:
     def _made_by_forge(self, output: Path) -> list[Compiled]:
         """Return the contracts of the file. Of files of one name, forge puts those of one into a further folder."""
         found: dict[str, dict[str, Any]] = {}
+        otherwise = f"forge wrote no contract of {self._name} to {output}"
         # what an earlier name of a contract left, and other versions of the compiler, are older
         for path in sorted(output.glob(f"**/{self.source.name}/*.json"), key=_changed):
             built = _json(path)
-            settings = (built.get("metadata") or {}).get("settings", {})
-            name = settings.get("compilationTarget", {self._name: path.stem}).get(self._name)
-            if name is not None:
-                found[name] = built
-        return self._deployable(found, f"forge wrote no contract of {self._name} to {output}")
+            metadata = built.get("metadata") or {}
+            target = metadata.get("settings", {}).get("compilationTarget", {self._name: path.stem})
+            if self._name not in target:
+                continue
+            changed = changed_source(self.root, _hashes(metadata), path, self._name)
+            if changed is None:
+                found[target[self._name]] = built
+            else:
+                otherwise = _stale(path, changed, "run `forge build --force`, and mend what it reports")
+        return self._deployable(found, otherwise)
 
     def _made_by_hardhat(self, output: Path) -> list[Compiled]:
         """Return the contracts of the file. InputError if what is there was made of another version of it."""
-        folder = output / self._name
-        paths = [path for path in sorted(folder.glob("*.json")) if not path.name.endswith(".dbg.json")]
-        built = {path.stem: _json(path) for path in paths}
-        fresh = {name: each for name, each in built.items() if self._is_made_of_source(folder, name, each)}
-        return self._deployable(
-            fresh, f"hardhat wrote no contract of {self._name} to {output}: leave `paths.artifacts` at its default"
-        )
+        found: dict[str, dict[str, Any]] = {}
+        remedy = "leave `paths.artifacts` at its default"
+        otherwise = f"hardhat wrote no contract of {self._name} to {output}: {remedy}"
+        for path in sorted((output / self._name).glob("*.json")):
+            if path.name.endswith(".dbg.json"):
+                continue
+            built = _json(path)
+            changed = changed_source(self.root, self._hashes_of_hardhat(path, built), path, self._name)
+            if changed is None:
+                found[path.stem] = built
+            else:
+                otherwise = _stale(path, changed, remedy)
+        return self._deployable(found, otherwise)
 
-    def _is_made_of_source(self, folder: Path, name: str, built: dict[str, Any]) -> bool:
-        """Return whether Hardhat compiled the source as it is now, by the input of the compiler that it keeps."""
-        debug = folder / f"{name}.dbg.json"
+    def _hashes_of_hardhat(self, path: Path, built: dict[str, Any]) -> dict[str, str]:
+        """Return the hashes of the sources of an artifact, by the files of the compiler that Hardhat keeps."""
+        debug = path.with_suffix(".dbg.json")
         if debug.is_file():
-            path = folder / str(_json(debug).get("buildInfo"))
+            kept = path.parent / str(_json(debug).get("buildInfo"))
         else:
-            path = self.root / "artifacts" / "build-info" / f"{built.get('buildInfoId')}.json"
-        if not path.is_file():
-            return True
-        sources = _json(path).get("input", {}).get("sources", {})
-        source = sources.get(built.get("inputSourceName", built.get("sourceName")))
-        return source is None or source.get("content") == _text(self.source)
+            kept = self.root / "artifacts" / "build-info" / f"{built.get('buildInfoId')}.json"
+        name = built.get("inputSourceName", built.get("sourceName"))
+        # Hardhat 3 writes the output into a file of its own
+        build: dict[str, Any] = {}
+        for each in (kept, kept.with_suffix(".output.json")):
+            build |= _json(each) if each.is_file() else {}
+        metadata = build.get("output", {}).get("contracts", {}).get(name, {}).get(path.stem, {}).get("metadata")
+        if metadata:
+            return _hashes(json.loads(metadata), "project/")
+        content = build.get("input", {}).get("sources", {}).get(name, {}).get("content")
+        return {} if content is None else {self._name: "0x" + keccak256(content.encode()).hex()}
 
     def _deployable(self, built: dict[str, dict[str, Any]], otherwise: str) -> list[Compiled]:
         """Return the contracts that are in the source and have code. InputError, `otherwise`, if none is in it."""
@@ -181,8 +202,8 @@ class Project:
         except ValueError:
             raise CompilerError(self.source, _shown(said)) from None
         faults = [each["formattedMessage"] for each in result.get("errors", []) if each["severity"] == "error"]
-        if faults:
-            raise CompilerError(self.source, "\n".join(faults).strip())
+        if faults or said.returncode:
+            raise CompilerError(self.source, "\n".join(faults).strip() or _shown(said))
         made = result.get("contracts", {}).get(self._name, {}).items()
         return [_compiled(name, each["abi"], each["evm"]["bytecode"]) for name, each in made if _object(each["evm"])]
 
@@ -249,6 +270,15 @@ def _json(path: Path) -> dict[str, Any]:
     if not isinstance(found, dict):
         raise InputError(f"{path} is not what a compiler writes: delete it")
     return found
+
+
+def _hashes(metadata: dict[str, Any], folder: str = "") -> dict[str, str]:
+    """Return the hashes of the sources in the metadata of a compiler. folder: what it calls that of the project."""
+    return {name.removeprefix(folder): each["keccak256"] for name, each in metadata.get("sources", {}).items()}
+
+
+def _stale(artifact: Path, source: str, remedy: str) -> str:
+    return f"{artifact} was not made of {source} as it is now: {remedy}"
 
 
 def _changed(path: Path) -> int:

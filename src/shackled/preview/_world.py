@@ -18,6 +18,7 @@ from ..evm import Answer, Instance, Status
 from ._arguments import Call, constructor_arguments, contract_of
 from ._library import library_codes
 from ._project import Compiled
+from ._quantities import in_units
 
 #: Of a deployment or a call that changes something, and of one that only reads; it ends endless loops.
 MOST_GAS = 1_000_000_000
@@ -81,7 +82,8 @@ class World:
     def reason(self, answer: Answer) -> str:
         """Return why a call was not successful."""
         if answer.status == Status.REVERT:
-            return describe_revert(answer.output, self.errors) if answer.output else "reverted without a reason"
+            said = describe_revert(answer.output, self.errors) if answer.output else "reverted without a reason"
+            return in_units(said)
         if answer.status == Status.OUT_OF_GAS:
             return f"out of gas: {MOST_GAS:,} do not suffice; is there an endless loop?"
         said = answer.output.decode(errors="replace")
