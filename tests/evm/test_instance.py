@@ -188,14 +188,15 @@ def limited(cache: Path, limit: str, value: int, memory: int) -> str:
 @pytest.mark.parametrize("megabytes", [4096, 2048, 512])
 def test_it_starts_with_little_address_space(tmp_path: Path, megabytes: int) -> None:
     """Its memory can grow, too, beyond the 64 MB that are reserved."""
-    assert limited(tmp_path, "RLIMIT_AS", megabytes << 20, 80 << 20 if megabytes > 1000 else 32) == bytes(31).hex() + "2a"
+    memory = 80 << 20 if megabytes > 1000 else 32
+    assert limited(tmp_path, "RLIMIT_AS", megabytes << 20, memory) == bytes(31).hex() + "2a"
 
 
 @needs_linux
 def test_too_little_address_space(tmp_path: Path) -> None:
     assert limited(tmp_path, "RLIMIT_AS", 400 << 20, 0) == (
-        "the embedded EVM cannot start: this process may use 400 MB of address space, and needs at least 512: raise the "
-        "limit (`ulimit -v`)"
+        "the embedded EVM cannot start: this process may use 400 MB of address space, and needs at least 512: raise "
+        "the limit (`ulimit -v`)"
     )
     assert limited(tmp_path, "RLIMIT_AS", 1 << 30, 600 << 20) == (
         "the embedded EVM stopped: the call needs more than 1,024 MB of memory, or than this process has left of 1,024 "

@@ -37,7 +37,10 @@ CHECK_FIRST = "check what became of it before you send it again"
 
 @dataclass(frozen=True)
 class Receipt:
-    """A transaction that succeeded. gas: used. fee: paid, in wei, with that for data on L1. logs: events as JSON-RPC returns them."""
+    """A transaction that succeeded.
+
+    gas: used. fee: paid, in wei, with that for data on L1. logs: events as JSON-RPC returns them.
+    """
 
     hash: str
     block: int

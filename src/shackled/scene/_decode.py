@@ -136,8 +136,8 @@ def _difference(data: bytes, again: bytes, offsets: list[int]) -> str:
     place = next((at for at, (one, other) in enumerate(zip(data, again, strict=False)) if one != other), len(again))
     part = ("the camera or the canvas", *_PARTS)[sum(place >= 4 + WORD + offset for offset in offsets)]
     return (
-        f"the call is not the one that Shackled makes of its scene: from byte {place:,} on, in {part}, they differ, and "
-        "the picture could change; open_chain().call('Renderer', data) of shackled.chain draws the call as it is"
+        f"the call is not the one that Shackled makes of its scene: from byte {place:,} on, in {part}, they differ, "
+        "and the picture could change; open_chain().call('Renderer', data) of shackled.chain draws the call as it is"
     )
 
 
