@@ -21,12 +21,11 @@ ROUNDS, LIMIT = 9, 2 << 30
 def main() -> None:
     """Print a line for each size."""
     chains = []
-    for limit in (resource.RLIM_INFINITY, LIMIT):
-        _, hard = resource.getrlimit(resource.RLIMIT_AS)
+    _, hard = resource.getrlimit(resource.RLIMIT_AS)
+    for limit in (LIMIT, hard):
         resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
-        chains.append(RevmChain())
-        chains[-1].draw(shackled.load("teapot", size=16))
-        resource.setrlimit(resource.RLIMIT_AS, (hard, hard))
+        chains.insert(0, RevmChain())
+        chains[0].draw(shackled.load("teapot", size=16))
     for size in (128, 512):
         call = render_call(shackled.load("teapot", size=size))
         shortest = [float("inf")] * 2

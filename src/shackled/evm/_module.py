@@ -45,7 +45,8 @@ def start() -> tuple[wasmtime.Store, wasmtime.Instance]:
     that (`ulimit -v`), or the file in memory with its first content (`ulimit -f`), the instance is a small one: it
     reserves 64 MB, moves its memory when that does not suffice, and checks accesses.
     """
-    limit, failure = address_space(), None
+    limit = address_space()
+    failure: Exception | None = None
     for is_small in (False, True):
         if limit is not None and limit < (LEAST if is_small else FULL):
             continue
@@ -55,7 +56,7 @@ def start() -> tuple[wasmtime.Store, wasmtime.Instance]:
         store = wasmtime.Store(engine)
         try:
             instance = wasmtime.Instance(store, module, [])
-        except wasmtime.WasmtimeError as error:
+        except (wasmtime.WasmtimeError, MemoryError) as error:
             store.close()
             failure = error
             continue
@@ -76,7 +77,7 @@ def address_space() -> int | None:
 
 def _cannot_start(error: Exception | None) -> ChainError:
     limit = address_space()
-    why = [" ".join(str(error).split())] if error else []
+    why = [" ".join(str(error).split()) or "there is too little memory"] if error else []
     if limit is not None:
         why.append(
             f"this process may use {limit >> 20:,} MB of address space, and needs at least {LEAST >> 20:,}: raise the "
@@ -121,7 +122,7 @@ def _compiled(is_small: bool) -> tuple[wasmtime.Engine, wasmtime.Module]:
     if module is None:
         try:
             module = wasmtime.Module(engine, source)
-        except wasmtime.WasmtimeError as error:
+        except (wasmtime.WasmtimeError, MemoryError) as error:
             raise _cannot_start(error) from error
         _save(path, bytes(module.serialize()))
     return engine, module
