@@ -20,7 +20,7 @@ ROUNDS, LIMIT = 9, 2 << 30
 
 def main() -> None:
     """Print a line for each size."""
-    chains = []
+    chains: list[RevmChain] = []
     _, hard = resource.getrlimit(resource.RLIMIT_AS)
     for limit in (LIMIT, hard):
         resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
