@@ -23,7 +23,7 @@ use revm::{
     interpreter::{
         InterpreterAction, interpreter::EthInterpreter, interpreter_action::FrameInit, interpreter_types::LoopControl,
     },
-    primitives::{Address, B256, Bytes, HashMap, TxKind, U256, address, hardfork::SpecId},
+    primitives::{Address, B256, Bytes, HashMap, KECCAK_EMPTY, TxKind, U256, address, hardfork::SpecId},
     state::{AccountInfo, EvmState},
 };
 use std::convert::Infallible;
@@ -60,9 +60,16 @@ pub struct Contracts {
 
 impl Contracts {
     pub fn put(&mut self, address: Address, code: Bytes) {
+        let accounts = &mut self.accounts;
+        let replaced = accounts.cache.accounts.get(&address).map(|account| account.info.code_hash);
         // designators of delegations (EIP-7702) are not code before Prague
-        let account = AccountInfo::default().with_code(Bytecode::new_legacy(code));
-        self.accounts.insert_account_info(address, account);
+        accounts.insert_account_info(address, AccountInfo::default().with_code(Bytecode::new_legacy(code)));
+        // `CacheDB` would keep every code for ever
+        if let Some(hash) = replaced.filter(|hash| *hash != KECCAK_EMPTY)
+            && !accounts.cache.accounts.values().any(|account| account.info.code_hash == hash)
+        {
+            accounts.cache.contracts.remove(&hash);
+        }
     }
 
     /// Sets the block of later calls. The hashes of those before it come from `EmptyDB`.

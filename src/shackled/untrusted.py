@@ -7,19 +7,23 @@ import re
 import tomllib
 from typing import Any
 
-#: Levels of brackets within brackets.
+#: Levels of brackets within brackets, and parts of a dotted key.
 MAX_NESTING = 200
 #: Strings, complete or not, and brackets outside of them.
 JSON_TOKENS = re.compile(r'"[^"\\]*(?:\\.[^"\\]*)*"?|[\[\]{}]', re.DOTALL)
-#: The same for TOML, which has other strings and comments.
+#: A part of a dotted key of TOML.
+TOML_PART = r"""(?: [A-Za-z0-9_-]+ | " [^"\\\n]* (?: \\. [^"\\\n]* )* " | ' [^'\n]* ' )"""
+#: The same tokens for TOML, which has other strings and comments, and dotted keys of three parts or more; no number has
+#: two dots.
 TOML_TOKENS = re.compile(
-    r"""
-    \"{3} [^"\\]* (?: (?: \\. | "(?!"") ) [^"\\]* )* (?: "{3,5} | \Z )
-    | '{3} .*? (?: '{3,5} | \Z )
+    rf"""
+    \"{{3}} [^"\\]* (?: (?: \\. | "(?!"") ) [^"\\]* )* (?: "{{3,5}} | \Z )
+    | '{{3}} .*? (?: '{{3,5}} | \Z )
+    | (?<! [\w.-] ) (?P<key> {TOML_PART} (?: [ \t]* \. [ \t]* {TOML_PART} ){{2,}} )
     | " [^"\\\n]* (?: \\. [^"\\\n]* )* "?
     | ' [^'\n]* '?
     | \# [^\n]*
-    | [\[\]{}]
+    | [\[\]{{}}]
     """,
     re.DOTALL | re.VERBOSE,
 )
@@ -35,7 +39,10 @@ def read_json(text: str, **options: Any) -> Any:
 
 
 def read_toml(text: str) -> dict[str, Any]:
-    """Parse TOML as `tomllib.loads` does. ValueError also where brackets or tables are nested too deep."""
+    """Parse TOML as `tomllib.loads` does. ValueError also where brackets or tables are nested too deep.
+
+    The same where a key has too many parts, for which tomllib would take quadratic time.
+    """
     _check_nesting(text, TOML_TOKENS)
     document = tomllib.loads(text)
     level: list[Any] = [document]
@@ -57,5 +64,7 @@ def _check_nesting(text: str, tokens: re.Pattern[str]) -> None:
     for match in tokens.finditer(text):
         token = match[0]
         depth += (token in ("[", "{")) - (token in ("]", "}"))
+        if match.lastgroup == "key" and len(re.findall(TOML_PART, token, re.VERBOSE)) > MAX_NESTING:
+            raise ValueError(f"one of its keys has more than {MAX_NESTING} parts")
         if depth > MAX_NESTING:
             raise ValueError(f"its brackets are nested more than {MAX_NESTING} deep")

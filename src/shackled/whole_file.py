@@ -71,10 +71,10 @@ def check_output_file(path: Path, what: str) -> Path:
     return path
 
 
-def write_whole(path: Path, data: bytes) -> None:
+def write_whole(path: Path, data: bytes, mode: int = 0o666) -> None:
     """Write a file atomically, replacing any other. If it raises OSError, no file has changed.
 
-    A symbolic link is followed. Pipes and devices are written to directly.
+    A symbolic link is followed. Pipes and devices are written to directly. mode: less what the umask takes away.
     """
     is_there = path.exists()
     if is_there and not path.is_file():
@@ -88,7 +88,7 @@ def write_whole(path: Path, data: bytes) -> None:
         try:
             file.write(data)
             file.flush()
-            os.chmod(file.name, 0o666 & ~_umask())
+            os.chmod(file.name, mode & ~_umask())
             file.close()
             os.replace(file.name, target)
         except BaseException:

@@ -92,6 +92,22 @@ def test_deploying_twice(node: Anvil, book: Path, deploy: Command, capsys: pytes
     assert "(deployed)" in json.loads(capsys.readouterr().out)["chain"]
 
 
+@pytest.mark.parametrize(
+    ("code", "line"),
+    [
+        # each of its two functions returns 10^15 wei
+        ("66038d7ea4c680005f5260205ff3", "the maximum includes 0.004 ether for data on L1, twice what the chain tells"),
+        ("5f5ffd", "takes a fee for data on L1 as well, and tells no bound of it: the maximum does not include it"),
+    ],
+)
+def test_the_fee_of_a_rollup_is_told(node: Anvil, deploy: Command, code: str, line: str) -> None:
+    arguments = ["--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--contracts", "Engine"]
+    node.rpc("anvil_setCode", "0x420000000000000000000000000000000000000F", "0x" + code)
+    told = deploy(*arguments)
+    assert (told.code, line in told.out) == (0, True)
+    assert "L1" not in deploy(*arguments).out
+
+
 def test_what_verifies_the_sources(node: Anvil, folder: Path, deploy: Command) -> None:
     told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--standard-json", "verify")
     assert told.code == 0

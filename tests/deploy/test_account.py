@@ -9,7 +9,7 @@ import pytest
 from eth_account import Account
 
 from nodes import KEY
-from shackled.deploy import environment_account, keystore_account
+from shackled.deploy import environment_account, keystore_account, read_keystore
 from shackled.errors import InputError
 
 ADDRESS = "0xf39Fd6e51aad88F6F4ce6aB8827279cffFb92266"
@@ -47,6 +47,17 @@ def test_a_damaged_keystore(keystore: Path) -> None:
     keystore.write_text(json.dumps(text))
     with pytest.raises(InputError, match="cannot be opened: it is damaged"):
         keystore_account(keystore, "right")
+
+
+@pytest.mark.parametrize("name", ["crypto", "Crypto"])
+def test_rounds_have_a_bound(keystore: Path, name: str) -> None:
+    """At once, before a password is asked."""
+    text = json.loads(keystore.read_text())
+    text[name] = text.pop("crypto")
+    text[name]["kdfparams"]["c"] = 10_000_001
+    keystore.write_text(json.dumps(text))
+    with pytest.raises(InputError, match="by 10,000,001 rounds of PBKDF2, more than the 10,000,000 that are computed"):
+        read_keystore(keystore)
 
 
 def test_a_keystore_that_is_missing(tmp_path: Path) -> None:

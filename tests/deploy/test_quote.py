@@ -24,6 +24,7 @@ def market(base: int | None, tip: Reply | int = 0, price: int = 0) -> AbstractCo
         "eth_getBlockByNumber": result({} if base is None else {"baseFeePerGas": hex(base)}),
         "eth_maxPriorityFeePerGas": tip if isinstance(tip, Reply) else result(hex(tip)),
         "eth_gasPrice": result(hex(price)),
+        "eth_getCode": result("0x"),
     }
     return serving(lambda request: answers[request["method"]])
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 from contextlib import AbstractContextManager
 from dataclasses import replace
@@ -15,9 +16,10 @@ from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, result, serv
 from proxies import Liar
 from shackled.artifacts import artifact
 from shackled.chain import Connection
-from shackled.deploy import Call, Fees, Quote, Transactor
+from shackled.deploy import Call, Fees, Quote, Transactor, make_quotes
+from shackled.deploy._quote import FIELDS, ORACLE
 from shackled.errors import ChainError, NodeError, NodeUnreachableError, TransactionError
-from shackled.ethereum import ETHER, GWEI, PROXY
+from shackled.ethereum import ETHER, GWEI, PROXY, to_hex, word
 
 pytestmark = needs_anvil
 
@@ -285,6 +287,104 @@ def test_a_transaction_that_is_in_no_block() -> None:
             payer.wait_for_pending()
         node.rpc("evm_mine")
         payer.wait_for_pending()
+
+
+def test_a_transaction_that_was_replaced() -> None:
+    """It is told long before the patience ends."""
+    with anvil("--no-mining") as node:
+
+        def answer(request: dict[str, Any]) -> Reply:
+            reply = forward(node.url, request)
+            if request["method"] == "eth_sendRawTransaction":
+                other = {"chainId": 31337, "nonce": 0, "gas": 21_000, "to": "0x" + "66" * 20, "value": 1}
+                other |= {"maxFeePerGas": 900 * GWEI, "maxPriorityFeePerGas": 90 * GWEI, "type": 2}
+                signed = Account.from_key(KEY).sign_transaction(other)
+                node.rpc("eth_sendRawTransaction", "0x" + bytes(signed.raw_transaction).hex())
+                node.rpc("evm_mine")
+            return reply
+
+        started = time.monotonic()
+        words = r"^the transaction 0x\w{64} was replaced: another one of .* the same nonce, 0, was mined, .* again$"
+        with serving(answer) as url, pytest.raises(TransactionError, match=words):
+            transactor(url, patience=60).send(quoted(transactor(node.url)))
+        assert time.monotonic() - started < 20
+
+
+def test_a_receipt_that_comes_after_the_nonce(node: Anvil) -> None:
+    """A host's nodes may know different blocks for a while: that is no replacement."""
+    asked = 0
+
+    def answer(request: dict[str, Any]) -> Reply:
+        nonlocal asked
+        asked += request["method"] == "eth_getTransactionReceipt"
+        if request["method"] == "eth_getTransactionReceipt" and asked < 7:
+            return result(None)
+        return forward(node.url, request)
+
+    with serving(answer) as url:
+        assert transactor(url).send(quoted(transactor(url), value=1)).gas == 21_000
+
+
+#: What a GasPriceOracle answers to its two functions: the size or the gas, times a number in its storage.
+BOUND, OPERATOR = 1_000, 7
+ORACLE_CODE = bytes.fromhex(
+    "5f3560e01c 8063f1c7a58b14601d57 63275aedd214602357 5f5ffd 0000 5b5f54602756 5b600154 5b600435025f5260205ff3"
+)
+
+
+def oracle(node: Anvil, code: bytes) -> None:
+    node.rpc("anvil_setCode", to_hex(ORACLE), to_hex(code))
+    for slot, value in enumerate((BOUND, OPERATOR)):
+        node.rpc("anvil_setStorageAt", to_hex(ORACLE), hex(slot), to_hex(word(value)))
+
+
+def test_fees_of_a_rollup_are_quoted(own_node: Anvil) -> None:
+    """Those which its oracle tells, twice; and nothing is sent when they have more than that."""
+    node = own_node
+    plain = quoted(transactor(node.url), data=b"\1\2\3", value=5)
+    assert (plain.rollup_fee, plain.fees.is_rollup) == (0, False)
+    oracle(node, ORACLE_CODE)
+    quote = quoted(transactor(node.url), data=b"\1\2\3", value=5)
+    fee = 2 * ((3 + FIELDS) * BOUND + quote.gas * OPERATOR)
+    assert quote.rollup_fee == fee
+    assert quote.ceiling == quote.gas * quote.fees.most + 5 + fee
+    assert quote.likely == quote.expected * quote.fees.likely + 5 + fee // 2
+    assert make_quotes(node.connection, [quote.call], quote.fees)[0].rollup_fee == fee
+    # it may rise by three quarters, so that an eighth more is left until it is mined
+    for slot, value in enumerate((BOUND, OPERATOR)):
+        node.rpc("anvil_setStorageAt", to_hex(ORACLE), hex(slot), to_hex(word(value * 7 // 4)))
+    transactor(node.url).send(quote)
+    node.rpc("anvil_setStorageAt", to_hex(ORACLE), "0x0", to_hex(word(BOUND * 20)))
+    sent = node.rpc("eth_blockNumber")
+    with pytest.raises(TransactionError, match=r"^the fee for data on L1 has risen: .* was not sent; run the command"):
+        transactor(node.url).send(quote)
+    assert node.rpc("eth_blockNumber") == sent
+
+
+def test_a_rollup_that_tells_no_bound(own_node: Anvil) -> None:
+    oracle(own_node, bytes.fromhex("5f5ffd"))
+    quote = quoted(transactor(own_node.url), value=5)
+    assert quote.rollup_fee is None
+    assert quote.ceiling == quote.gas * quote.fees.most + 5
+    transactor(own_node.url).send(quote)
+
+
+def test_the_size_of_a_transaction_without_its_data() -> None:
+    """Whatever its fields: as wide as the fees and values that chains have allow."""
+    widest: dict[str, Any] = {"chainId": 2**64 - 1, "nonce": 2**64 - 2, "gas": 2**64 - 1, "to": "0x" + 40 * "6"}
+    widest |= {"value": 2**96, "maxFeePerGas": 2**96, "maxPriorityFeePerGas": 2**96, "type": 2}
+    for size in (0, 100, 49_152):
+        signed = Account.from_key(KEY).sign_transaction(widest | {"data": to_hex(b"\1" * size)})
+        # of a signature with 67 bytes
+        assert len(signed.raw_transaction) - 67 - size <= FIELDS
+
+
+def test_what_was_paid_for_data_is_in_the_receipt(node: Anvil) -> None:
+    lies = {"eth_getTransactionReceipt": lambda receipt, _: receipt | {"l1Fee": hex(10**12)}}
+    with Liar(lies).before(node.url) as url:
+        receipt = transactor(url).send(quoted(transactor(url)))
+    right = node.rpc("eth_getTransactionReceipt", receipt.hash)
+    assert receipt.fee == receipt.gas * int(right["effectiveGasPrice"], 16) + 10**12
 
 
 def test_a_node_that_dies_meanwhile() -> None:

@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 import os
+import stat
 import subprocess
 import sys
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from shackled import ChainError
+from shackled import ChainError, InputError
 from shackled.chain import RevmChain
 from shackled.evm import Instance, Status
 
 ADDRESS = bytes(18) + b"\xc0\xde"
 #: JUMPDEST PUSH0 JUMP: 11 gas a round, until the gas ends.
 ENDLESS = bytes.fromhex("5b5f56")
+RETURN_42 = bytes.fromhex("602a5f5260205ff3")
+
+needs_linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits and cache are those of Linux")
 
 
 def instance(code: bytes) -> Instance:
@@ -67,7 +72,7 @@ def test_threads_share_a_chain() -> None:
 
 
 def test_contracts_that_are_removed() -> None:
-    made = instance(bytes.fromhex("602a5f5260205ff3"))
+    made = instance(RETURN_42)
     assert int.from_bytes(made.call(ADDRESS, b"", 100_000).output, "big") == 42
     made.hold({})
     assert made.call(ADDRESS, b"", 100_000).output == b""
@@ -109,6 +114,103 @@ def test_a_failure_does_not_spoil_an_instance() -> None:
     assert made.call(ADDRESS, b"", 0).status == Status.SUCCESS
 
 
+def test_replaced_codes_are_not_kept() -> None:
+    made, codes = Instance(), [bytes([number]) * 20_000 for number in range(200)]
+
+    def memory() -> int:
+        return int(made._memory.data_len(made._store))
+
+    for code in codes[:20]:
+        made.put(ADDRESS, code)
+    before = memory()
+    for code in codes:
+        made.put(ADDRESS, code)
+    # 4 MB of codes; at most what one takes, with its table of jumps
+    assert memory() - before <= 1 << 17
+
+
+def test_a_code_of_two_contracts_stays() -> None:
+    """Also if one of them gets another, and the code comes back."""
+    made, other = instance(RETURN_42), bytes(20)
+    made.put(other, bytes([*RETURN_42]))
+    made.put(ADDRESS, b"")
+    assert made.call(other, b"", 100_000).output[-1:] == b"*"
+    made.put(other, ENDLESS)
+    made.put(ADDRESS, RETURN_42)
+    assert made.call(ADDRESS, b"", 100_000).output[-1:] == b"*"
+    made.send(ADDRESS, b"", 100_000)
+    made.put(ADDRESS, RETURN_42[:])
+    # EXTCODECOPY of the code that is there now
+    made.put(other, bytes.fromhex(f"6007 5f 5f 73{ADDRESS.hex()} 3c 60075ff3"))
+    assert made.call(other, b"", 100_000).output == RETURN_42[:7]
+
+
+@pytest.mark.parametrize("size", [0, 19, 21])
+def test_addresses_have_20_bytes(size: int) -> None:
+    made, place = Instance(), bytes(size)
+    words = rf"^an address must have 20 bytes, not {size}$"
+    for use in (made.put, made.describe):
+        with pytest.raises(InputError, match=words):
+            use(place, b"")
+    for call in (made.call, made.send, made.profile):
+        with pytest.raises(InputError, match=words):
+            call(place, b"", 99)
+
+
+# ---- limits of the process ----
+
+LIMITED = """
+import resource, sys
+limit = getattr(resource, sys.argv[1])
+resource.setrlimit(limit, (int(sys.argv[2]), int(sys.argv[2])))
+from shackled import ChainError
+from shackled.evm import Instance
+try:
+    made = Instance()
+    made.put(bytes(20), bytes.fromhex("6001 63%08x 52 602a 5f 52 6020 5f f3" % int(sys.argv[3])))
+    print(made.call(bytes(20), b"", 1 << 44).output.hex())
+except ChainError as error:
+    print(error)
+"""
+
+
+def limited(cache: Path, limit: str, value: int, memory: int) -> str:
+    """What a process says in which a call uses so many bytes of memory, with a limit of the process and a new cache."""
+    command = [sys.executable, "-c", LIMITED, limit, str(value), str(memory)]
+    ran = subprocess.run(
+        command, env=os.environ | {"XDG_CACHE_HOME": str(cache)}, capture_output=True, text=True, timeout=120
+    )
+    assert (ran.returncode, ran.stderr, ran.stdout.count("\n")) == (0, "", 1)
+    return ran.stdout.strip()
+
+
+@needs_linux
+@pytest.mark.parametrize("megabytes", [4096, 2048, 512])
+def test_it_starts_with_little_address_space(tmp_path: Path, megabytes: int) -> None:
+    """Its memory can grow, too, beyond the 64 MB that are reserved."""
+    memory = 80 << 20 if megabytes > 1000 else 32
+    assert limited(tmp_path, "RLIMIT_AS", megabytes << 20, memory) == bytes(31).hex() + "2a"
+
+
+@needs_linux
+def test_too_little_address_space(tmp_path: Path) -> None:
+    assert limited(tmp_path, "RLIMIT_AS", 400 << 20, 0) == (
+        "the embedded EVM cannot start: this process may use 400 MB of address space, and needs at least 512: raise "
+        "the limit (`ulimit -v`)"
+    )
+    assert limited(tmp_path, "RLIMIT_AS", 1 << 30, 600 << 20) == (
+        "the embedded EVM stopped: the call needs more than 1,024 MB of memory, or than this process has left of 1,024 "
+        "MB of address space (`ulimit -v`)"
+    )
+
+
+@needs_linux
+def test_a_limit_of_the_size_of_files(tmp_path: Path) -> None:
+    """Nothing is cached then."""
+    assert limited(tmp_path, "RLIMIT_FSIZE", 1000, 32) == bytes(31).hex() + "2a"
+    assert cached(tmp_path) == []
+
+
 # ---- the cache ----
 
 PROGRAM = """
@@ -138,17 +240,14 @@ def cached(cache: Path) -> list[Path]:
     return list((cache / "shackled").iterdir())
 
 
-needs_xdg = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the variable is that of Linux")
-
-
-@needs_xdg
+@needs_linux
 def test_two_processes_at_once(tmp_path: Path) -> None:
     for process in [start(tmp_path), start(tmp_path)]:
         check(process)
     assert [path.suffix for path in cached(tmp_path)] == [".bin"]
 
 
-@needs_xdg
+@needs_linux
 def test_a_damaged_cache(tmp_path: Path) -> None:
     """It is compiled and written again."""
     check(start(tmp_path))
@@ -160,10 +259,57 @@ def test_a_damaged_cache(tmp_path: Path) -> None:
         assert path.read_bytes() == whole
 
 
-@needs_xdg
+@needs_linux
 def test_a_cache_that_cannot_be_written(tmp_path: Path) -> None:
     (tmp_path / "shackled").write_text("a file where the folder would be")
     check(start(tmp_path))
+
+
+def spoil_by_others(path: Path) -> None:
+    path.chmod(0o666)
+
+
+def spoil_by_owner(path: Path) -> None:
+    os.chown(path, 65534, -1)
+
+
+def spoil_by_link(path: Path) -> None:
+    path.symlink_to(path.rename(path.with_name("elsewhere")))
+
+
+def spoil_by_pipe(path: Path) -> None:
+    path.unlink()
+    os.mkfifo(path)
+
+
+@needs_linux
+@pytest.mark.parametrize("spoil", [spoil_by_others, spoil_by_owner, spoil_by_link, spoil_by_pipe])
+def test_a_cache_that_others_could_have_written(tmp_path: Path, spoil: Callable[[Path], None]) -> None:
+    """It is not run, and replaced: its content is machine code."""
+    if spoil is spoil_by_owner and os.geteuid():
+        pytest.skip("only root can give files away")
+    check(start(tmp_path))
+    (path,) = cached(tmp_path)
+    spoil(path)
+    spoilt = path.lstat()
+    check(start(tmp_path))
+    now = path.lstat()
+    assert now.st_ctime_ns > spoilt.st_ctime_ns
+    assert (stat.S_ISREG(now.st_mode), now.st_uid, now.st_mode & 0o777) == (True, os.geteuid(), 0o600)
+
+
+@needs_linux
+def test_only_the_user_writes_the_cache(tmp_path: Path) -> None:
+    before = os.umask(0)
+    try:
+        check(start(tmp_path))
+    finally:
+        os.umask(before)
+    (path,) = cached(tmp_path)
+    assert [each.stat().st_mode & 0o777 for each in (path.parent, path)] == [0o700, 0o600]
+    kept = path.stat().st_mtime_ns
+    check(start(tmp_path))
+    assert path.stat().st_mtime_ns == kept
 
 
 BROKEN = """

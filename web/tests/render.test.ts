@@ -79,6 +79,31 @@ test("descriptions of reverts", () => {
     assert.match(describeRevert(bytes(""), { errors }), /not a scene/);
 });
 
+test("codes that are replaced are released", async () => {
+    const { Instance } = WebAssembly;
+    const memories: WebAssembly.Memory[] = [];
+    WebAssembly.Instance = class extends Instance {
+        constructor(module: WebAssembly.Module) {
+            super(module);
+            memories.push(this.exports.memory as WebAssembly.Memory);
+        }
+    };
+    try {
+        const evm = await Evm.load(assets.evm);
+        const address = new Uint8Array(20);
+        evm.call(address, address);
+        const [memory] = memories as [WebAssembly.Memory];
+        const put = (from: number, to: number): number => {
+            for (let index = from; index < to; index++) evm.put(address, new Uint8Array(20_000).fill(index));
+            return memory.buffer.byteLength;
+        };
+        const before = put(0, 20);
+        assert.ok(put(20, 220) - before <= 1 << 17);
+    } finally {
+        WebAssembly.Instance = Instance;
+    }
+});
+
 test("the EVM alone", async () => {
     const evm = await Evm.load(assets.evm);
     const address = new Uint8Array(20).fill(7);
@@ -90,6 +115,10 @@ test("the EVM alone", async () => {
     evm.put(address, Uint8Array.of(0xfe));
     assert.equal(evm.call(address, new Uint8Array(), 1000).status, "failure");
     assert.throws(() => evm.put(new Uint8Array(3), address), InputError);
+    // what is no number is no gas
+    for (const gas of [null, "1000", 10n, NaN]) {
+        assert.throws(() => evm.call(address, new Uint8Array(), gas as number), InputError);
+    }
     assert.throws(() => evm.call(address, new Uint8Array(2 ** 26 + 1)), InputError);
     assert.throws(() => evm.call(address, new Uint8Array(), Number.NaN), InputError);
 });

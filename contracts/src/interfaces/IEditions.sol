@@ -174,7 +174,8 @@ interface IEditions is StudioErrors {
     /// @notice Returns the ownership of several tokens.
     function explicitOwnershipsOf(uint256[] calldata tokenIds) external view returns (TokenOwnership[] memory);
 
-    /// @notice Returns the tokens of an account. The gas grows with the total supply: meant for off-chain reads.
+    /// @notice Returns the tokens of an account. The gas grows with the total supply, which anyone can raise by minting,
+    /// beyond what a node allows for a call: use `tokensOfOwnerIn`, range by range.
     function tokensOfOwner(address owner) external view returns (uint256[] memory);
 
     /// @notice Returns the tokens of an account in the range from `start` (inclusive) to `stop` (exclusive).

@@ -189,6 +189,18 @@ def print_price(quotes: Sequence[Quote]) -> None:
         + f"about {roughly(likely)} for gas ({gas:,} estimated by the node, {counted:,} counted locally); "
         + f"at most {at_most(sum(each.ceiling for each in quotes))} ether in total"
     )
+    print_rollup_fee(quotes)
+
+
+def print_rollup_fee(quotes: Sequence[Quote], to_stderr: bool = True) -> None:
+    """Print what a rollup takes besides gas, if these transactions are for one."""
+    if any(each.rollup_fee is None for each in quotes):
+        text = "the chain takes a fee for data on L1 as well, and tells no bound of it: the maximum does not include it"
+    elif fee := sum(each.rollup_fee or 0 for each in quotes):
+        text = f"the maximum includes {at_most(fee)} ether for data on L1, twice what the chain tells now"
+    else:
+        return
+    (print_note if to_stderr else print_line)(text)
 
 
 def check_calldata(path: Path | None) -> None:

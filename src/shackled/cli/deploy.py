@@ -14,6 +14,7 @@ from .chain_options import (
     PayerOptions,
     check_calldata,
     print_json,
+    print_rollup_fee,
     print_step,
     wallet_calls,
     with_groups,
@@ -111,6 +112,7 @@ def _print_plan(plan: Plan, connection: Connection, to_stderr: bool) -> None:
         rows.append([*row, f"{step.gas:,}", estimated, rounded(step.cost), at_most(step.ceiling)])
     rows.append(["total", "", f"{plan.gas:,}", "", rounded(plan.cost), at_most(plan.ceiling)])
     print_table(("contract", "address", "gas", "estimate", "ether", "at most"), rows, to_stderr=to_stderr)
+    print_rollup_fee(plan.quotes, to_stderr)
 
 
 def _document(plan: Plan, receipts: list[Receipt], connection: Connection, book: str, folder: str) -> dict[str, Any]:

@@ -5,13 +5,16 @@ from __future__ import annotations
 import os
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from ..untrusted import read_json
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
+
+#: The most rounds of PBKDF2; more would look like a command that hangs.
+MOST_ROUNDS = 10_000_000
 
 
 def environment_account(name: str) -> LocalAccount:
@@ -40,7 +43,10 @@ def environment_account(name: str) -> LocalAccount:
 
 
 def read_keystore(path: Path) -> str:
-    """Return the text of a keystore file. Raises InputError if it is not one."""
+    """Return the text of a keystore file.
+
+    Raises InputError if it is not one, or if to derive its key would take longer than about ten seconds.
+    """
     try:
         text = path.read_text("utf-8")
     except (OSError, ValueError) as error:
@@ -59,7 +65,22 @@ def read_keystore(path: Path) -> str:
         found = False
     if not found:
         raise InputError(f"{path} is not a keystore file as geth, foundry or wallets write it (JSON, version 3)")
+    rounds = _pbkdf2_rounds(keystore)
+    if rounds > MOST_ROUNDS:
+        raise InputError(
+            f"the keystore file {path} derives its key by {rounds:,} rounds of PBKDF2, more than the {MOST_ROUNDS:,} "
+            "that are computed, within about ten seconds: write it again with fewer; wallets use 262,144"
+        )
     return text
+
+
+def _pbkdf2_rounds(keystore: Any) -> int:
+    """Return how many rounds of PBKDF2 a keystore asks for; 0 where it names none."""
+    # eth-account reads names in any letters
+    for name in ("crypto", "kdfparams", "c"):
+        found = keystore.items() if isinstance(keystore, dict) else ()
+        keystore = next((value for key, value in found if key.lower() == name), None)
+    return keystore if isinstance(keystore, int) else 0
 
 
 def keystore_account(path: Path, password: str) -> LocalAccount:

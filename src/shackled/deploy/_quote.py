@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
 from ..chain import Connection, quantity, read_all
 from ..errors import ChainError, NoAnswerError, NodeError, TransactionError
-from ..ethereum import GWEI, to_hex
+from ..ethereum import GWEI, to_hex, word
 
 #: Numerator and denominator of the margin of gas limits, since the chain's state changes: 5 %.
 MARGIN = (21, 20)
@@ -20,19 +20,29 @@ MOST_TIP = 3 * GWEI
 #: The maximum ratio of a node's estimate to the gas counted here, unless `max_fee` is given.
 MOST_TIMES = 10
 
+#: The contract of rollups of the OP stack that tells which fees they take besides gas (GasPriceOracle).
+ORACLE = bytes.fromhex("420000000000000000000000000000000000000f")
+#: Its functions: getL1FeeUpperBound, of the bytes of an unsigned transaction, and getOperatorFee, of its gas.
+L1_FEE, OPERATOR_FEE = bytes.fromhex("f1c7a58b"), bytes.fromhex("275aedd2")
+#: The most bytes of an unsigned transaction besides its data.
+FIELDS = 128
+#: How often as much as now these fees may be, at most, when the transaction is mined.
+ROLLUP_TIMES = 2
+
 
 @dataclass(frozen=True)
 class Fees:
     """Prices of a unit of gas, in wei.
 
     likely: the expected price. most: the maximum. tip: None on a chain without EIP-1559, where `most` is the price.
-    named: whether the user set the maximum (`max_fee`).
+    named: whether the user set the maximum (`max_fee`). is_rollup: whether the chain takes fees besides gas (`ORACLE`).
     """
 
     likely: int
     most: int
     tip: int | None
     named: bool = False
+    is_rollup: bool = False
 
     @property
     def fields(self) -> dict[str, int]:
@@ -67,6 +77,7 @@ class Quote:
     """A transaction and its price. It is signed with exactly this gas limit, these fees and this value.
 
     gas: the gas limit. expected: the gas that it probably uses. estimate: the node's; None if it gave none.
+    rollup_fee: the most that the chain takes besides gas, in wei, twice what it takes now; None if it tells no bound.
     """
 
     call: Call
@@ -74,16 +85,17 @@ class Quote:
     gas: int
     expected: int
     estimate: int | None
+    rollup_fee: int | None = 0
 
     @property
     def likely(self) -> int:
         """Likely cost, in wei, value included."""
-        return self.expected * self.fees.likely + self.call.value
+        return self.expected * self.fees.likely + self.call.value + (self.rollup_fee or 0) // ROLLUP_TIMES
 
     @property
     def ceiling(self) -> int:
-        """Maximum cost, in wei, value included."""
-        return self.gas * self.fees.most + self.call.value
+        """Maximum cost, in wei, value included; without the fees of a rollup that tells no bound of them."""
+        return self.gas * self.fees.most + self.call.value + (self.rollup_fee or 0)
 
 
 def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
@@ -92,7 +104,7 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
     max_fee: the maximum price of a unit of gas, in wei. Raises TransactionError if gas costs more; without `max_fee`,
     if the node suggests a tip above 3 gwei, or reports no base fee, so that nothing would limit the price.
     """
-    base = base_fee(connection)
+    base, is_rollup = base_fee(connection), bool(connection.code(ORACLE))
     if base is None:
         price = connection.number("eth_gasPrice")
         if max_fee is None:
@@ -101,7 +113,7 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
                 "which nothing limits: if its chain has no EIP-1559, set a maximum with `max_fee`"
             )
         _require(price, max_fee)
-        return Fees(price, price, None, True)
+        return Fees(price, price, None, True, is_rollup)
     try:
         tip = connection.number("eth_maxPriorityFeePerGas")
     except NoAnswerError:
@@ -115,9 +127,9 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
                 f"{MOST_TIP // GWEI}: if that is right, set a maximum price with `max_fee`"
             )
         # the base fee can rise by an eighth in each block
-        return Fees(base + tip, 2 * base + tip, tip)
+        return Fees(base + tip, 2 * base + tip, tip, False, is_rollup)
     _require(base, max_fee)
-    return Fees(min(base + tip, max_fee), max_fee, min(tip, max_fee), True)
+    return Fees(min(base + tip, max_fee), max_fee, min(tip, max_fee), True, is_rollup)
 
 
 def base_fee(connection: Connection) -> int | None:
@@ -161,9 +173,38 @@ def make_quotes(
     pairs = [(each.estimate, each.call.gas) for each in known]
     pairs += [(estimate, call.gas) for estimate, call in zip(estimates, calls, strict=True)]
     rate = max([1.0, *(estimate / counted for estimate, counted in pairs if estimate is not None)])
-    return [
+    quotes = [
         make_quote(connection.name, call, fees, estimate, rate) for call, estimate in zip(calls, estimates, strict=True)
     ]
+    return with_rollup_fees(connection, quotes)
+
+
+def with_rollup_fees(connection: Connection, quotes: Sequence[Quote]) -> list[Quote]:
+    """Return quotes with what the chain takes besides gas."""
+    now = read_all(partial(rollup_fee, connection), quotes)
+    return [
+        replace(each, rollup_fee=None if fee is None else ROLLUP_TIMES * fee)
+        for each, fee in zip(quotes, now, strict=True)
+    ]
+
+
+def rollup_fee(connection: Connection, quote: Quote) -> int | None:
+    """Return the most that the chain would take besides gas now, in wei; None if it tells no bound."""
+    if not quote.fees.is_rollup:
+        return 0
+    bound = _ask_oracle(connection, L1_FEE, len(quote.call.data) + FIELDS)
+    # chains without that function take no such fee
+    return None if bound is None else bound + (_ask_oracle(connection, OPERATOR_FEE, quote.gas) or 0)
+
+
+def _ask_oracle(connection: Connection, function: bytes, number: int) -> int | None:
+    try:
+        answer = connection.data("eth_call", {"to": to_hex(ORACLE), "data": to_hex(function + word(number))}, "latest")
+    except NoAnswerError:
+        raise
+    except ChainError:
+        return None
+    return int.from_bytes(answer, "big") if len(answer) == 32 else None
 
 
 def _estimate(connection: Connection, sender: bytes | None, call: Call) -> int | None:

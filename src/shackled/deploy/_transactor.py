@@ -20,7 +20,7 @@ from ..errors import (
     TransactionError,
 )
 from ..ethereum import GWEI, checksum_address, rounded, to_hex
-from ._quote import Call, Fees, Quote, base_fee, current_fees, make_quote
+from ._quote import Call, Fees, Quote, base_fee, current_fees, make_quote, rollup_fee, with_rollup_fees
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
@@ -29,13 +29,18 @@ if TYPE_CHECKING:
 PATIENCE = 180.0
 #: Seconds of waiting after which `on_delay` is called.
 DELAY = 1.0
+#: Seconds for which the nonce of a transaction must be used, and its receipt missing, until it counts as replaced.
+SETTLED = 2.0
 #: Advice about a transaction whose outcome is unknown.
 CHECK_FIRST = "check what became of it before you send it again"
 
 
 @dataclass(frozen=True)
 class Receipt:
-    """A transaction that succeeded. gas: used. fee: paid, in wei. logs: events as JSON-RPC returns them."""
+    """A transaction that succeeded.
+
+    gas: used. fee: paid, in wei, with that for data on L1. logs: events as JSON-RPC returns them.
+    """
 
     hash: str
     block: int
@@ -78,7 +83,8 @@ class Transactor:
 
     def quote(self, call: Call) -> Quote:
         """Return the quote of a transaction. Raises TransactionError if it would fail, or as `make_quote`."""
-        return make_quote(self.connection.name, call, self.fees(), self.estimate(call))
+        quote = make_quote(self.connection.name, call, self.fees(), self.estimate(call))
+        return with_rollup_fees(self.connection, [quote])[0]
 
     def estimate(self, call: Call) -> int:
         """Return the gas of a transaction, as the node estimates it. Raises TransactionError if it would fail."""
@@ -109,6 +115,15 @@ class Transactor:
                 f"the price of gas has risen to {base / GWEI:,.12g} gwei, and at most {quote.fees.most / GWEI:,.12g} "
                 "were quoted: the transaction was not sent; run the command again"
             )
+        if quote.rollup_fee is not None:
+            fee = rollup_fee(self.connection, quote)
+            # no field of a transaction limits it; it can rise by an eighth before the next block of the other chain
+            if fee is None or 9 * fee > 8 * quote.rollup_fee:
+                now = "no bound of it any more" if fee is None else f"{rounded(fee)} ether"
+                raise TransactionError(
+                    f"the fee for data on L1 has risen: the chain tells {now}, and at most {rounded(quote.rollup_fee)} "
+                    "were quoted: the transaction was not sent; run the command again"
+                )
         nonce = self.connection.number("eth_getTransactionCount", to_hex(self.address), "pending")
         if nonce >= 1 << 64:
             raise NodeError(f"the {self.connection.name} reports an impossible nonce of {self.name}: {nonce:,}")
@@ -180,8 +195,28 @@ class Transactor:
             )
 
     def _follow(self, digest: str, transaction: dict[str, Any] | None) -> Receipt:
-        what = f"the transaction {digest} to be mined"
-        receipt = self.wait(lambda: self.connection.request("eth_getTransactionReceipt", digest), what)
+        replaced_since: float | None = None
+
+        def ask() -> Any:
+            nonlocal replaced_since
+            receipt = self.connection.request("eth_getTransactionReceipt", digest)
+            if receipt is not None or transaction is None:
+                return receipt
+            mined = self.connection.number("eth_getTransactionCount", to_hex(self.address), "latest")
+            if mined <= transaction["nonce"]:
+                replaced_since = None
+                return None
+            now = time.monotonic()
+            replaced_since = now if replaced_since is None else replaced_since
+            # it may have been mined since the first request, or another node of the host may have answered the second
+            if now - replaced_since < SETTLED:
+                return None
+            raise TransactionError(
+                f"the transaction {digest} was replaced: another one of {self.name} with the same nonce, "
+                f"{transaction['nonce']:,}, was mined, so this one never will be; run the command again"
+            )
+
+        receipt = self.wait(ask, f"the transaction {digest} to be mined")
         if receipt is None:
             raise TransactionError(
                 f"the transaction {digest} was sent, and is not mined after {self.patience:g} s; it may still be: "
@@ -189,7 +224,7 @@ class Transactor:
             )
         try:
             status, gas, block = (quantity(receipt[key]) for key in ("status", "gasUsed", "blockNumber"))
-            price = quantity(receipt.get("effectiveGasPrice") or "0x0")
+            price, l1_fee = (quantity(receipt.get(key) or "0x0") for key in ("effectiveGasPrice", "l1Fee"))
         except (AttributeError, TypeError, LookupError, ValueError):
             raise NodeError(f"the {self.connection.name} returned an invalid receipt: {receipt!r:.60}") from None
         if status != 1:
@@ -200,7 +235,7 @@ class Transactor:
                 f"the transaction {digest} succeeded, so do not send it again; but the {self.connection.name} returned "
                 f"invalid events: {logs!r:.60}"
             )
-        return Receipt(digest, block, gas, gas * price, tuple(logs))
+        return Receipt(digest, block, gas, gas * price + l1_fee, tuple(logs))
 
     def _reason(self, transaction: dict[str, Any] | None, block: int) -> str:
         """Return why a transaction failed, by repeating it as a call."""

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..checks import integer
 from ..errors import ChainError, InputError
-from ._module import new_store
+from ._module import address_space, start
 
 #: The largest memory of an instance in bytes, which tools/build_evm.py writes into the module.
 MEMORY = 1 << 30
@@ -19,6 +19,9 @@ MEMORY = 1 << 30
 #: Calls get at most this much gas, a day's work: from 2^45 on it would pay for more memory than the 32-bit
 #: numbers of the module can address.
 MOST_GAS = (1 << 45) - 1
+
+#: Bytes of an address.
+ADDRESS = 20
 
 
 class Status(IntEnum):
@@ -44,7 +47,7 @@ class Instance:
 
     Calls run in the block that `set_block` set: at first number 0, timestamp 1, and a PREVRANDAO of zeros.
 
-    For one thread at a time.
+    For one thread at a time. Addresses have 20 bytes, otherwise InputError.
 
     Calls release the lock of the interpreter. ChainError if a call needs more memory than `MEMORY`; the instance must
     not be used afterwards.
@@ -52,10 +55,8 @@ class Instance:
 
     def __init__(self) -> None:
         """Start without contracts."""
-        self._store, module = new_store()
-        import wasmtime
-
-        self._exports = wasmtime.Instance(self._store, module, []).exports(self._store)
+        self._store, instance = start()
+        self._exports = instance.exports(self._store)
         self._memory: Any = self._exports["memory"]
         self._functions: dict[str, Any] = {}
         self._codes: dict[bytes, bytes] = {}
@@ -63,7 +64,7 @@ class Instance:
     def put(self, address: bytes, code: bytes) -> None:
         """Set the code of a contract."""
         if self._codes.get(address) is not code:
-            self._pass("put", address, code)
+            self._pass("put", _checked(address), code)
             self._codes[address] = code
 
     def hold(self, codes: Mapping[bytes, bytes]) -> None:
@@ -89,7 +90,7 @@ class Instance:
 
     def call(self, address: bytes, data: bytes, gas: int) -> Answer:
         """Call a contract with at most `gas` for the execution."""
-        return self._answer(self._pass("call", address, data, gas=gas))
+        return self._answer(self._pass("call", _checked(address), data, gas=gas))
 
     def create(self, creation: bytes, gas: int) -> Answer:
         """Run creation code, which is followed by the arguments of the constructor; the output is the runtime code."""
@@ -101,15 +102,15 @@ class Instance:
 
     def send(self, address: bytes, data: bytes, gas: int, value: int = 0) -> Answer:
         """Call a contract with a value in wei, and keep what the call changes."""
-        return self._answer(self._pass("send", address, value.to_bytes(32, "big"), data, gas=gas))
+        return self._answer(self._pass("send", _checked(address), value.to_bytes(32, "big"), data, gas=gas))
 
     def describe(self, address: bytes, places: bytes) -> None:
         """Describe the code of a contract for `profile`, by 6 bytes for each position, as evm/src/profile.rs says."""
-        self._pass("describe", address, places)
+        self._pass("describe", _checked(address), places)
 
     def profile(self, address: bytes, data: bytes, gas: int) -> tuple[Answer, NDArray[np.uint32]]:
         """Call a contract, and return the table of evm/src/profile.rs: the gas of each instruction."""
-        answer = self._answer(self._pass("profile", address, data, gas=gas))
+        answer = self._answer(self._pass("profile", _checked(address), data, gas=gas))
         table = self._read("table", 4 * self._run("table_size"))
         return answer, np.frombuffer(table, "<u4")
 
@@ -141,9 +142,17 @@ class Instance:
 
             if not isinstance(error, wasmtime.Trap):
                 raise
-            raise ChainError(
-                f"the embedded EVM stopped: the call needs more than {MEMORY >> 20:,} MB of memory"
-            ) from error
+            why = f"the embedded EVM stopped: the call needs more than {MEMORY >> 20:,} MB of memory"
+            if (limit := address_space()) is not None:
+                why += f", or than this process has left of {limit >> 20:,} MB of address space (`ulimit -v`)"
+            raise ChainError(why) from error
+
+
+def _checked(address: bytes) -> bytes:
+    """Return an address; of any other size, the module would read what lies beside it."""
+    if len(address) != ADDRESS:
+        raise InputError(f"an address must have {ADDRESS} bytes, not {len(address):,}")
+    return address
 
 
 def _word(name: str, value: object) -> int:

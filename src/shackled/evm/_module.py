@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import atexit
 import hashlib
+import os
 import platform
+import stat
 import threading
 from functools import cache
 from importlib.resources import files
@@ -20,6 +22,9 @@ from ..whole_file import write_whole
 if TYPE_CHECKING:
     import wasmtime
 
+#: Address space in bytes below which no instance starts, with what else its process takes, and no small one.
+FULL, LEAST = 5 << 30, 512 << 20
+
 _lock = threading.Lock()
 
 #: What wasmtime has to close.
@@ -33,14 +38,52 @@ def _close() -> None:
         each.close()
 
 
-def new_store() -> tuple[wasmtime.Store, wasmtime.Module]:
-    """Return a store, and the module compiled for it."""
-    engine, module = compiled()
-    import wasmtime
+def start() -> tuple[wasmtime.Store, wasmtime.Instance]:
+    """Return a new instance of the module, and its store. ChainError where wasmtime cannot start it.
 
-    store = wasmtime.Store(engine)
-    _open.update((store, module, engine))
-    return store, module
+    An instance reserves 4 GB of address space, so that no access to its memory needs a check. Where the system refuses
+    that (`ulimit -v`), or the file in memory with its first content (`ulimit -f`), the instance is a small one: it
+    reserves 64 MB, moves its memory when that does not suffice, and checks accesses.
+    """
+    limit = address_space()
+    failure: Exception | None = None
+    for is_small in (False, True):
+        if limit is not None and limit < (LEAST if is_small else FULL):
+            continue
+        engine, module = compiled(is_small)
+        import wasmtime
+
+        store = wasmtime.Store(engine)
+        try:
+            instance = wasmtime.Instance(store, module, [])
+        except (wasmtime.WasmtimeError, MemoryError) as error:
+            store.close()
+            failure = error
+            continue
+        _open.update((store, module, engine))
+        return store, instance
+    raise _cannot_start(failure) from failure
+
+
+def address_space() -> int | None:
+    """Return the limit of the address space of this process, in bytes; None if there is none."""
+    try:
+        import resource
+    except ImportError:  # Windows has no such limits
+        return None
+    limit, _ = resource.getrlimit(resource.RLIMIT_AS)
+    return None if limit == resource.RLIM_INFINITY else limit
+
+
+def _cannot_start(error: Exception | None) -> ChainError:
+    limit = address_space()
+    why = [" ".join(str(error).split()) or "there is too little memory"] if error else []
+    if limit is not None:
+        why.append(
+            f"this process may use {limit >> 20:,} MB of address space, and needs at least {LEAST >> 20:,}: raise the "
+            "limit (`ulimit -v`)"
+        )
+    return ChainError(f"the embedded EVM cannot start: {'; '.join(why)}")
 
 
 def module_bytes() -> bytes:
@@ -48,18 +91,18 @@ def module_bytes() -> bytes:
     return files(__package__).joinpath("evm.wasm").read_bytes()
 
 
-def compiled() -> tuple[wasmtime.Engine, wasmtime.Module]:
-    """Return the module as machine code.
+def compiled(is_small: bool = False) -> tuple[wasmtime.Engine, wasmtime.Module]:
+    """Return the module as machine code. is_small: see `start`.
 
     The first call on a machine compiles it, within a second; later ones load it within milliseconds. ChainError where
-    there is no build of wasmtime.
+    there is no build of wasmtime, or too little memory.
     """
     with _lock:
-        return _compiled()
+        return _compiled(is_small)
 
 
 @cache
-def _compiled() -> tuple[wasmtime.Engine, wasmtime.Module]:
+def _compiled(is_small: bool) -> tuple[wasmtime.Engine, wasmtime.Module]:
     try:
         import wasmtime
     except (ImportError, OSError, RuntimeError) as error:
@@ -68,26 +111,40 @@ def _compiled() -> tuple[wasmtime.Engine, wasmtime.Module]:
             f"there is no wasmtime for this machine ({platform.system()}, {platform.machine()}): choose the chain "
             "pyevm, of pip install 'shackled[pyevm]', or reference"
         ) from error
-    engine = wasmtime.Engine()
+    config = wasmtime.Config()
+    if is_small:
+        config.memory_reservation, config.memory_guard_size = 64 << 20, 64 << 10
+        config.memory_reservation_for_growth, config.memory_init_cow = 64 << 20, False
+    engine = wasmtime.Engine(config)
     source = module_bytes()
-    path = _cache_file(source)
+    path = _cache_file(source, is_small)
     module = _load(engine, path)
     if module is None:
-        module = wasmtime.Module(engine, source)
+        try:
+            module = wasmtime.Module(engine, source)
+        except (wasmtime.WasmtimeError, MemoryError) as error:
+            raise _cannot_start(error) from error
         _save(path, bytes(module.serialize()))
     return engine, module
 
 
-def _cache_file(source: bytes) -> Path:
-    return user_cache_path("shackled", appauthor=False) / f"evm-{hashlib.sha256(source).hexdigest()[:16]}.bin"
+def _cache_file(source: bytes, is_small: bool) -> Path:
+    name = f"evm-{hashlib.sha256(source).hexdigest()[:16]}{'-small' * is_small}.bin"
+    return user_cache_path("shackled", appauthor=False) / name
 
 
 def _load(engine: wasmtime.Engine, path: Path) -> wasmtime.Module | None:
-    """Return the module of a cache file; None if there is none, it is damaged, or wasmtime or the machine differ."""
+    """Return the module of a cache file.
+
+    None if there is none, another user could have written it, it is damaged, or wasmtime or the machine differ.
+    """
     import wasmtime
 
     try:
-        content = path.read_bytes()
+        with open(path, "rb", opener=_open_plainly) as file:
+            if not _is_trusted(os.fstat(file.fileno())):
+                return None
+            content = file.read()
         digest, code = content[:32], content[32:]
         # wasmtime takes code as it is: what was cut off or changed would crash
         if hashlib.sha256(code).digest() == digest:
@@ -97,10 +154,27 @@ def _load(engine: wasmtime.Engine, path: Path) -> wasmtime.Module | None:
     return None
 
 
+def _open_plainly(path: str, flags: int) -> int:
+    """Open a file, but no link, and without waiting for the writer of a pipe."""
+    return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0))
+
+
+def _is_trusted(status: os.stat_result) -> bool:
+    """Return whether nobody but this user and root could have written a file: its content runs as machine code."""
+    if not stat.S_ISREG(status.st_mode):
+        return False
+    # Windows has neither; there the folder belongs to the user
+    return not hasattr(os, "geteuid") or (status.st_uid in (0, os.geteuid()) and not status.st_mode & 0o022)
+
+
 def _save(path: Path, code: bytes) -> None:
-    """Write a cache file; where that fails, the next process compiles again."""
+    """Write a cache file that only this user can change; where that fails, the next process compiles again."""
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(path, hashlib.sha256(code).digest() + code)
+        path.parent.parent.mkdir(parents=True, exist_ok=True)
+        path.parent.mkdir(mode=0o700, exist_ok=True)
+        # `write_whole` would follow a link, and wait for the reader of a pipe
+        if path.is_symlink() or (path.exists() and not path.is_file()):
+            path.unlink()
+        write_whole(path, hashlib.sha256(code).digest() + code, mode=0o600)
     except OSError:
         pass

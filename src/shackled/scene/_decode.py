@@ -39,7 +39,7 @@ from ._codec import (
     WORD,
     encode_object,
     extensions,
-    shadow_rule,
+    render_call,
 )
 from ._effects import EXPOSURES, Fog, Hemisphere, Rim, Tone
 from ._files.table import about
@@ -80,8 +80,9 @@ def decode(data: bytes) -> Scene:
     """Return the scene of a call `Renderer.render`, such that `render_call` makes the same call of it again.
 
     data: the selector and the argument in the ABI's standard encoding, untrusted. What it declares is compared with its
-    length before anything is allocated. InputError for everything that the contracts refuse, for calls that another
-    encoding made, and for numbers that a float does not hold.
+    length before anything is allocated. InputError for everything that the contracts refuse, and for calls that
+    `render_call` would make otherwise: of another encoding, with numbers that a float does not hold, or of a scene that
+    it would move and scale. `Chain.call` runs them as they are.
     """
     if data[:4] != artifact("Renderer").selectors["render"]:
         raise InputError("it is no call of render(Scene): its first four bytes are those of another function")
@@ -125,10 +126,19 @@ def decode(data: bytes) -> Scene:
         **_effects(records),
         ground=ground,
     )
-    for (kind, _), content in records.items():
-        if kind == SHADOW and int.from_bytes(content, "big") != shadow_rule(scene):
-            raise InputError("the shadow in the extensions is cast by other faces than those that the scene chooses")
+    if (again := render_call(scene)) != data:
+        raise InputError(_difference(data, again, [to_lights, to_objects, to_extensions]))
     return scene
+
+
+def _difference(data: bytes, again: bytes, offsets: list[int]) -> str:
+    """Return the message for a call that `render_call` makes otherwise. offsets: of the parts in the scene."""
+    place = next((at for at, (one, other) in enumerate(zip(data, again, strict=False)) if one != other), len(again))
+    part = ("the camera or the canvas", *_PARTS)[sum(place >= 4 + WORD + offset for offset in offsets)]
+    return (
+        f"the call is not the one that Shackled makes of its scene: from byte {place:,} on, in {part}, they differ, "
+        "and the picture could change; open_chain().call('Renderer', data) of shackled.chain draws the call as it is"
+    )
 
 
 _PARTS = ("the lights", "the objects", "the extensions")

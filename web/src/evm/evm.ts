@@ -60,7 +60,8 @@ export class Evm {
     call(address: Uint8Array, data: Uint8Array, gas = GAS_LIMIT): Answer {
         checkAddress(address);
         checkSize(data, "the call");
-        if (!(gas >= 0 && gas < MAX_GAS)) throw new InputError(`gas must be at least 0 and less than 2^45, not ${gas}`);
+        if (typeof gas !== "number" || !(gas >= 0 && gas < MAX_GAS))
+            throw new InputError(`gas must be a number of at least 0 and less than 2^45, not ${String(gas)}`);
         const exports = (this.#exports ??= this.#start());
         try {
             const status = passed(exports, [address, data], (to, start) =>
