@@ -10,7 +10,7 @@ import numpy as np
 from attrs import evolve, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import Color, choice, color, flag, integer, number, vector
+from ..checks import Color, choice, color, flag, integer, number, vector, whole
 from ..errors import InputError
 from ._arithmetic import dot, length
 from ._background import Background, background_of
@@ -585,14 +585,6 @@ def _given(look: Mapping[str, Any], settings: Iterable[Setting]) -> dict[str, An
     return {setting.name: look[setting.name] for setting in settings if setting.name in look}
 
 
-def _whole(value: object, setting: Setting, name: str) -> int:
-    found = integer(value)
-    if found is None or not setting.low <= found <= setting.high:
-        limits = f"from {setting.range}" if setting.range else f"at least {setting.low:g}"
-        raise InputError(f"{name} must be a whole number, {limits}, not {value!r:.60}")
-    return found
-
-
 def _unless_none(made: Callable[[Any, str], Any], value: object, name: str) -> Any:
     """Return an effect of a value, or None for the word that removes it."""
     return None if isinstance(value, str) and value.strip().lower() == NONE else made(value, name)
@@ -600,7 +592,7 @@ def _unless_none(made: Callable[[Any, str], Any], value: object, name: str) -> A
 
 _CHECKS: dict[Kind, Callable[[Any, Setting, str], Any]] = {
     "size": lambda value, setting, name: size_of(value, name),
-    "whole": _whole,
+    "whole": lambda value, setting, name: whole(value, name, setting.low, setting.high),
     "number": lambda value, setting, name: number(value, name, setting.low, setting.high),
     "vector": lambda value, setting, name: vector(value, name),
     "rotation": lambda value, setting, name: rotation_of(value, name),

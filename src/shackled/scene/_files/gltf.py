@@ -435,7 +435,7 @@ def _material(pieces: Sequence[_Piece]) -> dict[str, Any]:
     # Beckmann's roughness of a Blinn-Phong exponent; the strength of highlights is a matter of taste
     return {
         "specular": round((0.8 + 0.3 * metalness) * (1 - roughness), 3),
-        "shininess": min(max(2 / max(roughness, 0.1) ** 4 - 2, _WIDEST), EXPONENTS[1]),
+        "shininess": round(min(max(2 / max(roughness, 0.1) ** 4 - 2, _WIDEST), EXPONENTS[1])),
     }
 
 
