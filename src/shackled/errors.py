@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 
 class ShackledError(Exception):
     """Base of all errors of the library."""
@@ -9,6 +11,10 @@ class ShackledError(Exception):
 
 class InputError(ShackledError, ValueError):
     """An invalid value or file. The message says what is wrong, where, and what would be right."""
+
+    def __init__(self, message: str = "") -> None:
+        """Take the message, of which line breaks, as arrays have when they are shown, become spaces."""
+        super().__init__(re.sub(r"\s*\n\s*", " ", message))
 
 
 class InputWarning(UserWarning):

@@ -20,6 +20,7 @@ from shackled import (
     Material,
     Mesh,
     Object,
+    Processes,
     Rim,
     Scene,
     Tone,
@@ -240,8 +241,9 @@ def test_integers_of_numpy_are_sizes() -> None:
     sides = scene(width=np.int16(9), height=np.uint8(7))
     assert (type(sides.width), sides.width, sides.height) == (int, 9, 7)
     assert simplify(MESH, np.int64(5)) is MESH  # type: ignore[arg-type]
-    where = Where(jobs=np.int64(2), tile=(np.int64(3), np.int64(4)))  # type: ignore[arg-type]
-    assert (type(where.jobs), [type(side) for side in where.tile or ()]) == (int, [int, int])
+    where = Where(tile=(np.int64(3), np.int64(4)))  # type: ignore[arg-type]
+    jobs = Processes(np.int64(2)).jobs  # type: ignore[arg-type]
+    assert (type(jobs), [type(side) for side in where.tile or ()]) == (int, [int, int])
     for wrong in (True, 16.0, "16", np.float64(16), np.bool_(True)):
         with pytest.raises(InputError):
             render(scene(), size=wrong)  # type: ignore[arg-type]
@@ -358,7 +360,24 @@ def test_scenes_are_saved(tmp_path: Any) -> None:
             lambda: Scene([Object(MESH), Camera()]),  # type: ignore[list-item]
             "objects[1] of a scene must be a shackled.Object, not Camera(",
         ),
-        (lambda: Scene(5), "the objects of a scene must be a list, not 5"),  # type: ignore[arg-type]
+        (
+            lambda: Scene(5),  # type: ignore[arg-type]
+            "the objects of a scene must be an Object, a Mesh or a list of these, not 5",
+        ),
+        (
+            lambda: Scene("cube"),  # type: ignore[arg-type]
+            "the objects of a scene must be an Object, a Mesh or a list of these, not 'cube'",
+        ),
+        (lambda: scene(lights="white"), "the lights of a scene must be a Light or a list of these, not 'white'"),
+        (
+            lambda: Object(MESH, rotation=(1, 2)),
+            "the rotation of an object must be x, y, z in degrees, a quaternion x, y, z, w, or a 3 x 3 matrix, not (1,",
+        ),
+        (lambda: Object(MESH, rotation=[(1, 2), 3]), "the rotation of an object must be x, y, z in degrees, a quat"),
+        (lambda: Object(MESH, rotation=(1, 2, "x")), "the rotation of an object must be 3 numbers, not (1, 2, 'x')"),
+        (lambda: render(np.eye(3), np.eye(3)), "`size` must be one number or (width, height); vertices and faces are"),
+        (lambda: render(CORNERS, FACES), "`size` must be one number or (width, height); vertices and faces are"),
+        (lambda: render("cube", rotate=np.zeros((9, 9))), "`rotate` must be x, y, z in degrees, a quaternion x, y, "),
         (lambda: scene(lights=[Camera()]), "lights[0] of a scene must be a shackled.Light, not Camera("),
         (lambda: scene(camera=MESH), "the camera of a scene must be a shackled.Camera, not <Mesh 3 vertices"),
         (lambda: scene(background=MESH), "the background colour must be red, green and blue from 0 to 255, not <Mesh"),

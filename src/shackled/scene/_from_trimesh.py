@@ -20,7 +20,8 @@ from ._object import Object
 
 def is_trimesh(value: object) -> bool:
     """Return whether a value is an object of trimesh."""
-    return type(value).__module__.partition(".")[0] == "trimesh"
+    # its arrays are its own, too
+    return type(value).__module__.partition(".")[0] == "trimesh" and not isinstance(value, np.ndarray)
 
 
 def mesh_of(value: Any) -> Mesh:
