@@ -233,7 +233,7 @@ def test_the_keywords_are_those_of_the_table() -> None:
         "depth": "depths are not returned",
     }.items():
         with pytest.raises(TypeError) as error:
-            render(MESH, **{name: 1})
+            load(MESH, **{name: 1})  # type: ignore[arg-type]
         assert str(error.value).startswith(f"'{name}' is not a keyword of a look; {instead}")
     with pytest.raises(TypeError, match=r"^'x' is not a keyword of a look; known are size, max_triangles, "):
         render(MESH, x=5)  # type: ignore[call-arg]

@@ -41,7 +41,7 @@ def integer(value: object) -> int | None:
         return None
 
 
-def whole(value: object, name: str, low: float = -math.inf, high: float = math.inf) -> int:
+def whole(value: object, name: str = "a value", low: float = -math.inf, high: float = math.inf) -> int:
     """Return `value` as an int within low..high; 12.0 is one too, 12.5 is not. InputError for anything else."""
     is_float = isinstance(value, float | np.floating)
     found = int(value) if is_float and value % 1 == 0 else integer(value)  # type: ignore[call-overload, operator]

@@ -373,16 +373,25 @@ def test_scenes_are_saved(tmp_path: Any) -> None:
             lambda: Object(MESH, rotation=(1, 2)),
             "the rotation of an object must be x, y, z in degrees, a quaternion x, y, z, w, or a 3 x 3 matrix, not (1,",
         ),
-        (lambda: Object(MESH, rotation=[(1, 2), 3]), "the rotation of an object must be x, y, z in degrees, a quat"),
+        (
+            lambda: Object(MESH, rotation=[(1, 2), 3]),  # type: ignore[arg-type]
+            "the rotation of an object must be x, y, z in degrees, a quaternion",
+        ),
         (lambda: Object(MESH, rotation=(1, 2, "x")), "the rotation of an object must be 3 numbers, not (1, 2, 'x')"),
-        (lambda: render(np.eye(3), np.eye(3)), "`size` must be one number or (width, height); vertices and faces are"),
-        (lambda: render(CORNERS, FACES), "`size` must be one number or (width, height); vertices and faces are"),
+        (
+            lambda: render(np.eye(3), np.eye(3)),  # type: ignore[arg-type]
+            "`size` must be one number or (width, height); vertices and faces are one argument",
+        ),
+        (
+            lambda: render(CORNERS, FACES),  # type: ignore[arg-type]
+            "`size` must be one number or (width, height); vertices and faces are one argument",
+        ),
         (lambda: render("cube", rotate=np.zeros((9, 9))), "`rotate` must be x, y, z in degrees, a quaternion x, y, "),
         (lambda: scene(lights=[Camera()]), "lights[0] of a scene must be a shackled.Light, not Camera("),
         (lambda: scene(camera=MESH), "the camera of a scene must be a shackled.Camera, not <Mesh 3 vertices"),
         (lambda: scene(background=MESH), "the background colour must be red, green and blue from 0 to 255, not <Mesh"),
         (
-            lambda: Material(shininess=12.5),  # type: ignore[arg-type]
+            lambda: Material(shininess=12.5),
             "the shininess of a material must be a whole number from 1 to 128, not 12.5",
         ),
         (lambda: Rim("red", 2.5), "the power of a rim must be a whole number from 1 to 16, not 2.5"),

@@ -20,14 +20,14 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from ...errors import InputError
+from ...errors import InputError, warn
 from .._crease import filled
 from .._material import EXPONENTS
 from .._mesh import DEFAULT_COLOR
 from .._rotation import rotate
 from .._texture import Filter, open_image
 from .colors import to_srgb
-from .content import parse, read_bytes, warn
+from .content import parse, read_bytes
 from .model import FileWrap, MeshPart, Picture, finite_uvs, tinted
 from .table import Table, about
 from .weld import weld
