@@ -37,7 +37,12 @@ def caller() -> Place:
     while frame.f_back is not None and frame.f_code.co_filename.startswith(_INSIDE):
         frame = frame.f_back
     names = frame.f_globals
-    return frame.f_code.co_filename, frame.f_lineno, names["__name__"], names.setdefault("__warningregistry__", {})
+    return (
+        frame.f_code.co_filename,
+        frame.f_lineno,
+        names.get("__name__") or "",
+        names.setdefault("__warningregistry__", {}),
+    )
 
 
 def warn(message: str, category: type[Warning] = InputWarning, place: Place | None = None) -> None:
