@@ -6,6 +6,7 @@ import warnings
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -27,15 +28,15 @@ def obj(tmp_path: Path) -> Path:
 
 def with_points() -> trimesh.Scene:
     scene = trimesh.Scene([trimesh.creation.box()])
-    scene.add_geometry(trimesh.PointCloud(np.eye(3)))
+    scene.add_geometry(trimesh.PointCloud(np.eye(3)))  # type: ignore[no-untyped-call]
     return scene
 
 
-def large_texture() -> trimesh.Trimesh:
-    box = trimesh.creation.box()
+def large_texture() -> Any:
+    box: Any = trimesh.creation.box()
     image = Image.new("RGB", (512, 512), "red")
     image.putpixel((0, 0), (0, 0, 0))
-    box.visual = trimesh.visual.TextureVisuals(np.zeros((8, 2)), image=image)
+    box.visual = trimesh.visual.TextureVisuals(np.zeros((8, 2)), image=image)  # type: ignore[no-untyped-call]
     return box
 
 
