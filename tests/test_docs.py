@@ -154,6 +154,27 @@ def test_a_program_runs_on_a_node(
     assert "gas" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("node", "the node cannot render: the node 127.0.0.1:1 cannot be reached"),
+        ("stored_mesh", "set SHACKLED_RPC to the address of a node, and KEY to the private key"),
+        ("trimesh_object", "this program needs trimesh: pip install trimesh"),
+    ],
+)
+def test_a_program_says_in_a_line_what_it_lacks(
+    name: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "trimesh", None)
+    monkeypatch.delenv("SHACKLED_RPC", raising=False)
+    if name == "node":
+        monkeypatch.setenv("SHACKLED_RPC", "http://127.0.0.1:1")
+    with pytest.raises(SystemExit) as ended:
+        run(ROOT / "examples" / "programs" / f"{name}.py", tmp_path, monkeypatch)
+    assert str(ended.value.code).startswith(words)
+    assert "\n" not in str(ended.value.code)
+
+
 def test_the_programs_are_short_and_listed() -> None:
     page = (DOCS / "programs.md").read_text("utf-8")
     assert len(PROGRAMS) >= 12

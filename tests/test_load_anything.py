@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 import runpy
 import sys
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -80,6 +82,95 @@ def test_objects_and_pieces() -> None:
     assert load(scene) is scene
 
 
+def middles(scene: Scene) -> Any:
+    return [each.world_positions().mean(axis=0).round(2).tolist() for each in scene.objects]
+
+
+def test_lists_of_meshes_and_objects_stay_in_their_places() -> None:
+    away = trimesh.Trimesh(np.add(BALL.vertices, (4, 0, 0)), BALL.faces, process=False)
+    for pair in (
+        [Object(MESH), Object(MESH, position=(4, 0, 0))],
+        [(BALL.vertices, BALL.faces), (away.vertices.tolist(), away.faces.tolist(), "red")],
+        [MESH, (away.vertices, away.faces)],
+        (BALL, Object(MESH, position=(4, 0, 0))),
+        [trimesh.Scene([BALL]), Mesh(away.vertices, away.faces)],
+    ):
+        scene = load(pair, 40)
+        np.testing.assert_allclose(middles(scene), [[0, 0, 0], [4, 0, 0]], atol=0.01)
+        assert scene.camera == Scene([Object(MESH), Object(MESH, position=(4, 0, 0))]).camera
+        assert (scene.width, scene.height) == (40, 40)
+
+
+def test_lists_of_models_are_one_model(tmp_path: Path) -> None:
+    box = trimesh.creation.box((1, 2, 3))
+    box.apply_translation((2, 0, 0))
+    BALL.export(tmp_path / "ball.obj")
+    box.export(tmp_path / "box.stl")
+    files = load([tmp_path / "ball.obj", str(tmp_path / "box.stl")])
+    assert (files.width, files.antialias, len(files.objects)) == (256, True, 2)
+    np.testing.assert_allclose(np.linalg.norm(files.world_positions(), axis=1).max(), 1, atol=1e-6)
+    one, other = (each.world_positions().mean(axis=0)[0] for each in files.objects)
+    np.testing.assert_allclose(other - one, 2 * files.objects[0].scale, atol=1e-6)
+    assert load([BALL, box]).width == 256
+    # among others they are shaded alike, and stay where they are
+    mixed = load([tmp_path / "ball.obj", Object(MESH, position=(0, 5, 0)), tmp_path / "box.stl"])
+    np.testing.assert_allclose(middles(mixed), [[0, 0, 0], [0, 5, 0], [2, 0, 0]], atol=0.01)
+    assert mixed.objects[2].material == files.objects[1].material
+
+
+def test_lists_of_names_are_a_row() -> None:
+    names = ["cube", "teapot", "icons/diamond"]
+    scene = load(names, (64, 32), color="#f00")
+    counts = [len(load(name).objects) for name in names]
+    assert len(scene.objects) == sum(counts)
+    starts = np.cumsum([0, *counts])
+    boxes = [Scene(scene.objects[a:b]).bounds[:, 0] for a, b in pairwise(starts.tolist())]
+    widths = [np.ptp(box) for box in boxes]
+    for (_, right), (left, _) in pairwise(boxes):
+        np.testing.assert_allclose(left - right, 0.2 * max(widths))
+    np.testing.assert_allclose(boxes[0][0], -boxes[-1][1])
+    assert (scene.objects[0].mesh.colors == (255, 0, 0)).all()
+    # one alone has nothing to stand beside
+    near = load([Object(MESH, position=(0, 3, 0)), require("cube")])
+    np.testing.assert_array_equal(near.objects[1].position, load("cube").objects[0].position)
+
+
+def test_lists_of_scenes_have_one_camera() -> None:
+    one, other = load("cube"), load("teapot")
+    assert load([one, one]) == replace(one, objects=one.objects * 2)
+    both = load([one, Object(MESH, position=(0, 2, 0))])
+    assert (both.camera, both.lights, len(both.objects)) == (one.camera, one.lights, 2)
+    with pytest.raises(InputError) as error:
+        load([one, other])
+    words = "give a list of their objects, [*one.objects, *other.objects]"
+    assert re.fullmatch(f"the scenes of the list differ in camera, .*: {re.escape(words)}", str(error.value))
+    assert len(load([*one.objects, *other.objects]).objects) == 2
+    wide = replace(one, width=64)
+    with pytest.raises(InputError, match=r"^the scenes of the list differ in width: "):
+        load([one, wide])
+    assert load([one, wide], 32).width == 32
+
+
+@pytest.mark.parametrize(
+    ("things", "message"),
+    [
+        ([MESH, 5], "[1]: a path, the name of a piece, a Mesh, (vertices, faces), a Scene or a mesh of trimesh is"),
+        (["cube", "nothing.obj"], "[1]: nothing.obj does not exist"),
+        (["cube", "teapo"], "[1]: teapo does not exist, and there is no piece 'teapo'; did you mean teapot?"),
+        ([["cube"], MESH], "[0]: a list must not hold lists: give one list of all members"),
+        ([MESH, (BALL.vertices,)], "[1]: vertices and faces are needed, not 1 parts"),
+        (BALL.vertices, "a path, the name of a piece, a Mesh, (vertices, faces), a Scene or a mesh of trimesh is"),
+        ("https://x.invalid/a.glb", "https://x.invalid/a.glb is an address of the web: download the file first"),
+    ],
+    ids=lambda value: str(value)[:30],
+)
+def test_what_is_no_list_of_inputs(things: Any, message: str) -> None:
+    with pytest.raises(InputError) as error:
+        load(things)
+    assert str(error.value).startswith(message)
+    assert "\n" not in str(error.value)
+
+
 def test_scenes_of_trimesh() -> None:
     turned = np.eye(4)
     turned[:3, :3], turned[:3, 3] = rotate(shackled.euler(30, -50, 70), np.eye(3)).T, (1, 0, 0)
@@ -128,6 +219,22 @@ def test_the_keywords_are_those_of_the_table() -> None:
         assert setting.text[0].isupper()
     with pytest.raises(TypeError, match=r"^'colour' is not a keyword of a look; did you mean color\?$"):
         render(MESH, colour="red")  # type: ignore[call-arg]
+    for name, instead in {
+        "lights_": "did you mean lights?",
+        "shadows": "did you mean shadow?",
+        "rotation": "did you mean rotate?",
+        "material": "`color`, `shading`, ",
+        "texture": "`color`, `shading`, ",
+        "width": "`size` is the side in pixels, or (width, height)",
+        "resolution": "`size` is ",
+        "camera": "`eye`, `target`, `up` and `fov` place the camera, or render a Scene with a Camera",
+        "fps": "`duration` of a turntable ",
+        "alpha": "`transparent` of render leaves out the background",
+        "depth": "depths are not returned",
+    }.items():
+        with pytest.raises(TypeError) as error:
+            load(MESH, **{name: 1})  # type: ignore[arg-type]
+        assert str(error.value).startswith(f"'{name}' is not a keyword of a look; {instead}")
     with pytest.raises(TypeError, match=r"^'x' is not a keyword of a look; known are size, max_triangles, "):
         render(MESH, x=5)  # type: ignore[call-arg]
 
@@ -258,21 +365,30 @@ def test_looks_in_other_words() -> None:
         ({"fov": 40, "orthographic": True}, "an orthographic camera has no field of view: give `half_height` instead"),
         ({"smooth": True, "unlit": True}, "the shading cannot be smooth and unlit at once"),
         ({"opacity": 2}, "`opacity` must be a finite number from 0 to 1, not 2"),
-        ({"hemisphere": "bluish"}, "`hemisphere` must be red, green and blue from 0 to 255, or #rrggbb, or the name"),
+        ({"hemisphere": "bluish"}, "`hemisphere` must be red, green and blue from 0 to 255, #rgb, #rrggbb, or "),
         ({"rim": ("white", 0)}, "the power of a rim must be a whole number from 1 to 16, not 0"),
         ({"fog": ("white", 4, 3)}, "the near distance of the fog, 4, must be below its far distance, 3"),
         ({"exposure": -1}, "`exposure` must be a finite number from 0 to 64, not -1"),
-        ({"shininess": 2.5}, "`shininess` must be a whole number, from 1 to 128, not 2.5"),
+        ({"shininess": 2.5}, "`shininess` must be a whole number from 1 to 128, not 2.5"),
         ({"crease": 30, "shading": "flat"}, "`crease` is for smooth shading, and excludes flat"),
         ({"crease": 181}, "`crease` must be a finite number from 0 to 180, not 181"),
         ({"max_triangles": 0}, "`max_triangles` must be a whole number, at least 1, not 0"),
         (
             {"color": "reddish"},
-            "`color` must be red, green and blue from 0 to 255, or #rrggbb, or the name of a colour",
+            "`color` must be red, green and blue from 0 to 255, #rgb, #rrggbb, or the name of a colour",
         ),
         ({"size": "big"}, "`size` must be one number or (width, height), not 'big'"),
         ({"size": (1.5, 2)}, "`size` must be whole numbers, not (1.5, 2)"),
         ({"eye": "here"}, "`eye` must be 3 numbers, not 'here'"),
+        ({"rotate": 45}, "`rotate` must be x, y, z in degrees, a quaternion x, y, z, w, or a 3 x 3 matrix, not 45"),
+        (
+            {"rotate": (1, 2)},
+            "`rotate` must be x, y, z in degrees, a quaternion x, y, z, w, or a 3 x 3 matrix, not (1, ",
+        ),
+        ({"rotate": (1, 2, float("nan"))}, "`rotate` must be 3 finite numbers, not (1, 2, nan)"),
+        ({"rotate": (0, 0, 0, 0)}, "`rotate` must not be the zero quaternion"),
+        ({"lights": "white"}, "the lights of a scene must be a Light or a list of these, not 'white'"),
+        ({"background": "transparent"}, "`background` is a colour: give `transparent` for a picture without a backg"),
         ({"cull": "yes"}, "`cull` must be True or False, not 'yes'"),
         ({"shading": "toon"}, "`shading` must be one of unlit, flat, smooth, not 'toon'"),
         ({"lights": [Light.point((1, 2, 3))] * 5}, "a scene has up to 4 lights, not 5"),

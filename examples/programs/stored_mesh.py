@@ -10,6 +10,8 @@ from shackled.chain import Connection
 from shackled.deploy import Transactor, environment_account
 from shackled.tokens import SceneToStore, plan_storage, read_back, store
 
+if not {"SHACKLED_RPC", "KEY"} <= os.environ.keys():
+    raise SystemExit("set SHACKLED_RPC to the address of a node, and KEY to the private key of the account that pays")
 connection = Connection(os.environ["SHACKLED_RPC"])
 points = [(-1, 0, 1), (1, 0, 1), (0, 0, -1), (0, 2, 0)]
 pyramid = shackled.Mesh(points, [(0, 1, 3), (1, 2, 3), (2, 0, 3)], "gold")

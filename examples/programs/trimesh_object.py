@@ -1,9 +1,13 @@
 """Render a mesh of trimesh, and a scene of trimesh with two placed meshes."""
 
 import numpy as np
-import trimesh
 
 import shackled
+
+try:
+    import trimesh
+except ImportError:
+    raise SystemExit("this program needs trimesh: pip install trimesh") from None
 
 ball = trimesh.creation.icosphere(subdivisions=2)
 shackled.render(ball, size=48, color="gold", smooth=True).save("ball.png")

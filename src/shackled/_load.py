@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any, Unpack
 
-from attrs import evolve
+import numpy as np
+from attrs import evolve, fields
 
 from .datasets import Piece, find, require
 from .errors import InputError
@@ -34,13 +36,19 @@ from .scene import (
 #: Input of `load`. `Any`: arrays of vertices and faces, or a mesh or scene of trimesh, an optional package.
 Thing = str | os.PathLike[str] | Piece | Mesh | Object | Scene | Sequence[Any] | Any
 
+#: Between pieces that stand in a row: a part of the width of the widest.
+GAP = 0.2
+
 
 def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack[LookOptions]) -> Scene:
     """Return the scene of a file, a piece of a dataset, a mesh, arrays, or an object of trimesh.
 
     thing: the path of a mesh or scene file, or of a PNG file that carries a scene; the name of a piece, such as
-    "teapot" or "genesis/12" (a file wins over a piece of the same name); a Mesh; an Object, or a list of these;
-    (vertices, faces) or (vertices, faces, colors), (n, 3) and (m, 3); a trimesh.Trimesh or trimesh.Scene; or a Scene.
+    "teapot" or "genesis/12" (a file wins over a piece of the same name); a Mesh; an Object; (vertices, faces) or
+    (vertices, faces, colors), (n, 3) and (m, 3); a trimesh.Trimesh or trimesh.Scene; a Scene; or a list of any of
+    these, which is one scene of all their objects. Meshes, objects and models stay where they are; several pieces stand
+    in a row along x. Of a piece only the objects are taken, of a Scene also camera, lights and all else, in which
+    several must agree. A list of mesh files or of trimesh.Trimesh is one model, staged like one mesh.
     A mesh is staged: it fills the picture, antialiased, in smooth shading except across creases. A scene keeps its look
     except for the given settings.
     size: side of a square picture, or (width, height), in pixels; None for the scene's, or 256 for a mesh.
@@ -49,19 +57,20 @@ def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
     InputError, one line, if the input does not exist or is not valid.
     """
     chosen = checked_look({"size": size, **look})
-    found = locate(thing) if isinstance(thing, str | os.PathLike) else thing
-    if isinstance(found, Path):
-        if found.suffix.lower() in READERS:
-            thing = [_unplaced(part) for part in read_model(found)]
-        else:
-            thing = read_scene(found)
-        with about(str(found)):
-            return look_at(thing, chosen)
-    return look_at(_made(found, chosen), chosen)
+    found = _located(thing)
+    made = _made(found, chosen)
+    with about(str(found)) if isinstance(found, Path) else nullcontext():
+        return look_at(made, chosen)
+
+
+def _located(thing: Any) -> Any:
+    return locate(thing) if isinstance(thing, str | os.PathLike) else thing
 
 
 def locate(input: str | os.PathLike[str]) -> Path | Piece:
     """Return the path of a file, or else the piece of that name. InputError if there is neither."""
+    if isinstance(input, str) and "://" in input:
+        raise InputError(f"{input} is an address of the web: download the file first")
     path = Path(input)
     name = input if isinstance(input, str) else path.as_posix()
     if path.suffix.lower() in (*READERS, *SCENES, PICTURE) or os.path.isfile(path):
@@ -83,28 +92,109 @@ def _unplaced(part: MeshPart) -> Object:
 
 
 def _made(thing: Any, look: dict[str, Any]) -> Mesh | list[Object] | Scene:
-    """Return the mesh, the parts of a model or the scene of an input that is not a file."""
+    """Return the mesh, the parts of a model or the scene of an input."""
     if isinstance(thing, Mesh | Scene):
         return thing
+    if isinstance(thing, Path):
+        is_model = thing.suffix.lower() in READERS
+        return [_unplaced(part) for part in read_model(thing)] if is_model else read_scene(thing)
     if isinstance(thing, Piece):
         return thing.make()
-    objects: list[Object | Mesh] = []
-    if isinstance(thing, Object):
-        objects = [thing]
-    elif is_trimesh(thing):
-        if not hasattr(thing, "graph"):
-            return [_unplaced(part_of(thing))]
-        objects = list(objects_of(thing))
-    elif isinstance(thing, list | tuple):
-        if not thing or not all(isinstance(part, Mesh | Object) for part in thing):
-            if 2 <= len(thing) <= 4:
-                return Mesh(*thing)
-            raise InputError(f"vertices and faces are needed, not {len(thing)} parts: {thing!r:.60}")
-        objects = list(thing)
-    else:
+    if isinstance(thing, Object) or _is_trimesh_scene(thing):
+        return _staged(_placed(thing), look)
+    if is_trimesh(thing):
+        return [_unplaced(part_of(thing))]
+    if not isinstance(thing, list | tuple):
         raise InputError(
             "a path, the name of a piece, a Mesh, (vertices, faces), a Scene or a mesh of trimesh is needed, not "
             f"{thing!r:.60}"
         )
+    if thing and _is_input(thing[0]):
+        return _combined(thing, look)
+    if 2 <= len(thing) <= 4:
+        return Mesh(*thing)
+    raise InputError(f"vertices and faces are needed, not {len(thing)} parts: {thing!r:.60}")
+
+
+def _is_trimesh_scene(thing: object) -> bool:
+    return is_trimesh(thing) and hasattr(thing, "graph")
+
+
+def _is_input(thing: Any) -> bool:
+    """Return whether a member of a list is an input by itself; otherwise the list may be (vertices, faces)."""
+    if isinstance(thing, list | tuple) and thing:
+        first = thing[0]
+        are_arrays = (
+            2 <= len(thing) <= 4 and hasattr(first, "__len__") and len(first) > 0 and hasattr(first[0], "__len__")
+        )
+        return are_arrays or _is_input(first)
+    return isinstance(thing, str | os.PathLike | Piece | Mesh | Object | Scene) or is_trimesh(thing)
+
+
+def _placed(thing: Any) -> list[Object]:
+    return [thing] if isinstance(thing, Object) else list(objects_of(thing))
+
+
+def _staged(objects: list[Object], look: Mapping[str, Any]) -> Scene:
     width, height = look.get("size", (None, None))
     return Scene(objects) if width is None else Scene(objects, width=width, height=height)
+
+
+def _combined(things: Sequence[Any], look: Mapping[str, Any]) -> list[Object] | Scene:
+    """Return one model, or one scene, of all members of a list."""
+    objects: list[Object] = []
+    pieces: list[slice] = []
+    scenes: list[Scene] = []
+    model: list[Object] = []
+    models = 0
+    for number, thing in enumerate(things):
+        with about(f"[{number}]"):
+            found = _located(thing)
+            if isinstance(found, list | tuple) and found and _is_input(found[0]):
+                raise InputError("a list must not hold lists: give one list of all members")
+            if isinstance(found, Object) or _is_trimesh_scene(found):
+                parts = _placed(found)
+            elif isinstance(made := _made(found, {}), Mesh):
+                parts = [Object(made)]
+            elif isinstance(made, Scene):
+                parts = list(made.objects)
+                if isinstance(found, Piece):
+                    pieces.append(slice(len(objects), len(objects) + len(parts)))
+                else:
+                    scenes.append(made)
+            else:
+                model, models = [*model, *made], models + 1
+                # shaded as when it is staged, but in its own place
+                staged = look_at(made, {}).objects
+                parts = [evolve(each, position=(0, 0, 0), rotation=(0, 0, 0, 1), scale=1) for each in staged]
+        objects += parts
+    if models == len(things):
+        return model
+    if len(pieces) > 1:
+        _stand_in_a_row(objects, pieces)
+    if not scenes:
+        return _staged(objects, look)
+    differ = [
+        each.name
+        for each in fields(Scene)
+        if any(getattr(other, each.name) != getattr(scenes[0], each.name) for other in scenes[1:])
+        and each.name not in ("objects", *(("width", "height") if "size" in look else ()))
+    ]
+    if differ:
+        raise InputError(
+            f"the scenes of the list differ in {', '.join(differ)}: give a list of their objects, [*one.objects, "
+            "*other.objects]"
+        )
+    return evolve(scenes[0], objects=objects)
+
+
+def _stand_in_a_row(objects: list[Object], pieces: Sequence[slice]) -> None:
+    """Move pieces, given by the places of their objects in the list, apart along x, about the origin."""
+    points = [np.concatenate([each.world_positions() for each in objects[piece]])[:, 0] for piece in pieces]
+    widths = [float(np.ptp(x)) for x in points]
+    gap = GAP * max(widths)
+    left = -(sum(widths) + gap * (len(widths) - 1)) / 2
+    for piece, x, width in zip(pieces, points, widths, strict=True):
+        step = (left - float(x.min()), 0, 0)
+        objects[piece] = [evolve(each, position=np.add(each.position, step)) for each in objects[piece]]
+        left += width + gap

@@ -7,11 +7,30 @@ from typing import TYPE_CHECKING
 
 from attrs import field, frozen
 
-from .chain import CHAINS, Chain
+from .chain import CHAINS, Chain, check_timeout, check_url
+from .checks import choice, whole
 from .errors import InputError
+from .ethereum import parse_address
 
 if TYPE_CHECKING:
     from .parallel import Where
+
+
+#: The most jobs, and how much of the pixels of nodes and clusters is compared.
+MOST_JOBS = 256
+VERIFY = ("all", "some", "none")
+
+
+def _jobs(value: int | None) -> int | None:
+    return None if value is None else whole(value, "`jobs`", 1, MOST_JOBS)
+
+
+def _evm(value: str | None) -> str | None:
+    return None if value is None else choice(value, "`evm`", CHAINS)
+
+
+def _verify(value: str | None) -> str | None:
+    return None if value is None else choice(value, "`verify`", VERIFY)
 
 
 @frozen
@@ -22,14 +41,32 @@ class Processes:
     evm: "revm", "pyrevm", "pyevm" or "reference"; None for the first.
     """
 
-    jobs: int | None = None
-    evm: str | None = None
+    jobs: int | None = field(default=None, converter=_jobs)
+    evm: str | None = field(default=None, converter=_evm)
 
 
 def _urls(urls: tuple[str, ...]) -> tuple[str, ...]:
     if not urls or not all(isinstance(url, str) for url in urls):
         raise InputError(f"`urls` must be addresses of nodes, such as http://127.0.0.1:8545, not {urls!r:.60}")
+    for url in urls:
+        check_url(url, "`urls`")
     return urls
+
+
+def _renderer(value: str | None) -> str | None:
+    if value is not None:
+        parse_address(value, "`address`")
+    return value
+
+
+def _timeout(value: float | None) -> float | None:
+    return None if value is None else check_timeout(value)
+
+
+def _scheduler(value: str | None) -> str | None:
+    if value is not None and (not isinstance(value, str) or ":" not in value):
+        raise InputError(f"`address` must be that of a scheduler, such as tcp://host:8786, not {value!r:.60}")
+    return value
 
 
 @frozen(init=False)
@@ -45,10 +82,10 @@ class Nodes:
     """
 
     urls: tuple[str, ...] = field(converter=_urls)
-    address: str | None = None
-    timeout: float | None = None
-    jobs: int = 1
-    verify: str | None = None
+    address: str | None = field(default=None, converter=_renderer)
+    timeout: float | None = field(default=None, converter=_timeout)
+    jobs: int | None = field(default=1, converter=_jobs)
+    verify: str | None = field(default=None, converter=_verify)
 
     def __init__(
         self,
@@ -72,10 +109,10 @@ class Cluster:
     verify: as in `Nodes`; None compares nothing.
     """
 
-    address: str | None = None
-    jobs: int | None = None
-    evm: str | None = None
-    verify: str | None = None
+    address: str | None = field(default=None, converter=_scheduler)
+    jobs: int | None = field(default=None, converter=_jobs)
+    evm: str | None = field(default=None, converter=_evm)
+    verify: str | None = field(default=None, converter=_verify)
 
 
 #: Where calls run: in the EVM of this name, in this EVM, or in one of these.
@@ -89,7 +126,7 @@ def where_of(on: On | None, gas_limit: int | None = None, tile: tuple[int, int] 
     if isinstance(on, str) and "://" in on:
         raise InputError(f"`on` must be Nodes({on!r:.60}) for a node, not its address alone")
     if on is None or isinstance(on, str):
-        return Where(on, gas_limit=gas_limit, tile=tile)
+        return Where(None if on is None else choice(on, "`on`", CHAINS), gas_limit=gas_limit, tile=tile)
     if isinstance(on, Processes):
         jobs = (os.cpu_count() or 1) if on.jobs is None else on.jobs
         return Where(on.evm, jobs, gas_limit=gas_limit, tile=tile)

@@ -16,6 +16,8 @@ from .errors import InputError
 Number = TypeVar("Number", bound=np.generic)
 #: Floats in an array that cannot be written to.
 Floats = NDArray[np.float64]
+#: What a colour is written as.
+COLORS = "red, green and blue from 0 to 255, #rgb, #rrggbb, or the name of a colour"
 #: Red, green and blue, 0..255.
 Color = tuple[int, int, int]
 
@@ -37,6 +39,15 @@ def integer(value: object) -> int | None:
         return None if isinstance(value, bool | np.bool_) else operator.index(value)  # type: ignore[arg-type]
     except TypeError:
         return None
+
+
+def whole(value: object, name: str = "a value", low: float = -math.inf, high: float = math.inf) -> int:
+    """Return `value` as an int within low..high; 12.0 is one too, 12.5 is not. InputError for anything else."""
+    is_float = isinstance(value, float | np.floating)
+    found = int(value) if is_float and value % 1 == 0 else integer(value)  # type: ignore[call-overload, operator]
+    if found is None or not low <= found <= high:
+        raise InputError(f"{name} must be a whole number{_range(low, high)}, not {value!r:.60}")
+    return int(found)
 
 
 def flag(value: object, name: str = "a flag") -> bool:
@@ -94,37 +105,45 @@ def channels(values: ArrayLike) -> ArrayLike:
 
 
 def color(value: ArrayLike | str, name: str = "a colour") -> Color:
-    """Return red, green and blue, 0..255, of whole numbers 0..255, floats 0..1, "#rrggbb", or the name of a colour.
+    """Return red, green and blue, 0..255, of an opaque colour as `rgba` takes it. InputError for anything else."""
+    *levels, alpha = rgba(value, name)
+    if alpha != 255:
+        raise InputError(f"{name} must be opaque, not {value!r:.60}; an Object has an opacity")
+    red, green, blue = levels
+    return red, green, blue
 
-    Names are those of CSS, such as "tomato". A fourth number is an alpha, which must be opaque. InputError for anything
-    else.
+
+def rgba(value: ArrayLike | str, name: str = "a colour") -> tuple[int, int, int, int]:
+    """Return red, green, blue and alpha, 0..255, of a colour; it is opaque where it does not say otherwise.
+
+    value: 3 or 4 whole numbers 0..255 or floats 0..1, "#rgb", "#rgba", "#rrggbb", "#rrggbbaa", or a name of CSS, such
+        as "tomato". InputError for anything else.
     """
     if isinstance(value, str):
-        return _color_of_text(value, name)
+        return _rgba_of_text(value, name)
     try:
         levels = np.array(channels(value), dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
         levels = np.zeros(0)
     if levels.shape not in ((3,), (4,)) or not ((levels >= 0) & (levels <= 255) & (levels % 1 == 0)).all():
         raise InputError(f"{name} must be red, green and blue from 0 to 255, not {value!r:.60}")
-    if len(levels) == 4 and levels[3] != 255:
-        raise InputError(f"{name} must be opaque, not {value!r:.60}; an Object has an opacity")
-    red, green, blue = (int(level) for level in levels[:3])
-    return red, green, blue
+    red, green, blue, alpha = (int(level) for level in (*levels, 255)[:4])
+    return red, green, blue, alpha
 
 
-def _color_of_text(text: str, name: str) -> Color:
+def _rgba_of_text(text: str, name: str) -> tuple[int, int, int, int]:
     from PIL import ImageColor
 
-    known = ImageColor.colormap.get(text.strip().lower(), text.strip())
+    word = text.strip().lower()
+    known = "#0000" if word == "transparent" else ImageColor.colormap.get(word, word)
     digits = known if isinstance(known, str) else "#{:02x}{:02x}{:02x}".format(*known)
-    match = re.fullmatch("#?([0-9a-fA-F]{6})", digits)
-    if not match:
-        raise InputError(
-            f"{name} must be red, green and blue from 0 to 255, or #rrggbb, or the name of a colour, not {text!r:.60}"
-        )
-    red, green, blue = bytes.fromhex(match[1])
-    return red, green, blue
+    if not re.fullmatch("#[0-9a-f]{3,4}|#?[0-9a-f]{6}|#[0-9a-f]{8}", digits):
+        raise InputError(f"{name} must be {COLORS}, not {text!r:.60}")
+    digits = digits.removeprefix("#")
+    if len(digits) < 6:
+        digits = "".join(2 * digit for digit in digits)
+    red, green, blue, alpha = bytes.fromhex(digits.ljust(8, "f"))
+    return red, green, blue, alpha
 
 
 def choice(value: object, name: str, choices: Iterable[str]) -> str:

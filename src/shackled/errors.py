@@ -1,6 +1,18 @@
-"""The errors of the library. A message is one line and names parameters in backticks, such as `size`."""
+"""The errors and warnings of the library. A message is one line and names parameters in backticks, such as `size`."""
 
 from __future__ import annotations
+
+import os
+import re
+import sys
+import warnings
+from typing import Any
+
+#: Where frames of the package are: in its folder, and in the code that attrs generates for its classes.
+_INSIDE = (os.path.dirname(__file__) + os.sep, "<attrs generated")
+
+#: A line of a program: its file, number, module, and the registry of the warnings that it has given.
+Place = tuple[str, int, str, dict[Any, Any]]
 
 
 class ShackledError(Exception):
@@ -10,9 +22,33 @@ class ShackledError(Exception):
 class InputError(ShackledError, ValueError):
     """An invalid value or file. The message says what is wrong, where, and what would be right."""
 
+    def __init__(self, message: str = "") -> None:
+        """Take the message, of which line breaks, as arrays have when they are shown, become spaces."""
+        super().__init__(re.sub(r"\s*\n\s*", " ", message))
+
 
 class InputWarning(UserWarning):
     """A part of a file cannot be used and is ignored."""
+
+
+def caller() -> Place:
+    """Return the line outside of the package that led here, as it is in the thread that runs."""
+    frame = sys._getframe()
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_INSIDE):
+        frame = frame.f_back
+    names = frame.f_globals
+    return (
+        frame.f_code.co_filename,
+        frame.f_lineno,
+        names.get("__name__") or "",
+        names.setdefault("__warningregistry__", {}),
+    )
+
+
+def warn(message: str, category: type[Warning] = InputWarning, place: Place | None = None) -> None:
+    """Warn, by default at the line of `caller`."""
+    file, line, module, registry = place or caller()
+    warnings.warn_explicit(message, category, file, line, module, registry)
 
 
 class OutputError(ShackledError, OSError):

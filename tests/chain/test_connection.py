@@ -368,7 +368,7 @@ def test_a_key_that_is_a_part_of_the_host() -> None:
     ],
 )
 def test_addresses_that_are_none(url: str) -> None:
-    words = r"`rpc` must be the address of a node, such as http://127\.0\.0\.1:8545"
+    words = r"`url` must be the address of a node, such as http://127\.0\.0\.1:8545"
     with pytest.raises(InputError, match=words) as error:
         Connection(url)
     assert "key0123456" not in str(error.value)

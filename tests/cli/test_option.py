@@ -21,10 +21,10 @@ def test_parameters_become_options() -> None:
 
 
 def test_python_is_told_of_parameters(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(InputError, match=r"^`jobs` must be from 1 to 256, not 0$"):
+    with pytest.raises(InputError, match=r"^`jobs` must be a whole number from 1 to 256, not 0$"):
         shackled.render("cube", on=shackled.Processes(0))
     assert run(["render", "cube", "--jobs", "0"]) == 2
-    assert capsys.readouterr().err == "shackled: --jobs must be from 1 to 256, not 0\n"
+    assert capsys.readouterr().err == "shackled: --jobs must be a whole number from 1 to 256, not 0\n"
 
 
 def test_every_parameter_that_a_message_names_has_an_option() -> None:

@@ -191,7 +191,7 @@ WRONG = [
     (["render", "shape.obj", "--size", "3000"], "from 1 to 2048 pixels a side"),
     (["render", "shape.obj", "--size", "big"], "WIDTHxHEIGHT"),
     (["render", "shape.obj", "--size", "-5"], "--size"),
-    (["render", "shape.obj", "--chain", "moon"], "the chains are revm, pyrevm, pyevm, reference"),
+    (["render", "shape.obj", "--chain", "moon"], "--chain must be one of revm, pyrevm, pyevm, reference, not 'moon'"),
     (["render", "shape.obj", "--rotate", "1,2"], "--rotate must be three numbers"),
     (["render", "shape.obj", "--rotate", "nan,0,0"], "finite"),
     (["render", "shape.obj", "--eye", "a,b,c"], "--eye must be three numbers"),

@@ -81,7 +81,10 @@ def test_any_seed_is_a_piece() -> None:
         ("teapt", "teapot"),
         ("cornelbox", "cornell-box"),
         ("icons/diamnd", "icons/diamond"),
-        ("genesis/1024", "genesis/102"),
+        ("Teapot", "mean teapot?"),
+        ("common/teapot", "mean teapot?"),
+        ("diamond", "mean icons/diamond?"),
+        ("icons/diamnd", "mean icons/diamond?"),
     ],
 )
 def test_unknown_names(name: str, close: str) -> None:
@@ -92,6 +95,21 @@ def test_unknown_names(name: str, close: str) -> None:
     assert close in message
     assert message.endswith("? `shackled datasets list` shows all")
     assert "\n" not in message
+
+
+@pytest.mark.parametrize("name", ["ico", "icons/x", "material", "texture.png"])
+def test_no_name_is_suggested_that_is_not_alike(name: str) -> None:
+    with pytest.raises(InputError) as caught:
+        require(name)
+    assert str(caught.value) == f"there is no piece {name!r}; `shackled datasets list` shows all"
+
+
+@pytest.mark.parametrize("name", ["genesis/1024", "genesis/-1", "genesis/x"])
+def test_pieces_of_genesis_have_numbers(name: str) -> None:
+    with pytest.raises(InputError) as caught:
+        require(name)
+    known = "0 to 1023, or the 64 hexadecimal digits of a seed"
+    assert str(caught.value) == f"there is no piece {name!r}; after genesis/ comes a number from {known}"
 
 
 @pytest.mark.parametrize("name", ["", "no such thing at all", "genesis/", "genesis/-1", "genesis/x", "icons/", "../x"])

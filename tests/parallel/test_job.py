@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,7 +13,7 @@ import pytest
 from attrs import evolve
 
 import shackled
-from shackled import Camera, ChainError, Ground, Image, InputError, Nodes, Processes, Scene, load
+from shackled import Camera, ChainError, Cluster, Ground, Image, InputError, Nodes, Processes, Scene, load
 from shackled.chain import RevmChain, open_chain
 from shackled.parallel import (
     COMPARED_GAS,
@@ -143,23 +144,42 @@ def test_the_interface_of_python(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"on": Processes(0)}, "`jobs` must be from 1 to 256, not 0"),
-        ({"on": Processes(1.5)}, "`jobs` must be from 1 to 256"),  # type: ignore[arg-type]
         ({"gas_limit": 0}, "`gas_limit` must be a whole number of gas from 1 to 30,000,000,000, not 0"),
         ({"gas_limit": 10**30}, "`gas_limit` must be a whole number of gas from 1 to 30,000,000,000"),
         ({"tile": 0}, "sides of a `tile` must be whole numbers from 1"),
         ({"tile": "big"}, r"`tile` must be one number or \(width, height\)"),
         ({"on": "http://127.0.0.1:1"}, r"`on` must be Nodes\('http://127.0.0.1:1'\) for a node, not its address alone"),
-        ({"on": "moon"}, "the chains are revm, pyrevm, pyevm, reference"),
+        ({"on": "moon"}, "`on` must be one of revm, pyrevm, pyevm, reference, not 'moon'"),
         ({"on": 5}, "`on` must be one of revm, pyrevm, pyevm, reference, Processes, Nodes or Cluster, not 5"),
-        ({"on": Nodes("nowhere")}, "must be the address of a node"),
-        ({"on": Nodes("http://127.0.0.1:1", verify="most")}, "`verify` must be all, some or none, not 'most'"),
-        ({"on": Processes(2, open_chain("reference"))}, "pass its name"),  # type: ignore[arg-type]
     ],
 )
 def test_what_makes_no_sense(options: dict[str, object], message: str) -> None:
     with pytest.raises(InputError, match=message):
         shackled.render("cube", 16, **options)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Processes(0), "`jobs` must be a whole number from 1 to 256, not 0"),
+        (lambda: Processes(1.5), "`jobs` must be a whole number from 1 to 256, not 1.5"),  # type: ignore[arg-type]
+        (lambda: Processes(evm="moon"), "`evm` must be one of revm, "),
+        (lambda: Processes(2, open_chain()), "`evm` must be one of revm, "),  # type: ignore[arg-type]
+        (lambda: Nodes("foo"), "`urls` must be the address of a node, such as http://127.0.0.1:8545, not 'foo'"),
+        (lambda: Nodes("http://127.0.0.1:1", "ws://127.0.0.1"), "`urls` must be the address of a node, "),
+        (lambda: Nodes("http://127.0.0.1:1", jobs=257), "`jobs` must be a whole number from 1 to 256, not 257"),
+        (lambda: Nodes("http://127.0.0.1:1", verify="most"), "`verify` must be one of all, some, none, not 'most'"),
+        (lambda: Nodes("http://127.0.0.1:1", timeout=0), "`timeout` must be more than 0 seconds and at most 86,400"),
+        (lambda: Nodes("http://127.0.0.1:1", address="0x12"), "`address` must be an address, 0x and 40 hexadecimal"),
+        (lambda: Cluster("teapot"), "`address` must be that of a scheduler, such as tcp://host:8786, not 'teapot'"),
+        (lambda: Cluster(jobs=-1), "`jobs` must be a whole number from 1 to 256, not -1"),
+        (lambda: Cluster(verify="yes"), "`verify` must be one of all, some, none, not 'yes'"),
+    ],
+)
+def test_places_are_checked_when_they_are_made(make: Callable[[], object], message: str) -> None:
+    with pytest.raises(InputError) as error:
+        make()
+    assert str(error.value).startswith(message)
 
 
 def test_nodes_need_addresses() -> None:

@@ -20,6 +20,7 @@ from shackled import (
     Material,
     Mesh,
     Object,
+    Processes,
     Rim,
     Scene,
     Tone,
@@ -154,6 +155,7 @@ def test_colours_are_names_and_may_have_an_opaque_alpha() -> None:
         "Tomato",
         "#ff6347",
         "ff6347",
+        " #FF6347ff",
         (255, 99, 71),
         (255, 99, 71, 255),
         np.array([255, 99, 71], np.uint8),
@@ -167,9 +169,22 @@ def test_colours_are_names_and_may_have_an_opaque_alpha() -> None:
     assert scene(background=("navy", (1.0, 1.0, 1.0))).background == Background((0, 0, 128), (255, 255, 255))
     with pytest.raises(InputError, match=r"^the background colour must be opaque, not \(1, 2, 3, 4\); an Object"):
         Background((1, 2, 3, 4))
-    for wrong in ("reddish", "", "#12345", "#1234567"):
+    for short, levels in (("#f0a", (255, 0, 170)), ("#F0AF", (255, 0, 170)), ("#123", (17, 34, 51))):
+        assert Background(short).top == Light.point((1, 2, 3), short).color == levels
+        assert load("cube", color=short).objects[0].mesh.colors.tolist() == [list(levels)] * 8
+    for clear in ("#f0a8", "#ff00aa88", "transparent"):
+        with pytest.raises(InputError, match=f"^the background colour must be opaque, not '{clear}'; an Object has"):
+            Background(clear)
+    for wrong in ("reddish", "", "#12345", "#1234567", "f0a", "#f0g", "#\uff11\uff12\uff13", "#f0", "#f0a\n8"):
         with pytest.raises(InputError, match=r"^the background colour must be .* or the name of a colour, not "):
             Background(wrong)
+
+
+def test_alpha_of_a_text_is_the_opacity_of_a_vertex() -> None:
+    rows = [(255, 0, 170, 136), (17, 34, 51, 255), (0, 0, 0, 0)]
+    assert Mesh(CORNERS, FACES, ["#f0a8", "#123", "transparent"]) == Mesh(CORNERS, FACES, rows)
+    assert Mesh(CORNERS, FACES, "#ff00aa88") == Mesh(CORNERS, FACES, [rows[0]] * 3)
+    assert Mesh(CORNERS, FACES, (255, 0, 170, 136)) == Mesh(CORNERS, FACES, [rows[0]] * 3)
 
 
 @pytest.mark.parametrize(
@@ -226,8 +241,9 @@ def test_integers_of_numpy_are_sizes() -> None:
     sides = scene(width=np.int16(9), height=np.uint8(7))
     assert (type(sides.width), sides.width, sides.height) == (int, 9, 7)
     assert simplify(MESH, np.int64(5)) is MESH  # type: ignore[arg-type]
-    where = Where(jobs=np.int64(2), tile=(np.int64(3), np.int64(4)))  # type: ignore[arg-type]
-    assert (type(where.jobs), [type(side) for side in where.tile or ()]) == (int, [int, int])
+    where = Where(tile=(np.int64(3), np.int64(4)))  # type: ignore[arg-type]
+    jobs = Processes(np.int64(2)).jobs  # type: ignore[arg-type]
+    assert (type(jobs), [type(side) for side in where.tile or ()]) == (int, [int, int])
     for wrong in (True, 16.0, "16", np.float64(16), np.bool_(True)):
         with pytest.raises(InputError):
             render(scene(), size=wrong)  # type: ignore[arg-type]
@@ -344,10 +360,41 @@ def test_scenes_are_saved(tmp_path: Any) -> None:
             lambda: Scene([Object(MESH), Camera()]),  # type: ignore[list-item]
             "objects[1] of a scene must be a shackled.Object, not Camera(",
         ),
-        (lambda: Scene(5), "the objects of a scene must be a list, not 5"),  # type: ignore[arg-type]
+        (
+            lambda: Scene(5),  # type: ignore[arg-type]
+            "the objects of a scene must be an Object, a Mesh or a list of these, not 5",
+        ),
+        (
+            lambda: Scene("cube"),  # type: ignore[arg-type]
+            "the objects of a scene must be an Object, a Mesh or a list of these, not 'cube'",
+        ),
+        (lambda: scene(lights="white"), "the lights of a scene must be a Light or a list of these, not 'white'"),
+        (
+            lambda: Object(MESH, rotation=(1, 2)),
+            "the rotation of an object must be x, y, z in degrees, a quaternion x, y, z, w, or a 3 x 3 matrix, not (1,",
+        ),
+        (
+            lambda: Object(MESH, rotation=[(1, 2), 3]),  # type: ignore[arg-type]
+            "the rotation of an object must be x, y, z in degrees, a quaternion",
+        ),
+        (lambda: Object(MESH, rotation=(1, 2, "x")), "the rotation of an object must be 3 numbers, not (1, 2, 'x')"),
+        (
+            lambda: render(np.eye(3), np.eye(3)),  # type: ignore[arg-type]
+            "`size` must be one number or (width, height); vertices and faces are one argument",
+        ),
+        (
+            lambda: render(CORNERS, FACES),  # type: ignore[arg-type]
+            "`size` must be one number or (width, height); vertices and faces are one argument",
+        ),
+        (lambda: render("cube", rotate=np.zeros((9, 9))), "`rotate` must be x, y, z in degrees, a quaternion x, y, "),
         (lambda: scene(lights=[Camera()]), "lights[0] of a scene must be a shackled.Light, not Camera("),
         (lambda: scene(camera=MESH), "the camera of a scene must be a shackled.Camera, not <Mesh 3 vertices"),
         (lambda: scene(background=MESH), "the background colour must be red, green and blue from 0 to 255, not <Mesh"),
+        (
+            lambda: Material(shininess=12.5),
+            "the shininess of a material must be a whole number from 1 to 128, not 12.5",
+        ),
+        (lambda: Rim("red", 2.5), "the power of a rim must be a whole number from 1 to 16, not 2.5"),
         (lambda: Object(MESH, cull="no"), "cull of an object must be True or False, not 'no'"),
         (lambda: render(5), "a path, the name of a piece, a Mesh, (vertices, faces), a Scene or a mesh of trimesh is "),
         (lambda: load([]), "vertices and faces are needed, not 0 parts: []"),

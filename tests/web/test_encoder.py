@@ -318,6 +318,8 @@ def color(rng: np.random.Generator) -> Any:
         lambda: rng.integers(0, 2, 3).astype(float).tolist(),
         lambda: [1, 0.0, int(rng.integers(2))],
         lambda: f"#{rng.integers(1 << 24):06X}",
+        lambda: f"#{rng.integers(1 << 12):03x}",
+        lambda: f"#{rng.integers(1 << 24):06x}FF",
         lambda: one(rng, [*ImageColor.colormap]),
     ]
     return one(rng, choices)()
@@ -379,7 +381,7 @@ def thing(rng: np.random.Generator) -> dict[str, Any]:
             ambient=rng.uniform(0, 4),
             diffuse=rng.uniform(0, 4),
             specular=rng.uniform(0, 4),
-            shininess=one(rng, [int(rng.integers(1, 129)), rng.uniform(1, 128), 2.5]),
+            shininess=one(rng, [int(rng.integers(1, 129)), float(rng.integers(1, 129))]),
         ),
     )
 

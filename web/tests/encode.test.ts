@@ -107,9 +107,33 @@ test("wrong scenes are refused, with the place", () => {
             /lights\[0\] has the unknown key "direction"/,
         ],
         [{ ...SCENE, lights: [{ kind: "directional", direction: [0, 0, 0] }] }, /direction must not be zero/],
+        [{ ...SCENE, background: "#12345" }, /background\.top must be red, .* name of a colour, not "#12345"/],
+        [{ ...SCENE, background: "#f008" }, /background\.top must be opaque, not "#f008"; an object has an opacity/],
+        [
+            { ...SCENE, objects: [{ mesh: MESH, material: { shininess: 12.5 } }] },
+            /material\.shininess must be a whole number from 1 to 128, not 12.5/,
+        ],
         [{ ...SCENE, background: "no colour" }, /background\.top must be red, .* name of a colour, not "no colour"/],
     ];
     for (const [scene, message] of cases) assert.throws(() => encode(scene as Scene), { name: "InputError", message });
+});
+
+test("colours are those of CSS", () => {
+    const encoded = (background: string, colors: unknown) =>
+        encode({ ...SCENE, background, objects: [{ mesh: { ...MESH, colors } }] } as Scene);
+    for (const [short, long] of [
+        ["#f0a", [255, 0, 170]],
+        ["#F0AF", [255, 0, 170]],
+        ["#ff00aaff", [255, 0, 170]],
+        [" #123", [17, 34, 51]],
+    ] as const) {
+        assert.deepEqual(
+            encoded(short, short),
+            encode({ ...SCENE, background: long, objects: [{ mesh: { ...MESH, colors: Array(3).fill(long) } }] }),
+        );
+    }
+    const rows = Array(3).fill([255, 0, 170, 136]);
+    for (const clear of ["#f0a8", "#ff00aa88"]) assert.deepEqual(encoded("red", clear), encoded("red", rows));
 });
 
 test("tiles lie on the canvas, and belong to functions of tiles", () => {

@@ -1,6 +1,6 @@
 from ._address_book import VARIABLE, AddressBook, book_path
 from ._chain import CallResult, Chain, ContractChain, Drawing, count_call, returned_bytes, returned_counts
-from ._connection import PATIENCE, Connection, quantity
+from ._connection import PATIENCE, Connection, check_timeout, check_url, quantity
 from ._embedded import (
     CHAIN_ID,
     DEFAULT_GAS_LIMIT,
@@ -38,6 +38,8 @@ __all__ = [
     "Report",
     "RevmChain",
     "book_path",
+    "check_timeout",
+    "check_url",
     "count_call",
     "describe_revert",
     "metered",

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 import time
 from typing import Any
-from urllib.parse import unquote, urlsplit
+from urllib.parse import SplitResult, unquote, urlsplit
 
+from ..checks import number
 from ..errors import ChainError, InputError, NodeBusyError, NodeError, WrongChainError
 from ..ethereum import to_hex
 from ._failures import rpc_failure
@@ -28,19 +29,10 @@ class Connection:
         timeout: seconds for a whole answer. attempts: how often a request to a busy node is tried.
         Raises InputError if the URL is invalid.
         """
-        from ._transport import Transport, is_address
+        from ._transport import Transport
 
-        self.url, self.timeout, self.attempts = url.strip(), timeout, attempts
-        try:
-            parts = urlsplit(self.url)
-            host, port = parts.hostname, parts.port
-        except ValueError:
-            parts, host, port = urlsplit(""), None, None
-        if parts.scheme not in ("http", "https") or not host or not is_address(self.url):
-            shown = _without_key(url)
-            raise InputError(f"`rpc` must be the address of a node, such as http://127.0.0.1:8545, not {shown!r}")
-        if not 0 < timeout <= MOST_PATIENCE:
-            raise InputError(f"`timeout` must be more than 0 seconds and at most {MOST_PATIENCE:,.0f}, not {timeout:g}")
+        self.url, self.timeout, self.attempts = url.strip(), check_timeout(timeout), attempts
+        parts, host, port = check_url(self.url, "`url`")
         shown = ".".join("***" if _KEY.fullmatch(label) else label for label in host.split("."))
         self.name = f"node {f'[{host}]' if ':' in host else shown}" + (f":{port}" if port else "")
         local = host in ("localhost", "::1") or host.startswith("127.")
@@ -145,6 +137,28 @@ def quantity(value: Any) -> int:
     if isinstance(value, str) and re.fullmatch("0x[0-9a-fA-F]{1,64}", value):
         return int(value, 16)
     raise ValueError("it must be 0x and 1 to 64 hexadecimal digits")
+
+
+def check_url(url: str, name: str) -> tuple[SplitResult, str, int | None]:
+    """Return the parts of the address of a node, its host and its port. InputError, without keys, for anything else."""
+    from ._transport import is_address
+
+    try:
+        parts = urlsplit(url.strip())
+        host, port = parts.hostname, parts.port
+    except ValueError:
+        parts, host, port = urlsplit(""), None, None
+    if parts.scheme not in ("http", "https") or not host or not is_address(url.strip()):
+        shown = _without_key(url)
+        raise InputError(f"{name} must be the address of a node, such as http://127.0.0.1:8545, not {shown!r}")
+    return parts, host, port
+
+
+def check_timeout(seconds: float) -> float:
+    """Return the time limit of an answer. InputError if it is none."""
+    if not 0 < number(seconds, "`timeout`") <= MOST_PATIENCE:
+        raise InputError(f"`timeout` must be more than 0 seconds and at most {MOST_PATIENCE:,.0f}, not {seconds:g}")
+    return seconds
 
 
 def _without_key(url: str) -> str:

@@ -57,6 +57,7 @@ def open_chain(name: str | None = None) -> Chain:
     if name not in CHAINS:
         raise InputError(f"there is no chain {name!r}; the chains are {', '.join(CHAINS)}")
     if not find_spec(CHAINS[name]):
-        raise InputError(f"the chain {name!r} needs a package that is not installed: {name.replace('pyevm', 'py-evm')}")
+        package = {"pyevm": "py-evm", "pyrevm": "pyrevm, which has wheels for Python 3.11 and 3.12"}.get(name, name)
+        raise InputError(f"the chain {name!r} needs a package that is not installed: {package}")
     chain: Chain = _KINDS[name]()
     return chain

@@ -14,7 +14,7 @@ from typing import Annotated, Any
 import typer
 
 from .._load import locate
-from .._on import Cluster, Nodes, On, Processes, where_of
+from .._on import VERIFY, Cluster, Nodes, On, Processes, where_of
 from .._render import render as draw
 from .._render import turntable as turn
 from ..animation import DURATION, Animation, check_animation, check_duration
@@ -24,7 +24,7 @@ from ..datasets import Piece
 from ..errors import InputError
 from ..image import FORMATS, Image, check_alpha, check_output, one_of
 from ..palette import MOST_COLORS, Pixels, colors
-from ..parallel import VERIFY, folder_of, remove_parts
+from ..parallel import folder_of, remove_parts
 from ..scene import PICTURE, scene_chunk
 from ..values import plural
 from .look_options import load_with, with_look
@@ -199,6 +199,8 @@ def _on(
         raise InputError("--rpc and --cluster exclude each other: give one of them")
     if rpc and chain is not None:
         raise InputError("--rpc and --chain exclude each other: give one of them")
+    if chain is not None and "://" in chain:
+        raise InputError(f"--chain is the name of an EVM: give --rpc for the node {chain!r:.60}")
     for name, value in (("--address", address), ("--rpc-timeout", timeout)):
         if value is not None and not rpc:
             raise InputError(f"{name} needs --rpc")

@@ -14,6 +14,8 @@ from ._piece import Piece
 DATASETS = {"common": "", "icons": "icons/", "genesis": "genesis/"}
 #: The same of what is found by name only: scenes that show the renderer's options.
 PREFIXES = {**DATASETS, "showcase": "showcase/"}
+#: How alike a name must be, from 0 to 1, to be what was meant.
+CLOSE = 0.7
 
 
 def pieces(dataset: str | None = None) -> Iterator[Piece]:
@@ -34,7 +36,13 @@ def require(name: str) -> Piece:
     piece = find(name)
     if piece is not None:
         return piece
-    close = get_close_matches(name.lower(), [each.name for each in pieces()], n=3)
+    if name.startswith("genesis/"):
+        known = "0 to 1023, or the 64 hexadecimal digits of a seed"
+        raise InputError(f"there is no piece {name!r}; after genesis/ comes a number from {known}")
+    # without prefixes, which are alike; a name without one may be of any dataset
+    chosen = ["icons"] if name.startswith("icons/") else ["common", "icons"]
+    names = {each.name.rpartition("/")[2]: each.name for dataset in chosen for each in pieces(dataset)}
+    close = [names[each] for each in get_close_matches(name.lower().rpartition("/")[2], names, n=3, cutoff=CLOSE)]
     hint = f"did you mean {' or '.join(close)}? " if close else ""
     raise InputError(f"there is no piece {name!r}; {hint}`shackled datasets list` shows all")
 

@@ -5,14 +5,13 @@ from ._job import COMPARED_GAS, choose_verifier, plan, render_frames
 from ._scheduler import FAILURES, Listener, Outline, Scheduler
 from ._store import PLAN, PartStore, folder_of, remove_parts
 from ._tiles import SMALLEST, area, covers, cut, grid, halves
-from ._where import VERIFY, Where
+from ._where import Where
 
 __all__ = [
     "COMPARED_GAS",
     "FAILURES",
     "PLAN",
     "SMALLEST",
-    "VERIFY",
     "Backend",
     "ChainBackend",
     "ClusterBackend",

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from ..chain import ContractChain, Drawing, open_chain
+from ..errors import caller
 from ..image import Image, decode_bmp, encode_bmp, total
 from ..scene import Rectangle, Scene
 from ._backends import SAMPLE, Backend, Part, Verifier
@@ -56,6 +57,7 @@ def render_frames(
     keep: a folder for finished parts, so that an interrupted job can be continued; the caller removes it.
     """
     listener = listener or Listener()
+    listener.place = caller()
     started = time.perf_counter()
     with ExitStack() as stack:
         stack.callback(listener.ended)

@@ -9,7 +9,6 @@ from __future__ import annotations
 import random
 import threading
 import time
-import warnings
 from collections import deque
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -23,9 +22,11 @@ from ..errors import (
     NodeError,
     NodeTimeoutError,
     OutOfGasError,
+    Place,
     RenderError,
     TooLargeError,
     WrongChainError,
+    warn,
 )
 from ..scene import Scene
 from ._backends import Backend, Part, Verifier, check_part
@@ -55,6 +56,9 @@ class Outline:
 class Listener:
     """Receives the progress of a job; this one shows warnings only. Threads may call it, one at a time."""
 
+    #: Where the job was asked for, as threads do not know it; None shows warnings where they are given.
+    place: Place | None = None
+
     def planned(self, outline: Outline) -> None:
         """Handle the start of the job."""
 
@@ -63,7 +67,7 @@ class Listener:
 
     def warned(self, text: str) -> None:
         """Handle a failure that does not end the job."""
-        warnings.warn(text, RuntimeWarning, stacklevel=2)
+        warn(text, RuntimeWarning, self.place)
 
     def ended(self) -> None:
         """Handle the end of the job, finished or not."""

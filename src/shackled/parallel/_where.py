@@ -12,9 +12,6 @@ from ..errors import ChainError, InputError, NodeError, OutOfGasError
 from ._backends import Backend, ChainBackend, ProcessBackend, limited
 from ._scheduler import Listener
 
-MOST_JOBS = 256
-#: How much of the answers of untrusted backends is verified.
-VERIFY = ("all", "some", "none")
 #: Attempts of a request to a node that is busy, before the job begins.
 ATTEMPTS = 4
 
@@ -44,25 +41,17 @@ class Where:
     verify: str | None = None
 
     def __post_init__(self) -> None:
-        jobs, gas = integer(self.jobs), integer(self.gas_limit)
-        if self.jobs is not None and (jobs is None or not 1 <= jobs <= MOST_JOBS):
-            raise InputError(f"`jobs` must be from 1 to {MOST_JOBS}, not {self.jobs!r}")
+        gas = integer(self.gas_limit)
         if self.gas_limit is not None and (gas is None or not 1 <= gas <= DEFAULT_GAS_LIMIT):
             raise InputError(
                 f"`gas_limit` must be a whole number of gas from 1 to {DEFAULT_GAS_LIMIT:,}, not {self.gas_limit!r}"
             )
-        object.__setattr__(self, "jobs", jobs)
         object.__setattr__(self, "gas_limit", gas)
         if self.tile is not None:
             sides = tuple(integer(side) or 0 for side in self.tile)
             if min(sides) < 1:
                 raise InputError(f"the sides of a `tile` must be whole numbers from 1, not {self.tile!r}")
             object.__setattr__(self, "tile", sides)
-        if self.verify not in (None, *VERIFY):
-            raise InputError(f"`verify` must be {', '.join(VERIFY[:-1])} or {VERIFY[-1]}, not {self.verify!r}")
-        named = self.chain is None or isinstance(self.chain, str)
-        if not named and (self.count > 1 or self.cluster is not None):
-            raise InputError("a chain object cannot be passed to other processes: pass its name")
 
     @property
     def count(self) -> int:

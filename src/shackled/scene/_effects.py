@@ -10,7 +10,7 @@ from typing import Any
 from attrs import field, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import Color, color, flag, instance, integer, number
+from ..checks import Color, color, flag, instance, number, whole
 from ..errors import InputError
 from ..values import checked, with_names
 
@@ -19,15 +19,6 @@ POWERS = (1, 16)
 EXPOSURES = (0, 64)
 #: What removes an effect, as a setting of a look.
 NONE = "none"
-
-
-def _power(value: float) -> int:
-    found = integer(value)
-    if found is None or not POWERS[0] <= found <= POWERS[1]:
-        raise InputError(
-            f"the power of a rim must be a whole number from {POWERS[0]} to {POWERS[1]}, not {value!r:.60}"
-        )
-    return found
 
 
 @frozen(field_transformer=with_names)
@@ -50,7 +41,7 @@ class Rim:
     """
 
     color: Color = field(converter=color, metadata=checked("the colour of a rim"))
-    power: int = field(default=3, converter=_power)
+    power: int = field(default=3, converter=whole, metadata=checked("the power of a rim", *POWERS))
 
 
 @frozen(field_transformer=with_names)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import Any
 
 import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
 
-from ..errors import InputError, InputWarning
+from ..errors import InputError, warn
 from ._files.colors import to_srgb
 from ._files.model import MeshPart, Picture, finite_uvs
 from ._files.weld import weld
@@ -20,7 +19,8 @@ from ._object import Object
 
 def is_trimesh(value: object) -> bool:
     """Return whether a value is an object of trimesh."""
-    return type(value).__module__.partition(".")[0] == "trimesh"
+    # its arrays are its own, too
+    return type(value).__module__.partition(".")[0] == "trimesh" and not isinstance(value, np.ndarray)
 
 
 def mesh_of(value: Any) -> Mesh:
@@ -81,7 +81,7 @@ def objects_of(scene: Any) -> list[Object]:
         matrix, geometry = scene.graph[name]
         whole = scene.geometry[geometry]
         if not hasattr(whole, "faces"):
-            warnings.warn(f"{geometry} of the scene has no faces and is left out", InputWarning, stacklevel=2)
+            warn(f"{geometry} of the scene has no faces and is left out")
             continue
         objects.append(_placed(part_of(whole), np.asarray(matrix, dtype=np.float64)))
     return objects

@@ -10,7 +10,7 @@ import numpy as np
 from attrs import evolve, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import Color, choice, color, flag, integer, number, vector
+from ..checks import Color, choice, color, flag, integer, number, vector, whole
 from ..errors import InputError
 from ._arithmetic import dot, length
 from ._background import Background, background_of
@@ -375,6 +375,26 @@ class LookOptions(TypedDict, total=False):
     opacity: float | None
 
 
+#: How alike a name must be, from 0 to 1, to be what was meant.
+CLOSE = 0.8
+_SIZE = "`size` is the side in pixels, or (width, height)"
+_SURFACE_WORDS = "`color`, `shading`, `specular` and others set it, or render an Object with a Material"
+#: What to give instead of keywords that other programs have.
+_INSTEAD = {
+    **dict.fromkeys(("width", "height", "resolution", "shape"), _SIZE),
+    **dict.fromkeys(("material", "texture"), _SURFACE_WORDS),
+    "aa": "did you mean antialias?",
+    "alpha": "`transparent` of render leaves out the background, `opacity` is that of the objects",
+    "bg": "did you mean background?",
+    "camera": "`eye`, `target`, `up` and `fov` place the camera, or render a Scene with a Camera",
+    "depth": "depths are not returned",
+    "fps": "`duration` of a turntable is the time of a frame in milliseconds",
+    **dict.fromkeys(("output", "path", "filename"), "`save` of what is returned writes it to a file"),
+    "projection": "did you mean orthographic?",
+    "rotation": "did you mean rotate?",
+}
+
+
 def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
     """Return what is set, each converted by its kind; without what is None.
 
@@ -383,8 +403,8 @@ def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
     known = {setting.name: setting for setting in SETTINGS}
     for name in options:
         if name not in known:
-            close = get_close_matches(name, known, 1)
-            meant = f"did you mean {close[0]}?" if close else f"known are {', '.join(known)}"
+            close = get_close_matches(name, known, 1, CLOSE)
+            meant = f"did you mean {close[0]}?" if close else _INSTEAD.get(name, f"known are {', '.join(known)}")
             raise TypeError(f"{name!r} is not a keyword of a look; {meant}")
     look = {name: known[name].check(value, f"`{name}`") for name, value in options.items() if value is not None}
     shadings = {name for name in ("smooth", "unlit") if look.pop(name, False)} | {*filter(None, [look.get("shading")])}
@@ -499,6 +519,12 @@ def resize(scene: Scene, size: int | tuple[int, int]) -> Scene:
 def size_of(value: int | tuple[int, int], name: str = "`size`") -> tuple[int, int]:
     """Return width and height, of one number or two. InputError for anything else."""
     try:
+        are_rows = np.ndim(value) > 1
+    except ValueError:  # of different lengths
+        are_rows = True
+    if are_rows:
+        raise InputError(f"{name} must be one number or (width, height); vertices and faces are one argument, in ()")
+    try:
         side = integer(value)
         width, height = value if side is None else (side, side)  # type: ignore[misc]
     except (TypeError, ValueError):
@@ -585,12 +611,10 @@ def _given(look: Mapping[str, Any], settings: Iterable[Setting]) -> dict[str, An
     return {setting.name: look[setting.name] for setting in settings if setting.name in look}
 
 
-def _whole(value: object, setting: Setting, name: str) -> int:
-    found = integer(value)
-    if found is None or not setting.low <= found <= setting.high:
-        limits = f"from {setting.range}" if setting.range else f"at least {setting.low:g}"
-        raise InputError(f"{name} must be a whole number, {limits}, not {value!r:.60}")
-    return found
+def _background(value: Any, setting: Setting, name: str) -> Background:
+    if isinstance(value, str) and value.strip().lower() == "transparent":
+        raise InputError(f"{name} is a colour: give `transparent` for a picture without a background")
+    return background_of(value)
 
 
 def _unless_none(made: Callable[[Any, str], Any], value: object, name: str) -> Any:
@@ -600,13 +624,13 @@ def _unless_none(made: Callable[[Any, str], Any], value: object, name: str) -> A
 
 _CHECKS: dict[Kind, Callable[[Any, Setting, str], Any]] = {
     "size": lambda value, setting, name: size_of(value, name),
-    "whole": _whole,
+    "whole": lambda value, setting, name: whole(value, name, setting.low, setting.high),
     "number": lambda value, setting, name: number(value, name, setting.low, setting.high),
     "vector": lambda value, setting, name: vector(value, name),
     "rotation": lambda value, setting, name: rotation_of(value, name),
     "flag": lambda value, setting, name: flag(value, name),
     "color": lambda value, setting, name: color(value, name),
-    "background": lambda value, setting, name: background_of(value),
+    "background": _background,
     "choice": lambda value, setting, name: choice(value, name, setting.choices),
     "lights": lambda value, setting, name: lights_of(value),
     "hemisphere": lambda value, setting, name: _unless_none(hemisphere_of, value, name),

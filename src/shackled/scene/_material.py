@@ -6,7 +6,7 @@ from typing import Literal, cast
 
 from attrs import field, frozen
 
-from ..checks import choice, instance, number
+from ..checks import choice, instance, number, whole
 from ..values import checked, with_names
 from ._texture import Texture
 
@@ -21,10 +21,6 @@ EXPONENTS = (1, 128)
 
 def _shading(value: str) -> Shading:
     return cast(Shading, choice(value, "the shading of a material", SHADINGS))
-
-
-def _shininess(value: float) -> int:
-    return round(number(value, "the shininess of a material", *EXPONENTS))
 
 
 def _texture(value: Texture | None) -> Texture | None:
@@ -52,5 +48,5 @@ class Material:
     specular: float = field(
         default=0.3, converter=number, metadata=checked("the specular coefficient of a material", *COEFFICIENTS)
     )
-    shininess: int = field(default=24, converter=_shininess)
+    shininess: int = field(default=24, converter=whole, metadata=checked("the shininess of a material", *EXPONENTS))
     texture: Texture | None = field(default=None, converter=_texture)

@@ -9,7 +9,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from ..checks import Floats, Number, channels, color, fixed
+from ..checks import Floats, Number, channels, fixed, rgba
 from ..errors import InputError
 from ..values import Value, array_key, checked, plural, with_names
 from ._arithmetic import length
@@ -90,18 +90,15 @@ def _colors(values: Colors | None) -> NDArray[np.uint8]:
     if isinstance(values, np.ndarray) and values.dtype == np.uint8 and values.ndim == 2 and values.shape[1] in (3, 4):
         return fixed(values, np.uint8)
     if isinstance(values, str):
-        return fixed(color(values, "the colour of a mesh"), np.uint8)
+        return fixed(rgba(values, "the colour of a mesh"), np.uint8)
     if isinstance(values, list | tuple) and any(isinstance(each, str) for each in values):
-        values = [color(each, f"the colour of vertex {number}") for number, each in enumerate(values)]
+        values = [rgba(each, f"the colour of vertex {number}") for number, each in enumerate(values)]
     try:
         levels = np.array(channels(values), dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
         raise InputError(f"{name} must be rows of 3 numbers") from None
-    if levels.shape == (4,):
-        _check_levels(levels[None])
-        return fixed(levels, np.uint8)
     if levels.ndim == 1 and levels.size:
-        return fixed(color(values, "the colour of a mesh"), np.uint8)
+        return fixed(rgba(values, "the colour of a mesh"), np.uint8)
     if levels.ndim != 2 or levels.shape[1] != 4:
         levels = _rows_of_3(levels, name)
     _check_levels(levels)
@@ -132,7 +129,8 @@ class Mesh(Value):
 
     positions: (n, 3) float. faces: (m, 3) int, vertex numbers.
     colors: (n, 3), red, green and blue of each vertex, 0..255; None for light grey. Also given as floats 0..1, with an
-        alpha, which becomes the opacities, as a list of "#rrggbb" or names, or as one of these for the whole mesh.
+        alpha, which becomes the opacities, as a list of "#rgb", "#rgba", "#rrggbb", "#rrggbbaa" or names, or as one
+        of these for the whole mesh.
     normals: (n, 3) float, or None; computed for smooth shading if they are absent.
     uvs: (n, 2) float, or None: where each vertex is on a texture, from its upper left corner (0, 0) to its lower right
         one (1, 1), as in glTF. Corners of faces with different ones need vertices of their own.

@@ -96,11 +96,18 @@ def rotation_of(value: ArrayLike, name: str = "a rotation") -> Floats:
 
     value: a quaternion of any length but zero, three angles in degrees about x, then y, then z, or a matrix, (3, 3).
     """
-    shape = np.shape(value) if isinstance(value, list | tuple | np.ndarray) else None
+    try:
+        shape = np.shape(value)
+    except ValueError:  # rows of different lengths
+        shape = ()
     if shape == (3,):
-        value = from_euler(value)
+        value = from_euler(vector(value, name))
     elif shape == (3, 3):
         value = quaternion_of(matrix_of(value, 3, "the matrix of a rotation"))
+    elif shape != (4,):
+        raise InputError(
+            f"{name} must be x, y, z in degrees, a quaternion x, y, z, w, or a 3 x 3 matrix, not {value!r:.60}"
+        )
     quaternion = vector(value, name, 4)
     if not quaternion.any():
         raise InputError(f"{name} must not be the zero quaternion; the identity is (0, 0, 0, 1)")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeVar
 
 import numpy as np
@@ -30,7 +30,7 @@ Part = TypeVar("Part")
 
 
 def _objects(value: Object | Mesh | Iterable[Object | Mesh]) -> tuple[Object, ...]:
-    parts = _list([value] if isinstance(value, Object | Mesh) else value, "objects")
+    parts = _list([value] if isinstance(value, Object | Mesh) else value, "objects", "an Object, a Mesh")
     objects = [Object(part) if isinstance(part, Mesh) else part for part in parts]
     for number, part in enumerate(objects):
         instance(part, f"objects[{number}] of a scene", Object)
@@ -41,7 +41,7 @@ def lights_of(value: Light | Iterable[Light] | None) -> tuple[Light, ...]:
     """Return lights, given as one or as a list of up to four; None is replaced by the Scene."""
     if value is None:
         return value  # type: ignore[return-value]
-    lights = _list([value] if isinstance(value, Light) else value, "lights")
+    lights = _list([value] if isinstance(value, Light) else value, "lights", "a Light")
     for number, part in enumerate(lights):
         instance(part, f"lights[{number}] of a scene", Light)
     if len(lights) > MAX_LIGHTS:
@@ -49,11 +49,13 @@ def lights_of(value: Light | Iterable[Light] | None) -> tuple[Light, ...]:
     return tuple(lights)
 
 
-def _list(parts: Iterable[Part], name: str) -> list[Part]:
+def _list(parts: Iterable[Part], name: str, kind: str) -> list[Part]:
     try:
-        return list(parts)
+        if not isinstance(parts, str | Mapping):
+            return list(parts)
     except TypeError:
-        raise InputError(f"the {name} of a scene must be a list, not {parts!r:.60}") from None
+        pass
+    raise InputError(f"the {name} of a scene must be {kind} or a list of these, not {parts!r:.60}")
 
 
 def _camera(value: Camera | None) -> Camera:

@@ -193,8 +193,8 @@ def test_rotation_as_quaternion(folder: Path) -> None:
          "unknown key 'object'; known are size, camera, objects, tone, background, invert, antialias, lights, "
          "ambient_light, hemisphere, rim, fog, ground"),
         ({"hemisphere": "white"}, "hemisphere must be a table with keys of sky, ground, not 'white'"),
-        ({"hemisphere": {"ground": "white"}}, "hemisphere.sky must be red, green and blue from 0 to 255, or #rrggbb, "
-         "not None"),
+        ({"hemisphere": {"ground": "white"}}, "hemisphere.sky must be red, green and blue from 0 to 255, #rgb, "
+         "#rrggbb, or the name of a colour, not None"),
         ({"rim": {"color": "white", "power": 17}},
          "rim: the power of a rim must be a whole number from 1 to 16, not 17"),
         ({"fog": {"color": "white", "near": 2}}, "fog.far must be a number, not None"),
@@ -211,8 +211,15 @@ def test_rotation_as_quaternion(folder: Path) -> None:
         ({"objects": [thing(colour="#fff")]},
          "unknown key 'colour' in objects[0]; known are mesh, position, rotation, scale, "
          "material, fade, color, cull, wireframe, opacity"),
-        ({"objects": [thing(color="#fff")]},
-         "objects[0].color must be red, green and blue from 0 to 255, or #rrggbb, or the name of a colour, not '#fff'"),
+        ({"objects": [thing(color="#fffff")]},
+         "objects[0].color must be red, green and blue from 0 to 255, #rgb, #rrggbb, or the name of a colour, not "
+         "'#fffff'"),
+        ({"objects": [thing(color="#fff8")]},
+         "objects[0].color must be opaque, not '#fff8'; an Object has an opacity"),
+        ({"objects": [thing(material={"shininess": 12.5})]},
+         "objects[0].material.shininess must be a whole number, at least 0, not 12.5"),
+        ({"objects": [thing(material={"shininess": 129})]},
+         "objects[0].material.shininess must be a whole number from 1 to 128, not 129"),
         ({"objects": [thing(color=[1, 2, 256])]},
          "objects[0].color must be red, green and blue from 0 to 255, not [1, 2, 256]"),
         ({"objects": [thing(scale="2")]}, "objects[0].scale must be a number, not '2'"),

@@ -233,7 +233,7 @@ function checkedMaterial(material: given.Material, where: string): Material {
         ambient: check.number(material.ambient ?? 0.3, `${where}.ambient`, 0, 4),
         diffuse: check.number(material.diffuse ?? 0.75, `${where}.diffuse`, 0, 4),
         specular: check.number(material.specular ?? 0.3, `${where}.specular`, 0, 4),
-        shininess: rint(check.number(material.shininess ?? 24, `${where}.shininess`, 1, 128)),
+        shininess: check.whole(material.shininess ?? 24, `${where}.shininess`, 1, 128),
         texture: material.texture && checkedTexture(material.texture, `${where}.texture`),
     };
 }
@@ -335,8 +335,9 @@ function colorsOf(value: given.Rows | given.Color | undefined, count: number, wh
     const isOne =
         typeof value === "string" || (check.isList(value) && value.length === 3 && typeof value[0] === "number");
     if (value === undefined || (isOne && count !== 1)) {
-        const one = value === undefined ? DEFAULT_COLOR : check.color(value, where);
-        return { colors: Uint8Array.from({ length: 3 * count }, (_, at) => one[at % 3] as number), alpha: undefined };
+        const one = value === undefined ? [...DEFAULT_COLOR, 255] : check.rgba(value, where);
+        const colors = Uint8Array.from({ length: 3 * count }, (_, at) => one[at % 3] as number);
+        return { colors, alpha: unlessOpaque(Array.from({ length: count }, () => one[3] as number)) };
     }
     const width = check.isList(value) && check.isList(value[0]) && value[0].length === 4 ? 4 : 3;
     const levels = rows(value as given.Rows, where, width);

@@ -6,6 +6,8 @@ import { COLOR_NAMES } from "./color_names.js";
 
 /** Red, green, blue, 0..255. */
 export type Rgb = [number, number, number];
+/** Red, green, blue and alpha, 0..255. */
+export type Rgba = [number, number, number, number];
 
 /** Return a finite number within low..high. */
 export function number(value: unknown, name: string, low = -Infinity, high = Infinity): number {
@@ -56,9 +58,19 @@ export function isList(value: unknown): value is ArrayLike<unknown> {
     return Array.isArray(value) || (ArrayBuffer.isView(value) && "length" in value);
 }
 
-/** Return the colour of whole numbers 0..255, of fractions one of which is not whole, "#rrggbb", or a name of CSS. */
+/** Return a colour as `rgba` takes it, which must be opaque. */
 export function color(value: unknown, name: string): Rgb {
-    if (typeof value === "string") return colorOfText(value, name);
+    const [red, green, blue, alpha] = rgba(value, name);
+    if (alpha === 255) return [red, green, blue];
+    throw new InputError(`${name} must be opaque, not ${show(value)}; an object has an opacity`);
+}
+
+/**
+ * Return the colour of 3 or 4 whole numbers 0..255, of fractions one of which is not whole, "#rgb", "#rgba", "#rrggbb",
+ * "#rrggbbaa", or a name of CSS. It is opaque where it does not say otherwise.
+ */
+export function rgba(value: unknown, name: string): Rgba {
+    if (typeof value === "string") return rgbaOfText(value, name);
     let levels = isList(value) ? Array.from(value) : [];
     const areFractions =
         levels.every((x) => typeof x === "number" && x >= 0 && x <= 1) && !levels.every(Number.isInteger);
@@ -66,10 +78,7 @@ export function color(value: unknown, name: string): Rgb {
     if (levels.length < 3 || levels.length > 4 || !levels.every(isLevel)) {
         throw new InputError(`${name} must be red, green and blue from 0 to 255, not ${show(value)}`);
     }
-    if (levels.length === 4 && levels[3] !== 255) {
-        throw new InputError(`${name} must be opaque, not ${show(value)}; an object has an opacity`);
-    }
-    return levels.slice(0, 3) as Rgb;
+    return [...levels, 255].slice(0, 4) as Rgba;
 }
 
 /** Return whether a value is a whole number 0..255. */
@@ -77,19 +86,18 @@ export function isLevel(value: unknown): value is number {
     return Number.isInteger(value) && (value as number) >= 0 && (value as number) <= 255;
 }
 
-function colorOfText(text: string, name: string): Rgb {
+function rgbaOfText(text: string, name: string): Rgba {
     const key = text.trim().toLowerCase();
-    const digits = /^#?([0-9a-f]{6})$/.exec(key)?.[1];
-    const level = Object.hasOwn(COLOR_NAMES, key)
-        ? COLOR_NAMES[key]
-        : digits === undefined
-          ? undefined
-          : parseInt(digits, 16);
-    if (level === undefined) {
-        const known = "red, green and blue from 0 to 255, or #rrggbb, or the name of a colour";
+    const known = Object.hasOwn(COLOR_NAMES, key) ? COLOR_NAMES[key] : undefined;
+    if (known !== undefined) return [known >> 16, (known >> 8) & 255, known & 255, 255];
+    const word = key === "transparent" ? "#0000" : key;
+    if (!/^(#[0-9a-f]{3,4}|#?[0-9a-f]{6}|#[0-9a-f]{8})$/.test(word)) {
+        const known = "red, green and blue from 0 to 255, #rgb, #rrggbb, or the name of a colour";
         throw new InputError(`${name} must be ${known}, not ${show(text)}`);
     }
-    return [level >> 16, (level >> 8) & 255, level & 255];
+    const digits = word.replace("#", "");
+    const level = parseInt((digits.length > 4 ? digits : digits.replace(/./g, "$&$&")).padEnd(8, "f"), 16);
+    return [24, 16, 8, 0].map((at) => (level >>> at) & 255) as Rgba;
 }
 
 /** Return so many finite numbers. */

@@ -7,8 +7,8 @@ export type Rows = ArrayLike<number> | readonly ArrayLike<number>[];
 export type Vector3 = readonly [number, number, number];
 
 /**
- * Red, green and blue in whole numbers 0..255, or in fractions 0..1 of which one at least is not whole; "#rrggbb", or the
- * CSS name of a colour.
+ * Red, green and blue in whole numbers 0..255, or in fractions 0..1 of which one at least is not whole; "#rgb", "#rrggbb",
+ * or the CSS name of a colour. `Mesh.colors` also takes an alpha, "#rgba" or "#rrggbbaa".
  */
 export type Color = readonly [number, number, number] | string;
 

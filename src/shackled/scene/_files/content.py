@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 import stat
-import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ...errors import InputError, InputWarning
+from ...errors import InputError
 from ...untrusted import read_json, read_toml
 
 #: No mesh for a contract is nearly as large; a larger file would only fill the memory.
@@ -66,8 +65,3 @@ def parse(path: Path, text: str, kind: str) -> Mapping[str, Any]:
     if not isinstance(document, Mapping):
         raise InputError(f"{path} must hold an object with the keys of a scene, not {document!r:.60}")
     return document
-
-
-def warn(message: str) -> None:
-    """Warn of a part of a file that is ignored; the message is one line that begins with the path."""
-    warnings.warn(message, InputWarning, stacklevel=2)

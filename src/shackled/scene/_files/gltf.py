@@ -20,14 +20,14 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from ...errors import InputError
+from ...errors import InputError, warn
 from .._crease import filled
 from .._material import EXPONENTS
 from .._mesh import DEFAULT_COLOR
 from .._rotation import rotate
 from .._texture import Filter, open_image
 from .colors import to_srgb
-from .content import parse, read_bytes, warn
+from .content import parse, read_bytes
 from .model import FileWrap, MeshPart, Picture, finite_uvs, tinted
 from .table import Table, about
 from .weld import weld
@@ -435,7 +435,7 @@ def _material(pieces: Sequence[_Piece]) -> dict[str, Any]:
     # Beckmann's roughness of a Blinn-Phong exponent; the strength of highlights is a matter of taste
     return {
         "specular": round((0.8 + 0.3 * metalness) * (1 - roughness), 3),
-        "shininess": min(max(2 / max(roughness, 0.1) ** 4 - 2, _WIDEST), EXPONENTS[1]),
+        "shininess": round(min(max(2 / max(roughness, 0.1) ** 4 - 2, _WIDEST), EXPONENTS[1])),
     }
 
 

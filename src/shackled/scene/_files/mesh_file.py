@@ -6,9 +6,8 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
-from ...errors import InputError, InputWarning
+from ...errors import InputError, InputWarning, warn
 from .._mesh import Mesh
-from .content import warn
 from .gltf import read_gltf
 from .model import TEXTURED, MeshPart, baked
 from .obj import read_obj

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
+from ...errors import warn
 from .._mesh import Mesh
 from .._texture import MAX_TEXTURE_SIDE, Filter, Texture, Wrap, reduced
 from .colors import sample
-from .content import warn
 from .weld import weld
 
 #: The warning for a mesh whose textures have more than one colour, if only the mesh is read.

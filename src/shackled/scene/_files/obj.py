@@ -15,12 +15,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import InputError
+from ...errors import InputError, warn
 from .._crease import corner_normals, filled
 from .._mesh import DEFAULT_COLOR, Mesh
 from .._texture import open_image
 from .colors import to_bytes
-from .content import read_text, warn
+from .content import read_text
 from .model import FileWrap, MeshPart, Picture, finite_uvs, tinted
 from .polygons import cut
 from .weld import weld

@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import InputError
+from ...errors import InputError, warn
 from .._crease import filled
 from .._mesh import Mesh
 from .colors import to_bytes
-from .content import read_bytes, unix_lines, warn
+from .content import read_bytes, unix_lines
 from .polygons import cut
 from .weld import weld
 

@@ -224,7 +224,7 @@ def _ground(keys: Table, setting: Setting) -> Ground:
 
 #: How the values of kinds are read, besides the range.
 _READ: dict[Kind, Callable[[Table, Setting], Any]] = {
-    "whole": lambda keys, setting: round(keys.number(setting.name)),
+    "whole": lambda keys, setting: keys.whole(setting.name),
     "number": lambda keys, setting: keys.number(setting.name),
     "vector": lambda keys, setting: keys.numbers(setting.name, (0, 0, 0)),
     "flag": lambda keys, setting: keys.flag(setting.name),

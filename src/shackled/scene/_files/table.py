@@ -9,7 +9,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from ...checks import Color, color
+from ...checks import COLORS, Color, color
 from ...errors import InputError
 
 Word = TypeVar("Word", bound=str)
@@ -112,14 +112,12 @@ class Table:
         return cast(Word, value)
 
     def color(self, key: str, default: Color | None = None) -> Color:
-        """Return red, green and blue from 0 to 255, or "#rrggbb"."""
+        """Return red, green and blue, 0..255, of a list of numbers or a text."""
         value = self.values.get(key, default)
         if isinstance(value, str):
             return color(value, self.place(key))
         if not isinstance(value, list | tuple) or not all(is_number(part) for part in value):
-            raise InputError(
-                f"{self.place(key)} must be red, green and blue from 0 to 255, or #rrggbb, not {value!r:.60}"
-            )
+            raise InputError(f"{self.place(key)} must be {COLORS}, not {value!r:.60}")
         return color(list(value), self.place(key))
 
     def rows(self, key: str) -> list[tuple[str, object]]:
