@@ -19,7 +19,7 @@ class Processes:
     """Worker processes on this machine.
 
     jobs: number of processes, 1..256; None for one per processor.
-    evm: "revm", "pyrevm", "pyevm" or "reference"; None for the first.
+    evm: "revm", "pyrevm" or "pyevm"; None for the first.
     """
 
     jobs: int | None = None
