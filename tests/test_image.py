@@ -134,8 +134,8 @@ def test_formats_with_and_without_a_dot(image: Image) -> None:
 
 
 def test_it_shows_itself_in_a_line(image: Image) -> None:
-    assert repr(image) == f"<Image 37x21, 1 triangle, {image.gas:,} gas>"
-    assert repr(evolve(image, gas=35_312_345)) == "<Image 37x21, 1 triangle, 35.3M gas>"
+    assert repr(image) == f"<Image 37x21, {image.gas:,} gas>"
+    assert repr(evolve(image, gas=35_312_345)) == "<Image 37x21, 35.3M gas>"
     assert repr(evolve(image, gas=None, scene=None)) == "<Image 37x21>"
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from accuracy import flat, teapot_scene
+from made_scenes import flat, teapot_scene
 from pictures import call, call_data, chain, draw, dynamic
 from shackled import Camera, Material, Mesh, Object, RenderError, Scene, load
 from shackled.chain import open_chain
