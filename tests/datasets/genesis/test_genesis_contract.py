@@ -199,8 +199,7 @@ def test_the_constants_are_sines() -> None:
     assert np.abs(np.array(sines, float) / 1e18 - exact).max() < 5e-6
     assert (sines[1], sines[3]) == (499997878680004681, 10**18)
     found = {
-        (name, int(degrees)): int(value)
-        for name, degrees, value in re.findall(r"(SINE|COSINE)_(\d+) = (-?\d+);", text)
+        (name, int(degrees)): int(value) for name, degrees, value in re.findall(r"(SINE|COSINE)_(\d+) = (-?\d+);", text)
     }
     assert len(found) == 6
     assert (found["SINE", 12], found["COSINE", 12]) == (207911222804296399, 978145476420477720)
