@@ -78,7 +78,7 @@ def test_tiles_are_parts_and_their_counts_are_right(name: str) -> None:
         assert surely <= found <= surely + maybe, tile
         sums += surely, maybe
         assert lit == shown[tile.y : tile.y + tile.height, tile.x : tile.x + tile.width].sum(), tile
-    assert name in NEAR or sums[0] > 5 * sums[1]
+    assert name in NEAR or sums[0] > 3 * sums[1]
 
 
 #: Scenes of which the near plane clips many faces.
@@ -102,9 +102,9 @@ def triangles_of(scene: Scene, tile: Rectangle) -> tuple[int, int]:
             inside = np.minimum(np.maximum.reduce([a, b, c]) - low, high - np.minimum.reduce([a, b, c])).min(axis=1)
         facing = area if surface.cull else np.abs(area)
         clipped = near.any(axis=1)
-        counts = ~clipped & (facing > 0.1) & (inside > 0.1)
+        counts = ~clipped & (facing > 0.1) & (inside > 0.6)
         surely += int(counts.sum())
-        maybe += int((~near.all(axis=1) & ~counts & (clipped | ((facing > -0.1) & (inside > -0.1)))).sum())
+        maybe += int((~near.all(axis=1) & ~counts & (clipped | ((facing > -0.1) & (inside > -0.6)))).sum())
     return surely, maybe
 
 
