@@ -129,9 +129,9 @@ pictures: $(DEV) ## draw the pictures of the documentation, except those of docs
 
 # ---- long runs ----
 
-fuzz: $(DEV) ## contracts against the reference over 2,000 random scenes, property tests on new examples
-	$(BIN)/python tests/differential.py --count 2000
-	HYPOTHESIS_PROFILE=new $(BIN)/pytest -n 2 tests/evm tests/scene tests/test_bad_input_on_chain.py tests/test_differential.py tests/test_properties.py
+fuzz: $(DEV) ## contracts against the judge over 2,000 more random scenes and other EVMs, property tests on new examples
+	$(BIN)/python tests/judge --only tame close --count 2000
+	HYPOTHESIS_PROFILE=new $(BIN)/pytest -n 2 tests/evm tests/scene tests/test_bad_input_on_chain.py tests/test_properties.py
 
 conformance: $(DEV) opengl ## contracts against the judge over 1,000 random scenes, and OpenGL
 	$(BIN)/python tests/judge
