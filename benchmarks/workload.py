@@ -37,7 +37,7 @@ def workload_of(scene: Scene) -> Workload:
     for corners in _triangles(fit(scene)):
         low, high = (int(each) for each in np.ceil(corners[:, 1].clip(0, scene.height)[[0, 2]] - 0.5))
         rows += high - low
-        tested += _covered(corners, np.arange(low, high) + 0.5, scene.width)
+        tested += _covered(corners, np.arange(low, high, dtype=np.float64) + 0.5, scene.width)
     return Workload(
         vertices=sum(len(o.mesh.positions) for o in scene.objects),
         faces=scene.triangles,

@@ -9,7 +9,7 @@ scene = shackled.load("tetrahedron", size=32)
 first = shackled.render(scene, on="revm")
 second = shackled.render(scene, on="pyevm")
 difference = np.abs(np.asarray(first, dtype=int) - np.asarray(second, dtype=int))
-print(f"{first.made_by} and {second.made_by}: {difference.max()} levels and {first.gas - second.gas} gas apart")
+print(f"{first.made_by}: {first.gas:,} gas; {second.made_by}: {second.gas:,} gas; {difference.max()} levels apart")
 
 first.save("tetrahedron.png")
 with Image.open("tetrahedron.png") as decoded:
