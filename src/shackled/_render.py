@@ -98,11 +98,13 @@ def draw(
     scenes: Sequence[Scene], where: Where, listener: Listener | None = None, keep: Path | None = None
 ) -> list[Image]:
     """Render scenes of one size, by one call each or by several."""
-    from .parallel import Counter, render_frames
+    from .parallel import Counter
 
     if where.alone:
         chain = open_chain(where.chain) if where.chain is None or isinstance(where.chain, str) else where.chain
         return [render_whole(scene, chain, Counter(where)) for scene in scenes]
+    from .parallel import render_frames
+
     return render_frames(scenes, where, listener, keep).images
 
 
