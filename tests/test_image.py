@@ -227,6 +227,7 @@ def test_counts_are_calls_of_their_own(monkeypatch: pytest.MonkeyPatch) -> None:
         made.clear()
         assert (image.triangles, image.covered_pixels) == expected == (image.triangles, image.covered_pixels)
         assert made == [selectors[each] for each in counts]
+    assert "Where" not in repr(image.counter)
     copied = pickle.loads(pickle.dumps(image))
     made.clear()
     assert (copied.triangles, copied.covered_pixels) == expected

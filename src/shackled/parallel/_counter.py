@@ -5,17 +5,23 @@ from __future__ import annotations
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
-from dataclasses import replace
 from queue import SimpleQueue
 from typing import Any
 
-from attrs import frozen
+from attrs import field, frozen
 
 from ..errors import OutOfGasError, TooLargeError
 from ..scene import Rectangle, Scene
 from ._backends import Backend
 from ._scheduler import Listener
 from ._where import Where
+
+
+class _Silent(Listener):
+    """Shows no warnings: those of nodes that fail were shown when the picture was rendered."""
+
+    def warned(self, text: str) -> None:
+        """Ignore a failure that does not end the job."""
 
 
 @frozen
@@ -29,13 +35,13 @@ class Counter:
     where: where the picture was rendered. pixels: of a tile at most; None for a picture of one call.
     """
 
-    where: Where
+    where: Where = field(repr=False)  # addresses of nodes may have keys
     pixels: int | None = None
 
     def __call__(self, scene: Scene) -> tuple[int, int]:
         """Count a scene. Raises the errors of `render`."""
         with ExitStack() as stack:
-            backends = self.where.open(Listener())
+            backends = self.where.open(_Silent())
             free: SimpleQueue[tuple[Backend, int]] = SimpleQueue()
             for backend in backends:
                 for slot in range(backend.slots):
@@ -63,9 +69,9 @@ class Counter:
             return _sum(zip((sign for sign, _ in parts), found, strict=True))
 
     def __reduce__(self) -> tuple[type, tuple[Any, ...]]:
-        named = self.where.chain is None or isinstance(self.where.chain, str)
-        # an EVM cannot leave its process: a copy counts in the embedded one
-        return Counter, (self.where if named else replace(self.where, chain=None), self.pixels)
+        # an EVM cannot leave its process, and a node's address may have a key: a copy counts in the embedded EVM
+        is_local = not self.where.rpc and (self.where.chain is None or isinstance(self.where.chain, str))
+        return Counter, (self.where, self.pixels) if is_local else (Where(),)
 
 
 def strips(rows: range, height: int) -> Iterator[tuple[int, range]]:

@@ -5,15 +5,15 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from ..chain import ContractChain, Drawing, open_chain
+from ..chain import ContractChain, Drawing, NodeChain, open_chain
 from ..image import Image, decode_bmp, encode_bmp, total
 from ..scene import Rectangle, Scene
-from ._backends import SAMPLE, Backend, Part, Verifier
+from ._backends import SAMPLE, Backend, ChainBackend, Part, Verifier
 from ._counter import Counter
 from ._estimate import Estimate, estimate
 from ._scheduler import Listener, Outline, Scheduler
@@ -89,6 +89,10 @@ def render_frames(
             raise
         name = _name(scheduler.used)
         seconds = time.perf_counter() - started
+        if where.rpc:
+            # nodes that were dropped are not asked for counts either
+            chains = [backend.chain for backend in scheduler.used if isinstance(backend, ChainBackend)]
+            where = replace(where, rpc=tuple(each.connection.url for each in chains if isinstance(each, NodeChain)))
         images = [_assemble(n, scene, pieces, name, seconds / len(frames), where) for n, scene in enumerate(frames)]
         return Finished(images, len(pieces), gas, scheduler.shares)
 
