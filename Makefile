@@ -132,9 +132,9 @@ pictures: $(DEV) ## draw the pictures of the documentation, except those of docs
 verify: $(DEV) $(NODE) ## the inputs with which explorers verify the contracts: each, compiled alone, makes their code
 	VERIFY=all $(BIN)/pytest -n 2 tests/deploy/test_verification.py
 
-fuzz: $(DEV) ## contracts against the reference over 2,000 random scenes, property tests on new examples
-	$(BIN)/python tests/differential.py --count 2000
-	HYPOTHESIS_PROFILE=new $(BIN)/pytest -n 2 tests/evm tests/scene tests/test_bad_input_on_chain.py tests/test_differential.py tests/test_properties.py
+fuzz: $(DEV) ## contracts against the judge over 2,000 more random scenes and other EVMs, property tests on new examples
+	$(BIN)/python tests/judge --only tame close --count 2000
+	HYPOTHESIS_PROFILE=new $(BIN)/pytest -n 2 tests/evm tests/scene tests/test_bad_input_on_chain.py tests/test_properties.py
 
 conformance: $(DEV) opengl ## contracts against the judge over 1,000 random scenes, and OpenGL
 	$(BIN)/python tests/judge

@@ -1,17 +1,16 @@
-"""Count the work that a scene takes, by the reference renderer."""
+"""Count the work of a scene: triangles and covered pixels by the contract, their rows and pixels in float64."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any
-from unittest.mock import patch
 
-from shackled import Scene, reference
-from shackled.artifacts import artifact
-from shackled.reference import fragment_shader, rasterizer
-from shackled.scene import encode
+import numpy as np
+from numpy.typing import NDArray
+
+from shackled import Scene
+from shackled.chain import open_chain
+from shackled.scene import fit
+from shackled.stages import project
 
 
 @dataclass
@@ -32,33 +31,41 @@ class Workload:
 
 
 def workload_of(scene: Scene) -> Workload:
-    """Render a scene and count."""
-    data = encode(artifact("Renderer").selectors["renderCounted"], scene)
-    with _counting() as counts:
-        picture = reference.draw_call(data)
+    """Count the work of a scene that the near plane does not clip."""
+    drawn, lit = open_chain().count(scene)
+    rows = tested = 0
+    for corners in _triangles(fit(scene)):
+        low, high = (int(each) for each in np.ceil(corners[:, 1].clip(0, scene.height)[[0, 2]] - 0.5))
+        rows += high - low
+        tested += _covered(corners, np.arange(low, high, dtype=np.float64) + 0.5, scene.width)
     return Workload(
         vertices=sum(len(o.mesh.positions) for o in scene.objects),
         faces=scene.triangles,
-        drawn=picture.triangles,
-        rows=counts["rows"],
-        tested=counts["tested"],
-        lit=picture.lit_pixels,
+        drawn=drawn,
+        rows=rows,
+        tested=tested,
+        lit=lit,
         canvas=scene.width * scene.height,
     )
 
 
-@contextmanager
-def _counting() -> Iterator[dict[str, int]]:
-    """Count the rasterizer's output while the context is open."""
-    counts = {"rows": 0, "tested": 0}
-    halves_of = rasterizer.halves_of
+def _triangles(scene: Scene) -> list[NDArray[np.float64]]:
+    """Return the triangles that are drawn, (3, 2) in pixels, the topmost corner first, the lowest last."""
+    found = []
+    for o in scene.objects:
+        corners = project(o.world_positions(), scene)[0][o.mesh.faces]
+        a, b, c = np.moveaxis(corners, 1, 0)
+        # counter-clockwise on the canvas, whose rows count downward
+        area = (c[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1]) - (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1])
+        seen = corners[area > 0 if o.cull else area != 0]
+        found += list(np.take_along_axis(seen, np.argsort(seen[:, :, 1], axis=1)[:, :, None], axis=1))
+    return found
 
-    def count(triangle: Any, registers: Any) -> Iterator[tuple[int, int, int, int, int]]:
-        counts["rows"] += min(triangle.bottom, registers.band_bottom) - max(triangle.top, registers.band_top)
-        for half in halves_of(triangle, registers):
-            spans = fragment_shader.spans_between(*half, registers)
-            counts["tested"] += sum(end - begin for _, begin, end, *_ in spans)
-            yield half
 
-    with patch.object(rasterizer, "halves_of", count):
-        yield counts
+def _covered(corners: NDArray[np.float64], rows: NDArray[np.float64], width: int) -> int:
+    """Return how many centres of pixels a triangle covers on these rows of centres."""
+    top, _, low = corners
+    long = np.interp(rows, [top[1], low[1]], [top[0], low[0]])
+    short = np.interp(rows, corners[:, 1], corners[:, 0])
+    begin, end = np.sort(np.stack([long, short]), axis=0).clip(0, width)
+    return int((np.ceil(end - 0.5) - np.ceil(begin - 0.5)).sum())

@@ -11,8 +11,7 @@ from shackled import Mesh
 from shackled.artifacts import artifact
 from shackled.bench import scenes
 from shackled.datasets import require
-from shackled.datasets.genesis import seed_of
-from shackled.reference.genesis import generate
+from shackled.datasets.genesis import generate, seed_of
 
 Document = dict[str, Any]
 

@@ -61,7 +61,7 @@ TEXTURED = 0.2
 SEEN_THROUGH = 0.12
 #: How often a light of a scene casts shadows, and how often there is a ground then.
 SHADOWED, GROUNDED = 0.08, 0.5
-#: Of canvases of more pixels one in so many may have effects, each fragment of which the reference computes by itself.
+#: Of canvases of more pixels one in so many may have effects, each fragment of which is computed by itself.
 MANY_PIXELS, FEW = 4096, 5
 
 

@@ -46,8 +46,7 @@ def test_the_workload_is_that_of_the_picture() -> None:
     scene = cubes(24)
     work = workload_of(scene)
     assert (work.vertices, work.faces, work.canvas) == (24, 36, 576)
-    chain = open_chain("reference")
-    assert (work.drawn, work.lit) == chain.count(scene)
+    assert (work.drawn, work.lit) == open_chain().count(scene)
     assert work.tested >= work.lit
     assert work.rows >= work.drawn
 

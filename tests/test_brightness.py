@@ -9,7 +9,7 @@ import pytest
 from attrs import evolve
 
 import judge
-from accuracy import LEVELS, interior
+from judge.verdict import MANY
 from pictures import Pixels, call_data, chain, draw
 from shackled import Camera, Light, Material, Mesh, Object, Scene, load
 from shackled.image import decode_bmp
@@ -96,6 +96,6 @@ def test_overexposed_faces(lights: int, far: int) -> None:
         )
         scene = Scene([thing], Camera(near=1), suns, width=48, height=48)
         expected = judge.render(call_data("render", scene))
-        error = np.abs(draw(scene).astype(int) - expected.pixels).max(axis=2)[interior(expected)]
+        error = np.abs(draw(scene).astype(int) - expected.pixels).max(axis=2)[expected.interior]
         assert len(error) > 100
-        assert error.max() <= LEVELS
+        assert error.max() <= MANY

@@ -8,10 +8,8 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from differential import compare
 from judge import judge, random_scene
-from pictures import chain, draw
-from random_scenes import Case
+from pictures import draw
 from shackled import Camera, Light, Material, Mesh, Object, Scene, Tone
 from shackled.datasets.common.shapes import sphere
 from shackled.scene import Rectangle, fit
@@ -75,7 +73,5 @@ def test_the_tone_curve_comes_first(tone: Tone) -> None:
 
 @pytest.mark.parametrize("seed", range(6))
 def test_tiles(seed: int) -> None:
-    """Contract and reference draw the same, and a tile is that part of the whole."""
-    scene = evolve(random_scene("shadows", seed), antialias=True, width=32, height=32)
-    found, _ = compare(Case(fit(scene), Rectangle(5, 9, 19, 13)), chain())
-    assert found is None
+    scene = fit(evolve(random_scene("shadows", seed), antialias=True, width=32, height=32))
+    assert (draw(scene, Rectangle(5, 9, 19, 13)) == draw(scene)[9:22, 5:24]).all()

@@ -13,7 +13,7 @@ import pytest
 from attrs import evolve
 from PIL import Image as PillowImage
 
-from accuracy import flat, teapot_scene
+from made_scenes import flat, teapot_scene
 from pictures import Pixels, call, counts, covered, draw, dynamic, soup, unlit_scene
 from shackled import Background, Camera, Image, Scene, render
 from shackled.scene import fit

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import os
+import pickle
 import re
 import xml.etree.ElementTree as ElementTree
 from base64 import b64decode
@@ -19,7 +20,9 @@ from shackled import Animation, Camera, Image, InputError, Light, Mesh, Object, 
 from shackled.animation import check_animation
 from shackled.artifacts import artifact
 from shackled.chain import CallResult, ContractChain, RevmChain, open_chain
+from shackled.errors import OutOfGasError
 from shackled.image import FORMATS, check_output, decode_bmp
+from shackled.parallel import Counter, Where
 from shackled.scene import encode
 
 SCENE = Scene(
@@ -134,8 +137,8 @@ def test_formats_with_and_without_a_dot(image: Image) -> None:
 
 
 def test_it_shows_itself_in_a_line(image: Image) -> None:
-    assert repr(image) == f"<Image 37x21, 1 triangle, {image.gas:,} gas>"
-    assert repr(evolve(image, gas=35_312_345)) == "<Image 37x21, 1 triangle, 35.3M gas>"
+    assert repr(image) == f"<Image 37x21, {image.gas:,} gas>"
+    assert repr(evolve(image, gas=35_312_345)) == "<Image 37x21, 35.3M gas>"
     assert repr(evolve(image, gas=None, scene=None)) == "<Image 37x21>"
 
 
@@ -203,8 +206,8 @@ def test_each_format_holds_the_pixels(image: Image) -> None:
             assert (np.array(picture.convert("RGB")) == few.pixels).all()
 
 
-def test_a_picture_is_one_call(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Its counts too are known, and the gas is that of `render`."""
+def test_counts_are_calls_of_their_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Made at the first access, on the same chain and in tiles that are no larger; the gas is that of `render`."""
     made: list[bytes] = []
 
     def counted(to: bytes, data: bytes, gas_limit: int) -> CallResult:
@@ -215,14 +218,38 @@ def test_a_picture_is_one_call(monkeypatch: pytest.MonkeyPatch) -> None:
     expected = chain.count(SCENE)
     run = chain._run
     monkeypatch.setattr(chain, "_run", counted)
-    image = render(SCENE, on=chain)
-    assert (image.triangles, image.covered_pixels) == expected
-    assert made == [artifact("Renderer").selectors["render"]]
+    selectors = artifact("Renderer").selectors
+    for tile, draws, counts in ((None, ["render"], ["renderCounted"]), ((37, 7), ["renderTile"] * 3, TILES)):
+        made.clear()
+        image = render(SCENE, on=chain, tile=tile)
+        assert repr(image).endswith(" gas>")
+        assert made == [selectors[each] for each in draws]
+        made.clear()
+        assert (image.triangles, image.covered_pixels) == expected == (image.triangles, image.covered_pixels)
+        assert made == [selectors[each] for each in counts]
+    assert "Where" not in repr(image.counter)
+    copied = pickle.loads(pickle.dumps(image))
     made.clear()
-    image = render(SCENE, on=chain, tile=(37, 7))
-    assert (image.triangles, image.covered_pixels) == expected
-    assert [each for each in made if each == artifact("Renderer").selectors["renderTile"]] == made
-    assert len(made) == 3
+    assert (copied.triangles, copied.covered_pixels) == expected
+    # the chain stayed where it was, so the embedded EVM counts
+    assert made == []
+
+
+#: Strips of seven rows, of which each shares one with the next: 0 to 6, 6 to 12, 12 to 18, 18 to 20.
+TILES = ["renderTileCounted"] * 7
+
+
+def test_a_strip_that_takes_too_much_gas_is_halved() -> None:
+    chain = RevmChain(300_000)
+    with pytest.raises(OutOfGasError):
+        chain.count(SCENE)
+    assert Counter(Where(chain), 37 * 21)(SCENE) == RevmChain().count(SCENE)
+
+
+def test_a_picture_of_unknown_scene_has_no_counts(image: Image) -> None:
+    assert evolve(image, scene=None).triangles is None
+    # one without means is counted in the embedded EVM
+    assert evolve(image, counter=None).covered_pixels == image.covered_pixels
 
 
 def test_a_folder_that_cannot_be_written_to(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

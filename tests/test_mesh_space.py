@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from accuracy import LEVELS, measure
+from judge import judge
+from judge.verdict import MANY
 from shackled import Camera, Light, Material, Mesh, Object, Scene
 from shackled.bench.scenes import cube_mesh
 
@@ -51,9 +52,10 @@ def test_meshes_of_small_whole_numbers(name: str, orthographic: bool) -> None:
     mesh, middle, size = SMALL[name]
     pixels = 0
     for angle in (0.4, 1.9, 3.6, 5.5):
-        accuracy = measure(view(mesh, middle, size, angle, orthographic=orthographic))
-        pixels += accuracy.pixels
-        assert accuracy.worst <= LEVELS, angle
+        verdict = judge(f"{name}, {angle}", view(mesh, middle, size, angle, orthographic=orthographic))
+        pixels += verdict.interior
+        assert verdict.faults == []
+        assert verdict.worst <= MANY, angle
     assert pixels > 500
 
 
@@ -65,8 +67,8 @@ def test_the_unit_of_a_mesh_makes_no_difference() -> None:
         (thing,) = scene.objects
         positions = thing.mesh.positions * size
         thing = evolve(thing, mesh=evolve(thing.mesh, positions=positions), scale=thing.scale / size)
-        errors.append(measure(evolve(scene, objects=[thing])).worst)
-    assert max(errors) <= LEVELS
+        errors.append(judge(f"cube of {size}", evolve(scene, objects=[thing])).worst)
+    assert max(errors) <= MANY
 
 
 @pytest.mark.parametrize("distance", [30, 1000, 3000, 5500])
@@ -77,6 +79,7 @@ def test_from_far_away_with_the_near_plane_close_to_the_object(distance: int) ->
     (thing,) = scene.objects
     scene = evolve(scene, camera=camera, objects=[evolve(thing, material=evolve(LOOK, shininess=120))])
     scene = evolve(scene, lights=[Light("directional", (1, 0.5, 0.9)), Light("point", (20, 30, 25))])
-    accuracy = measure(scene)
-    assert accuracy.pixels > 500
-    assert accuracy.worst <= LEVELS
+    verdict = judge(f"from {distance}", scene)
+    assert verdict.faults == []
+    assert verdict.interior > 500
+    assert verdict.worst <= MANY

@@ -37,7 +37,6 @@ from shackled import (
     Scene,
     Tone,
     load,
-    reference,
 )
 from shackled.artifacts import artifact
 from shackled.gas import engine_calls
@@ -443,13 +442,6 @@ def test_the_calls_of_engines(case: str) -> None:
     output = engine_calls(scene, chain())[-1].result.output
     pixels = np.frombuffer(output, np.uint8, 3 * WIDTH * HEIGHT, 2 * WORD).reshape(HEIGHT, WIDTH, 3)
     assert np.array_equal(pixels[::-1, :, ::-1], draw(scene))
-
-
-@few_cases
-def test_the_reference(case: str) -> None:
-    scene = fit(SCENES[case])
-    tile = Rectangle(4, 3, 9, 8)
-    assert np.array_equal(decode_bmp(reference.render(scene, tile), 9, 8), draw(scene, tile))
 
 
 def test_a_fade_is_about_the_position_of_its_object(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Scenes of objects that different engines draw, run by run: as the reference, which draws one object after another."""
+"""Scenes of objects that different engines draw, run by run: as the judge says, which knows of no runs."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from pictures import call, call_data, chain, counts, draw, dynamic, words
+from judge import judge
+from pictures import call, call_data, chain, counts, covered, draw, dynamic, words
 from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene
-from shackled.reference import draw_call
 from shackled.scene import Rectangle
 
 SQUARE = Mesh(
@@ -49,20 +49,21 @@ def scene_of(*objects: Object, **changes: Any) -> Scene:
     return evolve(Scene(list(objects), CAMERA, LIGHTS, backdrop, width=32, height=24), **changes)
 
 
-def assert_as_reference(scene: Scene, tile: Rectangle | None = None) -> None:
-    data = call_data("render" if tile is None else "renderTile", scene, tile)
-    expected = draw_call(data)
-    assert (draw(scene, tile) == expected.pixels).all()
-    output = call("renderCounted" if tile is None else "renderTileCounted", scene, tile).output
-    assert dynamic(output) == dynamic(chain().call("Renderer", data).output)
-    assert output[32:96] == words(expected.triangles, expected.lit_pixels)
+def check(scene: Scene) -> None:
+    """The picture is right, and the counts are those of its objects, drawn alone."""
+    assert judge("runs", scene).faults == []
+    output = call("renderCounted", scene).output
+    assert dynamic(output) == dynamic(call("render", scene).output)
+    alone = [evolve(scene, objects=[o], background=Background((0, 0, 0)), invert=False) for o in scene.objects]
+    lit = [covered(each) for each in alone if each.objects[0].opacity > 0]
+    assert output[32:96] == words(sum(counts(each)[0] for each in alone), int(np.any(lit, axis=0).sum()))
 
 
 @pytest.mark.parametrize("order", list(permutations(KINDS)))
 def test_kinds_in_any_order(order: tuple[str, ...]) -> None:
     scene = scene_of(*(piece(kind, place) for place, kind in enumerate(order)), invert=order[0] == "wire")
-    assert_as_reference(scene)
-    assert_as_reference(scene, Rectangle(5, 3, 17, 11))
+    check(scene)
+    assert (draw(scene, Rectangle(5, 3, 17, 11)) == draw(scene)[3:14, 5:22]).all()
 
 
 @pytest.mark.parametrize("order", list(permutations(KINDS, 2)))
@@ -73,7 +74,7 @@ def test_of_equal_depths_the_first_opaque_one_is_seen(order: tuple[str, str]) ->
         for kind, color in zip(order, ((250, 0, 0), (0, 0, 250)), strict=True)
     ]
     scene = scene_of(*objects, background=Background((0, 0, 0)))
-    assert_as_reference(scene)
+    check(scene)
     if "wire" not in order and "blended" not in order:
         assert tuple(draw(scene)[12, 16]) == (250, 0, 0)
 
@@ -83,7 +84,7 @@ def test_unlit_and_smooth_at_equal_depth() -> None:
     smooth = Object(colored(0, 0, 250), material=Material("smooth", 1, 0, 0, 1), cull=False)
     for first, second, seen in ((unlit, smooth, (250, 0, 0)), (smooth, unlit, (0, 0, 250))):
         scene = scene_of(first, second)
-        assert_as_reference(scene)
+        check(scene)
         assert tuple(draw(scene)[12, 16]) == seen
 
 
@@ -93,7 +94,7 @@ def test_what_is_not_seen_at_all_is_not_counted(kind: str) -> None:
     hidden = piece(kind, 2, opacity=0.0)
     for objects in ((hidden, *seen.objects), (seen.objects[0], hidden, seen.objects[1]), (*seen.objects, hidden)):
         scene = scene_of(*objects)
-        assert_as_reference(scene)
+        check(scene)
         assert counts(scene) == counts(seen)
         assert (draw(scene) == draw(seen)).all()
 
@@ -107,13 +108,10 @@ def test_errors_name_the_object(kind: str, opacity: float | None) -> None:
         objects = [piece("smooth" if number % 2 else "flat", number) for number in range(4)]
         objects[place] = piece(kind, place, **changes)
         scene = scene_of(*objects)
-        assert_as_reference(scene)
+        check(scene)
         broken = wrong_index(scene, place)
-        with pytest.raises(RenderError, match=rf"IndexOutOfRange\(object={place},") as error:
+        with pytest.raises(RenderError, match=rf"IndexOutOfRange\(object={place}, face=1, vertexCount=4\)$"):
             chain().call("Renderer", broken)
-        with pytest.raises(RenderError) as expected:
-            draw_call(broken)
-        assert str(error.value) == str(expected.value)
 
 
 def wrong_index(scene: Scene, place: int) -> bytes:
@@ -133,7 +131,7 @@ def test_large_pictures_equal_their_tiles(size: tuple[int, int]) -> None:
     kinds = [*KINDS, "smooth", "flat"]
     objects = [piece(kind, place) for place, kind in enumerate(kinds)]
     scene = scene_of(*objects, width=size[0], height=size[1])
-    assert_as_reference(scene)
+    check(scene)
     whole = draw(scene)
     rows = range(0, size[1], size[1] // 3 + 1)
     for top in rows:
@@ -147,7 +145,7 @@ def test_large_pictures_equal_their_tiles(size: tuple[int, int]) -> None:
 def test_hundreds_of_objects_that_alternate(count: int) -> None:
     """What the Renderer allocates from run to run does not grow into the call behind it."""
     objects = [piece(("flat", "smooth", "wire", "blended")[place % 4], place, scale=0.2) for place in range(count)]
-    assert_as_reference(scene_of(*objects, width=9, height=7))
+    check(scene_of(*objects, width=9, height=7))
 
 
 @pytest.mark.parametrize("size", [(1, 1), (32, 24), (181, 91)])
@@ -159,7 +157,7 @@ def test_texts_of_mixed_scenes(size: tuple[int, int]) -> None:
             text = dynamic(call(function, scene).output).decode()
             (encoded,) = re.findall(r"data:image/bmp;base64,([0-9A-Za-z+/=]+)", text)
             assert base64.b64decode(encoded) == dynamic(call("render", scene).output)
-        assert_as_reference(scene)
+        check(scene)
 
 
 def test_hidden_surfaces_of_both_engines() -> None:
@@ -167,6 +165,6 @@ def test_hidden_surfaces_of_both_engines() -> None:
     near = Object(SQUARE, (0, 0, 10), material=Material("unlit"), cull=False)
     far = Object(colored(0, 250, 0), (20, 0, -30), material=Material("smooth", 1, 0, 0, 1), cull=False, scale=1.4)
     one, other = scene_of(near, far), scene_of(far, near)
-    assert_as_reference(one)
+    check(one)
     assert (draw(one) == draw(other)).all()
     assert (np.asarray(draw(one))[12, 16] == (255, 80, 20)).all()

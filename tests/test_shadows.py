@@ -9,17 +9,14 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from judge import random_scene
+from judge import judge
 from pictures import chain, draw
 from shackled import Camera, Ground, InputError, Light, Material, Mesh, Object, RenderError, Scene, load
 from shackled.artifacts import artifact
 from shackled.datasets.common import shapes
-from shackled.image import decode_bmp
-from shackled.reference import draw_call, shadows_of
 from shackled.scene import (
     Rectangle,
     decode,
-    encode,
     encode_scene,
     encode_scene_file,
     extensions,
@@ -50,14 +47,9 @@ def still_life(**changes: Any) -> Scene:
     return evolve(scene, **changes)
 
 
-def equals_reference(scene: Scene) -> bool:
-    """Whether contract and reference draw the same."""
-    data = render_call(scene)
-    output = chain().call("Renderer", data).output
-    start = int.from_bytes(output[:32], "big")
-    size = int.from_bytes(output[start : start + 32], "big")
-    pixels = decode_bmp(output[start + 32 :][:size], scene.width, scene.height)
-    return bool((pixels == draw_call(data).pixels).all())
+def is_right(scene: Scene) -> bool:
+    """Whether the judge finds no wrong pixel."""
+    return judge("shadows", scene).faults == []
 
 
 SUN, LAMP = Light("directional", (-0.6, 1.0, 0.5), shadow=True), Light("point", (2, 3, 2), shadow=True)
@@ -78,8 +70,8 @@ SUN, LAMP = Light("directional", (-0.6, 1.0, 0.5), shadow=True), Light("point", 
     ],
     ids=["plain", "point", "second", "two", "orthographic", "close", "floating", "effects", "tall"],
 )
-def test_pictures_equal_the_reference(changes: dict[str, Any]) -> None:
-    assert equals_reference(still_life(**changes))
+def test_pictures_are_right(changes: dict[str, Any]) -> None:
+    assert is_right(still_life(**changes))
 
 
 @pytest.mark.parametrize("change", [{"opacity": 0.5}, {"wireframe": True}, {"cull": False}])
@@ -87,19 +79,7 @@ def test_other_objects(change: dict[str, Any]) -> None:
     """Glass and wires cast no shadow; objects that are not culled do, with all faces."""
     scene = still_life()
     first, *rest = scene.objects
-    assert equals_reference(evolve(scene, objects=[evolve(first, **change), *rest]))
-
-
-@pytest.mark.parametrize("seed", range(0, 20, 3))
-def test_answers_of_the_contract(seed: int) -> None:
-    """The contract finds the same shadows as the reference."""
-    scene = evolve(random_scene("shadows", seed), width=48, height=48)
-    data = encode(artifact("Effects").selectors["prepare"], scene)
-    answer = chain().call("Effects", data).output
-    expected = shadows_of(render_call(scene))
-    assert expected
-    assert answer.endswith(expected)
-    assert equals_reference(scene)
+    assert is_right(evolve(scene, objects=[evolve(first, **change), *rest]))
 
 
 def test_tiles() -> None:
@@ -115,7 +95,7 @@ def test_large_picture() -> None:
     """Pictures of several bands and engines' runs."""
     scene = still_life(width=160, height=160)
     first, second = scene.objects
-    assert equals_reference(scene)
+    assert is_right(scene)
     glass = evolve(scene, objects=[first, evolve(second, opacity=0.5)])
     assert (draw(fit(glass), Rectangle(60, 70, 30, 20)) == draw(fit(glass))[70:90, 60:90]).all()
 
@@ -192,7 +172,6 @@ def test_wrong_values() -> None:
     ],
 )
 def test_wrong_records(record: bytes, error: str) -> None:
-    """Contract and reference refuse the same."""
     if error == "SeveralShadows":
         # the second belongs to the second light
         record = record[:39] + b"\x01" + record[40:]
@@ -201,8 +180,5 @@ def test_wrong_records(record: bytes, error: str) -> None:
     # the extensions are last
     assert not extensions(scene)
     data = data[:-32] + len(record).to_bytes(32, "big") + record + bytes(-len(record) % 32)
-    with pytest.raises(RenderError, match=error) as one:
+    with pytest.raises(RenderError, match=error):
         chain().call("Renderer", data)
-    with pytest.raises(RenderError, match=error) as other:
-        draw_call(data)
-    assert str(one.value) == str(other.value)

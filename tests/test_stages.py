@@ -11,13 +11,11 @@ from PIL import Image as PillowImage
 
 import shackled.whole_file
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, render
-from shackled.chain import open_chain
 from shackled.cli.app import run
 from shackled.datasets import teapot
 from shackled.scene import stage
 from shackled.stages import Stage, draw_stages, nothing, strip
 
-REFERENCE = open_chain("reference")
 TRIANGLE = Mesh([(-1, -1, 0), (1, -1, 0), (-1, 1, 0)], [(0, 1, 2)], [(255, 0, 0), (0, 255, 0), (0, 0, 255)])
 
 
@@ -42,7 +40,7 @@ def drawn(picture: Stage, of: Scene) -> np.ndarray:
 
 def test_a_triangle_becomes_a_picture() -> None:
     of = scene()
-    points, projected, triangles, filled, lit, picture = draw_stages(of, REFERENCE)
+    points, projected, triangles, filled, lit, picture = draw_stages(of)
     # the corners, and nothing in the middle
     seen = drawn(projected, of)
     for column, row in ((8, 24), (24, 24), (8, 8)):
@@ -55,12 +53,12 @@ def test_a_triangle_becomes_a_picture() -> None:
     assert inside[18, 12]
     assert drawn(triangles, of)[8:24, 7:9].any(axis=1).all()
     # 16 x 16 / 2, by the fill rule
-    assert inside.sum() == render(of, on=REFERENCE).covered_pixels
+    assert inside.sum() == render(of).covered_pixels
     assert (drawn(lit, of) == inside).all()
     # light darkens, and the picture is light over the background
     assert lit.pixels[inside].sum() < filled.pixels[inside].sum() * 2.3
     assert (picture.pixels[inside] == lit.pixels[inside]).all()
-    assert (picture.pixels[~inside] == render(scene(objects=[]), on=REFERENCE).pixels[~inside]).all()
+    assert (picture.pixels[~inside] == render(scene(objects=[])).pixels[~inside]).all()
 
 
 def test_the_picture_is_the_one_that_render_makes() -> None:
@@ -80,7 +78,7 @@ def test_the_picture_is_the_one_that_render_makes() -> None:
 def test_points_behind_the_eye_are_not_projected() -> None:
     behind = Object(TRIANGLE, (0, 0, 5), material=Material("unlit"))
     of = scene(objects=[behind], camera=Camera(near=0.1))
-    stages = draw_stages(of, REFERENCE)
+    stages = draw_stages(of)
     assert drawn(stages[0], of).any()
     assert [drawn(each, of).any() for each in stages[1:5]] == [False] * 4
     assert stages[1].detail == "0 points on the canvas"
@@ -91,7 +89,7 @@ def test_the_first_stage_knows_place_scale_and_rotation() -> None:
     point = Mesh([(0, 0, 0), (1, 0, 0), (0, 0, 0)], [(0, 1, 2)], [(255, 0, 0), (0, 255, 0), (255, 0, 0)])
     half = 0.5**0.5
     of = scene(objects=[Object(point, (7, -3, 0), (0, 0, half, half), 2.0)])
-    pixels = draw_stages(of, REFERENCE)[0].pixels.astype(int)
+    pixels = draw_stages(of)[0].pixels.astype(int)
     green = np.argwhere((pixels[:, :, 1] > 150) & (pixels[:, :, 0] < 100)).mean(axis=0)
     red = np.argwhere((pixels[:, :, 0] > 150) & (pixels[:, :, 1] < 100)).mean(axis=0)
     assert green[0] < red[0] - 15
@@ -100,7 +98,7 @@ def test_the_first_stage_knows_place_scale_and_rotation() -> None:
 
 def test_an_empty_scene_has_stages() -> None:
     of = scene(objects=[], lights=[])
-    stages = draw_stages(of, REFERENCE)
+    stages = draw_stages(of)
     assert not any(drawn(each, of).any() for each in stages[:5])
     assert strip(stages).size[0] > strip(stages).size[1]
 

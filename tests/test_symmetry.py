@@ -7,7 +7,7 @@ import pytest
 from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
-from accuracy import flat, painted, teapot_scene
+from made_scenes import flat, painted, teapot_scene
 from pictures import (
     UNLIT,
     Pixels,

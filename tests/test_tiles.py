@@ -9,7 +9,7 @@ import pytest
 from attrs import evolve
 from numpy.random import Generator
 
-from accuracy import big_triangles, flat, ground, screen_triangle, teapot_scene
+from made_scenes import big_triangles, flat, ground, screen_triangle, teapot_scene
 from pictures import Pixels, chain
 from shackled import Background, Light, Material, Scene
 from shackled.image import decode_bmp

@@ -1,10 +1,10 @@
 """Write the files that are made of contracts/layout.toml, the table of registers and packed words.
 
-python tools/layout.py            writes Registers.sol and Words.sol (contracts/src/pipeline) and reference/layout.py
+python tools/layout.py            writes Registers.sol and Words.sol (contracts/src/pipeline) and gas/_layout.py
 python tools/layout.py --check    writes nothing; fails if a file is not as it would be written
 
 The compiler takes no expressions in assembly, so every address, shift and mask has to be a number of its own. Here they
-are computed, so that one line of the table adds a register, and the contracts and the reference cannot differ.
+are computed, so that one line of the table adds a register, and the contracts and the package cannot differ.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "contracts" / "layout.toml"
 PIPELINE = ROOT / "contracts" / "src" / "pipeline"
-REFERENCE = ROOT / "src" / "shackled" / "reference" / "layout.py"
+PACKAGE = ROOT / "src" / "shackled" / "gas" / "_layout.py"
 WORD = 32
 #: Columns of a line of the contracts.
 SOLIDITY_WIDTH = 140
@@ -218,14 +218,8 @@ def python(sections: Iterator[Section], used: set[str]) -> str:
 
 
 def used_names() -> set[str]:
-    """Return the names that the package uses of reference/layout.py, imported or as `layout.NAME`."""
-    found = set()
-    for path in REFERENCE.parents[1].rglob("*.py"):
-        text = path.read_text("utf-8")
-        for line in re.findall(r"^from \.[\w.]*layout import ([^(\n]+)$", text, re.MULTILINE):
-            found.update(line.split(", "))
-        found.update(re.findall(r"\blayout\.([A-Z]\w+)", text))
-    return found
+    """Return the names that gas/_runs.py uses of gas/_layout.py, as `layout.NAME`."""
+    return set(re.findall(r"\blayout\.([A-Z]\w+)", PACKAGE.with_name("_runs.py").read_text("utf-8")))
 
 
 def wrapped(text: str, first: str, width: int, rest: str | None = None) -> list[str]:
@@ -243,7 +237,7 @@ def files() -> dict[Path, str]:
             iter([*registers(table), *records(table), *bits(table)]), "Memory.sol", "Words.sol"
         ),
         PIPELINE / "Words.sol": solidity(iter(packed)),
-        REFERENCE: python(iter([*registers(table), *bits(table), *packed]), used_names()),
+        PACKAGE: python(iter([*registers(table), *bits(table), *packed]), used_names()),
     }
 
 

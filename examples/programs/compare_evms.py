@@ -1,4 +1,4 @@
-"""Compare the pictures of an EVM and of the NumPy reference, and edit one with Pillow."""
+"""Compare the pictures and the gas of two EVMs, and edit one with Pillow."""
 
 import numpy as np
 from PIL import Image
@@ -6,10 +6,10 @@ from PIL import Image
 import shackled
 
 scene = shackled.load("tetrahedron", size=32)
-first = shackled.render(scene, on="pyevm")
-second = shackled.render(scene, on="reference")
+first = shackled.render(scene, on="revm")
+second = shackled.render(scene, on="pyevm")
 difference = np.abs(np.asarray(first, dtype=int) - np.asarray(second, dtype=int))
-print(f"{first.made_by} and {second.made_by}: {difference.max()} levels apart")
+print(f"{first.made_by}: {first.gas:,} gas; {second.made_by}: {second.gas:,} gas; {difference.max()} levels apart")
 
 first.save("tetrahedron.png")
 with Image.open("tetrahedron.png") as decoded:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from attrs import field, frozen
 
-from .chain import CHAINS, Chain, check_timeout, check_url
+from .chain import CHAINS, Chain, check_chain, check_timeout, check_url
 from .checks import choice, whole
 from .errors import InputError
 from .ethereum import parse_address
@@ -26,7 +26,7 @@ def _jobs(value: int | None) -> int | None:
 
 
 def _evm(value: str | None) -> str | None:
-    return None if value is None else choice(value, "`evm`", CHAINS)
+    return None if value is None else check_chain(value, "`evm`")
 
 
 def _verify(value: str | None) -> str | None:
@@ -38,7 +38,7 @@ class Processes:
     """Worker processes on this machine.
 
     jobs: number of processes, 1..256; None for one per processor.
-    evm: "revm", "pyrevm", "pyevm" or "reference"; None for the first.
+    evm: "revm", "pyrevm" or "pyevm"; None for the first.
     """
 
     jobs: int | None = field(default=None, converter=_jobs)
@@ -126,7 +126,7 @@ def where_of(on: On | None, gas_limit: int | None = None, tile: tuple[int, int] 
     if isinstance(on, str) and "://" in on:
         raise InputError(f"`on` must be Nodes({on!r:.60}) for a node, not its address alone")
     if on is None or isinstance(on, str):
-        return Where(None if on is None else choice(on, "`on`", CHAINS), gas_limit=gas_limit, tile=tile)
+        return Where(None if on is None else check_chain(on, "`on`"), gas_limit=gas_limit, tile=tile)
     if isinstance(on, Processes):
         jobs = (os.cpu_count() or 1) if on.jobs is None else on.jobs
         return Where(on.evm, jobs, gas_limit=gas_limit, tile=tile)

@@ -18,7 +18,7 @@ from .image import Image, decode_bmp, uncovered
 from .scene import Background, LookOptions, Scene, full_turn, size_of
 
 if TYPE_CHECKING:
-    from .parallel import Listener, Where
+    from .parallel import Counter, Listener, Where
 
 
 def render(
@@ -36,8 +36,8 @@ def render(
     """Render a picture.
 
     thing, size, look: as in `load`.
-    on: where the calls run: the name of an EVM ("revm", "pyrevm", "pyevm", "reference"), `Processes`, `Nodes` or
-        `Cluster`; None for revm, which is always there. The pixels are the same everywhere.
+    on: where the calls run: the name of an EVM ("revm", "pyrevm", "pyevm"), `Processes`, `Nodes` or `Cluster`; None
+        for revm, which is always there. The pixels are the same everywhere.
     gas_limit: gas that a call may use.
     tile: size of the tiles in pixels, one number or (width, height); None chooses it, if tiles are needed at all.
     listener: receives the progress of a picture of several tiles.
@@ -98,15 +98,17 @@ def draw(
     scenes: Sequence[Scene], where: Where, listener: Listener | None = None, keep: Path | None = None
 ) -> list[Image]:
     """Render scenes of one size, by one call each or by several."""
+    from .parallel import Counter
+
     if where.alone:
         chain = open_chain(where.chain) if where.chain is None or isinstance(where.chain, str) else where.chain
-        return [render_whole(scene, chain) for scene in scenes]
+        return [render_whole(scene, chain, Counter(where)) for scene in scenes]
     from .parallel import render_frames
 
     return render_frames(scenes, where, listener, keep).images
 
 
-def render_whole(scene: Scene, chain: Chain) -> Image:
+def render_whole(scene: Scene, chain: Chain, counter: Counter) -> Image:
     """Render a scene by one call."""
     started = time.perf_counter()
     drawing = chain.draw(scene)
@@ -119,6 +121,7 @@ def render_whole(scene: Scene, chain: Chain) -> Image:
         made_by=chain.name,
         seconds=seconds,
         scene=scene,
+        counter=counter,
     )
 
 

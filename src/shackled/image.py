@@ -22,7 +22,7 @@ from .checks import fixed
 from .errors import InputError, RenderError
 from .palette import indexed
 from .scene import CHUNK, PICTURE, Scene, SceneChunk, scene_chunk
-from .values import Value, array_key, plural
+from .values import Value, array_key
 from .whole_file import check_output_file, write_output
 
 Pixels = NDArray[np.uint8]
@@ -52,6 +52,7 @@ class Image(Value):
     gas, intrinsic_gas: of the execution, and of a transaction before it; None where gas is not counted.
     made_by: the EVM, node or cluster. seconds: the duration of the call, which == ignores.
     scene: None if it is not known. calls: the number of calls that made it.
+    counter: counts triangles and covered pixels of the scene where the picture was made; None for the embedded EVM.
     alpha: (H, W) uint8, from 0 where there is nothing to 255; None for a picture with a background.
     """
 
@@ -64,6 +65,7 @@ class Image(Value):
     scene: Scene | None = None
     calls: int = 1
     alpha: Pixels | None = field(default=None, converter=_alpha, eq=array_key)
+    counter: Callable[[Scene], tuple[int, int]] | None = field(default=None, eq=False)
 
     def __attrs_post_init__(self) -> None:
         """Check alpha; encode the pixels where the file is not given."""
@@ -86,20 +88,27 @@ class Image(Value):
 
     @property
     def triangles(self) -> int | None:
-        """The number of triangles after culling and clipping; None if the scene is not known."""
+        """The number of triangles after culling and clipping; None if the scene is not known.
+
+        Counted by the contract at the first access of this or `covered_pixels`, in calls of `renderCounted` where the
+        picture was made. Raises the errors of `render`.
+        """
         return self._counts[0]
 
     @property
     def covered_pixels(self) -> int | None:
-        """The number of pixels that triangles cover; None if the scene is not known."""
+        """The number of pixels that triangles cover; None if the scene is not known. Counted as `triangles` are."""
         return self._counts[1]
 
     @cached_property
     def _counts(self) -> tuple[int, int] | tuple[None, None]:
-        # what `renderCounted` returns, without a second call
-        from .reference import count
+        if self.scene is None:
+            return None, None
+        if self.counter is not None:
+            return self.counter(self.scene)
+        from .chain import open_chain
 
-        return (None, None) if self.scene is None else count(self.scene)
+        return open_chain().count(self.scene)
 
     @property
     def sha256(self) -> str:
@@ -162,8 +171,7 @@ class Image(Value):
         return as_array(self.channels, dtype, copy)
 
     def __repr__(self) -> str:
-        triangles = "" if self.triangles is None else f", {plural(self.triangles, 'triangle')}"
-        return f"<Image {self.width}x{self.height}{triangles}{gas_in_short(self.gas)}>"
+        return f"<Image {self.width}x{self.height}{gas_in_short(self.gas)}>"
 
     def _repr_png_(self) -> bytes:
         return self.encode(".png")
@@ -270,6 +278,7 @@ def uncovered(black: Image, white: Image, scene: Scene | None = None) -> Image:
         scene=scene,
         calls=black.calls + white.calls,
         alpha=alpha,
+        counter=black.counter,
     )
 
 

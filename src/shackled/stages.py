@@ -1,13 +1,12 @@
 """A picture of the result of each stage of the pipeline: the pipeline figure of the paper.
 
 Stages 3 to 6 are drawn by the contracts: the same scene as wireframe, in plain colours, with light, and complete. The
-contracts return pixels only, so the points of stages 1 and 2 come from the reference renderer, which has the same
-numbers.
+contracts return pixels only, so the points of stages 1 and 2 are projected here, in double precision.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,13 +17,10 @@ from PIL import ImageDraw, ImageFont
 
 from .chain import Chain, open_chain
 from .image import decode_bmp
-from .reference.call import read_call
-from .reference.layout import PIXEL_BIAS
-from .reference.pipeline import Geometry, assemble
-from .reference.vector import to_matrix
-from .scene import MAX_VERTICES, Background, Material, Mesh, Object, Scene, encode
+from .scene import MAX_VERTICES, Background, Camera, Material, Mesh, Object, Scene, fit
 
 Pixels = NDArray[np.uint8]
+Floats = NDArray[np.float64]
 
 BLACK, WHITE = Background((0, 0, 0)), Background((255, 255, 255))
 #: The two greys of the checkerboard, and the side of its squares at 128 pixels.
@@ -53,21 +49,19 @@ class Stage:
 def draw_stages(scene: Scene, chain: Chain | None = None) -> list[Stage]:
     """Return the six stages of the paper, in their order. Errors as `render` raises them."""
     chain = chain or open_chain()
-    data = encode(b"\0\0\0\0", scene)
-    geometry = assemble(*read_call(data))[2]
+    sent = fit(scene)
+    colors = np.concatenate([np.zeros((0, 3), np.uint8), *(o.mesh.colors for o in sent.objects)])
+    seen, on_canvas = projected_points(sent, colors)
     drawing = chain.draw(scene)
     triangles, lit_pixels = chain.count(scene)
-    given = sum(len(part.mesh.faces) for part in geometry)
-    seen, on_canvas = projected_points(geometry, scene)
-    points = sum(len(part.vertices) for part in geometry)
     plain = evolve(scene, invert=False, antialias=False)
     gas = "" if drawing.gas is None else f", {drawing.gas:,} gas"
     return [
         Stage(
             "1-vertices",
             "Vertex specification",
-            f"{points:,} points, {given:,} faces",
-            specified_points(geometry, scene),
+            f"{len(colors):,} points, {sent.triangles:,} faces",
+            specified_points(sent, colors),
         ),
         Stage("2-projected", "Vertex shader", f"{on_canvas:,} points on the canvas", seen),
         Stage(
@@ -90,48 +84,54 @@ def draw_stages(scene: Scene, chain: Chain | None = None) -> list[Stage]:
 # ---- points ----
 
 
-def specified_points(geometry: Iterable[Geometry], scene: Scene) -> Pixels:
+def specified_points(scene: Scene, colors: Pixels) -> Pixels:
     """Draw the vertices in world space, from the front (+z), without a camera, filling the canvas."""
-    places, colors = [], []
-    for part in geometry:
-        # the columns of the rotation matrix are the images of the axes
-        axes = np.array(to_matrix(part.object.rotation), float) / 2**32
-        scale = part.object.scale / 2**32
-        places.append(scale * np.array(part.mesh.positions, float) @ axes + np.array(part.object.position) / 2**32)
-        colors.append(np.array(part.mesh.colors))
-    if not places:
+    world = scene.world_positions()
+    if not len(world):
         return nothing(scene)
-    world = np.concatenate(places)
-    low, high = world.min(axis=0), world.max(axis=0)
+    low, high = scene.bounds
     size = np.array([scene.width, scene.height])
     unit = float(((high - low)[:2] / (0.75 * size)).max()) or 1.0
     middle = (low + high)[:2] / 2
     flat = (world[:, :2] - middle) / unit * (1, -1) + size / 2
-    return with_points(nothing(scene), flat, np.concatenate(colors), world[:, 2])
+    return with_points(nothing(scene), flat, colors, world[:, 2])
 
 
-def projected_points(geometry: Iterable[Geometry], scene: Scene) -> tuple[Pixels, int]:
-    """Draw the vertices where the vertex shader put them, and count those on the canvas."""
-    places, colors, depths = [], [], []
-    for part in geometry:
-        for vertex, color in zip(part.vertices, part.mesh.colors, strict=True):
-            if not vertex.must_clip:
-                # from 1/256 pixels, the centre of pixel 0 at 0
-                places.append((vertex.x / 256 - PIXEL_BIAS + 0.5, vertex.y / 256 - PIXEL_BIAS + 0.5))
-                colors.append(color)
-                depths.append(float(vertex.attributes >> 168))
-    if not places:
-        return nothing(scene), 0
-    flat = np.array(places)
-    inside = int(((flat >= 0) & (flat < (scene.width, scene.height))).all(axis=1).sum())
-    return with_points(nothing(scene), flat, np.array(colors), np.array(depths)), inside
+def projected_points(scene: Scene, colors: Pixels) -> tuple[Pixels, int]:
+    """Draw the vertices on the canvas that the near plane does not clip, and count them."""
+    places, distances = project(scene.world_positions(), scene)
+    size = scene.width, scene.height
+    inside = (distances >= (scene.camera.near or 0.0)) & ((places >= 0) & (places < size)).all(axis=1)
+    return with_points(nothing(scene), places[inside], colors[inside], -distances[inside]), int(inside.sum())
+
+
+def project(points: Floats, scene: Scene) -> tuple[Floats, Floats]:
+    """Return where points of the world (n, 3) appear, in pixels from the top left corner, and their distances."""
+    camera = scene.camera
+    right, up, forward = axes_of(camera)
+    away = points - camera.eye
+    distances = away @ forward
+    flat = np.stack([away @ right, -(away @ up)], axis=1) * scene.height / (2 * camera.half_height)
+    if camera.projection == "perspective":
+        # nothing is seen behind the eye
+        flat /= np.where(distances > 0, distances, np.inf)[:, None]
+    return flat + np.array([scene.width, scene.height]) / 2, distances
+
+
+def axes_of(camera: Camera) -> tuple[Floats, Floats, Floats]:
+    """Return the directions right, up and forward."""
+    forward = camera.target - camera.eye
+    right = np.cross(forward, camera.up)
+    up = np.cross(right, forward)
+    right, up, forward = (each / np.linalg.norm(each) for each in (right, up, forward))
+    return right, up, forward
 
 
 def with_points(pixels: Pixels, places: NDArray[np.float64], colors: ArrayLike, order: NDArray[np.float64]) -> Pixels:
     """Draw points as dots, the highest order last. places: (n, 2) pixels from the top left corner."""
     picture = PillowImage.fromarray(pixels)
     brush = ImageDraw.Draw(picture)
-    few = np.clip(5 - 1.6 * np.log10(len(places)), 1, 4)
+    few = np.clip(5 - 1.6 * np.log10(max(1, len(places))), 1, 4)
     radius = max(0.5, min(pixels.shape[:2]) / 256 * float(few))
     table = np.asarray(colors).tolist()
     for i in np.argsort(order, kind="stable"):

@@ -11,9 +11,8 @@ from PIL import Image as PillowImage
 
 from shackled import render
 from shackled.cli.app import run
-from shackled.datasets.genesis import seed_of
-from shackled.reference.genesis import generate
-from shackled.reference.genesis.random import keccak256
+from shackled.datasets.genesis import generate, seed_of
+from shackled.ethereum import keccak256
 
 
 @pytest.fixture(autouse=True)

@@ -16,7 +16,7 @@ import pytest
 from PIL import Image as PillowImage
 
 from shackled import InputError, Rim, Scene, Tone, __version__, load, render
-from shackled.chain import CHAINS
+from shackled.chain import CHAINS, RevmChain
 from shackled.cli.app import run
 from shackled.scene import Hemisphere, render_call
 from shackled.studio import make_apng
@@ -72,11 +72,8 @@ def test_every_chain_makes_the_same_picture(capsys: pytest.CaptureFixture[str]) 
         reports[chain] = json.loads(capsys.readouterr().out)
     assert len({report["sha256"] for report in reports.values()}) == 1
     assert len({report["lit_pixels"] for report in reports.values()}) == 1
-    reference = reports.pop("reference")
-    assert reference["gas"] is None
-    assert reference["intrinsic_gas"] is None
     assert len({report["gas"] for report in reports.values()}) == 1
-    assert len({report["chain"] for report in (reference, *reports.values())}) == len(installed)
+    assert len({report["chain"] for report in reports.values()}) == len(installed)
 
 
 @pytest.mark.parametrize(
@@ -191,7 +188,8 @@ WRONG = [
     (["render", "shape.obj", "--size", "3000"], "from 1 to 2048 pixels a side"),
     (["render", "shape.obj", "--size", "big"], "WIDTHxHEIGHT"),
     (["render", "shape.obj", "--size", "-5"], "--size"),
-    (["render", "shape.obj", "--chain", "moon"], "--chain must be one of revm, pyrevm, pyevm, reference, not 'moon'"),
+    (["render", "shape.obj", "--chain", "moon"], "--chain must be one of revm, pyrevm, pyevm, not 'moon'"),
+    (["render", "shape.obj", "--chain", "reference"], "is gone: use one of revm, pyrevm, pyevm"),
     (["render", "shape.obj", "--rotate", "1,2"], "--rotate must be three numbers"),
     (["render", "shape.obj", "--rotate", "nan,0,0"], "finite"),
     (["render", "shape.obj", "--eye", "a,b,c"], "--eye must be three numbers"),
@@ -271,19 +269,19 @@ def test_an_empty_picture_is_told(arguments: list[str], capsys: pytest.CaptureFi
 def test_the_seconds_are_those_that_were_waited(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    from shackled import reference, whole_file
+    from shackled import whole_file
 
-    count, write = reference.count, whole_file.write_output
+    count, write = RevmChain.count, whole_file.write_output
 
-    def slow_count(scene: Scene) -> tuple[int, int]:
+    def slow_count(chain: RevmChain, scene: Scene, *tile: None) -> tuple[int, int]:
         time.sleep(0.2)
-        return count(scene)
+        return count(chain, scene, *tile)
 
     def slow_write(path: Path, data: bytes) -> None:
         time.sleep(0.2)
         write(path, data)
 
-    monkeypatch.setattr(reference, "count", slow_count)
+    monkeypatch.setattr(RevmChain, "count", slow_count)
     monkeypatch.setattr("shackled.image.write_output", slow_write)
     for options in ([], ["--tile", "8"]):
         started = time.perf_counter()

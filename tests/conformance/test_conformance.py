@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from accuracy import flat, teapot_scene
 from judge import random_scene, render
 from judge.scenes import SIZES, built_in, built_in_scene
+from made_scenes import flat, teapot_scene
 from pictures import call_data
 from shackled import Material, Mesh, Object, Scene
 from shackled.errors import InputError

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .calldata import SMOOTH, Array, Booleans, Integers, World, read
+from .calldata import Array, Booleans, Integers, World, read
 from .fragments import RULES, Fragments, fragments
 from .pieces import Pieces, joined, pieces_of
 from .shadows import Shadows
@@ -31,7 +31,6 @@ class Picture:
     of the RULES. triangle: (H, W) number of the face that is seen at the first sample, counted through all objects; -1
     for the background. lit: whether anything may be seen.
     interior: whether a pixel and its neighbours show one triangle of each layer, without steps.
-    corners: (n, 3) numbers of the vertices of each face, counted through all objects. is_smooth: (n,).
     shown: (n, 2) numbers of pixels, row by row, and of a face that each may show. free: (H, W) whether a pixel may show
     the background.
     """
@@ -43,8 +42,6 @@ class Picture:
     triangle: Integers
     lit: Booleans
     interior: Booleans
-    corners: Integers
-    is_smooth: Booleans
     shown: Integers
     free: Booleans
 
@@ -125,9 +122,6 @@ class Composition:
         padded = np.pad(only, [(0, 0), (1, 1), (1, 1)], mode="edge")
         for dy, dx in np.ndindex(3, 3):
             interior &= (padded[:, dy : dy + shape[0], dx : dx + shape[1]] == only).all(axis=0)
-        offsets = np.cumsum([0] + [len(s.positions) for s in surfaces])
-        corners = [s.faces + offset for s, offset in zip(surfaces, offsets, strict=False)]
-        smooth = [np.full(len(s.faces), s.shading == SMOOTH) for s in surfaces]
         return Picture(
             exact,
             low,
@@ -136,8 +130,6 @@ class Composition:
             self.canvas.triangle[:, 0].reshape(shape),
             (only != -1).any(axis=0),
             interior,
-            np.concatenate([np.empty((0, 3), np.int64), *corners]),
-            np.concatenate([np.empty(0, bool), *smooth]),
             np.concatenate([np.empty((0, 2), np.int64), *self.shown]),
             np.isneginf(self.canvas.floor).any(axis=(1, 2)).reshape(shape),
         )

@@ -122,7 +122,7 @@ def _fogged(effects: Effects, color: Array, distance: Array) -> Array:
     if effects.fog is None:
         return color
     hue, near, far = effects.fog
-    out: Array = color + (hue - color) * np.clip((distance - near) / (far - near), 0, 1)
+    out: Array = color + (hue - color) * np.clip((distance - near) / max(far - near, 2.0**-32), 0, 1)
     return out
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
 
+from random_scenes import Kind, random_case
 from shackled import Background, Camera, Fog, Light, Material, Mesh, Object, Rim, Scene, Texture, Tone, load
 from shackled.datasets import Piece, pieces, require
 from shackled.datasets.common import shapes
@@ -37,6 +38,8 @@ def built_in_scene(name: str, size: int) -> Scene:
 
 def random_scene(kind: str, seed: int) -> Scene:
     """Return the scene of a kind and a seed."""
+    if kind in EXTREMES:
+        return random_case(seed, (kind,)).scene
     return KINDS[kind](np.random.default_rng([zlib.crc32(kind.encode()), seed]))
 
 
@@ -283,6 +286,8 @@ KINDS: dict[str, Callable[[Rng], Scene]] = {
     "models": _models,
     "mixed": _mixed,
 }
+#: Kinds of tests/random_scenes.py: materials and numbers up to the bounds of the contracts.
+EXTREMES: tuple[Kind, ...] = ("tame", "close")
 
 
 # ---- objects ----

@@ -45,7 +45,6 @@ def whole() -> Image:
         Where(tile=(17, 13)),
         Where(tile=(1000, 1000)),
         Where(gas_limit=4_000_000),
-        Where("reference", tile=(96, 35)),
         Where("revm", jobs=2),
         Where(jobs=2, gas_limit=5_000_000),
     ],
@@ -58,7 +57,7 @@ def test_tiles_are_the_whole(whole: Image, where: Where) -> None:
     assert (image.pixels == whole.pixels).all()
     assert (image.triangles, image.covered_pixels) == (whole.triangles, whole.covered_pixels)
     assert job.calls == sum(job.shares.values())
-    assert image.gas is None if where.chain == "reference" else image.gas >= whole.gas  # type: ignore[operator]
+    assert image.gas >= whole.gas  # type: ignore[operator]
     if job.calls == 1:
         assert (image.gas, image.intrinsic_gas) == (whole.gas, whole.intrinsic_gas)
 
@@ -92,7 +91,6 @@ def test_the_cost_is_told_about_right() -> None:
         assert gas is not None
         assert abs(estimate(scene, chain).gas(side * side) / gas - 1) < 0.25
         job = render_frames([scene], Where(gas_limit=16_777_216))
-        assert job.estimated_gas is not None
         assert abs(job.estimated_gas / (job.images[0].gas or 0) - 1) < 0.35
 
 
@@ -125,8 +123,6 @@ def test_a_worker_that_dies_is_replaced() -> None:
 def test_errors_of_a_worker_are_told() -> None:
     with pytest.raises(ChainError, match="gas is not enough even for a tile"):
         render_frames([SCENE], Where(jobs=2, gas_limit=100_000))
-    with pytest.raises(InputError, match="counts no gas: leave out `gas_limit`"):
-        render_frames([SCENE], Where("reference", jobs=2, gas_limit=100_000))
 
 
 def test_the_interface_of_python(tmp_path: Path) -> None:
@@ -149,8 +145,8 @@ def test_the_interface_of_python(tmp_path: Path) -> None:
         ({"tile": 0}, "sides of a `tile` must be whole numbers from 1"),
         ({"tile": "big"}, r"`tile` must be one number or \(width, height\)"),
         ({"on": "http://127.0.0.1:1"}, r"`on` must be Nodes\('http://127.0.0.1:1'\) for a node, not its address alone"),
-        ({"on": "moon"}, "`on` must be one of revm, pyrevm, pyevm, reference, not 'moon'"),
-        ({"on": 5}, "`on` must be one of revm, pyrevm, pyevm, reference, Processes, Nodes or Cluster, not 5"),
+        ({"on": "moon"}, "`on` must be one of revm, pyrevm, pyevm, not 'moon'"),
+        ({"on": 5}, "`on` must be one of revm, pyrevm, pyevm, Processes, Nodes or Cluster, not 5"),
     ],
 )
 def test_what_makes_no_sense(options: dict[str, object], message: str) -> None:
@@ -188,28 +184,18 @@ def test_nodes_need_addresses() -> None:
             Nodes(*urls)
 
 
-def test_the_reference_estimates_no_gas(whole: Image) -> None:
-    job = render_frames([SCENE], Where("reference"))
-    assert job.estimated_gas is None
-    assert job.images[0].bmp == whole.bmp
-
-
 def test_how_much_is_compared(monkeypatch: pytest.MonkeyPatch) -> None:
     """All of what takes little gas, in any number of tiles; of the rest what is asked for."""
     chain = open_chain()
     assert isinstance(chain, RevmChain)
     node, cheap = ChainBackend(chain, untrusted=True), estimate(SCENE, chain)
     dear = replace(cheap, fixed=float(COMPARED_GAS))
-    large = evolve(SCENE, width=2048, height=1024)
     cases = (
         (SCENE, cheap, None, "all"),
         (SCENE, dear, None, "some"),
         (SCENE, dear, "all", "all"),
         (SCENE, cheap, "some", "some"),
         (SCENE, cheap, "none", "none"),
-        # where nothing tells the gas
-        (SCENE, None, None, "all"),
-        (large, None, None, "some"),
     )
     monkeypatch.setattr("shackled.parallel._backends.SAMPLE", 10**9)
     for scene, expected, verify, much in cases:

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from PIL import Image
 
 import shackled
-from shackled import Camera, InputError, Light, Material, Mesh, Object, Scene, Texture, load, reference
+from pictures import draw
+from shackled import Camera, InputError, Light, Material, Mesh, Object, Scene, Texture, load
 from shackled.datasets.common import shapes
 from shackled.scene import (
     creased,
@@ -48,7 +49,7 @@ def scene_of(*objects: Object, **changes: Any) -> Scene:
 
 
 def pixels(scene: Scene) -> NDArray[np.int64]:
-    return np.asarray(reference.draw_call(render_call(scene)).pixels).astype(int)
+    return draw(fit(scene)).astype(int)
 
 
 # ---- what a mesh takes ----
@@ -177,7 +178,7 @@ def test_scene_files_links_and_pictures_keep_them(tmp_path: Path) -> None:
     assert load(tmp_path / "scene.json") == scene
     call = render_call(scene)
     assert render_call(decode(call)) == call
-    shackled.render(scene, on="reference").save(tmp_path / "scene.png")
+    shackled.render(scene).save(tmp_path / "scene.png")
     assert render_call(load(tmp_path / "scene.png")) == call
 
 
@@ -261,7 +262,7 @@ def test_materials_of_trimesh(mode: str | None, image: Image.Image | None) -> No
     assert part.mesh.colors.tolist() == [[255, 0, 0]] * 4
 
 
-# ---- pictures, by the reference ----
+# ---- pictures ----
 
 
 def test_what_is_not_opaque_shows_what_is_behind() -> None:

@@ -323,7 +323,7 @@ def test_tokens_show_their_scene_for_ever(show: Show) -> None:
     assert artist.lower() == show.bob
     assert artist != show.bob  # with its checksum
     assert traits(found) == {"Edition": 1, "Artist": artist, "Supply": "open"}
-    expected = np.asarray(render(scene, on="reference").pixels)
+    expected = np.asarray(render(scene).pixels)
     assert np.array_equal(pixels(found["image"]), expected.repeat(3, 0).repeat(3, 1))
     assert found["description"].endswith(" Not by the authors of the Shackled contracts of 2021, nor endorsed by them.")
     assert traits(document(said[2]))["Supply"] == "5"

@@ -11,9 +11,8 @@ from tools.tokens.stage import Stage, stage
 from tools.tokens.world import Refused
 
 from shackled import render
-from shackled.datasets.genesis import seed_of
+from shackled.datasets.genesis import generate, seed_of
 from shackled.image import decode_bmp
-from shackled.reference.genesis import generate
 from tokens.show import document, pixels, traits
 
 #: How descriptions end.
@@ -33,12 +32,12 @@ def revealed() -> Stage:
     return s
 
 
-def test_the_picture_is_that_of_the_model_in_python(revealed: Stage) -> None:
+def test_the_picture_is_that_of_the_scene(revealed: Stage) -> None:
     s = revealed
     for token in range(4):
         seed = s.genesis.call("seedOf", token)
         found = document(s.genesis.call("tokenURI", token))
-        expected = np.asarray(render(generate(seed).scene(), on="reference").pixels)
+        expected = np.asarray(render(generate(seed).scene()).pixels)
         assert np.array_equal(pixels(found["image"]), expected.repeat(SCALE, 0).repeat(SCALE, 1))
 
 

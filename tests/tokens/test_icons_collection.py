@@ -179,7 +179,7 @@ def test_tokens_show_their_icon(s: Stage) -> None:
         title, supply, _, _ = ICONS[name]
         assert found["name"] == f"{title} #{icon}"
         assert traits(found) == {"Icon": title, "Supply": supply}
-        expected = np.asarray(render(icon_scene(name), on="reference").pixels)
+        expected = np.asarray(render(icon_scene(name)).pixels)
         assert np.array_equal(pixels(found["image"]), expected.repeat(4, 0).repeat(4, 1))
         assert np.array_equal(decode_bmp(s.icons.call("renderIcon", icon), 128, 128), expected)
         assert len(s.icons.call("tokenURI", icon)) < 100_000

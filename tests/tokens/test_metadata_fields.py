@@ -18,8 +18,7 @@ from PIL import Image as PillowImage
 from tools.tokens.stage import ICONS, Stage, icon_scene, stage, store_scene
 from tools.tokens.world import ETHER, Contract, Refused
 
-from shackled.datasets.genesis import seed_of
-from shackled.reference.genesis import generate
+from shackled.datasets.genesis import generate, seed_of
 from tokens.show import document, pixels
 
 ADDRESS = r"0x[0-9a-f]{40}"

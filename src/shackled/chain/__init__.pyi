@@ -13,7 +13,7 @@ from ._embedded import (
 )
 from ._failures import describe_revert, out_of_gas, retry_after, revert_data, revert_error
 from ._node import GAS_LEFT, MAX_INIT_CODE, NodeChain, metered
-from ._opening import CHAINS, open_chain, open_node
+from ._opening import CHAINS, check_chain, open_chain, open_node
 from ._reading import Report, read_all
 
 __all__ = [
@@ -38,6 +38,7 @@ __all__ = [
     "Report",
     "RevmChain",
     "book_path",
+    "check_chain",
     "check_timeout",
     "check_url",
     "count_call",

@@ -21,6 +21,7 @@ from ..errors import (
     WrongChainError,
 )
 from ..ethereum import checksum_address, intrinsic_gas, to_hex, word
+from ..scene import ANTIALIAS, FIRST_IN_WORDS
 from ._address_book import AddressBook
 from ._chain import ContractCaller, NodeResult
 from ._connection import Connection
@@ -39,6 +40,11 @@ METER = bytes.fromhex("5ac61ed000000000000000000000000000000002")
 #: A program that returns the remaining gas: GAS PUSH0 MSTORE, an empty MCOPY, PUSH1 32 PUSH0 RETURN.
 #: Like the contracts, it needs the rules of Cancun.
 GAS_LEFT = bytes.fromhex("5a5f525f5f5f5e60205ff3")
+
+
+#: Bytes from the beginning of a scene in calldata to the offset of its extensions, and of an extension's kind, index
+#: and size.
+EXTENSIONS, RECORD = 20 * 32, 5
 
 
 class Method(Enum):
@@ -258,9 +264,7 @@ class NodeChain(ContractCaller):
         """
         parts = artifact(contract).parts
         if contract == "Renderer":
-            from .. import reference
-
-            parts = reference.engines(data)
+            parts = engines(data)
         return parts + [each for part in parts for each in self._below(part, b"")]
 
     def _refused(self, data: bytes | None, gas_limit: int | None) -> ChainError:
@@ -283,6 +287,27 @@ class NodeChain(ContractCaller):
             return 0
         sizes = [(len(self._local.code(name)), len(artifact(name).creation)) for name in CARRIED]
         return 6_000_000 + sum(200 * code + 200 * packed for code, packed in sizes)
+
+
+def engines(data: bytes) -> list[str]:
+    """Return the contracts that draw the scene of a call of the Renderer; those of plain scenes if it has none."""
+    scene = 4 + _word(data, 4)
+    place = scene + _word(data, scene + EXTENSIONS)
+    end = place + 32 + _word(data, place)
+    place, last = place + 32, 0
+    while place + RECORD <= min(end, len(data)):
+        # kinds ascend
+        last = data[place]
+        size = int.from_bytes(data[place + 3 : place + RECORD], "big")
+        place += RECORD + size * (32 if last >= FIRST_IN_WORDS else 1)
+    if last > ANTIALIAS:
+        return ["EffectsEngine", "Effects"]
+    prefix = "Antialiased" if last == ANTIALIAS else ""
+    return [prefix + "Engine", prefix + "FragmentEngine"]
+
+
+def _word(data: bytes, place: int) -> int:
+    return int.from_bytes(data[place : place + 32], "big")
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from .look_options import load_with, with_look
 from .option import option
 
 #: The chains that count gas.
-EVMS = tuple(name for name in CHAINS if name != "reference")
+EVMS = tuple(CHAINS)
 #: The formats of --profile, by extension.
 FORMATS = (".json", ".svg")
 

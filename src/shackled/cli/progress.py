@@ -94,8 +94,7 @@ class JobProgress(Listener):
         self._total = outline.pixels
         if outline.parts > 1:
             frames = f"{outline.frames} frames, " if outline.frames > 1 else ""
-            cost = "" if outline.gas is None else f", about {_rounded(outline.gas):,} gas"
-            self._bar.print(f"{frames}{outline.parts} calls{cost}")
+            self._bar.print(f"{frames}{outline.parts} calls, about {_rounded(outline.gas):,} gas")
 
     def advanced(self, pixels: int) -> None:
         """Count finished pixels."""

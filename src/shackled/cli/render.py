@@ -21,7 +21,7 @@ from ..animation import DURATION, Animation, check_animation, check_duration
 from ..animation import FORMATS as FILMS
 from ..chain import CHAINS, PATIENCE, open_chain
 from ..datasets import Piece
-from ..errors import InputError
+from ..errors import ChainError, InputError
 from ..image import FORMATS, Image, check_alpha, check_output, one_of
 from ..palette import MOST_COLORS, Pixels, colors
 from ..parallel import folder_of, remove_parts
@@ -74,7 +74,7 @@ def render(
     ] = False,
     chain: Annotated[
         str | None,
-        option("--chain", f"Renderer: {', '.join(CHAINS)} (NumPy); default: revm.", "NAME", "Where"),
+        option("--chain", f"EVM to draw in: {', '.join(CHAINS)}; default: revm.", "NAME", "Where"),
     ] = None,
     jobs: Annotated[
         int | None, option("--jobs", "Number of worker processes, or of concurrent calls per node.", "N", "Where")
@@ -161,7 +161,6 @@ def render(
             made = draw(loaded, on=on, transparent=transparent, **told)
         else:
             made = turn(loaded, turntable, duration=shown, on=on, one_call=one_call, **told)
-        counts = (made.triangles, made.covered_pixels) if isinstance(made, Image) else (None, None)
     try:
         with LateBar("writing"):
             made.save(path, scene=scene)
@@ -174,9 +173,11 @@ def render(
     frames = [made] if isinstance(made, Image) else made.frames
     chunk = frames[0].scene_chunk if path.suffix.lower() in (PICTURE, "") and scene is not False else None
     written = len(chunk.data) if chunk is not None and (scene or chunk.is_small) else None
+    with LateBar("counting"):
+        counts, shows_something = _counted(made)
     several = in_parts or transparent or turntable is not None
     report = _report(made, input, path, time.perf_counter() - started, counts, written, several)
-    if all(frame.covered_pixels == 0 for frame in frames):
+    if not shows_something:
         print("nothing is visible; the picture shows only the background", file=sys.stderr)
     if path.suffix.lower() == ".gif":
         _warn_of_palette([frame.pixels for frame in frames])
@@ -216,6 +217,20 @@ def _on(
 def _from_environment(context: typer.Context, parameter: str) -> bool:
     source = context.get_parameter_source(parameter)
     return source is not None and source.name == "ENVIRONMENT"
+
+
+def _counted(made: Image | Animation) -> tuple[tuple[int | None, int | None], bool]:
+    """Return the triangles and covered pixels of a picture, None where they are not known, and whether anything shows.
+
+    The picture is already written: what fails here is only told.
+    """
+    try:
+        if isinstance(made, Image):
+            return (made.triangles, made.covered_pixels), made.covered_pixels != 0
+        return (None, None), any(frame.covered_pixels != 0 for frame in made.frames)
+    except ChainError as error:
+        print(f"shackled: triangles and lit pixels were not counted: {error}", file=sys.stderr)
+        return (None, None), True
 
 
 def _report(

@@ -22,7 +22,7 @@ def stages(
     look: dict[str, Any],
     chain: Annotated[
         str | None,
-        typer.Option("--chain", help=f"Renderer: {', '.join(CHAINS)} (NumPy); default: revm.", metavar="NAME"),
+        typer.Option("--chain", help=f"EVM to draw in: {', '.join(CHAINS)}; default: revm.", metavar="NAME"),
     ] = None,
 ) -> None:
     """Draw the result of each stage of the pipeline: six pictures, and a strip of all."""

@@ -109,7 +109,7 @@ def _compiled(is_small: bool) -> tuple[wasmtime.Engine, wasmtime.Module]:
         # also of the wheel for any platform, which has no library
         raise ChainError(
             f"there is no wasmtime for this machine ({platform.system()}, {platform.machine()}): choose the chain "
-            "pyevm, of pip install 'shackled[pyevm]', or reference"
+            "pyevm, of pip install 'shackled[pyevm]'"
         ) from error
     config = wasmtime.Config()
     if is_small:

@@ -11,8 +11,8 @@ from itertools import groupby
 
 from ..artifacts import artifact
 from ..chain import CallResult, ContractChain, returned_bytes
-from ..reference import layout
 from ..scene import WIREFRAME, Rectangle, Scene, encode
+from . import _layout as layout
 
 #: As in Pipeline.sol.
 BAND_PIXELS = 16384

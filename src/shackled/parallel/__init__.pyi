@@ -1,5 +1,6 @@
 from ._backends import Backend, ChainBackend, Part, ProcessBackend, Verifier, draw_part
 from ._cluster import ClusterBackend
+from ._counter import Counter, strips
 from ._estimate import estimate
 from ._job import COMPARED_GAS, choose_verifier, plan, render_frames
 from ._scheduler import FAILURES, Listener, Outline, Scheduler
@@ -15,6 +16,7 @@ __all__ = [
     "Backend",
     "ChainBackend",
     "ClusterBackend",
+    "Counter",
     "Listener",
     "Outline",
     "Part",
@@ -35,4 +37,5 @@ __all__ = [
     "plan",
     "remove_parts",
     "render_frames",
+    "strips",
 ]

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 from ..chain import Chain, Drawing, EmbeddedChain, open_chain, out_of_gas
-from ..errors import InputError, RenderError
+from ..errors import RenderError
 from ..scene import Rectangle, Scene
 from ..workers import Worker, WorkerEndedError
 
@@ -16,6 +17,10 @@ from ..workers import Worker, WorkerEndedError
 ATTEMPTS = 2
 #: Where a sample is verified: one part in so many, besides the first one of each backend.
 SAMPLE = 8
+
+Answer = TypeVar("Answer")
+#: `draw_limited` or `count_limited`.
+Limited = Callable[[str | None, int | None, Scene, Rectangle], Answer]
 
 
 @dataclass(frozen=True)
@@ -32,6 +37,12 @@ def draw_part(chain: Chain, scene: Scene, tile: Rectangle) -> Drawing:
     return chain.draw(scene, None if whole else tile)
 
 
+def count_part(chain: Chain, scene: Scene, tile: Rectangle) -> tuple[int, int]:
+    """Count the triangles of a tile of a frame, and the pixels that they cover."""
+    whole = (tile.width, tile.height) == (scene.width, scene.height)
+    return chain.count(scene, None if whole else tile)
+
+
 def check_part(piece: Drawing, tile: Rectangle) -> None:
     """Raise RenderError if an answer is no picture of the size of the tile."""
     from ..image import decode_bmp
@@ -45,14 +56,18 @@ def limited(chain: str | None, gas: int | None) -> Chain:
     opened = open_chain(chain)
     if gas is None:
         return opened
-    if not isinstance(opened, EmbeddedChain):
-        raise InputError(f"the chain {chain!r} counts no gas: leave out `gas_limit`")
+    assert isinstance(opened, EmbeddedChain)
     return type(opened)(gas)
 
 
 def draw_limited(chain: str | None, gas: int | None, scene: Scene, tile: Rectangle) -> Drawing:
     """Render a tile of a frame in this process, on the chain that `limited` opens."""
     return draw_part(limited(chain, gas), scene, tile)
+
+
+def count_limited(chain: str | None, gas: int | None, scene: Scene, tile: Rectangle) -> tuple[int, int]:
+    """Count a tile of a frame in this process, on the chain that `limited` opens."""
+    return count_part(limited(chain, gas), scene, tile)
 
 
 class Backend(Protocol):
@@ -72,6 +87,9 @@ class Backend(Protocol):
 
     def render(self, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
         """Render a part; slots are numbered from 0, and each renders one part at a time."""
+
+    def count(self, slot: int, scene: Scene, tile: Rectangle) -> tuple[int, int]:
+        """Count the triangles of a part, and the pixels that they cover."""
 
     def close(self) -> None:
         """Stop what still runs; may be called while slots are busy, and more than once."""
@@ -95,6 +113,10 @@ class ChainBackend:
         if self.gas is not None and piece.gas is not None and piece.gas > self.gas:
             raise out_of_gas(self.gas)
         return piece
+
+    def count(self, slot: int, scene: Scene, tile: Rectangle) -> tuple[int, int]:
+        """Count the triangles of a part, and the pixels that they cover."""
+        return count_part(self.chain, scene, tile)
 
     def close(self) -> None:
         """Do nothing: nothing runs in the background."""
@@ -123,9 +145,16 @@ class ProcessBackend:
 
     def render(self, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
         """Render a part in the process of a slot."""
+        return self._call(slot, draw_limited, scene, tile)
+
+    def count(self, slot: int, scene: Scene, tile: Rectangle) -> tuple[int, int]:
+        """Count the triangles of a part, and the pixels that they cover."""
+        return self._call(slot, count_limited, scene, tile)
+
+    def _call(self, slot: int, function: Limited[Answer], scene: Scene, tile: Rectangle) -> Answer:
         for _ in range(ATTEMPTS):
             try:
-                return self._workers[slot].call(draw_limited, self._chain, self.gas, scene, tile)
+                return self._workers[slot].call(function, self._chain, self.gas, scene, tile)
             except WorkerEndedError:
                 if self._closed:
                     break

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from ..chain import Drawing, open_chain
 from ..errors import InputError, RenderError, ShackledError
 from ..scene import Rectangle, Scene
-from ._backends import draw_limited, limited
+from ._backends import Answer, Limited, count_limited, draw_limited, limited
 from ._store import contracts_digest
 
 if TYPE_CHECKING:
@@ -93,11 +93,18 @@ class ClusterBackend:
 
     def render(self, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
         """Render a part on any free worker."""
+        return self._call(draw_limited, scene, tile)
+
+    def count(self, slot: int, scene: Scene, tile: Rectangle) -> tuple[int, int]:
+        """Count the triangles of a part, and the pixels that they cover."""
+        return self._call(count_limited, scene, tile)
+
+    def _call(self, function: Limited[Answer], scene: Scene, tile: Rectangle) -> Answer:
         from distributed import KilledWorker
 
         try:
-            future = self._client.submit(draw_limited, self._chain, self.gas, scene, tile, pure=False)
-            answer = future.result()
+            future = self._client.submit(function, self._chain, self.gas, scene, tile, pure=False)
+            answer: Answer = future.result()
         except KilledWorker:
             raise RenderError(
                 "the workers of the cluster died over the same part of the picture, one after the other"
@@ -109,7 +116,6 @@ class ClusterBackend:
             lost = any(sign in said for sign in LOST)
             what = "its scheduler cannot be reached any more; is it running?" if lost else _line(error)
             raise RenderError(f"the cluster failed: {what}") from None
-        assert isinstance(answer, Drawing)
         return answer
 
     def close(self) -> None:

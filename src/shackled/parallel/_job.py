@@ -5,20 +5,21 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from ..chain import ContractChain, Drawing, open_chain
+from ..chain import ContractChain, Drawing, NodeChain, open_chain
 from ..errors import caller
 from ..image import Image, decode_bmp, encode_bmp, total
 from ..scene import Rectangle, Scene
-from ._backends import SAMPLE, Backend, Part, Verifier
+from ._backends import SAMPLE, Backend, ChainBackend, Part, Verifier
+from ._counter import Counter
 from ._estimate import Estimate, estimate
 from ._scheduler import Listener, Outline, Scheduler
 from ._store import PartStore
-from ._tiles import cut, grid
+from ._tiles import area, cut, grid
 from ._where import Where
 
 #: Parts for each slot, so that all are busy until the end, and the extra gas that this may cost.
@@ -28,9 +29,8 @@ MOST_EXTRA = 0.3
 LEAST_PIXELS = 1024
 #: The most pixels of a part: about 50 MB for its pixels and buffers.
 MOST_PIXELS = 1 << 22
-#: Pictures that take less gas are compared whole, which takes a second or two. PIXELS: the same where gas is unknown,
-#: because only the NumPy reference can draw them.
-COMPARED_GAS, COMPARED_PIXELS = 500_000_000, 1 << 20
+#: Pictures that take less gas are compared whole, which takes a second or two.
+COMPARED_GAS = 500_000_000
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Finished:
 
     images: list[Image]
     calls: int
-    estimated_gas: int | None
+    estimated_gas: int
     shares: dict[str, int]
 
 
@@ -64,7 +64,9 @@ def render_frames(
         backends = where.open(listener)
         for backend in backends:
             stack.callback(backend.close)
-        expected = _estimate(frames[0], backends, where)
+        local = open_chain(None)
+        assert isinstance(local, ContractChain)
+        expected = estimate(frames[0], local)
         tiles = plan(frames[0], len(frames), backends, expected, where.tile)
         parts = [Part(number, tile) for number in range(len(frames)) for tile in tiles]
         verifier, compared = choose_verifier(frames[0], backends, expected, where.verify)
@@ -73,7 +75,7 @@ def render_frames(
         if store is not None and len(parts) > 1:
             parts = _planned(store, parts, where)
         pixels = frames[0].width * frames[0].height
-        gas = None if expected is None else len(frames) * expected.gas(pixels, max(1, len(parts) // len(frames)))
+        gas = len(frames) * expected.gas(pixels, max(1, len(parts) // len(frames)))
         listener.planned(Outline(len(parts), len(frames), pixels * len(frames), gas))
         if not compared and where.verify is None and len(parts) > 1:
             listener.warned(
@@ -89,12 +91,16 @@ def render_frames(
             raise
         name = _name(scheduler.used)
         seconds = time.perf_counter() - started
-        images = [_assemble(n, scene, pieces, name, seconds / len(frames)) for n, scene in enumerate(frames)]
+        if where.rpc:
+            # nodes that were dropped are not asked for counts either
+            chains = [backend.chain for backend in scheduler.used if isinstance(backend, ChainBackend)]
+            where = replace(where, rpc=tuple(each.connection.url for each in chains if isinstance(each, NodeChain)))
+        images = [_assemble(n, scene, pieces, name, seconds / len(frames), where) for n, scene in enumerate(frames)]
         return Finished(images, len(pieces), gas, scheduler.shares)
 
 
 def plan(
-    scene: Scene, frames: int, backends: Sequence[Backend], expected: Estimate | None, tile: tuple[int, int] | None
+    scene: Scene, frames: int, backends: Sequence[Backend], expected: Estimate, tile: tuple[int, int] | None
 ) -> list[Rectangle]:
     """Return the tiles of each frame. tile: their size if it is fixed."""
     width, height = scene.width, scene.height
@@ -102,37 +108,26 @@ def plan(
         return list(grid(width, height, *tile))
     pixels = MOST_PIXELS
     for backend in backends:
-        if backend.gas is not None and expected is not None:
+        if backend.gas is not None:
             pixels = min(pixels, expected.pixels_within(backend.gas))
     # if the estimate says that nothing fits, try the smallest useful tiles
     pixels = max(pixels, width, LEAST_PIXELS)
     slots = sum(backend.slots for backend in backends)
     wanted = 1 if frames >= slots else -(-PARTS_PER_SLOT * slots // frames)
-    if expected is not None and wanted > 1:
+    if wanted > 1:
         spare = MOST_EXTRA * expected.gas(width * height) / max(1.0, expected.call)
         wanted = max(min(wanted, 1 + int(spare)), -(-slots // frames))
     return cut(width, height, pixels, wanted)
 
 
-def _estimate(scene: Scene, backends: Sequence[Backend], where: Where) -> Estimate | None:
-    """Estimate the cost of a frame; return None where that would take as long as the frame itself."""
-    if any(backend.name.startswith("NumPy") for backend in backends):
-        return None
-    chain = open_chain(None)
-    assert isinstance(chain, ContractChain)
-    return estimate(scene, chain)
-
-
 def choose_verifier(
-    scene: Scene, backends: Sequence[Backend], expected: Estimate | None, verify: str | None
+    scene: Scene, backends: Sequence[Backend], expected: Estimate, verify: str | None
 ) -> tuple[Verifier | None, bool]:
     """Return the verifier of untrusted backends, or None; and whether every part is known to be right in the end."""
     if not any(backend.untrusted for backend in backends):
         return None, True
     if verify is None:
-        pixels = scene.width * scene.height
-        cheap = pixels <= COMPARED_PIXELS if expected is None else expected.gas(pixels) < COMPARED_GAS
-        verify = "all" if cheap else "some"
+        verify = "all" if expected.gas(scene.width * scene.height) < COMPARED_GAS else "some"
     return (None if verify == "none" else Verifier(verify == "all")), verify == "all"
 
 
@@ -145,7 +140,9 @@ def _planned(store: PartStore, parts: list[Part], where: Where) -> list[Part]:
     return parts
 
 
-def _assemble(number: int, scene: Scene, pieces: dict[Part, Drawing], chain: str, seconds: float) -> Image:
+def _assemble(
+    number: int, scene: Scene, pieces: dict[Part, Drawing], chain: str, seconds: float, where: Where
+) -> Image:
     """Return the picture of a frame, assembled from its parts."""
     own = {part.tile: piece for part, piece in pieces.items() if part.frame == number}
     pixels = np.zeros((scene.height, scene.width, 3), np.uint8)
@@ -163,6 +160,7 @@ def _assemble(number: int, scene: Scene, pieces: dict[Part, Drawing], chain: str
         seconds=seconds,
         scene=scene,
         calls=len(own),
+        counter=Counter(where, max(map(area, own)) if len(own) > 1 else None),
     )
 
 

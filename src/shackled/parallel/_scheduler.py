@@ -45,12 +45,12 @@ TOO_MUCH = (OutOfGasError, TooLargeError, NodeTimeoutError)
 
 @dataclass(frozen=True)
 class Outline:
-    """The size of a job. gas: an estimate of what it will use; None if there is none."""
+    """The size of a job. gas: an estimate of what it will use."""
 
     parts: int
     frames: int
     pixels: int
-    gas: int | None
+    gas: int
 
 
 class Listener:

@@ -4,6 +4,7 @@ from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
 from ._codec import (
     ANTIALIAS,
     CULL_BACKFACES,
+    FIRST_IN_WORDS,
     FOG,
     HEMISPHERE,
     LIGHTS,
@@ -75,6 +76,7 @@ __all__ = [
     "EXPOSURES",
     "FILLED",
     "FILTERS",
+    "FIRST_IN_WORDS",
     "FOG",
     "FORCEFUL",
     "GENTLE",

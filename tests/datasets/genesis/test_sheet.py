@@ -10,9 +10,8 @@ import pytest
 from PIL import Image as PillowImage
 
 from shackled import render
-from shackled.datasets.genesis import render_sheet, seed_of
+from shackled.datasets.genesis import generate, render_sheet, seed_of
 from shackled.errors import InputError
-from shackled.reference.genesis import generate
 
 
 @pytest.fixture(autouse=True)

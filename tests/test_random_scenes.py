@@ -1,33 +1,52 @@
-"""The contracts against the reference renderer, byte for byte."""
+"""Random scenes, up to the bounds of the contracts, and scenes of the original: the judge finds no wrong pixel.
+
+`make fuzz` judges more of them; tests/evm/test_scenes.py runs them in several EVMs.
+"""
 
 from __future__ import annotations
+
+from collections import Counter
 
 import numpy as np
 import pytest
 from attrs import evolve
 from benchmarks.shared import FOLDER
 
-from differential import LEAST_DRAWN, compare, compare_broken, contract_answer, difference, reference_answer
+from judge import judge, judge_pixels, render
 from original_scenes import documents
-from pictures import call_data, chain
-from random_scenes import KINDS, Kind, random_case
-from shackled import Camera, Light, Material, Mesh, Object, Scene, load
-from shackled.reference import selector
-from shackled.scene import Rectangle, encode, original_scene, rotate
+from pictures import Pixels, call, call_data, chain, draw, dynamic
+from random_scenes import KINDS, Kind, broken_call, random_case
+from shackled import Camera, Light, Material, Mesh, Object, RenderError, Scene, load
+from shackled.artifacts import artifact
+from shackled.image import decode_bmp
+from shackled.scene import Rectangle, original_scene, rotate
 
-SEEDS = 150
+SEEDS = 100
+#: One in so many wild scenes may be wrong somewhere: their numbers are as large or as small as any may be.
+WILD = 20
+
+
+def draw_checked(scene: Scene, tile: Rectangle) -> tuple[Pixels, int]:
+    """The pixels of a scene, of which a tile is a part, and how many are covered."""
+    output = call("renderCounted", scene).output
+    pixels = decode_bmp(dynamic(output), scene.width, scene.height)
+    part = pixels[tile.y : tile.y + tile.height, tile.x : tile.x + tile.width]
+    assert (draw(scene, tile) == part).all(), tile
+    return pixels, int.from_bytes(output[64:96], "big")
 
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("first", [1, 1 + SEEDS])
 def test_random_scenes(kind: Kind, first: int) -> None:
-    found, drawn = {}, []
+    faults, drawn = [], []
     for seed in range(first, first + SEEDS):
-        found[seed], whole = compare(random_case(seed, (kind,)), chain())
-        drawn.append(isinstance(whole, bytes) and int.from_bytes(whole[64:96], "big") > 0)
-    assert {seed: text for seed, text in found.items() if text} == {}
+        case = random_case(seed, (kind,))
+        pixels, lit = draw_checked(case.scene, case.tile)
+        drawn.append(lit > 0)
+        faults += judge_pixels(f"{kind} {seed}", pixels, render(call_data("render", case.scene))).faults[:1]
+    assert len(faults) <= (SEEDS / WILD if kind == "wild" else 0), faults
     # nearly all of them show something
-    assert np.mean(drawn) >= LEAST_DRAWN
+    assert np.mean(drawn) >= 0.95
 
 
 def test_random_scenes_are_of_all_sorts() -> None:
@@ -63,10 +82,20 @@ def from_surface(scene: Scene, light: Light) -> float:
 
 
 def test_broken_calls() -> None:
-    outcomes = {seed: compare_broken(seed, chain()) for seed in range(1, 501)}
-    assert {seed: text for seed, (text, _) in outcomes.items() if text} == {}
-    errors = {answer.partition("(")[0] for _, answer in outcomes.values() if isinstance(answer, str)}
-    assert len(errors) > 12
+    """What is no scene is refused with an error of the interface; all else is a picture."""
+    outcomes: Counter[str] = Counter()
+    for seed in range(1, 501):
+        data = broken_call(seed, call_data("renderCounted", random_case(seed).scene))
+        try:
+            found = dynamic(chain().call("Renderer", data).output)[:2].decode()
+        except RenderError as error:
+            found = str(error).partition("(")[0]
+        outcomes[found] += 1
+    assert outcomes.pop("BM") > 50
+    assert outcomes.pop("the contract refused: the data of the call is not a scene that is encoded correctly") > 5
+    names = {name for name, _ in artifact("Renderer").errors.values()}
+    assert {text.removeprefix("the contract refused: ") for text in outcomes} <= names
+    assert len(outcomes) > 20
 
 
 @pytest.mark.parametrize(
@@ -75,15 +104,12 @@ def test_broken_calls() -> None:
     ids=lambda material: material.shading if material else "as it is",
 )
 def test_scenes_as_the_original_was_measured_with(material: Material | None) -> None:
-    found = {}
     for name, document in documents().items():
         scene = original_scene(document)
         if material:
             objects = [evolve(each, material=material) for each in scene.objects]
             scene = evolve(scene, objects=objects, lights=[Light("point", (500, 800, 0))])
-        data = encode(selector("renderCounted"), scene)
-        found[name] = difference(contract_answer(chain(), data), reference_answer(data))
-    assert {name: text for name, text in found.items() if text} == {}
+        assert judge(name, scene).faults == []
 
 
 TRIANGLE = Mesh([[-30000, -30000, 0], [30000, -30000, 0], [0, 30000, 0]], [[0, 1, 2]], normals=[[0, 0, 1]] * 3)
@@ -94,10 +120,10 @@ TRIANGLE = Mesh([[-30000, -30000, 0], [30000, -30000, 0], [0, 30000, 0]], [[0, 1
 def test_a_depth_that_rounds_to_zero(shading: str, kind: str) -> None:
     far = Object(TRIANGLE, (0, 0, -(2**25)), scale=2**6, material=Material(shading), cull=False)
     light = Light(kind, (0, 0, 2**25))
-    data = call_data("renderCounted", Scene([far], Camera(near=2.0**-32), [light], width=64, height=64))
-    answer = reference_answer(data)
-    assert isinstance(answer, bytes)
-    assert difference(contract_answer(chain(), data), answer) is None
+    scene = Scene([far], Camera(near=2.0**-32), [light], width=64, height=64)
+    found = judge_pixels("far", draw(scene), render(call_data("render", scene)))
+    assert found.faults == []
+    assert found.interior == 8
 
 
 @pytest.mark.parametrize(("width", "height"), [(2048, 27), (27, 2048), (2048, 256)])
@@ -107,9 +133,10 @@ def test_large_canvases(width: int, height: int, shading: str) -> None:
     obj = Object(mesh, (0, 0, -1000), (0.3, 0.5, 0, 1), 0.02, Material(shading))
     lights = [Light("directional", (1, 1, 1)), Light("directional", (-1, 0, 1), (255, 90, 0))]
     scene = Scene([obj], Camera(near=1.0), lights, width=width, height=height)
-    tile = Rectangle(width // 3, height // 3, width // 2, height // 2)
-    for data in (call_data("renderCounted", scene), call_data("renderTile", scene, tile)):
-        assert difference(contract_answer(chain(), data), reference_answer(data)) is None
+    pixels, _ = draw_checked(scene, Rectangle(width // 3, height // 3, width // 2, height // 2))
+    found = judge_pixels("large", pixels, render(call_data("render", scene)))
+    assert found.faults == []
+    assert found.worst <= 1
 
 
 def test_models_of_the_original() -> None:
@@ -117,5 +144,4 @@ def test_models_of_the_original() -> None:
     if not paths:
         pytest.skip(f"there are no scenes of the original in {FOLDER}: set SHACKLED_SHARED")
     for path in paths:
-        data = encode(selector("renderCounted"), load(path))
-        assert not difference(contract_answer(chain(), data), reference_answer(data)), path.stem
+        assert judge(path.stem, load(path)).faults == []

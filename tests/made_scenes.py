@@ -1,99 +1,20 @@
-"""How near the contracts' pictures are to those of a float64 renderer of the same formulas.
-
-    python tests/accuracy.py [NAME ...]
-
-Compares the pixels that are away from silhouettes and edges: those whose eight neighbours show the same triangle, or,
-on a surface with interpolated normals, a triangle that has a corner in common. Errors are in levels of 255: the mean
-over all channels, and for the other figures the largest of the three channels of a pixel. The last column is the share
-of all pixels, edges and background included, that are within 4 levels. The exit code is 1 if the mean is above 0.6, or
-less than 99.9 % of the compared pixels are within 4 levels.
-"""
+"""Scenes made by hand, and those that the original was measured with."""
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from attrs import evolve
-from numpy.typing import NDArray
 
-import judge
 from original_scenes import OBJECTS, documents, genesis_document, object_document
-from pictures import UNLIT, chain
+from pictures import UNLIT
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
 from shackled.bench.scenes import GLOSSY, SUN, turned_cube
 from shackled.datasets import teapot
-from shackled.image import decode_bmp
-from shackled.scene import original_scene, render_call, vertex_normals
-
-MEAN_BOUND = 0.6
-LEVELS = 4
-SHARE_WITHIN = 0.999
-
-
-@dataclass(frozen=True)
-class Accuracy:
-    """pixels: how many were compared. mean, worst: their error. within: the share of them within 4 levels.
-    everywhere: the same share of all pixels of the picture.
-    """
-
-    pixels: int
-    mean: float
-    worst: int
-    within: float
-    everywhere: float
-
-    @property
-    def is_good(self) -> bool:
-        """Whether it is within the bounds."""
-        return self.pixels == 0 or (self.mean <= MEAN_BOUND and self.within >= SHARE_WITHIN)
-
-    def __str__(self) -> str:
-        share = f"{100 * self.within:7.2f} %"
-        return f"{self.pixels:6} {self.mean:7.3f} {self.worst:5} {share} {100 * self.everywhere:7.2f} %"
-
-
-def measure(scene: Scene) -> Accuracy:
-    """Compares the contract's picture of a scene with the float64 one."""
-    expected = judge.render(render_call(scene))
-    pixels = decode_bmp(chain().draw(scene).bmp, scene.width, scene.height)
-    error = np.abs(pixels.astype(int) - expected.pixels)
-    largest = error.max(axis=2)
-    inner = interior(expected)
-    count = int(inner.sum())
-    if count == 0:
-        return Accuracy(0, 0.0, 0, 1.0, float((largest <= LEVELS).mean()))
-    return Accuracy(
-        pixels=count,
-        mean=float(error[inner].mean()),
-        worst=int(largest[inner].max()),
-        within=float((largest[inner] <= LEVELS).mean()),
-        everywhere=float((largest <= LEVELS).mean()),
-    )
-
-
-def interior(picture: judge.Picture) -> NDArray[np.bool_]:
-    """(H, W): drawn pixels away from silhouettes and edges."""
-    padded = np.pad(picture.triangle, 1, mode="edge")
-    height, width = picture.triangle.shape
-    center = picture.triangle
-    inner = center >= 0
-    if not len(picture.corners):
-        return inner
-    for dy in range(3):
-        for dx in range(3):
-            other = padded[dy : dy + height, dx : dx + width]
-            shared = (picture.corners[center][..., :, None] == picture.corners[other][..., None, :]).any(axis=(2, 3))
-            inner = inner & ((other == center) | (shared & (other >= 0) & picture.is_smooth[center]))
-    return inner
-
-
-# ---- scenes ----
+from shackled.scene import original_scene, vertex_normals
 
 
 def scenes_of_the_original() -> dict[str, Callable[[], Scene]]:
@@ -345,22 +266,3 @@ def wide(scene: Scene) -> Scene:
 def orthographic(scene: Scene) -> Scene:
     """The scene with an orthographic camera."""
     return evolve(scene, camera=evolve(scene.camera, projection="orthographic", half_height=3.5))
-
-
-def main() -> int:
-    """The command."""
-    scenes = scenes_of_the_original() | made_scenes()
-    chosen = [name for name in scenes if not sys.argv[1:] or any(part in name for part in sys.argv[1:])]
-    print(f"{'scene':44} {'pixels':>6} {'mean':>7} {'worst':>5} {'within 4':>9} {'of all':>9}")
-    bad = 0
-    for name in chosen:
-        accuracy = measure(scenes[name]())
-        bad += not accuracy.is_good
-        print(f"{name:44} {accuracy}{'' if accuracy.is_good else '  TOO FAR'}", flush=True)
-    print(f"{len(chosen) - bad} of {len(chosen)} scenes within the bounds")
-    return 1 if bad else 0
-
-
-if __name__ == "__main__":
-    sys.path.insert(0, str(Path(__file__).parent))
-    sys.exit(main())

@@ -1,0 +1,23 @@
+"""Registers, packed words and modes. Written by tools/layout.py from contracts/layout.toml."""
+
+# frame
+FRAME_BEGIN = 0x800
+FRAME_IS_ANTIALIASED = 0x820
+EFFECTS = 0x840
+INVERT = 0xB00
+OBJECT_COUNT = 0xB40
+OBJECTS = 0xB60
+OBJECT_FIRST = 0xB80
+OBJECTS_BEGIN = 0xBC0
+DRAWN_BEFORE = 0xBE0
+RETURNS_DEPTHS = 0xC00
+
+# object
+OBJECT_BYTES = 0x1280
+OBJECT_MODE = 0x12A0
+OBJECT_FLAGS = 0x12C0
+
+# mode
+IS_SMOOTH = 16
+IS_SPOT_LIT = 0x4000
+IS_BLENDED = 0x8000
