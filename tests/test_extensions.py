@@ -14,7 +14,7 @@ import judge
 from pictures import chain, counts, draw, dynamic
 from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, RenderError, Scene, render
 from shackled.artifacts import artifact
-from shackled.chain._node import engines
+from shackled.chain import engines
 from shackled.image import decode_bmp
 from shackled.scene import ONE, Rectangle, encode, encode_scene, extensions, fit
 

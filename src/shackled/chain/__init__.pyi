@@ -12,7 +12,7 @@ from ._embedded import (
     pyrevm_error,
 )
 from ._failures import describe_revert, out_of_gas, retry_after, revert_data, revert_error
-from ._node import GAS_LEFT, MAX_INIT_CODE, NodeChain, metered
+from ._node import GAS_LEFT, MAX_INIT_CODE, NodeChain, engines, metered
 from ._opening import CHAINS, check_chain, open_chain, open_node
 from ._reading import Report, read_all
 
@@ -43,6 +43,7 @@ __all__ = [
     "check_url",
     "count_call",
     "describe_revert",
+    "engines",
     "metered",
     "open_chain",
     "open_node",
