@@ -4,6 +4,7 @@ from ._findings import folded
 from ._library import library_codes, stored_scene
 from ._preview import Preview, Request, Token
 from ._project import Compiled, CompilerError, Project
+from ._quantities import in_units
 from ._server import Live, make_app, serve
 from ._sheet import check_sheet, write_sheet
 from ._summary import summary
@@ -24,6 +25,7 @@ __all__ = [
     "World",
     "check_sheet",
     "folded",
+    "in_units",
     "judge",
     "judge_picture",
     "library_codes",
