@@ -13,7 +13,7 @@ ifndef CHECKS
 .NOTPARALLEL:
 endif
 .DEFAULT_GOAL := help
-.PHONY: help browser opengl demo creator test lint types contracts evm evm-check web docs unit verify build npm gas golden bench paper fuzz conformance pictures clean
+.PHONY: help browser opengl demo creator test lint types contracts evm evm-check web docs unit verify build npm gas golden bench paper fuzz mutants conformance pictures clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -135,6 +135,9 @@ verify: $(DEV) $(NODE) ## the inputs with which explorers verify the contracts: 
 fuzz: $(DEV) ## contracts against the judge over 2,000 more random scenes and other EVMs, property tests on new examples
 	$(BIN)/python tests/judge --only tame close --count 2000
 	HYPOTHESIS_PROFILE=new $(BIN)/pytest -n 2 tests/evm tests/scene tests/test_bad_input_on_chain.py tests/test_properties.py
+
+mutants: $(DEV) $(NODE) ## which of 110 faulty versions of the contracts that draw the tests detect; goes on where it stopped
+	$(BIN)/python -m tools.mutants
 
 conformance: $(DEV) opengl ## contracts against the judge over 1,000 random scenes, and OpenGL
 	$(BIN)/python tests/judge

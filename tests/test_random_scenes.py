@@ -49,6 +49,12 @@ def test_random_scenes(kind: Kind, first: int) -> None:
     assert np.mean(drawn) >= 0.95
 
 
+@pytest.mark.parametrize("seed", [170])
+def test_a_scene_that_a_faulty_contract_draws_wrongly(seed: int) -> None:
+    """170: changes of depth that leave their lane, in an EffectsEngine that takes their eighths from the lane alone."""
+    assert judge(str(seed), random_case(seed).scene).faults == []
+
+
 def test_random_scenes_are_of_all_sorts() -> None:
     scenes = [random_case(seed).scene for seed in range(1, 301)]
     objects = [o for scene in scenes for o in scene.objects]
