@@ -112,9 +112,9 @@ def test_chains_by_name() -> None:
     assert open_chain() is open_chain()
     assert open_chain("pyevm").name == "embedded EVM (py-evm)"
     assert set(CHAINS) == {"revm", "pyrevm", "pyevm"}
-    with pytest.raises(InputError, match=r"^`name` must be one of revm, pyrevm, pyevm, not 'hardhat'$"):
+    with pytest.raises(InputError, match=r"^the chain must be one of revm, pyrevm, pyevm, not 'hardhat'$"):
         open_chain("hardhat")
-    gone = "^`name` 'reference', a renderer in NumPy, is gone: use one of revm, pyrevm, pyevm$"
+    gone = "^the chain 'reference', a renderer in NumPy, is gone: use one of revm, pyrevm, pyevm$"
     with pytest.raises(InputError, match=gone):
         open_chain("reference")
 

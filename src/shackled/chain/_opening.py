@@ -41,7 +41,7 @@ def check_chain(name: str, parameter: str) -> str:
 @cache
 def open_chain(name: str | None = None) -> Chain:
     """Return the chain of a name; None selects the embedded EVM. Raises InputError if it is unknown."""
-    name = "revm" if name is None else check_chain(name, "`name`")
+    name = "revm" if name is None else check_chain(name, "the chain")
     if not find_spec(CHAINS[name]):
         package = {"pyevm": "py-evm", "pyrevm": "pyrevm, which has wheels for Python 3.11 and 3.12"}.get(name, name)
         raise InputError(f"the chain {name!r} needs a package that is not installed: {package}")
