@@ -55,33 +55,6 @@ def is_right(scene: Scene) -> bool:
 SUN, LAMP = Light("directional", (-0.6, 1.0, 0.5), shadow=True), Light("point", (2, 3, 2), shadow=True)
 
 
-@pytest.mark.parametrize(
-    "changes",
-    [
-        {},
-        {"lights": [LAMP]},
-        {"lights": [evolve(SUN, shadow=False), evolve(LAMP, vector=(0.2, 1.6, 1.0))]},
-        {"lights": [Light.spot((2, 4, 2), (-2, -4, -2)), SUN]},
-        {"camera": Camera((3.4, 3.0, 5.0), (0.2, 0.4, 0), projection="orthographic", half_height=2)},
-        {"camera": Camera((0.5, 0.8, 1.2), (0.2, 0.4, 0), half_height=0.8)},
-        {"ground": None},
-        {"hemisphere": ("#8090a0", "#302010"), "rim": "white", "fog": ("#203040", 4, 9)},
-        {"width": 24, "height": 56, "invert": True},
-    ],
-    ids=["plain", "point", "second", "two", "orthographic", "close", "floating", "effects", "tall"],
-)
-def test_pictures_are_right(changes: dict[str, Any]) -> None:
-    assert is_right(still_life(**changes))
-
-
-@pytest.mark.parametrize("change", [{"opacity": 0.5}, {"wireframe": True}, {"cull": False}])
-def test_other_objects(change: dict[str, Any]) -> None:
-    """Glass and wires cast no shadow; objects that are not culled do, with all faces."""
-    scene = still_life()
-    first, *rest = scene.objects
-    assert is_right(evolve(scene, objects=[evolve(first, **change), *rest]))
-
-
 def test_tiles() -> None:
     """A tile is that part of the whole."""
     scene = fit(still_life(width=64, height=48))
