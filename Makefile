@@ -136,7 +136,7 @@ fuzz: $(DEV) ## contracts against the judge over 2,000 more random scenes and ot
 	$(BIN)/python tests/judge --only tame close --count 2000
 	HYPOTHESIS_PROFILE=new $(BIN)/pytest -n 2 tests/evm tests/scene tests/test_bad_input_on_chain.py tests/test_properties.py
 
-mutants: $(DEV) $(NODE) ## which of 110 faulty versions of the contracts that draw the tests detect; goes on where it stopped
+mutants: $(DEV) $(NODE) ## which of 80 faulty versions of the contracts that draw the tests detect; goes on where it stopped
 	$(BIN)/python -m tools.mutants
 
 conformance: $(DEV) opengl ## contracts against the judge over 1,000 random scenes, and OpenGL

@@ -385,7 +385,7 @@ def summary(rows: list[dict[str, Any]]) -> str:
 def main() -> int:
     """The command."""
     parser = argparse.ArgumentParser(prog="tools.mutants", description=(__doc__ or "").partition("\n")[0])
-    parser.add_argument("--count", type=int, default=110, help="how many mutants (110)")
+    parser.add_argument("--count", type=int, default=80, help="how many mutants (80)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes")
     parser.add_argument("--list", action="store_true", help="show what would be changed")
     parser.add_argument("--run", nargs=2, metavar=("FILE", "JUDGE"), help=argparse.SUPPRESS)
