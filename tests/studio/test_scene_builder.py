@@ -15,8 +15,7 @@ from compiler import needs_compiler
 from shackled import Mesh, RenderError, Texture
 from shackled.artifacts import artifact
 from shackled.image import decode_bmp
-from shackled.scene import Viewpoint, frame, is_closed, pack, pack_texture, unpack
-from shackled.scene import decode as decode_scene
+from shackled.scene import Viewpoint, frame, is_closed, pack, pack_texture, read_call, unpack
 from shackled.studio import scene_struct, split_mesh
 
 SCENE_STRUCT = scene_struct()
@@ -359,7 +358,7 @@ def test_cameras_fit_objects(world: World, probe: bytes, tenths: int, toward: tu
     (scene,) = ask(world, probe, [SCENE_STRUCT], signature, [*packed, bytes(5)], tenths, list(toward))
     # the last object has no vertices
     scene = (*scene[:6], scene[6][:3], scene[7])
-    found = decode_scene(artifact("Renderer").selectors["render"] + encode([SCENE_STRUCT], [scene]))
+    found = read_call(artifact("Renderer").selectors["render"] + encode([SCENE_STRUCT], [scene]))
     camera = found.camera
     points = np.concatenate([o.world_positions() for o in found.objects])
     x, y, z = toward

@@ -24,7 +24,7 @@ from ._codec import (
     render_call,
 )
 from ._crease import CREASE, SIMPLIFIED_CREASE, creased, shaded
-from ._decode import decode
+from ._decode import decode, read_call
 from ._effects import EXPOSURES, POWERS, Fog, Hemisphere, Rim, Tone
 from ._files.colors import sample
 from ._files.content import MAX_BYTES
@@ -171,6 +171,7 @@ __all__ = [
     "painted",
     "painted_object",
     "part_of",
+    "read_call",
     "read_mesh",
     "read_model",
     "read_scene",

@@ -84,6 +84,14 @@ def decode(data: bytes) -> Scene:
     `render_call` would make otherwise: of another encoding, with numbers that a float does not hold, or of a scene that
     it would move and scale. `Chain.call` runs them as they are.
     """
+    scene = read_call(data)
+    if (again := render_call(scene)) != data:
+        raise InputError(_difference(data, again))
+    return scene
+
+
+def read_call(data: bytes) -> Scene:
+    """Return the scene of a call as `decode` does, also where `render_call` would make another call of it."""
     if data[:4] != artifact("Renderer").selectors["render"]:
         raise InputError("it is no call of render(Scene): its first four bytes are those of another function")
     words = _Words(data[4:])
@@ -113,7 +121,7 @@ def decode(data: bytes) -> Scene:
         raise InputError(f"{len(words.data) - words.place:,} bytes follow the scene; none must")
     lights = [evolve(each, shadow=(SHADOW, index) in records) for index, each in enumerate(lights)]
     objects, ground = _without_ground([_with_records(each, records, index) for index, each in enumerate(objects)])
-    scene = Scene(
+    return Scene(
         objects,
         camera,
         [_with_spot(each, records.get((SPOT, index)), f"lights[{index}]") for index, each in enumerate(lights)],
@@ -126,13 +134,13 @@ def decode(data: bytes) -> Scene:
         **_effects(records),
         ground=ground,
     )
-    if (again := render_call(scene)) != data:
-        raise InputError(_difference(data, again, [to_lights, to_objects, to_extensions]))
-    return scene
 
 
-def _difference(data: bytes, again: bytes, offsets: list[int]) -> str:
-    """Return the message for a call that `render_call` makes otherwise. offsets: of the parts in the scene."""
+def _difference(data: bytes, again: bytes) -> str:
+    """Return the message for a call that `render_call` makes otherwise."""
+    # the offsets of the parts are the last words of the scene
+    begin = 4 + WORD * (1 + SCENE_WORDS - len(_PARTS))
+    offsets = [int.from_bytes(data[at : at + WORD], "big") for at in range(begin, begin + len(_PARTS) * WORD, WORD)]
     place = next((at for at, (one, other) in enumerate(zip(data, again, strict=False)) if one != other), len(again))
     part = ("the camera or the canvas", *_PARTS)[sum(place >= 4 + WORD + offset for offset in offsets)]
     return (
