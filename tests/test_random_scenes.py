@@ -21,7 +21,7 @@ from shackled.artifacts import artifact
 from shackled.image import decode_bmp
 from shackled.scene import Rectangle, original_scene, rotate
 
-SEEDS = 60
+SEEDS = 100
 #: One in so many wild scenes may be wrong somewhere: their numbers are as large or as small as any may be.
 WILD = 20
 

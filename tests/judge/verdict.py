@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 MOST, MANY, FEW = 8.0, 4.0, 10_000
 #: The mean error of a channel of an interior pixel, over a run.
 MEAN = 0.35
+#: The same in a scene, and one in so many pixels of any kind that may be off by more than MANY levels there.
+MEAN_OF_SCENE, SHARE = 0.6, 1_000
 #: One in so many pixels may have a colour that only a rule explains.
 RARE = {"slivers": 1_000, "backs": 100, "fans": 10_000, "wires": 1_000}
 #: Interior pixels of a run for which these shares hold.
@@ -37,7 +39,8 @@ class Verdict:
     scenes: how many. lit: pixels that show anything. interior: those that, as their neighbours, show one triangle
     without steps. many, far: of these, those off by more than MANY and MOST levels. worst, error: the largest of their
     errors, and the sum of those of all channels. outside: other pixels that are more than MOST levels outside of their
-    range. explained: those that are not with one of the RULES. faults: what is wrong, in words.
+    range. off: pixels of either sort that are so by more than MANY levels. explained: those that are not with one of
+    the RULES. faults: what is wrong, in words.
     """
 
     scenes: int = 0
@@ -48,6 +51,7 @@ class Verdict:
     worst: float = 0.0
     error: float = 0.0
     outside: int = 0
+    off: int = 0
     explained: Counter[str] = field(default_factory=Counter)
     faults: list[str] = field(default_factory=list)
 
@@ -59,6 +63,11 @@ class Verdict:
     def mean(self) -> float:
         """The mean error of a channel of an interior pixel."""
         return self.error / max(3 * self.interior, 1)
+
+    @property
+    def is_near(self) -> bool:
+        """Whether a picture is right with closer bounds: those that a few hundred pixels can be held to."""
+        return not self.faults and self.mean <= MEAN_OF_SCENE and SHARE * self.off <= max(self.lit, SHARE)
 
     def faults_of_run(self) -> list[str]:
         """Return what is out of the bounds that hold for many pixels together."""
@@ -107,6 +116,7 @@ def judge_pixels(name: str, drawn: Pixels, right: Picture) -> Verdict:
         worst=float(largest[inner].max(initial=0.0)),
         error=float(error[inner].sum()),
         outside=int((wrong & ~inner).sum()),
+        off=int((largest > MANY).sum()),
         explained=explained,
         faults=faults,
     )
