@@ -12,7 +12,7 @@ import pytest
 from tools import build_contracts as tool
 
 from compiler import needs_compiler
-from shackled.artifacts import contracts, standard_input
+from shackled.artifacts import contracts, source, standard_input
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -21,9 +21,7 @@ def test_a_closed_pipe_leaves_no_old_artifacts(tmp_path: Path, monkeypatch: pyte
     """As `tools/build_contracts.py | head -1`: what was built is written before anything is printed."""
     text = '{"contract": "Thing", "deployedBytecode": "00", "group": "calls"}\n'
     monkeypatch.setattr(tool, "ARTIFACTS", tmp_path)
-    monkeypatch.setattr(
-        tool, "build", lambda **_: {"Thing.json": text, tool.SOURCE_MAPS: "{}", tool.SOURCE_TEXTS: "{}"}
-    )
+    monkeypatch.setattr(tool, "build", lambda **_: {"Thing.json": text, tool.SOURCE_MAPS: "{}"})
     monkeypatch.setattr(sys, "argv", ["build_contracts.py", "--group", "calls"])
     (tmp_path / "Old.json").write_text(text)
     (tmp_path / "of-no-group.json").write_text("{}")
@@ -34,7 +32,7 @@ def test_a_closed_pipe_leaves_no_old_artifacts(tmp_path: Path, monkeypatch: pyte
     monkeypatch.setattr(builtins, "print", closed)
     with pytest.raises(BrokenPipeError):
         tool.main()
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["Thing.json", tool.SOURCE_MAPS, tool.SOURCE_TEXTS]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["Thing.json", tool.SOURCE_MAPS]
 
 
 def test_every_contract_is_in_one_group(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -56,21 +54,18 @@ def test_inputs_of_the_package_are_those_of_the_sources() -> None:
         assert standard_input(group) == tool.standard_input(group), f"run tools/build_contracts.py --group {group}"
 
 
-def test_sources_of_some_groups(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The texts of other groups stay, what no group has goes, and groups of another text are named."""
+def test_groups_of_another_text_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """After `--group glb`, when a source that other groups share has changed; and the build fails."""
     monkeypatch.setattr(tool, "ARTIFACTS", tmp_path)
-    old = {"other.sol": "kept", "scene/Scene.sol": "old"}
-    engine = {"group": "engine", "sources": {path: tool.digest(text) for path, text in old.items()}}
-    (tmp_path / "Engine.json").write_text(json.dumps(engine))
-    (tmp_path / tool.SOURCE_TEXTS).write_text(json.dumps(old | {"gone.sol": ""}))
-    texts = tool.source_texts(["glb"])
-    assert texts == {"other.sol": "kept"} | tool.read_sources(["GlbEncoder"])
-    assert tool.outdated(["glb"], texts) == ["compile the groups engine, too: scene/Scene.sol has changed"]
-    # and the build fails
-    monkeypatch.setattr(tool, "build", lambda **_: {tool.SOURCE_TEXTS: json.dumps(texts)})
+    sources = {"scene/Scene.sol": tool.digest("old"), "scene/Mesh.sol": tool.digest(source("scene/Mesh.sol") or "")}
+    (tmp_path / "Engine.json").write_text(json.dumps({"group": "engine", "sources": sources}))
+    assert tool.outdated(["glb"]) == ["compile the groups engine, too: scene/Scene.sol has changed"]
+    assert tool.outdated(["engine"]) == []
+    monkeypatch.setattr(tool, "build", lambda **_: {"Glb.json": "{}"})
+    monkeypatch.setattr(tool, "report_sizes", lambda _: True)
     monkeypatch.setattr(sys, "argv", ["build_contracts.py", "--group", "glb"])
     assert tool.main() == 1
-    assert json.loads((tmp_path / tool.SOURCE_TEXTS).read_text()) == texts
+    assert (tmp_path / "Glb.json").read_text() == "{}"
 
 
 def test_source_maps_of_groups_are_merged() -> None:

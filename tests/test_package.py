@@ -19,7 +19,7 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 from tools import build_package
 
-from shackled.artifacts import contracts, sources
+from shackled.artifacts import contracts
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "src" / "shackled"
@@ -149,7 +149,12 @@ def test_notices_of_all_whose_code_is_compiled_in() -> None:
     notices = (ROOT / "THIRD-PARTY-NOTICES").read_text()
     locked = json.loads((ROOT / "contracts" / "package-lock.json").read_text())["packages"]
     folders = {name.removeprefix("node_modules/"): entry for name, entry in locked.items() if name}
-    libraries = {name for name in folders for source in sources() if source.startswith(f"{name}/")}
+    used = {
+        source
+        for contract in contracts()
+        for source in json.loads((PACKAGE / "artifacts" / f"{contract}.json").read_text())["sources"]
+    }
+    libraries = {name for name in folders for source in used if source.startswith(f"{name}/")}
     assert libraries >= {"@openzeppelin/contracts", "erc721a", "solady"}
     for name in libraries:
         section = notices.partition(f"{folders[name]['version']} ({name})")[2].partition("\n---")[2]

@@ -29,6 +29,7 @@ from pathlib import Path
 from typing import Any
 
 from shackled.artifacts import OUTPUTS as OUTPUTS
+from shackled.artifacts import source as text_of
 
 ROOT = Path(__file__).resolve().parent.parent
 CONTRACTS = ROOT / "contracts"
@@ -39,10 +40,6 @@ PACKAGE = "shackled-contracts/"
 ARTIFACTS = ROOT / "src" / "shackled" / "artifacts"
 #: The source maps, for profiles.
 SOURCE_MAPS = "source-maps.json"
-#: The texts of all sources, by path, libraries too: what compiles to these contracts must be in the package.
-SOURCE_TEXTS = "sources.json"
-#: The artifacts of no contract, common to all groups.
-COMMON = {SOURCE_MAPS, SOURCE_TEXTS}
 
 #: The contracts and optimizer settings of each group.
 GROUPS: dict[str, dict[str, Any]] = tomllib.loads((CONTRACTS / "groups.toml").read_text("utf-8"))
@@ -193,7 +190,6 @@ def build(groups: Sequence[str] = tuple(GROUPS)) -> dict[str, str]:
         files |= built
         maps.append(source_maps(answer, functions.result()))
     files[SOURCE_MAPS] = merge_maps(maps)
-    files[SOURCE_TEXTS] = _text(source_texts(groups))
     return files
 
 
@@ -230,30 +226,16 @@ def digest(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def source_texts(groups: Sequence[str]) -> dict[str, str]:
-    """Return the sources of these groups, by path, and those on disk of which only the other groups are made."""
-    path = ARTIFACTS / SOURCE_TEXTS
-    kept: dict[str, str] = json.loads(path.read_text("utf-8")) if path.is_file() else {}
-    others = {name for hashes in _hashes_of_others(groups).values() for name in hashes}
-    texts = {name: text for name, text in kept.items() if name in others}
-    return texts | read_sources(contract for group in groups for contract in GROUPS[group]["contracts"])
-
-
-def outdated(groups: Sequence[str], texts: dict[str, str]) -> list[str]:
+def outdated(groups: Sequence[str]) -> list[str]:
     """Return a line for each source of which other groups than these were compiled from another text, and them."""
-    digests = {name: digest(text) for name, text in texts.items()}
     users: dict[str, set[str]] = {}
-    for contract, hashes in _hashes_of_others(groups).items():
+    for contract in _others(groups):
+        path = ARTIFACTS / f"{contract}.json"
+        hashes = json.loads(path.read_text("utf-8"))["sources"] if path.is_file() else {}
         for name, value in hashes.items():
-            if digests.get(name) != value:
+            if digest(text_of(name) or "") != value:
                 users.setdefault(name, set()).add(group_of(contract))
     return [f"compile the groups {', '.join(sorted(users[name]))}, too: {name} has changed" for name in sorted(users)]
-
-
-def _hashes_of_others(groups: Sequence[str]) -> dict[str, dict[str, str]]:
-    """Return the hashes of the sources of each contract on disk that is in none of these groups."""
-    files = {contract: ARTIFACTS / f"{contract}.json" for contract in _others(groups)}
-    return {name: json.loads(path.read_text("utf-8"))["sources"] for name, path in files.items() if path.is_file()}
 
 
 def _others(groups: Sequence[str]) -> list[str]:
@@ -354,7 +336,7 @@ def artifacts_of(groups: Sequence[str]) -> set[str]:
     """Return the names of the artifact files on disk that belong to these groups."""
     names = set()
     for path in ARTIFACTS.glob("*.json"):
-        group = "" if path.name in COMMON else json.loads(path.read_text("utf-8")).get("group")
+        group = "" if path.name == SOURCE_MAPS else json.loads(path.read_text("utf-8")).get("group")
         # files of groups that no longer exist belong to none
         if group in groups or group not in GROUPS:
             names.add(path.name)
@@ -382,7 +364,7 @@ def report_sizes(files: dict[str, str]) -> bool:
     """Print the size of every contract; return whether all are within the limit."""
     fits = True
     for name, text in files.items():
-        if name not in COMMON:
+        if name != SOURCE_MAPS:
             size = len(json.loads(text)["deployedBytecode"]) // 2
             fits &= size <= MAX_RUNTIME_SIZE
             remark = "" if size <= MAX_RUNTIME_SIZE else ", TOO LARGE"
@@ -402,7 +384,7 @@ def main() -> int:
         return 0
     groups = (options.group,) if options.group else tuple(GROUPS)
     files = build(groups=groups)
-    others = outdated(groups, json.loads(files[SOURCE_TEXTS]))
+    others = outdated(groups)
     if options.check:
         fits = report_sizes(files)
         lines = differences(files, groups) + others

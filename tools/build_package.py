@@ -18,7 +18,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from shackled.artifacts import artifact, sources, standard_input
+from shackled.artifacts import artifact, source, standard_input
 from shackled.deploy import CONTRACTS, Deployment, deployments
 from shackled.ethereum import checksum_address
 
@@ -125,9 +125,9 @@ def scripts(contracts: list[Deployment]) -> dict[str, str]:
 def verification() -> dict[str, str]:
     """Return the compiler's input of each group, with paths of sources for the sources, and sources of libraries."""
     inputs = [standard_input(group) for group in sorted({artifact(name).group for name in PACKED})]
-    libraries = {path: text for path, text in sources().items() if not (SOURCES / path).is_file()}
+    libraries = {path for each in inputs for path in each["sources"] if not (SOURCES / path).is_file()}
     return {"verify.json": _json([each | {"sources": list(each["sources"])} for each in inputs])} | {
-        f"verify/{path}": text for path, text in libraries.items()
+        f"verify/{path}": source(path) or "" for path in sorted(libraries)
     }
 
 

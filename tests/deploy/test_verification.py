@@ -13,7 +13,8 @@ import pytest
 from tools.compiled_once import compile_once
 
 from compiler import needs_compiler
-from shackled.artifacts import artifact, contracts, standard_input
+from shackled import artifacts
+from shackled.artifacts import artifact, contracts, source, standard_input
 from shackled.deploy import CONTRACTS, deployments, write_verification
 from shackled.ethereum import checksum_address
 
@@ -24,16 +25,39 @@ GROUPS = sorted({artifact(name).group for name in contracts()}) if CHOSEN == "al
 
 def test_every_source_is_in_the_files(tmp_path: Path) -> None:
     """Explorers refuse sources that are only named, by `urls`."""
-    written = write_verification(tmp_path, 1, deployments(CONTRACTS))
+    assert write_verification(tmp_path, 1, deployments(CONTRACTS)) == {}
     entries = json.loads((tmp_path / "contracts.json").read_text("utf-8"))["contracts"]
     assert [entry["name"].partition(":")[2] for entry in entries] == [each.name for each in deployments(CONTRACTS)]
-    assert {path.name for path in written} == {"contracts.json", *(entry["standardInput"] for entry in entries)}
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "contracts.json",
+        *(entry["standardInput"] for entry in entries),
+    }
     for entry in entries:
         path, _, name = entry["name"].partition(":")
         request = json.loads((tmp_path / entry["standardInput"]).read_text("utf-8"))
         assert request == standard_input(artifact(name).group)
         assert name in request["settings"]["outputSelection"][path]
         assert all(source.keys() == {"content"} for source in request["sources"].values())
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        (None, r"the source @openzeppelin/\S+, of a library, is not installed: run npm ci in contracts/"),
+        ("other", r"@openzeppelin/\S+ has changed: run tools/build_contracts.py --group png"),
+    ],
+)
+def test_contracts_whose_sources_are_not_there(
+    text: str | None, reason: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """They are left out, and the others are written."""
+    monkeypatch.setattr(artifacts, "source", lambda path: text if path.startswith("@") else source(path))
+    (found,) = write_verification(tmp_path, 1, deployments(["GlbEncoder", "PngEncoder"])).items()
+    assert found[0] == "PngEncoder"
+    assert re.fullmatch(reason, found[1])
+    assert {path.name for path in tmp_path.iterdir()} == {"contracts.json", "standard-input-glb.json"}
+    (entry,) = json.loads((tmp_path / "contracts.json").read_text("utf-8"))["contracts"]
+    assert entry["standardInput"] == "standard-input-glb.json"
 
 
 def test_the_program_of_the_documentation(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,6 +15,7 @@ from pathlib import Path
 import wasmtime
 from tools import build_evm as tool
 
+from shackled.artifacts import source
 from shackled.evm import module_bytes
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -64,5 +65,8 @@ def test_the_wheel_has_it(tmp_path: Path) -> None:
     with zipfile.ZipFile(path) as wheel:
         assert wheel.read("shackled/evm/evm.wasm") == module_bytes()
         assert wheel.read("shackled/evm/LICENSES.txt") == tool.LICENSES.read_bytes()
+        # and the sources of the contracts, with which explorers verify them
+        for path in json.loads(wheel.read("shackled/artifacts/Studio.json"))["sources"]:
+            assert wheel.read(f"shackled/artifacts/sources/{path}").decode() == source(path)
         names = [Path(name).name for name in wheel.namelist()]
     assert {"LICENSE", "THIRD-PARTY-NOTICES", "evm.json"} <= set(names)

@@ -5,9 +5,12 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from functools import cache, cached_property
+from hashlib import sha256
 from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
+from ..errors import InputError
 from ..ethereum import SOLIDITY_ERRORS, Errors, Interface, error_table
 
 #: The contracts that render.
@@ -23,6 +26,10 @@ RENDERER = (
 
 #: What the compiler is asked for; it does not change the bytecode.
 OUTPUTS = ["abi", "metadata", "evm.bytecode.object", "evm.deployedBytecode.object", "evm.methodIdentifiers"]
+
+#: Where sources are: in a wheel; in a checkout, the contracts and the libraries, which npm installs.
+_HERE = Path(__file__).parent
+SOURCES = (_HERE / "sources", *(_HERE.parents[2] / "contracts" / name for name in ("src", "node_modules")))
 
 
 @dataclass(frozen=True)
@@ -79,24 +86,34 @@ def artifact(name: str) -> Artifact:
 def contracts() -> list[str]:
     """Return the names of all compiled contracts."""
     names = {file.name.removesuffix(".json") for file in files(__package__).iterdir() if file.name.endswith(".json")}
-    return sorted(names - {"sources", "source-maps"})
+    return sorted(names - {"source-maps"})
 
 
 @cache
-def sources() -> dict[str, str]:
-    """Return the texts of the sources of all contracts, by path, those of libraries too."""
-    return _read("sources")
+def source(path: str) -> str | None:
+    """Return the text of a source of the contracts or of a library; None for one of a library that is not installed."""
+    found = next((folder / path for folder in SOURCES if (folder / path).is_file()), None)
+    return None if found is None else found.read_text("utf-8")
 
 
 def standard_input(group: str) -> dict[str, Any]:
-    """Return the standard JSON input from which the compiler makes the contracts of a group, every source included."""
+    """Return the standard JSON input from which the compiler makes the contracts of a group, every source included.
+
+    Raises InputError if a source is not installed, or is not the one of which the contracts were made.
+    """
     built = [_read(name) for name in contracts() if artifact(name).group == group]
     selection = {each["source"]: {each["contract"]: OUTPUTS} for each in built}
-    paths = sorted({path for each in built for path in each["sources"]})
+    digests = {path: digest for each in built for path, digest in each["sources"].items()}
+    texts = {path: source(path) for path in sorted(digests)}
+    for path, text in texts.items():
+        if text is None:
+            raise InputError(f"the source {path}, of a library, is not installed: run npm ci in contracts/")
+        if sha256(text.encode()).hexdigest() != digests[path]:
+            raise InputError(f"{path} has changed: run tools/build_contracts.py --group {group}")
     return {
         "language": "Solidity",
         "settings": built[0]["settings"] | {"outputSelection": selection},
-        "sources": {path: {"content": sources()[path]} for path in paths},
+        "sources": {path: {"content": text} for path, text in texts.items()},
     }
 
 

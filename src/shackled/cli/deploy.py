@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -24,7 +25,7 @@ from .option import option
 from .output import print_line, print_note, print_table
 
 if TYPE_CHECKING:
-    from ..deploy import Plan, Receipt
+    from ..deploy import Deployment, Plan, Receipt
 
 
 @with_groups
@@ -50,7 +51,7 @@ def deploy(
     rpc_timeout: Annotated[float, option("--rpc-timeout", "Timeout of a call to the node.", "SECONDS")] = PATIENCE,
 ) -> None:
     """Deploy the contracts, at the same addresses on every chain. Prints the price first and skips what exists."""
-    from ..deploy import CONTRACTS, STANDARD, Deployer, current_fees, deployments, write_verification
+    from ..deploy import CONTRACTS, STANDARD, Deployer, current_fees, deployments
 
     node.check()
     payer.check()
@@ -80,12 +81,12 @@ def deploy(
             payer.confirm(transactor)
         # while nothing is paid yet
         deployer.book.check()
-        write_verification(folder, connection.chain_id, wanted)
+        _write_verification(folder, connection.chain_id, wanted)
         report = None if as_json else lambda step, done: print_step(step, done, to_stdout=True)
         receipts = deployer.execute(plan, transactor, report)
     else:
         deployer.record(wanted)
-        write_verification(folder, connection.chain_id, wanted)
+        _write_verification(folder, connection.chain_id, wanted)
     if as_json:
         print_json(_document(plan, receipts, connection, str(deployer.book.path), str(folder)))
         return
@@ -95,6 +96,17 @@ def deploy(
             print_line(f"{step.name:10} {checksum_address(step.address)}")
     print_line(f"addresses: {deployer.book.path}")
     print_line(f"input of source verification: {folder}")
+
+
+def _write_verification(folder: Path, chain_id: int, wanted: Sequence[Deployment]) -> None:
+    """Write the files for explorers, with one note for the contracts that are left out."""
+    from ..deploy import write_verification
+
+    left_out = write_verification(folder, chain_id, wanted)
+    if left_out:
+        print_note(
+            f"{folder} has no files for {', '.join(left_out)}: {next(iter(left_out.values()))}, and deploy again"
+        )
 
 
 def _print_plan(plan: Plan, connection: Connection, to_stderr: bool) -> None:

@@ -10,7 +10,8 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from ..artifacts import artifact, sources
+from ..artifacts import artifact
+from ..artifacts import source as text_of
 
 _PUSH1, _PUSH32 = 0x60, 0x7F
 
@@ -132,7 +133,8 @@ def _sources() -> dict[int, SourceFile]:
     """Return the source files by the compiler's numbers."""
     found = {}
     for number, source in _data()["sources"].items():
-        text = sources()[source["name"]].encode()
+        # libraries may not be installed
+        text = (text_of(source["name"]) or "").encode()
         functions = tuple(Function(name, begin, begin + length) for name, begin, length in source["functions"])
         begins = (0, *(match.end() for match in re.finditer(rb"\n", text)))
         found[int(number)] = SourceFile(source["name"], text, functions, begins)
