@@ -21,7 +21,8 @@ CHAIN, PRICE, ICON, TOKEN = 31337, 15 * 10**15, 3, 41
 TRANSFER = "0xddf252ad1be2c89b69c2b068fc378daa952ba7f163c4a11628f55a4df523b3ef"
 
 #: A wallet that announces itself as EIP-6963 has it, and has each request answered by the test. Where `thinking` is set
-#: its owner thinks before a transaction is sent.
+#: its owner thinks before a transaction is sent. `breakWire` closes the connection to the server, and new ones go to a
+#: port on which nobody listens until `mendWire`.
 WALLET = """
 const provider = { request: async ({ method, params }) => {
     while (window.thinking && method === 'eth_sendTransaction') await new Promise(done => setTimeout(done, 20));
@@ -34,8 +35,15 @@ const announce = () => dispatchEvent(new CustomEvent('eip6963:announceProvider',
 addEventListener('eip6963:requestProvider', announce);
 announce();
 const wires = [];
-window.WebSocket = class extends WebSocket { constructor(...all) { super(...all); wires.push(this); } };
-window.closeWire = () => wires.filter(({ url }) => url.includes('/live')).forEach(wire => wire.close());
+let broken = false;
+window.WebSocket = class extends WebSocket {
+    constructor(url) { super(broken ? 'ws://127.0.0.1:9/' : url); wires.push(this); }
+};
+window.breakWire = () => {
+    broken = true;
+    wires.filter(({ url }) => url.includes('/live')).forEach(wire => wire.close());
+};
+window.mendWire = () => { broken = false; };
 """
 
 
@@ -229,12 +237,11 @@ def test_the_wire_may_break_while_the_wallet_is_asked(browser: Any, server: Star
     page.evaluate("window.thinking = true")
     page.click("text=Mint with")
     words_of(page, "The price is")
-    page.context.set_offline(True)  # sockets that are open stay so: this one is closed below
-    page.evaluate("window.closeWire()")
+    page.evaluate("window.breakWire()")
     page.wait_for_selector("body.offline")
     page.evaluate("window.thinking = false")
     page.wait_for_timeout(200)
-    page.context.set_offline(False)
+    page.evaluate("window.mendWire()")
     assert f"token {TOKEN}" in words_of(page, "Minted")
     assert chain.asked.count("eth_sendTransaction") == 1
 
