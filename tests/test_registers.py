@@ -10,17 +10,20 @@ from pathlib import Path
 from tools import layout
 
 ROOT = Path(__file__).resolve().parents[1]
-PIPELINE = ROOT / "contracts" / "src" / "pipeline"
+FOLDER = ROOT / "contracts" / "src" / "words"
 TABLE = tomllib.loads((ROOT / "contracts" / "layout.toml").read_text("utf-8"))
 
 
 def constants(name: str) -> dict[str, int]:
     """The constants of a file of the contracts, as they stand there."""
-    text = (PIPELINE / name).read_text("utf-8")
+    text = (FOLDER / name).read_text("utf-8")
     return {key: int(value, 0) for key, value in re.findall(r"^uint256 constant (\w+) = (\w+);", text, re.MULTILINE)}
 
 
-REGISTERS, WORDS = constants("Registers.sol"), constants("Words.sol")
+WORDS = constants("Words.sol")
+#: The registers of all engines, then of fewer.
+FILES = [constants(f"{name}.sol") for name in layout.registers(TABLE)]
+REGISTERS = {name: value for constants in FILES for name, value in constants.items()}
 #: The names of registers, and the words of each.
 SIZES = {
     name: words
@@ -40,9 +43,16 @@ def test_no_register_lies_over_another() -> None:
     assert len(SIZES) > 80
     places = sorted((REGISTERS[name], REGISTERS[name] + 32 * words, name) for name, words in SIZES.items())
     assert places[0][0] == REGISTERS["REGISTERS"]
-    assert places[-1][1] == REGISTERS["REGISTERS_END"]
+    assert places[-1][1] == REGISTERS["EFFECT_REGISTERS_END"]
     for (_, end, name), (begin, _, other) in pairwise(places):
         assert end == begin, f"{name} and {other}"
+
+
+def test_registers_of_fewer_engines_follow_the_others() -> None:
+    ends = [max(value for name, value in names.items() if name in SIZES) for names in FILES]
+    begins = [min(value for name, value in names.items() if name in SIZES) for names in FILES]
+    for (before, end), begin in zip(zip(ends, ("REGISTERS_END", "SAMPLE_REGISTERS_END"), strict=False), begins[1:], strict=True):
+        assert before < REGISTERS[end] == begin
 
 
 def test_records_of_lights_hold_their_fields() -> None:

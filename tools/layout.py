@@ -1,6 +1,6 @@
 """Write the files that are made of contracts/layout.toml, the table of registers and packed words.
 
-python tools/layout.py            writes Registers.sol and Words.sol (contracts/src/pipeline) and gas/_layout.py
+python tools/layout.py            writes the files of contracts/src/words but Memory.sol, and gas/_layout.py
 python tools/layout.py --check    writes nothing; fails if a file is not as it would be written
 
 The compiler takes no expressions in assembly, so every address, shift and mask has to be a number of its own. Here they
@@ -15,12 +15,13 @@ import textwrap
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "contracts" / "layout.toml"
-PIPELINE = ROOT / "contracts" / "src" / "pipeline"
+FOLDER = ROOT / "contracts" / "src" / "words"
 PACKAGE = ROOT / "src" / "shackled" / "gas" / "_layout.py"
 WORD = 32
 #: Columns of a line of the contracts.
@@ -57,11 +58,12 @@ def named(names: str, text: str, values: Iterator[int]) -> Iterator[Constant]:
         yield Constant(name, next(values), "" if i else text)
 
 
-def registers(table: dict[str, Any]) -> Iterator[Section]:
-    """Yield the sections of registers, one word after the other."""
+def registers(table: dict[str, Any]) -> dict[str, list[Section]]:
+    """Return the sections of registers by file, one word after the other, through all files."""
     address: int = table["registers_begin"]
     first = Constant("REGISTERS", address, table["registers_text"])
-    sections = []
+    files: dict[str, list[Section]] = {}
+    ends: dict[str, int] = {}
     for part in table["registers"]:
         constants: list[Constant] = []
         for names, words, text in rows_of_registers(part):
@@ -81,10 +83,13 @@ def registers(table: dict[str, Any]) -> Iterator[Section]:
                 0, Constant(f"{name}_BEGIN", begin, "The beginning of these registers, and their size in bytes.")
             )
             constants.insert(1, Constant(f"{name}_SIZE", address - begin))
+        sections = files.setdefault(part.get("file", "Registers"), [])
         sections.append(Section(part["title"], part.get("text", ""), tuple(constants)))
-    end = Constant("REGISTERS_END", address)
-    yield Section("registers", "", (first, end))
-    yield from sections
+        ends[part.get("file", "Registers")] = address
+    for name, sections in files.items():
+        end = Constant(f"{re.sub('(?<=[a-z])(?=[A-Z])', '_', name).upper()}_END", ends[name])
+        sections.insert(0, Section("bounds", "", (first, end) if name == "Registers" else (end,)))
+    return files
 
 
 def rows_of_registers(part: dict[str, Any]) -> Iterator[tuple[str, int, str]]:
@@ -96,7 +101,8 @@ def rows_of_registers(part: dict[str, Any]) -> Iterator[tuple[str, int, str]]:
 
 def records(table: dict[str, Any]) -> Iterator[Section]:
     """Yield records of several words: offsets of the fields, and the size; or fields in the middle of other records."""
-    addresses = {constant.name: constant.value for section in registers(table) for constant in section.constants}
+    sections = chain.from_iterable(registers(table).values())
+    addresses = {constant.name: constant.value for section in sections for constant in section.constants}
     for part in table["records"]:
         constants: list[Constant] = []
         offset = 0
@@ -232,13 +238,19 @@ def files() -> dict[Path, str]:
     """Return the text of every file that is made of the table."""
     table = tomllib.loads(TABLE.read_text("utf-8"))
     packed = [*numbers(table), *words(table), *unions(table), *shifts(table), *lanes(table)]
-    return {
-        PIPELINE / "Registers.sol": solidity(
-            iter([*registers(table), *records(table), *bits(table)]), "Memory.sol", "Words.sol"
-        ),
-        PIPELINE / "Words.sol": solidity(iter(packed)),
-        PACKAGE: python(iter([*registers(table), *bits(table), *packed]), used_names()),
+    found = registers(table)
+    common = [*found.pop("Registers"), *records(table), *bits(table)]
+    made = {
+        FOLDER / "Registers.sol": solidity(iter(common), "Memory.sol", "Words.sol"),
+        FOLDER / "Words.sol": solidity(iter(packed)),
+        PACKAGE: python(iter([*common, *packed]), used_names()),
     }
+    # each of the others is for fewer engines than the one before
+    before = "Registers.sol"
+    for name, sections in found.items():
+        made[FOLDER / f"{name}.sol"] = solidity(iter(sections), before)
+        before = f"{name}.sol"
+    return made
 
 
 def main() -> int:

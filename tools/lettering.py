@@ -1,4 +1,4 @@
-"""Make contracts/src/studio/Glyphs.sol: the letters of `Lettering.sol`.
+"""Make contracts/src/building/Glyphs.sol: the letters of `Lettering.sol`.
 
     python tools/lettering.py
 

@@ -1,4 +1,4 @@
-"""Write contracts/src/library/Shelf.sol, the table of the library on chain.
+"""Write contracts/src/library/ItemTable.sol, the table of the library on chain.
 
     python tools/library.py
 
@@ -15,7 +15,7 @@ from shackled.library import Item, items
 from shackled.scene import SHADINGS
 
 ROOT = Path(__file__).resolve().parent.parent
-SHELF = ROOT / "contracts" / "src" / "library" / "Shelf.sol"
+TABLE = ROOT / "contracts" / "src" / "library" / "ItemTable.sol"
 #: Digits of a line.
 WIDTH = 120
 IS_ICON = 0x80
@@ -56,7 +56,7 @@ pragma solidity 0.8.37;
 // Written by tools/library.py.
 
 /// @notice The table of the library: a row for each item, in the format of `Library.sol`.
-library Shelf {{
+library ItemTable {{
     /// @notice The number of items.
     uint256 internal constant COUNT = {len(items())};
 
@@ -76,8 +76,8 @@ def _literal(digits: str, name: str) -> str:
 def main() -> None:
     """Write the table."""
     argparse.ArgumentParser(description="Write the table of the library on chain.").parse_args()
-    SHELF.write_text(source(), "utf-8", newline="\n")
-    print(f"{SHELF.relative_to(ROOT)}: {len(items())} items")
+    TABLE.write_text(source(), "utf-8", newline="\n")
+    print(f"{TABLE.relative_to(ROOT)}: {len(items())} items")
 
 
 if __name__ == "__main__":

@@ -10,17 +10,17 @@ import {checkScene} from "./scene/Checks.sol";
 import {SceneErrors} from "./scene/SceneErrors.sol";
 import {Bmp} from "./encode/Bmp.sol";
 import {Svg} from "./encode/Svg.sol";
-import {AntialiasedEngine} from "./AntialiasedEngine.sol";
-import {AntialiasedFragmentEngine} from "./AntialiasedFragmentEngine.sol";
-import {Effects} from "./Effects.sol";
-import {EffectsEngine} from "./EffectsEngine.sol";
-import {Engine} from "./Engine.sol";
-import {FragmentEngine} from "./FragmentEngine.sol";
+import {AntialiasedEngine} from "./engines/AntialiasedEngine.sol";
+import {AntialiasedFragmentEngine} from "./engines/AntialiasedFragmentEngine.sol";
+import {Effects} from "./effects/Effects.sol";
+import {EffectsEngine} from "./engines/EffectsEngine.sol";
+import {Engine} from "./engines/Engine.sol";
+import {FragmentEngine} from "./engines/FragmentEngine.sol";
 import {Extensions} from "./scene/Extensions.sol";
 import {ANTIALIAS} from "./scene/Records.sol";
 import {BY_FACES, Run, Runs} from "./uniforms/Runs.sol";
 import {Uniforms} from "./uniforms/Uniforms.sol";
-import "./pipeline/Registers.sol";
+import "./words/Registers.sol";
 
 /// @title Renderer: draws 3D scenes.
 /// @notice Stateless. `SceneErrors.sol` declares the errors of invalid scenes.
@@ -192,7 +192,7 @@ contract Renderer is SceneErrors {
         }
     }
 
-    /// @dev Calls Effects if the scene has effects. The answer stays in memory, at EFFECTS.
+    /// @dev Calls Effects if the scene has effects. The answer stays in memory, at EFFECTS_AT.
     function prepareEffects(Scene calldata scene) private view {
         unchecked {
             (uint256 record, uint256 end) = Extensions.behind(scene, ANTIALIAS);
@@ -208,7 +208,7 @@ contract Renderer is SceneErrors {
                 end := add(add(data, 36), size)
             }
             uint256 answered = callEngine(address(effects), data, end, data);
-            store(EFFECTS, data);
+            store(EFFECTS_AT, data);
             store(EFFECTS_SIZE, answered);
             setFreeMemory(data + answered);
         }
@@ -220,8 +220,8 @@ contract Renderer is SceneErrors {
             (data, end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, countPixels, TEXTS);
             uint256 size = load(EFFECTS_SIZE);
             if (size == 0) return (data, end);
-            store(data + 4 + EFFECTS - REGISTERS, end - data);
-            uint256 source = load(EFFECTS);
+            store(data + 4 + EFFECTS_OFFSET - REGISTERS, end - data);
+            uint256 source = load(EFFECTS_AT);
             assembly ("memory-safe") {
                 mcopy(end, source, size)
                 end := add(end, size)
@@ -303,7 +303,7 @@ contract Renderer is SceneErrors {
     }
 
     function engineOf(Run memory run) private view returns (address) {
-        if (load(EFFECTS) != 0) return address(effectsEngine);
+        if (load(EFFECTS_SIZE) != 0) return address(effectsEngine);
         if (load(FRAME_IS_ANTIALIASED) == 0) return run.turn == BY_FACES ? address(engine) : address(fragmentEngine);
         return run.turn == BY_FACES ? address(antialiasedEngine) : address(antialiasedFragmentEngine);
     }

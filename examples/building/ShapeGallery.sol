@@ -2,7 +2,7 @@
 pragma solidity ^0.8.25;
 
 import {Scene} from "shackled-contracts/scene/Scene.sol";
-import {Model, ModelMaker, Shapes, Stage, StageMaker} from "shackled-contracts/studio/SceneBuilder.sol";
+import {Model, ModelMaker, Shapes, Stage, StageMaker} from "shackled-contracts/building/SceneBuilder.sol";
 
 /// @title ShapeGallery: the shapes and letters of docs/building.md, one scene each.
 contract ShapeGallery {

@@ -2,7 +2,7 @@
 pragma solidity ^0.8.25;
 
 import {Scene} from "shackled-contracts/scene/Scene.sol";
-import {Framing, Model, ModelMaker, Shapes, Stage, StageMaker} from "shackled-contracts/studio/SceneBuilder.sol";
+import {Framing, Model, ModelMaker, Shapes, Stage, StageMaker} from "shackled-contracts/building/SceneBuilder.sol";
 
 /// @title StageGallery: the scenes of docs/building.md that show cameras, lights and objects.
 contract StageGallery {

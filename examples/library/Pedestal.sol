@@ -3,10 +3,10 @@ pragma solidity ^0.8.25;
 
 import {ILibrary} from "shackled-contracts/interfaces/ILibrary.sol";
 import {IStudio} from "shackled-contracts/interfaces/IStudio.sol";
-import {Item} from "shackled-contracts/library/Item.sol";
+import {Item} from "shackled-contracts/interfaces/Item.sol";
 import {Fixed} from "shackled-contracts/math/Fixed.sol";
 import {Object, Scene} from "shackled-contracts/scene/Scene.sol";
-import {Framing, Model, ModelMaker, Stage, StageMaker} from "shackled-contracts/studio/SceneBuilder.sol";
+import {Framing, Model, ModelMaker, Stage, StageMaker} from "shackled-contracts/building/SceneBuilder.sol";
 
 /// @notice Places items of the library in other scenes.
 contract Pedestal {

@@ -6,7 +6,7 @@ import {Base64} from "solady/src/utils/Base64.sol";
 import {Fixed, ZERO} from "shackled-contracts/math/Fixed.sol";
 import {fromEuler} from "shackled-contracts/math/Euler.sol";
 import {IStudio} from "shackled-contracts/interfaces/IStudio.sol";
-import {Changes, TURN} from "shackled-contracts/studio/Changes.sol";
+import {Changes, TURN} from "shackled-contracts/interfaces/Changes.sol";
 
 /// @notice Tokens that show a scene stored in the Studio, rotated by ten degrees more for each token.
 contract PictureToken is ERC721A("Pictures", "PIC") {

@@ -5,7 +5,7 @@ import {ERC721A} from "erc721a/contracts/ERC721A.sol";
 import {Base64} from "solady/src/utils/Base64.sol";
 import {IStudio} from "shackled-contracts/interfaces/IStudio.sol";
 import {Scene} from "shackled-contracts/scene/Scene.sol";
-import {Model, ModelMaker, Stage, StageMaker} from "shackled-contracts/studio/SceneBuilder.sol";
+import {Model, ModelMaker, Stage, StageMaker} from "shackled-contracts/building/SceneBuilder.sol";
 
 /// @notice Tokens whose pictures are generated from their numbers alone: a town of 5 by 5 houses, different for each token.
 contract SkylineToken is ERC721A("Skylines", "SKY") {

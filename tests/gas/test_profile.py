@@ -116,7 +116,7 @@ def test_lines_are_in_their_files(profiles: dict[str, Profile]) -> None:
     found_in_assembly = 0
     for place, function, _ in profiles["smooth"].lines():
         for name in ("light", "specular", "interpolateNormal", "rayLength"):
-            if function == f"FragmentLight.{name}" and place.startswith("pipeline/FragmentLight.sol"):
+            if function == f"FragmentLight.{name}" and place.startswith("pipeline/shading/FragmentLight.sol"):
                 file, _, line = place.rpartition(":")
                 assert f"function {name}(" in (source(file) or "").splitlines()[int(line) - 1]
                 found_in_assembly += 1

@@ -132,7 +132,7 @@ def test_sources_compile_with_default_settings(optimized: bool) -> None:
     assert build_contracts.follow_imports(sources) == sources
     assert not [name for name in sources if name.startswith(("pipeline/", "uniforms/")) or "Engine" in name]
     numbers = constants("scene/Records.sol")
-    kept = constants("scene/Extensions.sol") | constants("scene/EffectRecords.sol")
+    kept = constants("scene/Extensions.sol") | constants("effects/EffectRecords.sol")
     assert numbers
     assert kept
     assert not numbers.keys() & kept.keys(), "a number of the records stands twice"

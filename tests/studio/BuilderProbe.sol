@@ -3,7 +3,7 @@ pragma solidity 0.8.37;
 
 import {Fixed} from "../../contracts/src/math/Fixed.sol";
 import {Object, Scene} from "../../contracts/src/scene/Scene.sol";
-import {Box, Framing, Model, ModelMaker, Stage, StageMaker} from "../../contracts/src/studio/SceneBuilder.sol";
+import {Box, Framing, Model, ModelMaker, Stage, StageMaker} from "../../contracts/src/building/SceneBuilder.sol";
 
 /// @notice Builds meshes and scenes as it is told.
 contract BuilderProbe {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Lettering, Model, ModelMaker, Shapes} from "../../contracts/src/studio/SceneBuilder.sol";
+import {Lettering, Model, ModelMaker, Shapes} from "../../contracts/src/building/SceneBuilder.sol";
 
 /// @notice Makes meshes of shapes and letters as it is told.
 contract ShapesProbe {

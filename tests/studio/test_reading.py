@@ -69,7 +69,7 @@ LIST = b"\x13"
 
 
 def test_parts_are_bytes_whatever_they_begin_with() -> None:
-    """As in Kept.sol: a part that begins like a list is none. Each address is read once."""
+    """As in Storage.sol: a part that begins like a list is none. Each address is read once."""
     store = Store()
     part = store.put(LIST + b"bytes of a mesh")
     other = store.put(b"more")

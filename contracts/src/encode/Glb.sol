@@ -10,7 +10,7 @@ import {OPACITY_OF, RECORD_HEADER} from "../scene/Records.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
 import {Object, Scene, CULL_BACKFACES, WIREFRAME, SMOOTH, UNLIT} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
-import {GlbErrors} from "./GlbErrors.sol";
+import {GlbErrors} from "../interfaces/GlbErrors.sol";
 import {LINEAR} from "./Linear.sol";
 import {Text} from "./Text.sol";
 

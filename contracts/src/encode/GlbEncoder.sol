@@ -4,9 +4,9 @@ pragma solidity 0.8.37;
 import {Scene} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 import {DataUri} from "./DataUri.sol";
-import {answer} from "./Forward.sol";
+import {answer} from "./Redirect.sol";
 import {Glb} from "./Glb.sol";
-import {GlbErrors} from "./GlbErrors.sol";
+import {GlbErrors} from "../interfaces/GlbErrors.sol";
 
 /// @title GlbEncoder: encodes scenes as binary glTF files for 3D viewers, for the Studio and any contract.
 contract GlbEncoder is SceneErrors, GlbErrors {

@@ -6,7 +6,7 @@ import {Bmp} from "./Bmp.sol";
 import {Crc32} from "./Crc32.sol";
 import {DataUri} from "./DataUri.sol";
 import {LITERALS, PngCode} from "./PngCode.sol";
-import {PngErrors} from "./PngErrors.sol";
+import {PngErrors} from "../interfaces/PngErrors.sol";
 
 /// @notice Encodes the renderer's bitmaps as PNG files. Each pixel becomes a square of up to 8 x 8 pixels, so that it remains sharp where
 /// viewers smooth pictures.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {answer} from "./Forward.sol";
+import {answer} from "./Redirect.sol";
 import {Png} from "./Png.sol";
-import {PngErrors} from "./PngErrors.sol";
+import {PngErrors} from "../interfaces/PngErrors.sol";
 import {TransparentPng} from "./TransparentPng.sol";
 
 /// @title PngEncoder: encodes the renderer's bitmaps as PNG files, for the Studio and for contracts that do not include the code.

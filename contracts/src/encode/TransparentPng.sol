@@ -5,7 +5,7 @@ import {Bmp} from "./Bmp.sol";
 import {DataUri} from "./DataUri.sol";
 import {Png} from "./Png.sol";
 import {AlphaCode} from "./PngCode.sol";
-import {PngErrors} from "./PngErrors.sol";
+import {PngErrors} from "../interfaces/PngErrors.sol";
 
 /// @notice Encodes PNG files with an alpha channel from two bitmaps of a scene: over black and over white.
 /// @dev A fragment that covers a fraction a of a pixel in the colour c appears as a c over black and as a c + 255 (1 - a) over white. The

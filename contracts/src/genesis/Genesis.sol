@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {forward} from "../encode/Forward.sol";
+import {forward} from "../encode/Redirect.sol";
 import {Scene, Background} from "../scene/Scene.sol";
 import {Renderer} from "../Renderer.sol";
 import {WithRenderer} from "../WithRenderer.sol";
@@ -11,7 +11,7 @@ import {Layout, Layouts} from "./Layout.sol";
 import {Prisms, PrismMaker} from "./Prisms.sol";
 import {Scheme, Schemes, SUNSET, STONE_AND_GOLD, VIVID_ALABASTER, VIVID_INK} from "./Schemes.sol";
 import {Colors} from "./Colors.sol";
-import {Piece, Traits} from "./Piece.sol";
+import {Piece, Traits} from "../interfaces/Piece.sol";
 import {PieceMesh} from "./PieceMesh.sol";
 import {PieceScene} from "./PieceScene.sol";
 

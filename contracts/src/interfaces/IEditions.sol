@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-import {StudioErrors} from "../studio/StudioErrors.sol";
-import {Edition} from "../tokens/Edition.sol";
+import {StudioErrors} from "./StudioErrors.sol";
+import {Edition} from "./Edition.sol";
 import {IStudio} from "./IStudio.sol";
 
 /// @title IEditions: a collection in which anyone can publish scenes as limited or open editions of tokens.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-import {Piece, Traits} from "../genesis/Piece.sol";
+import {Piece, Traits} from "./Piece.sol";
 import {Scene} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 import {IRenderer} from "./IRenderer.sol";

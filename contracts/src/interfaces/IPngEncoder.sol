@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-import {PngErrors} from "../encode/PngErrors.sol";
+import {PngErrors} from "./PngErrors.sol";
 
 /// @title IPngEncoder: encodes the renderer's bitmaps as PNG files.
 interface IPngEncoder is PngErrors {

@@ -2,9 +2,9 @@
 pragma solidity ^0.8.25;
 
 import {Scene} from "../scene/Scene.sol";
-import {Changes} from "../studio/Changes.sol";
-import {Spin} from "../studio/Spin.sol";
-import {StudioErrors} from "../studio/StudioErrors.sol";
+import {Changes} from "./Changes.sol";
+import {Turn} from "./Turn.sol";
+import {StudioErrors} from "./StudioErrors.sol";
 import {IGlbEncoder} from "./IGlbEncoder.sol";
 import {IPngEncoder} from "./IPngEncoder.sol";
 import {IRenderer} from "./IRenderer.sol";
@@ -112,16 +112,16 @@ interface IStudio is StudioErrors {
     function renderTransparentDataURI(address pointer, uint256 scale, Changes calldata changes) external view returns (string memory);
 
     /// @notice Returns an animated PNG file of the rotating scene. `Turntable` does the same for scenes that are not stored.
-    function animate(address pointer, Spin calldata spin) external view returns (bytes memory);
+    function animate(address pointer, Turn calldata spin) external view returns (bytes memory);
 
     /// @notice As above, with changes applied to the scene. `Changes.turn` sets the orientation of the first frame.
-    function animate(address pointer, Spin calldata spin, Changes calldata changes) external view returns (bytes memory);
+    function animate(address pointer, Turn calldata spin, Changes calldata changes) external view returns (bytes memory);
 
     /// @notice Returns the animated PNG file as a `data:` URI.
-    function animateDataURI(address pointer, Spin calldata spin) external view returns (string memory);
+    function animateDataURI(address pointer, Turn calldata spin) external view returns (string memory);
 
     /// @notice As above, with changes applied to the scene.
-    function animateDataURI(address pointer, Spin calldata spin, Changes calldata changes) external view returns (string memory);
+    function animateDataURI(address pointer, Turn calldata spin, Changes calldata changes) external view returns (string memory);
 
     /// @notice Returns the picture of a scene that is not stored as a PNG file. Meshes can be packed, compact or pointers. The `draw`
     /// functions revert if a scale, a camera or a material looks as if its numbers were not multiplied by 2^32.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-import {PngErrors} from "../encode/PngErrors.sol";
+import {PngErrors} from "./PngErrors.sol";
 import {Scene} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
-import {Spin} from "../studio/Spin.sol";
-import {TurntableErrors} from "../studio/TurntableErrors.sol";
+import {Turn} from "./Turn.sol";
+import {TurntableErrors} from "./TurntableErrors.sol";
 import {IPngEncoder} from "./IPngEncoder.sol";
 import {IRenderer} from "./IRenderer.sol";
 
@@ -26,8 +26,8 @@ interface ITurntable is SceneErrors, PngErrors, TurntableErrors {
 
     /// @notice Returns an animated PNG file that loops endlessly. The first frame is the scene as given.
     /// @param scene A scene with meshes in the format of `Mesh.sol`.
-    function animate(Scene calldata scene, Spin calldata spin) external view returns (bytes memory);
+    function animate(Scene calldata scene, Turn calldata spin) external view returns (bytes memory);
 
     /// @notice Returns the file as a `data:` URI, for the `animation_url` of a token.
-    function animateDataURI(Scene calldata scene, Spin calldata spin) external view returns (string memory);
+    function animateDataURI(Scene calldata scene, Turn calldata spin) external view returns (string memory);
 }

@@ -4,13 +4,13 @@ pragma solidity 0.8.37;
 import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
 import {Quaternion} from "../math/Quaternion.sol";
-import {Meshes} from "../mesh/Meshes.sol";
+import {Meshes} from "../studio/Meshes.sol";
 import {CULL_BACKFACES, Material, Object} from "../scene/Scene.sol";
-import {Item} from "./Item.sol";
-import {Shelf} from "./Shelf.sol";
+import {Item} from "../interfaces/Item.sol";
+import {ItemTable} from "./ItemTable.sol";
 
 /// @title Library: the meshes and scenes of the project by name, the same on every chain.
-/// @notice Has no storage and no owner. The table of items is part of the code (`Shelf`). It contains the pointers at which the Studio
+/// @notice Has no storage and no owner. The table of items is part of the code (`ItemTable`). It contains the pointers at which the Studio
 /// stores each item; anyone can store an item.
 contract Library {
     /// @dev A row of the table: the length of the name, the name, IS_ICON and the number of meshes, the scene, bounds (six 16-bit numbers),
@@ -33,8 +33,8 @@ contract Library {
 
     /// @notice Returns the names of all items, icons first.
     function names() external pure returns (string[] memory list) {
-        bytes memory table = Shelf.table();
-        list = new string[](Shelf.COUNT);
+        bytes memory table = ItemTable.table();
+        list = new string[](ItemTable.COUNT);
         uint256 row;
         for (uint256 k; k != list.length; ++k) {
             list[k] = nameOf(table, row);
@@ -44,7 +44,7 @@ contract Library {
 
     /// @notice Returns an item by its name, whether it is stored on this chain or not.
     function find(string calldata name) public pure returns (Item memory item) {
-        bytes memory table = Shelf.table();
+        bytes memory table = ItemTable.table();
         uint256 place = rowOf(table, name) + 1 + bytes(name).length;
         uint256 flags = number(table, place++, 1);
         item.isIcon = flags & IS_ICON != 0;
@@ -75,7 +75,7 @@ contract Library {
         address absent = missing(item);
         if (absent != address(0)) revert NotStored(name, absent);
         if (size.raw() <= 0 || size.raw() >= MAX_SIZE) revert SizeOutOfRange(size.raw());
-        bytes memory table = Shelf.table();
+        bytes memory table = ItemTable.table();
         uint256 place = rowOf(table, name) + bytes(name).length + FIXED_SIZE;
         int256 longest = 1;
         for (uint256 k; k != 3; ++k) {
@@ -124,7 +124,7 @@ contract Library {
 
     /// @dev Returns the position of the row with a name.
     function rowOf(bytes memory table, string calldata name) private pure returns (uint256 row) {
-        for (uint256 k; k != Shelf.COUNT; ++k) {
+        for (uint256 k; k != ItemTable.COUNT; ++k) {
             if (keccak256(bytes(nameOf(table, row))) == keccak256(bytes(name))) return row;
             row = next(table, row);
         }

@@ -6,7 +6,7 @@ import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
 import {Genesis} from "../genesis/Genesis.sol";
 import {IGenesis} from "../interfaces/IGenesis.sol";
 import {Studio} from "../studio/Studio.sol";
-import {Item} from "./Item.sol";
+import {Item} from "../interfaces/Item.sol";
 import {Library} from "./Library.sol";
 
 /// @notice A parameter of a request, or a header of a response (ERC-5219).

@@ -3,7 +3,7 @@ pragma solidity 0.8.37;
 
 import {NORMALS, WIDE} from "../scene/Mesh.sol";
 import {LAST_FORMAT} from "./Kinds.sol";
-import {MeshErrors} from "./MeshErrors.sol";
+import {MeshErrors} from "../interfaces/MeshErrors.sol";
 
 // A mesh in at most half the bytes of the format of `Mesh.sol`, all numbers big-endian:
 //

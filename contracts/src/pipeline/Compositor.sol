@@ -2,7 +2,7 @@
 pragma solidity 0.8.37;
 
 import {Rectangle} from "../scene/Scene.sol";
-import "./Registers.sol";
+import "../words/Registers.sol";
 
 // The background, blending, and the final operations on all pixels.
 

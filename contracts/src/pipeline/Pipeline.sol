@@ -3,12 +3,12 @@ pragma solidity 0.8.37;
 
 import {Mesh} from "../scene/Mesh.sol";
 import {Rectangle, CULL_BACKFACES, WIREFRAME} from "../scene/Scene.sol";
-import {Indices} from "./Indices.sol";
-import {VertexShader} from "./VertexShader.sol";
-import {PrimitiveAssembly} from "./PrimitiveAssembly.sol";
-import {Clipper} from "./Clipper.sol";
+import {Indices} from "./geometry/Indices.sol";
+import {VertexShader} from "./geometry/VertexShader.sol";
+import {PrimitiveAssembly} from "./geometry/PrimitiveAssembly.sol";
+import {Clipper} from "./geometry/Clipper.sol";
 import {Compositor} from "./Compositor.sol";
-import "./Registers.sol";
+import "../words/Registers.sol";
 
 // Draws a picture from beginning to end. Memory contains, in this order: registers, vertices and listed triangles of all objects, the
 // pixels, and the depths of a band of rows.
@@ -30,6 +30,18 @@ struct Picture {
 abstract contract Pipeline is PrimitiveAssembly {
     /// @notice Draws the edges of the triangles of a list, if this engine draws wires.
     function drawWires(uint256 list, uint256 end) internal pure virtual;
+
+    /// @notice Returns the end of the registers that this engine uses.
+    function registersEnd() internal pure virtual returns (uint256) {
+        return REGISTERS_END;
+    }
+
+    /// @notice Called once, when the uniforms of the frame are in their registers.
+    function openFrame() internal pure virtual {}
+
+    /// @notice Called when the uniforms of an object are in their registers, before it is drawn.
+    /// @param records The address of the object's vertex records.
+    function openObject(uint256 records) internal pure virtual {}
 
     /// @notice Fills the pixels with the background, or with what was drawn before, and reserves memory for the depths after them.
     /// @param image The address of the pixels.
@@ -66,7 +78,7 @@ abstract contract Pipeline is PrimitiveAssembly {
 
     function draw() private pure returns (Picture memory picture) {
         unchecked {
-            reserveRegisters(REGISTERS, REGISTERS_END);
+            reserveRegisters(REGISTERS, registersEnd());
             copyCalldata(REGISTERS, 4, FRAME_SIZE);
             // allocated once: later allocations follow the depths, and would expand memory over untouched rows
             Rectangle memory tile;
@@ -82,6 +94,7 @@ abstract contract Pipeline is PrimitiveAssembly {
             bool atOnce = bandRows == tile.height;
             // for each object, the vertex records, and the beginning and end of its list of triangles
             uint256[3][] memory lists = new uint256[3][](load(OBJECT_COUNT));
+            openFrame();
             uint256 uniforms = load(OBJECTS);
             for (uint256 i; i != lists.length; ++i) {
                 uniforms = readObject(uniforms);
@@ -106,6 +119,7 @@ abstract contract Pipeline is PrimitiveAssembly {
                 for (uint256 i; i != lists.length; ++i) {
                     // the uniforms of a single object are still in place
                     if (lists.length != 1) uniforms = readObject(uniforms);
+                    openObject(lists[i][0]);
                     uint256 mode = load(OBJECT_MODE);
                     if (load(OPACITY) == 0) continue;
                     if (mode & IS_BLENDED != 0) {
@@ -127,7 +141,7 @@ abstract contract Pipeline is PrimitiveAssembly {
 
     /// @dev Reads the uniforms of an object into their registers.
     /// @return next The position of the next object's uniforms.
-    function readObject(uint256 position) internal pure virtual returns (uint256 next) {
+    function readObject(uint256 position) internal pure returns (uint256 next) {
         unchecked {
             uint256 size;
             assembly ("memory-safe") {

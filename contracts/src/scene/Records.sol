@@ -33,8 +33,8 @@ uint256 constant TEXTURE_CLAMP = 2;
 /// @dev The faces of culled objects that cast shadows: all; those that face away from the light, which suffice if all such objects together
 /// are closed; those that face the light.
 uint256 constant SHADOWS_ALL = 1;
-uint256 constant SHADOWS_AVERSE = 2;
-uint256 constant SHADOWS_TURNED = 3;
+uint256 constant SHADOWS_BACK_FACES = 2;
+uint256 constant SHADOWS_FRONT_FACES = 3;
 
 /// @notice Adds a record. It replaces one of the same kind and index.
 /// @dev Avoids MCOPY, which older EVMs lack.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {load, loadSigned, store} from "../pipeline/Memory.sol";
+import {load, loadSigned, store} from "../words/Memory.sol";
 import {BESIDE, BUCKETS, CUBE, EVERYWHERE, Frame, LightSpace, PLACE_BUCKETS, SIDE_AT} from "./LightSpace.sol";
 
 // Faces in light space, and the search for those that may shade a face.

@@ -7,7 +7,7 @@ import {sqrt} from "../math/Roots.sol";
 import {Vector, normalize} from "../math/Vector.sol";
 import {Mesh} from "../scene/Mesh.sol";
 import {Light, Object, POINT} from "../scene/Scene.sol";
-import {loadSigned, store, storeSigned} from "../pipeline/Memory.sol";
+import {loadSigned, store, storeSigned} from "../words/Memory.sol";
 
 // Light space. The z axis points toward a directional light, or from a point light to the shadow casters. The origin is the centre of the
 // casters, or the point light. The farthest point of a caster has coordinates of 20 bits, including the sign.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {VertexShader} from "../pipeline/VertexShader.sol";
-import "../pipeline/Registers.sol";
+import {VertexShader} from "../pipeline/geometry/VertexShader.sol";
+import "../words/Registers.sol";
 import {
     ADDRESS_MASK,
     BEHIND,

@@ -4,17 +4,17 @@ pragma solidity 0.8.37;
 import {ZERO} from "../math/Fixed.sol";
 import {Vector, normalize} from "../math/Vector.sol";
 import {Extensions} from "../scene/Extensions.sol";
-import {GROUND, OPACITIES_OF, OPACITY_OF, SHADOW, SHADOWS_ALL, SHADOWS_TURNED} from "../scene/Records.sol";
+import {GROUND, OPACITIES_OF, OPACITY_OF, SHADOW, SHADOWS_ALL, SHADOWS_FRONT_FACES} from "../scene/Records.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
 import {Object, Scene, CULL_BACKFACES, FLAT, UNLIT, WIREFRAME} from "../scene/Scene.sol";
-import {Indices} from "../pipeline/Indices.sol";
-import {Triangles} from "../pipeline/Triangles.sol";
+import {Indices} from "../pipeline/geometry/Indices.sol";
+import {Triangles} from "../pipeline/geometry/Triangles.sol";
 import {Transform} from "../uniforms/Transform.sol";
 import {View} from "../uniforms/View.sol";
 import {ADDRESS_MASK, CASTER_SIZE, FACE_ENTRY, FACE_RECORD_SIZE, FACE_SIDE, Faces, PLANES_SIZE} from "./Faces.sol";
 import {BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./LightSpace.sol";
 import {CHAINS, COVERED, LAST_EDGE, MISSED, Receiver, Receivers} from "./Receivers.sol";
-import "../pipeline/Registers.sol";
+import "../words/EffectRegisters.sol";
 
 // Computes which parts of which faces a light does not reach.
 //
@@ -208,7 +208,7 @@ library Shadows {
                 );
                 if (rule != 0) {
                     int256 side = loadSigned(face + FACE_SIDE);
-                    if (side != 0 && (rule == SHADOWS_ALL || (side > 0) == (rule == SHADOWS_TURNED))) {
+                    if (side != 0 && (rule == SHADOWS_ALL || (side > 0) == (rule == SHADOWS_FRONT_FACES))) {
                         store(end, face);
                         Faces.pack(end + 0x20, load(face));
                         end += CASTER_SIZE;

@@ -10,8 +10,8 @@ import {ANTIALIAS as ANTIALIAS_RECORD, addRecord} from "../scene/Records.sol";
 import {WIDE} from "../scene/Mesh.sol";
 import {Scene, Object} from "../scene/Scene.sol";
 import {checkPosition, checkRotation, checkScale, inRange} from "../scene/Checks.sol";
-import {ANTIALIAS, BACKGROUND, CANVAS, INVERT, PAINT, TURN, Changes} from "./Changes.sol";
-import {StudioErrors} from "./StudioErrors.sol";
+import {ANTIALIAS, BACKGROUND, CANVAS, INVERT, PAINT, TURN, Changes} from "../interfaces/Changes.sol";
+import {StudioErrors} from "../interfaces/StudioErrors.sol";
 
 /// @notice Applies changes to a scene.
 library SceneChanges {

@@ -2,21 +2,21 @@
 pragma solidity 0.8.37;
 
 import {LibZip} from "solady/src/utils/LibZip.sol";
-import {forward} from "../encode/Forward.sol";
+import {forward} from "../encode/Redirect.sol";
 import {GlbEncoder} from "../encode/GlbEncoder.sol";
 import {PngEncoder} from "../encode/PngEncoder.sol";
 import {ONE} from "../math/Fixed.sol";
 import {COMPACT, LAST_FORMAT, SCENE, kindOf} from "../mesh/Kinds.sol";
-import {Meshes} from "../mesh/Meshes.sol";
+import {Meshes} from "./Meshes.sol";
 import {NORMALS} from "../scene/Mesh.sol";
 import {FLAT, SMOOTH, Background, Object, Rectangle, Scene} from "../scene/Scene.sol";
 import {Renderer} from "../Renderer.sol";
 import {WithRenderer} from "../WithRenderer.sol";
-import {Changes} from "./Changes.sol";
-import {Kept} from "./Kept.sol";
+import {Changes} from "../interfaces/Changes.sol";
+import {Storage} from "./Storage.sol";
 import {SceneChanges} from "./SceneChanges.sol";
-import {Spin} from "./Spin.sol";
-import {StudioErrors} from "./StudioErrors.sol";
+import {Turn} from "../interfaces/Turn.sol";
+import {StudioErrors} from "../interfaces/StudioErrors.sol";
 import {Turntable} from "./Turntable.sol";
 import {Units} from "./Units.sol";
 
@@ -58,7 +58,7 @@ contract Studio is WithRenderer, StudioErrors {
         uint256 kind = kindOf(data);
         if (kind > LAST_FORMAT && kind != COMPACT) revert NotAMesh(kind);
         bool created;
-        (pointer, created) = Kept.keep(data);
+        (pointer, created) = Storage.keep(data);
         if (created) emit MeshStored(pointer, msg.sender);
     }
 
@@ -68,20 +68,20 @@ contract Studio is WithRenderer, StudioErrors {
     function storeScene(Scene memory scene_) external returns (address pointer) {
         Units.check(scene_);
         bool created;
-        (pointer, created) = Kept.keep(abi.encodePacked(uint8(SCENE), LibZip.cdCompress(abi.encode(scene_))));
+        (pointer, created) = Storage.keep(abi.encodePacked(uint8(SCENE), LibZip.cdCompress(abi.encode(scene_))));
         if (created) emit SceneStored(pointer, msg.sender);
     }
 
     /// @notice Stores a part (at most 24,575 bytes) of data too large for one transaction.
     function storePart(bytes memory data) external returns (address pointer) {
-        if (data.length > Kept.MAX_PART) revert NotToBeKept();
-        (pointer,) = Kept.keepPart(data);
+        if (data.length > Storage.MAX_PART) revert NotToBeKept();
+        (pointer,) = Storage.keepPart(data);
     }
 
     /// @notice Stores the concatenation of parts as a mesh or scene. If each part but the last has 24,575 bytes, the pointer is the same as
     /// if the whole were stored at once.
     function join(address[] memory parts) external returns (address pointer) {
-        (pointer,) = Kept.join(parts);
+        (pointer,) = Storage.join(parts);
     }
 
     /// @notice Returns the reference to a stored mesh, for `Object.mesh`.
@@ -96,7 +96,7 @@ contract Studio is WithRenderer, StudioErrors {
 
     /// @notice Returns a stored scene with its meshes in the format of `Mesh.sol`, as the renderer takes it.
     function scene(address pointer) public view returns (Scene memory scene_) {
-        bytes memory data = Kept.read(pointer);
+        bytes memory data = Storage.read(pointer);
         if (kindOf(data) != SCENE) revert NotAScene(pointer);
         return decoded(data);
     }
@@ -176,22 +176,22 @@ contract Studio is WithRenderer, StudioErrors {
     }
 
     /// @notice Returns an animated PNG file of the rotating scene. `Turntable` does the same for scenes that are not stored.
-    function animate(address pointer, Spin memory spin) external view returns (bytes memory) {
+    function animate(address pointer, Turn memory spin) external view returns (bytes memory) {
         forward(address(turntable), abi.encodeCall(Turntable.animate, (scene(pointer), spin)));
     }
 
     /// @notice As above, with changes applied to the scene. `Changes.turn` sets the orientation of the first frame.
-    function animate(address pointer, Spin memory spin, Changes memory changes) external view returns (bytes memory) {
+    function animate(address pointer, Turn memory spin, Changes memory changes) external view returns (bytes memory) {
         forward(address(turntable), abi.encodeCall(Turntable.animate, (scene(pointer, changes), spin)));
     }
 
     /// @notice Returns the animated PNG file as a `data:` URI.
-    function animateDataURI(address pointer, Spin memory spin) external view returns (string memory) {
+    function animateDataURI(address pointer, Turn memory spin) external view returns (string memory) {
         forward(address(turntable), abi.encodeCall(Turntable.animateDataURI, (scene(pointer), spin)));
     }
 
     /// @notice As above, with changes applied to the scene.
-    function animateDataURI(address pointer, Spin memory spin, Changes memory changes) external view returns (string memory) {
+    function animateDataURI(address pointer, Turn memory spin, Changes memory changes) external view returns (string memory) {
         forward(address(turntable), abi.encodeCall(Turntable.animateDataURI, (scene(pointer, changes), spin)));
     }
 
@@ -243,7 +243,7 @@ contract Studio is WithRenderer, StudioErrors {
 
     /// @dev Returns a stored scene, or a scene that shows a stored mesh from both sides.
     function shown(address pointer) private view returns (Scene memory scene_) {
-        bytes memory data = Kept.read(pointer);
+        bytes memory data = Storage.read(pointer);
         if (kindOf(data) == SCENE) return decoded(data);
         scene_.objects = new Object[](1);
         Object memory object = scene_.objects[0];

@@ -3,9 +3,9 @@ pragma solidity 0.8.37;
 
 import {Apng} from "../encode/Apng.sol";
 import {DataUri} from "../encode/DataUri.sol";
-import {answer} from "../encode/Forward.sol";
+import {answer} from "../encode/Redirect.sol";
 import {PngEncoder} from "../encode/PngEncoder.sol";
-import {PngErrors} from "../encode/PngErrors.sol";
+import {PngErrors} from "../interfaces/PngErrors.sol";
 import {sinCosOfHalf} from "../math/Euler.sol";
 import {Fixed} from "../math/Fixed.sol";
 import {Quaternion} from "../math/Quaternion.sol";
@@ -14,10 +14,10 @@ import {inRange} from "../scene/Checks.sol";
 import {Object, Scene} from "../scene/Scene.sol";
 import {Renderer} from "../Renderer.sol";
 import {WithRenderer} from "../WithRenderer.sol";
-import {Holding} from "./Holding.sol";
+import {FollowingCamera} from "./FollowingCamera.sol";
 import {SceneChanges} from "./SceneChanges.sol";
-import {Spin} from "./Spin.sol";
-import {TurntableErrors} from "./TurntableErrors.sol";
+import {Turn} from "../interfaces/Turn.sol";
+import {TurntableErrors} from "../interfaces/TurntableErrors.sol";
 
 /// @title Turntable: makes animated PNG files of rotating scenes, for the Studio and any contract.
 /// @notice Stateless. Each frame is drawn by a separate call and only its compressed bytes are kept, because memory cost grows
@@ -40,22 +40,22 @@ contract Turntable is WithRenderer, PngErrors, TurntableErrors {
 
     /// @notice Returns an animated PNG file that loops endlessly. The first frame is the scene as given.
     /// @param scene A scene with meshes in the format of `Mesh.sol`.
-    function animate(Scene memory scene, Spin memory spin) external view returns (bytes memory) {
+    function animate(Scene memory scene, Turn memory spin) external view returns (bytes memory) {
         answer(film(scene, spin));
     }
 
     /// @notice Returns the file as a `data:` URI, for the `animation_url` of a token.
-    function animateDataURI(Scene memory scene, Spin memory spin) external view returns (string memory) {
+    function animateDataURI(Scene memory scene, Turn memory spin) external view returns (string memory) {
         string memory head = "data:image/png;base64,";
         answer(bytes(DataUri.wrap(head, film(scene, spin), "")));
     }
 
-    function film(Scene memory scene, Spin memory spin) private view returns (bytes memory file) {
+    function film(Scene memory scene, Turn memory spin) private view returns (bytes memory file) {
         unchecked {
             Vector memory axis = check(spin);
             SceneChanges.checkPlaces(scene);
             Vector memory center = SceneChanges.middle(scene);
-            if (spin.hold) Holding.hold(scene, center, axis);
+            if (spin.hold) FollowingCamera.hold(scene, center, axis);
             Object[] memory still = copied(scene.objects);
             uint256 begin;
             assembly ("memory-safe") {
@@ -82,7 +82,7 @@ contract Turntable is WithRenderer, PngErrors, TurntableErrors {
     }
 
     /// @return axis The unit axis.
-    function check(Spin memory spin) private pure returns (Vector memory axis) {
+    function check(Turn memory spin) private pure returns (Vector memory axis) {
         if (spin.frames < 2 || spin.frames > MAX_FRAMES) revert FramesOutOfRange(spin.frames, 2, MAX_FRAMES);
         if (spin.delay < MIN_DELAY || spin.delay > MAX_DELAY) revert DelayOutOfRange(spin.delay, MIN_DELAY, MAX_DELAY);
         axis = spin.axis;

@@ -3,7 +3,7 @@ pragma solidity 0.8.37;
 
 import {NORMALS, WIDE} from "../scene/Mesh.sol";
 import {Camera, Material, Object, Scene, PERSPECTIVE, UNLIT} from "../scene/Scene.sol";
-import {StudioErrors} from "./StudioErrors.sol";
+import {StudioErrors} from "../interfaces/StudioErrors.sol";
 
 /// @notice Finds numbers that were probably not multiplied by 2^32: values so small that an object becomes invisible or black. The numbers
 /// of a scene are Q32: 2^32 is 1.

@@ -2,9 +2,9 @@
 pragma solidity 0.8.37;
 
 import {ERC721A, IERC721A} from "erc721a/contracts/ERC721A.sol";
-import {forward} from "../encode/Forward.sol";
+import {forward} from "../encode/Redirect.sol";
 import {Genesis} from "../genesis/Genesis.sol";
-import {Traits} from "../genesis/Piece.sol";
+import {Traits} from "../interfaces/Piece.sol";
 import {Collection, Terms} from "./Collection.sol";
 import {Allowance} from "./Sale.sol";
 import {GenesisMetadata} from "./GenesisMetadata.sol";

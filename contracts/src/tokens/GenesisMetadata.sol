@@ -6,7 +6,7 @@ import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
 import {Renderer} from "../Renderer.sol";
 import {Scene} from "../scene/Scene.sol";
 import {Genesis} from "../genesis/Genesis.sol";
-import {Piece, Traits} from "../genesis/Piece.sol";
+import {Piece, Traits} from "../interfaces/Piece.sol";
 import {NoPrismToChoose} from "../genesis/Colors.sol";
 import {PngEncoder} from "../encode/PngEncoder.sol";
 import {Json} from "./Json.sol";

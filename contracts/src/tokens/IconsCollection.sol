@@ -5,10 +5,10 @@ import {ERC721A, IERC721A} from "erc721a/contracts/ERC721A.sol";
 import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
 import {ZERO, ONE} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
-import {CANVAS, Changes} from "../studio/Changes.sol";
-import {Spin} from "../studio/Spin.sol";
+import {CANVAS, Changes} from "../interfaces/Changes.sol";
+import {Turn} from "../interfaces/Turn.sol";
 import {Studio} from "../studio/Studio.sol";
-import {StudioErrors} from "../studio/StudioErrors.sol";
+import {StudioErrors} from "../interfaces/StudioErrors.sol";
 import {Collection, Terms} from "./Collection.sol";
 import {Allowance} from "./Sale.sol";
 import {Json} from "./Json.sol";
@@ -237,7 +237,7 @@ contract IconsCollection is Collection, StudioErrors {
         Icon storage it = icons[iconOf(tokenId)];
         Changes memory changes;
         (changes.fields, changes.canvas.width, changes.canvas.height) = (CANVAS, FRAME_SIDE, FRAME_SIDE);
-        return studio.animateDataURI(it.scene, Spin(FRAMES, FRAME_TIME, it.scale, Vector(ZERO, ONE, ZERO), true), changes);
+        return studio.animateDataURI(it.scene, Turn(FRAMES, FRAME_TIME, it.scale, Vector(ZERO, ONE, ZERO), true), changes);
     }
 
     /// @notice Returns the icon of a token as a binary glTF file, for 3D viewers, in a `data:` URI.

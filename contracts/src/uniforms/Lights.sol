@@ -7,7 +7,7 @@ import {Extensions, SPOT_SIZE} from "../scene/Extensions.sol";
 import {RECORD_HEADER, SPOT} from "../scene/Records.sol";
 import {Light, Scene, POINT} from "../scene/Scene.sol";
 import {View} from "./View.sol";
-import "../pipeline/Registers.sol";
+import "../words/Registers.sol";
 
 /// @dev The minimum difference of the cosines between which a spot light fades, 2^-10, Q24: 1/1000 in glTF.
 int256 constant MIN_CONE = int256(ONE_24 >> 10);
@@ -39,7 +39,7 @@ library Lights {
                 record += LIGHT_SIZE;
             }
             // fragments are lit by at least one light, if necessary a black one
-            if (lights.length == 0 && load(EFFECTS) != 0) record += LIGHT_SIZE;
+            if (lights.length == 0 && load(EFFECTS_SIZE) != 0) record += LIGHT_SIZE;
             store(LIGHTS_END, record);
         }
     }

@@ -4,7 +4,7 @@ pragma solidity 0.8.37;
 import {Light, Material, Scene, POINT, FLAT} from "../scene/Scene.sol";
 import {Specular, UNBOUNDED_REACH} from "./Specular.sol";
 import {View} from "./View.sol";
-import "../pipeline/Registers.sol";
+import "../words/Registers.sol";
 
 /// @notice Computes how a lit surface reflects the lights, and the precision of shading it requires.
 library Materials {
@@ -27,7 +27,7 @@ library Materials {
             if (grey) mode |= IS_GREY;
             Specular.setTable(uint256(material.specular.raw()), material.shininess);
             // without lights the normal has no effect
-            if (material.shading == FLAT || (lights.length == 0 && load(EFFECTS) == 0)) {
+            if (material.shading == FLAT || (lights.length == 0 && load(EFFECTS_SIZE) == 0)) {
                 mode |= IS_FLAT;
                 store(FRAGMENT_SQUARE, ONE_48);
                 store(FRAGMENT_NORMAL_LENGTH, ONE_24);

@@ -5,7 +5,7 @@ import {Vector, normalize} from "../math/Vector.sol";
 import {Matrix, transposedTimes} from "../math/Quaternion.sol";
 import {Scene, Object, Light, POINT} from "../scene/Scene.sol";
 import {View} from "./View.sol";
-import "../pipeline/Registers.sol";
+import "../words/Registers.sol";
 
 // Flat faces are lit in mesh space, where their corners are small integers.
 

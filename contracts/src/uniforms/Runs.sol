@@ -2,7 +2,7 @@
 pragma solidity 0.8.37;
 
 import {WIREFRAME} from "../scene/Scene.sol";
-import "../pipeline/Registers.sol";
+import "../words/Registers.sol";
 
 // Assigns objects to engines, and determines the order: the opaque objects in the order of the scene, then the others. Consecutive objects
 // with the same engine are a run: one call. Everything is read from the uniforms in the calldata: see Uniforms.
@@ -62,7 +62,7 @@ library Runs {
             uint256 mode = load(position + OBJECT_MODE - OBJECT_BYTES);
             if (mode & IS_BLENDED != 0) return BLENDED;
             // a single engine draws everything
-            if (load(EFFECTS) != 0) return BY_FACES;
+            if (load(EFFECTS_SIZE) != 0) return BY_FACES;
             bool isWire = load(position + OBJECT_FLAGS - OBJECT_BYTES) & WIREFRAME != 0;
             return isWire || mode & (IS_SMOOTH | IS_SPOT_LIT) != 0 ? BY_FRAGMENTS : BY_FACES;
         }

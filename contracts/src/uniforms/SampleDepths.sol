@@ -2,7 +2,7 @@
 pragma solidity 0.8.37;
 
 import {Mesh} from "../scene/Mesh.sol";
-import "../pipeline/Registers.sol";
+import "../words/Registers.sol";
 
 // A sample has 36 bits for its depth, which are fitted to the depths of the scene: these are shifted so that the nearest vertex has the
 // highest bit or the one below; depths of an orthographic camera, which are differences, are relative to the farthest vertex. All vertices

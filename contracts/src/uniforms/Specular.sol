@@ -3,7 +3,7 @@ pragma solidity 0.8.37;
 
 import {sqrt} from "../math/Roots.sol";
 import {Material} from "../scene/Scene.sol";
-import "../pipeline/Registers.sol";
+import "../words/Registers.sol";
 
 /// @dev A reach, in squares of sub-pixels, above any triangle's.
 uint256 constant UNBOUNDED_REACH = 1 << 60;

@@ -3,8 +3,8 @@ pragma solidity 0.8.37;
 
 import {Mesh} from "../scene/Mesh.sol";
 import {Scene} from "../scene/Scene.sol";
-import {Indices} from "../pipeline/Indices.sol";
-import "../pipeline/Registers.sol";
+import {Indices} from "../pipeline/geometry/Indices.sol";
+import "../words/Registers.sol";
 
 // If only a part of the canvas is drawn, most faces lie beyond one of its borders. These faces, and the vertices that no other face uses,
 // are omitted from the calldata of the engine before anything else is computed for them.

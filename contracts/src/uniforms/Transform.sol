@@ -6,7 +6,7 @@ import {Vector} from "../math/Vector.sol";
 import {Matrix} from "../math/Quaternion.sol";
 import {Object, Rectangle} from "../scene/Scene.sol";
 import {View} from "./View.sol";
-import "../pipeline/Registers.sol";
+import "../words/Registers.sol";
 
 /// @notice Sets the transformation of an object's vertices to the screen.
 library Transform {

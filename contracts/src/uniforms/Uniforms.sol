@@ -14,7 +14,7 @@ import {TileCulling} from "./TileCulling.sol";
 import {SampleDepths} from "./SampleDepths.sol";
 import {Transform} from "./Transform.sol";
 import {View, lookAt} from "./View.sol";
-import "../pipeline/Registers.sol";
+import "../words/Registers.sol";
 
 // Computes the constants of a frame or an object. The Renderer fills the registers at their addresses in the engine, and passes them on
 // unchanged. The calldata of an engine consists of
@@ -163,7 +163,7 @@ library Uniforms {
             }
             store(OBJECT_FLAGS, object.flags);
             uint256 mode = view_.orthographic ? IS_ORTHOGRAPHIC : 0;
-            bool hasEffects = load(EFFECTS) != 0;
+            bool hasEffects = load(EFFECTS_SIZE) != 0;
             if (load(OPACITY) != OPAQUE) mode |= IS_BLENDED;
             else if (hasEffects && Extensions.find(scene, OPACITIES_OF, number) != 0) mode |= IS_BLENDED;
             uint256 end = OBJECT_LIT;

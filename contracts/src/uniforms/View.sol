@@ -6,7 +6,7 @@ import {Vector, normalize} from "../math/Vector.sol";
 import {sqrt} from "../math/Roots.sol";
 import {Camera, ORTHOGRAPHIC} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
-import "../pipeline/Registers.sol";
+import "../words/Registers.sol";
 
 /// @notice The camera and its projection. Camera space has x to the right, y down, z forward, like the rows of a picture; the distance of a
 /// point is its z.

@@ -82,7 +82,7 @@ def _runs(data: bytes) -> list[list[_Object]]:
     """Return runs of objects that one engine draws; an empty one if there is nothing to draw."""
     objects, position = [], _load(data, _place(layout.OBJECTS_BEGIN))
     kind = "Antialiased" if _load(data, _place(layout.FRAME_IS_ANTIALIASED)) else ""
-    has_effects = _load(data, _place(layout.EFFECTS)) != 0
+    has_effects = _load(data, _place(layout.EFFECTS_OFFSET)) != 0
     for number in range(_load(data, _place(layout.OBJECT_COUNT))):
         mode, flags = (
             _load(data, position + word - layout.OBJECT_BYTES) for word in (layout.OBJECT_MODE, layout.OBJECT_FLAGS)

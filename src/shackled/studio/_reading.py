@@ -7,7 +7,7 @@ from ..errors import VerificationError
 from ..ethereum import checksum_address
 from ._storage import PARTS, POINTED, SCENE, scene_struct, storage_address
 
-#: The parts of a list have at most this many bytes together (Kept.sol).
+#: The parts of a list have at most this many bytes together (Storage.sol).
 MAX_SIZE = 1 << 20
 
 
@@ -31,7 +31,7 @@ def stored_codes(connection: Connection, studio: bytes, pointer: bytes) -> dict[
         return codes[place][1:]
 
     def read(place: bytes) -> bytes:
-        """Return the bytes stored at an address. As in Kept.sol, the parts of a list are never lists themselves."""
+        """Return the bytes stored at an address. As in Storage.sol, the parts of a list are never lists themselves."""
         data = part(place)
         if data[:1] != bytes([PARTS]):
             return data

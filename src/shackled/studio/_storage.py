@@ -16,7 +16,7 @@ from ..scene import Object, Scene, encode_scene, fit, pack, rotate
 from ._compact_mesh import compact, vertex_order
 
 STUDIO = "Studio"
-#: The Studio's function that makes an animated PNG file: of a pointer, how it turns (the struct Spin), and Changes.
+#: The Studio's function that makes an animated PNG file: of a pointer, how it turns (the struct Turn), and Changes.
 ANIMATE = (
     "animate(address,(uint256,uint256,uint256,(int256,int256,int256),bool),"
     "(uint256,(int256,int256,int256,int256),uint256,(uint256,uint256),uint256,(uint256,uint256)))"

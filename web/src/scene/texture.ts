@@ -1,4 +1,4 @@
-// Packed textures, in the format of contracts/src/pipeline/Texture.sol.
+// Packed textures, in the format of contracts/src/effects/Texture.sol.
 
 import { InputError } from "../errors.js";
 import { rint } from "./arithmetic.js";

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {TEXTURE_COLOR_BITS, TEXTURE_HEADER, UV_SIZE} from "./EffectRecords.sol";
+import {TEXTURE_BILINEAR, TEXTURE_CLAMP} from "../scene/Records.sol";
+import {Triangles} from "../pipeline/geometry/Triangles.sol";
+import {VertexShader} from "../pipeline/geometry/VertexShader.sol";
+import "../words/EffectRegisters.sol";
+
+// Samples a texture at a fragment: see EffectRecords for its format.
+//
+// Texture coordinates are interpolated perspective-correctly, in two lanes of 128 bits: u below, v above. Texels are addressed as in
+// OpenGL: with the coordinate x = u * width, the nearest texel is floor(x); for bilinear filtering, texel centres are at i + 0.5.
+
+uint256 constant ONE_12 = 0x1000;
+uint256 constant BELOW_ONE_24 = 0xffffff;
+/// @dev The position of opacities in colours, and a bias that keeps them positive.
+uint256 constant OPACITY_AT = 168;
+uint256 constant OPACITY_BIAS = 1 << (48 + OPACITY_AT);
+uint256 constant Q34 = 34;
+
+library Texture {
+    /// @notice Sets the texture coordinates of a triangle: at the first vertex (Q40), and the differences to the others (Q16).
+    /// @param a, b, c The screen words of its vertices. Their records have 2^shift bytes.
+    function setTriangle(uint256 a, uint256 b, uint256 c, uint256 shift) internal pure {
+        unchecked {
+            uint256 first = coordinatesOf(a, shift, false);
+            store(UV_0, first << Q24);
+            store(UV_1, coordinatesOf(b, shift, false) - first);
+            store(UV_2, coordinatesOf(c, shift, false) - first);
+        }
+    }
+
+    /// @notice Adds the opacities of a triangle to its colours, as a fourth lane.
+    function setOpacities(uint256 a, uint256 b, uint256 c, uint256 shift) internal pure {
+        unchecked {
+            uint256 first = coordinatesOf(a, shift, true);
+            store(COLOR_0, load(COLOR_0) + OPACITY_BIAS + (first << (OPACITY_AT + Q34 - Q16)));
+            store(COLOR_1, load(COLOR_1) + (toQ10(coordinatesOf(b, shift, true) - first) << OPACITY_AT));
+            store(COLOR_2, load(COLOR_2) + (toQ10(coordinatesOf(c, shift, true) - first) << OPACITY_AT));
+        }
+    }
+
+    function toQ10(uint256 change) private pure returns (uint256) {
+        return uint256(int256(change) >> (Q16 - Q10));
+    }
+
+    /// @notice Returns the colour at perspective-correct barycentric coordinates, Q24: lanes of Q16, where 255 is one.
+    function colorAt(uint256 s, uint256 t) internal pure returns (uint256) {
+        assembly ("memory-safe") {
+            t := add(add(mload(UV_0), mul(mload(UV_1), s)), mul(mload(UV_2), t))
+            // Q24
+            s := sar(16, signextend(15, t))
+            t := sar(144, add(t, shl(127, 1)))
+        }
+        return sample(load(TEXTURE), s, t);
+    }
+
+    /// @notice Returns the colour of the texture at this calldata offset, lanes of Q16, where 255 is one.
+    /// @param u, v Q24, signed.
+    function sample(uint256 texture, uint256 u, uint256 v) internal pure returns (uint256 color) {
+        assembly ("memory-safe") {
+            // the n-th texel, lanes of Q10
+            function texel(texels, palette, bits, n) -> lanes {
+                n := mul(n, bits)
+                lanes := shr(sub(256, bits), shl(and(n, 7), calldataload(add(texels, shr(3, n)))))
+                if palette { lanes := shr(232, calldataload(add(palette, mul(3, lanes)))) }
+                lanes := and(mul(lanes, COLOR_SPREAD), BYTES_Q10)
+            }
+
+            function clamped(x) -> inside {
+                inside := mul(x, sgt(x, 0))
+                if gt(inside, BELOW_ONE_24) { inside := BELOW_ONE_24 }
+            }
+
+            // the texels along a side whose centres enclose a coordinate (Q24)
+            function around(x, size, flags) -> first, second {
+                first := sar(24, x)
+                second := add(first, 1)
+                if slt(first, 0) { first := mul(iszero(and(flags, TEXTURE_CLAMP)), sub(size, 1)) }
+                if eq(second, size) { second := mul(gt(and(flags, TEXTURE_CLAMP), 0), first) }
+            }
+
+            let header := calldataload(texture)
+            let flags := byte(0, header)
+            if and(flags, TEXTURE_CLAMP) {
+                u := clamped(u)
+                v := clamped(v)
+            }
+            let width := add(byte(1, header), 1)
+            let height := add(byte(2, header), 1)
+            // in texels, Q24
+            u := mul(and(u, BELOW_ONE_24), width)
+            v := mul(and(v, BELOW_ONE_24), height)
+            let bits := byte(3, header)
+            let texels := add(texture, TEXTURE_HEADER)
+            let palette := 0
+            if lt(bits, TEXTURE_COLOR_BITS) {
+                palette := texels
+                texels := add(texels, mul(3, shl(bits, 1)))
+            }
+            switch and(flags, TEXTURE_BILINEAR)
+            case 0 { color := shl(24, texel(texels, palette, bits, add(mul(shr(24, v), width), shr(24, u)))) }
+            default {
+                u := sub(u, HALF_24)
+                v := sub(v, HALF_24)
+                let row, below := around(v, height, flags)
+                let column, right := around(u, width, flags)
+                // Q12
+                u := and(shr(12, u), 0xfff)
+                v := and(shr(12, v), 0xfff)
+                for { let isLast := 0 } 1 { isLast := 1 } {
+                    row := mul(row, width)
+                    let mixed := mul(sub(ONE_12, u), texel(texels, palette, bits, add(row, column)))
+                    mixed := add(mixed, mul(u, texel(texels, palette, bits, add(row, right))))
+                    color := add(color, mul(sub(ONE_12, v), mixed))
+                    if isLast { break }
+                    row := below
+                    v := sub(ONE_12, v)
+                }
+            }
+            // Q34 levels times 257 / 2^16; add one from a half on, so that 255 is one
+            color := and(shr(34, mul(color, 257)), LANES_24)
+            color := add(color, and(shr(15, color), ONES))
+        }
+    }
+
+    /// @dev Returns the texture coordinates, or the opacity, of a vertex, Q16: from the record in calldata; for a new vertex of a clipped
+    /// face, those of its position on the face.
+    function coordinatesOf(uint256 screen, uint256 shift, bool isOpacity) private pure returns (uint256) {
+        unchecked {
+            uint256 index = ((screen & SCREEN_RECORD_MASK) - load(RECORDS)) >> shift;
+            return index < load(MESH_VERTEX_COUNT) ? readCoordinates(index, isOpacity) : cutCoordinates(screen, isOpacity);
+        }
+    }
+
+    function readCoordinates(uint256 index, bool isOpacity) private pure returns (uint256 uv) {
+        assembly ("memory-safe") {
+            switch isOpacity
+            case 0 {
+                uv := calldataload(add(mload(TEXTURE_UVS), mul(index, UV_SIZE)))
+                uv := add(sar(232, uv), shl(128, sar(232, shl(24, uv))))
+            }
+            default { uv := shl(Q16, byte(0, calldataload(add(mload(OPACITIES), index)))) }
+        }
+    }
+
+    /// @dev With the clip coordinates P of the vertices of the face, (x, y, 1) of the position is a multiple of their sum with the weights
+    /// e0 = det((x, y, 1), P1, P2), e1 = det((x, y, 1), P2, P0), e2 = det((x, y, 1), P0, P1).
+    function cutCoordinates(uint256 screen, bool isOpacity) private pure returns (uint256 uv) {
+        unchecked {
+            uint256 indices = Triangles.readIndices(load(FACE));
+            for (uint256 i; i != 3; ++i) {
+                uint256 corner = TEXTURE_CORNERS + CORNER_SIZE * i;
+                uint256 index = (indices >> (FACE_FIRST_AT - FACE_SECOND_AT * i)) & FACE_INDEX_MASK;
+                VertexShader.clipCoordinates(index, corner);
+                if (load(FRAME_IS_ORTHOGRAPHIC) != 0) store(corner + CORNER_W, ONE_32);
+                store(corner + CORNER_COLOR, readCoordinates(index, isOpacity));
+            }
+            int256 x = int256((screen >> SCREEN_COLUMN_AT) & SCREEN_COLUMN_MASK);
+            int256 y = int256(screen >> SCREEN_ROW_AT);
+            (int256 u, int256 v, int256 sum) = (0, 0, 0);
+            for (uint256 i; i != 3; ++i) {
+                int256 weight = determinant(x, y, (i + 1) % 3, (i + 2) % 3);
+                uint256 place = load(TEXTURE_CORNERS + CORNER_SIZE * i + CORNER_COLOR);
+                u += weight * int128(int256(place));
+                v += weight * (int256(place + (1 << 127)) >> 128);
+                sum += weight;
+            }
+            if (sum == 0) return 0;
+            return uint256(u / sum) + (uint256(v / sum) << 128);
+        }
+    }
+
+    function determinant(int256 x, int256 y, uint256 i, uint256 j) private pure returns (int256) {
+        unchecked {
+            uint256 p = TEXTURE_CORNERS + CORNER_SIZE * i;
+            uint256 q = TEXTURE_CORNERS + CORNER_SIZE * j;
+            (int256 px, int256 py, int256 pw) = (loadSigned(p), loadSigned(p + CORNER_Y), loadSigned(p + CORNER_W));
+            (int256 qx, int256 qy, int256 qw) = (loadSigned(q), loadSigned(q + CORNER_Y), loadSigned(q + CORNER_W));
+            return x * (py * qw - pw * qy) - y * (px * qw - pw * qx) + px * qy - py * qx;
+        }
+    }
+}

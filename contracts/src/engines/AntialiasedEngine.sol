@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {ExactSamples} from "../pipeline/samples/ExactSamples.sol";
+import {FlatShading} from "../pipeline/shading/FlatShading.sol";
+import {LinearSamples} from "../pipeline/samples/LinearSamples.sol";
+import {PatchSamples} from "../pipeline/samples/PatchSamples.sol";
+import {SampleBuffer} from "../pipeline/samples/SampleBuffer.sol";
+import "../words/Registers.sol";
+
+/// @title AntialiasedEngine: does the work of the Engine with four samples per pixel.
+/// @notice Called by the Renderer: see Engine.
+contract AntialiasedEngine is SampleBuffer, PatchSamples, FlatShading {
+    function prepare(uint256 a, uint256 b, uint256 c) internal pure override {
+        setQuadratic(a, b, c);
+    }
+
+    function drawFragments(uint256 row, uint256 last) internal pure override {
+        if (load(MODE) & IS_PATCHED == 0) LinearSamples.draw(row, last);
+        else drawPatches(row, last);
+    }
+
+    function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure override {
+        if (load(PATCH_SIZE) != 1) drawQuadratic(left, right, column, end, row);
+        else drawEach(left, right, column, end, row);
+    }
+
+    function drawFragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure override {
+        ExactSamples.fragment(attribute, covered, column, row);
+    }
+
+    /// @dev The AntialiasedFragmentEngine draws wires.
+    function drawWires(uint256, uint256) internal pure override {}
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {DepthBuffer} from "../pipeline/pixels/DepthBuffer.sol";
+import {FlatShading} from "../pipeline/shading/FlatShading.sol";
+import {LinearSpans} from "../pipeline/pixels/LinearSpans.sol";
+import {Patches} from "../pipeline/pixels/Patches.sol";
+import "../words/Registers.sol";
+
+/// @title Engine: transforms vertices to pixels, for flat and unlit surfaces.
+/// @notice Called by the Renderer, which checks the scene and computes the uniforms before, and makes a file of the pixels afterwards. Do
+/// not call the engine directly: it does not validate its input.
+contract Engine is DepthBuffer, FlatShading {
+    function drawParts(uint256 edges, uint256 rows, uint256 row) internal pure override {
+        uint256 mode = load(MODE);
+        if (mode == 0) LinearSpans.plain(edges, rows, row);
+        else if (mode == IS_LINEAR) LinearSpans.saturating(edges, rows, row);
+        else drawBothParts(edges, rows, row);
+    }
+
+    function drawRows(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 end) internal pure override {
+        if (load(MODE) & IS_PATCHED == 0) LinearSpans.general(edges, slopes, start, row, end);
+        else Patches.fill(edges, slopes, start, rowAt(row), rowAt(end));
+    }
+
+    /// @dev The FragmentEngine draws wires.
+    function drawWires(uint256, uint256) internal pure override {}
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {BlendedSpans} from "../pipeline/pixels/BlendedSpans.sol";
+import {DepthBuffer} from "../pipeline/pixels/DepthBuffer.sol";
+import {ExactSpans} from "../pipeline/pixels/ExactSpans.sol";
+import {LinearSpans} from "../pipeline/pixels/LinearSpans.sol";
+import {Pipeline} from "../pipeline/Pipeline.sol";
+import {Shading} from "../pipeline/shading/Shading.sol";
+import {SmoothLight} from "../pipeline/shading/SmoothLight.sol";
+import {BY_FRAGMENTS, Wireframe} from "../pipeline/pixels/Wireframe.sol";
+import "../words/Registers.sol";
+
+/// @title FragmentEngine: transforms vertices to pixels, for surfaces that are shaded per fragment.
+/// @notice Draws smooth surfaces, wires, and all translucent or spot-lit objects; otherwise like `Engine`.
+contract FragmentEngine is DepthBuffer, Wireframe {
+    /// @dev Triangles whose only varying attribute is a linearly varying colour need no per-fragment light.
+    function shadeExact(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
+        (uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode) = surface(a, b, c);
+        if (mode & (IS_LIT | IS_BLENDED | IS_DEPTH_PASS) == 0 && Shading.isAffine(attributesA, attributesB, attributesC, a, b, c)) {
+            return Shading.setLinear(attributesA, attributesB, attributesC, IS_LINEAR | crossing);
+        }
+        Shading.setExact(a, b, c, attributesA, attributesB, attributesC, mode | crossing);
+    }
+
+    function drawParts(uint256 edges, uint256 rows, uint256 row) internal pure override {
+        if (load(MODE) & IS_QUADRATIC != 0) SmoothLight.drawParts(edges, rows, row);
+        else drawBothParts(edges, rows, row);
+    }
+
+    function drawRows(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 end) internal pure override {
+        if (load(MODE) & BY_FRAGMENTS == 0) LinearSpans.general(edges, slopes, start, row, end);
+        else drawFragments(edges, slopes, start, rowAt(row), rowAt(end));
+    }
+
+    function drawFragments(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure override {
+        if (load(MODE) & (IS_BLENDED | IS_DEPTH_PASS) != 0) BlendedSpans.rows(edges, slopes, start, row, last);
+        else ExactSpans.rows(edges, slopes, start, row, last);
+    }
+
+    function drawWires(uint256 list, uint256 end) internal pure override(Pipeline, Wireframe) {
+        Wireframe.drawWires(list, end);
+    }
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import "../../words/Registers.sol";
+
+// A triangle of a list, in one word: see TRIANGLE_ in Words.sol.
+//
+// The first vertex is the topmost, and the vertices are counter-clockwise on the screen.
+
+uint256 constant ALL_EDGES = 7;
+
+library Triangles {
+    /// @notice Returns the three vertex indices of a face, 16 bits each.
+    function readIndices(uint256 face) internal pure returns (uint256 indices) {
+        assembly ("memory-safe") {
+            indices := shr(FACE_AT, calldataload(face))
+        }
+    }
+
+    /// @notice Lists one triangle of a clipped face, if it is to be drawn: see PrimitiveAssembly.
+    /// @param a, b, c The screen words of the vertices.
+    /// @param edges The edges that belong to the face, three bits as in the list.
+    /// @return end The end of the list.
+    /// @return drawn 1 if it is to be drawn, otherwise 0.
+    function append(uint256 list, uint256 a, uint256 b, uint256 c, uint256 edges, bool cull)
+        internal
+        pure
+        returns (uint256 end, uint256 drawn)
+    {
+        unchecked {
+            int256 area = (column(c) - column(a)) * (row(b) - row(a)) - (column(b) - column(a)) * (row(c) - row(a));
+            if (area == 0 || (cull && area < 0) || a & b & c & IS_OUTSIDE != 0) return (list, 0);
+            if (area < 0) {
+                (a, b, c) = (a | IS_BACK, c, b);
+                edges = (edges >> 2) | (edges & 2) | ((edges & 1) << 2);
+            }
+            while (a > b || a > c) {
+                (a, b, c) = (b, c, a);
+                edges = (edges >> 1) | ((edges & 1) << 2);
+            }
+            return (pack(list, a, b, c, edges), 1);
+        }
+    }
+
+    /// @dev Lists a triangle of the face at FACE if it may cover a row.
+    function pack(uint256 list, uint256 a, uint256 b, uint256 c, uint256 edges) internal pure returns (uint256) {
+        unchecked {
+            uint256 top = (a + load(ROUND_TOP)) >> SCREEN_PIXEL_ROW_AT;
+            uint256 bottom = ((b > c ? b : c) + load(ROUND_BOTTOM)) >> SCREEN_PIXEL_ROW_AT;
+            if (top >= bottom) return list;
+            uint256 face = (load(FACE) - load(MESH_FACES)) / FACE_SIZE;
+            uint256 crossing = (a | b | c) & IS_BESIDE == 0 ? 0 : CROSSING_BIT;
+            if ((a | b | c) & IS_BACK != 0) crossing |= BACK_BIT;
+            store(
+                list,
+                crossing | (edges << TRIANGLE_EDGES_AT) | (face << TRIANGLE_FACE_AT) | (bottom << TRIANGLE_BOTTOM_AT)
+                    | (top << TRIANGLE_TOP_AT) | ((a & SCREEN_RECORD_MASK) << TRIANGLE_A_AT)
+                    | ((b & SCREEN_RECORD_MASK) << TRIANGLE_B_AT) | (c & SCREEN_RECORD_MASK)
+            );
+            return list + 32;
+        }
+    }
+
+    function column(uint256 screenWord) private pure returns (int256) {
+        return int256((screenWord >> SCREEN_COLUMN_AT) & SCREEN_COLUMN_MASK);
+    }
+
+    function row(uint256 screenWord) private pure returns (int256) {
+        return int256(screenWord >> SCREEN_ROW_AT);
+    }
+}

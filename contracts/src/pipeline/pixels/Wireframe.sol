@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {PixelRasterizer} from "./PixelRasterizer.sol";
+import {SmoothShading} from "../shading/SmoothShading.sol";
+import "../../words/Registers.sol";
+
+// Rasterizes the edges of triangles to fragments. A line has one pixel in each column, or in each row if it is steeper than 45 degrees: the
+// pixel nearest to it, with the depth and colour of the line at the centre of that column or row.
+
+/// @dev The modes of triangles whose fragments do not have linear colours.
+uint256 constant BY_FRAGMENTS = IS_BLENDED | IS_DEPTH_PASS | IS_PATCHED;
+
+/// @dev Divided by the length of a line in sub-pixels (Q8), this is the fraction of the line per pixel, Q32.
+int256 constant STEP_ONE = 1 << 40;
+
+abstract contract Wireframe is PixelRasterizer, SmoothShading {
+    /// @notice Draws the rows from `row` (inclusive) to `last` (exclusive), if the mode is one of BY_FRAGMENTS: see
+    /// PixelRasterizer.drawRows, where rows are addresses.
+    function drawFragments(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure virtual;
+
+    /// @notice Draws the edges of the triangles of a list into the current band.
+    function drawWires(uint256 list, uint256 end) internal pure virtual {
+        unchecked {
+            (uint256 bandTop, uint256 bandBottom) = (load(BAND_TOP), load(BAND_BOTTOM));
+            for (; list != end; list += 32) {
+                uint256 word = load(list);
+                if (
+                    (word >> TRIANGLE_BOTTOM_AT) & TRIANGLE_BOTTOM_MASK <= bandTop
+                        || (word >> TRIANGLE_TOP_AT) & TRIANGLE_TOP_MASK >= bandBottom
+                ) continue;
+                uint256 a = load((word >> TRIANGLE_A_AT) & TRIANGLE_A_MASK);
+                uint256 b = load((word >> TRIANGLE_B_AT) & TRIANGLE_B_MASK);
+                uint256 c = load(word & TRIANGLE_C_MASK);
+                store(FACE, load(MESH_FACES) + FACE_SIZE * ((word >> TRIANGLE_FACE_AT) & TRIANGLE_FACE_MASK));
+                shadeExact(a, b, c, (word >> TRIANGLE_CROSSING_SHIFT) & IS_CROSSING);
+                (uint256 start, uint256 toB, uint256 toC) = (load(ATTRIBUTE_0), load(DELTA_1), load(DELTA_2));
+                if (load(MODE) & IS_DEEP != 0) {
+                    uint256 depth = depthOf(a);
+                    start += depth << ACCUMULATOR_VERTEX_DEPTH_AT;
+                    toB += (depthOf(b) - depth) << ATTRIBUTE_DEPTH_AT;
+                    toC += (depthOf(c) - depth) << ATTRIBUTE_DEPTH_AT;
+                }
+                if (word & EDGE_AB != 0) line(a, b, start, toB, bandTop, bandBottom);
+                if (word & EDGE_BC != 0) line(b, c, start + (toB << ACCUMULATOR_FRACTION), toC - toB, bandTop, bandBottom);
+                if (word & EDGE_CA != 0) line(c, a, start + (toC << ACCUMULATOR_FRACTION), 0 - toC, bandTop, bandBottom);
+            }
+        }
+    }
+
+    function depthOf(uint256 screenWord) private pure returns (uint256) {
+        return load((screenWord & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES) >> ATTRIBUTE_DEPTH_AT;
+    }
+
+    /// @param p, q The screen words of the ends.
+    /// @param attribute The accumulator at p.
+    /// @param change The change of the attribute word from p to q.
+    function line(uint256 p, uint256 q, uint256 attribute, uint256 change, uint256 top, uint256 bottom) private pure {
+        unchecked {
+            int256 dx = column(q) - column(p);
+            int256 dy = row(q) - row(p);
+            bool steep = dy * dy >= dx * dx;
+            // the same pixels for both faces that share the edge
+            if (steep ? dy < 0 : dx < 0) {
+                (p, q) = (q, p);
+                (dx, dy) = (-dx, -dy);
+                attribute += change << ACCUMULATOR_FRACTION;
+                change = 0 - change;
+            }
+            if (steep) steepLine(p, q, dx, dy, attribute, change, top, bottom);
+            else flatLine(p, q, dx, dy, attribute, change, top, bottom);
+        }
+    }
+
+    /// @param attribute The accumulator at the upper end.
+    /// @param change The change of the attribute word along the line.
+    function steepLine(uint256 p, uint256 q, int256 dx, int256 dy, uint256 attribute, uint256 change, uint256 top, uint256 bottom)
+        private
+        pure
+    {
+        unchecked {
+            top = max(top, (p + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT);
+            bottom = min(bottom, (q + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT);
+            if (top >= bottom) return;
+            int256 below = int256(top << SUBPIXEL_BITS) - row(p);
+            int256 slope = (dx << EDGE_FRACTION) / dy;
+            uint256 step = uint256(STEP_ONE / dy);
+            // the pixel whose centre is nearest
+            uint256 left = uint256((column(p) << EDGE_SUBPIXEL_SHIFT) + ((below * slope) >> SUBPIXEL_BITS) + int256(HALF_COLUMN));
+            store(DX, 0);
+            store(DY, change * step);
+            attribute += change * ((uint256(below) * step) >> SUBPIXEL_BITS);
+            uint256 slopes = uint256(slope) + (uint256(slope) << RIGHT_EDGE_AT);
+            draw(left + ((left + (1 << EDGE_FRACTION)) << RIGHT_EDGE_AT), slopes, attribute, top, bottom);
+        }
+    }
+
+    function flatLine(uint256 p, uint256 q, int256 dx, int256 dy, uint256 attribute, uint256 change, uint256 top, uint256 bottom)
+        private
+        pure
+    {
+        unchecked {
+            int256 begin = (column(p) + int256(SUBPIXEL_MASK)) >> SUBPIXEL_BITS;
+            int256 end = (column(q) + int256(SUBPIXEL_MASK)) >> SUBPIXEL_BITS;
+            if (begin >= end) return;
+            top = max(top, (min(p, q) + (HALF_PIXEL << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT);
+            bottom = min(bottom, ((max(p, q) + (HALF_PIXEL << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT) + 1);
+            uint256 step = uint256(STEP_ONE / dx);
+            store(DX, change * step);
+            store(DY, 0);
+            attribute += change * uint256((-column(p) * int256(step)) >> SUBPIXEL_BITS);
+            // the column at which the line enters the first row, and its change per row
+            int256 enter = begin << EDGE_FRACTION;
+            int256 slope = (end - begin) << EDGE_FRACTION;
+            if (dy != 0) {
+                slope = (dx << EDGE_FRACTION) / dy;
+                enter = (column(p) << EDGE_SUBPIXEL_SHIFT)
+                    + (((int256(top << SUBPIXEL_BITS) - int256(HALF_PIXEL) - row(p)) * slope) >> SUBPIXEL_BITS) + int256(CEIL_48);
+            }
+            for (; top < bottom; ++top) {
+                int256 exit = enter + slope;
+                (int256 left, int256 right) = dy < 0 ? (exit, enter) : (enter, exit);
+                enter = exit;
+                left >>= EDGE_FRACTION;
+                right >>= EDGE_FRACTION;
+                if (left < begin) left = begin;
+                if (right > end) right = end;
+                uint256 edges = uint256(left << EDGES_LEFT_COLUMN_AT) | (uint256(right) << EDGES_RIGHT_COLUMN_AT);
+                // a single row, so the slopes make no difference
+                if (left < right) draw(edges, uint256(slope), attribute, top, top + 1);
+            }
+        }
+    }
+
+    /// @dev Draws the fragments of the rows from `top` (inclusive) to `bottom` (exclusive).
+    function draw(uint256 edges, uint256 slopes, uint256 attribute, uint256 top, uint256 bottom) private pure {
+        unchecked {
+            if (load(MODE) & BY_FRAGMENTS != 0) return drawFragments(edges, slopes, attribute, top, bottom);
+            (uint256 origin, uint256 stride) = (load(DEPTH_ORIGIN), load(DEPTH_STRIDE));
+            drawRows(edges, slopes, attribute, origin - stride * top, origin - stride * bottom);
+        }
+    }
+
+    function column(uint256 screenWord) private pure returns (int256) {
+        return int256((screenWord >> SCREEN_COLUMN_AT) & SCREEN_COLUMN_MASK);
+    }
+
+    function row(uint256 screenWord) private pure returns (int256) {
+        return int256(screenWord >> SCREEN_ROW_AT);
+    }
+
+    function min(uint256 a, uint256 b) private pure returns (uint256) {
+        return a < b ? a : b;
+    }
+
+    function max(uint256 a, uint256 b) private pure returns (uint256) {
+        return a > b ? a : b;
+    }
+}

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {ABOVE_BYTES, BYTES_OF_LANES, LANES_TO_BYTES, NEXT_LANES, NEXT_LANE_TO_BYTE} from "../pixels/LinearSpans.sol";
+import "../../words/SampleRegisters.sol";
+
+// Draws triangles whose colour is in the accumulator, with four samples per pixel: see Samples. Most triangles of models are small and
+// linear, so the cost of a row matters as much as that of its pixels.
+
+/// @dev The highest bit of each colour in an accumulator, which is its sign if the pixel centre lies outside the triangle; and the shift
+/// from there to the lowest bit of the byte.
+uint256 constant BELOW_NEXT_LANES = 0x800000000000008000000000000080000000000000;
+uint256 constant SIGN_TO_BYTE = 13;
+
+library LinearSamples {
+    /// @notice Draws the rows from `row`, for which the sides are given, to `last` (exclusive). Changes the steps of the sides.
+    function draw(uint256 row, uint256 last) internal pure {
+        assembly ("memory-safe") {
+            let left := mload(SIDE_LEFT)
+            let right := mload(SIDE_RIGHT)
+            let bounds := mload(BOUNDS)
+            // START is relative to column 0; make it relative to address 0
+            let start := sar(SAMPLE_SIZE_BITS, sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE))))
+            mstore(ROW_IMAGE, sub(mload(SAMPLE_IMAGE), mul(3, add(mul(row, mload(TILE_WIDTH)), start))))
+            start := sub(add(mload(START), mul(sub(row, mload(START_ROW)), mload(DY))), mul(start, mload(DX)))
+            mstore(ROW_STEP_32, add(mload(DY), mul(shr(SAMPLE_SIZE_BITS, mload(SAMPLE_STRIDE)), mload(DX))))
+            if mload(IS_CLAMPED) {
+                // as addresses
+                let base := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))
+                mstore(SPAN_BEGIN, add(base, shl(SAMPLE_SIZE_BITS, mload(SPAN_BEGIN))))
+                mstore(SPAN_END, add(base, shl(SAMPLE_SIZE_BITS, mload(SPAN_END))))
+            }
+            // the rows above the row of the kink; the number of rows from that one on
+            let rows := sub(last, row)
+            last := sub(last, mload(KINK_ROW))
+            if sgt(last, 0) { rows := sub(rows, last) }
+            row := 1
+            for {} 1 {} {
+                for {} rows { rows := sub(rows, 1) } {
+                    let p := and(shr(ADDRESS_FRACTION, bounds), ADDRESS_32)
+                    let end := and(shr(UPPER_ADDRESS_AT, bounds), ADDRESS_32)
+                    if mload(IS_CLAMPED) {
+                        p := and(sar(ADDRESS_FRACTION, signextend(15, bounds)), WHOLE_SAMPLES)
+                        end := and(sar(UPPER_ADDRESS_AT, bounds), WHOLE_SAMPLES)
+                        if slt(p, mload(SPAN_BEGIN)) { p := mload(SPAN_BEGIN) }
+                        if sgt(end, mload(SPAN_END)) { end := mload(SPAN_END) }
+                        end := mul(end, sgt(end, 0))
+                        mstore(SPAN_BEGIN, sub(mload(SPAN_BEGIN), mload(SAMPLE_STRIDE)))
+                        mstore(SPAN_END, sub(mload(SPAN_END), mload(SAMPLE_STRIDE)))
+                    }
+                    if lt(p, end) {
+                        let attribute := add(start, mul(shr(SAMPLE_SIZE_BITS, p), mload(DX)))
+                        for {} 1 {} {
+                            let old := mload(p)
+                            let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE))
+                            z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
+                            let seen := mul(p, ADDRESS_64)
+                            // nearer by at least one, whatever the colour bits below the old depth are
+                            seen := and(and(add(left, seen), sub(right, seen)), and(sub(add(z, BELOW_TOPS_64), old), TOPS_64))
+                            if seen {
+                                let color := attribute
+                                if and(color, ABOVE_BYTES) {
+                                    // set all bits of the byte if above 255, none if below 0
+                                    color := and(add(and(attribute, ABOVE_BYTES), ABOVE_BYTES), NEXT_LANES)
+                                    color := or(attribute, shr(NEXT_LANE_TO_BYTE, mul(color, 0xff)))
+                                    color := and(color, not(shr(SIGN_TO_BYTE, mul(and(attribute, BELOW_NEXT_LANES), 0xff))))
+                                }
+                                color := shr(PIXEL_AT, mul(and(color, BYTES_OF_LANES), LANES_TO_BYTES))
+                                z := or(z, mul(color, ONES_64))
+                                switch eq(seen, TOPS_64)
+                                case 1 {
+                                    mstore(0, shl(PIXEL_AT, color))
+                                    mcopy(add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p))), 0, 3)
+                                }
+                                default {
+                                    z := or(xor(old, and(xor(old, z), sub(shl(1, seen), shr(63, seen)))), IS_LISTED)
+                                    if iszero(and(old, IS_LISTED)) {
+                                        seen := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p)))
+                                        mstore(mload(MIXED_END), or(shl(MIXED_AT, p), shl(MIXED_PIXEL_AT, seen)))
+                                        mstore(MIXED_END, add(mload(MIXED_END), MIXED_SIZE))
+                                    }
+                                }
+                                mstore(p, z)
+                            }
+                            p := add(p, 32)
+                            if eq(p, end) { break }
+                            attribute := add(attribute, mload(DX))
+                        }
+                    }
+                    left := add(left, mload(SIDE_LEFT_STEP))
+                    right := add(right, mload(SIDE_RIGHT_STEP))
+                    bounds := add(bounds, mload(BOUND_STEPS))
+                    start := add(start, mload(ROW_STEP_32))
+                    mstore(ROW_IMAGE, sub(mload(ROW_IMAGE), mload(ROW_IMAGE_STEP)))
+                }
+                if slt(last, 1) { break }
+                switch row
+                case 0 {
+                    // the rows below the kink
+                    mstore(sub(add(mload(KINK_SIDE), SIDE_LEFT_STEP), SIDE_LEFT), mload(KINK_STEP))
+                    rows := last
+                    last := 0
+                }
+                default {
+                    // the row of the kink is drawn separately, with samples on both edges; its step leads to the lower edge
+                    row := 0
+                    rows := 1
+                    last := sub(last, 1)
+                    bounds := or(and(bounds, mload(KINK_KEPT)), mload(KINK_BOUND))
+                    mstore(BOUND_STEPS, mload(KINK_BOUND_STEPS))
+                    let mask := mload(KINK_MASK)
+                    let edge := mload(KINK_EDGE)
+                    switch eq(mload(KINK_SIDE), SIDE_LEFT)
+                    case 1 {
+                        left := or(and(left, not(mask)), and(edge, mask))
+                        mstore(SIDE_LEFT_STEP, sub(add(edge, mload(KINK_STEP)), left))
+                    }
+                    default {
+                        right := or(and(right, not(mask)), and(edge, mask))
+                        mstore(SIDE_RIGHT_STEP, sub(add(edge, mload(KINK_STEP)), right))
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {HALF_85} from "../pixels/ExactSpans.sol";
+import {Patches} from "../pixels/Patches.sol";
+import {SampleRasterizer} from "./SampleRasterizer.sol";
+import "../../words/SampleRegisters.sol";
+
+// Draws triangles with quadratic colours, over the whole triangle or over square cells: see Patches.
+abstract contract PatchSamples is SampleRasterizer {
+    /// @dev Sets further registers that quadratic functions need.
+    function setQuadratic(uint256 a, uint256 b, uint256 c) internal pure {
+        unchecked {
+            if (load(MODE) & IS_PATCHED == 0) return;
+            uint256 farthest = load((a & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES);
+            farthest = min(farthest, load((b & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES));
+            farthest = min(farthest, load((c & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES));
+            store(FARTHEST, farthest >> ATTRIBUTE_DEPTH_AT << DEPTH_FRACTION);
+            store(QUADRATIC_ROW, max((a + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT, load(BAND_TOP)));
+        }
+    }
+
+    /// @notice Draws the rows from `row` (inclusive) to `last` (exclusive).
+    function drawPatches(uint256 row, uint256 last) internal pure {
+        unchecked {
+            uint256 size = load(PATCH_SIZE);
+            if (size < 2) return drawSpans(row, last);
+            (uint256 begin, uint256 end) = (load(SPAN_BEGIN), load(SPAN_END));
+            while (row != last) {
+                uint256 next = min(row / size * size + size, last);
+                store(QUADRATIC_ROW, row);
+                uint256 start = load(START) + (row - load(START_ROW)) * load(DY);
+                (uint256 first, uint256 reach) = columnsOf(row, next);
+                for (uint256 column = first / size * size; column < reach; column += size) {
+                    Patches.fit(column, row, start, size);
+                    store(SPAN_BEGIN, max(begin, column));
+                    store(SPAN_END, min(end, column + size));
+                    drawSpans(row, next);
+                }
+                store(SPAN_BEGIN, begin);
+                store(SPAN_END, end);
+                row = next;
+            }
+        }
+    }
+
+    /// @dev Draws the fragments of a row with colours that are a quadratic function of the position: see drawSpan.
+    function drawQuadratic(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
+        assembly ("memory-safe") {
+            // three bytes from a colour, Q58, or from a colour times its depth, Q72
+            function bytesOf(f, attribute) -> color {
+                if mload(PATCH_WEIGHT) {
+                    // outside the triangle the depth can be anything
+                    attribute := sar(ACCUMULATOR_DEPTH_AT, attribute)
+                    if slt(attribute, mload(FARTHEST)) { attribute := mload(FARTHEST) }
+                    f := add(mul(sub(and(shr(48, f), LANES_37), BIAS_36), div(shl(34, mload(PATCH_WEIGHT)), attribute)), HALF_85)
+                }
+                color := and(f, BYTES_Q58)
+                if and(f, ABOVE_Q58) {
+                    let beyond := and(add(and(f, ABOVE_Q58), ABOVE_Q58), CARRIES_85)
+                    color := or(color, mul(shr(CARRY_85, beyond), BYTE_Q58))
+                    color := and(color, not(mul(shr(SIGN_85, and(f, SIGNS_85)), BYTE_Q58)))
+                }
+                color := shr(PIXEL_AT, mul(color, Q58_TO_TOP))
+            }
+
+            {
+                // in the row of the kink, no pixel counts as fully covered
+                let inner := mload(INSETS)
+                if iszero(lt(row, mload(KINK_ROW))) { inner := mload(KINK_INSETS) }
+                if eq(row, mload(KINK_ROW)) { inner := NO_INSIDE }
+                inner := add(mload(ROW_BOUNDS), shl(1, inner))
+                mstore(INNER_BEGIN, and(sar(ADDRESS_FRACTION, signextend(15, inner)), WHOLE_SAMPLES))
+                mstore(INNER_END, and(sar(UPPER_ADDRESS_AT, inner), WHOLE_SAMPLES))
+            }
+            let p := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))
+            mstore(ROW_IMAGE, sub(mload(SAMPLE_IMAGE), mul(3, add(mul(row, mload(TILE_WIDTH)), sar(SAMPLE_SIZE_BITS, p)))))
+            let attribute := add(add(mload(START), mul(sub(row, mload(START_ROW)), mload(DY))), mul(column, mload(DX)))
+            end := add(p, shl(SAMPLE_SIZE_BITS, end))
+            p := add(p, shl(SAMPLE_SIZE_BITS, column))
+            row := sub(row, mload(QUADRATIC_ROW))
+            // the value at the column, Q58, and its change to the next column
+            let g := add(mload(QUADRATIC_DX), mul(row, mload(QUADRATIC_DXY)))
+            let f := add(mload(QUADRATIC_START), mul(row, mload(QUADRATIC_DY)))
+            f := add(f, mul(shr(1, mul(row, sub(row, 1))), mload(QUADRATIC_DYY)))
+            f := add(f, add(mul(column, g), mul(shr(1, mul(column, sub(column, 1))), mload(QUADRATIC_DXX))))
+            g := add(g, mul(column, mload(QUADRATIC_DXX)))
+            // first the pixels before the fully covered ones
+            row := end
+            if lt(mload(INNER_BEGIN), row) { row := mload(INNER_BEGIN) }
+            for {} 1 {} {
+                for {} slt(p, row) {} {
+                    let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE))
+                    z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
+                    let old := mload(p)
+                    let seen := mul(p, ADDRESS_64)
+                    seen := and(and(add(left, seen), sub(right, seen)), and(sub(add(z, BELOW_TOPS_64), old), TOPS_64))
+                    if seen {
+                        let color := bytesOf(f, attribute)
+                        z := or(z, mul(color, ONES_64))
+                        let pixel := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p)))
+                        switch eq(seen, TOPS_64)
+                        case 1 {
+                            mstore(0, shl(PIXEL_AT, color))
+                            mcopy(pixel, 0, 3)
+                        }
+                        default {
+                            z := or(xor(old, and(xor(old, z), sub(shl(1, seen), shr(63, seen)))), IS_LISTED)
+                            if iszero(and(old, IS_LISTED)) {
+                                mstore(mload(MIXED_END), or(shl(MIXED_AT, p), shl(MIXED_PIXEL_AT, pixel)))
+                                mstore(MIXED_END, add(mload(MIXED_END), MIXED_SIZE))
+                            }
+                        }
+                        mstore(p, z)
+                    }
+                    p := add(p, 32)
+                    attribute := add(attribute, mload(DX))
+                    f := add(f, g)
+                    g := add(g, mload(QUADRATIC_DXX))
+                }
+                if iszero(lt(p, end)) { break }
+                // then the fully covered ones, while the buffer is empty
+                row := end
+                if lt(mload(INNER_END), row) { row := mload(INNER_END) }
+                if slt(p, row) {
+                    column := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p)))
+                    for {} iszero(and(mload(p), SAMPLE_DEPTHS)) {} {
+                        let color := bytesOf(f, attribute)
+                        mstore(0, shl(PIXEL_AT, color))
+                        mcopy(column, 0, 3)
+                        let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE))
+                        mstore(p, or(and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS), mul(color, ONES_64)))
+                        p := add(p, 32)
+                        column := add(column, 3)
+                        attribute := add(attribute, mload(DX))
+                        f := add(f, g)
+                        g := add(g, mload(QUADRATIC_DXX))
+                        if eq(p, row) { break }
+                    }
+                }
+                row := end
+            }
+        }
+    }
+}

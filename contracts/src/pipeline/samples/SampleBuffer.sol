@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Rectangle} from "../../scene/Scene.sol";
+import {Compositor, OVERHANG} from "../Compositor.sol";
+import {Pipeline} from "../Pipeline.sol";
+import {SampleRasterizer} from "./SampleRasterizer.sol";
+import "../../words/SampleRegisters.sol";
+
+// A word of four samples for each pixel of a band, rows as in the picture. Only the columns and rows reached by objects are stored, since
+// memory cost grows quadratically.
+//
+// The pixels passed to the next engine are followed by the bounds of these columns and rows, four words, and the samples.
+
+/// @dev The number of pixels beyond the outermost vertices that lines and samples may touch.
+uint256 constant MARGIN = 2;
+uint256 constant BORDERS_SIZE = 0x80;
+
+abstract contract SampleBuffer is Pipeline, SampleRasterizer {
+    function registersEnd() internal pure virtual override returns (uint256) {
+        return SAMPLE_REGISTERS_END;
+    }
+
+    function openPicture(Rectangle memory tile, uint256 image, uint256, uint256[3][] memory lists)
+        internal
+        pure
+        override
+        returns (uint256 size)
+    {
+        unchecked {
+            uint256 borders = (image + 3 * tile.width * tile.height + OVERHANG + 31) & ~uint256(31);
+            uint256 before = load(DRAWN_BEFORE);
+            setBorders(tile, lists);
+            if (before == 0) {
+                Compositor.background(image, tile);
+            } else {
+                copyCalldata(image, before, borders - image);
+                uint256 old = borders - image + before;
+                store(SAMPLE_BEGIN, min(load(SAMPLE_BEGIN), loadCalldata(old)));
+                store(SAMPLE_END, max(load(SAMPLE_END), loadCalldata(old + 0x20)));
+                store(SAMPLE_TOP, min(load(SAMPLE_TOP), loadCalldata(old + 0x40)));
+                store(SAMPLE_BOTTOM, max(load(SAMPLE_BOTTOM), loadCalldata(old + 0x60)));
+            }
+            if (load(SAMPLE_BEGIN) > load(SAMPLE_END)) store(SAMPLE_BEGIN, load(SAMPLE_END));
+            if (load(SAMPLE_TOP) > load(SAMPLE_BOTTOM)) store(SAMPLE_TOP, load(SAMPLE_BOTTOM));
+            assembly ("memory-safe") {
+                mcopy(borders, SAMPLE_BEGIN, BORDERS_SIZE)
+            }
+            store(DEPTHS, borders + BORDERS_SIZE);
+            uint256 stride = (load(SAMPLE_END) - load(SAMPLE_BEGIN)) << SAMPLE_SIZE_BITS;
+            store(SAMPLE_STRIDE, stride);
+            store(STRIDE_37, stride << ADDRESS_FRACTION);
+            store(DEPTH_BASE, load(SAMPLE_BASE) * load(SAMPLE_SCALE));
+            store(ROW_IMAGE_STEP, 3 * tile.width - 3 * (stride >> SAMPLE_SIZE_BITS));
+            if (load(RETURNS_DEPTHS) == 0) return 3 * tile.width * tile.height;
+            return borders + BORDERS_SIZE + stride * (load(SAMPLE_BOTTOM) - load(SAMPLE_TOP)) - image;
+        }
+    }
+
+    function openBand(Rectangle memory tile, uint256 image, uint256, uint256) internal pure override {
+        unchecked {
+            uint256 stride = load(SAMPLE_STRIDE);
+            uint256 samples = load(DEPTHS);
+            // the row after the last row that has samples
+            uint256 row = min(load(BAND_BOTTOM), load(SAMPLE_BOTTOM));
+            uint256 origin = samples + (row - 1) * stride;
+            store(SAMPLE_ORIGIN, origin - (load(SAMPLE_BEGIN) << SAMPLE_SIZE_BITS));
+            store(SAMPLE_IMAGE, image + 3 * ((tile.y + tile.height - 1 + PIXEL_BIAS) * tile.width - tile.x - PIXEL_BIAS));
+            store(MIXED, samples);
+            store(MIXED_END, samples);
+            uint256 top = max(load(BAND_TOP), load(SAMPLE_TOP));
+            if (row <= top || stride == 0) return;
+            store(MIXED, samples + (row - top) * stride);
+            store(MIXED_END, load(MIXED));
+            clear(tile, samples, row, (row - top) * stride);
+            uint256 before = load(DRAWN_BEFORE);
+            if (before != 0) copySamples(before + samples - BORDERS_SIZE - image, origin);
+        }
+    }
+
+    /// @dev Fills samples with the background.
+    /// @param row The row after the one at `samples`; rows go upward.
+    function clear(Rectangle memory tile, uint256 samples, uint256 row, uint256 size) private pure {
+        unchecked {
+            uint256 stride = load(SAMPLE_STRIDE);
+            uint256 end = samples + size;
+            uint256 color = load(BACKGROUND) + load(BACKGROUND_STEP) * (tile.y + tile.height + PIXEL_BIAS - row);
+            uint256 step = load(BACKGROUND_STEP);
+            assembly ("memory-safe") {
+                // not a valid colour
+                let last := ONE_24
+                for {} lt(samples, end) { samples := add(samples, stride) } {
+                    let rounded := and(shr(Q24, color), BYTES_56)
+                    color := add(color, step)
+                    if eq(rounded, last) {
+                        mcopy(samples, sub(samples, stride), stride)
+                        continue
+                    }
+                    last := rounded
+                    mstore(samples, mul(shr(PIXEL_AT, mul(rounded, LANES_TO_PIXEL)), ONES_64))
+                    let done := 32
+                    for {} lt(shl(1, done), stride) { done := shl(1, done) } { mcopy(add(samples, done), samples, done) }
+                    mcopy(add(samples, done), samples, sub(stride, done))
+                }
+            }
+        }
+    }
+
+    /// @dev Copies the samples drawn before. There is only one band in this case.
+    /// @param position The calldata offset of their bounds.
+    /// @param origin The address of the samples of row 0 in the first column that has samples.
+    function copySamples(uint256 position, uint256 origin) private pure {
+        unchecked {
+            uint256 stride = load(SAMPLE_STRIDE);
+            uint256 begin = loadCalldata(position);
+            uint256 size = (loadCalldata(position + 0x20) - begin) << SAMPLE_SIZE_BITS;
+            uint256 top = loadCalldata(position + 0x40);
+            uint256 row = loadCalldata(position + 0x60);
+            uint256 target = origin - row * stride + stride + ((begin - load(SAMPLE_BEGIN)) << SAMPLE_SIZE_BITS);
+            position += BORDERS_SIZE;
+            for (; row != top; --row) {
+                copyCalldata(target, position, size);
+                position += size;
+                target += stride;
+            }
+        }
+    }
+
+    /// @dev Sets the columns and rows of the tile that the vertices reach; all of them if any vertex is clipped.
+    function setBorders(Rectangle memory tile, uint256[3][] memory lists) private pure {
+        unchecked {
+            uint256 least = type(uint256).max;
+            uint256 most;
+            uint256 left = type(uint256).max;
+            uint256 right;
+            bool isClipped;
+            uint256 uniforms = load(OBJECTS);
+            for (uint256 i; i != lists.length; ++i) {
+                uniforms = readObject(uniforms);
+                uint256 size = 1 << recordShift(load(OBJECT_MODE));
+                uint256 record = lists[i][0];
+                uint256 end = record + size * load(MESH_VERTEX_COUNT);
+                assembly ("memory-safe") {
+                    for {} lt(record, end) { record := add(record, size) } {
+                        let word := mload(record)
+                        isClipped := or(isClipped, and(word, MUST_CLIP))
+                        if lt(word, least) { least := word }
+                        if gt(word, most) { most := word }
+                        word := and(word, SCREEN_COLUMNS)
+                        if lt(word, left) { left := word }
+                        if gt(word, right) { right := word }
+                    }
+                    isClipped := iszero(iszero(isClipped))
+                }
+            }
+            uint256 begin = load(COLUMN_BEGIN);
+            uint256 top = tile.y + PIXEL_BIAS;
+            store(SAMPLE_BEGIN, begin);
+            store(SAMPLE_END, load(COLUMN_END));
+            store(SAMPLE_TOP, top);
+            store(SAMPLE_BOTTOM, top + tile.height);
+            if (isClipped) return;
+            if (most == 0) {
+                // nothing to draw
+                store(SAMPLE_END, begin);
+                store(SAMPLE_BOTTOM, top);
+                return;
+            }
+            left >>= SCREEN_COLUMN_AT + SUBPIXEL_BITS;
+            right >>= SCREEN_COLUMN_AT + SUBPIXEL_BITS;
+            store(SAMPLE_BEGIN, max(begin, left < MARGIN ? 0 : left - MARGIN));
+            store(SAMPLE_END, min(load(COLUMN_END), right + MARGIN + 1));
+            least >>= SCREEN_PIXEL_ROW_AT;
+            store(SAMPLE_TOP, max(top, least < MARGIN ? 0 : least - MARGIN));
+            store(SAMPLE_BOTTOM, min(top + tile.height, (most >> SCREEN_PIXEL_ROW_AT) + MARGIN + 1));
+        }
+    }
+
+    function loadCalldata(uint256 position) private pure returns (uint256 value) {
+        assembly ("memory-safe") {
+            value := calldataload(position)
+        }
+    }
+
+    /// @dev Writes the means of the pixels whose samples differ.
+    function closeBand() internal pure override {
+        assembly ("memory-safe") {
+            let end := mload(MIXED_END)
+            for { let entry := mload(MIXED) } lt(entry, end) { entry := add(entry, MIXED_SIZE) } {
+                let p := mload(entry)
+                let pixel := and(shr(MIXED_PIXEL_AT, p), MIXED_PIXEL_MASK)
+                p := shr(MIXED_AT, p)
+                let samples := mload(p)
+                mstore(p, and(samples, not(IS_LISTED)))
+                samples := mul(or(and(samples, RED_BLUE_64), shl(GREEN_OF_SUM, and(samples, GREEN_64))), ONES_64)
+                samples := add(shr(UPPER_LANE_64_AT, samples), ROUND_SUM)
+                samples := or(and(shr(2, samples), RED_BLUE), and(shr(MEAN_OF_GREEN_AT, samples), GREEN))
+                mstore(0, shl(PIXEL_AT, samples))
+                mcopy(pixel, 0, 3)
+            }
+        }
+    }
+
+    function litPixels(uint256) internal pure override returns (uint256 count) {
+        unchecked {
+            uint256 p = load(DEPTHS);
+            uint256 bottom = min(load(BAND_BOTTOM), load(SAMPLE_BOTTOM));
+            uint256 top = max(load(BAND_TOP), load(SAMPLE_TOP));
+            if (bottom <= top) return 0;
+            uint256 end = p + (bottom - top) * load(SAMPLE_STRIDE);
+            assembly ("memory-safe") {
+                for {} lt(p, end) { p := add(p, 32) } { count := add(count, iszero(iszero(and(mload(p), SAMPLE_DEPTHS)))) }
+            }
+        }
+    }
+}

@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Rasterizer} from "../geometry/Rasterizer.sol";
+import {Samples} from "./Samples.sol";
+import "../../words/SampleRegisters.sol";
+
+// Rasterizes triangles to fragments with four samples per pixel (multisampling). A fragment is a pixel in which a triangle covers at least
+// one sample. Its colour is computed once, its depth for each sample.
+//
+// A side of a triangle in a row is four columns, one for each sample, in lanes of 64 bits: the column at which the edge crosses the height
+// of the sample, minus the offset of the sample in the pixel. Columns are represented by the addresses of their pixels' samples, Q37, which
+// are columns in Q42. A pixel with its samples at p has a sample inside if p is not left of the left side and left of the right side. Sides
+// are stored so that one addition or subtraction of p in all lanes yields the result in the highest bit of each:
+//
+//   left = 2^63 - side                  left + p  >= 2^63 where p >= side
+//   right = 2^63 - 1 + side             right - p >= 2^63 where p < side
+//
+// Edges are defined by their upper vertex, independent of the triangle, so that adjacent triangles neither leave gaps nor overlap. Above
+// the upper vertex of two edges and below the lower one, the sides are swapped, so that nothing lies between them.
+//
+// With x and y for the offsets of the samples in eighths of a pixel, a side is that of the pixel centre, at column c and with slope s, plus
+// s * y - x eighths: its outermost samples are max(s + 3, 3 * s - 1, 1 - 3 * s) eighths from c. These are the bounds.
+abstract contract SampleRasterizer is Rasterizer {
+    /// @notice Draws the fragments of a row from `column` (inclusive) to `end` (exclusive).
+    function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure virtual;
+
+    /// @notice Draws a fragment, for engines that draw rows by drawEach. The arguments are the accumulator at the pixel centre; the highest
+    /// bits of the samples that the triangle covers, at least one; column and row.
+    function drawFragment(uint256, uint256, uint256, uint256) internal pure virtual {}
+
+    /// @notice Sets further registers that shading requires, before the sides of the triangle are set.
+    function prepare(uint256, uint256, uint256) internal pure virtual {}
+
+    /// @notice Draws the rows from `row` (inclusive) to `last` (exclusive) of the current triangle, as its mode selects.
+    function drawFragments(uint256 row, uint256 last) internal pure virtual;
+
+    /// @dev A triangle between pixel centres may cover samples.
+    function coversNothing(uint256, uint256, uint256) internal pure override returns (bool) {
+        return false;
+    }
+
+    function drawTriangle(uint256 a, uint256 b, uint256 c) internal pure override {
+        unchecked {
+            uint256 lowest = (b > c ? b : c) + ((OUTERMOST_SAMPLE + SUBPIXEL_MASK) << SCREEN_ROW_AT);
+            uint256 row = max((a + ((SUBPIXEL_MASK - OUTERMOST_SAMPLE) << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT, load(BAND_TOP));
+            uint256 last = min(lowest >> SCREEN_PIXEL_ROW_AT, load(BAND_BOTTOM));
+            if (row >= last) return;
+            prepare(a, b, c);
+            setSides(a, b, c, row);
+            setGradients(a, b, c);
+            if (load(MODE) & IS_TURNED_AWAY != 0) {
+                uint256 depth = setBack(uint256(loadSigned(DX) >> 6), uint256(loadSigned(DY) >> 6), load(SAMPLE_BASE));
+                depth <<= load(SAMPLE_SHIFT);
+                store(DEPTH_OFFSETS, load(DEPTH_OFFSETS) - depth * ONES_64 - SAMPLE_DEPTH_UNIT);
+            }
+            if (load(IS_CLAMPED) != 0) setSpan(a, b, c);
+            drawFragments(row, last);
+        }
+    }
+
+    /// @dev Sets the accumulator at column 0 of the row of the first pixel centres below the first vertex, and its changes.
+    function setGradients(uint256 a, uint256 b, uint256 c) internal pure virtual {
+        assembly ("memory-safe") {
+            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
+            let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
+            let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)
+            a := shr(SCREEN_ROW_AT, a)
+            b := sub(shr(SCREEN_ROW_AT, b), a)
+            c := sub(shr(SCREEN_ROW_AT, c), a)
+            let y := and(sub(0, a), SUBPIXEL_MASK)
+            mstore(START_ROW, shr(SUBPIXEL_BITS, add(a, SUBPIXEL_MASK)))
+            // as in PixelRasterizer
+            a := sub(mul(xc, b), mul(xb, c))
+            b := sdiv(shl(GRADIENT_SHIFT, b), a)
+            xb := sdiv(shl(GRADIENT_SHIFT, xb), a)
+            c := sdiv(shl(GRADIENT_SHIFT, c), a)
+            xc := sdiv(shl(GRADIENT_SHIFT, xc), a)
+            let toB := mload(DELTA_1)
+            let toC := mload(DELTA_2)
+            // Colours are extrapolated up to a pixel outside the triangle. They fit their lanes if a barycentric coordinate changes by at
+            // most 16 per pixel: thinner triangles have the colour of their first vertex.
+            a := or(or(add(b, LEAST_WIDTH), add(xb, LEAST_WIDTH)), or(add(c, LEAST_WIDTH), add(xc, LEAST_WIDTH)))
+            if and(a, ABOVE_LEAST_WIDTH) {
+                if iszero(and(mload(MODE), or(IS_PATCHED, IS_QUADRATIC))) {
+                    toB := shl(ATTRIBUTE_DEPTH_AT, sar(ATTRIBUTE_DEPTH_AT, add(toB, HALF_DEPTH)))
+                    toC := shl(ATTRIBUTE_DEPTH_AT, sar(ATTRIBUTE_DEPTH_AT, add(toC, HALF_DEPTH)))
+                }
+            }
+            let start := sub(mload(ATTRIBUTE_0), mul(toC, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, b), mul(y, xb)))))
+            start := add(start, mul(toB, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, c), mul(y, xc)))))
+            b := sub(mul(toC, b), mul(toB, c))
+            c := sub(mul(toB, xc), mul(toC, xb))
+            // Depths of thin triangles change by more than a lane holds. Where a sample is covered, its depth is right modulo 2^64, if
+            // eighths are taken before they overflow.
+            x := sar(ACCUMULATOR_DEPTH_AT, b)
+            y := sar(ACCUMULATOR_DEPTH_AT, c)
+            mstore(DX, shl(3, b))
+            mstore(DY, shl(3, c))
+            if and(mload(MODE), or(IS_PATCHED, IS_QUADRATIC)) {
+                mstore(DX_8, b)
+                mstore(DY_8, c)
+                if and(mload(MODE), IS_DEEP) {
+                    start := add(start, mload(DEEP_START))
+                    b := mload(DEEP_DX)
+                    c := mload(DEEP_DY)
+                    x := add(x, signextend(7, sar(DEEP_8_AT, b)))
+                    y := add(y, signextend(7, sar(DEEP_8_AT, c)))
+                    mstore(DX, add(mload(DX), shl(ATTRIBUTE_DEPTH_AT, b)))
+                    mstore(DY, add(mload(DY), shl(ATTRIBUTE_DEPTH_AT, c)))
+                }
+            }
+            mstore(START, start)
+            mstore(DEPTH_OFFSETS, sub(shl(mload(SAMPLE_SHIFT), add(mul(x, SAMPLE_X_8), mul(y, SAMPLE_Y_8))), mload(DEPTH_BASE)))
+        }
+    }
+
+    /// @dev Sets the sides and bounds at the first row, and the row in which one of the sides continues with another edge (the kink).
+    function setSides(uint256 a, uint256 b, uint256 c, uint256 row) private pure {
+        assembly ("memory-safe") {
+            // An edge with the direction (dx, dy) that starts `below` sub-pixels above the row, at the address `at`. Returns a left side,
+            // whose complement is a right side; its change per row; its position, rounded up; and the distance of its outermost samples.
+            function edge(dx, dy, at, below) -> side, step, line, reach {
+                step := sdiv(shl(COLUMN_FRACTION, dx), dy)
+                mstore(IS_CLAMPED, or(mload(IS_CLAMPED), add(step, STEEPEST_42)))
+                line := add(at, sar(SUBPIXEL_BITS, mul(below, step)))
+                reach := sar(3, step)
+                side := sub(LEFT_AT_0, add(mul(line, ONES_64), mul(reach, SAMPLE_Y_8)))
+                line := add(line, CEIL_42)
+                step := sub(step, mload(STRIDE_37))
+                dx := sub(mul(3, reach), EIGHTH_42)
+                dx := xor(dx, sar(255, dx))
+                reach := add(reach, THREE_EIGHTHS_42)
+                if sgt(dx, reach) { reach := dx }
+            }
+
+            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
+            let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
+            let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)
+            a := shr(SCREEN_ROW_AT, a)
+            b := sub(shr(SCREEN_ROW_AT, b), a)
+            c := sub(shr(SCREEN_ROW_AT, c), a)
+            mstore(SIDE_ROW, row)
+            mstore(IS_CLAMPED, 0)
+            // the position of the first vertex
+            x := add(
+                shl(ADDRESS_FRACTION, sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))),
+                shl(SUBPIXEL_TO_COLUMN, x)
+            )
+            row := sub(shl(SUBPIXEL_BITS, row), a)
+            {
+                // to the second vertex on the left
+                let side, step, line, reach := edge(xb, b, x, row)
+                mstore(SIDE_LEFT, side)
+                mstore(SIDE_LEFT_STEP, mul(sub(0, step), ONES_64))
+                mstore(BOUNDS, sub(line, reach))
+                mstore(BOUND_STEPS, step)
+                mstore(INSETS, reach)
+                // to the third vertex on the right; a horizontal edge has no side below it: nothing is left of address 0
+                side, step, line, reach := edge(xc, c, mul(x, gt(c, 0)), row)
+                mstore(SIDE_RIGHT, not(side))
+                mstore(SIDE_RIGHT_STEP, mul(step, ONES_64))
+                mstore(BOUNDS, add(mload(BOUNDS), shl(128, add(line, reach))))
+                mstore(BOUND_STEPS, add(mload(BOUND_STEPS), shl(128, step)))
+                mstore(INSETS, sub(mload(INSETS), shl(128, reach)))
+            }
+            // from the upper to the lower of both; shift and sign are 0 and -1 on the left, 128 and 1 on the right
+            let shift := shl(7, iszero(lt(b, c)))
+            let sign := sub(shr(6, shift), 1)
+            mstore(KINK_SIDE, add(SIDE_LEFT, shr(2, shift)))
+            let kept := shl(sub(128, shift), LANE_128)
+            mstore(KINK_KEPT, kept)
+            // the beginning of the kink: the first row with a sample below it; samples above it are still on the upper edge
+            switch shift
+            case 0 {
+                row := add(a, b)
+                x := add(x, shl(SUBPIXEL_TO_COLUMN, xb))
+            }
+            default {
+                row := add(a, c)
+                x := add(x, shl(SUBPIXEL_TO_COLUMN, xc))
+            }
+            a := add(row, TO_FIRST_ROW)
+            mstore(KINK_MASK, shl(and(a, SAMPLES_ABOVE), not(0)))
+            a := shr(SUBPIXEL_BITS, a)
+            mstore(KINK_ROW, a)
+            row := sub(shl(SUBPIXEL_BITS, a), row)
+            a := sub(a, mload(SIDE_ROW))
+            {
+                x := mul(sub(x, mul(a, mload(STRIDE_37))), iszero(eq(b, c)))
+                let side, step, line, reach := edge(sub(xc, xb), sub(c, b), x, row)
+                mstore(KINK_EDGE, xor(side, sub(0, gt(shift, 0))))
+                mstore(KINK_STEP, mul(mul(sign, step), ONES_64))
+                // the borrow between lanes is less than the rounding of the bounds
+                step := shl(shift, step)
+                mstore(KINK_BOUND, and(shl(shift, add(line, mul(sign, reach))), not(kept)))
+                mstore(KINK_BOUND_STEPS, add(and(mload(BOUND_STEPS), kept), step))
+                mstore(KINK_INSETS, sub(and(mload(INSETS), kept), shl(shift, mul(sign, reach))))
+                mstore(IS_CLAMPED, or(and(mload(IS_CLAMPED), STEEP_42), and(mload(MODE), IS_CLAMPED_MODE)))
+                if eq(b, c) {
+                    // there is no edge below
+                    mstore(KINK_KEPT, not(0))
+                    mstore(KINK_BOUND, 0)
+                }
+                if slt(a, 0) {
+                    // only the lower edge is in the band
+                    a := sub(0, a)
+                    mstore(mload(KINK_SIDE), add(mload(KINK_EDGE), mul(a, mload(KINK_STEP))))
+                    mstore(sub(add(mload(KINK_SIDE), SIDE_LEFT_STEP), SIDE_LEFT), mload(KINK_STEP))
+                    mstore(BOUNDS, add(or(and(mload(BOUNDS), mload(KINK_KEPT)), mload(KINK_BOUND)), mul(a, step)))
+                    mstore(BOUND_STEPS, mload(KINK_BOUND_STEPS))
+                    mstore(INSETS, mload(KINK_INSETS))
+                    mstore(KINK_ROW, GUARD_BAND)
+                }
+            }
+        }
+    }
+
+    /// @dev Sets the columns that the triangle may touch.
+    function setSpan(uint256 a, uint256 b, uint256 c) private pure {
+        assembly ("memory-safe") {
+            let x := and(a, SCREEN_COLUMNS)
+            let end := x
+            let other := and(b, SCREEN_COLUMNS)
+            if lt(other, x) { x := other }
+            if gt(other, end) { end := other }
+            other := and(c, SCREEN_COLUMNS)
+            if lt(other, x) { x := other }
+            if gt(other, end) { end := other }
+            x := shr(SCREEN_PIXEL_COLUMN_AT, add(x, FROM_FIRST_SAMPLE))
+            end := add(shr(SCREEN_PIXEL_COLUMN_AT, add(end, TO_LAST_SAMPLE)), 1)
+            if lt(x, mload(COLUMN_BEGIN)) { x := mload(COLUMN_BEGIN) }
+            if gt(end, mload(COLUMN_END)) { end := mload(COLUMN_END) }
+            mstore(SPAN_BEGIN, x)
+            mstore(SPAN_END, end)
+        }
+    }
+
+    /// @dev Draws the rows from `row` (inclusive) to `last` (exclusive), between SPAN_BEGIN and SPAN_END.
+    function drawSpans(uint256 row, uint256 last) internal pure {
+        unchecked {
+            uint256 kink = load(KINK_ROW);
+            while (row != last) {
+                // the rows above the kink, the row of the kink, the rows below
+                uint256 next = row < kink ? min(kink, last) : row == kink ? row + 1 : last;
+                (uint256 left, uint256 right) = sidesAt(row);
+                for (; row != next; ++row) {
+                    (uint256 first, uint256 end) = columnsBetween(row);
+                    if (first < end) drawSpan(left, right, first, end, row);
+                    left += load(ROW_LEFT_STEP);
+                    right += load(ROW_RIGHT_STEP);
+                    store(ROW_BOUNDS, load(ROW_BOUNDS) + load(ROW_BOUND_STEPS));
+                }
+            }
+        }
+    }
+
+    /// @dev Draws the fragments of a row one by one.
+    function drawEach(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
+        unchecked {
+            uint256 attribute = load(START) + (row - load(START_ROW)) * load(DY) + column * load(DX);
+            for (; column != end; ++column) {
+                uint256 covered = Samples.coverage(left, right, Samples.place(row, column));
+                if (covered != 0) drawFragment(attribute, covered, column, row);
+                attribute += load(DX);
+            }
+        }
+    }
+
+    /// @dev Returns the sides at a row; sets the registers of their changes to the next row and of the bounds.
+    function sidesAt(uint256 row) private pure returns (uint256 left, uint256 right) {
+        unchecked {
+            uint256 n = row - load(SIDE_ROW);
+            store(ROW_LEFT_STEP, load(SIDE_LEFT_STEP));
+            store(ROW_RIGHT_STEP, load(SIDE_RIGHT_STEP));
+            store(ROW_BOUND_STEPS, load(BOUND_STEPS));
+            (left, right) = (load(SIDE_LEFT) + n * load(SIDE_LEFT_STEP), load(SIDE_RIGHT) + n * load(SIDE_RIGHT_STEP));
+            uint256 bounds = load(BOUNDS) + n * load(BOUND_STEPS);
+            n = row - load(KINK_ROW);
+            if (int256(n) >= 0) {
+                bool isLeft = load(KINK_SIDE) == SIDE_LEFT;
+                uint256 step = load(KINK_STEP);
+                uint256 edge = load(KINK_EDGE) + n * step;
+                if (n == 0) {
+                    uint256 mask = load(KINK_MASK);
+                    edge = (edge & mask) | ((isLeft ? left : right) & ~mask);
+                }
+                if (isLeft) {
+                    left = edge;
+                    store(ROW_LEFT_STEP, step);
+                    step = signed128(load(KINK_BOUND_STEPS));
+                } else {
+                    right = edge;
+                    store(ROW_RIGHT_STEP, step);
+                    step = load(KINK_BOUND_STEPS) - signed128(load(KINK_BOUND_STEPS));
+                }
+                bounds = ((bounds & load(KINK_KEPT)) | load(KINK_BOUND)) + n * step;
+                store(ROW_BOUND_STEPS, load(KINK_BOUND_STEPS));
+            }
+            store(ROW_BOUNDS, bounds);
+        }
+    }
+
+    function signed128(uint256 word) private pure returns (uint256) {
+        return uint256(int256(int128(int256(word))));
+    }
+
+    /// @dev Returns the first column of a row that may have a fragment, and the one after the last; there are none if they are not in this
+    /// order.
+    function columnsBetween(uint256 row) private pure returns (uint256 first, uint256 end) {
+        assembly ("memory-safe") {
+            let base := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))
+            let bounds := mload(ROW_BOUNDS)
+            first := sar(SAMPLE_SIZE_BITS, sub(sar(ADDRESS_FRACTION, signextend(15, bounds)), base))
+            if slt(first, mload(SPAN_BEGIN)) { first := mload(SPAN_BEGIN) }
+            end := sar(SAMPLE_SIZE_BITS, sub(sar(UPPER_ADDRESS_AT, bounds), base))
+            if sgt(end, mload(SPAN_END)) { end := mload(SPAN_END) }
+            end := mul(end, sgt(end, 0))
+        }
+    }
+
+    /// @dev Returns the same for the rows from `row` (inclusive) to `last` (exclusive).
+    function columnsOf(uint256 row, uint256 last) internal pure returns (uint256 first, uint256 end) {
+        unchecked {
+            uint256 kink = load(KINK_ROW);
+            (first, end) = (load(SPAN_END), 0);
+            // sides are straight except for the kink
+            (first, end) = widened(first, end, row);
+            if (kink >= row && kink < last) {
+                if (kink != row) (first, end) = widened(first, end, kink - 1);
+                (first, end) = widened(first, end, kink);
+            }
+            return widened(first, end, last - 1);
+        }
+    }
+
+    function widened(uint256 first, uint256 end, uint256 row) private pure returns (uint256, uint256) {
+        sidesAt(row);
+        (uint256 begin, uint256 last) = columnsBetween(row);
+        return (min(first, begin), max(end, last));
+    }
+
+    function min(uint256 a, uint256 b) internal pure returns (uint256) {
+        return a < b ? a : b;
+    }
+
+    function max(uint256 a, uint256 b) internal pure returns (uint256) {
+        return a > b ? a : b;
+    }
+}
