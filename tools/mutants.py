@@ -37,7 +37,7 @@ from tools import build_contracts as tool
 
 ROOT = tool.ROOT
 RESULTS = ROOT / "build" / "mutants.jsonl"
-FOLDERS = ("scene", "uniforms", "pipeline", "shadows")
+FOLDERS = ("scene", "uniforms", "effects", "pipeline", "shadows")
 #: Of each file, so many mutants are tried before those of other files are.
 PER_FILE = 4
 #: The gas of a call, with which an endless loop ends soon, and the seconds of a mutant's tests.
@@ -183,7 +183,7 @@ def mutants_of(file: str) -> list[Mutant]:
 
 def files() -> list[str]:
     """Return the files that are mutated, those of the folders in turn."""
-    folders = [sorted((tool.SOURCES / folder).glob("*.sol")) for folder in FOLDERS]
+    folders = [sorted((tool.SOURCES / folder).rglob("*.sol")) for folder in FOLDERS]
     every = [path.relative_to(tool.SOURCES).as_posix() for turn in zip_longest(*folders) for path in turn if path]
     return [file for file in every if mutants_of(file)]
 
