@@ -25,7 +25,7 @@ import {WIDE} from "./scene/Mesh.sol";
 import {Base64} from "./encode/Base64.sol";
 import {Text} from "./encode/Text.sol";
 import {HEADER_SIZE, FACE_SIZE} from "./mesh/PackedMesh.sol";
-import {Renderer} from "./Renderer.sol";
+import {IRenderer} from "./interfaces/IRenderer.sol";
 import {WithRenderer} from "./WithRenderer.sol";
 
 /// @title Original: the interface of the first Shackled contracts, implemented with this renderer.
@@ -84,7 +84,7 @@ contract Original is WithRenderer {
     /// @notice `lightPos` is the direction to the light and must not be zero.
     error NoLightDirection();
 
-    constructor(Renderer renderer_) WithRenderer(renderer_) {}
+    constructor(IRenderer renderer_) WithRenderer(renderer_) {}
 
     /// @notice Draws a scene in the original's format.
     /// @param canvasDim The width and height in pixels.

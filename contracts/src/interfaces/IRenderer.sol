@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
+import {AngleErrors} from "../math/Euler.sol";
 import {Fixed} from "../math/Fixed.sol";
 import {Quaternion} from "../math/Quaternion.sol";
 import {Rectangle, Scene} from "../scene/Scene.sol";
@@ -8,11 +9,9 @@ import {SceneErrors} from "../scene/SceneErrors.sol";
 
 /// @title IRenderer: draws 3D scenes.
 /// @notice Stateless. `SceneErrors.sol` declares the errors of invalid scenes.
-interface IRenderer is SceneErrors {
+interface IRenderer is SceneErrors, AngleErrors {
     /// @notice The address has no code.
     error NoEngine(address engine);
-    /// @notice The angle must be at most 2^26 degrees in either direction.
-    error AngleOutOfRange(int256 degrees_);
     /// @notice Internal error: no scene causes it.
     error RegistersOverlap();
 

@@ -3,11 +3,10 @@ pragma solidity 0.8.37;
 
 import {Bytes} from "@openzeppelin/contracts/utils/Bytes.sol";
 import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
-import {Genesis} from "../genesis/Genesis.sol";
 import {IGenesis} from "../interfaces/IGenesis.sol";
-import {Studio} from "../studio/Studio.sol";
+import {ILibrary} from "../interfaces/ILibrary.sol";
+import {IStudio} from "../interfaces/IStudio.sol";
 import {Item} from "../interfaces/Item.sol";
-import {Library} from "./Library.sol";
 
 /// @notice A parameter of a request, or a header of a response (ERC-5219).
 struct KeyValue {
@@ -43,16 +42,16 @@ contract Web {
     string private constant CACHE = "public, max-age=31536000, immutable";
 
     /// @notice The library of items.
-    Library public immutable items;
+    ILibrary public immutable items;
     /// @notice The Studio that draws the items.
-    Studio public immutable studio;
+    IStudio public immutable studio;
     /// @notice The contract that generates and draws pieces.
-    Genesis public immutable genesis;
+    IGenesis public immutable genesis;
 
     /// @notice The address has no code.
     error NoContract(address contract_);
 
-    constructor(Library items_, Studio studio_, Genesis genesis_) {
+    constructor(ILibrary items_, IStudio studio_, IGenesis genesis_) {
         check(address(items_));
         check(address(studio_));
         check(address(genesis_));
