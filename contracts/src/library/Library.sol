@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
 import {Quaternion} from "../math/Quaternion.sol";
+import {number} from "../mesh/Kinds.sol";
 import {Meshes} from "../studio/Meshes.sol";
 import {CULL_BACKFACES, Material, Object} from "../scene/Scene.sol";
 import {ILibrary} from "../interfaces/ILibrary.sol";
@@ -131,13 +132,6 @@ contract Library is ILibrary {
         name = new string(size);
         assembly ("memory-safe") {
             mcopy(add(name, 32), add(add(table, 33), row), size)
-        }
-    }
-
-    /// @dev Returns a number of `size` bytes.
-    function number(bytes memory table, uint256 place, uint256 size) private pure returns (uint256 value) {
-        assembly ("memory-safe") {
-            value := shr(sub(256, shl(3, size)), mload(add(add(table, 32), place)))
         }
     }
 }

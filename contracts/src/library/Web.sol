@@ -104,8 +104,8 @@ contract Web {
                 string memory command = string.concat("shackled library store ", name);
                 return refused(404, string.concat("Not stored on this chain yet. Anyone can store it: ", command, "."));
             }
-            if (isPng) return found("image/png", string(studio.renderPNG(item.scene, scale)));
-            return found("model/gltf-binary", string(studio.glb(item.scene)));
+            if (isPng) return answer("image/png", string(studio.renderPNG(item.scene, scale)), CACHE);
+            return answer("model/gltf-binary", string(studio.glb(item.scene)), CACHE);
         } catch {
             return refused(404, "No item has this name. The page / lists all names.");
         }
@@ -122,7 +122,7 @@ contract Web {
         }
         if (!isSeed) return refused(404, "Give a number, or a seed as 0x and 64 hexadecimal digits.");
         try genesis.render(bytes32(seed)) returns (bytes memory bitmap) {
-            return found("image/png", string(studio.encoder().encode(bitmap, scale)));
+            return answer("image/png", string(studio.encoder().encode(bitmap, scale)), CACHE);
         } catch (bytes memory reason) {
             bytes4 code = bytes4(reason);
             if (code == IGenesis.NoTriangle.selector || code == IGenesis.NoPrismToChoose.selector) {
@@ -163,10 +163,6 @@ contract Web {
         for (uint256 k; k != all.length; ++k) if (all[k] == ".") dot = k;
         if (dot == all.length) return (text, "");
         return (string(all.slice(0, dot)), string(all.slice(dot + 1)));
-    }
-
-    function found(string memory kind, string memory body) private pure returns (uint16, string memory, KeyValue[] memory) {
-        return answer(kind, body, CACHE);
     }
 
     function answer(string memory kind, string memory body, string memory cache)

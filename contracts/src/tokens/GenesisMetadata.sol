@@ -107,19 +107,9 @@ contract GenesisMetadata {
     }
 
     function list(Traits memory traits) private pure returns (string memory) {
-        return string.concat(
-            Json.trait("Structure", traits.structure),
-            ",",
-            Json.trait("Chroma", traits.chroma),
-            ",",
-            Json.trait("Pseudosymmetry", traits.pseudosymmetry),
-            ",",
-            Json.trait("Prisms", traits.prisms),
-            ",",
-            Json.trait("Wireframe", traits.wireframe),
-            ",",
-            Json.trait("Inversion", traits.invert)
-        );
+        string memory names = string.concat(Json.trait("Structure", traits.structure), ",", Json.trait("Chroma", traits.chroma), ",");
+        names = string.concat(names, Json.trait("Pseudosymmetry", traits.pseudosymmetry), ",", Json.trait("Prisms", traits.prisms), ",");
+        return string.concat(names, Json.trait("Wireframe", traits.wireframe), ",", Json.trait("Inversion", traits.invert));
     }
 
     function cover() private pure returns (Scene memory) {
