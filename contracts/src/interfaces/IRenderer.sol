@@ -6,14 +6,13 @@ import {Fixed} from "../math/Fixed.sol";
 import {Quaternion} from "../math/Quaternion.sol";
 import {Rectangle, Scene} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
+import {RegisterErrors} from "../words/RegisterErrors.sol";
 
 /// @title IRenderer: draws 3D scenes.
 /// @notice Stateless. `SceneErrors.sol` declares the errors of invalid scenes.
-interface IRenderer is SceneErrors, AngleErrors {
+interface IRenderer is SceneErrors, AngleErrors, RegisterErrors {
     /// @notice The address has no code.
     error NoEngine(address engine);
-    /// @notice Internal error: no scene causes it.
-    error RegistersOverlap();
 
     /// @notice Returns the engine for flat and unlit surfaces.
     function engine() external view returns (address);
