@@ -147,7 +147,7 @@ contract Editions is Token, WithStudio, IEditionsCore {
     function contractURI() external view returns (string memory) {
         string memory banner = studio.drawDataURI(Placeholder.banner(), SCALE);
         bytes memory request = abi.encodeCall(IStudio.drawDataURI, (Placeholder.scene(SIDE, SIDE), SCALE));
-        Json.answer(Json.collection(name(), symbol(), DESCRIPTION, banner), address(studio), request);
+        show(Json.collection(name(), symbol(), DESCRIPTION, banner), request);
     }
 
     function royaltyInfo(uint256 tokenId, uint256 salePrice) external view returns (address receiver, uint256 royaltyAmount) {

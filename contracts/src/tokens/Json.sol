@@ -95,15 +95,6 @@ library Json {
         finish(head, 0x40, length);
     }
 
-    /// @notice As above, with the whole calldata.
-    function answer(bytes memory head, address source, bytes memory request) internal view {
-        uint256 data;
-        assembly ("memory-safe") {
-            data := add(request, 0x20)
-        }
-        answer(head, source, data, request.length);
-    }
-
     /// @dev Memory cost grows quadratically, so the picture is copied once, and the encoded document overwrites it.
     /// @param offset The offset of the picture in the return data, and `size` its size in bytes.
     function finish(bytes memory head, uint256 offset, uint256 size) private pure {

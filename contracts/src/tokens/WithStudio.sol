@@ -28,6 +28,15 @@ abstract contract WithStudio is IWithStudio {
     /// @param head The document up to its picture.
     /// @param scene The pointer to the scene of the picture; each of its pixels becomes a square of `scale` x `scale` pixels.
     function show(bytes memory head, address scene, uint256 scale) internal view {
-        Json.answer(head, address(studio), abi.encodeWithSignature("renderDataURI(address,uint256)", scene, scale));
+        show(head, abi.encodeWithSignature("renderDataURI(address,uint256)", scene, scale));
+    }
+
+    /// @dev As above, with the calldata by which the Studio draws the picture.
+    function show(bytes memory head, bytes memory request) internal view {
+        uint256 data;
+        assembly ("memory-safe") {
+            data := add(request, 0x20)
+        }
+        Json.answer(head, address(studio), data, request.length);
     }
 }
