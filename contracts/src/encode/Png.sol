@@ -154,9 +154,7 @@ library Png {
     /// @param stream The stream, which then continues there.
     /// @param kind The IHDR bytes after width and height: RGB_8 or RGBA_8.
     function open(Stream memory stream, uint256 width, uint256 height, uint256 kind, bytes memory header)
-        internal
-        pure
-        returns (bytes memory png)
+        internal pure returns (bytes memory png)
     {
         assembly ("memory-safe") {
             png := mload(0x40)
@@ -259,9 +257,7 @@ library Png {
     /// @return begin The address of the bits.
     /// @return size The number of bits.
     function betweenRows(Stream memory stream, bytes memory tables, uint256 rowSize, uint256 scale)
-        private
-        pure
-        returns (uint256 begin, uint256 size)
+        private pure returns (uint256 begin, uint256 size)
     {
         unchecked {
             // after the filter and the first zero, matches at the distance of a byte; none without enlargement
@@ -275,7 +271,7 @@ library Png {
             stream.target = begin;
             for (uint256 copies = scale - 1; copies != 0; --copies) {
                 put(stream, ((PngCode.LITERAL + UP) << LITERAL_SIZE) | PngCode.LITERAL, 2 * LITERAL_SIZE);
-                for (uint256 k = longest; k != 0; --k) put(stream, PngCode.LONGEST_ZEROS & ((1 << PngCode.LONGEST_SIZE) - 1), PngCode.LONGEST_SIZE);
+                for (uint256 k = longest; k != 0; --k) put(stream, PngCode.LONGEST_ZEROS, PngCode.LONGEST_SIZE);
                 put(stream, text, textSize);
             }
             put(stream, PngCode.LITERAL, LITERAL_SIZE);

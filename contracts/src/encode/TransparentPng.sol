@@ -76,8 +76,7 @@ library TransparentPng {
     /// @param place The offset of its first pixel in the bitmaps, in bytes.
     /// @param end The offset of the end of its last pixel.
     function writeRow(File memory file, bytes calldata black, bytes calldata white, uint256 place, uint256 end, uint256 scale)
-        private
-        pure
+        private pure
     {
         unchecked {
             writeFilter(file, 0);

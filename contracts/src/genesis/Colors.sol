@@ -91,8 +91,7 @@ library Colors {
     }
 
     function paintPrism(Paint memory how, Hue[6] memory added, Prisms memory prisms, uint256 k, uint256[] memory colors)
-        private
-        pure
+        private pure
     {
         unchecked {
             // the coordinates along the gradient

@@ -5,21 +5,14 @@ import {Edition} from "./Edition.sol";
 import {IWithStudio} from "./IWithStudio.sol";
 import {TokenErrors} from "./TokenErrors.sol";
 
-/// @title IEditionsCore: what Editions adds to ERC-721: a collection in which anyone can publish scenes as limited or open editions of tokens.
+/// @title IEditionsCore: what Editions adds to ERC-721. Anyone can publish scenes as limited or open editions of tokens.
 /// @notice There is no owner. The account that adds a scene is the artist of the edition, and has no power over other editions. The
 /// picture, name, price, supply and royalty of an edition never change; its artist can only close it and withdraw its proceeds.
 interface IEditionsCore is IWithStudio, TokenErrors {
     /// @notice Emitted when an edition is added.
     event EditionAdded(
-        uint256 indexed edition,
-        address indexed artist,
-        address indexed scene,
-        string name,
-        uint256 scale,
-        bool model,
-        uint256 price,
-        uint256 supply,
-        uint256 royalty
+        uint256 indexed edition, address indexed artist, address indexed scene, string name, uint256 scale, bool model, uint256 price,
+        uint256 supply, uint256 royalty
     );
     /// @notice Emitted when an edition is closed. No more of its tokens can be minted.
     event EditionClosed(uint256 indexed edition, uint256 minted);
@@ -57,14 +50,7 @@ interface IEditionsCore is IWithStudio, TokenErrors {
     /// @param copies The number of tokens minted to the artist for free, 0..100.
     /// @return edition The number of the edition.
     function add(
-        string calldata name_,
-        address scene,
-        uint8 scale,
-        bool model,
-        uint96 price,
-        uint32 supply,
-        uint16 royalty,
-        uint32 copies
+        string calldata name_, address scene, uint8 scale, bool model, uint96 price, uint32 supply, uint16 royalty, uint32 copies
     ) external returns (uint256 edition);
 
     /// @notice Closes an edition permanently. Only its artist.

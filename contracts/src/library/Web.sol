@@ -70,9 +70,7 @@ contract Web {
     /// @return body The file, or an error message as text.
     /// @return headers The media type, and the caching policy.
     function request(string[] calldata resource, KeyValue[] calldata params)
-        external
-        view
-        returns (uint16 statusCode, string memory body, KeyValue[] memory headers)
+        external view returns (uint16 statusCode, string memory body, KeyValue[] memory headers)
     {
         if (resource.length == 0 || (resource.length == 1 && bytes(resource[0]).length == 0)) {
             return answer("text/html", page(), "no-cache");
@@ -94,9 +92,7 @@ contract Web {
     }
 
     function ofItem(string memory name, bool isIcon, bool isPng, uint256 scale)
-        private
-        view
-        returns (uint16, string memory, KeyValue[] memory)
+        private view returns (uint16, string memory, KeyValue[] memory)
     {
         try items.find(name) returns (Item memory item) {
             if (item.isIcon != isIcon) return refused(404, isIcon ? "Not an icon: see /objects/." : "Not an object: see /icons/.");
@@ -166,9 +162,7 @@ contract Web {
     }
 
     function answer(string memory kind, string memory body, string memory cache)
-        private
-        pure
-        returns (uint16, string memory, KeyValue[] memory headers)
+        private pure returns (uint16, string memory, KeyValue[] memory headers)
     {
         headers = new KeyValue[](2);
         (headers[0], headers[1]) = (KeyValue("Content-Type", kind), KeyValue("Cache-Control", cache));

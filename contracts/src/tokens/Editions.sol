@@ -39,14 +39,7 @@ contract Editions is Token, WithStudio, IEditionsCore {
     // ---- artists ----
 
     function add(
-        string calldata name_,
-        address scene,
-        uint8 scale,
-        bool model,
-        uint96 price,
-        uint32 supply,
-        uint16 royalty,
-        uint32 copies
+        string calldata name_, address scene, uint8 scale, bool model, uint96 price, uint32 supply, uint16 royalty, uint32 copies
     ) external returns (uint256 edition) {
         edition = editions.length;
         // the number of an edition is stored in 24 bits next to the owner of a token

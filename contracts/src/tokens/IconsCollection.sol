@@ -84,9 +84,7 @@ contract IconsCollection is Collection, WithStudio {
     /// @param reserve The number of them reserved for the team.
     /// @return icon The number of the icon.
     function add(string calldata name_, address scene, uint8 scale, uint96 price, uint32 supply, uint32 reserve)
-        external
-        onlyOwner
-        returns (uint256 icon)
+        external onlyOwner returns (uint256 icon)
     {
         if (isSealed) revert AlreadySealed();
         checkName(name_);
@@ -148,8 +146,7 @@ contract IconsCollection is Collection, WithStudio {
 
     /// @notice Mints tokens of an icon to the caller, who proves a place on the allow list by a signature.
     function mintWithSignature(uint256 icon, uint256 quantity, Allowance calldata allowance, bytes calldata signature)
-        external
-        payable
+        external payable
     {
         spendBySignature(quantity, allowance, signature);
         sell(icon, quantity);

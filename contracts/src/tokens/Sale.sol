@@ -66,9 +66,7 @@ abstract contract Sale is Token, Ownable2Step, EIP712 {
     error OwnerNeeded();
 
     constructor(string memory name_, string memory symbol_, address owner_, uint256 perTransaction_)
-        ERC721A(name_, symbol_)
-        Ownable(owner_)
-        EIP712(name_, "1")
+        ERC721A(name_, symbol_) Ownable(owner_) EIP712(name_, "1")
     {
         if (perTransaction_ == 0 || perTransaction_ > 100) revert PerTransaction(perTransaction_);
         perTransaction = perTransaction_;
