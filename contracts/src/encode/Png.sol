@@ -527,16 +527,18 @@ library Png {
     /// @dev Writes `size` bits from an address, the uppermost bit first.
     function putBits(Stream memory stream, uint256 source, uint256 size) private pure {
         unchecked {
-            while (size != 0) {
-                uint256 part = size < 248 ? size : 248;
-                uint256 word;
+            uint256 word;
+            for (; size > 248; size -= 248) {
                 assembly ("memory-safe") {
-                    word := shr(sub(256, part), mload(source))
+                    word := shr(8, mload(source))
                     source := add(source, 31)
                 }
-                put(stream, word, part);
-                size -= part;
+                put(stream, word, 248);
             }
+            assembly ("memory-safe") {
+                word := shr(sub(256, size), mload(source))
+            }
+            put(stream, word, size);
         }
     }
 

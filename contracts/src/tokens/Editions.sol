@@ -138,7 +138,7 @@ contract Editions is Token, WithStudio, IEditionsCore {
     }
 
     function contractURI() external view returns (string memory) {
-        string memory banner = studio.drawDataURI(Placeholder.banner(), SCALE);
+        string memory banner = studio.drawDataURI(Placeholder.scene(Placeholder.BANNER_WIDTH, Placeholder.BANNER_HEIGHT), SCALE);
         bytes memory request = abi.encodeCall(IStudio.drawDataURI, (Placeholder.scene(SIDE, SIDE), SCALE));
         show(Json.collection(name(), symbol(), DESCRIPTION, banner), request);
     }

@@ -76,7 +76,7 @@ contract GenesisCollection is Collection, Rounds {
         uint256 unminted = reserve - reserveMinted;
         if (quantity > unminted) revert NothingLeft(quantity, unminted);
         reserveMinted += quantity;
-        hand(to, quantity, roundToKeep());
+        _safeMint(to, quantity);
     }
 
     /// @notice Returns the number of tokens left for sale.
@@ -88,7 +88,12 @@ contract GenesisCollection is Collection, Rounds {
         checkPayment(quantity * price);
         uint256 available = left();
         if (quantity > available) revert NothingLeft(quantity, available);
-        hand(msg.sender, quantity, roundToKeep());
+        _safeMint(msg.sender, quantity);
+    }
+
+    /// @dev A token keeps the round of the block in which it is minted.
+    function _extraData(address from, address, uint24 previous) internal view override returns (uint24) {
+        return from == address(0) ? roundToKeep() : previous;
     }
 
     // ---- reveal ----

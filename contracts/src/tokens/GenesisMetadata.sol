@@ -82,8 +82,8 @@ contract GenesisMetadata {
 
     /// @notice Returns the metadata of the collection (ERC-7572).
     function contractURI() external view returns (string memory) {
-        string memory banner = encoder.dataURI(renderer.render(Placeholder.banner()), SCALE);
-        show(Json.collection(NAME, SYMBOL, DESCRIPTION, banner), cover());
+        Scene memory banner = Placeholder.scene(Placeholder.BANNER_WIDTH, Placeholder.BANNER_HEIGHT);
+        show(Json.collection(NAME, SYMBOL, DESCRIPTION, encoder.dataURI(renderer.render(banner), SCALE)), cover());
     }
 
     function pieceOf(bytes32 drawn) private view returns (bytes32 seed, Piece memory piece) {

@@ -18,11 +18,6 @@ library Placeholder {
     uint256 internal constant BANNER_WIDTH = 256;
     uint256 internal constant BANNER_HEIGHT = 64;
 
-    /// @notice Returns the banner of a collection without a picture.
-    function banner() internal pure returns (Scene memory) {
-        return scene(BANNER_WIDTH, BANNER_HEIGHT);
-    }
-
     /// @notice Returns the scene of the octahedron, slightly rotated.
     /// @param width The width of the picture in pixels; `height` likewise.
     function scene(uint256 width, uint256 height) internal pure returns (Scene memory made) {

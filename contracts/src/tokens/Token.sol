@@ -25,7 +25,7 @@ abstract contract Token is ERC721AQueryable, TokenErrors {
     }
 
     /// @dev Keeps the number of a token across transfers.
-    function _extraData(address from, address, uint24 previous) internal view override returns (uint24) {
+    function _extraData(address from, address, uint24 previous) internal view virtual override returns (uint24) {
         return from == address(0) ? minting : previous;
     }
 
