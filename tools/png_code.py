@@ -34,7 +34,7 @@ uint256 constant LITERALS = {literals};
 library PngCode {{
     /// @notice The 9-bit code of a zero. The code of another byte is this plus the byte.
     uint256 internal constant LITERAL = {literal};
-    /// @notice The code size of the longest match in bits; 32 such matches at the distance of a pixel, and of a byte.
+    /// @notice The code size of the longest match in bits; 32 such matches at the distance of a pixel; one of a byte.
     uint256 internal constant LONGEST_SIZE = {longest_size};
     uint256 internal constant LONGEST = {longest};
     uint256 internal constant LONGEST_ZEROS = {zeros};
@@ -306,7 +306,7 @@ def write() -> str:
         literals=int(3 * literal(0), 2),
         longest_size=len(longest),
         longest=f"0x{int(32 * longest, 2):064x}",
-        zeros=f"0x{int(32 * zeros, 2):064x}",
+        zeros=int(zeros, 2),
         others=hex(others.pop()),
         rest=int(header[whole:] or "0", 2),
         rest_size=len(header) - whole,

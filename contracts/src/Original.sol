@@ -5,27 +5,15 @@ import {Fixed, ZERO, ONE} from "./math/Fixed.sol";
 import {Vector} from "./math/Vector.sol";
 import {Quaternion} from "./math/Quaternion.sol";
 import {
-    Scene,
-    Canvas,
-    Camera,
-    Background,
-    Light,
-    Material,
-    Object,
-    PERSPECTIVE,
-    ORTHOGRAPHIC,
-    DIRECTIONAL,
-    FLAT,
-    UNLIT,
-    CULL_BACKFACES,
-    WIREFRAME
+    Scene, Canvas, Camera, Background, Light, Material, Object, PERSPECTIVE,
+    ORTHOGRAPHIC, DIRECTIONAL, FLAT, UNLIT, CULL_BACKFACES, WIREFRAME
 } from "./scene/Scene.sol";
 import {MAX_SHININESS, MAX_COORDINATE, MAX_COEFFICIENT, MAX_EXTENT} from "./scene/Checks.sol";
 import {WIDE} from "./scene/Mesh.sol";
 import {Base64} from "./encode/Base64.sol";
 import {Text} from "./encode/Text.sol";
 import {HEADER_SIZE, FACE_SIZE} from "./mesh/PackedMesh.sol";
-import {Renderer} from "./Renderer.sol";
+import {IRenderer} from "./interfaces/IRenderer.sol";
 import {WithRenderer} from "./WithRenderer.sol";
 
 /// @title Original: the interface of the first Shackled contracts, implemented with this renderer.
@@ -84,7 +72,7 @@ contract Original is WithRenderer {
     /// @notice `lightPos` is the direction to the light and must not be zero.
     error NoLightDirection();
 
-    constructor(Renderer renderer_) WithRenderer(renderer_) {}
+    constructor(IRenderer renderer_) WithRenderer(renderer_) {}
 
     /// @notice Draws a scene in the original's format.
     /// @param canvasDim The width and height in pixels.

@@ -7,7 +7,7 @@ import {fromEuler} from "./math/Euler.sol";
 import {Scene, Rectangle} from "./scene/Scene.sol";
 import {BAND_PIXELS, Pipeline} from "./pipeline/Pipeline.sol";
 import {checkScene} from "./scene/Checks.sol";
-import {SceneErrors} from "./scene/SceneErrors.sol";
+import {IRenderer} from "./interfaces/IRenderer.sol";
 import {Bmp} from "./encode/Bmp.sol";
 import {Svg} from "./encode/Svg.sol";
 import {AntialiasedEngine} from "./engines/AntialiasedEngine.sol";
@@ -24,22 +24,13 @@ import "./words/Registers.sol";
 
 /// @title Renderer: draws 3D scenes.
 /// @notice Stateless. `SceneErrors.sol` declares the errors of invalid scenes.
-contract Renderer is SceneErrors {
-    /// @notice The engine for flat and unlit surfaces.
-    Engine public immutable engine;
-    /// @notice The engine for smooth, wireframe, translucent and spot-lit objects.
-    FragmentEngine public immutable fragmentEngine;
-    /// @notice The engine that does the work of `engine` with four samples per pixel.
-    AntialiasedEngine public immutable antialiasedEngine;
-    /// @notice The engine that does the work of `fragmentEngine` with four samples per pixel.
-    AntialiasedFragmentEngine public immutable antialiasedFragmentEngine;
-    /// @notice The engine for scenes with effects.
-    EffectsEngine public immutable effectsEngine;
-    /// @notice The contract that checks effects and computes their uniforms.
-    Effects public immutable effects;
-
-    /// @notice The address has no code.
-    error NoEngine(address engine);
+contract Renderer is IRenderer {
+    address public immutable engine;
+    address public immutable fragmentEngine;
+    address public immutable antialiasedEngine;
+    address public immutable antialiasedFragmentEngine;
+    address public immutable effectsEngine;
+    address public immutable effects;
 
     /// @dev A bitmap in memory. It is preceded by 128 free bytes and followed by a zero word.
     struct File {
@@ -62,12 +53,12 @@ contract Renderer is SceneErrors {
         EffectsEngine effectsEngine_,
         Effects effects_
     ) {
-        engine = Engine(withCode(address(engine_)));
-        fragmentEngine = FragmentEngine(withCode(address(fragmentEngine_)));
-        antialiasedEngine = AntialiasedEngine(withCode(address(antialiasedEngine_)));
-        antialiasedFragmentEngine = AntialiasedFragmentEngine(withCode(address(antialiasedFragmentEngine_)));
-        effectsEngine = EffectsEngine(withCode(address(effectsEngine_)));
-        effects = Effects(withCode(address(effects_)));
+        engine = withCode(address(engine_));
+        fragmentEngine = withCode(address(fragmentEngine_));
+        antialiasedEngine = withCode(address(antialiasedEngine_));
+        antialiasedFragmentEngine = withCode(address(antialiasedFragmentEngine_));
+        effectsEngine = withCode(address(effectsEngine_));
+        effects = withCode(address(effects_));
     }
 
     function withCode(address engine_) private view returns (address) {
@@ -75,31 +66,20 @@ contract Renderer is SceneErrors {
         return engine_;
     }
 
-    /// @notice Draws a scene.
-    /// @return A Windows bitmap of 24 bits per pixel.
     function render(Scene calldata scene) external view returns (bytes memory) {
         File memory file = draw(scene, whole(scene), false);
         returnBytes(file.begin, file.size);
     }
 
-    /// @notice Draws a part of the canvas as a separate bitmap. The tiles of a picture together equal the whole picture, byte for byte.
     function renderTile(Scene calldata scene, Rectangle calldata tile) external view returns (bytes memory) {
         File memory file = draw(scene, tile, false);
         returnBytes(file.begin, file.size);
     }
 
-    /// @notice Draws a scene and counts its triangles and lit pixels.
-    /// @return bmp The bitmap, as from `render`.
-    /// @return triangles The number of triangles left after culling and clipping.
-    /// @return litPixels The number of pixels covered by any of them.
     function renderCounted(Scene calldata scene) external view returns (bytes memory bmp, uint256 triangles, uint256 litPixels) {
         return counted(scene, whole(scene));
     }
 
-    /// @notice Draws a part of the canvas, as `renderTile` does, and counts its triangles and lit pixels.
-    /// @return bmp The bitmap, as from `renderTile`.
-    /// @return triangles The number of triangles left after culling and clipping that do not lie entirely beyond one edge of the tile.
-    /// @return litPixels The number of pixels of the tile covered by any of them.
     function renderTileCounted(Scene calldata scene, Rectangle calldata tile)
         external
         view
@@ -108,8 +88,6 @@ contract Renderer is SceneErrors {
         return counted(scene, tile);
     }
 
-    /// @notice Draws a scene.
-    /// @return A `data:` URI of the bitmap.
     function renderDataURI(Scene calldata scene) external view returns (string memory) {
         unchecked {
             File memory file = draw(scene, whole(scene), false);
@@ -118,8 +96,6 @@ contract Renderer is SceneErrors {
         }
     }
 
-    /// @notice Draws a scene.
-    /// @return An SVG document that shows the bitmap at any size without smoothing.
     function renderSVG(Scene calldata scene) external view returns (string memory) {
         unchecked {
             File memory file = draw(scene, whole(scene), false);
@@ -128,13 +104,10 @@ contract Renderer is SceneErrors {
         }
     }
 
-    /// @notice Returns the rotation about the x axis, then y, then z, by angles in degrees (Q32), for `Object.rotation`.
     function eulerRotation(Fixed x, Fixed y, Fixed z) external pure returns (Quaternion memory) {
         return fromEuler(x, y, z);
     }
 
-    /// @notice Returns the calldata with which the Renderer calls the engine to draw a part of the canvas, in the format of `Uniforms.sol`.
-    /// For measurements.
     function engineCall(Scene calldata scene, Rectangle calldata tile) external view returns (bytes memory) {
         unchecked {
             checkScene(scene, tile);

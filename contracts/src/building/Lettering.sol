@@ -50,14 +50,7 @@ library Lettering {
     /// @param depth Distance from back to front. If it is 0, letters are sheets that are visible from both sides.
     /// @param color 0xRRGGBB.
     function text(
-        Model memory m,
-        string memory words,
-        int256 x,
-        int256 y,
-        int256 z,
-        int256 height,
-        int256 depth,
-        uint256 color
+        Model memory m, string memory words, int256 x, int256 y, int256 z, int256 height, int256 depth, uint256 color
     ) internal pure {
         checkHeight(height);
         Pen memory pen;

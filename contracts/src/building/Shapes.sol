@@ -63,8 +63,7 @@ library Shapes {
     /// @param rings Number of bands between the poles, at least 2.
     /// @param color 0xRRGGBB.
     function sphere(Model memory m, int256 x, int256 y, int256 z, int256 radius, uint256 segments, uint256 rings, uint256 color)
-        internal
-        pure
+        internal pure
     {
         checkSize(radius);
         if (rings < 2 || rings > 65535) revert SegmentsOutOfRange(rings, 2);
@@ -76,8 +75,7 @@ library Shapes {
     /// @param segments Number of sides, at least 3.
     /// @param color 0xRRGGBB.
     function cylinder(Model memory m, int256 x, int256 y, int256 z, int256 radius, int256 height, uint256 segments, uint256 color)
-        internal
-        pure
+        internal pure
     {
         checkSize(radius);
         if (height == 0) revert SizeOutOfRange(height);
@@ -93,8 +91,7 @@ library Shapes {
     /// @param segments Number of sides, at least 3.
     /// @param color 0xRRGGBB.
     function cone(Model memory m, int256 x, int256 y, int256 z, int256 radius, int256 height, uint256 segments, uint256 color)
-        internal
-        pure
+        internal pure
     {
         checkSize(radius);
         if (height == 0) revert SizeOutOfRange(height);
@@ -111,15 +108,7 @@ library Shapes {
     /// @param sides Number of sides of the tube, at least 3.
     /// @param color 0xRRGGBB.
     function torus(
-        Model memory m,
-        int256 x,
-        int256 y,
-        int256 z,
-        int256 radius,
-        int256 tube,
-        uint256 segments,
-        uint256 sides,
-        uint256 color
+        Model memory m, int256 x, int256 y, int256 z, int256 radius, int256 tube, uint256 segments, uint256 sides, uint256 color
     ) internal pure {
         lathe(m, x, y, z, section(radius, tube, sides), segments, color);
     }
@@ -133,13 +122,7 @@ library Shapes {
     /// @param segments Number of sides as seen from above, at least 3.
     /// @param color 0xRRGGBB.
     function lathe(
-        Model memory m,
-        int256 x,
-        int256 y,
-        int256 z,
-        int256[2][] memory profile,
-        uint256 segments,
-        uint256 color
+        Model memory m, int256 x, int256 y, int256 z, int256[2][] memory profile, uint256 segments, uint256 color
     ) internal pure {
         unchecked {
             if (segments < 3 || segments > 65535) revert SegmentsOutOfRange(segments, 3);
@@ -306,8 +289,7 @@ library Shapes {
     /// @dev Triangulates the front and back caps by ear clipping: an ear is a convex corner whose triangle contains no other point.
     /// Source: G. H. Meisters, "Polygons have ears", The American Mathematical Monthly 82 (1975).
     function cut(Model memory m, int256[2][] memory outline, uint256[] memory rest, uint256 front, uint256 back, bool clockwise)
-        private
-        pure
+        private pure
     {
         unchecked {
             if (clockwise) for (uint256 k; k != rest.length / 2; ++k) {

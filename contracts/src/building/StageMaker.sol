@@ -103,9 +103,7 @@ library StageMaker {
     /// @notice Adds an object with a stored mesh and its bounds, which `place` and `fit` need.
     /// @param bounds The lowest and the highest coordinates of the mesh: see `Framing.box`.
     function add(Stage memory made, bytes memory mesh, Material memory material, Box memory bounds)
-        internal
-        pure
-        returns (Object memory object)
+        internal pure returns (Object memory object)
     {
         unchecked {
             uint256 count = made.scene.objects.length;
@@ -246,13 +244,7 @@ library StageMaker {
     /// @param texels Rows from the top, without padding between them.
     /// @param uvs Texture coordinates of each vertex, in units of 1 / 65,536 of the image, from its upper left corner.
     function texture(
-        Stage memory made,
-        uint256 width,
-        uint256 height,
-        uint256 flags,
-        bytes memory palette,
-        bytes memory texels,
-        int256[2][] memory uvs
+        Stage memory made, uint256 width, uint256 height, uint256 flags, bytes memory palette, bytes memory texels, int256[2][] memory uvs
     ) internal pure {
         unchecked {
             uint256 bits = 24;

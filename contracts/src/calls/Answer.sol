@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {metered, OutOfGas} from "./Metering.sol";
+import {SceneErrors} from "../scene/SceneErrors.sol";
+import {metered} from "./Metering.sol";
 
 /// @dev Calls a contract and ends the creation call by reverting with the result, because the return data of a creation is limited to
 /// 24,576 bytes. The result consists of a word, 1 if the call succeeded or 0 if not; a word, the gas used; then the return data of the
@@ -10,7 +11,7 @@ import {metered, OutOfGas} from "./Metering.sol";
 function answer(address target, uint256 limit, uint256 data, uint256 size, uint256 saved) view {
     if (limit != 0) limit = limit > saved ? limit - saved : 1;
     (bool success, uint256 used, bool exhausted) = metered(target, limit, data, size);
-    bytes4 outOfGas = OutOfGas.selector;
+    bytes4 outOfGas = SceneErrors.OutOfGas.selector;
     assembly ("memory-safe") {
         mstore(data, success)
         mstore(add(data, 0x20), add(used, saved))

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {metered, OutOfGas} from "./Metering.sol";
+import {SceneErrors} from "../scene/SceneErrors.sol";
+import {metered} from "./Metering.sol";
 
 /// @title Meter: calls a contract and measures the gas.
 /// @notice Never deployed: read calls place it at an address by a state override. The calldata consists of two words, the contract and the
@@ -21,7 +22,7 @@ contract Meter {
             calldatacopy(data, 0x40, size)
         }
         (bool success, uint256 used, bool exhausted) = metered(target, limit, data, size);
-        if (exhausted) revert OutOfGas();
+        if (exhausted) revert SceneErrors.OutOfGas();
         assembly ("memory-safe") {
             returndatacopy(add(data, 0x20), 0, returndatasize())
             if iszero(success) { revert(add(data, 0x20), returndatasize()) }

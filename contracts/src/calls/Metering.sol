@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-/// @notice The call ran out of gas; same selector as the Renderer's error.
-error OutOfGas();
-
 /// @dev Calls a contract and measures the gas of its execution exactly: the same call is made first to address 0, which measures the
 /// overhead. That address has no code, and no key can sign an authorization to give it any (EIP-7702).
 /// @param target The contract to call. It is warm, like the recipient of a transaction.

@@ -48,7 +48,7 @@ library Bmp {
     }
 
     /// @dev Returns four bytes in reverse order.
-    function littleEndian(uint256 value) private pure returns (uint256) {
+    function littleEndian(uint256 value) internal pure returns (uint256) {
         return (value & 0xff) << 24 | (value & 0xff00) << 8 | (value & 0xff0000) >> 8 | value >> 24;
     }
 }

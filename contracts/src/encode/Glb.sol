@@ -11,6 +11,7 @@ import {Mesh, openMesh} from "../scene/Mesh.sol";
 import {Object, Scene, CULL_BACKFACES, WIREFRAME, SMOOTH, UNLIT} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 import {GlbErrors} from "../interfaces/GlbErrors.sol";
+import {Bmp} from "./Bmp.sol";
 import {LINEAR} from "./Linear.sol";
 import {Text} from "./Text.sol";
 
@@ -78,7 +79,8 @@ library Glb {
                 end = writeVertices(parts[k], linear, end);
                 end = writeIndices(parts[k], end);
             }
-            (uint256 total, uint256 json, uint256 size) = (reversed(end - begin), reversed(target - begin - HEAD), reversed(end - data));
+            (uint256 total, uint256 size) = (Bmp.littleEndian(end - begin), Bmp.littleEndian(end - data));
+            uint256 json = Bmp.littleEndian(target - begin - HEAD);
             assembly ("memory-safe") {
                 // "glTF", version 2
                 let head := or(0x676c544602000000000000000000000000000000000000000000000000000000, shl(160, total))
@@ -443,10 +445,5 @@ library Glb {
             uint256 r = sqrt(x);
             return int256((r + x / r) >> 1);
         }
-    }
-
-    /// @dev Returns four bytes in reverse order.
-    function reversed(uint256 value) private pure returns (uint256) {
-        return (value & 0xff) << 24 | (value & 0xff00) << 8 | (value & 0xff0000) >> 8 | value >> 24;
     }
 }

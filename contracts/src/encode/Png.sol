@@ -21,7 +21,7 @@ library Png {
     string internal constant URI = "data:image/png;base64,";
     /// @dev The offset of the compressed data in the result, which begins with its length: after the signature (8 bytes), the IHDR chunk
     /// (25), the header of the IDAT chunk (8) and the zlib header (2).
-    uint256 internal constant DATA = 75;
+    uint256 private constant DATA = 75;
     /// @dev The signature with the size and name of the IHDR chunk; the bytes after its width and height; its checksum, the size and name
     /// of the IDAT chunk and the zlib header, with checksum and size to be filled in later; the IEND chunk.
     uint256 private constant SIGNATURE_IHDR = 0x89504e470d0a1a0a0000000d49484452;
@@ -138,32 +138,34 @@ library Png {
             assembly ("memory-safe") {
                 // after the header, the lowest row
                 mstore(rows, add(bmp.offset, 54))
-                png := mload(0x40)
             }
-            writeHead(png, width * scale, height * scale, RGB_8);
-            assembly ("memory-safe") {
-                let target := add(png, DATA)
-                mcopy(target, add(header, 32), mload(header))
-                target := add(target, mload(header))
-                mstore(target, 0)
-                mstore(stream, target)
-                mstore(add(stream, 0x20), 0)
-            }
+            png = open(stream, width * scale, height * scale, RGB_8, header);
             (uint256 rest, uint256 restSize) = PngCode.headerRest();
-            put(stream, rest << (256 - restSize), restSize);
+            put(stream, rest, restSize);
             (uint256 second, uint256 first) = writeRows(stream, rows, scale);
             (uint256 end, uint256 endSize) = PngCode.end();
-            put(stream, end << (256 - endSize), endSize);
+            put(stream, end, endSize);
             finish(png, stream, second, first);
         }
     }
 
-    /// @dev Writes everything before DATA: the signature, the 13 bytes of the IHDR chunk, the name of the IDAT chunk, and the zlib header.
+    /// @dev Writes the signature, the 13 bytes of the IHDR chunk, the name of the IDAT chunk, the zlib header, and the header of the block,
+    /// behind all allocated memory; `finish` allocates the file.
+    /// @param stream The stream, which then continues there.
     /// @param kind The IHDR bytes after width and height: RGB_8 or RGBA_8.
-    function writeHead(bytes memory png, uint256 width, uint256 height, uint256 kind) internal pure {
+    function open(Stream memory stream, uint256 width, uint256 height, uint256 kind, bytes memory header)
+        internal pure returns (bytes memory png)
+    {
         assembly ("memory-safe") {
+            png := mload(0x40)
             mstore(add(png, 32), or(or(shl(128, SIGNATURE_IHDR), shl(64, or(shl(32, width), height))), shl(24, kind)))
             mstore(add(png, 64), shl(168, IDAT_ZLIB))
+            let target := add(png, DATA)
+            mcopy(target, add(header, 32), mload(header))
+            target := add(target, mload(header))
+            mstore(target, 0)
+            mstore(stream, target)
+            mstore(add(stream, 0x20), 0)
         }
     }
 
@@ -179,18 +181,8 @@ library Png {
         unchecked {
             (uint256 width, uint256 height) = sizeOf(bmp);
             (string memory w, string memory h) = (Strings.toString(width * scale), Strings.toString(height * scale));
-            string memory head = string.concat(
-                '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ',
-                w,
-                " ",
-                h,
-                '"><image width="',
-                w,
-                '" height="',
-                h,
-                '" style="image-rendering:pixelated" href="',
-                URI
-            );
+            string memory head = string.concat('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ', w, " ", h, '"><image width="', w);
+            head = string.concat(head, '" height="', h, '" style="image-rendering:pixelated" href="', URI);
             string memory tail = '"/></svg>';
             return DataUri.wrap(head, encode(bmp, scale), tail);
         }
@@ -265,9 +257,7 @@ library Png {
     /// @return begin The address of the bits.
     /// @return size The number of bits.
     function betweenRows(Stream memory stream, bytes memory tables, uint256 rowSize, uint256 scale)
-        private
-        pure
-        returns (uint256 begin, uint256 size)
+        private pure returns (uint256 begin, uint256 size)
     {
         unchecked {
             // after the filter and the first zero, matches at the distance of a byte; none without enlargement
@@ -280,13 +270,11 @@ library Png {
             begin = room((scale * (2 * LITERAL_SIZE + longest * PngCode.LONGEST_SIZE + textSize)) / 8 + 64);
             stream.target = begin;
             for (uint256 copies = scale - 1; copies != 0; --copies) {
-                put(stream, ((((PngCode.LITERAL + UP) << LITERAL_SIZE) | PngCode.LITERAL)) << (256 - 2 * LITERAL_SIZE), 2 * LITERAL_SIZE);
-                for (uint256 k = longest; k != 0; --k) {
-                    put(stream, PngCode.LONGEST_ZEROS << (256 - PngCode.LONGEST_SIZE), PngCode.LONGEST_SIZE);
-                }
-                put(stream, text << (256 - textSize), textSize);
+                put(stream, ((PngCode.LITERAL + UP) << LITERAL_SIZE) | PngCode.LITERAL, 2 * LITERAL_SIZE);
+                for (uint256 k = longest; k != 0; --k) put(stream, PngCode.LONGEST_ZEROS, PngCode.LONGEST_SIZE);
+                put(stream, text, textSize);
             }
-            put(stream, PngCode.LITERAL << (256 - LITERAL_SIZE), LITERAL_SIZE);
+            put(stream, PngCode.LITERAL, LITERAL_SIZE);
             size = 8 * (stream.target - begin) + stream.count;
         }
     }
@@ -318,7 +306,7 @@ library Png {
             (uint256 size, uint256 row) = (rows.size, rows.row);
             uint256 stride = Bmp.stride(size / 3);
             uint256 source = rows.source + stride * rows.height;
-            put(stream, PngCode.LITERAL << (256 - LITERAL_SIZE), LITERAL_SIZE);
+            put(stream, PngCode.LITERAL, LITERAL_SIZE);
             while (source != rows.source) {
                 source -= stride;
                 assembly ("memory-safe") {
@@ -530,40 +518,36 @@ library Png {
                 }
             }
             // the last match
-            let code := mload(add(gaps, shl(4, sub(end, last))))
-            mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, xor(code, and(code, 0xff)))))
-            count := add(count, and(code, 0xff))
-            mstore(stream, add(target, shr(3, count)))
-            mstore(add(stream, 0x20), and(count, 7))
+            target, count := writeMatch(target, count, mload(add(gaps, shl(4, sub(end, last)))))
+            mstore(stream, target)
+            mstore(add(stream, 0x20), count)
         }
     }
 
     /// @dev Writes `size` bits from an address, the uppermost bit first.
-    function putBits(Stream memory stream, uint256 begin, uint256 size) private pure {
+    function putBits(Stream memory stream, uint256 source, uint256 size) private pure {
         unchecked {
+            uint256 word;
             for (; size > 248; size -= 248) {
-                uint256 word;
                 assembly ("memory-safe") {
-                    word := shl(8, shr(8, mload(begin)))
-                    begin := add(begin, 31)
+                    word := shr(8, mload(source))
+                    source := add(source, 31)
                 }
                 put(stream, word, 248);
             }
-            uint256 last;
             assembly ("memory-safe") {
-                last := and(mload(begin), not(shr(size, not(0))))
+                word := shr(sub(256, size), mload(source))
             }
-            put(stream, last, size);
+            put(stream, word, size);
         }
     }
 
     /// @dev Writes up to 248 bits, the uppermost bit first.
-    function put(Stream memory stream, uint256 text, uint256 size) private pure {
+    function put(Stream memory stream, uint256 text, uint256 size) internal pure {
         assembly ("memory-safe") {
             let target := mload(stream)
-            let count := mload(add(stream, 0x20))
-            mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, text)))
-            count := add(count, size)
+            let count := add(mload(add(stream, 0x20)), size)
+            mstore(target, or(and(mload(target), FIRST_BYTE), shl(sub(256, count), text)))
             mstore(stream, add(target, shr(3, count)))
             mstore(add(stream, 0x20), and(count, 7))
         }

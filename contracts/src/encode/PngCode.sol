@@ -9,10 +9,10 @@ uint256 constant LITERALS = 66189564;
 library PngCode {
     /// @notice The 9-bit code of a zero. The code of another byte is this plus the byte.
     uint256 internal constant LITERAL = 252;
-    /// @notice The code size of the longest match in bits; 32 such matches at the distance of a pixel, and of a byte.
+    /// @notice The code size of the longest match in bits; 32 such matches at the distance of a pixel; one of a byte.
     uint256 internal constant LONGEST_SIZE = 5;
     uint256 internal constant LONGEST = 0x0000000000000000000000006b5ad6b5ad6b5ad6b5ad6b5ad6b5ad6b5ad6b5ad;
-    uint256 internal constant LONGEST_ZEROS = 0x0000000000000000000000006318c6318c6318c6318c6318c6318c6318c6318c;
+    uint256 internal constant LONGEST_ZEROS = 12;
     /// @notice The bits in which the codes of 259 and 260 bytes, two matches each, differ for the other distance. Codes
     /// of fewer bytes differ in the last bit.
     uint256 internal constant OTHER_DISTANCES = 0x21;

@@ -46,20 +46,9 @@ library TransparentPng {
             File memory file;
             (file.matches, file.first) = (codes(), 1);
             bytes memory header = AlphaCode.header();
-            uint256 target = Png.DATA;
-            assembly ("memory-safe") {
-                png := mload(0x40)
-            }
-            Png.writeHead(png, width * scale, height * scale, Png.RGBA_8);
-            assembly ("memory-safe") {
-                target := add(png, target)
-                mcopy(target, add(header, 32), mload(header))
-                target := add(target, mload(header))
-                mstore(target, 0)
-            }
-            file.stream.target = target;
+            png = Png.open(file.stream, width * scale, height * scale, Png.RGBA_8, header);
             (uint256 text, uint256 size) = AlphaCode.headerRest();
-            put(file.stream, text, size);
+            Png.put(file.stream, text, size);
             uint256 place = Bmp.HEADER + Bmp.stride(width) * height;
             while (place != Bmp.HEADER) {
                 place -= Bmp.stride(width);
@@ -70,7 +59,7 @@ library TransparentPng {
                 }
             }
             (text, size) = AlphaCode.end();
-            put(file.stream, text, size);
+            Png.put(file.stream, text, size);
             Png.finish(png, file.stream, file.second, file.first);
             Png.writeSums(png);
         }
@@ -87,8 +76,7 @@ library TransparentPng {
     /// @param place The offset of its first pixel in the bitmaps, in bytes.
     /// @param end The offset of the end of its last pixel.
     function writeRow(File memory file, bytes calldata black, bytes calldata white, uint256 place, uint256 end, uint256 scale)
-        private
-        pure
+        private pure
     {
         unchecked {
             writeFilter(file, 0);
@@ -162,7 +150,7 @@ library TransparentPng {
     /// @dev Writes the filter of a row.
     function writeFilter(File memory file, uint256 filter) private pure {
         unchecked {
-            put(file.stream, (AlphaCode.PIXEL & 0x1ff) + filter, LITERAL_SIZE);
+            Png.put(file.stream, (AlphaCode.PIXEL & 0x1ff) + filter, LITERAL_SIZE);
             file.first += filter;
             file.second += file.first;
         }
@@ -207,17 +195,6 @@ library TransparentPng {
             bits := add(bits, add(size, and(code, 0xff)))
             mstore(stream, add(target, shr(3, bits)))
             mstore(add(stream, 0x20), and(bits, 7))
-        }
-    }
-
-    /// @dev Writes up to 32 bits, the uppermost bit first.
-    function put(Png.Stream memory stream, uint256 text, uint256 size) private pure {
-        assembly ("memory-safe") {
-            let target := mload(stream)
-            let count := add(mload(add(stream, 0x20)), size)
-            mstore(target, or(and(mload(target), FIRST_BYTE), shl(sub(256, count), text)))
-            mstore(stream, add(target, shr(3, count)))
-            mstore(add(stream, 0x20), and(count, 7))
         }
     }
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {IGenesis} from "../interfaces/IGenesis.sol";
 import {Elements} from "./Elements.sol";
 import {Seed, Tag, Random} from "./Random.sol";
 import {Hsv} from "./Hsv.sol";
 import {Prisms} from "./Prisms.sol";
 import {Paint, Scheme, LEFT, UP, DOWN, RANDOM, LARGEST, RADIUS, CENTER_X} from "./Schemes.sol";
-
-/// @notice The seed has no piece: the scheme needs to choose highlights among the other prisms, but there is only one prism.
-error NoPrismToChoose();
 
 /// @title Colors: the colours of all vertices, from a gradient and random offsets of hue, saturation and value.
 library Colors {
@@ -51,7 +49,7 @@ library Colors {
             uint256 count = scheme.count < total ? scheme.count : total;
             if (count == 0) return 0;
             if (scheme.select == RANDOM) {
-                if (total == 1) revert NoPrismToChoose();
+                if (total == 1) revert IGenesis.NoPrismToChoose();
                 for (uint256 i; i != count; ++i) chosen |= 1 << (seed.hash(NONE, i, 0, 1) % (total - 1));
                 return chosen;
             }
@@ -93,8 +91,7 @@ library Colors {
     }
 
     function paintPrism(Paint memory how, Hue[6] memory added, Prisms memory prisms, uint256 k, uint256[] memory colors)
-        private
-        pure
+        private pure
     {
         unchecked {
             // the coordinates along the gradient

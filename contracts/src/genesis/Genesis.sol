@@ -3,7 +3,6 @@ pragma solidity 0.8.37;
 
 import {forward} from "../encode/Redirect.sol";
 import {Scene, Background} from "../scene/Scene.sol";
-import {Renderer} from "../Renderer.sol";
 import {WithRenderer} from "../WithRenderer.sol";
 import {Seed, Tag, Random} from "./Random.sol";
 import {Structures, SWARM} from "./Structures.sol";
@@ -11,24 +10,22 @@ import {Layout, Layouts} from "./Layout.sol";
 import {Prisms, PrismMaker} from "./Prisms.sol";
 import {Scheme, Schemes, SUNSET, STONE_AND_GOLD, VIVID_ALABASTER, VIVID_INK} from "./Schemes.sol";
 import {Colors} from "./Colors.sol";
+import {IGenesis} from "../interfaces/IGenesis.sol";
+import {IRenderer} from "../interfaces/IRenderer.sol";
 import {Piece, Traits} from "../interfaces/Piece.sol";
 import {PieceMesh} from "./PieceMesh.sol";
 import {PieceScene} from "./PieceScene.sol";
 
 /// @title Genesis: a collection of pictures generated from 32-byte seeds only.
 /// @notice The seed determines a piece, the piece a scene, and the renderer draws it, in one call.
-contract Genesis is WithRenderer {
+contract Genesis is WithRenderer, IGenesis {
     using Random for Seed;
 
     Tag internal constant WIRES = Tag.wrap(bytes32("wireframe") | bytes32(uint256(9)));
     Tag internal constant INVERSION = Tag.wrap(bytes32("invert") | bytes32(uint256(6)));
 
-    /// @notice The seed has no piece: no triangle fits.
-    error NoTriangle();
+    constructor(IRenderer renderer_) WithRenderer(renderer_) {}
 
-    constructor(Renderer renderer_) WithRenderer(renderer_) {}
-
-    /// @notice Returns the piece generated from a seed.
     function generate(bytes32 seed) public pure returns (Piece memory piece) {
         (Layout memory laid, Scheme memory scheme) = plan(Seed.wrap(seed));
         piece.traits = describe(laid, scheme);
@@ -38,33 +35,25 @@ contract Genesis is WithRenderer {
         piece.mesh = PieceMesh.pack(prisms, Colors.paint(Seed.wrap(seed), scheme, prisms));
     }
 
-    /// @notice Returns the traits of a piece.
     function traits(bytes32 seed) external pure returns (Traits memory) {
         (Layout memory laid, Scheme memory scheme) = plan(Seed.wrap(seed));
         return describe(laid, scheme);
     }
 
-    /// @notice Returns the scene of a piece.
     function scene(bytes32 seed) external pure returns (Scene memory) {
         return PieceScene.make(generate(seed));
     }
 
-    /// @notice Returns the picture of a piece.
-    /// @return A Windows bitmap of 24 bits per pixel.
     function render(bytes32 seed) external view returns (bytes memory) {
-        forward(address(renderer), abi.encodeCall(Renderer.render, (PieceScene.make(generate(seed)))));
+        forward(address(renderer), abi.encodeCall(IRenderer.render, (PieceScene.make(generate(seed)))));
     }
 
-    /// @notice Returns the picture of a piece.
-    /// @return A `data:` URI of the bitmap.
     function renderDataURI(bytes32 seed) external view returns (string memory) {
-        forward(address(renderer), abi.encodeCall(Renderer.renderDataURI, (PieceScene.make(generate(seed)))));
+        forward(address(renderer), abi.encodeCall(IRenderer.renderDataURI, (PieceScene.make(generate(seed)))));
     }
 
-    /// @notice Returns the picture of a piece.
-    /// @return An SVG document that shows the bitmap at any size without smoothing.
     function renderSVG(bytes32 seed) external view returns (string memory) {
-        forward(address(renderer), abi.encodeCall(Renderer.renderSVG, (PieceScene.make(generate(seed)))));
+        forward(address(renderer), abi.encodeCall(IRenderer.renderSVG, (PieceScene.make(generate(seed)))));
     }
 
     function plan(Seed seed) private pure returns (Layout memory laid, Scheme memory scheme) {

@@ -73,6 +73,10 @@ struct Scheme {
 library Schemes {
     using Random for Seed;
 
+    /// @dev The largest number of 0..10,000 that yields each scheme but the last, 16 bits each, the first in the lowest.
+    uint256 private constant BOUNDS = (9500 << 128) | (8000 << 112) | (6500 << 96) | (6000 << 80) | (5500 << 64) | (3100 << 48)
+        | (3000 << 32) | (2500 << 16) | 1500;
+
     Tag private constant KIND = Tag.wrap(bytes32("schemedId") | bytes32(uint256(9)));
     Tag private constant HUE = Tag.wrap(bytes32("hsv") | bytes32(uint256(3)));
     Tag private constant PRIMARY = Tag.wrap(bytes32("pri") | bytes32(uint256(3)));
@@ -89,21 +93,7 @@ library Schemes {
     function choose(Seed seed, uint256 prisms) internal pure returns (Scheme memory scheme) {
         unchecked {
             int256 value = seed.draw(KIND, 0, 10000);
-            scheme.index = value <= 1500
-                ? ACCENTUATED
-                : value <= 2500
-                    ? EMERGENT
-                    : value <= 3000
-                        ? SUNSET
-                        : value <= 3100
-                            ? STONE_AND_GOLD
-                            : value <= 5500
-                                ? DENATURED
-                                : value <= 6000
-                                    ? CHAMELEONIC
-                                    : value <= 6500
-                                        ? GRADIATED
-                                        : value <= 8000 ? VIVID_ALABASTER : value <= 9500 ? VIVID_INK : PIGMENTED;
+            while (scheme.index != PIGMENTED && value > int256((BOUNDS >> 16 * scheme.index) & 0xffff)) ++scheme.index;
             if (scheme.index == ACCENTUATED) accentuated(scheme, seed);
             else if (scheme.index == EMERGENT) emergent(scheme, seed);
             else if (scheme.index == SUNSET) sunset(scheme, seed, prisms);

@@ -4,19 +4,14 @@ pragma solidity ^0.8.25;
 import {Piece, Traits} from "./Piece.sol";
 import {Scene} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
-import {IRenderer} from "./IRenderer.sol";
+import {IWithRenderer} from "./IWithRenderer.sol";
 
 /// @title IGenesis: pictures generated from 32-byte seeds.
-interface IGenesis is SceneErrors {
+interface IGenesis is SceneErrors, IWithRenderer {
     /// @notice The seed has no piece: no triangle fits.
     error NoTriangle();
     /// @notice The seed has no piece: the scheme needs to choose highlights among the other prisms, but there is only one prism.
     error NoPrismToChoose();
-    /// @notice The address has no code.
-    error NoRenderer(address renderer);
-
-    /// @notice Returns the renderer.
-    function renderer() external view returns (IRenderer);
 
     /// @notice Returns the piece generated from a seed.
     function generate(bytes32 seed) external pure returns (Piece memory piece);

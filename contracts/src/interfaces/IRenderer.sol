@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
+import {AngleErrors} from "../math/Euler.sol";
 import {Fixed} from "../math/Fixed.sol";
 import {Quaternion} from "../math/Quaternion.sol";
 import {Rectangle, Scene} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
+import {RegisterErrors} from "../words/RegisterErrors.sol";
 
 /// @title IRenderer: draws 3D scenes.
 /// @notice Stateless. `SceneErrors.sol` declares the errors of invalid scenes.
-interface IRenderer is SceneErrors {
+interface IRenderer is SceneErrors, AngleErrors, RegisterErrors {
     /// @notice The address has no code.
     error NoEngine(address engine);
-    /// @notice The angle must be at most 2^26 degrees in either direction.
-    error AngleOutOfRange(int256 degrees_);
-    /// @notice Internal error: no scene causes it.
-    error RegistersOverlap();
 
     /// @notice Returns the engine for flat and unlit surfaces.
     function engine() external view returns (address);

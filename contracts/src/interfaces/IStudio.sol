@@ -6,14 +6,13 @@ import {Changes} from "./Changes.sol";
 import {Turn} from "./Turn.sol";
 import {StudioErrors} from "./StudioErrors.sol";
 import {IGlbEncoder} from "./IGlbEncoder.sol";
-import {IPngEncoder} from "./IPngEncoder.sol";
-import {IRenderer} from "./IRenderer.sol";
 import {ITurntable} from "./ITurntable.sol";
+import {IWithEncoder} from "./IWithRenderer.sol";
 
 /// @title IStudio: stores meshes and scenes on chain, and draws them for any contract.
 /// @notice Anyone can store a mesh or a scene; its pointer is permanent. There is no owner, and nothing can be changed or removed. The
 /// pointer is derived from the stored bytes: the same mesh or scene has the same pointer on every chain.
-interface IStudio is StudioErrors {
+interface IStudio is StudioErrors, IWithEncoder {
     /// @notice Emitted when `storeMesh` stores new bytes. Not emitted for bytes that are already stored, nor by `storePart` and `join`. A
     /// missing event does not mean that the data is not stored; check for code at the pointer.
     event MeshStored(address indexed pointer, address indexed by);
@@ -21,19 +20,9 @@ interface IStudio is StudioErrors {
     event SceneStored(address indexed pointer, address indexed by);
 
     /// @notice The address has no code.
-    error NoRenderer(address renderer);
-    /// @notice The address has no code.
-    error NoEncoder(address encoder);
-    /// @notice The address has no code.
     error NoTurntable(address turntable);
     /// @notice The address has no code.
     error NoModeller(address modeller);
-
-    /// @notice Returns the renderer.
-    function renderer() external view returns (IRenderer);
-
-    /// @notice Returns the encoder of PNG files.
-    function encoder() external view returns (IPngEncoder);
 
     /// @notice Returns the contract that makes animated PNG files of rotating scenes.
     function turntable() external view returns (ITurntable);

@@ -4,15 +4,17 @@ pragma solidity 0.8.37;
 import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
 import {Quaternion} from "../math/Quaternion.sol";
+import {number} from "../mesh/Kinds.sol";
 import {Meshes} from "../studio/Meshes.sol";
 import {CULL_BACKFACES, Material, Object} from "../scene/Scene.sol";
+import {ILibrary} from "../interfaces/ILibrary.sol";
 import {Item} from "../interfaces/Item.sol";
 import {ItemTable} from "./ItemTable.sol";
 
 /// @title Library: the meshes and scenes of the project by name, the same on every chain.
 /// @notice Has no storage and no owner. The table of items is part of the code (`ItemTable`). It contains the pointers at which the Studio
 /// stores each item; anyone can store an item.
-contract Library {
+contract Library is ILibrary {
     /// @dev A row of the table: the length of the name, the name, IS_ICON and the number of meshes, the scene, bounds (six 16-bit numbers),
     /// and the number of triangles (16 bits); then, for each mesh, its address and its material: shading, three coefficients in hundredths,
     /// shininess.
@@ -24,14 +26,6 @@ contract Library {
     uint256 private constant FIXED_SIZE = 36;
     int256 private constant MAX_SIZE = 1 << 52;
 
-    /// @notice No item has this name. `names` lists all items.
-    error UnknownName(string name);
-    /// @notice A mesh or the scene of the item is not stored on this chain yet. Anyone can store it: `shackled library store NAME`.
-    error NotStored(string name, address pointer);
-    /// @notice The size must be above 0 and below 2^20 units.
-    error SizeOutOfRange(int256 size);
-
-    /// @notice Returns the names of all items, icons first.
     function names() external pure returns (string[] memory list) {
         bytes memory table = ItemTable.table();
         list = new string[](ItemTable.COUNT);
@@ -42,7 +36,6 @@ contract Library {
         }
     }
 
-    /// @notice Returns an item by its name, whether it is stored on this chain or not.
     function find(string calldata name) public pure returns (Item memory item) {
         bytes memory table = ItemTable.table();
         uint256 place = rowOf(table, name) + 1 + bytes(name).length;
@@ -63,13 +56,10 @@ contract Library {
         }
     }
 
-    /// @notice Returns whether the meshes and the scene of an item are stored on this chain.
     function isStored(string calldata name) external view returns (bool) {
         return missing(find(name)) == address(0);
     }
 
-    /// @notice Returns the objects of an item, upright, centred at the origin, scaled so that the longest side is `size`. They can be moved
-    /// and rotated, and added to a scene. Their meshes are pointers, which the Studio resolves.
     function objects(string calldata name, Fixed size) external view returns (Object[] memory list) {
         Item memory item = find(name);
         address absent = missing(item);
@@ -142,13 +132,6 @@ contract Library {
         name = new string(size);
         assembly ("memory-safe") {
             mcopy(add(name, 32), add(add(table, 33), row), size)
-        }
-    }
-
-    /// @dev Returns a number of `size` bytes.
-    function number(bytes memory table, uint256 place, uint256 size) private pure returns (uint256 value) {
-        assembly ("memory-safe") {
-            value := shr(sub(256, shl(3, size)), mload(add(add(table, 32), place)))
         }
     }
 }

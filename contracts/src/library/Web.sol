@@ -3,11 +3,10 @@ pragma solidity 0.8.37;
 
 import {Bytes} from "@openzeppelin/contracts/utils/Bytes.sol";
 import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
-import {Genesis} from "../genesis/Genesis.sol";
 import {IGenesis} from "../interfaces/IGenesis.sol";
-import {Studio} from "../studio/Studio.sol";
+import {ILibrary} from "../interfaces/ILibrary.sol";
+import {IStudio} from "../interfaces/IStudio.sol";
 import {Item} from "../interfaces/Item.sol";
-import {Library} from "./Library.sol";
 
 /// @notice A parameter of a request, or a header of a response (ERC-5219).
 struct KeyValue {
@@ -43,16 +42,16 @@ contract Web {
     string private constant CACHE = "public, max-age=31536000, immutable";
 
     /// @notice The library of items.
-    Library public immutable items;
+    ILibrary public immutable items;
     /// @notice The Studio that draws the items.
-    Studio public immutable studio;
+    IStudio public immutable studio;
     /// @notice The contract that generates and draws pieces.
-    Genesis public immutable genesis;
+    IGenesis public immutable genesis;
 
     /// @notice The address has no code.
     error NoContract(address contract_);
 
-    constructor(Library items_, Studio studio_, Genesis genesis_) {
+    constructor(ILibrary items_, IStudio studio_, IGenesis genesis_) {
         check(address(items_));
         check(address(studio_));
         check(address(genesis_));
@@ -71,9 +70,7 @@ contract Web {
     /// @return body The file, or an error message as text.
     /// @return headers The media type, and the caching policy.
     function request(string[] calldata resource, KeyValue[] calldata params)
-        external
-        view
-        returns (uint16 statusCode, string memory body, KeyValue[] memory headers)
+        external view returns (uint16 statusCode, string memory body, KeyValue[] memory headers)
     {
         if (resource.length == 0 || (resource.length == 1 && bytes(resource[0]).length == 0)) {
             return answer("text/html", page(), "no-cache");
@@ -95,9 +92,7 @@ contract Web {
     }
 
     function ofItem(string memory name, bool isIcon, bool isPng, uint256 scale)
-        private
-        view
-        returns (uint16, string memory, KeyValue[] memory)
+        private view returns (uint16, string memory, KeyValue[] memory)
     {
         try items.find(name) returns (Item memory item) {
             if (item.isIcon != isIcon) return refused(404, isIcon ? "Not an icon: see /objects/." : "Not an object: see /icons/.");
@@ -105,8 +100,8 @@ contract Web {
                 string memory command = string.concat("shackled library store ", name);
                 return refused(404, string.concat("Not stored on this chain yet. Anyone can store it: ", command, "."));
             }
-            if (isPng) return found("image/png", string(studio.renderPNG(item.scene, scale)));
-            return found("model/gltf-binary", string(studio.glb(item.scene)));
+            if (isPng) return answer("image/png", string(studio.renderPNG(item.scene, scale)), CACHE);
+            return answer("model/gltf-binary", string(studio.glb(item.scene)), CACHE);
         } catch {
             return refused(404, "No item has this name. The page / lists all names.");
         }
@@ -123,7 +118,7 @@ contract Web {
         }
         if (!isSeed) return refused(404, "Give a number, or a seed as 0x and 64 hexadecimal digits.");
         try genesis.render(bytes32(seed)) returns (bytes memory bitmap) {
-            return found("image/png", string(studio.encoder().encode(bitmap, scale)));
+            return answer("image/png", string(studio.encoder().encode(bitmap, scale)), CACHE);
         } catch (bytes memory reason) {
             bytes4 code = bytes4(reason);
             if (code == IGenesis.NoTriangle.selector || code == IGenesis.NoPrismToChoose.selector) {
@@ -166,14 +161,8 @@ contract Web {
         return (string(all.slice(0, dot)), string(all.slice(dot + 1)));
     }
 
-    function found(string memory kind, string memory body) private pure returns (uint16, string memory, KeyValue[] memory) {
-        return answer(kind, body, CACHE);
-    }
-
     function answer(string memory kind, string memory body, string memory cache)
-        private
-        pure
-        returns (uint16, string memory, KeyValue[] memory headers)
+        private pure returns (uint16, string memory, KeyValue[] memory headers)
     {
         headers = new KeyValue[](2);
         (headers[0], headers[1]) = (KeyValue("Content-Type", kind), KeyValue("Cache-Control", cache));

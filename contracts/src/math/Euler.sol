@@ -8,8 +8,11 @@ import {Quaternion} from "./Quaternion.sol";
 int256 constant RADIANS = 20122276272436452;
 int256 constant QUARTER_TURN = 90 << 32;
 
-/// @notice The angle must be at most 2^26 degrees in either direction.
-error AngleOutOfRange(int256 degrees_);
+/// @title AngleErrors: the error of angles.
+interface AngleErrors {
+    /// @notice The angle must be at most 2^26 degrees in either direction.
+    error AngleOutOfRange(int256 degrees_);
+}
 
 /// @notice Returns the rotation about the x axis, then y, then z, by angles in degrees (Q32).
 /// @dev The product z * y * x of three quaternions, each computed from half the angle.
@@ -25,7 +28,7 @@ function fromEuler(Fixed x, Fixed y, Fixed z) pure returns (Quaternion memory) {
 /// @notice Returns the sine and cosine of half an angle in degrees (Q32), with an error of at most 2^-31.
 function sinCosOfHalf(int256 degrees_) pure returns (Fixed sine, Fixed cosine) {
     unchecked {
-        if (degrees_ > 1 << 58 || degrees_ < -(1 << 58)) revert AngleOutOfRange(degrees_);
+        if (degrees_ > 1 << 58 || degrees_ < -(1 << 58)) revert AngleErrors.AngleOutOfRange(degrees_);
         int256 angle = degrees_ >> 1;
         // quarter turns, and the remainder between -45 and 45 degrees, in radians (Q60)
         int256 quarters = (angle + QUARTER_TURN / 2) / QUARTER_TURN;

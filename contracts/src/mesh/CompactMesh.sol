@@ -2,7 +2,7 @@
 pragma solidity 0.8.37;
 
 import {NORMALS, WIDE} from "../scene/Mesh.sol";
-import {LAST_FORMAT} from "./Kinds.sol";
+import {LAST_FORMAT, number} from "./Kinds.sol";
 import {MeshErrors} from "../interfaces/MeshErrors.sol";
 
 // A mesh in at most half the bytes of the format of `Mesh.sol`, all numbers big-endian:
@@ -93,12 +93,6 @@ library CompactMesh {
                 mstore(target, 0)
                 mstore(0x40, and(add(target, 63), not(31)))
             }
-        }
-    }
-
-    function number(bytes memory data, uint256 place, uint256 size) private pure returns (uint256 value) {
-        assembly ("memory-safe") {
-            value := shr(sub(256, shl(3, size)), mload(add(add(data, 32), place)))
         }
     }
 

@@ -20,3 +20,10 @@ uint256 constant SCENE = 0x20;
 function kindOf(bytes memory data) pure returns (uint256) {
     return data.length == 0 ? 256 : uint8(data[0]);
 }
+
+/// @notice Returns a number of `size` bytes, from byte `place` on.
+function number(bytes memory data, uint256 place, uint256 size) pure returns (uint256 value) {
+    assembly ("memory-safe") {
+        value := shr(sub(256, shl(3, size)), mload(add(add(data, 32), place)))
+    }
+}

@@ -4,47 +4,34 @@ pragma solidity 0.8.37;
 import {Apng} from "../encode/Apng.sol";
 import {DataUri} from "../encode/DataUri.sol";
 import {answer} from "../encode/Redirect.sol";
-import {PngEncoder} from "../encode/PngEncoder.sol";
-import {PngErrors} from "../interfaces/PngErrors.sol";
+import {IPngEncoder} from "../interfaces/IPngEncoder.sol";
+import {IRenderer} from "../interfaces/IRenderer.sol";
+import {ITurntable} from "../interfaces/ITurntable.sol";
+import {Turn} from "../interfaces/Turn.sol";
 import {sinCosOfHalf} from "../math/Euler.sol";
 import {Fixed} from "../math/Fixed.sol";
 import {Quaternion} from "../math/Quaternion.sol";
 import {Vector} from "../math/Vector.sol";
 import {inRange} from "../scene/Checks.sol";
 import {Object, Scene} from "../scene/Scene.sol";
-import {Renderer} from "../Renderer.sol";
-import {WithRenderer} from "../WithRenderer.sol";
+import {WithEncoder} from "../WithRenderer.sol";
 import {FollowingCamera} from "./FollowingCamera.sol";
 import {SceneChanges} from "./SceneChanges.sol";
-import {Turn} from "../interfaces/Turn.sol";
-import {TurntableErrors} from "../interfaces/TurntableErrors.sol";
 
 /// @title Turntable: makes animated PNG files of rotating scenes, for the Studio and any contract.
 /// @notice Stateless. Each frame is drawn by a separate call and only its compressed bytes are kept, because memory cost grows
 /// quadratically.
-contract Turntable is WithRenderer, PngErrors, TurntableErrors {
+contract Turntable is WithEncoder, ITurntable {
     uint256 internal constant MAX_FRAMES = 360;
     uint256 internal constant MIN_DELAY = 20;
     uint256 internal constant MAX_DELAY = 10000;
 
-    /// @notice The encoder of the frames.
-    PngEncoder public immutable encoder;
+    constructor(IRenderer renderer_, IPngEncoder encoder_) WithEncoder(renderer_, encoder_) {}
 
-    /// @notice The address has no code.
-    error NoEncoder(address encoder);
-
-    constructor(Renderer renderer_, PngEncoder encoder_) WithRenderer(renderer_) {
-        if (address(encoder_).code.length == 0) revert NoEncoder(address(encoder_));
-        encoder = encoder_;
-    }
-
-    /// @notice Returns an animated PNG file that loops endlessly. The first frame is the scene as given.
-    /// @param scene A scene with meshes in the format of `Mesh.sol`.
     function animate(Scene memory scene, Turn memory spin) external view returns (bytes memory) {
         answer(film(scene, spin));
     }
 
-    /// @notice Returns the file as a `data:` URI, for the `animation_url` of a token.
     function animateDataURI(Scene memory scene, Turn memory spin) external view returns (string memory) {
         string memory head = "data:image/png;base64,";
         answer(bytes(DataUri.wrap(head, film(scene, spin), "")));

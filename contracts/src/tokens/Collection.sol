@@ -22,15 +22,11 @@ abstract contract Collection is Sale, ERC2981 {
     bytes4 internal constant ERC4906 = 0x49064906;
     /// @dev The interface ID of ERC-173: `owner` and `transferOwnership`.
     bytes4 internal constant ERC173 = 0x7f5828d0;
-    uint96 internal constant HIGHEST_ROYALTY = 1000;
 
     /// @notice Emitted when the metadata of the collection changes (ERC-7572).
     event ContractURIUpdated();
     /// @notice Emitted when the metadata of these tokens changes (ERC-4906).
     event BatchMetadataUpdate(uint256 _fromTokenId, uint256 _toTokenId);
-
-    /// @notice The royalty exceeds the highest one, in basis points.
-    error Royalty(uint256 royalty, uint256 highest);
 
     constructor(string memory name_, string memory symbol_, Terms memory terms)
         Sale(name_, symbol_, terms.owner, terms.perTransaction)

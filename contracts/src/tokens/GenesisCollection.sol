@@ -3,7 +3,7 @@ pragma solidity 0.8.37;
 
 import {ERC721A, IERC721A} from "erc721a/contracts/ERC721A.sol";
 import {forward} from "../encode/Redirect.sol";
-import {Genesis} from "../genesis/Genesis.sol";
+import {IGenesis} from "../interfaces/IGenesis.sol";
 import {Traits} from "../interfaces/Piece.sol";
 import {Collection, Terms} from "./Collection.sol";
 import {Allowance} from "./Sale.sol";
@@ -20,7 +20,7 @@ contract GenesisCollection is Collection, Rounds {
     /// @notice The contract that makes metadata from seeds.
     GenesisMetadata public immutable metadata;
     /// @notice The contract that generates and draws pieces.
-    Genesis public immutable genesis;
+    IGenesis public immutable genesis;
     /// @notice The price of a token, in wei.
     uint256 public immutable price;
     /// @notice The number of tokens reserved for the team.
@@ -91,7 +91,7 @@ contract GenesisCollection is Collection, Rounds {
         _safeMint(msg.sender, quantity);
     }
 
-    /// @dev Keeps the round of a token across transfers.
+    /// @dev A token keeps the round of the block in which it is minted.
     function _extraData(address from, address, uint24 previous) internal view override returns (uint24) {
         return from == address(0) ? roundToKeep() : previous;
     }
@@ -100,7 +100,7 @@ contract GenesisCollection is Collection, Rounds {
 
     /// @notice Returns the round in which a token was minted.
     function roundOf(uint256 tokenId) public view returns (uint256) {
-        return _ownershipOf(tokenId).extraData;
+        return numberOf(tokenId);
     }
 
     /// @notice Returns the unrevealed rounds of tokens `first` to `last`, without repetition, for `reveal` once their blocks are mined.

@@ -3,12 +3,12 @@ pragma solidity 0.8.37;
 
 import {Bytes} from "@openzeppelin/contracts/utils/Bytes.sol";
 import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
-import {Renderer} from "../Renderer.sol";
 import {Scene} from "../scene/Scene.sol";
-import {Genesis} from "../genesis/Genesis.sol";
+import {IGenesis} from "../interfaces/IGenesis.sol";
+import {IPngEncoder} from "../interfaces/IPngEncoder.sol";
+import {IRenderer} from "../interfaces/IRenderer.sol";
+import {IWithEncoder} from "../interfaces/IWithRenderer.sol";
 import {Piece, Traits} from "../interfaces/Piece.sol";
-import {NoPrismToChoose} from "../genesis/Colors.sol";
-import {PngEncoder} from "../encode/PngEncoder.sol";
 import {Json} from "./Json.sol";
 import {PieceScene} from "../genesis/PieceScene.sol";
 import {Placeholder} from "./Placeholder.sol";
@@ -27,25 +27,20 @@ contract GenesisMetadata {
 
     /// @dev The enlargement of pictures.
     uint256 internal constant SCALE = 4;
-    /// @dev The width and height of the collection's banner, in pixels.
-    uint256 internal constant BANNER_WIDTH = 256;
-    uint256 internal constant BANNER_HEIGHT = 64;
 
     /// @notice The contract that generates and draws pieces.
-    Genesis public immutable genesis;
+    IGenesis public immutable genesis;
     /// @notice The renderer that draws those pictures.
-    Renderer public immutable renderer;
+    IRenderer public immutable renderer;
     /// @notice The encoder of PNG files.
-    PngEncoder public immutable encoder;
+    IPngEncoder public immutable encoder;
 
     /// @notice The address has no code.
     error NoGenesis(address genesis);
-    /// @notice The address has no code.
-    error NoEncoder(address encoder);
 
-    constructor(Genesis genesis_, PngEncoder encoder_) {
+    constructor(IGenesis genesis_, IPngEncoder encoder_) {
         if (address(genesis_).code.length == 0) revert NoGenesis(address(genesis_));
-        if (address(encoder_).code.length == 0) revert NoEncoder(address(encoder_));
+        if (address(encoder_).code.length == 0) revert IWithEncoder.NoEncoder(address(encoder_));
         (genesis, renderer, encoder) = (genesis_, genesis_.renderer(), encoder_);
     }
 
@@ -87,18 +82,18 @@ contract GenesisMetadata {
 
     /// @notice Returns the metadata of the collection (ERC-7572).
     function contractURI() external view returns (string memory) {
-        string memory banner = encoder.dataURI(renderer.render(Placeholder.scene(BANNER_WIDTH, BANNER_HEIGHT)), SCALE);
-        show(Json.collection(NAME, SYMBOL, DESCRIPTION, banner), cover());
+        Scene memory banner = Placeholder.scene(Placeholder.BANNER_WIDTH, Placeholder.BANNER_HEIGHT);
+        show(Json.collection(NAME, SYMBOL, DESCRIPTION, encoder.dataURI(renderer.render(banner), SCALE)), cover());
     }
 
     function pieceOf(bytes32 drawn) private view returns (bytes32 seed, Piece memory piece) {
         seed = drawn;
         while (true) {
-            (bool done, bytes memory answer) = address(genesis).staticcall(abi.encodeCall(Genesis.generate, (seed)));
+            (bool done, bytes memory answer) = address(genesis).staticcall(abi.encodeCall(IGenesis.generate, (seed)));
             if (done) return (seed, abi.decode(answer, (Piece)));
             // ignore no other error: a lack of gas must not change the picture
             bytes4 reason = bytes4(answer);
-            if (answer.length != 4 || (reason != Genesis.NoTriangle.selector && reason != NoPrismToChoose.selector)) {
+            if (answer.length != 4 || (reason != IGenesis.NoTriangle.selector && reason != IGenesis.NoPrismToChoose.selector)) {
                 assembly ("memory-safe") {
                     revert(add(answer, 0x20), mload(answer))
                 }
@@ -112,19 +107,9 @@ contract GenesisMetadata {
     }
 
     function list(Traits memory traits) private pure returns (string memory) {
-        return string.concat(
-            Json.trait("Structure", traits.structure),
-            ",",
-            Json.trait("Chroma", traits.chroma),
-            ",",
-            Json.trait("Pseudosymmetry", traits.pseudosymmetry),
-            ",",
-            Json.trait("Prisms", traits.prisms),
-            ",",
-            Json.trait("Wireframe", traits.wireframe),
-            ",",
-            Json.trait("Inversion", traits.invert)
-        );
+        string memory names = string.concat(Json.trait("Structure", traits.structure), ",", Json.trait("Chroma", traits.chroma), ",");
+        names = string.concat(names, Json.trait("Pseudosymmetry", traits.pseudosymmetry), ",", Json.trait("Prisms", traits.prisms), ",");
+        return string.concat(names, Json.trait("Wireframe", traits.wireframe), ",", Json.trait("Inversion", traits.invert));
     }
 
     function cover() private pure returns (Scene memory) {
@@ -140,8 +125,8 @@ contract GenesisMetadata {
     /// @param head The document up to its picture.
     /// @param scene The scene of the picture.
     function show(bytes memory head, Scene memory scene) private view {
-        bytes memory data = abi.encodeCall(Renderer.render, (scene));
-        (address target, bytes4 selector) = (address(renderer), PngEncoder.dataURI.selector);
+        bytes memory data = abi.encodeCall(IRenderer.render, (scene));
+        (address target, bytes4 selector) = (address(renderer), IPngEncoder.dataURI.selector);
         uint256 begin;
         uint256 size;
         assembly ("memory-safe") {

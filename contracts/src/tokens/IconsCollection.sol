@@ -7,12 +7,12 @@ import {ZERO, ONE} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
 import {CANVAS, Changes} from "../interfaces/Changes.sol";
 import {Turn} from "../interfaces/Turn.sol";
-import {Studio} from "../studio/Studio.sol";
-import {StudioErrors} from "../interfaces/StudioErrors.sol";
+import {IStudio} from "../interfaces/IStudio.sol";
 import {Collection, Terms} from "./Collection.sol";
 import {Allowance} from "./Sale.sol";
 import {Json} from "./Json.sol";
-import {Utf8} from "./Utf8.sol";
+import {Placeholder} from "./Placeholder.sol";
+import {WithStudio} from "./WithStudio.sol";
 
 /// @notice A kind of token.
 /// @param name The name of the icon.
@@ -37,39 +37,28 @@ struct Icon {
 /// @title IconsCollection: a fixed set of stored scenes, each a kind of token with its own supply.
 /// @notice The owner adds the icons, then seals the collection. The sale can open only then, and no icon can be added or changed any more.
 /// The scenes are stored as contract code and drawn by contracts, all of them immutable.
-contract IconsCollection is Collection, StudioErrors {
+contract IconsCollection is Collection, WithStudio {
     using Strings for uint256;
 
     string internal constant DESCRIPTION =
         "Small scenes, kept and drawn by contracts: every pixel is computed on chain. "
         "Not by the authors of the Shackled contracts of 2021, nor endorsed by them.";
     uint256 internal constant MAX_SCALE = 8;
-    uint256 internal constant MAX_NAME = 64;
     /// @dev Animations: the number of frames, their side in pixels, and their duration in milliseconds.
     uint256 internal constant FRAMES = 12;
     uint256 internal constant FRAME_SIDE = 64;
     uint256 internal constant FRAME_TIME = 100;
-    /// @dev The width and height of the collection's banner, in pixels.
-    uint256 internal constant BANNER_WIDTH = 256;
-    uint256 internal constant BANNER_HEIGHT = 64;
-
-    /// @notice The Studio, which stores and draws the scenes.
-    Studio public immutable studio;
 
     /// @notice Whether the set of icons is sealed.
     bool public isSealed;
 
     Icon[] private icons;
-    /// @dev The icon of the tokens that are being minted.
-    uint24 private transient minting;
 
     /// @notice Emitted when an icon is added.
     event IconAdded(uint256 indexed icon, string name, address scene, uint256 price, uint256 supply, uint256 reserve);
     /// @notice Emitted when the set of icons is sealed.
     event Sealed(uint256 icons);
 
-    /// @notice The address has no code.
-    error NoStudio(address studio);
     /// @notice The collection is already sealed.
     error AlreadySealed();
     /// @notice The collection is not sealed yet.
@@ -78,17 +67,10 @@ contract IconsCollection is Collection, StudioErrors {
     error NoIcons();
     /// @notice The number of the icon is not below the number of icons.
     error UnknownIcon(uint256 icon, uint256 icons);
-    /// @notice The name must have 1 to `longest` bytes.
-    error NameLength(uint256 length, uint256 longest);
-    /// @notice The bytes of the name from this position on are not valid UTF-8.
-    error NameNotUtf8(uint256 position);
     /// @notice The supply must not be 0, and the reserve must not exceed it.
     error Supply(uint256 supply, uint256 reserve);
 
-    constructor(Studio studio_, Terms memory terms) Collection("Shackled Icons", "SHKI", terms) {
-        if (address(studio_).code.length == 0) revert NoStudio(address(studio_));
-        studio = studio_;
-    }
+    constructor(IStudio studio_, Terms memory terms) Collection("Shackled Icons", "SHKI", terms) WithStudio(studio_) {}
 
     // ---- icons ----
 
@@ -102,14 +84,10 @@ contract IconsCollection is Collection, StudioErrors {
     /// @param reserve The number of them reserved for the team.
     /// @return icon The number of the icon.
     function add(string calldata name_, address scene, uint8 scale, uint96 price, uint32 supply, uint32 reserve)
-        external
-        onlyOwner
-        returns (uint256 icon)
+        external onlyOwner returns (uint256 icon)
     {
         if (isSealed) revert AlreadySealed();
-        if (bytes(name_).length == 0 || bytes(name_).length > MAX_NAME) revert NameLength(bytes(name_).length, MAX_NAME);
-        uint256 valid = Utf8.validLength(bytes(name_));
-        if (valid != bytes(name_).length) revert NameNotUtf8(valid);
+        checkName(name_);
         if (scale == 0 || scale > MAX_SCALE) revert PixelScaleOutOfRange(scale, MAX_SCALE);
         if (supply == 0 || reserve > supply) revert Supply(supply, reserve);
         studio.check(scene);
@@ -168,8 +146,7 @@ contract IconsCollection is Collection, StudioErrors {
 
     /// @notice Mints tokens of an icon to the caller, who proves a place on the allow list by a signature.
     function mintWithSignature(uint256 icon, uint256 quantity, Allowance calldata allowance, bytes calldata signature)
-        external
-        payable
+        external payable
     {
         spendBySignature(quantity, allowance, signature);
         sell(icon, quantity);
@@ -184,7 +161,7 @@ contract IconsCollection is Collection, StudioErrors {
         if (quantity > kept) revert NothingLeft(quantity, kept);
         // at most 100
         it.reserveMinted += uint32(quantity);
-        hand(to, icon, quantity);
+        hand(to, quantity, uint24(icon));
     }
 
     function sell(uint256 icon, uint256 quantity) private {
@@ -193,17 +170,7 @@ contract IconsCollection is Collection, StudioErrors {
         uint256 available = left(icon);
         if (quantity > available) revert NothingLeft(quantity, available);
         it.sold += uint32(quantity);
-        hand(msg.sender, icon, quantity);
-    }
-
-    function hand(address to, uint256 icon, uint256 quantity) private {
-        minting = uint24(icon);
-        _safeMint(to, quantity);
-    }
-
-    /// @dev Keeps the icon of a token across transfers.
-    function _extraData(address from, address, uint24 previous) internal view override returns (uint24) {
-        return from == address(0) ? minting : previous;
+        hand(msg.sender, quantity, uint24(icon));
     }
 
     function known(uint256 icon) private view returns (Icon storage) {
@@ -215,7 +182,7 @@ contract IconsCollection is Collection, StudioErrors {
 
     /// @notice Returns the icon of a token.
     function iconOf(uint256 tokenId) public view returns (uint256) {
-        return _ownershipOf(tokenId).extraData;
+        return numberOf(tokenId);
     }
 
     /// @notice Returns the picture of a token.
@@ -253,7 +220,7 @@ contract IconsCollection is Collection, StudioErrors {
         string memory name_ = Strings.escapeJSON(it.name);
         string memory traits = string.concat(Json.trait("Icon", name_), ",", Json.trait("Supply", uint256(it.supply)));
         string memory fields = Json.field("external_url", Json.picture(address(studio), it.scene, it.scale));
-        show(Json.token(string.concat(name_, " #", tokenId.toString()), DESCRIPTION, fields, traits), it);
+        show(Json.token(string.concat(name_, " #", tokenId.toString()), DESCRIPTION, fields, traits), it.scene, it.scale);
     }
 
     /// @inheritdoc Collection
@@ -261,18 +228,7 @@ contract IconsCollection is Collection, StudioErrors {
         if (icons.length == 0) Json.answer(Json.pictureless(name(), symbol(), DESCRIPTION));
         Icon storage it = icons[0];
         Changes memory wide;
-        (wide.fields, wide.canvas.width, wide.canvas.height) = (CANVAS, BANNER_WIDTH, BANNER_HEIGHT);
-        show(Json.collection(name(), symbol(), DESCRIPTION, studio.renderDataURI(it.scene, it.scale, wide)), it);
-    }
-
-    /// @dev Ends the call with the `data:` URI of a document.
-    /// @param head The document up to its picture.
-    function show(bytes memory head, Icon storage it) private view {
-        bytes memory request = abi.encodeWithSignature("renderDataURI(address,uint256)", it.scene, it.scale);
-        uint256 data;
-        assembly ("memory-safe") {
-            data := add(request, 0x20)
-        }
-        Json.answer(head, address(studio), data, request.length);
+        (wide.fields, wide.canvas.width, wide.canvas.height) = (CANVAS, Placeholder.BANNER_WIDTH, Placeholder.BANNER_HEIGHT);
+        show(Json.collection(name(), symbol(), DESCRIPTION, studio.renderDataURI(it.scene, it.scale, wide)), it.scene, it.scale);
     }
 }

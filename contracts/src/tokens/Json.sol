@@ -48,9 +48,7 @@ library Json {
     /// @param fields The concatenated results of `field`.
     /// @param traits The traits, separated by commas.
     function token(string memory name, string memory description, string memory fields, string memory traits)
-        internal
-        pure
-        returns (bytes memory)
+        internal pure returns (bytes memory)
     {
         return abi.encodePacked('{"name":"', name, '","description":"', description, fields, '","attributes":[', traits, '],"image":"');
     }
@@ -58,9 +56,7 @@ library Json {
     /// @notice Returns the metadata of a collection up to its picture (ERC-7572).
     /// @param banner A wide picture for the top of a page, as a `data:` URI.
     function collection(string memory name, string memory symbol, string memory description, string memory banner)
-        internal
-        pure
-        returns (bytes memory)
+        internal pure returns (bytes memory)
     {
         return abi.encodePacked(pictureless(name, symbol, description), field("banner_image", banner), '","image":"');
     }

@@ -14,6 +14,10 @@ library Placeholder {
         hex"000000020004" hex"000200010004" hex"000100030004" hex"000300000004"
         hex"000200000005" hex"000100020005" hex"000300010005" hex"000000030005";
 
+    /// @dev The width and height of the banner of a collection, in pixels.
+    uint256 internal constant BANNER_WIDTH = 256;
+    uint256 internal constant BANNER_HEIGHT = 64;
+
     /// @notice Returns the scene of the octahedron, slightly rotated.
     /// @param width The width of the picture in pixels; `height` likewise.
     function scene(uint256 width, uint256 height) internal pure returns (Scene memory made) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {ERC721A, IERC721A} from "erc721a/contracts/ERC721A.sol";
-import {ERC721AQueryable} from "erc721a/contracts/extensions/ERC721AQueryable.sol";
+import {ERC721A} from "erc721a/contracts/ERC721A.sol";
 import {Ownable} from "@openzeppelin/contracts/access/Ownable.sol";
 import {Ownable2Step} from "@openzeppelin/contracts/access/Ownable2Step.sol";
 import {EIP712} from "@openzeppelin/contracts/utils/cryptography/EIP712.sol";
 import {MerkleProof} from "@openzeppelin/contracts/utils/cryptography/MerkleProof.sol";
 import {SignatureChecker} from "@openzeppelin/contracts/utils/cryptography/SignatureChecker.sol";
+import {Token} from "./Token.sol";
 
 /// @notice An entry of the allow list, signed by `allowListSigner` as EIP-712 typed data.
 /// @param account The account that may mint. No other account can use the entry.
@@ -22,7 +22,7 @@ struct Allowance {
 /// @title Sale: phases of minting, the allow list, and the proceeds.
 /// @notice Payments must be exact. The ether stays in the contract until the owner withdraws it. An account proves its place on the allow
 /// list by a Merkle proof or by a signature; both state the total number of tokens it may mint, so neither can be used twice.
-abstract contract Sale is ERC721AQueryable, Ownable2Step, EIP712 {
+abstract contract Sale is Token, Ownable2Step, EIP712 {
     enum Phase {
         Closed,
         AllowList,
@@ -52,12 +52,6 @@ abstract contract Sale is ERC721AQueryable, Ownable2Step, EIP712 {
     error PerTransaction(uint256 perTransaction);
     /// @notice The sale is not in the needed phase.
     error WrongPhase(Phase phase, Phase needed);
-    /// @notice The quantity must be 1 to `perTransaction`.
-    error Quantity(uint256 quantity, uint256 perTransaction);
-    /// @notice The payment must be exactly `due`, in wei.
-    error Payment(uint256 sent, uint256 due);
-    /// @notice Transfers and approvals accept no ether.
-    error PaymentForNothing(uint256 sent);
     /// @notice The Merkle proof does not prove that the account may mint this total quantity.
     error NotOnAllowList(address account, uint256 quantity);
     /// @notice The allowance belongs to another account.
@@ -68,17 +62,11 @@ abstract contract Sale is ERC721AQueryable, Ownable2Step, EIP712 {
     error AllowanceNotSigned(address signer);
     /// @notice The mint would exceed the account's allowance.
     error AllowanceExceeded(uint256 minted, uint256 quantity, uint256 allowance);
-    /// @notice The quantity exceeds the number of tokens left.
-    error NothingLeft(uint256 quantity, uint256 left);
-    /// @notice The receiver did not accept the ether.
-    error WithdrawalRefused(address to, uint256 amount);
     /// @notice The collection cannot be without an owner.
     error OwnerNeeded();
 
     constructor(string memory name_, string memory symbol_, address owner_, uint256 perTransaction_)
-        ERC721A(name_, symbol_)
-        Ownable(owner_)
-        EIP712(name_, "1")
+        ERC721A(name_, symbol_) Ownable(owner_) EIP712(name_, "1")
     {
         if (perTransaction_ == 0 || perTransaction_ > 100) revert PerTransaction(perTransaction_);
         perTransaction = perTransaction_;
@@ -104,12 +92,7 @@ abstract contract Sale is ERC721AQueryable, Ownable2Step, EIP712 {
     /// used.
     function withdraw(address payable to) external onlyOwner {
         uint256 amount = address(this).balance;
-        bool done = to != address(0);
-        // copies no return data, so a receiver cannot make the call expensive
-        assembly ("memory-safe") {
-            if done { done := call(gas(), to, amount, 0, 0, 0, 0) }
-        }
-        if (!done) revert WithdrawalRefused(to, amount);
+        pay(to, amount);
         emit Withdrawn(to, amount);
     }
 
@@ -174,16 +157,5 @@ abstract contract Sale is ERC721AQueryable, Ownable2Step, EIP712 {
 
     function checkPayment(uint256 due) internal view {
         if (msg.value != due) revert Payment(msg.value, due);
-    }
-
-    // ---- ERC-721A's payable functions ----
-
-    function approve(address to, uint256 tokenId) public payable override(ERC721A, IERC721A) {
-        if (msg.value != 0) revert PaymentForNothing(msg.value);
-        super.approve(to, tokenId);
-    }
-
-    function _beforeTokenTransfers(address from, address, uint256, uint256) internal view override {
-        if (from != address(0) && msg.value != 0) revert PaymentForNothing(msg.value);
     }
 }

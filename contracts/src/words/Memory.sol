@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {RegisterErrors} from "./RegisterErrors.sol";
+
 // Direct access to memory. The values used by every vertex, triangle and fragment are stored at fixed addresses, called registers: reading
 // one costs 6 gas, half of the cost of a memory struct's field, and needs no stack slot. Registers that are constant for a frame or an
 // object are uniforms: the Renderer fills them at the same addresses, and passes them to the engine as they are (see Uniforms.sol).
@@ -9,12 +11,10 @@ pragma solidity 0.8.37;
 /// functions.
 uint256 constant ZERO_SLOT = 0x60;
 
-error RegistersOverlap();
-
 /// @notice Reserves the memory of the registers, so that nothing is allocated there.
 /// @param begin The maximum end of the compiler's own variables in memory.
 function reserveRegisters(uint256 begin, uint256 end) pure {
-    if (freeMemory() > begin) revert RegistersOverlap();
+    if (freeMemory() > begin) revert RegisterErrors.RegistersOverlap();
     setFreeMemory(end);
 }
 

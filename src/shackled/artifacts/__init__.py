@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import dataclass
 from functools import cache, cached_property
 from hashlib import sha256
@@ -71,7 +72,8 @@ def artifact(name: str) -> Artifact:
         creation=bytes.fromhex(data["bytecode"]),
         runtime=bytes.fromhex(data["deployedBytecode"]),
         parts=[
-            parameter["internalType"].removeprefix("contract ")
+            # a contract, or the interface that it inherits
+            re.sub(r"^contract I?(?=[A-Z][a-z])", "", parameter["internalType"])
             for entry in data["abi"]
             if entry["type"] == "constructor"
             for parameter in entry["inputs"]
