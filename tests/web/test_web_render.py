@@ -32,7 +32,7 @@ def drawn_by_node(calls: list[bytes], folder: Path, *, profile: bool = False) ->
     path.write_text("".join(f"{call.hex()}\n" for call in calls))
     web = PACKAGE / "web"
     assets = (web / "shackled.js", PACKAGE / "evm" / "evm.wasm", web / "contracts.json", web / "stages.json")
-    command = ["node", SCRIPT, *map(str, assets), path, *["profile"] * profile]
+    command = ["node", *map(str, (SCRIPT, *assets, path)), *["profile"] * profile]
     done = subprocess.run(command, check=True, capture_output=True, text=True)
     return [json.loads(line) for line in done.stdout.splitlines()]
 
