@@ -1,4 +1,4 @@
-"""Bundle the TypeScript package web/ into src/shackled/web, with contracts.json: the contracts that its EVM runs.
+"""Bundle the TypeScript package web/ into src/shackled/web, with the contracts that its EVM runs, and their stages.
 
     python tools/build_web.py            writes the bundles
     python tools/build_web.py --check    writes nothing; fails, and says which are not up to date
@@ -14,15 +14,20 @@ import json
 import subprocess
 import sys
 import tempfile
+from itertools import groupby
 from pathlib import Path
+from typing import Any
 
 from shackled.artifacts import RENDERER, artifact
 from shackled.chain import EmbeddedChain, open_chain
 from shackled.ethereum import SOLIDITY_ERRORS, to_hex
+from shackled.gas import STAGES, places, source_map
 
 ROOT = Path(__file__).resolve().parent.parent
 WEB = ROOT / "web"
 BUNDLES = ROOT / "src" / "shackled" / "web"
+
+JUMP, JUMPI, JUMPDEST = 0x56, 0x57, 0x5B
 
 
 def build() -> dict[str, bytes]:
@@ -30,7 +35,7 @@ def build() -> dict[str, bytes]:
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run(["node", "build.mjs", "python", folder], cwd=WEB, check=True)
         bundles = {path.name: path.read_bytes() for path in sorted(Path(folder).iterdir())}
-    return bundles | {"contracts.json": contracts()}
+    return bundles | {"contracts.json": contracts(), "stages.json": stages()}
 
 
 def contracts() -> bytes:
@@ -48,6 +53,30 @@ def contracts() -> bytes:
         "errors": {to_hex(selector): errors[selector] for selector in sorted(errors)},
     }
     return json.dumps(document, separators=(",", ":")).encode() + b"\n"
+
+
+def stages() -> bytes:
+    """Return the stage of each instruction of the contracts that draw, as web/src/evm/stages.ts says."""
+    chain = open_chain()
+    assert isinstance(chain, EmbeddedChain)
+    maps = {name: {"address": to_hex(chain.address(name))} | stage_map(name) for name in RENDERER}
+    document = {"stages": STAGES, "contracts": maps}
+    return json.dumps(document, separators=(",", ":")).encode() + b"\n"
+
+
+def stage_map(contract: str) -> dict[str, Any]:
+    """Return the stages, jumps and functions of a contract; of the places of a function, those that are jumped to."""
+    code, found = artifact(contract).runtime, places(contract)
+    instructions = list(source_map(contract).places)
+    targets = found[[at for at in instructions if code[at] == JUMPDEST]]
+    jumps = found["jump"][[at for at in instructions if code[at] in (JUMP, JUMPI)]]
+    runs = [(len(list(run)), stage) for stage, run in groupby(found["stage"][instructions].tolist())]
+    return {
+        "runs": [number for run in runs for number in run],
+        "jumps": "".join("-io"[jump] for jump in jumps),
+        "functions": targets["function"].tolist(),
+        "entries": targets["entry"].tolist(),
+    }
 
 
 def main() -> int:

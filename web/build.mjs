@@ -32,7 +32,8 @@ const builds = {
         const entryPoints = { index: "src/index.ts", view: "src/view/index.ts" };
         await build({ ...modules, entryPoints, outdir: "dist" });
         copyFileSync("../src/shackled/evm/evm.wasm", "dist/evm.wasm");
-        copyFileSync("../src/shackled/web/contracts.json", "dist/contracts.json");
+        for (const name of ["contracts.json", "stages.json"])
+            copyFileSync(`../src/shackled/web/${name}`, `dist/${name}`);
     },
     tests: () => {
         rmSync("dist/tests", { recursive: true, force: true });

@@ -6,10 +6,11 @@
 //! call and every expansion of memory is decided by revm alone.
 
 use revm::{
+    bytecode::opcode,
     interpreter::{
-        Interpreter,
+        CallInput, Interpreter,
         interpreter::EthInterpreter,
-        interpreter_types::{Jumps, MemoryTr},
+        interpreter_types::{InputsTr, Jumps, MemoryTr},
     },
     primitives::U256,
 };
@@ -17,8 +18,12 @@ use revm::{
 /// The number of words that an EVM stack holds.
 const STACK_LIMIT: usize = 1024;
 
+const BASE: u64 = 2;
 const VERY_LOW: u64 = 3;
 const LOW: u64 = 5;
+const MID: u64 = 8;
+const HIGH: u64 = 10;
+const JUMPDEST: u64 = 1;
 
 pub fn run(interpreter: &mut Interpreter<EthInterpreter>) {
     let code = interpreter.bytecode.bytes_ref().as_ptr();
@@ -26,75 +31,74 @@ pub fn run(interpreter: &mut Interpreter<EthInterpreter>) {
     let (jumps, jump_count) = (table.as_slice().as_ptr(), table.len());
     let size = interpreter.memory.size();
     let memory = interpreter.memory.slice_mut(0, size).as_mut_ptr();
+    let (data, data_size) = match interpreter.input.input() {
+        CallInput::Bytes(bytes) => (bytes.as_ptr(), bytes.len()),
+        CallInput::SharedBuffer(range) => (interpreter.memory.global_slice(range.clone()).as_ptr(), range.len()),
+    };
     let bottom = interpreter.stack.data_mut().as_mut_ptr();
-    let mut depth = interpreter.stack.len();
     let start = interpreter.bytecode.pc();
     let mut at = start;
     let mut gas = interpreter.gas.remaining();
 
-    // SAFETY: the code ends with STOP behind the last immediate; the stack has room for STACK_LIMIT words, of which the
-    // first `depth` are initialized; `memory` has `size` bytes, and nothing here moves either.
+    // SAFETY: the code ends with STOP behind the last immediate; the stack has room for STACK_LIMIT words, of which those
+    // before `end` are initialized; `memory` has `size` bytes and `data` has `data_size`, and nothing here moves them.
     unsafe {
+        let limit = bottom.add(STACK_LIMIT);
+        // behind the upper word of the stack
+        let mut end = bottom.add(interpreter.stack.len());
         macro_rules! top {
             ($n:expr) => {
-                &mut *bottom.add(depth - 1 - $n)
+                &mut *end.sub(1 + $n)
             };
         }
         // leaves to revm what needs more gas or words than there are
         macro_rules! need {
             ($gas:expr, $words:expr) => {
-                if gas < $gas || depth < $words {
+                if gas < $gas || end < bottom.add($words) {
                     break;
                 }
-                gas -= $gas;
             };
+        }
+        macro_rules! room {
+            ($gas:expr) => {
+                if gas < $gas || end == limit {
+                    break;
+                }
+            };
+        }
+        // completes an instruction: its gas, the words that it takes, the next position
+        macro_rules! done {
+            ($gas:expr, $words:expr, $next:expr) => {{
+                gas -= $gas;
+                end = end.sub($words);
+                at = $next;
+            }};
+        }
+        macro_rules! unary {
+            ($gas:expr, |$a:ident| $value:expr) => {{
+                need!($gas, 1);
+                let a = top!(0);
+                let $a = *a;
+                *a = $value;
+                done!($gas, 0, at + 1);
+            }};
         }
         macro_rules! binary {
             ($gas:expr, |$a:ident, $b:ident| $value:expr) => {{
                 need!($gas, 2);
-                let $a = *top!(0);
-                depth -= 1;
-                let b = top!(0);
+                let ($a, b) = (*top!(0), top!(1));
                 let $b = *b;
                 *b = $value;
-                at += 1;
+                done!($gas, 1, at + 1);
             }};
-        }
-        macro_rules! room {
-            ($gas:expr) => {
-                if gas < $gas || depth == STACK_LIMIT {
-                    break;
-                }
-                gas -= $gas;
-            };
         }
         macro_rules! push {
-            ($n:expr) => {{
-                room!(VERY_LOW);
-                *bottom.add(depth) = read::<$n>(code.add(at + 1));
-                depth += 1;
-                at += 1 + $n;
-            }};
-        }
-        macro_rules! dup {
-            ($n:expr) => {{
-                if gas < VERY_LOW || depth < $n || depth == STACK_LIMIT {
-                    break;
-                }
-                gas -= VERY_LOW;
-                *bottom.add(depth) = *bottom.add(depth - $n);
-                depth += 1;
-                at += 1;
-            }};
-        }
-        macro_rules! swap {
-            ($n:expr) => {{
-                need!(VERY_LOW, $n + 1);
-                let (upper, lower) = (bottom.add(depth - 1), bottom.add(depth - 1 - $n));
-                let (a, b) = (*upper, *lower);
-                *upper = b;
-                *lower = a;
-                at += 1;
+            ($gas:expr, $value:expr, $next:expr) => {{
+                room!($gas);
+                *end = $value;
+                end = end.add(1);
+                gas -= $gas;
+                at = $next;
             }};
         }
         macro_rules! valid {
@@ -102,204 +106,182 @@ pub fn run(interpreter: &mut Interpreter<EthInterpreter>) {
                 $to < jump_count && *jumps.add($to >> 3) >> ($to & 7) & 1 == 1
             };
         }
+        // Pushes a small number. With the instruction behind it, where nothing is special about both, it is one: a jump
+        // with the JUMPDEST that it leads to, a load or a store at a fixed place, a shift by a fixed number of bits.
+        macro_rules! push_small {
+            ($value:expr, $next:expr) => {{
+                let (value, next): (usize, usize) = ($value, $next);
+                room!(VERY_LOW);
+                match *code.add(next) {
+                    opcode::MLOAD if gas >= 2 * VERY_LOW && value + 32 <= size => {
+                        push!(2 * VERY_LOW, load(memory.add(value)), next + 1)
+                    }
+                    opcode::MSTORE if gas >= 2 * VERY_LOW && value + 32 <= size && end > bottom => {
+                        store(memory.add(value), top!(0));
+                        done!(2 * VERY_LOW, 1, next + 1)
+                    }
+                    opcode::JUMP if gas >= VERY_LOW + MID + JUMPDEST && valid!(value) => {
+                        done!(VERY_LOW + MID + JUMPDEST, 0, value + 1)
+                    }
+                    opcode::JUMPI if gas >= VERY_LOW + HIGH + JUMPDEST && end > bottom && valid!(value) => {
+                        if is_zero(top!(0)) {
+                            done!(VERY_LOW + HIGH, 1, next + 1)
+                        } else {
+                            done!(VERY_LOW + HIGH + JUMPDEST, 1, value + 1)
+                        }
+                    }
+                    opcode::SHL if gas >= 2 * VERY_LOW && value < 256 && end > bottom => {
+                        *top!(0) = shift_left(top!(0), value);
+                        done!(2 * VERY_LOW, 0, next + 1)
+                    }
+                    opcode::SHR if gas >= 2 * VERY_LOW && value < 256 && end > bottom => {
+                        *top!(0) = shift_right(top!(0), value, 0);
+                        done!(2 * VERY_LOW, 0, next + 1)
+                    }
+                    opcode::SAR if gas >= 2 * VERY_LOW && value < 256 && end > bottom => {
+                        *top!(0) = shift_right(top!(0), value, sign(top!(0)));
+                        done!(2 * VERY_LOW, 0, next + 1)
+                    }
+                    _ => push!(VERY_LOW, word(value as u64), next),
+                }
+            }};
+        }
         loop {
             match *code.add(at) {
-                0x01 => binary!(VERY_LOW, |a, b| a.wrapping_add(b)),
-                0x02 => binary!(LOW, |a, b| multiply(a, b)),
-                0x03 => binary!(VERY_LOW, |a, b| a.wrapping_sub(b)),
-                0x04 => binary!(LOW, |a, b| divide(a, b)),
-                0x05 => binary!(LOW, |a, b| {
-                    let negative = is_negative(&a) != is_negative(&b);
+                opcode::ADD => binary!(VERY_LOW, |a, b| a.wrapping_add(b)),
+                opcode::MUL => binary!(LOW, |a, b| multiply(a, b)),
+                opcode::SUB => binary!(VERY_LOW, |a, b| a.wrapping_sub(b)),
+                opcode::DIV => binary!(LOW, |a, b| divide(a, b)),
+                opcode::SDIV => binary!(LOW, |a, b| {
                     let quotient = divide(magnitude(a), magnitude(b));
-                    if negative { quotient.wrapping_neg() } else { quotient }
+                    if sign(&a) == sign(&b) { quotient } else { quotient.wrapping_neg() }
                 }),
-                0x10 => binary!(VERY_LOW, |a, b| truth(less(&a, &b))),
-                0x11 => binary!(VERY_LOW, |a, b| truth(less(&b, &a))),
-                0x12 => binary!(VERY_LOW, |a, b| truth(signed_less(&a, &b))),
-                0x13 => binary!(VERY_LOW, |a, b| truth(signed_less(&b, &a))),
-                0x14 => binary!(VERY_LOW, |a, b| truth(a == b)),
-                0x15 => {
-                    need!(VERY_LOW, 1);
-                    let a = top!(0);
-                    *a = truth(is_zero(a));
-                    at += 1;
-                }
-                0x16 => binary!(VERY_LOW, |a, b| a & b),
-                0x17 => binary!(VERY_LOW, |a, b| a | b),
-                0x18 => binary!(VERY_LOW, |a, b| a ^ b),
-                0x19 => {
-                    need!(VERY_LOW, 1);
-                    let a = top!(0);
-                    *a = !*a;
-                    at += 1;
-                }
-                0x1a => binary!(VERY_LOW, |a, b| match small(&a) {
+                opcode::SIGNEXTEND => binary!(LOW, |a, b| match small(&a) {
+                    Some(byte) if byte < 31 => {
+                        let raised = shift_left(&b, 248 - 8 * byte);
+                        shift_right(&raised, 248 - 8 * byte, sign(&raised))
+                    }
+                    _ => b,
+                }),
+                opcode::LT => binary!(VERY_LOW, |a, b| truth(less(&a, &b))),
+                opcode::GT => binary!(VERY_LOW, |a, b| truth(less(&b, &a))),
+                opcode::SLT => binary!(VERY_LOW, |a, b| truth(signed_less(&a, &b))),
+                opcode::SGT => binary!(VERY_LOW, |a, b| truth(signed_less(&b, &a))),
+                opcode::EQ => binary!(VERY_LOW, |a, b| truth(a == b)),
+                opcode::ISZERO => unary!(VERY_LOW, |a| truth(is_zero(&a))),
+                opcode::AND => binary!(VERY_LOW, |a, b| a & b),
+                opcode::OR => binary!(VERY_LOW, |a, b| a | b),
+                opcode::XOR => binary!(VERY_LOW, |a, b| a ^ b),
+                opcode::NOT => unary!(VERY_LOW, |a| !a),
+                opcode::BYTE => binary!(VERY_LOW, |a, b| match small(&a) {
                     Some(index) if index < 32 => word(b.as_limbs()[3 - index / 8] >> (56 - index % 8 * 8) & 255),
                     _ => U256::ZERO,
                 }),
-                0x1b => binary!(VERY_LOW, |a, b| match small(&a) {
+                opcode::SHL => binary!(VERY_LOW, |a, b| match small(&a) {
                     Some(bits) if bits < 256 => shift_left(&b, bits),
                     _ => U256::ZERO,
                 }),
-                0x1c => binary!(VERY_LOW, |a, b| match small(&a) {
+                opcode::SHR => binary!(VERY_LOW, |a, b| match small(&a) {
                     Some(bits) if bits < 256 => shift_right(&b, bits, 0),
                     _ => U256::ZERO,
                 }),
-                0x1d => binary!(VERY_LOW, |a, b| {
-                    let sign = if is_negative(&b) { u64::MAX } else { 0 };
-                    match small(&a) {
-                        Some(bits) if bits < 256 => shift_right(&b, bits, sign),
-                        _ => U256::from_limbs([sign; 4]),
-                    }
+                opcode::SAR => binary!(VERY_LOW, |a, b| match small(&a) {
+                    Some(bits) if bits < 256 => shift_right(&b, bits, sign(&b)),
+                    _ => U256::from_limbs([sign(&b); 4]),
                 }),
-                0x50 => {
-                    need!(2, 1);
-                    depth -= 1;
-                    at += 1;
-                }
-                0x51 => {
-                    if gas < VERY_LOW || depth < 1 {
-                        break;
-                    }
-                    let a = top!(0);
-                    match small(a) {
-                        Some(place) if place + 32 <= size => *a = load(memory.add(place)),
+                opcode::CALLDATALOAD => {
+                    need!(VERY_LOW, 1);
+                    match small(top!(0)) {
+                        Some(place) if place + 32 <= data_size => *top!(0) = load(data.add(place)),
                         _ => break,
                     }
-                    gas -= VERY_LOW;
-                    at += 1;
+                    done!(VERY_LOW, 0, at + 1);
                 }
-                0x52 => {
-                    if gas < VERY_LOW || depth < 2 {
-                        break;
+                opcode::CALLDATASIZE => push!(BASE, word(data_size as u64), at + 1),
+                opcode::POP => {
+                    need!(BASE, 1);
+                    done!(BASE, 1, at + 1);
+                }
+                opcode::MLOAD => {
+                    need!(VERY_LOW, 1);
+                    match small(top!(0)) {
+                        Some(place) if place + 32 <= size => *top!(0) = load(memory.add(place)),
+                        _ => break,
                     }
+                    done!(VERY_LOW, 0, at + 1);
+                }
+                opcode::MSTORE => {
+                    need!(VERY_LOW, 2);
                     match small(top!(0)) {
                         Some(place) if place + 32 <= size => store(memory.add(place), top!(1)),
                         _ => break,
                     }
-                    gas -= VERY_LOW;
-                    depth -= 2;
-                    at += 1;
+                    done!(VERY_LOW, 2, at + 1);
                 }
-                0x53 => {
-                    if gas < VERY_LOW || depth < 2 {
-                        break;
-                    }
+                opcode::MSTORE8 => {
+                    need!(VERY_LOW, 2);
                     match small(top!(0)) {
                         Some(place) if place < size => *memory.add(place) = top!(1).as_limbs()[0] as u8,
                         _ => break,
                     }
-                    gas -= VERY_LOW;
-                    depth -= 2;
-                    at += 1;
+                    done!(VERY_LOW, 2, at + 1);
                 }
-                0x56 => {
-                    if gas < 8 || depth < 1 {
+                opcode::MCOPY => {
+                    need!(VERY_LOW, 3);
+                    let (Some(to), Some(from), Some(count)) = (small(top!(0)), small(top!(1)), small(top!(2))) else {
+                        break;
+                    };
+                    let cost = VERY_LOW * (1 + count.div_ceil(32) as u64);
+                    if gas < cost || to + count > size || from + count > size {
                         break;
                     }
+                    copy(memory.add(from), memory.add(to), count);
+                    done!(cost, 3, at + 1);
+                }
+                opcode::JUMP => {
+                    need!(MID, 1);
                     match small(top!(0)) {
-                        Some(to) if valid!(to) => at = to,
+                        Some(to) if valid!(to) => done!(MID, 1, to),
                         _ => break,
                     }
-                    gas -= 8;
-                    depth -= 1;
                 }
-                0x57 => {
-                    if gas < 10 || depth < 2 {
-                        break;
-                    }
+                opcode::JUMPI => {
+                    need!(HIGH, 2);
                     if is_zero(top!(1)) {
-                        at += 1;
+                        done!(HIGH, 2, at + 1);
                     } else {
                         match small(top!(0)) {
-                            Some(to) if valid!(to) => at = to,
+                            Some(to) if valid!(to) => done!(HIGH, 2, to),
                             _ => break,
                         }
                     }
-                    gas -= 10;
-                    depth -= 2;
                 }
-                0x5b => {
-                    if gas < 1 {
-                        break;
-                    }
-                    gas -= 1;
-                    at += 1;
+                opcode::JUMPDEST => {
+                    need!(JUMPDEST, 0);
+                    done!(JUMPDEST, 0, at + 1);
                 }
-                0x5f => {
-                    room!(2);
-                    *bottom.add(depth) = U256::ZERO;
-                    depth += 1;
-                    at += 1;
+                opcode::PUSH0 => push!(BASE, U256::ZERO, at + 1),
+                opcode::PUSH1 => push_small!(*code.add(at + 1) as usize, at + 2),
+                opcode::PUSH2 => push_small!((*code.add(at + 1) as usize) << 8 | *code.add(at + 2) as usize, at + 3),
+                push @ opcode::PUSH3..=opcode::PUSH32 => {
+                    let next = at + 1 + (push - opcode::PUSH0) as usize;
+                    push!(VERY_LOW, immediate(code, at + 1, next), next)
                 }
-                0x60 => push!(1),
-                0x61 => push!(2),
-                0x62 => push!(3),
-                0x63 => push!(4),
-                0x64 => push!(5),
-                0x65 => push!(6),
-                0x66 => push!(7),
-                0x67 => push!(8),
-                0x68 => push!(9),
-                0x69 => push!(10),
-                0x6a => push!(11),
-                0x6b => push!(12),
-                0x6c => push!(13),
-                0x6d => push!(14),
-                0x6e => push!(15),
-                0x6f => push!(16),
-                0x70 => push!(17),
-                0x71 => push!(18),
-                0x72 => push!(19),
-                0x73 => push!(20),
-                0x74 => push!(21),
-                0x75 => push!(22),
-                0x76 => push!(23),
-                0x77 => push!(24),
-                0x78 => push!(25),
-                0x79 => push!(26),
-                0x7a => push!(27),
-                0x7b => push!(28),
-                0x7c => push!(29),
-                0x7d => push!(30),
-                0x7e => push!(31),
-                0x7f => push!(32),
-                0x80 => dup!(1),
-                0x81 => dup!(2),
-                0x82 => dup!(3),
-                0x83 => dup!(4),
-                0x84 => dup!(5),
-                0x85 => dup!(6),
-                0x86 => dup!(7),
-                0x87 => dup!(8),
-                0x88 => dup!(9),
-                0x89 => dup!(10),
-                0x8a => dup!(11),
-                0x8b => dup!(12),
-                0x8c => dup!(13),
-                0x8d => dup!(14),
-                0x8e => dup!(15),
-                0x8f => dup!(16),
-                0x90 => swap!(1),
-                0x91 => swap!(2),
-                0x92 => swap!(3),
-                0x93 => swap!(4),
-                0x94 => swap!(5),
-                0x95 => swap!(6),
-                0x96 => swap!(7),
-                0x97 => swap!(8),
-                0x98 => swap!(9),
-                0x99 => swap!(10),
-                0x9a => swap!(11),
-                0x9b => swap!(12),
-                0x9c => swap!(13),
-                0x9d => swap!(14),
-                0x9e => swap!(15),
-                0x9f => swap!(16),
+                dup @ opcode::DUP1..=opcode::DUP16 => {
+                    let count = (dup - opcode::DUP1) as usize;
+                    need!(VERY_LOW, count + 1);
+                    push!(VERY_LOW, *top!(count), at + 1);
+                }
+                swap @ opcode::SWAP1..=opcode::SWAP16 => {
+                    let count = (swap - opcode::SWAP1) as usize + 1;
+                    need!(VERY_LOW, count + 1);
+                    std::ptr::swap(top!(0), top!(count));
+                    done!(VERY_LOW, 0, at + 1);
+                }
                 _ => break,
             }
         }
-        interpreter.stack.data_mut().set_len(depth);
+        interpreter.stack.data_mut().set_len(end.offset_from_unsigned(bottom));
     }
     interpreter.gas.set_remaining(gas);
     interpreter.bytecode.relative_jump(at as isize - start as isize);
@@ -328,14 +310,15 @@ fn is_zero(value: &U256) -> bool {
     a | b | c | d == 0
 }
 
+/// Returns the sign of a number in each bit of a limb.
 #[inline(always)]
-fn is_negative(value: &U256) -> bool {
-    (value.as_limbs()[3] as i64) < 0
+fn sign(value: &U256) -> u64 {
+    (value.as_limbs()[3] as i64 >> 63) as u64
 }
 
 #[inline(always)]
 fn magnitude(value: U256) -> U256 {
-    if is_negative(&value) { value.wrapping_neg() } else { value }
+    if sign(&value) == 0 { value } else { value.wrapping_neg() }
 }
 
 #[inline(always)]
@@ -399,18 +382,41 @@ fn divide(a: U256, b: U256) -> U256 {
     if is_zero(&b) { U256::ZERO } else { a.wrapping_div(b) }
 }
 
-/// Reads the `N` bytes of an immediate.
+/// Reads the immediate at `begin..end` of a code, up to 32 bytes.
 ///
 /// # Safety
-/// There must be `N` bytes.
+/// The code must have `end` bytes.
 #[inline(always)]
-unsafe fn read<const N: usize>(bytes: *const u8) -> U256 {
-    let mut limbs = [0u64; 4];
-    for i in 0..N {
-        let byte = unsafe { *bytes.add(N - 1 - i) } as u64;
-        limbs[i / 8] |= byte << (i % 8 * 8);
+unsafe fn immediate(code: *const u8, begin: usize, end: usize) -> U256 {
+    if end < 32 {
+        return unsafe { std::slice::from_raw_parts(code.add(begin), end - begin) }
+            .iter()
+            .fold(U256::ZERO, |value, byte| value << 8 | word(*byte as u64));
     }
-    U256::from_limbs(limbs)
+    // what stands before it is read too, and masked
+    let limbs = *unsafe { load(code.add(end - 32)) }.as_limbs();
+    let bits = 8 * (end - begin);
+    U256::from_limbs(std::array::from_fn(|i| match bits.saturating_sub(64 * i) {
+        0 => 0,
+        1..64 => limbs[i] & ((1 << (bits % 64)) - 1),
+        64.. => limbs[i],
+    }))
+}
+
+/// Copies memory to memory, which may overlap.
+///
+/// # Safety
+/// Both must have `count` bytes.
+#[inline(always)]
+unsafe fn copy(from: *const u8, to: *mut u8, count: usize) {
+    unsafe {
+        match count {
+            // what a call of the copying routine would cost more than
+            3 => to.cast::<[u8; 3]>().write(from.cast::<[u8; 3]>().read()),
+            8 => to.cast::<[u8; 8]>().write(from.cast::<[u8; 8]>().read()),
+            _ => std::ptr::copy(from, to, count),
+        }
+    }
 }
 
 /// Reads a word of memory.

@@ -118,6 +118,13 @@ PROGRAMS = {
     "SWAP16": b"".join(map(push, range(17))) + b"\x9f" + END,
     "underflow of JUMPI": push(1) + bytes([JUMPI]),
     "full stack": push(1) * 1024,
+    "load at a fixed place on a full stack": op(MSTORE, 0, 1) + push(1) * 1024 + op(MLOAD, 0),
+    "load at a fixed place on the last word": op(MSTORE, 0, 7) + push(1) * 1023 + op(MLOAD, 0),
+    "jump on a full stack": push(1) * 1024 + op(JUMP, 2052) + bytes([JUMPDEST]),
+    "shift on a full stack": push(1) * 1024 + op(SHL, 1),
+    "shift of nothing": op(SHL, 1),
+    "store of nothing at a fixed place": op(MSTORE, 0, 1) + op(MSTORE, 0),
+    "jump on nothing": op(JUMPI, 3) + bytes([JUMPDEST]),
     "overflow by PUSH": push(1) * 1025,
     "overflow by PUSH0": bytes([PUSH0]) * 1025,
     "overflow by DUP": push(1) * 1024 + bytes([DUP1]),
@@ -132,6 +139,9 @@ PROGRAMS = {
     "jump to 2^64 + 4": op(JUMP, (1 << 64) + 10) + bytes([JUMPDEST]),
     "jump to -1": op(JUMP, ONES),
     "jump": op(JUMP, 3) + bytes([JUMPDEST]),
+    "jump if": op(JUMPI, 5, 1) + bytes([JUMPDEST]),
+    "no jump": op(JUMPI, 5, 0) + bytes([JUMPDEST]),
+    "jump to a place of two bytes": op(JUMPI, 300, 1) + bytes(293) + bytes([JUMPDEST]),
     "no jump to a bad place": op(JUMPI, ONES, 0),
     "jump to a bad place": op(JUMPI, ONES, 1 << 255),
     "push beyond the end": b"\x7f\x01\x02",
@@ -149,6 +159,11 @@ PROGRAMS = {
     "byte at -1": op(MSTORE8, ONES, 1),
     "copy of memory upward": op(MSTORE, 0, EDGES[-3]) + op(MCOPY, 5, 0, 40) + bytes([MSIZE]) * 2 + END,
     "copy of memory downward": op(MSTORE, 32, EDGES[-3]) + op(MCOPY, 3, 20, 44) + bytes([MSIZE]) * 2 + END,
+    "copy of memory at the border": op(MSTORE, 32, ONES) + op(MCOPY, 61, 33, 3) + op(MCOPY, 62, 33, 3) + END,
+    "copy from the border": op(MSTORE, 32, ONES) + op(MCOPY, 1, 56, 8) + op(MCOPY, 2, 57, 8) + bytes([MSIZE]) + END,
+    "copy of nothing": op(MSTORE, 32, ONES) + op(MCOPY, 64, 3, 0) + op(MCOPY, 65, 3, 0) + END,
+    "copy of too few words": op(MSTORE, 32, ONES) + push(1) * 2 + bytes([MCOPY]),
+    "the call's data": b"".join(op(CALLDATALOAD, place) for place in (0, 7, 8, 38, 39)) + END,
     "copy of nothing from far": op(MCOPY, ONES, ONES, 0) + bytes([MSIZE]) * 2 + END,
     "copy from far": op(MCOPY, 0, 1 << 64, 1),
     "copy of the call's data beyond its end": op(CALLDATACOPY, 2, 1, 70)
@@ -213,6 +228,39 @@ def test_other_precompiled_contracts_fail_as_a_whole(ours: Ours) -> None:
         assert b"is not part of this EVM" in answer.output
 
 
+@pytest.mark.parametrize("size", range(1, 33))
+def test_immediates(ours: Ours, size: int) -> None:
+    """Of every size, in the first bytes of a code, behind them, and cut off by its end."""
+    value = bytes([PUSH0 + size]) + bytes(range(0xFF, 0xFF - size, -1))
+    for before in range(34):
+        program = bytes([JUMPDEST]) * before + value
+        answer = agree_with_pyrevm(ours, program + op(MSTORE, 0) + op(RETURN, 0, 32))
+        assert answer.output == value[1:].rjust(32, b"\0")
+        agree_with_pyrevm(ours, program[:-1])
+
+
+@pytest.mark.parametrize("size", [*range(70), 300])
+def test_copies_of_memory(ours: Ours, size: int) -> None:
+    """Upward and downward, with and without overlap, within the memory."""
+    fill = b"".join(op(MSTORE, place, ONES // 255 * (place // 32 + 1) ^ EDGES[-1]) for place in range(0, 1024, 32))
+    for to, origin in ((3, 0), (0, 3), (40, 9), (9, 40), (500, 20), (20, 500), (1024 - size, 5), (5, 1024 - size)):
+        answer = agree_with_pyrevm(ours, fill + op(MCOPY, to, origin, size) + op(RETURN, 0, 1024))
+        assert len(answer.output) == 1024
+
+
+def test_the_data_of_a_call_from_a_contract(ours: Ours) -> None:
+    """They are memory of the caller, which is read where it is."""
+    inner = bytes(18) + b"\xbe\xef"
+    answer = bytes([JUMPDEST]) + b"".join(op(CALLDATALOAD, place) for place in (0, 9, 63, 64)) + bytes([CALLDATASIZE])
+    answer += b"".join(op(MSTORE, 32 * number) for number in range(5)) + op(RETURN, 0, 160)
+    fill = b"".join(op(MSTORE, 32 * number, EDGES[-number - 1]) for number in range(5))
+    outer = fill + op(STATICCALL, 50_000, 0xBEEF, 17, 95, 0, 160) + op(RETURN, 0, 160)
+    codes = {ADDRESS: outer, inner: answer}
+    found = ours.call(codes, ADDRESS, b"", GAS)
+    assert found == pyrevm_call(codes, ADDRESS, b"", GAS)
+    assert int.from_bytes(found.output[:32]) == 95
+
+
 # ---- random programs ----
 
 numbers = st.one_of(
@@ -262,12 +310,14 @@ def test_random_loops(ours: Ours, seed: int) -> None:
     """Many rounds over a few instructions, which work on what the last round left on the stack and in memory."""
     rng = random.Random(seed)
     body = bytearray()
-    for _ in range(rng.randint(5, 40)):
+    for number in range(rng.randint(5, 40)):
         operands = rng.choice((1, 2, 2, 2, 3))
         body += bytes([rng.choice((DUP1, DUP1 + 3, DUP1 + 7, SWAP1 + 2))]) * rng.randint(1, 3)
         body += op(AND, 0xFFF) + bytes([MLOAD]) if rng.random() < 0.3 else b""
         body += bytes([rng.choice([each for each in PURE[operands] if each != EXP])])
         body += bytes([DUP1]) + op(AND, 0xFFF) + bytes([MSTORE]) if rng.random() < 0.3 else b""
+        if number % 5 == 4:
+            body += op(MCOPY, rng.randrange(4096), rng.randrange(4096), rng.choice((0, 3, 8, 33)))
     start = b"".join(push(rng.choice(EDGES)) for _ in range(200))
     program = start + bytes([JUMPDEST]) + body + op(JUMPI, len(start), 1)
     answer = agree_with_pyrevm(ours, program, bytes(range(200)), 300_000)

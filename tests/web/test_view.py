@@ -10,7 +10,6 @@ import time
 import zlib
 from collections.abc import Callable, Iterator
 from functools import cache
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -24,8 +23,10 @@ from shackled import Image, Scene, load, render
 from shackled.artifacts import artifact
 from shackled.chain import EmbeddedChain, open_chain
 from shackled.ethereum import to_hex
-from shackled.scene import encode, encode_scene_file
+from shackled.gas import profile
+from shackled.scene import encode, encode_scene_file, render_call
 from shackled.studio import store_scene
+from shackled.web import asset
 
 playwright = pytest.importorskip("playwright.sync_api", reason="the tests of the element need playwright")
 if browser_path() is None:
@@ -495,9 +496,8 @@ def test_labels(show: Opener) -> None:
 @pytest.fixture(params=["blob:", "'none'"])
 def site(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[str]:
     """The address of a page whose files lie beside it. request: what workers it allows."""
-    package = files("shackled")
-    for source in (package / "web" / "view.js", package / "web" / "contracts.json", package / "evm" / "evm.wasm"):
-        (tmp_path / source.name).write_bytes(source.read_bytes())
+    for name in ("view.js", "shackled.js", "evm.wasm", "contracts.json", "stages.json"):
+        (tmp_path / name).write_bytes(asset(name))
     render(scene()).save(tmp_path / "crown.png")
 
     elements = '<shackled-view src="crown.png"><img src="crown.png" alt="A crown"></shackled-view>\n'
@@ -529,6 +529,8 @@ def test_a_page_of_files(browser: Any, site: str, request: pytest.FixtureRequest
     # the EVM is held back until the poster has been seen
     held: list[Any] = []
     page.route("**/evm.wasm", lambda route: held.append(route))
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
     with page.expect_request("**/evm.wasm"):
         page.goto(site)
     view, poster = page.locator("shackled-view").first, page.locator("img").first
@@ -544,6 +546,14 @@ def test_a_page_of_files(browser: Any, site: str, request: pytest.FixtureRequest
         assert page.locator("shackled-view").last.evaluate("view => view.picture") is None
         page.locator("shackled-view").last.scroll_into_view_if_needed()
         page.locator("shackled-view").last.get_by_role("button", name="Check").wait_for(timeout=1000 * PATIENCE)
+        # the stages of instructions are loaded by what asks for a profile only
+        assert f"{site}/stages.json" not in asked
+        stages = page.evaluate(
+            "async ([module, call]) => (await import(module)).profile(Uint8Array.from(call))",
+            [f"{site}/shackled.js", list(render_call(scene()))],
+        )
+        assert {each["stage"]: each["gas"] for each in stages} == profile(scene()).stages()
+        assert f"{site}/stages.json" in asked
     else:
         view.get_by_role("alert").wait_for(timeout=1000 * PATIENCE)
         assert "worker-src blob:" in view.get_by_role("alert").inner_text()

@@ -17,7 +17,8 @@ from shackled import load
 from shackled.artifacts import artifact
 from shackled.chain import ContractChain, open_chain
 from shackled.errors import RenderError
-from shackled.scene import encode
+from shackled.gas import profile, render_call
+from shackled.scene import LookOptions, encode
 
 SCRIPT = Path(__file__).with_name("render_calls.mjs")
 PACKAGE = files("shackled")
@@ -26,11 +27,13 @@ NAMES = ("teapot", "icons/crown", "icons/diamond", "genesis/0", "genesis/7")
 pytestmark = pytest.mark.skipif(not shutil.which("node"), reason="there is no Node")
 
 
-def drawn_by_node(calls: list[bytes], folder: Path) -> list[dict[str, Any]]:
+def drawn_by_node(calls: list[bytes], folder: Path, *, profile: bool = False) -> list[dict[str, Any]]:
     path = folder / "calls"
     path.write_text("".join(f"{call.hex()}\n" for call in calls))
-    assets = (PACKAGE / "web" / "shackled.js", PACKAGE / "evm" / "evm.wasm", PACKAGE / "web" / "contracts.json")
-    done = subprocess.run(["node", SCRIPT, *map(str, assets), path], check=True, capture_output=True, text=True)
+    web = PACKAGE / "web"
+    assets = (web / "shackled.js", PACKAGE / "evm" / "evm.wasm", web / "contracts.json", web / "stages.json")
+    command = ["node", *map(str, (SCRIPT, *assets, path)), *["profile"] * profile]
+    done = subprocess.run(command, check=True, capture_output=True, text=True)
     return [json.loads(line) for line in done.stdout.splitlines()]
 
 
@@ -63,3 +66,19 @@ def test_pictures_and_errors(tmp_path: Path) -> None:
     assert found == [drawn_by_python(call) for call in calls]
     assert any("sha256" in each for each in found[len(NAMES) :])
     assert len({each.get("message") for each in found}) > 10
+
+
+def test_gas_by_stage(tmp_path: Path) -> None:
+    """All stages, for each engine, are those that `shackled gas` prints."""
+    looks: tuple[LookOptions, ...] = (
+        {"unlit": True},
+        {"smooth": False},
+        {"smooth": True, "antialias": False},
+        {"smooth": True},
+        {"exposure": 1.2, "gamma": True, "shadow": True, "ground": "gray"},
+    )
+    scenes = [load("icons/crown", size=(64, 48), **look) for look in looks]
+    scenes += [load(name, size=(64, 48)) for name in NAMES]
+    found = drawn_by_node([render_call(scene) for scene in scenes], tmp_path, profile=True)
+    assert [each["stages"] for each in found] == [profile(scene).stages() for scene in scenes]
+    assert len({tuple(stage for stage, gas in each["stages"].items() if gas) for each in found}) > 2

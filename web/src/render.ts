@@ -1,19 +1,39 @@
 // Pictures, computed by the contracts' own bytecode.
 
-import { loadAssets, type AssetSources } from "./evm/assets.js";
+import { loadAssets, loadStages, type AssetSources } from "./evm/assets.js";
 import { ContractEvm } from "./evm/contracts.js";
+import type { StageGas } from "./evm/stages.js";
 import { drawCall, type Picture } from "./picture.js";
 import { encode } from "./scene/encode.js";
 import type { Scene } from "./scene/types.js";
 
-/** gas: the most that the execution may use. assets: where evm.wasm and contracts.json are; beside this module by default. */
+/** gas: the most that the execution may use. assets: where the files that are needed are; beside this module by default. */
 export interface RenderOptions {
     gas?: number | undefined;
     assets?: AssetSources | undefined;
 }
 
-const cached = new WeakMap<AssetSources, Promise<ContractEvm>>();
 const DEFAULTS: AssetSources = {};
+const evms = once(async (sources) => {
+    const { module, contracts } = await loadAssets(sources);
+    return new ContractEvm(module, contracts);
+});
+const stageMaps = once(loadStages);
+
+/** Return a function that loads something once for the same sources. */
+function once<T>(load: (sources: AssetSources) => Promise<T>): (sources: AssetSources | undefined) => Promise<T> {
+    const cached = new WeakMap<AssetSources, Promise<T>>();
+    return (sources = DEFAULTS) => {
+        let found = cached.get(sources);
+        if (!found) {
+            found = load(sources);
+            cached.set(sources, found);
+            // what could not be loaded may be there later
+            found.catch(() => cached.delete(sources));
+        }
+        return found;
+    };
+}
 
 /**
  * Draw a scene, or what a call of the Renderer asks for: `render`, `renderTile`, `renderCounted`, `renderTileCounted`.
@@ -23,13 +43,18 @@ const DEFAULTS: AssetSources = {};
  */
 export async function render(scene: Scene | Uint8Array, options: RenderOptions = {}): Promise<Picture> {
     const call = scene instanceof Uint8Array ? scene : encode(scene);
-    const sources = options.assets ?? DEFAULTS;
-    let evm = cached.get(sources);
-    if (!evm) {
-        evm = loadAssets(sources).then(({ module, contracts }) => new ContractEvm(module, contracts));
-        cached.set(sources, evm);
-        // what could not be loaded may be there later
-        evm.catch(() => cached.delete(sources));
-    }
-    return drawCall(await evm, call, options.gas);
+    return drawCall(await evms(options.assets), call, options.gas);
+}
+
+/**
+ * Return the gas of the same call by stage, as `shackled gas` prints it: in the order in which a picture is made, all
+ * stages, which sum to the gas of `render` exactly.
+ *
+ * It takes several times as long as `render`, and loads `options.assets.stages`. A call may be of any function of the
+ * Renderer. Errors are those of `render`.
+ */
+export async function profile(scene: Scene | Uint8Array, options: RenderOptions = {}): Promise<StageGas[]> {
+    const call = scene instanceof Uint8Array ? scene : encode(scene);
+    const [evm, stages] = await Promise.all([evms(options.assets), stageMaps(options.assets)]);
+    return evm.profile(call, stages, options.gas);
 }

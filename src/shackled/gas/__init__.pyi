@@ -7,7 +7,7 @@ from ._search import FIRST_LIMIT, SearchStep, search, suffices
 from ._source_map import source_map
 from ._speedscope import speedscope
 from ._stages import STAGES
-from ._trace import CallFrame, trace
+from ._trace import CallFrame, places, trace
 
 __all__ = [
     "FIRST_LIMIT",
@@ -29,6 +29,7 @@ __all__ = [
     "margin",
     "measure",
     "needed_for",
+    "places",
     "profile",
     "render_call",
     "search",

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..artifacts import artifact
 from ..chain import CallResult, RevmChain
@@ -45,7 +46,7 @@ class CallFrame:
 
 def trace(contract: str, data: bytes) -> tuple[CallFrame, CallResult]:
     """Make a call in the embedded EVM; return the frame of the contract, and the result."""
-    result, names, table = RevmChain().profile(contract, data, _places)
+    result, names, table = RevmChain().profile(contract, data, lambda name: places(name).tobytes())
     count = int(table[0])
     functions = table[1 : 1 + _FUNCTION * count].reshape(-1, _FUNCTION).tolist()
     frames = _frames([(parent, names[number], entry) for parent, number, entry in functions])
@@ -83,18 +84,22 @@ def _frames(functions: list[tuple[int, str, int]]) -> list[CallFrame]:
 
 
 @cache
-def _places(contract: str) -> bytes:
-    """Return what evm/src/profile.rs wants to know of each position of a contract."""
+def places(contract: str) -> NDArray[np.void]:
+    """Return what evm/src/profile.rs wants to know of each position of a contract.
+
+    stage: a number of STAGES from 1, or 0 for code that serves all. jump: 1 enters a function, 2 leaves one. function,
+    entry: numbers of the function that contains the position, and of the one that begins there, or 0.
+    """
     mapped = source_map(contract)
     stages = stages_of(mapped)
     numbers: dict[str, int] = {}
-    places = np.zeros(len(artifact(contract).runtime), _PLACE)
+    found = np.zeros(len(artifact(contract).runtime), _PLACE)
     for at, place in mapped.places.items():
         stage, function, entry = stages.get(at), place.function, mapped.entries.get(at)
-        places[at] = (
+        found[at] = (
             0 if stage is None else STAGES.index(stage) + 1,
             _JUMPS[place.jump],
             0 if function is None else numbers.setdefault(function, len(numbers) + 1),
             0 if entry is None else numbers.setdefault(entry, len(numbers) + 1),
         )
-    return places.tobytes()
+    return found

@@ -1,11 +1,12 @@
-// Where evm.wasm and contracts.json come from.
+// Where evm.wasm, contracts.json and stages.json come from.
 
 import { InputError } from "../errors.js";
 import { inflate, isGzip, readStream, unpack } from "./bytes.js";
 import { checkedContracts, type Contracts } from "./contracts.js";
 import { compile } from "./evm.js";
+import { checkedStages, type Stages } from "./stages.js";
 
-/** The most bytes of evm.wasm, and of contracts.json. */
+/** The most bytes of each. */
 const MAX_ASSET = 1 << 24;
 
 /**
@@ -14,10 +15,11 @@ const MAX_ASSET = 1 << 24;
  */
 export type AssetSource<T> = string | URL | Response | BufferSource | T;
 
-/** What is needed to draw; by default the files beside this module. */
+/** What is needed to draw, and `stages` for a profile; by default the files beside this module. */
 export interface AssetSources {
     evm?: AssetSource<WebAssembly.Module> | undefined;
     contracts?: AssetSource<Contracts> | undefined;
+    stages?: AssetSource<Stages> | undefined;
 }
 
 export interface Assets {
@@ -25,7 +27,7 @@ export interface Assets {
     contracts: Contracts;
 }
 
-/** Load the assets. InputError where they cannot be had. */
+/** Load what is needed to draw. InputError where they cannot be had. */
 export async function loadAssets(sources: AssetSources = {}): Promise<Assets> {
     const { evm, contracts } = sources;
     // bundlers look for URLs that are written like this
@@ -35,9 +37,18 @@ export async function loadAssets(sources: AssetSources = {}): Promise<Assets> {
             : bytesOf(evm ?? new URL("./evm.wasm", import.meta.url), "the EVM").then(compile),
         isPlain(contracts)
             ? contracts
-            : bytesOf(contracts ?? new URL("./contracts.json", import.meta.url), "the contracts").then(parse),
+            : bytesOf(contracts ?? new URL("./contracts.json", import.meta.url), "the contracts").then((bytes) =>
+                  parse(bytes, "contracts"),
+              ),
     ]);
     return { module, contracts: checkedContracts(found) };
+}
+
+/** Load the stages of the contracts. InputError where they cannot be had. */
+export async function loadStages({ stages }: AssetSources = {}): Promise<Stages> {
+    if (isPlain(stages)) return checkedStages(stages);
+    const bytes = await bytesOf(stages ?? new URL("./stages.json", import.meta.url), "the stages");
+    return checkedStages(parse(bytes, "stages"));
 }
 
 /** Return the bytes of a source. */
@@ -90,14 +101,14 @@ function inNode(): boolean {
     return typeof process === "object" && "getBuiltinModule" in process;
 }
 
-function isPlain(contracts: AssetSources["contracts"]): contracts is Contracts {
-    return typeof contracts === "object" && "contracts" in contracts;
+function isPlain<T extends Contracts | Stages>(source: AssetSource<T> | undefined): source is T {
+    return typeof source === "object" && "contracts" in source;
 }
 
-function parse(bytes: Uint8Array): unknown {
+function parse(bytes: Uint8Array, name: "contracts" | "stages"): unknown {
     try {
         return JSON.parse(new TextDecoder().decode(bytes)) as unknown;
     } catch {
-        throw new InputError("the contracts are not those of contracts.json");
+        throw new InputError(`the ${name} are not those of ${name}.json`);
     }
 }

@@ -3,6 +3,7 @@
 import { InputError } from "../errors.js";
 import { fromHex, toHex, wordAt } from "./bytes.js";
 import { Evm, GAS_LIMIT, type Answer } from "./evm.js";
+import { gasByStage, placesOf, type StageGas, type Stages } from "./stages.js";
 
 /** The content of contracts.json. */
 export interface Contracts {
@@ -41,6 +42,7 @@ export class ContractEvm {
     readonly renderer: Uint8Array;
     readonly contracts: Contracts;
     readonly #evm: Evm;
+    #described: Stages | null = null;
 
     /** Take the compiled module of evm.wasm, and contracts.json. */
     constructor(module: WebAssembly.Module, contracts: Contracts) {
@@ -60,7 +62,26 @@ export class ContractEvm {
 
     /** Call a contract, and return its output and gas. CallError, with what the contract says, where it fails. */
     call(address: Uint8Array, data: Uint8Array, gas = GAS_LIMIT): Answer {
-        const answer = this.#evm.call(address, data, gas);
+        return this.#checked(this.#evm.call(address, data, gas), gas);
+    }
+
+    /** Return the gas of a call of the Renderer by stage. CallError where it fails, InputError for stages of other contracts. */
+    profile(data: Uint8Array, stages: Stages, gas = GAS_LIMIT): StageGas[] {
+        if (this.#described !== stages) {
+            for (const name of RENDERER) {
+                const { address, code } = this.contracts.contracts[name];
+                const map = (stages.contracts as Partial<Stages["contracts"]>)[name];
+                if (map?.address !== address) throw new InputError(`the stages are not those of this ${name}`);
+                this.#evm.describe(fromHex(address), placesOf(fromHex(code), map));
+            }
+            this.#described = stages;
+        }
+        const { answer, table } = this.#evm.profile(this.renderer, data, gas);
+        this.#checked(answer, gas);
+        return gasByStage(table, stages.stages);
+    }
+
+    #checked(answer: Answer, gas: number): Answer {
         if (answer.status === "success") return answer;
         if (answer.status === "revert") {
             const said = describeRevert(answer.output, this.contracts);
