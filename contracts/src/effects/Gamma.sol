@@ -29,9 +29,6 @@ uint256 constant ENTRY_SHIFT = 1;
 uint256 constant ENTRIES_AT = 224;
 uint256 constant ENTRY_AT = 16;
 uint256 constant ENTRY_MASK = 0xffff;
-/// @dev Linear values below this, Q16, are encoded by the slope 12.92, which is LINEAR_SLOPE as levels (Q8) per Q16, times 2^8.
-uint256 constant FIRST_ENCODED = 128;
-uint256 constant LINEAR_SLOPE = 3295;
 /// @dev The end of the lanes of a colour.
 uint256 constant LANES_END = 3 * 56;
 /// @dev Entries for each power of two: 2^3.
@@ -74,8 +71,8 @@ library Gamma {
     /// @notice Returns the sRGB level, Q8, of a linear value, Q16, 0..1.
     function encode(uint256 linear) internal pure returns (uint256 level) {
         assembly ("memory-safe") {
-            switch lt(linear, FIRST_ENCODED) // near black the curve is a line
-            case 1 { level := shr(8, mul(linear, LINEAR_SLOPE)) } // 12.92 x
+            switch lt(linear, 128) // near black the curve is a line
+            case 1 { level := shr(Q8, mul(linear, 3295)) } // 12.92 x, times 255
             default {
                 let k := shl(4, lt(0xffff, linear)) // floor(log2(linear)) - 3, bit by bit
                 k := or(k, shl(3, lt(0xff, shr(k, linear)))) // more than 8, 4, 2, 1 bits

@@ -16,21 +16,21 @@ import "../words/EffectRegisters.sol";
 // In linear light (gamma), the albedo is decoded from sRGB and the final colour is encoded; the colours of lights are decoded beforehand.
 // The filmic tone is x (2.51 x + 0.03) / (x (2.43 x + 0.59) + 0.14), the approximation of the ACES curve by Krzysztof Narkowicz.
 //
-// A new term is a function below, and its call in colorAt. What it needs is here at once:
+// A new term is a function below, and its call in colorAt, which has:
 //
-//   colours            lanes of Q10, where 255 is white; never negative, and below 2^30 levels: sums of terms are bounded at the end
-//   of a lit fragment  after FragmentLight.colorAt, that is if MODE has IS_LIT: FRAGMENT_LIGHT, which multiplies the albedo, lanes of Q40;
-//                      FRAGMENT_NORMAL_RAY = N.r, FRAGMENT_NORMAL_LENGTH and FRAGMENT_RAY_LENGTH; FRAGMENT_NORMAL_X, _Y, _Z only if MODE
-//                      has IS_SMOOTH, for flat faces FACE_UP or, in the space of the mesh, FACE_NORMAL
-//   of each fragment   its depth, `attribute` from albedoAt on; x and y, its ray
-//   of frame, object   registers, rows of layout.toml, which EffectUniforms sets
+//   colours               lanes of Q10, where 255 is white: never negative, below 2^24 levels; sums are bounded at the end
+//   of each fragment      `attribute`, its depth; x and y, its ray; s and t, its barycentric coordinates
+//   of lit ones           if MODE has IS_LIT, after FragmentLight.colorAt: FRAGMENT_LIGHT, which multiplies the albedo, lanes of Q40;
+//                         FRAGMENT_NORMAL_RAY, which is N.r, FRAGMENT_NORMAL_LENGTH and FRAGMENT_RAY_LENGTH; of smooth faces (IS_SMOOTH)
+//                         FRAGMENT_NORMAL_X, _Y, _Z, of flat ones FACE_UP, and FACE_NORMAL in the space of the mesh
+//   of frame and object   the registers of EffectUniforms, rows of layout.toml
 //
-// and EffectUniforms decides by three registers what is computed at all:
+// EffectUniforms sets three registers without which the term may not be computed:
 //
-//   IS_CHANGED         not zero if the scene has a term that follows the light, such as rim, tone and fog
-//   HAS_DETAILS        not zero if the object has a term that changes the albedo, such as a texture
-//   VARIES             not zero if the object has a term that is not the same all over a flat face: without it, such a face has one colour,
-//                      and only shadows change it
+//   IS_CHANGED    if the scene has a term that follows the light, such as rim, tone and fog
+//   HAS_DETAILS   if the object has a term that changes the albedo, such as a texture
+//   VARIES        if the object has a term that is not the same all over a flat face; otherwise such a face may get the colour of one of
+//                 its fragments
 
 /// @dev 255 levels, Q10.
 uint256 constant WHITE_10 = 0x3fc00;

@@ -13,7 +13,6 @@ import "../words/EffectRegisters.sol";
 // OpenGL: with the coordinate x = u * width, the nearest texel is floor(x); for bilinear filtering, texel centres are at i + 0.5.
 
 uint256 constant ONE_12 = 0x1000;
-uint256 constant BELOW_ONE_12 = 0xfff;
 uint256 constant Q24_TO_Q12 = 12;
 uint256 constant BELOW_ONE_24 = 0xffffff;
 /// @dev Of texture coordinates: the last byte of the lane of u; the position of v, and of v as Q24; half its unit; the shift to Q24.
@@ -28,8 +27,7 @@ uint256 constant UV_BITS = 24;
 /// @dev A byte has 2^3 bits; the bits of a place in it.
 uint256 constant BYTE_SHIFT = 3;
 uint256 constant BIT_IN_BYTE = 7;
-/// @dev From levels to Q16 where 255 is one: times 257; the position of a half.
-uint256 constant LEVEL_TO_ONE = 257;
+/// @dev The position of a half in Q16.
 uint256 constant HALF_16_AT = 15;
 /// @dev The position of opacities in colours, and a bias that keeps them positive.
 uint256 constant OPACITY_AT = 168;
@@ -121,8 +119,8 @@ library Texture {
                 v := sub(v, HALF_24) // as u
                 let row, below := around(v, height, flags) // the rows above and below the centre
                 let column, right := around(u, width, flags) // the columns
-                u := and(shr(Q24_TO_Q12, u), BELOW_ONE_12) // from here on, the weights of the second texels, Q12
-                v := and(shr(Q24_TO_Q12, v), BELOW_ONE_12) // as u
+                u := and(shr(Q24_TO_Q12, u), sub(ONE_12, 1)) // from here on, the weights of the second texels, Q12
+                v := and(shr(Q24_TO_Q12, v), sub(ONE_12, 1)) // as u
                 for { let isLast := 0 } 1 { isLast := 1 } { // twice: `row`, then `below`
                     row := mul(row, width) // from here on, the number of its first texel
                     let mixed := mul(sub(ONE_12, u), texel(texels, palette, bits, add(row, column))) // the left texel, Q22
@@ -133,7 +131,7 @@ library Texture {
                     v := sub(ONE_12, v) // the weight of the other row
                 }
             }
-            color := and(shr(Q34, mul(color, LEVEL_TO_ONE)), LANES_24) // lanes of Q16, 0xffff for 255
+            color := and(shr(Q34, mul(color, 257)), LANES_24) // lanes of Q16, 0xffff for 255
             color := add(color, and(shr(HALF_16_AT, color), ONES)) // one more from a half on, so that 255 is one
         }
     }

@@ -186,7 +186,6 @@ uint256 constant Q10_TO_PIXEL = 0x4000000000000000400000000000000040000000000000
 
 // ----------------------------------------------------------------------------------------------------------------------- parts of samples
 
-uint256 constant LANE_64 = 0xffffffffffffffff;
 /// @dev In the lowest lane: the pixel is on the list of those whose samples may differ.
 uint256 constant IS_LISTED = 0x4000000;
 /// @dev The position of the samples' address in an entry of that list; the position of the colour's address, and its mask; the size of an
