@@ -135,14 +135,8 @@ library EffectUniforms {
     }
 
     /// @dev Converts the colour of a light from lanes of bytes to lanes of Q10, linear values if light is linear.
-    function lightOf(uint256 color) private pure returns (uint256 light) {
-        unchecked {
-            light = color << Q10;
-            if (load(TONE_FLAGS) & TONE_GAMMA == 0) return light;
-            color = light;
-            light = 0;
-            for (uint256 i; i != 3 * MIDDLE_AT; i += MIDDLE_AT) light |= Gamma.decode((color >> i) & LANE_24) << i;
-        }
+    function lightOf(uint256 color) private pure returns (uint256) {
+        return load(TONE_FLAGS) & TONE_GAMMA == 0 ? color << Q10 : Gamma.decodeLanes(color << Q10);
     }
 
     /// @dev Returns lanes of Q10 times a coefficient (Q16): lanes of Q16 where 255 is one.

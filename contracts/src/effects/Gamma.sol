@@ -18,16 +18,32 @@ uint256 constant ENCODE_2 = 0x317534a637a43a773d243fb14220447746b64afa4ef852bd56
 uint256 constant ENCODE_3 = 0x631668c76e1b732377e87c7280ca84f488f6908e97ac9e62a4c0aad0b09cb62b;
 uint256 constant ENCODE_4 = 0xbb84c5a7cf27d81de09ce8b4f071f7ddff00ff00000000000000000000000000;
 
+/// @dev Fraction bits of encoded levels; the shifts between formats; the bits of a level, Q10, between two entries of DECODE, which are 4
+/// levels apart, and of the position of an entry.
+uint256 constant Q8 = 8;
+uint256 constant Q7_TO_Q10 = 3;
+uint256 constant DECODE_STEP = 12;
+uint256 constant BELOW_DECODE_STEP = 0xfff;
+/// @dev An entry has 2^1 bytes; two entries at the top of a word; the upper one of two, and the mask of the lower one.
+uint256 constant ENTRY_SHIFT = 1;
+uint256 constant ENTRIES_AT = 224;
+uint256 constant ENTRY_AT = 16;
+uint256 constant ENTRY_MASK = 0xffff;
+/// @dev The end of the lanes of a colour.
+uint256 constant LANES_END = 3 * 56;
+/// @dev Entries for each power of two: 2^3.
+uint256 constant ENTRIES_SHIFT = 3;
+
 library Gamma {
     /// @notice Fills DECODE_TABLE and ENCODE_TABLE.
     function setTables() internal pure {
         assembly ("memory-safe") {
-            mstore(DECODE_TABLE, DECODE_0)
-            mstore(add(DECODE_TABLE, 0x20), DECODE_1)
-            mstore(add(DECODE_TABLE, 0x40), DECODE_2)
-            mstore(add(DECODE_TABLE, 0x60), DECODE_3)
-            mstore(add(DECODE_TABLE, 0x80), DECODE_4)
-            mstore(ENCODE_TABLE, ENCODE_0)
+            mstore(DECODE_TABLE, DECODE_0) // levels 0, 4 .. 60
+            mstore(add(DECODE_TABLE, 0x20), DECODE_1) // 64 ..
+            mstore(add(DECODE_TABLE, 0x40), DECODE_2) // 128 ..
+            mstore(add(DECODE_TABLE, 0x60), DECODE_3) // 192 ..
+            mstore(add(DECODE_TABLE, 0x80), DECODE_4) // 256
+            mstore(ENCODE_TABLE, ENCODE_0) // 2^7 ..
             mstore(add(ENCODE_TABLE, 0x20), ENCODE_1)
             mstore(add(ENCODE_TABLE, 0x40), ENCODE_2)
             mstore(add(ENCODE_TABLE, 0x60), ENCODE_3)
@@ -38,31 +54,37 @@ library Gamma {
     /// @notice Returns the linear value of an sRGB level, both Q10, 0..255.
     function decode(uint256 level) internal pure returns (uint256 linear) {
         assembly ("memory-safe") {
-            // two adjacent entries
-            linear := shr(224, mload(add(DECODE_TABLE, shl(1, shr(12, level)))))
-            let first := shr(16, linear)
-            linear := shl(3, add(first, shr(12, mul(sub(and(linear, 0xffff), first), and(level, 0xfff)))))
+            linear := shr(ENTRIES_AT, mload(add(DECODE_TABLE, shl(ENTRY_SHIFT, shr(DECODE_STEP, level))))) // two adjacent entries
+            let first := shr(ENTRY_AT, linear) // the lower one
+            let rest := and(level, BELOW_DECODE_STEP) // between the two
+            linear := shl(Q7_TO_Q10, add(first, shr(DECODE_STEP, mul(sub(and(linear, ENTRY_MASK), first), rest)))) // interpolated
+        }
+    }
+
+    /// @notice Returns the linear values of a colour, lanes of Q10.
+    function decodeLanes(uint256 color) internal pure returns (uint256 linear) {
+        unchecked {
+            for (uint256 i; i != LANES_END; i += MIDDLE_AT) linear |= decode((color >> i) & LANE_24) << i;
         }
     }
 
     /// @notice Returns the sRGB level, Q8, of a linear value, Q16, 0..1.
     function encode(uint256 linear) internal pure returns (uint256 level) {
         assembly ("memory-safe") {
-            switch lt(linear, 128)
-            case 1 { level := shr(8, mul(linear, 3295)) }
+            switch lt(linear, 128) // near black the curve is a line
+            case 1 { level := shr(Q8, mul(linear, 3295)) } // 12.92 x, times 255
             default {
-                // floor(log2(linear)) - 3
-                let k := shl(4, lt(0xffff, linear))
-                k := or(k, shl(3, lt(0xff, shr(k, linear))))
+                let k := shl(4, lt(0xffff, linear)) // floor(log2(linear)) - 3, bit by bit
+                k := or(k, shl(3, lt(0xff, shr(k, linear)))) // more than 8, 4, 2, 1 bits
                 k := or(k, shl(2, lt(0xf, shr(k, linear))))
                 k := or(k, shl(1, lt(3, shr(k, linear))))
                 k := sub(or(k, lt(1, shr(k, linear))), 3)
-                let entry := shr(k, linear)
-                let rest := sub(linear, shl(k, entry))
-                entry := add(shl(3, sub(k, 4)), sub(entry, 8))
-                entry := shr(224, mload(add(ENCODE_TABLE, shl(1, entry))))
-                level := shr(16, entry)
-                level := add(level, shr(k, mul(sub(and(entry, 0xffff), level), rest)))
+                let entry := shr(k, linear) // 8 to 15
+                let rest := sub(linear, shl(k, entry)) // below 2^k
+                entry := add(shl(ENTRIES_SHIFT, sub(k, 4)), sub(entry, 8)) // from here on, its index
+                entry := shr(ENTRIES_AT, mload(add(ENCODE_TABLE, shl(ENTRY_SHIFT, entry)))) // from here on, it and the next
+                level := shr(ENTRY_AT, entry) // the lower one
+                level := add(level, shr(k, mul(sub(and(entry, ENTRY_MASK), level), rest))) // interpolated
             }
         }
     }

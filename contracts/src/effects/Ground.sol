@@ -14,20 +14,20 @@ library Ground {
     /// @param x, y As for FragmentLight.
     function opacityAt(uint256 attribute, uint256 x, uint256 y) internal pure returns (uint256 opacity) {
         assembly ("memory-safe") {
-            let z := shl(8, mload(DEPTH_SCALE))
-            attribute := shr(ACCUMULATOR_DEPTH_AT, attribute)
-            switch mload(FRAME_IS_ORTHOGRAPHIC)
+            let z := shl(DEPTH_FRACTION, mload(DEPTH_SCALE)) // scale
+            attribute := shr(ACCUMULATOR_DEPTH_AT, attribute) // from here on, the depth
+            switch mload(FRAME_IS_ORTHOGRAPHIC) // as for the fog
             case 0 {
-                z := div(z, attribute)
-                x := sar(24, mul(x, z))
-                y := sar(24, mul(y, z))
+                z := div(z, attribute) // the fragment in camera space: (x, y, z), Q32
+                x := sar(Q24, mul(x, z)) // from a ray to a position
+                y := sar(Q24, mul(y, z))
             }
-            default { z := sub(z, attribute) }
-            x := sub(x, mload(FADE_X))
+            default { z := sub(z, attribute) } // scale - depth
+            x := sub(x, mload(FADE_X)) // from here on, relative to the object
             y := sub(y, mload(FADE_Y))
-            z := sub(z, mload(FADE_Z))
-            opacity := sub(mload(FADE_SQUARE), add(add(mul(x, x), mul(y, y)), mul(z, z)))
-            opacity := div(shl(24, mul(opacity, sgt(opacity, 0))), mload(FADE_RANGE))
+            z := sub(z, mload(FADE_Z)) // d
+            opacity := sub(mload(FADE_SQUARE), add(add(mul(x, x), mul(y, y)), mul(z, z))) // R^2 - d^2
+            opacity := div(shl(Q24, mul(opacity, sgt(opacity, 0))), mload(FADE_RANGE)) // / (R^2 - r^2)
             if gt(opacity, ONE_24) { opacity := ONE_24 }
         }
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Gamma} from "./Gamma.sol";
+import {Gamma, LANES_END, Q8} from "./Gamma.sol";
 import {TONE_FILMIC, TONE_GAMMA} from "../scene/Records.sol";
 import {FragmentLight} from "../pipeline/shading/FragmentLight.sol";
 import {OPACITY_AT, Texture} from "./Texture.sol";
@@ -15,6 +15,22 @@ import "../words/EffectRegisters.sol";
 //
 // In linear light (gamma), the albedo is decoded from sRGB and the final colour is encoded; the colours of lights are decoded beforehand.
 // The filmic tone is x (2.51 x + 0.03) / (x (2.43 x + 0.59) + 0.14), the approximation of the ACES curve by Krzysztof Narkowicz.
+//
+// A new term is a function below, and its call in colorAt, which has:
+//
+//   colours               lanes of Q10, where 255 is white: never negative, below 2^24 levels; sums are bounded at the end
+//   of each fragment      `attribute`, its depth; x and y, its ray; s and t, its barycentric coordinates
+//   of lit ones           if MODE has IS_LIT, after FragmentLight.colorAt: FRAGMENT_LIGHT, which multiplies the albedo, lanes of Q40;
+//                         FRAGMENT_NORMAL_RAY, which is N.r, FRAGMENT_NORMAL_LENGTH and FRAGMENT_RAY_LENGTH; of smooth faces (IS_SMOOTH)
+//                         FRAGMENT_NORMAL_X, _Y, _Z, of flat ones FACE_UP, and FACE_NORMAL in the space of the mesh
+//   of frame and object   the registers of EffectUniforms, rows of layout.toml
+//
+// EffectUniforms sets three registers without which the term may not be computed:
+//
+//   IS_CHANGED    if the scene has a term that follows the light, such as rim, tone and fog
+//   HAS_DETAILS   if the object has a term that changes the albedo, such as a texture
+//   VARIES        if the object has a term that is not the same all over a flat face; otherwise such a face may get the colour of one of
+//                 its fragments
 
 /// @dev 255 levels, Q10.
 uint256 constant WHITE_10 = 0x3fc00;
@@ -31,8 +47,6 @@ uint256 constant BRIGHTEST_FILMIC = 1 << 22;
 uint256 constant FILMIC_59 = 59 << 16;
 uint256 constant FILMIC_3 = 3 << 16;
 uint256 constant FILMIC_14 = 14 << 32;
-/// @dev The end of the lanes of a colour.
-uint256 constant LANES_END = 3 * 56;
 /// @dev The bias of a lane of COLOR_0, 2^24; the addend that makes lanes above 255, Q10, set bit 18; the bits that are zero for 0 to 255.
 uint256 constant ALBEDO_BIAS = 0x10000000000000100000000000001000000;
 uint256 constant ALBEDO_SLACK = 0x3ff000000000003ff000000000003ff;
@@ -47,23 +61,22 @@ library SurfaceLight {
         uint256 s;
         uint256 t;
         assembly ("memory-safe") {
-            s := sar(FINE_S_AT, signextend(FINE_S_LAST_BYTE, attribute))
-            t := signextend(FINE_T_LAST_BYTE, attribute)
-            attribute := shr(ACCUMULATOR_DEPTH_AT, attribute)
-            // as in FragmentLight
+            s := sar(FINE_S_AT, signextend(FINE_S_LAST_BYTE, attribute)) // Q44, of the screen
+            t := signextend(FINE_T_LAST_BYTE, attribute) // Q44
+            attribute := shr(ACCUMULATOR_DEPTH_AT, attribute) // from here on, the depth
             let mode := mload(MODE)
-            switch and(mode, IS_ORTHOGRAPHIC)
+            switch and(mode, IS_ORTHOGRAPHIC) // as in FragmentLight
             case 0 {
-                let divisor := shl(FINE_TO_24, attribute)
-                s := sdiv(mul(s, mload(DEPTH_1)), divisor)
+                let divisor := shl(FINE_TO_24, attribute) // to Q24
+                s := sdiv(mul(s, mload(DEPTH_1)), divisor) // s * depth of the vertex / depth, Q24: perspective-correct
                 t := sdiv(mul(t, mload(DEPTH_2)), divisor)
                 if and(mode, IS_STEEP) {
-                    if sgt(s, ONE_24) { s := ONE_24 }
-                    if sgt(t, ONE_24) { t := ONE_24 }
+                    if sgt(s, ONE_24) { s := ONE_24 } // as in FragmentLight
+                    if sgt(t, ONE_24) { t := ONE_24 } // rounding errors of near vertices
                 }
             }
             default {
-                s := sar(FINE_TO_24, s)
+                s := sar(FINE_TO_24, s) // to Q24: already perspective-correct
                 t := sar(FINE_TO_24, t)
             }
         }
@@ -83,7 +96,7 @@ library SurfaceLight {
         }
         color = bounded(color);
         assembly ("memory-safe") {
-            color := shr(PIXEL_AT, mul(and(add(color, HALF_LEVEL), BYTES_Q10), Q10_TO_PIXEL))
+            color := shr(PIXEL_AT, mul(and(add(color, HALF_LEVEL), BYTES_Q10), Q10_TO_PIXEL)) // rounded to levels, 0xBBGGRR
         }
     }
 
@@ -91,17 +104,15 @@ library SurfaceLight {
     /// @param s, t Perspective-correct barycentric coordinates, Q24.
     function albedoAt(uint256 s, uint256 t) private pure returns (uint256 albedo) {
         assembly ("memory-safe") {
-            albedo := shr(24, add(add(mload(COLOR_0), mul(mload(COLOR_1), s)), mul(mload(COLOR_2), t)))
-            albedo := and(albedo, LANES_32)
-            // each lane has a bias of 2^24
-            albedo := xor(albedo, ALBEDO_BIAS)
-            if and(add(albedo, ALBEDO_SLACK), BEYOND_ALBEDO) {
-                // negative lanes still have the bias bit that the others have lost
+            albedo := shr(Q24, add(add(mload(COLOR_0), mul(mload(COLOR_1), s)), mul(mload(COLOR_2), t))) // c0 + c1 s + c2 t
+            albedo := and(albedo, LANES_32) // Q10, plus 2^24
+            albedo := xor(albedo, ALBEDO_BIAS) // - 2^24 in each lane
+            if and(add(albedo, ALBEDO_SLACK), BEYOND_ALBEDO) { // some lane is below 0 or above 255
                 let inside := 0
-                for { let i := 0 } lt(i, LANES_END) { i := add(i, MIDDLE_AT) } {
+                for { let i := 0 } lt(i, LANES_END) { i := add(i, MIDDLE_AT) } { // blue, green, red
                     let channel := and(shr(i, albedo), LANE_32)
-                    if gt(channel, WHITE_10) { channel := mul(WHITE_10, lt(channel, ONE_24)) }
-                    inside := or(inside, shl(i, channel))
+                    if gt(channel, WHITE_10) { channel := mul(WHITE_10, lt(channel, ONE_24)) } // 0 if negative: the bias bit is still set
+                    inside := or(inside, shl(i, channel)) // 0..255
                 }
                 albedo := inside
             }
@@ -109,7 +120,7 @@ library SurfaceLight {
         if (load(HAS_DETAILS) != 0) {
             if (load(OPACITIES) != 0) setOpacity(s, t);
             if (load(TEXTURE) != 0) albedo = textured(albedo, Texture.colorAt(s, t));
-            if (load(TONE_FLAGS) & TONE_GAMMA != 0) albedo = decoded(albedo);
+            if (load(TONE_FLAGS) & TONE_GAMMA != 0) albedo = Gamma.decodeLanes(albedo);
         }
     }
 
@@ -128,28 +139,21 @@ library SurfaceLight {
     /// @dev Multiplies lanes of Q10 by those of a texture, Q16.
     function textured(uint256 color, uint256 texture) private pure returns (uint256 product) {
         assembly ("memory-safe") {
-            product := shr(16, mul(and(color, LANE_32), and(texture, LANE_24)))
-            let channel := shr(16, mul(and(shr(MIDDLE_AT, color), LANE_32), and(shr(MIDDLE_AT, texture), LANE_24)))
+            product := shr(Q16, mul(and(color, LANE_32), and(texture, LANE_24))) // blue
+            let channel := shr(Q16, mul(and(shr(MIDDLE_AT, color), LANE_32), and(shr(MIDDLE_AT, texture), LANE_24))) // green
             product := or(product, shl(MIDDLE_AT, channel))
-            product := or(product, shl(UPPER_AT, shr(16, mul(shr(UPPER_AT, color), shr(UPPER_AT, texture)))))
-        }
-    }
-
-    /// @dev Converts lanes of Q10 to linear values.
-    function decoded(uint256 color) private pure returns (uint256 linear) {
-        unchecked {
-            for (uint256 i; i != LANES_END; i += MIDDLE_AT) linear |= Gamma.decode((color >> i) & LANE_32) << i;
+            product := or(product, shl(UPPER_AT, shr(Q16, mul(shr(UPPER_AT, color), shr(UPPER_AT, texture))))) // red
         }
     }
 
     /// @dev Returns albedo times FRAGMENT_LIGHT (Q40), plus highlights; lanes of Q10.
     function lit(uint256 albedo, uint256 highlights) private pure returns (uint256 color) {
         assembly ("memory-safe") {
-            let light := mload(FRAGMENT_LIGHT)
-            color := shr(16, mul(and(albedo, LANE_32), and(shr(BLUE_Q40_AT, light), LANE_32)))
-            color := add(color, shl(MIDDLE_AT, shr(16, mul(and(shr(MIDDLE_AT, albedo), LANE_32), and(shr(GREEN_Q40_AT, light), LANE_32)))))
-            color := add(color, shl(UPPER_AT, shr(16, mul(shr(UPPER_AT, albedo), and(shr(RED_Q40_AT, light), LANE_32)))))
-            color := add(color, highlights)
+            let light := mload(FRAGMENT_LIGHT) // lanes of Q40
+            color := shr(Q16, mul(and(albedo, LANE_32), and(shr(BLUE_Q40_AT, light), LANE_32))) // Q10 times Q16
+            color := add(color, shl(MIDDLE_AT, shr(Q16, mul(and(shr(MIDDLE_AT, albedo), LANE_32), and(shr(GREEN_Q40_AT, light), LANE_32)))))
+            color := add(color, shl(UPPER_AT, shr(Q16, mul(shr(UPPER_AT, albedo), and(shr(RED_Q40_AT, light), LANE_32))))) // red
+            color := add(color, highlights) // may exceed 255
         }
     }
 
@@ -173,11 +177,10 @@ library SurfaceLight {
     function bounded(uint256 color) private pure returns (uint256 levels) {
         assembly ("memory-safe") {
             levels := color
-            let beyond := and(add(color, BELOW_BEYOND), BEYOND_LEVELS)
-            if beyond {
-                // 1 in each lane
-                beyond := shr(BEYOND_AT, beyond)
-                levels := or(and(color, not(mul(beyond, LANE_56))), mul(beyond, WHITE_10))
+            let beyond := and(add(color, BELOW_BEYOND), BEYOND_LEVELS) // a bit for each lane above 255
+            if beyond { // rarely
+                beyond := shr(BEYOND_AT, beyond) // 1 in each
+                levels := or(and(color, not(mul(beyond, LANE_56))), mul(beyond, WHITE_10)) // 255 there
             }
         }
     }
@@ -185,18 +188,17 @@ library SurfaceLight {
     /// @dev Adds the light from above and below to FRAGMENT_LIGHT, lanes of Q40.
     function addHemisphere() private pure {
         assembly ("memory-safe") {
-            if or(mload(HEMISPHERE_SKY), mload(HEMISPHERE_GROUND)) {
-                // N.up, Q24
-                let up := mload(FACE_UP)
-                if and(mload(MODE), IS_SMOOTH) {
+            if or(mload(HEMISPHERE_SKY), mload(HEMISPHERE_GROUND)) { // there is a hemisphere
+                let up := mload(FACE_UP) // N.up, Q24
+                if and(mload(MODE), IS_SMOOTH) { // else that of the face
                     up := add(mul(mload(FRAGMENT_NORMAL_X), mload(UP_X)), mul(mload(FRAGMENT_NORMAL_Y), mload(UP_Y)))
-                    up := sdiv(add(up, mul(mload(FRAGMENT_NORMAL_Z), mload(UP_Z))), mload(FRAGMENT_NORMAL_LENGTH))
+                    up := sdiv(add(up, mul(mload(FRAGMENT_NORMAL_Z), mload(UP_Z))), mload(FRAGMENT_NORMAL_LENGTH)) // N . UP / |N|
                 }
                 if sgt(up, ONE_24) { up := ONE_24 }
-                if slt(up, sub(0, ONE_24)) { up := sub(0, ONE_24) }
-                up := shr(1, add(ONE_24, up))
-                up := add(mul(mload(HEMISPHERE_SKY), up), mul(mload(HEMISPHERE_GROUND), sub(ONE_24, up)))
-                mstore(FRAGMENT_LIGHT, add(mload(FRAGMENT_LIGHT), up))
+                if slt(up, sub(0, ONE_24)) { up := sub(0, ONE_24) } // -1..1
+                up := shr(1, add(ONE_24, up)) // from here on, the share of the sky: (1 + N.up) / 2
+                up := add(mul(mload(HEMISPHERE_SKY), up), mul(mload(HEMISPHERE_GROUND), sub(ONE_24, up))) // from here on, the light, Q40
+                mstore(FRAGMENT_LIGHT, add(mload(FRAGMENT_LIGHT), up)) // for `lit`
             }
         }
     }
@@ -208,10 +210,9 @@ library SurfaceLight {
             uint256 length = load(FRAGMENT_NORMAL_LENGTH) * load(FRAGMENT_RAY_LENGTH);
             uint256 part;
             assembly ("memory-safe") {
-                // 1 - N.V, where V = -ray
-                part := add(ONE_24, sdiv(shl(24, normalRay), length))
-                if sgt(part, ONE_24) { part := ONE_24 }
-                part := mul(part, sgt(part, 0))
+                part := add(ONE_24, sdiv(shl(Q24, normalRay), length)) // 1 - N.V, where V = -ray
+                if sgt(part, ONE_24) { part := ONE_24 } // N.V < 0
+                part := mul(part, sgt(part, 0)) // at least 0
             }
             strength = ONE_24;
             for (uint256 i = load(RIM_POWER); i != 0; --i) strength = (strength * part) >> Q24;
@@ -221,14 +222,14 @@ library SurfaceLight {
     /// @dev Returns the opacity of the fog at a depth, Q16.
     function fogAt(uint256 depth) private pure returns (uint256 strength) {
         assembly ("memory-safe") {
-            let distance := shl(8, mload(DEPTH_SCALE))
+            let distance := shl(DEPTH_FRACTION, mload(DEPTH_SCALE)) // along the line of sight, Q32
             switch and(mload(MODE), IS_ORTHOGRAPHIC)
-            case 0 { distance := div(distance, depth) }
-            default { distance := sub(distance, depth) }
-            distance := sub(distance, mload(FOG_NEAR))
-            distance := mul(distance, sgt(distance, 0))
-            strength := div(shl(16, distance), mload(FOG_RANGE))
-            if gt(strength, ONE_16) { strength := ONE_16 }
+            case 0 { distance := div(distance, depth) } // scale / depth
+            default { distance := sub(distance, depth) } // scale - depth
+            distance := sub(distance, mload(FOG_NEAR)) // how far into the fog
+            distance := mul(distance, sgt(distance, 0)) // at least 0
+            strength := div(shl(Q16, distance), mload(FOG_RANGE)) // (distance - near) / (far - near)
+            if gt(strength, ONE_16) { strength := ONE_16 } // opaque
         }
     }
 
@@ -242,17 +243,16 @@ library SurfaceLight {
             for (uint256 i; i != LANES_END; i += MIDDLE_AT) {
                 uint256 channel;
                 assembly ("memory-safe") {
-                    // Q16, where 1 is white
-                    channel := div(shl(6, and(shr(i, color), LANE_56)), 255)
+                    channel := div(shl(Q16_TO_Q10, and(shr(i, color), LANE_56)), 255) // Q16, where 1 is white
                     if and(flags, TONE_FILMIC) {
-                        if gt(channel, BRIGHTEST_FILMIC) { channel := BRIGHTEST_FILMIC }
-                        let divisor := add(mul(channel, add(mul(243, channel), FILMIC_59)), FILMIC_14)
-                        channel := div(shl(Q16, mul(channel, add(mul(251, channel), FILMIC_3))), divisor)
+                        if gt(channel, BRIGHTEST_FILMIC) { channel := BRIGHTEST_FILMIC } // white above 64
+                        let divisor := add(mul(channel, add(mul(243, channel), FILMIC_59)), FILMIC_14) // x (2.43 x + 0.59) + 0.14
+                        channel := div(shl(Q16, mul(channel, add(mul(251, channel), FILMIC_3))), divisor) // x (2.51 x + 0.03) / ..
                     }
-                    if gt(channel, ONE_16) { channel := ONE_16 }
+                    if gt(channel, ONE_16) { channel := ONE_16 } // at most 1
                 }
-                if (flags & TONE_GAMMA != 0) channel = Gamma.encode(channel) << 2;
-                else channel = (channel * 255) >> 6;
+                if (flags & TONE_GAMMA != 0) channel = Gamma.encode(channel) << (Q10 - Q8);
+                else channel = (channel * 255) >> Q16_TO_Q10;
                 shown |= channel << i;
             }
         }

@@ -13,7 +13,22 @@ import "../words/EffectRegisters.sol";
 // OpenGL: with the coordinate x = u * width, the nearest texel is floor(x); for bilinear filtering, texel centres are at i + 0.5.
 
 uint256 constant ONE_12 = 0x1000;
+uint256 constant Q24_TO_Q12 = 12;
 uint256 constant BELOW_ONE_24 = 0xffffff;
+/// @dev Of texture coordinates: the last byte of the lane of u; the position of v, and of v as Q24; half its unit; the shift to Q24.
+uint256 constant U_LAST_BYTE = 15;
+uint256 constant V_AT = 128;
+uint256 constant V_Q24_AT = 144;
+uint256 constant HALF_V = 1 << 127;
+uint256 constant Q40_TO_Q24 = 16;
+/// @dev Of a vertex: a coordinate at the top of a word, and its bits.
+uint256 constant UV_AT_TOP = 232;
+uint256 constant UV_BITS = 24;
+/// @dev A byte has 2^3 bits; the bits of a place in it.
+uint256 constant BYTE_SHIFT = 3;
+uint256 constant BIT_IN_BYTE = 7;
+/// @dev The position of a half in Q16.
+uint256 constant HALF_16_AT = 15;
 /// @dev The position of opacities in colours, and a bias that keeps them positive.
 uint256 constant OPACITY_AT = 168;
 uint256 constant OPACITY_BIAS = 1 << (48 + OPACITY_AT);
@@ -48,10 +63,9 @@ library Texture {
     /// @notice Returns the colour at perspective-correct barycentric coordinates, Q24: lanes of Q16, where 255 is one.
     function colorAt(uint256 s, uint256 t) internal pure returns (uint256) {
         assembly ("memory-safe") {
-            t := add(add(mload(UV_0), mul(mload(UV_1), s)), mul(mload(UV_2), t))
-            // Q24
-            s := sar(16, signextend(15, t))
-            t := sar(144, add(t, shl(127, 1)))
+            t := add(add(mload(UV_0), mul(mload(UV_1), s)), mul(mload(UV_2), t)) // from here on, both coordinates, Q40
+            s := sar(Q40_TO_Q24, signextend(U_LAST_BYTE, t)) // from here on, u
+            t := sar(V_Q24_AT, add(t, HALF_V)) // from here on, v: a negative u has borrowed from its lane
         }
         return sample(load(TEXTURE), s, t);
     }
@@ -62,66 +76,63 @@ library Texture {
         assembly ("memory-safe") {
             // the n-th texel, lanes of Q10
             function texel(texels, palette, bits, n) -> lanes {
-                n := mul(n, bits)
-                lanes := shr(sub(256, bits), shl(and(n, 7), calldataload(add(texels, shr(3, n)))))
-                if palette { lanes := shr(232, calldataload(add(palette, mul(3, lanes)))) }
-                lanes := and(mul(lanes, COLOR_SPREAD), BYTES_Q10)
+                n := mul(n, bits) // from here on, the bit at which it begins
+                lanes := shr(sub(256, bits), shl(and(n, BIT_IN_BYTE), calldataload(add(texels, shr(BYTE_SHIFT, n))))) // its bits
+                if palette { lanes := shr(PIXEL_AT, calldataload(add(palette, mul(3, lanes)))) } // the colour with this number
+                lanes := and(mul(lanes, COLOR_SPREAD), BYTES_Q10) // lanes of Q10
             }
 
             function clamped(x) -> inside {
-                inside := mul(x, sgt(x, 0))
-                if gt(inside, BELOW_ONE_24) { inside := BELOW_ONE_24 }
+                inside := mul(x, sgt(x, 0)) // at least 0
+                if gt(inside, BELOW_ONE_24) { inside := BELOW_ONE_24 } // below 1
             }
 
             // the texels along a side whose centres enclose a coordinate (Q24)
             function around(x, size, flags) -> first, second {
-                first := sar(24, x)
-                second := add(first, 1)
-                if slt(first, 0) { first := mul(iszero(and(flags, TEXTURE_CLAMP)), sub(size, 1)) }
-                if eq(second, size) { second := mul(gt(and(flags, TEXTURE_CLAMP), 0), first) }
+                first := sar(Q24, x) // floor(x), -1 to size - 1
+                second := add(first, 1) // the texel after it
+                if slt(first, 0) { first := mul(iszero(and(flags, TEXTURE_CLAMP)), sub(size, 1)) } // 0, or the last if it repeats
+                if eq(second, size) { second := mul(gt(and(flags, TEXTURE_CLAMP), 0), first) } // the last, or 0
             }
 
-            let header := calldataload(texture)
+            let header := calldataload(texture) // flags, width - 1, height - 1, bits of a texel
             let flags := byte(0, header)
-            if and(flags, TEXTURE_CLAMP) {
+            if and(flags, TEXTURE_CLAMP) { // else coordinates repeat
                 u := clamped(u)
                 v := clamped(v)
             }
             let width := add(byte(1, header), 1)
             let height := add(byte(2, header), 1)
-            // in texels, Q24
-            u := mul(and(u, BELOW_ONE_24), width)
-            v := mul(and(v, BELOW_ONE_24), height)
+            u := mul(and(u, BELOW_ONE_24), width) // from here on, in texels, Q24
+            v := mul(and(v, BELOW_ONE_24), height) // as u
             let bits := byte(3, header)
-            let texels := add(texture, TEXTURE_HEADER)
-            let palette := 0
-            if lt(bits, TEXTURE_COLOR_BITS) {
+            let texels := add(texture, TEXTURE_HEADER) // behind the header
+            let palette := 0 // 0: texels are colours
+            if lt(bits, TEXTURE_COLOR_BITS) { // they are numbers of colours
                 palette := texels
-                texels := add(texels, mul(3, shl(bits, 1)))
+                texels := add(texels, mul(3, shl(bits, 1))) // behind 2^bits colours
             }
             switch and(flags, TEXTURE_BILINEAR)
-            case 0 { color := shl(24, texel(texels, palette, bits, add(mul(shr(24, v), width), shr(24, u)))) }
+            case 0 { color := shl(Q24, texel(texels, palette, bits, add(mul(shr(Q24, v), width), shr(Q24, u)))) } // the nearest, Q34
             default {
-                u := sub(u, HALF_24)
-                v := sub(v, HALF_24)
-                let row, below := around(v, height, flags)
-                let column, right := around(u, width, flags)
-                // Q12
-                u := and(shr(12, u), 0xfff)
-                v := and(shr(12, v), 0xfff)
-                for { let isLast := 0 } 1 { isLast := 1 } {
-                    row := mul(row, width)
-                    let mixed := mul(sub(ONE_12, u), texel(texels, palette, bits, add(row, column)))
-                    mixed := add(mixed, mul(u, texel(texels, palette, bits, add(row, right))))
-                    color := add(color, mul(sub(ONE_12, v), mixed))
+                u := sub(u, HALF_24) // from here on, relative to the centre of the first texel
+                v := sub(v, HALF_24) // as u
+                let row, below := around(v, height, flags) // the rows above and below the centre
+                let column, right := around(u, width, flags) // the columns
+                u := and(shr(Q24_TO_Q12, u), sub(ONE_12, 1)) // from here on, the weights of the second texels, Q12
+                v := and(shr(Q24_TO_Q12, v), sub(ONE_12, 1)) // as u
+                for { let isLast := 0 } 1 { isLast := 1 } { // twice: `row`, then `below`
+                    row := mul(row, width) // from here on, the number of its first texel
+                    let mixed := mul(sub(ONE_12, u), texel(texels, palette, bits, add(row, column))) // the left texel, Q22
+                    mixed := add(mixed, mul(u, texel(texels, palette, bits, add(row, right)))) // Q22
+                    color := add(color, mul(sub(ONE_12, v), mixed)) // Q34
                     if isLast { break }
-                    row := below
-                    v := sub(ONE_12, v)
+                    row := below // from here on, a row again
+                    v := sub(ONE_12, v) // the weight of the other row
                 }
             }
-            // Q34 levels times 257 / 2^16; add one from a half on, so that 255 is one
-            color := and(shr(34, mul(color, 257)), LANES_24)
-            color := add(color, and(shr(15, color), ONES))
+            color := and(shr(Q34, mul(color, 257)), LANES_24) // lanes of Q16, 0xffff for 255
+            color := add(color, and(shr(HALF_16_AT, color), ONES)) // one more from a half on, so that 255 is one
         }
     }
 
@@ -136,12 +147,12 @@ library Texture {
 
     function readCoordinates(uint256 index, bool isOpacity) private pure returns (uint256 uv) {
         assembly ("memory-safe") {
-            switch isOpacity
+            switch isOpacity // texture coordinates, or opacity
             case 0 {
-                uv := calldataload(add(mload(TEXTURE_UVS), mul(index, UV_SIZE)))
-                uv := add(sar(232, uv), shl(128, sar(232, shl(24, uv))))
+                uv := calldataload(add(mload(TEXTURE_UVS), mul(index, UV_SIZE))) // u, v: 24 bits each
+                uv := add(sar(UV_AT_TOP, uv), shl(V_AT, sar(UV_AT_TOP, shl(UV_BITS, uv)))) // u + 2^128 v
             }
-            default { uv := shl(Q16, byte(0, calldataload(add(mload(OPACITIES), index)))) }
+            default { uv := shl(Q16, byte(0, calldataload(add(mload(OPACITIES), index)))) } // a byte for each vertex
         }
     }
 
@@ -164,11 +175,11 @@ library Texture {
                 int256 weight = determinant(x, y, (i + 1) % 3, (i + 2) % 3);
                 uint256 place = load(TEXTURE_CORNERS + CORNER_SIZE * i + CORNER_COLOR);
                 u += weight * int128(int256(place));
-                v += weight * (int256(place + (1 << 127)) >> 128);
+                v += weight * (int256(place + HALF_V) >> V_AT);
                 sum += weight;
             }
             if (sum == 0) return 0;
-            return uint256(u / sum) + (uint256(v / sum) << 128);
+            return uint256(u / sum) + (uint256(v / sum) << V_AT);
         }
     }
 

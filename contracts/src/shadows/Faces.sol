@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {load, loadSigned, store} from "../words/Memory.sol";
-import {BESIDE, BUCKETS, CUBE, EVERYWHERE, Frame, LightSpace, PLACE_BUCKETS, SIDE_AT} from "./LightSpace.sol";
+import {BUCKETS, CUBE, EVERYWHERE, Frame, HIGH_AT, LightSpace, PLACE_BOX} from "./LightSpace.sol";
+import "../words/Registers.sol";
 
 // Faces in light space, and the search for those that may shade a face.
 //
-// A face has six words: a word of addresses and ranges (FACE_); its normal, the cross product of two sides; its side, positive if it faces
-// the light, 0 if edge-on; and the results for its shadows.
+// A face with the vertices a, b, c has six words: their addresses, and its ranges (FACE_ in Words.sol); its normal n, the cross product of
+// two sides; its side, positive if it faces the light, 0 if edge-on; and the results for its shadows.
 //
 // Shadow casters are numbered, and each is a bit in the sets of faces by ranges of coordinates. There are five tables of sets: faces that
 // reach a range in x or beyond it; faces that begin in it or before; the same for y; faces in a range of depths or nearer to the light. The
@@ -15,19 +15,21 @@ import {BESIDE, BUCKETS, CUBE, EVERYWHERE, Frame, LightSpace, PLACE_BUCKETS, SID
 // tables.
 
 uint256 constant FACE_RECORD_SIZE = 0xc0;
-uint256 constant FACE_NORMAL = 0x20;
 uint256 constant FACE_SIDE = 0x80;
 uint256 constant FACE_ENTRY = 0xa0;
-/// @dev The first word: the addresses of the vertices, HAS_PLANES, and the ranges of x, y, z, minimum and maximum, in bytes.
-uint256 constant FACE_B_AT = 32;
-uint256 constant FACE_C_AT = 64;
-/// @dev Whether its functions are written.
-uint256 constant HAS_PLANES = 1 << 96;
-uint256 constant FACE_BOX_AT = 128;
-uint256 constant ADDRESS_MASK = 0xffffffff;
-uint256 constant BOX_MASK = 0xffffffffffffffff;
-/// @dev The highest bit of each lane of a vertex's ranges.
+/// @dev The highest bit of each lane of a vertex's ranges, and the bits below it.
 uint256 constant LANE_GUARDS = 0x800080008000;
+uint256 constant BELOW_GUARD = 15;
+/// @dev The bytes of ranges in a word: the minimum and the maximum of each coordinate.
+uint256 constant LOW_X = 31;
+uint256 constant HIGH_X = 30;
+uint256 constant LOW_Y = 29;
+uint256 constant HIGH_Y = 28;
+uint256 constant LOW_Z = 27;
+uint256 constant HIGH_Z = 26;
+/// @dev The faces of a word of a set, 2^8; the bits of a number within it.
+uint256 constant SET_SHIFT = 8;
+uint256 constant INDEX_IN_SET = 0xff;
 
 /// @dev The functions of a face, positive in shadow: three sides, each opposite to a corner, with the factors of x and y, and that of z for
 /// a point light, otherwise a constant; and the half-space behind the face, with the factors of x, y and z and a constant.
@@ -53,24 +55,24 @@ library Faces {
         unchecked {
             uint256 side;
             assembly ("memory-safe") {
-                let x := mload(a)
+                let x := mload(a) // a
                 let y := mload(add(a, 0x20))
                 let z := mload(add(a, 0x40))
-                let bx := sub(mload(b), x)
-                let by := sub(mload(add(b, 0x20)), y)
+                let bx := sub(mload(b), x) // b - a
+                let by := sub(mload(add(b, 0x20)), y) // b.y - a.y
                 let bz := sub(mload(add(b, 0x40)), z)
-                let cx := sub(mload(c), x)
-                let cy := sub(mload(add(c, 0x20)), y)
+                let cx := sub(mload(c), x) // c - a
+                let cy := sub(mload(add(c, 0x20)), y) // c.y - a.y
                 let cz := sub(mload(add(c, 0x40)), z)
-                let i := sub(mul(by, cz), mul(bz, cy))
-                let j := sub(mul(bz, cx), mul(bx, cz))
-                let k := sub(mul(bx, cy), mul(by, cx))
-                mstore(add(face, 0x20), i)
+                let i := sub(mul(by, cz), mul(bz, cy)) // n = (b - a) x (c - a)
+                let j := sub(mul(bz, cx), mul(bx, cz)) // n.y
+                let k := sub(mul(bx, cy), mul(by, cx)) // n.z
+                mstore(add(face, 0x20), i) // n
                 mstore(add(face, 0x40), j)
                 mstore(add(face, 0x60), k)
-                side := k
-                if isPoint { side := sub(0, add(mul(i, x), add(mul(j, y), mul(k, z)))) }
-                mstore(add(face, FACE_SIDE), side)
+                side := k // n . z: z points toward a directional light
+                if isPoint { side := sub(0, add(mul(i, x), add(mul(j, y), mul(k, z)))) } // n . (0 - a): a point light is at 0
+                mstore(add(face, FACE_SIDE), side) // positive toward the light
             }
             store(face, boxOf(a, b, c) | (c << FACE_C_AT) | (b << FACE_B_AT) | a);
         }
@@ -80,21 +82,20 @@ library Faces {
     /// vertex is, or if they are on several sides of the cube.
     function boxOf(uint256 a, uint256 b, uint256 c) private pure returns (uint256 box) {
         assembly ("memory-safe") {
-            a := mload(add(a, PLACE_BUCKETS))
-            b := mload(add(b, PLACE_BUCKETS))
-            c := mload(add(c, PLACE_BUCKETS))
-            switch or(and(or(or(a, b), c), BESIDE), shr(SIDE_AT, or(xor(a, b), xor(b, c))))
+            a := mload(add(a, PLACE_BOX)) // the ranges of the vertices
+            b := mload(add(b, PLACE_BOX))
+            c := mload(add(c, PLACE_BOX))
+            switch or(and(or(or(a, b), c), BESIDE), shr(BOX_SIDE_AT, or(xor(a, b), xor(b, c)))) // one is beside, or sides differ
             case 0 {
-                // the mask has ones in each lane of a that is not less than that of b
-                let mask := and(sub(or(a, LANE_GUARDS), b), LANE_GUARDS)
-                let change := and(xor(a, b), sub(mask, shr(15, mask)))
-                let high := xor(b, change)
-                let low := xor(a, change)
-                mask := and(sub(or(c, LANE_GUARDS), high), LANE_GUARDS)
-                high := xor(high, and(xor(c, high), sub(mask, shr(15, mask))))
-                mask := and(sub(or(low, LANE_GUARDS), c), LANE_GUARDS)
-                low := xor(low, and(xor(c, low), sub(mask, shr(15, mask))))
-                box := shl(FACE_BOX_AT, or(low, shl(8, high)))
+                let mask := and(sub(or(a, LANE_GUARDS), b), LANE_GUARDS) // a >= b, in each lane
+                let change := and(xor(a, b), sub(mask, shr(BELOW_GUARD, mask))) // a ^ b in these lanes
+                let high := xor(b, change) // max(a, b)
+                let low := xor(a, change) // min(a, b)
+                mask := and(sub(or(c, LANE_GUARDS), high), LANE_GUARDS) // c >= high
+                high := xor(high, and(xor(c, high), sub(mask, shr(BELOW_GUARD, mask)))) // max(high, c)
+                mask := and(sub(or(low, LANE_GUARDS), c), LANE_GUARDS) // low >= c
+                low := xor(low, and(xor(c, low), sub(mask, shr(BELOW_GUARD, mask)))) // min(low, c)
+                box := shl(FACE_BOX_AT, or(low, shl(HIGH_AT, high))) // minimum in the lower byte, maximum in the upper
             }
             default { box := BESIDE }
         }
@@ -112,16 +113,16 @@ library Faces {
         returns (uint256 end)
     {
         unchecked {
-            uint256 box = (corners >> FACE_BOX_AT) & BOX_MASK;
+            uint256 box = (corners >> FACE_BOX_AT) & FACE_BOX_MASK;
             uint256 size = 5 * BUCKETS * 32 * words;
             if (corners & BESIDE == 0 || frame.sides == 1) {
                 // faces beside a point light may shade everything
-                store(target, tables + (box >> SIDE_AT & 7) * size);
+                store(target, tables + (box >> BOX_SIDE_AT & BOX_SIDE_MASK) * size);
                 store(target + 0x20, corners & BESIDE == 0 ? box : EVERYWHERE);
                 return target + 0x40;
             }
-            uint256[3] memory places =
-                [corners & ADDRESS_MASK, (corners >> FACE_B_AT) & ADDRESS_MASK, (corners >> FACE_C_AT) & ADDRESS_MASK];
+            uint256[3] memory places;
+            (places[0], places[1], places[2]) = cornersOf(corners);
             for (uint256 side; side != CUBE; ++side) {
                 box = LightSpace.boxOn(frame, places, side);
                 if (box != 0) {
@@ -138,23 +139,22 @@ library Faces {
     /// @param sets Tables of sets of `words` words each.
     function insert(uint256 sets, uint256 words, uint256 index, uint256 box) internal pure {
         assembly ("memory-safe") {
-            let bit := shl(and(index, 0xff), 1)
-            let size := shl(5, words)
-            let set := add(sets, shl(5, shr(8, index)))
-            // the maximum and minimum x, the maximum and minimum y, the maximum z
-            let p := add(set, mul(size, byte(30, box)))
+            let bit := shl(and(index, INDEX_IN_SET), 1) // 1 << (index % 256)
+            let size := shl(WORD_SHIFT, words) // bytes of a set
+            let set := add(sets, shl(WORD_SHIFT, shr(SET_SHIFT, index))) // of the first range of the first table
+            let p := add(set, mul(size, byte(HIGH_X, box))) // reaches its maximum x or beyond it
+            mstore(p, or(mload(p), bit)) // its bit is set in this range
+            set := add(set, mul(BUCKETS, size)) // the next table
+            p := add(set, mul(size, byte(LOW_X, box))) // begins at its minimum x or before
             mstore(p, or(mload(p), bit))
             set := add(set, mul(BUCKETS, size))
-            p := add(set, mul(size, byte(31, box)))
+            p := add(set, mul(size, byte(HIGH_Y, box))) // the same for y
             mstore(p, or(mload(p), bit))
             set := add(set, mul(BUCKETS, size))
-            p := add(set, mul(size, byte(28, box)))
+            p := add(set, mul(size, byte(LOW_Y, box))) // begins at its minimum y or before
             mstore(p, or(mload(p), bit))
             set := add(set, mul(BUCKETS, size))
-            p := add(set, mul(size, byte(29, box)))
-            mstore(p, or(mload(p), bit))
-            set := add(set, mul(BUCKETS, size))
-            p := add(set, mul(size, byte(26, box)))
+            p := add(set, mul(size, byte(HIGH_Z, box))) // is at this depth or nearer to the light
             mstore(p, or(mload(p), bit))
         }
     }
@@ -162,21 +162,21 @@ library Faces {
     /// @notice Adds to each set the sets of the ranges beyond it, or before it.
     function complete(uint256 sets, uint256 words) internal pure {
         assembly ("memory-safe") {
-            let size := shl(5, words)
-            let table := mul(BUCKETS, size)
+            let size := shl(WORD_SHIFT, words) // bytes of a set
+            let table := mul(BUCKETS, size) // bytes of a table
             for { let t := 0 } lt(t, 5) { t := add(t, 1) } {
-                let begin := add(sets, mul(t, table))
-                let end := add(begin, table)
-                switch and(t, 1)
-                case 0 {
-                    for { let p := sub(end, size) } gt(p, begin) {} {
+                let begin := add(sets, mul(t, table)) // its first range
+                let end := add(begin, table) // behind its last
+                switch and(t, 1) // whether it is of minima
+                case 0 { // of maxima, or depths
+                    for { let p := sub(end, size) } gt(p, begin) {} { // downward: what is in a range is in all before it
                         p := sub(p, 0x20)
-                        mstore(p, or(mload(p), mload(add(p, size))))
+                        mstore(p, or(mload(p), mload(add(p, size)))) // range r has all of r + 1
                     }
                 }
                 default {
-                    for { let p := add(begin, size) } lt(p, end) { p := add(p, 0x20) } {
-                        mstore(p, or(mload(p), mload(sub(p, size))))
+                    for { let p := add(begin, size) } lt(p, end) { p := add(p, 0x20) } { // upward: in all after it
+                        mstore(p, or(mload(p), mload(sub(p, size)))) // range r has all of r - 1
                     }
                 }
             }
@@ -188,77 +188,78 @@ library Faces {
     /// @param offset The offset of the word in each set.
     function candidates(uint256 sets, uint256 words, uint256 box, uint256 offset) internal pure returns (uint256 bits) {
         assembly ("memory-safe") {
-            let size := shl(5, words)
-            let set := add(sets, offset)
-            bits := mload(add(set, mul(size, byte(31, box))))
+            let size := shl(WORD_SHIFT, words) // bytes of a set
+            let set := add(sets, offset) // a word of the first range
+            bits := mload(add(set, mul(size, byte(LOW_X, box)))) // those that reach the face's minimum x
+            set := add(set, mul(BUCKETS, size)) // the next table
+            bits := and(bits, mload(add(set, mul(size, byte(HIGH_X, box))))) // those that begin before its maximum x
             set := add(set, mul(BUCKETS, size))
-            bits := and(bits, mload(add(set, mul(size, byte(30, box)))))
+            bits := and(bits, mload(add(set, mul(size, byte(LOW_Y, box))))) // the same for y
             set := add(set, mul(BUCKETS, size))
-            bits := and(bits, mload(add(set, mul(size, byte(29, box)))))
+            bits := and(bits, mload(add(set, mul(size, byte(HIGH_Y, box))))) // begin before its maximum y
             set := add(set, mul(BUCKETS, size))
-            bits := and(bits, mload(add(set, mul(size, byte(28, box)))))
-            set := add(set, mul(BUCKETS, size))
-            bits := and(bits, mload(add(set, mul(size, byte(27, box)))))
+            bits := and(bits, mload(add(set, mul(size, byte(LOW_Z, box))))) // those that are nearer to the light than its minimum
         }
     }
 
-    /// @notice Writes the coordinates of three corners as lanes.
-    /// @param corners The first word of a face record.
-    function pack(uint256 target, uint256 corners) internal pure {
+    /// @notice Returns the addresses of the vertices of a face.
+    /// @param corners The first word of its record.
+    function cornersOf(uint256 corners) internal pure returns (uint256 a, uint256 b, uint256 c) {
+        (a, b, c) = (corners & FACE_A_MASK, (corners >> FACE_B_AT) & FACE_B_MASK, (corners >> FACE_C_AT) & FACE_C_MASK);
+    }
+
+    /// @notice Writes the coordinates of three vertices as lanes.
+    function pack(uint256 target, uint256 a, uint256 b, uint256 c) internal pure {
         assembly ("memory-safe") {
-            let a := and(corners, ADDRESS_MASK)
-            let b := and(shr(FACE_B_AT, corners), ADDRESS_MASK)
-            let c := and(shr(FACE_C_AT, corners), ADDRESS_MASK)
-            for { let i := 0 } lt(i, 0x60) { i := add(i, 0x20) } {
+            for { let i := 0 } lt(i, 0x60) { i := add(i, 0x20) } { // x, y, z
                 mstore(add(target, i), add(mload(add(a, i)), shl(LANE, add(mload(add(b, i)), shl(LANE, mload(add(c, i)))))))
             }
         }
     }
 
     /// @notice Writes the four functions of a face.
-    function writePlanes(uint256 face, bool isPoint, uint256 plane) internal pure {
+    /// @param a, b, c The addresses of its vertices.
+    function writePlanes(uint256 plane, uint256 face, uint256 a, uint256 b, uint256 c, bool isPoint) internal pure {
         unchecked {
-            uint256 corners = load(face);
-            uint256 a = corners & ADDRESS_MASK;
-            uint256 b = (corners >> FACE_B_AT) & ADDRESS_MASK;
-            uint256 c = (corners >> FACE_C_AT) & ADDRESS_MASK;
             int256 sign = loadSigned(face + FACE_SIDE) > 0 ? int256(1) : int256(-1);
             writeSide(plane, b, c, sign, isPoint);
             writeSide(plane + SIDE_SIZE, c, a, sign, isPoint);
             writeSide(plane + 2 * SIDE_SIZE, a, b, sign, isPoint);
             assembly ("memory-safe") {
-                plane := add(plane, BEHIND)
-                sign := sub(0, sign)
-                let x := mul(sign, mload(add(face, 0x20)))
+                plane := add(plane, BEHIND) // from here on, the address of the fourth
+                sign := sub(0, sign) // the normal away from the light
+                let x := mul(sign, mload(add(face, 0x20))) // -sign n
                 let y := mul(sign, mload(add(face, 0x40)))
                 let z := mul(sign, mload(add(face, 0x60)))
-                mstore(plane, x)
+                mstore(plane, x) // the factors of x, y and z
                 mstore(add(plane, 0x20), y)
                 mstore(add(plane, 0x40), z)
-                x := add(mul(x, mload(a)), add(mul(y, mload(add(a, 0x20))), mul(z, mload(add(a, 0x40)))))
-                mstore(add(plane, 0x60), sub(0, x))
+                x := add(mul(x, mload(a)), add(mul(y, mload(add(a, 0x20))), mul(z, mload(add(a, 0x40))))) // n . a
+                mstore(add(plane, 0x60), sub(0, x)) // n . (p - a) > 0 behind the face
             }
         }
     }
 
+    /// @dev Writes the function of the side from p to q: of a directional light, the area to the left of the line through them; of a point
+    /// light, the volume on one side of the plane through them and the light.
     function writeSide(uint256 plane, uint256 p, uint256 q, int256 sign, bool isPoint) private pure {
         assembly ("memory-safe") {
-            let px := mload(p)
+            let px := mload(p) // p
             let py := mload(add(p, 0x20))
-            let qx := mload(q)
+            let qx := mload(q) // q
             let qy := mload(add(q, 0x20))
-            switch isPoint
+            switch isPoint // or toward a directional light
             case 0 {
-                mstore(plane, mul(sign, sub(py, qy)))
-                mstore(add(plane, 0x20), mul(sign, sub(qx, px)))
-                mstore(add(plane, 0x40), mul(sign, sub(mul(px, qy), mul(py, qx))))
+                mstore(plane, mul(sign, sub(py, qy))) // the factor of x
+                mstore(add(plane, 0x20), mul(sign, sub(qx, px))) // that of y
+                mstore(add(plane, 0x40), mul(sign, sub(mul(px, qy), mul(py, qx)))) // the constant: 0 at p and q
             }
             default {
-                let pz := mload(add(p, 0x40))
+                let pz := mload(add(p, 0x40)) // p.z
                 let qz := mload(add(q, 0x40))
-                mstore(plane, mul(sign, sub(mul(pz, qy), mul(py, qz))))
-                mstore(add(plane, 0x20), mul(sign, sub(mul(px, qz), mul(pz, qx))))
-                mstore(add(plane, 0x40), mul(sign, sub(mul(py, qx), mul(px, qy))))
+                mstore(plane, mul(sign, sub(mul(pz, qy), mul(py, qz)))) // the factors are those of q x p
+                mstore(add(plane, 0x20), mul(sign, sub(mul(px, qz), mul(pz, qx)))) // (q x p).y
+                mstore(add(plane, 0x40), mul(sign, sub(mul(py, qx), mul(px, qy)))) // (q x p).z
             }
         }
     }

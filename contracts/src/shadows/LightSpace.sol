@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {magnitude} from "../math/Bits.sol";
 import {Fixed} from "../math/Fixed.sol";
 import {Matrix} from "../math/Quaternion.sol";
 import {sqrt} from "../math/Roots.sol";
 import {Vector, normalize} from "../math/Vector.sol";
 import {Mesh} from "../scene/Mesh.sol";
 import {Light, Object, POINT} from "../scene/Scene.sol";
-import {loadSigned, store, storeSigned} from "../words/Memory.sol";
+import "../words/Registers.sol";
 
 // Light space. The z axis points toward a directional light, or from a point light to the shadow casters. The origin is the centre of the
 // casters, or the point light. The farthest point of a caster has coordinates of 20 bits, including the sign.
@@ -15,33 +16,32 @@ import {loadSigned, store, storeSigned} from "../words/Memory.sol";
 // Coordinates are divided into ranges for the search for casters: x, y and z, or x / z, y / z and -z. A point light among the casters is
 // the centre of a cube, and each side of the cube, z, -z, x, -x, y, -y, has its own ranges, with its axis in place of z.
 //
-// A vertex has four words: x, y, z, and its ranges with the side of the cube, in lanes of 16 bits, or BESIDE.
+// A vertex has four words: x, y, z, and its ranges (BOX_ in Words.sol), or BESIDE.
 
 /// @dev The bits of the coordinates of a caster's farthest point, without the sign.
 uint256 constant COORDINATE_BITS = 19;
-/// @dev The number of ranges into which coordinates are divided.
+/// @dev The number of ranges into which coordinates are divided, and the last of them.
 uint256 constant BUCKETS = 128;
+uint256 constant LAST_BUCKET = 127;
 uint256 constant PLACE_SIZE = 0x80;
-uint256 constant PLACE_BUCKETS = 0x60;
-/// @dev The vertex is beside or behind a point light without a cube, or at the light.
-uint256 constant BESIDE = 1 << 255;
+uint256 constant PLACE_BOX = 0x60;
+/// @dev The position of the maximum in a lane of ranges.
+uint256 constant HIGH_AT = 8;
 /// @dev The extra fraction bits in the product of a length, Q32, and a factor, 2^64 / radius (Q32), compared to a coordinate.
 uint256 constant PLACE_SHIFT = 77;
 /// @dev The bits of x / z and y / z.
 uint256 constant SLOPE_BITS = 16;
 /// @dev A point light from which the casters span a larger slope is among them.
 int256 constant WIDEST = 2 << 16;
-/// @dev The number of sides of a cube; the position of the side in the ranges; and whether there are ranges.
+/// @dev The number of sides of a cube.
 uint256 constant CUBE = 6;
-uint256 constant SIDE_AT = 48;
-uint256 constant HAS_BOX = 1 << 63;
 /// @dev All ranges of x and y, and of z from the minimum on.
 uint256 constant EVERYWHERE = 0x7f007f007f00;
 /// @dev If the y component of a direction exceeds this, Q32, the y axis does not define the second axis.
 int256 constant UPRIGHT = 3 << 30;
 
 /// @param axis Three times three numbers: 2^64 / radius times the components of the axes.
-/// @param low, factor The origin and scale of the ranges.
+/// @param low, factor The origin and scale of the ranges, Q32.
 /// @param sides The number of cube sides that have ranges: CUBE or 1.
 struct Frame {
     bool isPoint;
@@ -69,18 +69,18 @@ library LightSpace {
             uint256 stride = mesh.stride;
             uint256 end = vertex + PLACE_SIZE * mesh.vertexCount;
             assembly ("memory-safe") {
-                for {} lt(vertex, end) { vertex := add(vertex, PLACE_SIZE) } {
-                    let data := calldataload(source)
-                    let rest := sub(256, bits)
-                    let i := sar(rest, data)
-                    data := shl(bits, data)
+                for {} lt(vertex, end) { vertex := add(vertex, PLACE_SIZE) } { // for each vertex
+                    let data := calldataload(source) // three signed numbers at the top
+                    let rest := sub(256, bits) // bits below a number at the top
+                    let i := sar(rest, data) // the vertex of the mesh: (i, j, k)
+                    data := shl(bits, data) // drop i
                     let j := sar(rest, data)
-                    let k := sar(rest, shl(bits, data))
-                    let row := m
-                    for { let target := vertex } lt(target, add(vertex, PLACE_BUCKETS)) { target := add(target, 0x20) } {
-                        let value := add(mload(add(row, 0x60)), mul(i, mload(row)))
+                    let k := sar(rest, shl(bits, data)) // k, below j
+                    let row := m // a row of the matrix m
+                    for { let target := vertex } lt(target, add(vertex, PLACE_BOX)) { target := add(target, 0x20) } { // x, y, z
+                        let value := add(mload(add(row, 0x60)), mul(i, mload(row))) // m[3] + i m[0] + j m[1] + k m[2]
                         mstore(target, add(value, add(mul(j, mload(add(row, 0x20))), mul(k, mload(add(row, 0x40))))))
-                        row := add(row, 0x80)
+                        row := add(row, 0x80) // the next row
                     }
                     source := add(source, stride)
                 }
@@ -94,10 +94,10 @@ library LightSpace {
         assembly ("memory-safe") {
             for {} lt(vertex, end) { vertex := add(vertex, PLACE_SIZE) } {
                 for { let i := 0 } lt(i, 0x60) { i := add(i, 0x20) } {
-                    let value := mload(add(vertex, i))
-                    let bound := add(bounds, i)
-                    if slt(value, mload(bound)) { mstore(bound, value) }
-                    bound := add(bound, 0x60)
+                    let value := mload(add(vertex, i)) // a coordinate
+                    let bound := add(bounds, i) // of the minimum
+                    if slt(value, mload(bound)) { mstore(bound, value) } // the minimum
+                    bound := add(bound, 0x60) // from here on, of the maximum
                     if sgt(value, mload(bound)) { mstore(bound, value) }
                 }
             }
@@ -137,7 +137,7 @@ library LightSpace {
                 z = normalize(toVector(vector));
                 for (uint256 i; i != 3; ++i) {
                     frame.low[i] = -int256(1 << COORDINATE_BITS);
-                    frame.factor[i] = int256((BUCKETS << 32) / (2 << COORDINATE_BITS));
+                    frame.factor[i] = int256((BUCKETS << Q32) / (2 << COORDINATE_BITS));
                 }
             }
             Vector memory up;
@@ -166,9 +166,9 @@ library LightSpace {
                 depth = lowest;
             }
             (frame.low[0], frame.low[1], frame.low[2]) = (-across, -across, -lowest);
-            frame.factor[0] = int256(BUCKETS << 32) / (2 * across);
+            frame.factor[0] = int256(BUCKETS << Q32) / (2 * across);
             frame.factor[1] = frame.factor[0];
-            frame.factor[2] = int256(BUCKETS << 32) / depth;
+            frame.factor[2] = int256(BUCKETS << Q32) / depth;
         }
     }
 
@@ -190,12 +190,6 @@ library LightSpace {
         }
     }
 
-    function magnitude(int256 value) internal pure returns (int256) {
-        unchecked {
-            return value < 0 ? -value : value;
-        }
-    }
-
     /// @notice Transforms vertices from world space to light space.
     function place(Frame memory frame, uint256 vertex, uint256 end) internal pure {
         unchecked {
@@ -211,26 +205,31 @@ library LightSpace {
                         (x, y, z) = turned(x, y, z, side);
                     }
                     if (4 * z <= magnitude(x) || 4 * z <= magnitude(y)) {
-                        store(vertex + PLACE_BUCKETS, BESIDE);
+                        store(vertex + PLACE_BOX, BESIDE);
                         continue;
                     }
                     (x, y, z) = ((x << SLOPE_BITS) / z, (y << SLOPE_BITS) / z, -z);
                 }
-                store(
-                    vertex + PLACE_BUCKETS,
-                    bucket(frame, 0, x) | (bucket(frame, 1, y) << 16) | (bucket(frame, 2, z) << 32) | (side << SIDE_AT)
-                );
+                store(vertex + PLACE_BOX, buckets(frame, x, y, z) | (side << BOX_SIDE_AT));
             }
         }
     }
 
-    function bucket(Frame memory frame, uint256 axis, int256 value) private pure returns (uint256 range) {
+    /// @dev Returns the ranges of a point, each in the lower byte of its lane.
+    function buckets(Frame memory frame, int256 x, int256 y, int256 z) private pure returns (uint256 box) {
         assembly ("memory-safe") {
-            let offset := shl(5, axis)
-            value := sub(value, mload(add(mload(add(frame, 0x80)), offset)))
-            value := sar(32, mul(value, mload(add(mload(add(frame, 0xa0)), offset))))
-            range := mul(value, sgt(value, 0))
-            if gt(range, 127) { range := 127 }
+            let low := mload(add(frame, 0x80)) // the address of frame.low
+            let factor := mload(add(frame, 0xa0)) // that of frame.factor
+            x := sar(Q32, mul(sub(x, mload(low)), mload(factor))) // from here on, the range of x
+            x := mul(x, sgt(x, 0)) // at least 0
+            if gt(x, LAST_BUCKET) { x := LAST_BUCKET } // at most the last
+            y := sar(Q32, mul(sub(y, mload(add(low, 0x20))), mload(add(factor, 0x20)))) // from here on, that of y
+            y := mul(y, sgt(y, 0))
+            if gt(y, LAST_BUCKET) { y := LAST_BUCKET }
+            z := sar(Q32, mul(sub(z, mload(add(low, 0x40))), mload(add(factor, 0x40)))) // from here on, that of z
+            z := mul(z, sgt(z, 0))
+            if gt(z, LAST_BUCKET) { z := LAST_BUCKET }
+            box := or(x, or(shl(BOX_Y_AT, y), shl(BOX_Z_AT, z)))
         }
     }
 
@@ -253,6 +252,10 @@ library LightSpace {
         }
     }
 
+    function placeOn(uint256 vertex, uint256 side) private pure returns (int256, int256, int256) {
+        return turned(loadSigned(vertex), loadSigned(vertex + 0x20), loadSigned(vertex + 0x40), side);
+    }
+
     /// @notice Returns the ranges, on one side of the cube, of a face that spans several sides.
     /// @param places Three addresses of vertices.
     /// @return box As in Faces, and HAS_BOX; 0 if the face does not reach that side.
@@ -262,35 +265,24 @@ library LightSpace {
             int256 near = type(int256).max;
             uint256 outside = 15;
             for (uint256 i; i != 3; ++i) {
-                uint256 vertex = places[i];
-                (int256 x, int256 y, int256 z) =
-                    turned(loadSigned(vertex), loadSigned(vertex + 0x20), loadSigned(vertex + 0x40), side);
+                (int256 x, int256 y, int256 z) = placeOn(places[i], side);
                 if (z > far) far = z;
                 if (z < near) near = z;
                 outside &= (x > z ? 1 : 0) | (-x > z ? 2 : 0) | (y > z ? 4 : 0) | (-y > z ? 8 : 0);
             }
             if (far <= 0 || outside != 0) return 0;
-            box = HAS_BOX | (bucket(frame, 2, -far) << 32);
-            if (near <= 0) return box | EVERYWHERE;
-            box |= bucket(frame, 2, -near) << 40;
-            return box | boxAcross(frame, places, side, 0) | (boxAcross(frame, places, side, 1) << 16);
-        }
-    }
-
-    /// @dev Returns the minimum range of x / z (axis 0) or y / z (axis 1) and, above it, the maximum.
-    function boxAcross(Frame memory frame, uint256[3] memory places, uint256 side, uint256 axis) private pure returns (uint256) {
-        unchecked {
-            int256 low = type(int256).max;
-            int256 high = type(int256).min;
+            if (near <= 0) return HAS_BOX | EVERYWHERE | buckets(frame, -WIDEST, -WIDEST, -far);
+            (int256 left, int256 low) = (type(int256).max, type(int256).max);
+            (int256 right, int256 high) = (type(int256).min, type(int256).min);
             for (uint256 i; i != 3; ++i) {
-                uint256 vertex = places[i];
-                (int256 x, int256 y, int256 z) =
-                    turned(loadSigned(vertex), loadSigned(vertex + 0x20), loadSigned(vertex + 0x40), side);
-                int256 slope = ((axis == 0 ? x : y) << SLOPE_BITS) / z;
-                if (slope < low) low = slope;
-                if (slope > high) high = slope;
+                (int256 x, int256 y, int256 z) = placeOn(places[i], side);
+                (x, y) = ((x << SLOPE_BITS) / z, (y << SLOPE_BITS) / z);
+                if (x < left) left = x;
+                if (x > right) right = x;
+                if (y < low) low = y;
+                if (y > high) high = y;
             }
-            return bucket(frame, axis, low) | (bucket(frame, axis, high) << 8);
+            return HAS_BOX | buckets(frame, left, low, -far) | (buckets(frame, right, high, -near) << HIGH_AT);
         }
     }
 
@@ -304,16 +296,13 @@ library LightSpace {
     /// @notice Transforms a difference of points from world space to light space.
     function directionOf(Frame memory frame, int256 x, int256 y, int256 z) internal pure returns (int256 i, int256 j, int256 k) {
         assembly ("memory-safe") {
-            let axis := mload(add(frame, 0x60))
-            let half := shl(sub(PLACE_SHIFT, 1), 1)
-            i := add(add(half, mul(x, mload(axis))), add(mul(y, mload(add(axis, 0x20))), mul(z, mload(add(axis, 0x40)))))
-            i := sar(PLACE_SHIFT, i)
-            axis := add(axis, 0x60)
-            j := add(add(half, mul(x, mload(axis))), add(mul(y, mload(add(axis, 0x20))), mul(z, mload(add(axis, 0x40)))))
-            j := sar(PLACE_SHIFT, j)
-            axis := add(axis, 0x60)
-            k := add(add(half, mul(x, mload(axis))), add(mul(y, mload(add(axis, 0x20))), mul(z, mload(add(axis, 0x40)))))
-            k := sar(PLACE_SHIFT, k)
+            let half := shl(sub(PLACE_SHIFT, 1), 1) // rounds to nearest
+            let axis := mload(add(frame, 0x60)) // x, then y, then z
+            i := sar(PLACE_SHIFT, add(add(half, mul(x, mload(axis))), add(mul(y, mload(add(axis, 0x20))), mul(z, mload(add(axis, 0x40))))))
+            axis := add(axis, 0x60) // y
+            j := sar(PLACE_SHIFT, add(add(half, mul(x, mload(axis))), add(mul(y, mload(add(axis, 0x20))), mul(z, mload(add(axis, 0x40))))))
+            axis := add(axis, 0x60) // z
+            k := sar(PLACE_SHIFT, add(add(half, mul(x, mload(axis))), add(mul(y, mload(add(axis, 0x20))), mul(z, mload(add(axis, 0x40))))))
         }
     }
 }

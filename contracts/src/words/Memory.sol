@@ -26,6 +26,12 @@ function setFreeMemory(uint256 free) pure {
     store(0x40, free);
 }
 
+function loadCalldata(uint256 position) pure returns (uint256 value) {
+    assembly ("memory-safe") {
+        value := calldataload(position)
+    }
+}
+
 function load(uint256 pointer) pure returns (uint256 value) {
     assembly ("memory-safe") {
         value := mload(pointer)

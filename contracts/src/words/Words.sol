@@ -186,7 +186,6 @@ uint256 constant Q10_TO_PIXEL = 0x4000000000000000400000000000000040000000000000
 
 // ----------------------------------------------------------------------------------------------------------------------- parts of samples
 
-uint256 constant LANE_64 = 0xffffffffffffffff;
 /// @dev In the lowest lane: the pixel is on the list of those whose samples may differ.
 uint256 constant IS_LISTED = 0x4000000;
 /// @dev The position of the samples' address in an entry of that list; the position of the colour's address, and its mask; the size of an
@@ -339,6 +338,13 @@ uint256 constant NORMAL_HALF = 0x4000000;
 /// @dev That bias in each lane.
 uint256 constant NORMAL_BIAS = 0x10000000000000000000008000000000000000000004000000000;
 
+// ------------------------------------------------------------------------------------------------------------------------ words of memory
+
+/// @dev A word has 2^5 bytes.
+uint256 constant WORD_SHIFT = 5;
+/// @dev The sign of a word: shifted right by this as a signed number, it is -1 or 0.
+uint256 constant SIGN_AT = 255;
+
 // ---------------------------------------------------------------------------------------------------------------------------- screen word
 // The position of a vertex on the screen. Comparing screen words as numbers compares rows. The bits below the column must stay below bit
 // 41: see the area in PrimitiveAssembly, to whose error they contribute 2^149 times; half of the minimum area is 2^191.
@@ -422,6 +428,70 @@ uint256 constant EDGES_LEFT_COLUMN_AT = 48;
 uint256 constant EDGES_LEFT_COLUMN_MASK = 0xffff;
 uint256 constant EDGES_RIGHT_COLUMN_AT = 176;
 uint256 constant EDGES_RIGHT_COLUMN_MASK = 0xffff;
+
+// -------------------------------------------------------------------------------------------------------------------- face in light space
+// The first word of a face's record: see Faces.
+
+/// @dev The addresses of its vertices.
+uint256 constant FACE_A_AT = 0;
+uint256 constant FACE_A_MASK = 0xffffffff;
+uint256 constant FACE_B_AT = 32;
+uint256 constant FACE_B_MASK = 0xffffffff;
+uint256 constant FACE_C_AT = 64;
+uint256 constant FACE_C_MASK = 0xffffffff;
+/// @dev Its functions are written.
+uint256 constant HAS_PLANES = 0x1000000000000000000000000;
+/// @dev Its ranges.
+uint256 constant FACE_BOX_AT = 128;
+uint256 constant FACE_BOX_MASK = 0xffffffffffffffff;
+
+// ------------------------------------------------------------------------------------------------------------------ ranges of coordinates
+// Where a face lies among BUCKETS ranges of each coordinate in light space: the minimum in the lower byte of a lane, the maximum in the
+// upper one. Of a vertex only lower bytes. See LightSpace.
+
+uint256 constant BOX_X_AT = 0;
+uint256 constant BOX_X_MASK = 0xffff;
+uint256 constant BOX_Y_AT = 16;
+uint256 constant BOX_Y_MASK = 0xffff;
+uint256 constant BOX_Z_AT = 32;
+uint256 constant BOX_Z_MASK = 0xffff;
+/// @dev The side of the cube around a point light.
+uint256 constant BOX_SIDE_AT = 48;
+uint256 constant BOX_SIDE_MASK = 7;
+/// @dev There are ranges.
+uint256 constant HAS_BOX = 0x8000000000000000;
+/// @dev The vertex is beside or behind a point light without a cube, or at the light. Of a face: one of its vertices is, or they are on
+/// several sides of the cube; in its first word, too.
+uint256 constant BESIDE = 0x8000000000000000000000000000000000000000000000000000000000000000;
+
+// ----------------------------------------------------------------------------------------------------------------- position on the canvas
+// Integers with POINT_BITS bits below the pixel, plus POINT_BIAS: see Clipping.
+
+uint256 constant POINT_COLUMN_AT = 0;
+uint256 constant POINT_COLUMN_MASK = 0xffffffffffffffff;
+uint256 constant POINT_ROW_AT = 64;
+uint256 constant POINT_ROW_MASK = 0xffffffffffffffff;
+
+// ----------------------------------------------------------------------------------------------------------------------- edge of a shadow
+// A position on the canvas, in eighths of a pixel, is to the right of the edge if its function is at least 0: VALUE + x * DX + y * DY,
+// signed numbers. See Outlines.
+
+/// @dev To the right of it, a shadow ends; otherwise one begins.
+uint256 constant ENDS_SHADOW = 1;
+/// @dev It is the last of its list.
+uint256 constant LAST_EDGE = 0x100;
+/// @dev The row of samples, four for each row of pixels, after the last that the edge crosses; and the first.
+uint256 constant SHADOW_EDGE_BOTTOM_AT = 64;
+uint256 constant SHADOW_EDGE_BOTTOM_MASK = 0xffff;
+uint256 constant SHADOW_EDGE_TOP_AT = 80;
+uint256 constant SHADOW_EDGE_TOP_MASK = 0xffff;
+/// @dev The value at the centre of the canvas's first pixel; its change downward; and to the right.
+uint256 constant SHADOW_EDGE_VALUE_AT = 96;
+uint256 constant SHADOW_EDGE_VALUE_MASK = 0xffffffffffffffff;
+uint256 constant SHADOW_EDGE_DY_AT = 160;
+uint256 constant SHADOW_EDGE_DY_MASK = 0xffffffffffff;
+uint256 constant SHADOW_EDGE_DX_AT = 208;
+uint256 constant SHADOW_EDGE_DX_MASK = 0xffffffffffff;
 
 // ------------------------------------------------------------------------------------------------------------------------- flags together
 

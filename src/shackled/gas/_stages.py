@@ -86,7 +86,10 @@ _SOURCES = {
     "shadows/Shadows.sol": UNIFORMS,
     "shadows/LightSpace.sol": UNIFORMS,
     "shadows/Faces.sol": UNIFORMS,
+    "shadows/Casters.sol": UNIFORMS,
     "shadows/Receivers.sol": UNIFORMS,
+    "shadows/Clipping.sol": UNIFORMS,
+    "shadows/Outlines.sol": UNIFORMS,
     "Renderer.sol": REST,
 }
 

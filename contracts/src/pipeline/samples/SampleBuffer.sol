@@ -176,12 +176,6 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
         }
     }
 
-    function loadCalldata(uint256 position) private pure returns (uint256 value) {
-        assembly ("memory-safe") {
-            value := calldataload(position)
-        }
-    }
-
     /// @dev Writes the means of the pixels whose samples differ.
     function closeBand() internal pure override {
         assembly ("memory-safe") {
