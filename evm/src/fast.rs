@@ -365,12 +365,37 @@ fn shift_right(value: &U256, bits: usize, sign: u64) -> U256 {
 
 #[inline(always)]
 fn multiply(a: U256, b: U256) -> U256 {
-    let ([x, a1, a2, a3], [y, b1, b2, b3]) = (*a.as_limbs(), *b.as_limbs());
-    if a1 | a2 | a3 | b1 | b2 | b3 == 0 {
-        let product = x as u128 * y as u128;
-        return U256::from_limbs([product as u64, (product >> 64) as u64, 0, 0]);
+    // limbs of 0 cost nothing, and most factors are small
+    let ([_, a1, a2, a3], mut rows, mut columns) = (*a.as_limbs(), *b.as_limbs(), *a.as_limbs());
+    if a1 | a2 | a3 == 0 {
+        (rows, columns) = (columns, rows);
     }
-    a.wrapping_mul(b)
+    let mut product = [0u64; 4];
+    for i in 0..4 {
+        if rows[i] == 0 {
+            continue;
+        }
+        let mut carry = 0;
+        for j in 0..3 - i {
+            let (low, high) = wide(rows[i], columns[j]);
+            let (sum, over) = product[i + j].overflowing_add(low);
+            let (sum, more) = sum.overflowing_add(carry);
+            product[i + j] = sum;
+            carry = high + over as u64 + more as u64;
+        }
+        product[3] = product[3].wrapping_add(carry).wrapping_add(rows[i].wrapping_mul(columns[3 - i]));
+    }
+    U256::from_limbs(product)
+}
+
+/// Returns the two limbs of a product. WebAssembly has no such instruction, and would call a function for `u128`.
+#[inline(always)]
+fn wide(a: u64, b: u64) -> (u64, u64) {
+    const LOW: u64 = u32::MAX as u64;
+    let ((a_high, a_low), (b_high, b_low)) = ((a >> 32, a & LOW), (b >> 32, b & LOW));
+    let cross = a_low * b_high;
+    let middle = (a_low * b_low >> 32) + (cross & LOW) + a_high * b_low;
+    (a.wrapping_mul(b), a_high * b_high + (cross >> 32) + (middle >> 32))
 }
 
 #[inline(always)]
