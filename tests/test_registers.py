@@ -51,7 +51,9 @@ def test_no_register_lies_over_another() -> None:
 def test_registers_of_fewer_engines_follow_the_others() -> None:
     ends = [max(value for name, value in names.items() if name in SIZES) for names in FILES]
     begins = [min(value for name, value in names.items() if name in SIZES) for names in FILES]
-    for (before, end), begin in zip(zip(ends, ("REGISTERS_END", "SAMPLE_REGISTERS_END"), strict=False), begins[1:], strict=True):
+    for (before, end), begin in zip(
+        zip(ends, ("REGISTERS_END", "SAMPLE_REGISTERS_END"), strict=False), begins[1:], strict=True
+    ):
         assert before < REGISTERS[end] == begin
 
 
