@@ -154,7 +154,8 @@ library SmoothLight {
                     length := add(add(mul(lx, lx), mul(ly, ly)), mul(lz, lz))
                     // the light must not be nearer than the eye by more than a factor of the root of 5/4
                     bounded := iszero(gt(shl(2, square), mul(5, length)))
-                    length := root(length, add(LIGHTS, LIGHT_HINT))
+                    // not a literal: see ZERO_SLOT; copies for the other two roots, of each vertex, are wanted
+                    length := root(length, add(add(LIGHTS, LIGHT_HINT), mload(ZERO_SLOT)))
                 }
                 lx := sdiv(shl(Q20, lx), length)
                 ly := sdiv(shl(Q20, ly), length)
@@ -225,7 +226,8 @@ library SmoothLight {
                 v := shl(ATTRIBUTE_DEPTH_AT, shr(1, add(shr(ATTRIBUTE_DEPTH_AT, mload(u)), v)))
                 mstore(add(MIDDLE, VERTEX_ATTRIBUTES), v)
                 mstore(add(MIDDLE, VERTEX_NORMAL), mload(add(u, sub(VERTEX_NORMAL, VERTEX_ATTRIBUTES))))
-                setVertex(MIDDLE)
+                // not a literal: see ZERO_SLOT
+                setVertex(add(MIDDLE, mload(ZERO_SLOT)))
             }
 
             function size20(value) -> positive { positive := xor(value, sar(255, value)) }
@@ -331,11 +333,15 @@ library SmoothLight {
                         kind := mul(kind, and(lt(size, mload(SMOOTH_REACH_3)), lt(change, MOST_HALF_CHANGE)))
                         if kind {
                             mstore(HALF_SKEW, 0)
-                            ab := add(ab, correction(a, b, NORMAL_0, NORMAL_1))
+                            // not literals: see ZERO_SLOT
+                            let normals := add(NORMAL_0, mload(ZERO_SLOT))
+                            let normalsB := add(normals, sub(NORMAL_1, NORMAL_0))
+                            let normalsC := add(normals, sub(NORMAL_2, NORMAL_0))
+                            ab := add(ab, correction(a, b, normals, normalsB))
                             kind := mul(kind, and(mload(add(MIDDLE, VERTEX_STATE)), LIT))
-                            ac := add(ac, correction(a, c, NORMAL_0, NORMAL_2))
+                            ac := add(ac, correction(a, c, normals, normalsC))
                             kind := mul(kind, and(mload(add(MIDDLE, VERTEX_STATE)), LIT))
-                            bc := add(bc, correction(b, c, NORMAL_1, NORMAL_2))
+                            bc := add(bc, correction(b, c, normalsB, normalsC))
                             kind := mul(kind, and(mload(add(MIDDLE, VERTEX_STATE)), LIT))
                             setMiddle(a, MIDDLE)
                             // 16 times the products at (1/2, 1/4, 1/4), and the error of N * H there, in the lowest lane
@@ -346,11 +352,12 @@ library SmoothLight {
                             error := mul(mul(error, mload(HALF_SLOPE)), add(THREE_20, least))
                             if gt(error, mul(least, THREE_AND_A_HALF_16)) {
                                 // not near the highlight, by the nodes, between which vectors turn by less than half as much
-                                error := nearer(inner, 4, 0)
-                                error := nearer(sub(shl(1, add(p, q)), ab), 2, error)
-                                error := nearer(sub(shl(1, add(p, r)), ac), 2, error)
-                                error := nearer(sub(shl(1, add(q, r)), bc), 2, error)
-                                error := nearer(p, 0, nearer(q, 0, nearer(r, 0, error)))
+                                let none := mload(ZERO_SLOT)
+                                error := nearer(inner, add(none, 4), none)
+                                error := nearer(sub(shl(1, add(p, q)), ab), add(none, 2), error)
+                                error := nearer(sub(shl(1, add(p, r)), ac), add(none, 2), error)
+                                error := nearer(sub(shl(1, add(q, r)), bc), add(none, 2), error)
+                                error := nearer(p, none, nearer(q, none, nearer(r, none, error)))
                                 error := add(error, shr(2, add(most, shr(Q20, change))))
                                 kind := mul(kind, slt(error, mload(FAR_FROM_HIGHLIGHT)))
                             }
