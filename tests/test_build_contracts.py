@@ -7,9 +7,12 @@ import json
 import re
 import sys
 from pathlib import Path
+from random import Random
 
 import pytest
 from tools import build_contracts as tool
+from tools import comment_lines
+from tools.compiled_once import compile_once
 
 from compiler import needs_compiler
 from shackled.artifacts import artifact, contracts, source, standard_input
@@ -117,6 +120,28 @@ ROOM = 512
 def test_every_contract_has_room(name: str) -> None:
     room = tool.MAX_RUNTIME_SIZE - len(artifact(name).runtime)
     assert room >= ROOM, f"see tools/build_contracts.py --functions {name}"
+
+
+def test_lines_of_documentation_stand_before_declarations_that_have_none() -> None:
+    text = source("words/Memory.sol") or ""
+    lines = text.split("\n")
+    found = [lines[i] for i in comment_lines.places(text)]
+    assert "error RegistersOverlap();" in found
+    assert any(line.startswith("function load(") for line in found)
+    assert not any("ZERO_SLOT" in line or "function reserveRegisters" in line for line in found)
+    # functions of assembly are none of the syntax tree of Solidity
+    assert not [1 for i in comment_lines.places("    function f() {}\n            function g() {}") if i != 0]
+    sources = {"words/Memory.sol": text, "of-a-library.sol": text}
+    made = comment_lines.commented(sources, 5, Random(1))
+    assert made["of-a-library.sol"] == text
+    assert made["words/Memory.sol"].split("\n").count("/// @dev x.") == 5
+    assert made["words/Memory.sol"].replace("/// @dev x.\n", "") == text
+
+
+@needs_compiler
+def test_lines_of_documentation_change_no_byte() -> None:
+    """All groups: tools/comment_lines.py."""
+    assert comment_lines.changes("antialiased-fragments", compile_once) == []
 
 
 def test_no_line_of_the_contracts_is_too_long() -> None:
