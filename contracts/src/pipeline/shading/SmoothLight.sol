@@ -127,6 +127,16 @@ library SmoothLight {
             }
             // fills the part of a vertex record that is common to all adjacent triangles
             function setVertex(vertex) {
+                let n := mload(add(vertex, VERTEX_NORMAL))
+                let r := add(n, VECTOR_BIAS)
+                r := shl(1, sub(or(or(shl(UPPER_85_AT, and(r, LANE_85)), shr(UPPER_85_AT, r)), and(r, MIDDLE_LANE_85)), VECTOR_BIAS))
+                mstore(add(vertex, VERTEX_REVERSED), r)
+                // the square of the normal, Q40, must be 15/16 to 17/16
+                setDirections(vertex, lt(sub(sar(SQUARE_AT, mul(n, r)), LEAST_SQUARE), SQUARES))
+            }
+
+            // sets the directions to the light and halfway to the eye, and the state: LIT if they and the normal are bounded
+            function setDirections(vertex, bounded) {
                 let screen := mload(vertex)
                 // the ray (x, y, 1), Q24
                 let x := add(
@@ -137,7 +147,6 @@ library SmoothLight {
                 let lx := mload(add(LIGHTS, LIGHT_X))
                 let ly := mload(add(LIGHTS, LIGHT_Y))
                 let lz := mload(add(LIGHTS, LIGHT_Z))
-                let bounded := 1
                 let length := ONE_24
                 if mload(add(LIGHTS, LIGHT_IS_POINT)) {
                     // from the vertex to the light, Q16
@@ -153,7 +162,7 @@ library SmoothLight {
                     square := add(square, mul(z, z))
                     length := add(add(mul(lx, lx), mul(ly, ly)), mul(lz, lz))
                     // the light must not be nearer than the eye by more than a factor of the root of 5/4
-                    bounded := iszero(gt(shl(2, square), mul(5, length)))
+                    bounded := and(bounded, iszero(gt(shl(2, square), mul(5, length))))
                     // not a literal: see ZERO_SLOT; copies for the other two roots, of each vertex, are wanted
                     length := root(length, add(add(LIGHTS, LIGHT_HINT), mload(ZERO_SLOT)))
                 }
@@ -180,12 +189,6 @@ library SmoothLight {
                 lz := sdiv(shl(Q20, lz), length)
                 mstore(add(vertex, VERTEX_HALF), shl(Q20_TO_Q29, add(add(lx, shl(MIDDLE_85_AT, ly)), shl(UPPER_85_AT, lz))))
                 mstore(add(vertex, VERTEX_HALF_REVERSED), shl(1, add(add(lz, shl(MIDDLE_85_AT, ly)), shl(UPPER_85_AT, lx))))
-                x := mload(add(vertex, VERTEX_NORMAL))
-                y := add(x, VECTOR_BIAS)
-                y := shl(1, sub(or(or(shl(UPPER_85_AT, and(y, LANE_85)), shr(UPPER_85_AT, y)), and(y, MIDDLE_LANE_85)), VECTOR_BIAS))
-                mstore(add(vertex, VERTEX_REVERSED), y)
-                // the square of the normal, Q40, must be 15/16 to 17/16
-                bounded := and(bounded, lt(sub(sar(SQUARE_AT, mul(x, y)), LEAST_SQUARE), SQUARES))
                 mstore(add(vertex, VERTEX_STATE), or(open, sub(UNBOUNDED, bounded)))
             }
 
@@ -218,16 +221,16 @@ library SmoothLight {
                 packed := products(n, sub(mload(add(placeV, REVERSED)), mload(add(placeU, REVERSED))), square, sub(n, h), reversed)
             }
 
-            // sets MIDDLE to the middle of two vertices, with the normal of one
+            // sets MIDDLE to the middle of two vertices, without a normal
             function setMiddle(u, v) {
                 mstore(MIDDLE, shl(SCREEN_COLUMN_AT, shr(1, add(shr(SCREEN_COLUMN_AT, mload(u)), shr(SCREEN_COLUMN_AT, mload(v))))))
                 u := add(u, VERTEX_ATTRIBUTES)
                 v := shr(ATTRIBUTE_DEPTH_AT, mload(add(v, VERTEX_ATTRIBUTES)))
                 v := shl(ATTRIBUTE_DEPTH_AT, shr(1, add(shr(ATTRIBUTE_DEPTH_AT, mload(u)), v)))
                 mstore(add(MIDDLE, VERTEX_ATTRIBUTES), v)
-                mstore(add(MIDDLE, VERTEX_NORMAL), mload(add(u, sub(VERTEX_NORMAL, VERTEX_ATTRIBUTES))))
-                // not a literal: see ZERO_SLOT
-                setVertex(add(MIDDLE, mload(ZERO_SLOT)))
+                // not literals: see ZERO_SLOT
+                u := mload(ZERO_SLOT)
+                setDirections(add(MIDDLE, u), add(1, u))
             }
 
             function size20(value) -> positive { positive := xor(value, sar(255, value)) }
