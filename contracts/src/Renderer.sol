@@ -78,13 +78,13 @@ contract Renderer is SceneErrors {
     /// @notice Draws a scene.
     /// @return A Windows bitmap of 24 bits per pixel.
     function render(Scene calldata scene) external view returns (bytes memory) {
-        File memory file = draw(scene, whole(scene), false);
+        File memory file = draw(scene, whole(scene));
         returnBytes(file.begin, file.size);
     }
 
     /// @notice Draws a part of the canvas as a separate bitmap. The tiles of a picture together equal the whole picture, byte for byte.
     function renderTile(Scene calldata scene, Rectangle calldata tile) external view returns (bytes memory) {
-        File memory file = draw(scene, tile, false);
+        File memory file = draw(scene, tile);
         returnBytes(file.begin, file.size);
     }
 
@@ -112,7 +112,7 @@ contract Renderer is SceneErrors {
     /// @return A `data:` URI of the bitmap.
     function renderDataURI(Scene calldata scene) external view returns (string memory) {
         unchecked {
-            File memory file = draw(scene, whole(scene), false);
+            File memory file = draw(scene, whole(scene));
             uint256 text = file.begin + file.size + 96;
             returnBytes(text, Svg.writeUri(text, file.begin, file.size) - text);
         }
@@ -122,7 +122,7 @@ contract Renderer is SceneErrors {
     /// @return An SVG document that shows the bitmap at any size without smoothing.
     function renderSVG(Scene calldata scene) external view returns (string memory) {
         unchecked {
-            File memory file = draw(scene, whole(scene), false);
+            File memory file = draw(scene, whole(scene));
             uint256 text = file.begin + file.size + 96;
             returnBytes(text, Svg.write(text, file.begin, file.size, scene.canvas.width, scene.canvas.height) - text);
         }
@@ -139,7 +139,7 @@ contract Renderer is SceneErrors {
         unchecked {
             checkScene(scene, tile);
             prepareEffects(scene);
-            (uint256 begin, uint256 end) = writeCall(scene, tile, false);
+            (uint256 begin, uint256 end) = writeCall(scene, tile);
             returnBytes(begin, end - begin);
         }
     }
@@ -154,7 +154,8 @@ contract Renderer is SceneErrors {
         view
         returns (bytes memory bmp, uint256 triangles, uint256 litPixels)
     {
-        File memory file = draw(scene, tile, true);
+        store(COUNT_PIXELS, 1);
+        File memory file = draw(scene, tile);
         (triangles, litPixels) = (file.triangles, file.litPixels);
         assembly ("memory-safe") {
             let size := mload(add(file, 0x20))
@@ -169,17 +170,17 @@ contract Renderer is SceneErrors {
         }
     }
 
-    function draw(Scene calldata scene, Rectangle memory tile, bool countPixels) private view returns (File memory file) {
+    function draw(Scene calldata scene, Rectangle memory tile) private view returns (File memory file) {
         unchecked {
             checkScene(scene, tile);
             prepareEffects(scene);
-            (uint256 data, uint256 end) = writeCall(scene, tile, countPixels);
+            (uint256 data, uint256 end) = writeCall(scene, tile);
             uint256 pixels;
             uint256 free = freeMemory();
             bool isOneRun = Runs.next(data, Runs.begin(data)).count == 0;
             setFreeMemory(free);
             if (tile.width * tile.height > BAND_PIXELS && !isOneRun) {
-                (pixels, file.triangles, file.litPixels) = drawBands(scene, tile, countPixels);
+                (pixels, file.triangles, file.litPixels) = drawBands(scene, tile);
             } else {
                 (pixels, file.triangles, file.litPixels) = callEngines(data, end);
             }
@@ -215,9 +216,9 @@ contract Renderer is SceneErrors {
     }
 
     /// @dev Writes the calldata of an engine: see Uniforms.
-    function writeCall(Scene calldata scene, Rectangle memory tile, bool countPixels) private pure returns (uint256 data, uint256 end) {
+    function writeCall(Scene calldata scene, Rectangle memory tile) private pure returns (uint256 data, uint256 end) {
         unchecked {
-            (data, end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, countPixels, TEXTS);
+            (data, end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, TEXTS);
             uint256 size = load(EFFECTS_SIZE);
             if (size == 0) return (data, end);
             store(data + 4 + EFFECTS_OFFSET - REGISTERS, end - data);
@@ -231,7 +232,7 @@ contract Renderer is SceneErrors {
 
     /// @dev Draws a large picture that needs several engines, band by band, since the pixels and depths drawn by one engine are passed to
     /// the next.
-    function drawBands(Scene calldata scene, Rectangle memory tile, bool countPixels)
+    function drawBands(Scene calldata scene, Rectangle memory tile)
         private
         view
         returns (uint256 pixels, uint256 triangles, uint256 litPixels)
@@ -247,7 +248,7 @@ contract Renderer is SceneErrors {
                 setFreeMemory(behind);
                 uint256 top = bottom < rows ? 0 : bottom - rows;
                 Rectangle memory band = Rectangle(tile.x, tile.y + top, tile.width, bottom - top);
-                (uint256 data, uint256 end) = writeCall(scene, band, countPixels);
+                (uint256 data, uint256 end) = writeCall(scene, band);
                 (uint256 source,, uint256 lit) = callEngines(data, end);
                 litPixels += lit;
                 uint256 size = 3 * tile.width * (bottom - top);
@@ -257,7 +258,7 @@ contract Renderer is SceneErrors {
                 }
                 bottom = top;
             }
-            if (countPixels) triangles = countTriangles(scene, tile);
+            if (load(COUNT_PIXELS) != 0) triangles = countTriangles(scene, tile);
             setFreeMemory(free);
         }
     }
@@ -296,7 +297,7 @@ contract Renderer is SceneErrors {
 
     /// @dev Returns the number of triangles of all objects left after culling and clipping.
     function countTriangles(Scene calldata scene, Rectangle memory tile) private view returns (uint256) {
-        (uint256 data, uint256 end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, false, TEXTS);
+        (uint256 data, uint256 end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, TEXTS);
         Runs.setOnlyCounts(data);
         callEngine(address(engine), data, end, data);
         return load(data);
