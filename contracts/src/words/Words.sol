@@ -294,6 +294,13 @@ uint256 constant RED_TO_TOP = 4;
 uint256 constant SECOND_BYTE = 0xff000000000000000000000000000000000000000000000000000000000000;
 uint256 constant THIRD_BYTE = 0xff0000000000000000000000000000000000000000000000000000000000;
 
+// ------------------------------------------------------------------------------------------------------------------------ words of memory
+
+/// @dev A word has 2^5 bytes.
+uint256 constant WORD_SHIFT = 5;
+/// @dev The sign of a word: shifted right by this as a signed number, it is -1 or 0.
+uint256 constant SIGN_AT = 255;
+
 // ------------------------------------------------------------------------------------------------------------------- words of the buffers
 
 /// @dev The first depth of a word, the next two, and everything after the first.
@@ -337,13 +344,6 @@ uint256 constant NORMAL_MASK = 0x7ffffff;
 uint256 constant NORMAL_HALF = 0x4000000;
 /// @dev That bias in each lane.
 uint256 constant NORMAL_BIAS = 0x10000000000000000000008000000000000000000004000000000;
-
-// ------------------------------------------------------------------------------------------------------------------------ words of memory
-
-/// @dev A word has 2^5 bytes.
-uint256 constant WORD_SHIFT = 5;
-/// @dev The sign of a word: shifted right by this as a signed number, it is -1 or 0.
-uint256 constant SIGN_AT = 255;
 
 // ---------------------------------------------------------------------------------------------------------------------------- screen word
 // The position of a vertex on the screen. Comparing screen words as numbers compares rows. The bits below the column must stay below bit
