@@ -9,8 +9,9 @@ import {HEADER_SIZE, PackedMesh} from "../mesh/PackedMesh.sol";
 import {NORMALS, WIDE} from "../scene/Mesh.sol";
 import {
     ANTIALIAS, FOG, GROUND, HEMISPHERE, OPACITIES_OF, OPACITY_OF, RIM, SHADOW, SHADOWS_ALL, SPOT, TEXTURE_BILINEAR, TEXTURE_CLAMP,
-    TEXTURE_OF, TONE, TONE_FILMIC, TONE_GAMMA, addRecord, copyBytes
-} from "../scene/Records.sol";
+    TEXTURE_OF, TONE, TONE_FILMIC, TONE_GAMMA
+} from "../words/Records.sol";
+import {addRecord, copyBytes} from "../scene/RecordWriter.sol";
 import {
     Scene, Canvas, Background, Light, Material, Object, PERSPECTIVE, DIRECTIONAL, POINT, UNLIT, FLAT, SMOOTH, CULL_BACKFACES
 } from "../scene/Scene.sol";

@@ -8,7 +8,7 @@ import {EffectRecords} from "./EffectRecords.sol";
 import {Extensions} from "../scene/Extensions.sol";
 import {
     ANTIALIAS, FOG, GROUND, HEMISPHERE, OPACITIES_OF, RECORD_HEADER, RIM, SHADOW, TEXTURE_OF, TONE, TONE_GAMMA
-} from "../scene/Records.sol";
+} from "../words/Records.sol";
 import {Light, Material, Object, Scene, POINT, UNLIT} from "../scene/Scene.sol";
 import {Lights} from "../uniforms/Lights.sol";
 import {MeshSpace} from "../uniforms/MeshSpace.sol";

@@ -2,7 +2,7 @@
 pragma solidity 0.8.37;
 
 import {Gamma} from "./Gamma.sol";
-import {TONE_FILMIC, TONE_GAMMA} from "../scene/Records.sol";
+import {TONE_FILMIC, TONE_GAMMA} from "../words/Records.sol";
 import {FragmentLight} from "../pipeline/shading/FragmentLight.sol";
 import {OPACITY_AT, Texture} from "./Texture.sol";
 import "../words/EffectRegisters.sol";

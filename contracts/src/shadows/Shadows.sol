@@ -4,7 +4,7 @@ pragma solidity 0.8.37;
 import {ZERO} from "../math/Fixed.sol";
 import {Vector, normalize} from "../math/Vector.sol";
 import {Extensions} from "../scene/Extensions.sol";
-import {GROUND, OPACITIES_OF, OPACITY_OF, SHADOW, SHADOWS_ALL, SHADOWS_FRONT_FACES} from "../scene/Records.sol";
+import {GROUND, OPACITIES_OF, OPACITY_OF, SHADOW, SHADOWS_ALL, SHADOWS_FRONT_FACES} from "../words/Records.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
 import {Object, Scene, CULL_BACKFACES, FLAT, UNLIT, WIREFRAME} from "../scene/Scene.sol";
 import {Indices} from "../pipeline/geometry/Indices.sol";
