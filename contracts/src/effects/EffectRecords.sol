@@ -5,6 +5,7 @@ import {Extensions} from "../scene/Extensions.sol";
 import {openMesh} from "../scene/Mesh.sol";
 import {
     ANTIALIAS,
+    EMISSION_OF,
     FOG,
     GROUND,
     OPACITIES_OF,
@@ -43,6 +44,7 @@ import {SceneErrors} from "../scene/SceneErrors.sol";
 //   GROUND       of an object that casts no shadow and fades into the background: a word, whose upper half contains two distances from
 //                the object's position, at which it begins to fade and at which it vanishes, 8 bytes each, Q32, 0 to 2^58, the second
 //                above the first
+//   EMISSION     of an object: the colour of the light that it emits, a word, 0xRRGGBB
 //
 // `SurfaceLight`, `Texture` and `Ground` implement them.
 
@@ -76,6 +78,7 @@ library EffectRecords {
                 if (kind == FOG) checkFog(content);
                 if (kind == TONE) checkTone(content);
                 if (kind == GROUND) checkGround(content, index);
+                if (kind == EMISSION_OF && content > 0xffffff) revert SceneErrors.EmissionNotAColor(index, content);
                 if (kind == SHADOW) {
                     if (hasShadow) revert SceneErrors.SeveralShadows(index);
                     hasShadow = true;

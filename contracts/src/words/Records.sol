@@ -26,6 +26,8 @@ uint256 constant OPACITIES_OF = 9;
 uint256 constant SHADOW = 10;
 /// @dev The object fades into the background, and casts no shadow.
 uint256 constant GROUND = 11;
+/// @dev The object emits light.
+uint256 constant EMISSION_OF = 12;
 /// @dev Flags of a TONE: the filmic curve; lighting in linear light, with colours decoded from and encoded as sRGB.
 uint256 constant TONE_FILMIC = 1;
 uint256 constant TONE_GAMMA = 2;
@@ -42,10 +44,10 @@ uint256 constant LONG_KINDS = 8;
 /// @dev Bytes of a record before its content.
 uint256 constant RECORD_HEADER = 5;
 /// @dev What a kind belongs to: two bits at twice its number, 0 if it is unknown.
-uint256 constant RECORD_OWNERS = 0xef5578;
+uint256 constant RECORD_OWNERS = 0x3ef5578;
 uint256 constant OF_SCENE = 1;
 uint256 constant OF_LIGHT = 2;
 uint256 constant OF_OBJECT = 3;
 /// @dev Bytes of the content: a byte at 8 times its number; ANY_WORDS for any words.
-uint256 constant RECORD_SIZES = 0x2020ffff0513040600042800;
+uint256 constant RECORD_SIZES = 0x202020ffff0513040600042800;
 uint256 constant ANY_WORDS = 255;

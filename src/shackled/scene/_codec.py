@@ -24,6 +24,7 @@ from ._packed_mesh import pack
 from ._packed_texture import pack_texture
 from ._records import (
     ANTIALIAS,
+    EMISSION_OF,
     FOG,
     GROUND,
     HEMISPHERE,
@@ -158,6 +159,9 @@ def extensions(scene: Scene) -> bytes:
             inner, outer = min(inner, MAX_INNER_FADE), min(outer, MAX_FADE)
             radii = inner.to_bytes(8, "big") + max(outer, inner + 1).to_bytes(8, "big")
             records.append(_record(GROUND, index, radii.ljust(32, b"\0")))
+    for index, thing in enumerate(scene.objects):
+        if any(thing.material.emission):
+            records.append(_record(EMISSION_OF, index, _words([_rgb(thing.material.emission)])))
     return b"".join(records)
 
 
@@ -178,7 +182,7 @@ def _as_sent(o: Object) -> Object:
 def _record(kind: int, index: int, content: bytes) -> bytes:
     if index >> 16:
         raise InputError(
-            "objects with an opacity, a texture or a fade must be among the first 65,536 of a scene, "
+            "objects with an opacity, a texture, a fade or an emission must be among the first 65,536 of a scene, "
             f"not number {index:,}"
         )
     size = len(content) // WORD if kind >= LONG_KINDS else len(content)

@@ -39,6 +39,7 @@ from ._packed_mesh import WIDE, unpack
 from ._packed_texture import unpack_texture
 from ._records import (
     ANTIALIAS,
+    EMISSION_OF,
     FOG,
     GROUND,
     HEMISPHERE,
@@ -311,6 +312,11 @@ def _with_records(thing: Object, records: Records, index: int) -> Object:
             raise InputError("zeros must fill the word of a ground in the extensions")
         radii = [int.from_bytes(record[at : at + 8], "big") for at in (0, 8)]
         thing = evolve(thing, fade=[_number(each, "a radius of a ground", 0, MAX_COORDINATE) for each in radii])
+    if (record := records.get((EMISSION_OF, index))) is not None:
+        emission = _Words(record).color(f"the emission of objects[{index}]")
+        if not any(emission):
+            raise InputError("an emission in the extensions must not be black")
+        thing = evolve(thing, material=evolve(thing.material, emission=emission))
     return thing
 
 

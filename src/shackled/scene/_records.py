@@ -11,6 +11,7 @@ TEXTURE_OF = 8
 OPACITIES_OF = 9
 SHADOW = 10
 GROUND = 11
+EMISSION_OF = 12
 
 TONE_FILMIC = 1
 TONE_GAMMA = 2
@@ -37,6 +38,7 @@ OWNERS = {
     OPACITIES_OF: "object",
     SHADOW: "light",
     GROUND: "object",
+    EMISSION_OF: "object",
 }
 #: Bytes of its content; None for any number of words.
 SIZES: dict[int, int | None] = {
@@ -51,4 +53,5 @@ SIZES: dict[int, int | None] = {
     OPACITIES_OF: None,
     SHADOW: 32,
     GROUND: 32,
+    EMISSION_OF: 32,
 }

@@ -135,6 +135,10 @@ function extensions(scene: CheckedScene): Uint8Array {
         content.setBigInt64(8, outer > inner ? outer : inner + 1n);
         made.push(record(records.GROUND, index, content));
     });
+    scene.objects.forEach(({ material: { emission } }, index) => {
+        if (!emission.some(Boolean)) return;
+        made.push(record(records.EMISSION_OF, index, new DataView(words([rgb(emission)]).buffer)));
+    });
     return joined(made);
 }
 
@@ -167,7 +171,7 @@ function effects({ hemisphere, rim, fog, tone }: CheckedScene): Uint8Array[] {
 function record(kind: number, index: number, content: DataView): Uint8Array {
     if (index > 0xffff) {
         throw new InputError(
-            `objects with an opacity, a texture or a fade must be among the first 65,536 of a scene, not number ${index}`,
+            `objects with an opacity, a texture, a fade or an emission must be among the first 65,536 of a scene, not number ${index}`,
         );
     }
     const head = new DataView(new ArrayBuffer(records.RECORD_HEADER));

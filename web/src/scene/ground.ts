@@ -47,7 +47,15 @@ function groundUnder({ color, height, radius, center, inner }: Ground, points: V
         rotation: [0, 0, 0, 1],
         scale,
         // matte
-        material: { shading: "flat", ambient: 0.4, diffuse: 0.7, specular: 0, shininess: 24, texture: undefined },
+        material: {
+            shading: "flat",
+            ambient: 0.4,
+            diffuse: 0.7,
+            specular: 0,
+            shininess: 24,
+            texture: undefined,
+            emission: [0, 0, 0],
+        },
         cull: true,
         wireframe: false,
         opacity: 1,

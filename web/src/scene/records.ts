@@ -11,6 +11,7 @@ export const TEXTURE_OF = 8;
 export const OPACITIES_OF = 9;
 export const SHADOW = 10;
 export const GROUND = 11;
+export const EMISSION_OF = 12;
 
 export const TONE_FILMIC = 1;
 export const TONE_GAMMA = 2;
@@ -35,4 +36,5 @@ export const SIZES = {
     [TONE]: 5,
     [SHADOW]: 32,
     [GROUND]: 32,
+    [EMISSION_OF]: 32,
 } as const;
