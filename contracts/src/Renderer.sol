@@ -17,7 +17,7 @@ import {EffectsEngine} from "./engines/EffectsEngine.sol";
 import {Engine} from "./engines/Engine.sol";
 import {FragmentEngine} from "./engines/FragmentEngine.sol";
 import {Extensions} from "./scene/Extensions.sol";
-import {ANTIALIAS} from "./scene/Records.sol";
+import {ANTIALIAS} from "./words/Records.sol";
 import {BY_FACES, Run, Runs} from "./uniforms/Runs.sol";
 import {Uniforms} from "./uniforms/Uniforms.sol";
 import "./words/Registers.sol";

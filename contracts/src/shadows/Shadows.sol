@@ -4,7 +4,7 @@ pragma solidity 0.8.37;
 import {ZERO} from "../math/Fixed.sol";
 import {Vector, normalize} from "../math/Vector.sol";
 import {Extensions} from "../scene/Extensions.sol";
-import {SHADOW} from "../scene/Records.sol";
+import {SHADOW} from "../words/Records.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
 import {Object, Scene, CULL_BACKFACES, FLAT, UNLIT, WIREFRAME} from "../scene/Scene.sol";
 import {Triangles} from "../pipeline/geometry/Triangles.sol";

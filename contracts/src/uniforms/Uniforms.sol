@@ -3,8 +3,8 @@ pragma solidity 0.8.37;
 
 import {Matrix} from "../math/Quaternion.sol";
 import {Object, Rectangle, Scene, UNLIT, WIREFRAME} from "../scene/Scene.sol";
-import {Extensions, OPACITY_SIZE, OPAQUE} from "../scene/Extensions.sol";
-import {ANTIALIAS, OPACITIES_OF, OPACITY_OF, RECORD_HEADER} from "../scene/Records.sol";
+import {Extensions, OPAQUE} from "../scene/Extensions.sol";
+import {ANTIALIAS, OPACITIES_OF, OPACITY_OF, RECORD_HEADER} from "../words/Records.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
 import {Lights} from "./Lights.sol";
 import {Materials} from "./Materials.sol";
@@ -126,7 +126,7 @@ library Uniforms {
                 return extension;
             }
             store(OPACITY, Extensions.opacityOf(extension));
-            return extension + RECORD_HEADER + OPACITY_SIZE;
+            return extension + RECORD_HEADER + Extensions.sizeOf(extension);
         }
     }
 
