@@ -286,7 +286,7 @@ uint256 constant GRADIENT_TO_ACCUMULATOR = 5;
 
 // -------------------------------------------------------------------------------------------------------------------- face in light space
 // The first word of a face's record: see Faces.
-// | 128..191 box | 96 HAS_PLANES | 64..95 c | 32..63 b | 0..31 a |
+// | 255 BESIDE | 128..191 box | 96 HAS_PLANES | 64..95 c | 32..63 b | 0..31 a |
 
 /// @dev The addresses of its vertices.
 uint256 constant FACE_A_MASK = 0xffffffff;
