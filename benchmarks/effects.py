@@ -49,11 +49,18 @@ def ground(scene: Scene) -> Scene:
     return object_with(fade=(0.1, 2.0))(scene)
 
 
+def emission(scene: Scene) -> Scene:
+    """Let the square emit light."""
+    objects = [evolve(each, material=evolve(each.material, emission="tan")) for each in scene.objects]
+    return evolve(scene, objects=objects)
+
+
 ROWS: dict[str, Change] = {
     "antialiased, without effects": lambda scene: scene,
     "the EffectsEngine, with no effect": scene_with(tone=Tone()),
     "hemisphere light": scene_with(hemisphere=Hemisphere("skyblue", "tan")),
     "rim, exponent 3": scene_with(rim=Rim("white", 3)),
+    "emission": emission,
     "fog": scene_with(fog=Fog("white", 1.0, 4.0)),
     "exposure": scene_with(tone=Tone(1.5)),
     "filmic": scene_with(tone=Tone(1.5, filmic=True)),

@@ -232,6 +232,7 @@ SHADINGS = (*get_args(Shading), "wireframe")
 SAMPLING, PROJECTION = ("", "antialiased"), ("", "orthographic")
 LIT, LIGHTS = ("flat", "smooth"), ("no light", *(f"{kind} light" for kind in LIGHT_KINDS), "four lights")
 EFFECTS = ("hemisphere", "rim", "fog", "exposure", "filmic", "gamma", "all effects")
+EMISSIONS = ("", "all effects")
 SHADOWS = tuple(f"shadow of a {kind} light" for kind in LIGHT_KINDS)
 #: Of the texels: a palette of four bits each, one of eight, and 24 bits each.
 TEXELS = {"few colours": 9, "palette": 100, "RGB": 400}
@@ -256,6 +257,7 @@ CHANGES: dict[str, Change] = {
     "hemisphere": lambda scene, rng: evolve(scene, hemisphere=Hemisphere(_color(rng), _color(rng))),
     "rim": lambda scene, rng: evolve(scene, rim=Rim(_color(rng), int(rng.integers(1, 17)))),
     "fog": fog,
+    "emission": each(lambda o, rng: evolve(o, material=evolve(o.material, emission=_color(rng)))),
     "exposure": lambda scene, rng: evolve(scene, tone=Tone(float(rng.uniform(0.3, 3)))),
     "filmic": fields(tone=Tone(1.5, filmic=True)),
     "gamma": fields(tone=Tone(gamma=True)),
@@ -284,6 +286,7 @@ KINDS: tuple[tuple[Kind, int, tuple[Iterable[str], ...]], ...] = (
     ("tame", 1, (LIT, ("contacts",), ("translucent", *SHADOWS))),
     ("tame", 1, (LIT, ("slivers",), ("translucent", "all effects"))),
     ("tame", 1, (("smooth",), ("antialiased",), ("slivers",), ("point light", "spot light"))),
+    ("tame", 1, (SHADINGS, ("emission",), EMISSIONS)),
     ("close", 1, (SHADINGS, SAMPLING, PROJECTION)),
     ("wild", 1, (SHADINGS, SAMPLING, PROJECTION)),
 )

@@ -59,6 +59,8 @@ EFFECTS, EACH_EFFECT = 0.25, 0.5
 TEXTURED = 0.2
 #: How often a scene has objects whose vertices have opacities.
 SEEN_THROUGH = 0.12
+#: How often objects of a scene emit light.
+EMITTING = 0.08
 #: How often a light of a scene casts shadows, and how often there is a ground then.
 SHADOWED, GROUNDED = 0.08, 0.5
 #: Of canvases of more pixels one in so many may have effects, each fragment of which is computed by itself.
@@ -82,6 +84,7 @@ def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
     scene = evolve(scene, **_effects(np.random.default_rng([seed, 4]), scene))
     scene = _textured(np.random.default_rng([seed, 8]), scene)
     scene = _shadowed(np.random.default_rng([seed, 16]), scene)
+    scene = _emitting(np.random.default_rng([seed, 10]), scene)
     return Case(_seen_through(np.random.default_rng([seed, 9]), scene), tile)
 
 
@@ -130,6 +133,15 @@ def _with_texture(rng: Rng, o: Object) -> Object:
     if rng.random() < 0.3:
         uvs = np.rint(uvs)
     return evolve(o, mesh=evolve(o.mesh, uvs=uvs), material=evolve(o.material, texture=texture))
+
+
+def _emitting(rng: Rng, scene: Scene) -> Scene:
+    """The scene, sometimes with some of its objects emitting light."""
+    if rng.random() >= EMITTING:
+        return scene
+    emissions = [_color(rng) if rng.random() < 0.8 else (0, 0, 0) for _ in scene.objects]
+    pairs = zip(scene.objects, emissions, strict=True)
+    return evolve(scene, objects=[evolve(o, material=evolve(o.material, emission=each)) for o, each in pairs])
 
 
 def _seen_through(rng: Rng, scene: Scene) -> Scene:

@@ -7,12 +7,15 @@ import json
 import re
 import sys
 from pathlib import Path
+from random import Random
 
 import pytest
 from tools import build_contracts as tool
+from tools import comment_lines
+from tools.compiled_once import compile_once
 
 from compiler import needs_compiler
-from shackled.artifacts import contracts, source, standard_input
+from shackled.artifacts import artifact, contracts, source, standard_input
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -77,6 +80,68 @@ def test_source_maps_of_groups_are_merged() -> None:
     assert merged["sources"] == {"0": a, "1": b}
     assert merged["contracts"]["One"]["map"] == "5:6:0:o;:7;0:0:1:-"
     assert merged["contracts"]["Two"]["map"] == "1:2:1:-;;3:4:-1:i"
+
+
+def test_functions_that_grew_are_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def files(code: str, entries: str) -> dict[str, str]:
+        """`A.f` and `A.g` have the bytes of the file from 0 and from 10 on."""
+        maps = {
+            "contracts": {"Thing": {"map": entries, "entries": {}}},
+            "sources": {"0": {"name": "a.sol", "functions": [["A.f", 0, 10], ["A.g", 10, 10]]}},
+        }
+        thing = {"contract": "Thing", "deployedBytecode": code, "group": "calls"}
+        return {"Thing.json": json.dumps(thing), tool.SOURCE_MAPS: json.dumps(maps)}
+
+    built = files("5b5b5b", "0:1:0;10;11")
+    monkeypatch.setattr(tool, "ARTIFACTS", tmp_path)
+    monkeypatch.setattr(tool, "outdated", lambda _: [])
+    monkeypatch.setattr(tool, "build", lambda **_: built)
+    monkeypatch.setattr(sys, "argv", ["build_contracts.py", "--group", "calls"])
+
+    def printed() -> list[str]:
+        assert tool.main() == 0
+        return capsys.readouterr().out.splitlines()[1:]
+
+    # nothing was there before
+    assert printed() == []
+    # three bytes more of f, one less of g
+    built = files("5b61ffff5b", "0:1:0;1;11")
+    assert printed() == ["functions with more bytes than before:", "Thing: A.f 1 -> 4"]
+    assert printed() == []
+
+
+#: Bytes below the limit of EIP-170 that every contract keeps free, so that the next change fits.
+ROOM = 512
+
+
+@pytest.mark.parametrize("name", contracts())
+def test_every_contract_has_room(name: str) -> None:
+    room = tool.MAX_RUNTIME_SIZE - len(artifact(name).runtime)
+    assert room >= ROOM, f"see tools/build_contracts.py --functions {name}"
+
+
+def test_lines_of_documentation_stand_before_declarations_that_have_none() -> None:
+    text = source("words/Memory.sol") or ""
+    lines = text.split("\n")
+    found = [lines[i] for i in comment_lines.places(text)]
+    assert "error RegistersOverlap();" in found
+    assert any(line.startswith("function load(") for line in found)
+    assert not any("ZERO_SLOT" in line or "function reserveRegisters" in line for line in found)
+    # functions of assembly are none of the syntax tree of Solidity
+    assert not [1 for i in comment_lines.places("    function f() {}\n            function g() {}") if i != 0]
+    sources = {"words/Memory.sol": text, "of-a-library.sol": text}
+    made = comment_lines.commented(sources, 5, Random(1))
+    assert made["of-a-library.sol"] == text
+    assert made["words/Memory.sol"].split("\n").count("/// @dev x.") == 5
+    assert made["words/Memory.sol"].replace("/// @dev x.\n", "") == text
+
+
+@needs_compiler
+def test_lines_of_documentation_change_no_byte() -> None:
+    """All groups: tools/comment_lines.py."""
+    assert comment_lines.changes("antialiased-fragments", compile_once) == []
 
 
 def test_no_line_of_the_contracts_is_too_long() -> None:

@@ -310,6 +310,10 @@ def levels(index: int, words: int) -> bytes:
         (levels(2, 2), "ExtensionSize(kind=9, index=2, expected=32, actual=64)"),
         (levels(1, 1) + levels(1, 1), "ExtensionOrder(kind=9, index=1)"),
         (levels(1, 1) + texture(1, 0, 1, 1, 1), "ExtensionOrder(kind=8, index=1)"),
+        (b"\x0c\0\3\0\1" + bytes(32), "ExtensionIndex(kind=12, index=3, count=3)"),
+        (b"\x0c\0\1\0\2" + bytes(64), "ExtensionSize(kind=12, index=1, expected=32, actual=64)"),
+        (b"\x0c\0\2\0\1" + (1 << 24).to_bytes(32, "big"), "EmissionNotAColor(object=2, value=16777216)"),
+        (b"\x0d\0\1\0\1" + bytes(32), "UnknownExtension(kind=13, index=1)"),
     ],
 )
 def test_wrong_records_are_refused(data: bytes, error: str) -> None:

@@ -9,6 +9,8 @@ from pathlib import Path
 
 from tools import layout
 
+from shackled.scene import _records
+
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "contracts" / "src" / "words"
 TABLE = tomllib.loads((ROOT / "contracts" / "layout.toml").read_text("utf-8"))
@@ -84,6 +86,37 @@ def test_fields_of_packed_words_do_not_overlap() -> None:
         assert fields[-1][1] <= 256
         for (_, end, name), (begin, _, other) in pairwise(fields):
             assert end <= begin, f"{part['name']}: {name} and {other}"
+
+
+def test_packed_words_are_drawn() -> None:
+    """Each field of each word, with all its bits, in one line above the constants."""
+    text = (FOLDER / "Words.sol").read_text("utf-8")
+    for part in TABLE["words"]:
+        (head,) = re.findall(rf"^// -+ {part['title']}\n((?:// .*\n)+)", text, re.MULTILINE)
+        line = head.splitlines()[-1]
+        drawn = re.findall(r"\| (\d+)(?:\.\.(\d+))? ([^|]+?) (?=\|)", line)
+        assert line == "// " + "".join(f"| {low}{'..' * bool(high)}{high} {name} " for low, high, name in drawn) + "|"
+        places = [(int(low), int(high or low)) for low, high, _ in drawn]
+        assert all(low <= high < above for (low, high), (above, _) in pairwise(reversed(places)))
+        fields = {(at, at + width - 1): name for name, at, width, _ in part["rows"]}
+        names = {place: name for place, (_, _, name) in zip(places, drawn, strict=True)}
+        assert {place: names[place].upper().replace(" ", "_") for place in fields} == fields
+
+
+def test_kinds_of_records() -> None:
+    """The tables of the contracts say what those of Python do, and those of the package of contracts' authors too."""
+    found = constants("Records.sol")
+    names = {found["OF_SCENE"]: "scene", found["OF_LIGHT"]: "light", found["OF_OBJECT"]: "object", 0: None}
+    for kind in range(256):
+        assert names[found["RECORD_OWNERS"] >> 2 * kind & 3] == _records.OWNERS.get(kind)
+        size = found["RECORD_SIZES"] >> 8 * kind & 255
+        assert (None if size == found["ANY_WORDS"] else size) == _records.SIZES.get(kind, 0)
+        assert kind < _records.LONG_KINDS or size == found["ANY_WORDS"] or size % 32 == 0
+    kinds = [kind for _, kind, *_ in TABLE["extensions"]["kinds"]]
+    assert kinds == sorted(set(kinds)) == list(_records.OWNERS)
+    web = (ROOT / "web" / "src" / "scene" / "records.ts").read_text("utf-8")
+    for name, value in re.findall(r"^export const (\w+) = (\d+);", web, re.MULTILINE):
+        assert found[name] == getattr(_records, name) == int(value)
 
 
 def test_no_number_of_40_hexadecimal_digits_which_would_be_an_address() -> None:

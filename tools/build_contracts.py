@@ -4,8 +4,12 @@
     python tools/build_contracts.py --group NAME     those of one group only
     python tools/build_contracts.py --check          writes nothing; fails, and says which are not up to date
     python tools/build_contracts.py --input NAME     prints the compiler's whole input of a group, libraries too
+    python tools/build_contracts.py --functions NAME prints the bytes of each function of a contract, as it was built
 
 Needs Node and `npm ci` in contracts/. The compiler is npm's solc, a JavaScript build: the same bytes on every machine.
+
+What writes prints the functions that have more bytes than before. One that is larger than its text explains has copies:
+the optimizer makes one for each literal argument (see ZERO_SLOT in contracts/src/words/Memory.sol).
 
 contracts/groups.toml says which contracts are compiled together, and how. Groups are compiled apart, since what is
 compiled together can change the order of instructions: a new token must not change the engine, whose address is made of
@@ -23,6 +27,7 @@ import subprocess
 import sys
 import tempfile
 import tomllib
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -30,6 +35,7 @@ from typing import Any
 
 from shackled.artifacts import OUTPUTS as OUTPUTS
 from shackled.artifacts import source as text_of
+from shackled.gas import function_sizes
 
 ROOT = Path(__file__).resolve().parent.parent
 CONTRACTS = ROOT / "contracts"
@@ -343,6 +349,26 @@ def artifacts_of(groups: Sequence[str]) -> set[str]:
     return names
 
 
+def sizes(files: dict[str, str]) -> dict[str, Counter[str]]:
+    """Return the bytes of each function, by contract, from artifact files, the source maps among them."""
+    maps = json.loads(files.get(SOURCE_MAPS, "{}"))
+    return {
+        name: function_sizes(bytes.fromhex(json.loads(text)["deployedBytecode"]), mapped["map"], maps["sources"])
+        for name, mapped in maps.get("contracts", {}).items()
+        if (text := files.get(f"{name}.json"))
+    }
+
+
+def risen(before: dict[str, Counter[str]], after: dict[str, Counter[str]]) -> list[str]:
+    """Return a line for each contract with functions that have more bytes than before: these, most more first."""
+    lines = []
+    for contract in sorted(before.keys() & after.keys()):
+        old, new = before[contract], after[contract]
+        if more := (new - old).most_common():
+            lines.append(f"{contract}: " + ", ".join(f"{name} {old[name]:,} -> {new[name]:,}" for name, _ in more))
+    return lines
+
+
 def differences(files: dict[str, str], groups: Sequence[str]) -> list[str]:
     """Return how the artifacts on disk differ from these, one line each."""
     found = artifacts_of(groups)
@@ -378,7 +404,14 @@ def main() -> int:
     parser.add_argument("--check", action="store_true", help="write nothing; fail if the artifacts are not up to date")
     parser.add_argument("--group", choices=tuple(GROUPS), help="only the contracts of this group")
     parser.add_argument("--input", choices=tuple(GROUPS), help="print the compiler's input of a group, and stop")
+    every = [name for group in GROUPS.values() for name in group["contracts"]]
+    parser.add_argument("--functions", choices=every, metavar="NAME", help="print the bytes of each function, and stop")
     options = parser.parse_args()
+    if options.functions:
+        files = {name: (ARTIFACTS / name).read_text("utf-8") for name in (f"{options.functions}.json", SOURCE_MAPS)}
+        for name, size in sizes(files)[options.functions].most_common():
+            print(f"{size:6,} {name}")
+        return 0
     if options.input:
         print(_text(standard_input(options.input)), end="")
         return 0
@@ -393,12 +426,15 @@ def main() -> int:
         if lines:
             print("the artifacts differ from the sources: run tools/build_contracts.py", file=sys.stderr)
         return 0 if fits and not lines else 1
+    before = sizes({name: (ARTIFACTS / name).read_text("utf-8") for name in files if (ARTIFACTS / name).is_file()})
     for name in artifacts_of(groups) - files.keys():
         (ARTIFACTS / name).unlink()
     for name, text in files.items():
         (ARTIFACTS / name).write_text(text, "utf-8", newline="\n")
     # last, since a closed pipe ends the command
     fits = report_sizes(files)
+    if rises := risen(before, sizes(files)):
+        print("functions with more bytes than before:", *rises, sep="\n")
     for line in others:
         print(line, file=sys.stderr)
     return 0 if fits and not others else 1

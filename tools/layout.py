@@ -1,6 +1,7 @@
 """Write the files that are made of contracts/layout.toml, the table of registers and packed words.
 
-python tools/layout.py            writes the files of contracts/src/words but Memory.sol, and gas/_layout.py
+python tools/layout.py            writes the files of contracts/src/words but Memory.sol, gas/_layout.py,
+                                  scene/_records.py, and scene/records.ts of web/
 python tools/layout.py --check    writes nothing; fails if a file is not as it would be written
 
 The compiler takes no expressions in assembly, so every address, shift and mask has to be a number of its own. Here they
@@ -13,9 +14,9 @@ import re
 import sys
 import textwrap
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, pairwise
 from pathlib import Path
 from typing import Any
 
@@ -23,15 +24,22 @@ ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "contracts" / "layout.toml"
 FOLDER = ROOT / "contracts" / "src" / "words"
 PACKAGE = ROOT / "src" / "shackled" / "gas" / "_layout.py"
+#: The kinds of the records of Scene.extensions.
+KINDS = ROOT / "src" / "shackled" / "scene" / "_records.py"
+WEB_KINDS = ROOT / "web" / "src" / "scene" / "records.ts"
 WORD = 32
 #: Columns of a line of the contracts.
 SOLIDITY_WIDTH = 140
 
 HEAD = """// SPDX-License-Identifier: MIT
-pragma solidity 0.8.37;
+pragma solidity {version};
 
 {imports}// Written by tools/layout.py from layout.toml.
 """
+#: What records of Scene.extensions belong to: two bits of RECORD_OWNERS.
+OWNERS = ("scene", "light", "object")
+#: In RECORD_SIZES, for any number of words.
+ANY_WORDS = 255
 
 
 @dataclass(frozen=True)
@@ -45,11 +53,46 @@ class Constant:
 
 @dataclass(frozen=True)
 class Section:
-    """Constants that belong together."""
+    """Constants that belong together.
+
+    drawing: fields of a word, as `drawing` draws them. after: the title of the section that it follows.
+    """
 
     title: str
     text: str
     constants: tuple[Constant, ...]
+    drawing: str = ""
+    after: str = ""
+
+
+def section_of(part: dict[str, Any], constants: Iterable[Constant], drawing: str = "") -> Section:
+    """Return a section with the title and the text of a part of the table."""
+    return Section(part["title"], part.get("text", ""), tuple(constants), drawing, part.get("after", ""))
+
+
+def drawing(part: dict[str, Any], fields: Iterable[tuple[str, int, int]] = ()) -> str:
+    """Draw the bits of a word, highest first: of `fields`, (name, lowest bit, width), and of those that the part lists
+    as `drawn`.
+    """
+    each = sorted([*fields, *part.get("drawn", [])], key=lambda row: row[1], reverse=True)
+    cells = [f"{at} {name}" if width == 1 else f"{at}..{at + width - 1} {name}" for name, at, width in each]
+    caption = f"{part['caption']}: " if "caption" in part else ""
+    return f"{caption}| {' | '.join(cells)} |" if cells else ""
+
+
+def lanes_of(part: dict[str, Any]) -> Iterator[tuple[str, int, int]]:
+    """Yield the lanes of a word, if they have names, each as wide as the distance to the next."""
+    for name, (at, end) in zip(part.get("names", ()), pairwise([*part["at"], part.get("end", 256)]), strict=False):
+        yield name, at, end - at
+
+
+def together(sections: Iterable[Section]) -> Iterator[Section]:
+    """Yield sections, each followed by those of parts of the same word."""
+    found = list(sections)
+    for each in found:
+        if not each.after:
+            yield each
+            yield from (other for other in found if other.after == each.title)
 
 
 def named(names: str, text: str, values: Iterator[int]) -> Iterator[Constant]:
@@ -115,7 +158,7 @@ def records(table: dict[str, Any]) -> Iterator[Section]:
                 offset += WORD * words
         if "behind" not in part:
             constants.append(Constant(f"{part['name']}_SIZE", offset))
-        yield Section(part["title"], part.get("text", ""), tuple(constants))
+        yield section_of(part, constants)
 
 
 def bits(table: dict[str, Any]) -> Iterator[Section]:
@@ -123,23 +166,28 @@ def bits(table: dict[str, Any]) -> Iterator[Section]:
     for part in table["flags"]:
         values = (1 << i for i in range(256))
         constants = [constant for names, text in part["rows"] for constant in named(names, text, values)]
-        yield Section(part["title"], part.get("text", ""), tuple(constants))
+        yield section_of(part, constants)
 
 
 def words(table: dict[str, Any]) -> Iterator[Section]:
-    """Yield packed words: of each field its lowest bit and the mask of its value; of a flag, under its own name, the
-    bit.
+    """Yield packed words: of each field its lowest bit and the mask of its value, where they are needed; of a flag,
+    under its own name, the bit.
     """
     for part in table["words"]:
         constants = []
+        fields = []
         for name, at, width, text in part["rows"]:
+            fields.append((name if width == 1 else name.lower().replace("_", " "), at, width))
             full = f"{part['name']}_{name}"
             if width == 1:
                 constants.append(Constant(name, 1 << at, text))
             else:
-                constants.append(Constant(f"{full}_AT", at, text))
-                constants.append(Constant(f"{full}_MASK", (1 << width) - 1))
-        yield Section(part["title"], part.get("text", ""), tuple(constants))
+                # the lowest field needs no shift, the highest no mask
+                found = [Constant(f"{full}_AT", at, text)] if at else []
+                if at + width < 256:
+                    found.append(Constant(f"{full}_MASK", (1 << width) - 1, "" if at else text))
+                constants += found
+        yield section_of(part, constants, drawing(part, fields))
 
 
 def flags(table: dict[str, Any]) -> dict[str, int]:
@@ -156,7 +204,7 @@ def unions(table: dict[str, Any]) -> Iterator[Section]:
         constants = [
             Constant(name, sum(known[flag] for flag in each.split()), text) for name, each, text in part["rows"]
         ]
-        yield Section(part["title"], part.get("text", ""), tuple(constants))
+        yield section_of(part, constants)
 
 
 def shifts(table: dict[str, Any]) -> Iterator[Section]:
@@ -167,7 +215,7 @@ def shifts(table: dict[str, Any]) -> Iterator[Section]:
             Constant(name, known[flag].bit_length() - known[lower].bit_length(), text)
             for name, flag, lower, text in part["rows"]
         ]
-        yield Section(part["title"], part.get("text", ""), tuple(constants))
+        yield section_of(part, constants)
 
 
 def lanes(table: dict[str, Any]) -> Iterator[Section]:
@@ -178,14 +226,58 @@ def lanes(table: dict[str, Any]) -> Iterator[Section]:
             each = value if isinstance(value, list) else [value] * len(part["at"])
             word = sum(number << at for number, at in zip(each, part["at"], strict=True))
             constants.append(Constant(name, word & ((1 << 256) - 1), text))
-        yield Section(part["title"], part.get("text", ""), tuple(constants))
+        yield section_of(part, constants, drawing(part, lanes_of(part)))
 
 
 def numbers(table: dict[str, Any]) -> Iterator[Section]:
     """Yield single numbers."""
     for part in table["numbers"]:
-        constants = [Constant(name, value, text) for name, value, text in part["rows"]]
-        yield Section(part["title"], part.get("text", ""), tuple(constants))
+        yield section_of(part, (Constant(name, value, text) for name, value, text in part["rows"]), drawing(part))
+
+
+def kinds(table: dict[str, Any]) -> Section:
+    """Return the kinds of the records of Scene.extensions, what each belongs to, and its size."""
+    part = table["extensions"]
+    owners = sum((1 + OWNERS.index(owner)) << 2 * kind for _, kind, owner, _, _ in part["kinds"])
+    sizes = sum((ANY_WORDS if size == "words" else size) << 8 * kind for _, kind, _, size, _ in part["kinds"])
+    constants = [Constant(name, kind, text) for name, kind, _, _, text in part["kinds"]]
+    constants += [Constant(*row) for row in part["numbers"]]
+    constants += [
+        Constant("LONG_KINDS", part["long_kinds"], "The first kind whose size is given in words, not in bytes."),
+        Constant("RECORD_HEADER", part["header"], "Bytes of a record before its content."),
+        Constant("RECORD_OWNERS", owners, "What a kind belongs to: two bits at twice its number, 0 if it is unknown."),
+        *(Constant(f"OF_{owner.upper()}", 1 + number) for number, owner in enumerate(OWNERS)),
+        Constant("RECORD_SIZES", sizes, "Bytes of the content: a byte at 8 times its number; ANY_WORDS for any words."),
+        Constant("ANY_WORDS", ANY_WORDS),
+    ]
+    return Section("records of Scene.extensions", "", tuple(constants))
+
+
+def kinds_of_packages(table: dict[str, Any]) -> tuple[str, str]:
+    """Return the texts of the modules of the same, for Python and for TypeScript."""
+    part = table["extensions"]
+    title = "The kinds of the records of Scene.extensions. Written by tools/layout.py from contracts/layout.toml."
+    kind_lines = [f"{name} = {kind}" for name, kind, *_ in part["kinds"]]
+    number_lines = [f"{name} = {value}" for name, value, _ in part["numbers"]]
+    single = [
+        (
+            "The first kind whose size is given in words of 32 bytes, not in bytes.",
+            f"LONG_KINDS = {part['long_kinds']}",
+        ),
+        ("Bytes of a record before its content.", f"RECORD_HEADER = {part['header']}"),
+    ]
+    python = [f'"""{title}"""', "", *kind_lines, "", *number_lines, ""]
+    python += [line for text, constant in single for line in (f"#: {text}", constant)]
+    python += ["#: What a record of each kind belongs to.", "OWNERS = {"]
+    python += [f'    {name}: "{owner}",' for name, _, owner, _, _ in part["kinds"]]
+    python += ["}", "#: Bytes of its content; None for any number of words.", "SIZES: dict[int, int | None] = {"]
+    python += [f"    {name}: {None if size == 'words' else size}," for name, _, _, size, _ in part["kinds"]]
+    web = [f"// {title}", "", *(f"export const {line};" for line in kind_lines), ""]
+    web += [*(f"export const {line};" for line in number_lines), ""]
+    web += [line for text, constant in single for line in (f"/** {text} */", f"export const {constant};")]
+    web += ["/** Bytes of the content, for kinds of one size. */", "export const SIZES = {"]
+    web += [f"    [{name}]: {size}," for name, _, _, size, _ in part["kinds"] if size != "words"]
+    return "\n".join([*python, "}", ""]), "\n".join([*web, "} as const;", ""])
 
 
 def solidity_literal(value: int) -> str:
@@ -196,12 +288,19 @@ def solidity_literal(value: int) -> str:
     return f"0x{'00' if len(digits) == 40 else ''}{digits}"
 
 
-def solidity(sections: Iterator[Section], *imports: str) -> str:
+def solidity(sections: Iterator[Section], *imports: str, version: str = "0.8.37") -> str:
     """Return the text of a file of constants."""
-    lines = [HEAD.format(imports="".join(f'import "./{name}";\n' for name in imports) + "\n" * bool(imports))]
+    lines = [
+        HEAD.format(
+            version=version, imports="".join(f'import "./{name}";\n' for name in imports) + "\n" * bool(imports)
+        )
+    ]
     for section in sections:
         lines.append(f"// {'-' * (SOLIDITY_WIDTH - 5 - len(section.title))} {section.title}")
         lines += wrapped(section.text, "// ", SOLIDITY_WIDTH)
+        # breaks between fields only
+        drawn = wrapped(section.drawing.replace(" ", "\0").replace("\0|", " |"), "// ", SOLIDITY_WIDTH)
+        lines += [line.replace("\0", " ") for line in drawn]
         lines.append("")
         for constant in section.constants:
             lines += wrapped(constant.text, "/// @dev " if constant.text else "", SOLIDITY_WIDTH, "/// ")
@@ -237,12 +336,17 @@ def wrapped(text: str, first: str, width: int, rest: str | None = None) -> list[
 def files() -> dict[Path, str]:
     """Return the text of every file that is made of the table."""
     table = tomllib.loads(TABLE.read_text("utf-8"))
-    packed = [*numbers(table), *words(table), *unions(table), *shifts(table), *lanes(table)]
+    packed = [*together([*numbers(table), *words(table), *unions(table), *shifts(table), *lanes(table)])]
     found = registers(table)
     common = [*found.pop("Registers"), *records(table), *bits(table)]
+    for_python, for_web = kinds_of_packages(table)
     made = {
         FOLDER / "Registers.sol": solidity(iter(common), "Memory.sol", "Words.sol"),
         FOLDER / "Words.sol": solidity(iter(packed)),
+        # contracts of others import this file
+        FOLDER / "Records.sol": solidity(iter([kinds(table)]), version="^0.8.25"),
+        KINDS: for_python,
+        WEB_KINDS: for_web,
         PACKAGE: python(iter([*common, *packed]), used_names()),
     }
     # each of the others is for fewer engines than the one before

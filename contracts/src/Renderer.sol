@@ -17,7 +17,7 @@ import {EffectsEngine} from "./engines/EffectsEngine.sol";
 import {Engine} from "./engines/Engine.sol";
 import {FragmentEngine} from "./engines/FragmentEngine.sol";
 import {Extensions} from "./scene/Extensions.sol";
-import {ANTIALIAS} from "./scene/Records.sol";
+import {ANTIALIAS} from "./words/Records.sol";
 import {BY_FACES, Run, Runs} from "./uniforms/Runs.sol";
 import {Uniforms} from "./uniforms/Uniforms.sol";
 import "./words/Registers.sol";
@@ -67,12 +67,12 @@ contract Renderer is IRenderer {
     }
 
     function render(Scene calldata scene) external view returns (bytes memory) {
-        File memory file = draw(scene, whole(scene), false);
+        File memory file = draw(scene, whole(scene));
         returnBytes(file.begin, file.size);
     }
 
     function renderTile(Scene calldata scene, Rectangle calldata tile) external view returns (bytes memory) {
-        File memory file = draw(scene, tile, false);
+        File memory file = draw(scene, tile);
         returnBytes(file.begin, file.size);
     }
 
@@ -90,7 +90,7 @@ contract Renderer is IRenderer {
 
     function renderDataURI(Scene calldata scene) external view returns (string memory) {
         unchecked {
-            File memory file = draw(scene, whole(scene), false);
+            File memory file = draw(scene, whole(scene));
             uint256 text = file.begin + file.size + 96;
             returnBytes(text, Svg.writeUri(text, file.begin, file.size) - text);
         }
@@ -98,7 +98,7 @@ contract Renderer is IRenderer {
 
     function renderSVG(Scene calldata scene) external view returns (string memory) {
         unchecked {
-            File memory file = draw(scene, whole(scene), false);
+            File memory file = draw(scene, whole(scene));
             uint256 text = file.begin + file.size + 96;
             returnBytes(text, Svg.write(text, file.begin, file.size, scene.canvas.width, scene.canvas.height) - text);
         }
@@ -112,7 +112,7 @@ contract Renderer is IRenderer {
         unchecked {
             checkScene(scene, tile);
             prepareEffects(scene);
-            (uint256 begin, uint256 end) = writeCall(scene, tile, false);
+            (uint256 begin, uint256 end) = writeCall(scene, tile);
             returnBytes(begin, end - begin);
         }
     }
@@ -127,7 +127,8 @@ contract Renderer is IRenderer {
         view
         returns (bytes memory bmp, uint256 triangles, uint256 litPixels)
     {
-        File memory file = draw(scene, tile, true);
+        store(COUNT_PIXELS, 1);
+        File memory file = draw(scene, tile);
         (triangles, litPixels) = (file.triangles, file.litPixels);
         assembly ("memory-safe") {
             let size := mload(add(file, 0x20))
@@ -142,17 +143,17 @@ contract Renderer is IRenderer {
         }
     }
 
-    function draw(Scene calldata scene, Rectangle memory tile, bool countPixels) private view returns (File memory file) {
+    function draw(Scene calldata scene, Rectangle memory tile) private view returns (File memory file) {
         unchecked {
             checkScene(scene, tile);
             prepareEffects(scene);
-            (uint256 data, uint256 end) = writeCall(scene, tile, countPixels);
+            (uint256 data, uint256 end) = writeCall(scene, tile);
             uint256 pixels;
             uint256 free = freeMemory();
             bool isOneRun = Runs.next(data, Runs.begin(data)).count == 0;
             setFreeMemory(free);
             if (tile.width * tile.height > BAND_PIXELS && !isOneRun) {
-                (pixels, file.triangles, file.litPixels) = drawBands(scene, tile, countPixels);
+                (pixels, file.triangles, file.litPixels) = drawBands(scene, tile);
             } else {
                 (pixels, file.triangles, file.litPixels) = callEngines(data, end);
             }
@@ -188,9 +189,9 @@ contract Renderer is IRenderer {
     }
 
     /// @dev Writes the calldata of an engine: see Uniforms.
-    function writeCall(Scene calldata scene, Rectangle memory tile, bool countPixels) private pure returns (uint256 data, uint256 end) {
+    function writeCall(Scene calldata scene, Rectangle memory tile) private pure returns (uint256 data, uint256 end) {
         unchecked {
-            (data, end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, countPixels, TEXTS);
+            (data, end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, TEXTS);
             uint256 size = load(EFFECTS_SIZE);
             if (size == 0) return (data, end);
             store(data + 4 + EFFECTS_OFFSET - REGISTERS, end - data);
@@ -204,7 +205,7 @@ contract Renderer is IRenderer {
 
     /// @dev Draws a large picture that needs several engines, band by band, since the pixels and depths drawn by one engine are passed to
     /// the next.
-    function drawBands(Scene calldata scene, Rectangle memory tile, bool countPixels)
+    function drawBands(Scene calldata scene, Rectangle memory tile)
         private
         view
         returns (uint256 pixels, uint256 triangles, uint256 litPixels)
@@ -220,7 +221,7 @@ contract Renderer is IRenderer {
                 setFreeMemory(behind);
                 uint256 top = bottom < rows ? 0 : bottom - rows;
                 Rectangle memory band = Rectangle(tile.x, tile.y + top, tile.width, bottom - top);
-                (uint256 data, uint256 end) = writeCall(scene, band, countPixels);
+                (uint256 data, uint256 end) = writeCall(scene, band);
                 (uint256 source,, uint256 lit) = callEngines(data, end);
                 litPixels += lit;
                 uint256 size = 3 * tile.width * (bottom - top);
@@ -230,7 +231,7 @@ contract Renderer is IRenderer {
                 }
                 bottom = top;
             }
-            if (countPixels) triangles = countTriangles(scene, tile);
+            if (load(COUNT_PIXELS) != 0) triangles = countTriangles(scene, tile);
             setFreeMemory(free);
         }
     }
@@ -269,7 +270,7 @@ contract Renderer is IRenderer {
 
     /// @dev Returns the number of triangles of all objects left after culling and clipping.
     function countTriangles(Scene calldata scene, Rectangle memory tile) private view returns (uint256) {
-        (uint256 data, uint256 end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, false, TEXTS);
+        (uint256 data, uint256 end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, TEXTS);
         Runs.setOnlyCounts(data);
         callEngine(address(engine), data, end, data);
         return load(data);

@@ -82,7 +82,7 @@ def test_none_is_filled_from_the_source() -> None:
     _, facts = facts_of("genesis/7")
     state = State(facts.source, surface=Surface(diffuse=0.5))
     shown = filled(state, facts)
-    assert shown.surface == Surface("flat", 1, 0.5, 1.2, 10, opacity=1)
+    assert shown.surface == Surface("flat", 1, 0.5, 1.2, 10, opacity=1, emission="#000000")
     assert shown.lights == (Lamp("directional", -90.0, 0.0, color="#ffffff"),)
     assert shown.size == Size(128, 128)
     assert shown.surface.color is None
@@ -105,7 +105,7 @@ def test_every_field_changes_the_scene() -> None:
         rim=Outline(True, "#070809", 5),
         fog=Haze(True, "#0a0b0c", 2, 3),
         tone=Curve(1.5, True, True),
-        surface=Surface("unlit", 1, 2, 3, 4, "#00ff00", 0.5),
+        surface=Surface("unlit", 1, 2, 3, 4, "#00ff00", 0.5, "#0d0e0f"),
         background=Backdrop("#000001", "#000002"),
         cull=False,
         wireframe=True,
@@ -130,7 +130,7 @@ def test_every_field_changes_the_scene() -> None:
     assert (made.hemisphere, made.rim) == (Hemisphere((1, 2, 3), (4, 5, 6)), Rim((7, 8, 9), 5))
     assert made.fog == Fog((10, 11, 12), 2 * radius, 3 * radius)
     assert made.tone == Tone(1.5, True, True)
-    assert all(o.material == Material("unlit", 1, 2, 3, 4) for o in made.objects)
+    assert all(o.material == Material("unlit", 1, 2, 3, 4, emission=(13, 14, 15)) for o in made.objects)
     assert all((o.mesh.colors == (0, 255, 0)).all() for o in made.objects)
     assert not any(o.cull for o in made.objects)
     assert all(o.wireframe for o in made.objects)

@@ -20,7 +20,7 @@ UNLIT, FLAT, SMOOTH = 0, 1, 2
 POINT = 1
 CULL_BACKFACES, WIREFRAME = 1, 2
 #: Kinds of records.
-SPOT, OPACITY, ANTIALIAS, HEMISPHERE, RIM, FOG, TONE, TEXTURE, OPACITIES, SHADOW, GROUND = range(1, 12)
+SPOT, OPACITY, ANTIALIAS, HEMISPHERE, RIM, FOG, TONE, TEXTURE, OPACITIES, SHADOW, GROUND, EMISSION = range(1, 13)
 #: Rules of a shadow: which faces of culled objects cast it.
 ALL_FACES, TURNED_AWAY, TURNED_TOWARD = 1, 2, 3
 
@@ -78,7 +78,7 @@ class Texture:
 class Surface:
     """An object in the world. positions, colors, normals, opacities, uvs: of its vertices; faces: (m, 3).
 
-    first: the number of its first face, counted through all objects. center, fade: of a ground.
+    first: the number of its first face, counted through all objects. center, fade: of a ground. emission: 0..255.
     """
 
     first: int
@@ -99,6 +99,7 @@ class Surface:
     texture: Texture | None
     center: Array
     fade: tuple[float, float] | None
+    emission: Array
 
 
 @dataclass(frozen=True)
@@ -259,6 +260,7 @@ def _surface(each: Any, first: int, records: dict[int, bytes]) -> Surface:
         texture,
         center,
         fade,
+        _rgb(int.from_bytes(records.get(EMISSION, b""), "big")),
     )
 
 

@@ -1,12 +1,12 @@
 """The light and the colour of points of a surface: docs/look.md and docs/light.md.
 
     radiance = surface * (ambient * A + sum_i diffuse * max(0, N.L_i) * C_i)
-             + sum_i specular * max(0, N.H_i)^shininess * C_i
+             + sum_i specular * max(0, N.H_i)^shininess * C_i + emission
 
 C_i is the colour of a light, times what its cone lets through; highlights are where N.L_i > 0. A hemisphere adds
 ground + (sky - ground) * (1 + N.y) / 2 to A, a rim its colour * (1 - max(0, N.V))^power to the sum. With gamma,
-surface, A, C_i, hemisphere and rim are decoded from sRGB. The sum times the exposure, clamped or compressed by the
-filmic curve, and encoded with gamma, is the colour. Fog covers it by the distance along the line of sight.
+surface, A, C_i, emission, hemisphere and rim are decoded from sRGB. The sum times the exposure, clamped or compressed
+by the filmic curve, and encoded with gamma, is the colour. Fog covers it by the distance along the line of sight.
 """
 
 from __future__ import annotations
@@ -49,7 +49,8 @@ def colors(world: World, surface: Surface, face: Integers, weights: Array, place
     distance = frame.to_camera(point)[:, 2:]
     beside = point if places is None else frame.unproject(places, distance)
     radiance = _radiance(world, surface, corners, weights, point, beside, _light(effects, base))
-    lit, dark = (_fogged(effects, _toned(effects, each), distance) for each in radiance)
+    emission = _light(effects, surface.emission)
+    lit, dark = (_fogged(effects, _toned(effects, each + emission), distance) for each in radiance)
     opacity = np.clip(mix(surface.opacities[corners][..., None], weights)[:, 0], 0, 1)
     if surface.fade is not None:
         inner, outer = surface.fade

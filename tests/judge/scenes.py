@@ -82,6 +82,8 @@ def _effects(rng: Rng, scene: Scene | None = None) -> Scene:
     chosen = rng.random(4) < 0.5
     chosen[rng.integers(4)] = True
     color = rng.integers(0, 256, (4, 3))
+    # from numbers of its own, so that the scenes of the seeds stay what they are
+    scene = _emitting(np.random.default_rng(color.ravel()), scene)
     return evolve(
         scene,
         hemisphere=Hemisphere(color[0], color[1]) if chosen[0] else None,
@@ -89,6 +91,14 @@ def _effects(rng: Rng, scene: Scene | None = None) -> Scene:
         fog=Fog(color[3], near, near + rng.uniform(0.2, 1) * (high - low) + 1e-6 * high) if chosen[2] else None,
         tone=Tone(rng.uniform(0.3, 2), bool(rng.random() < 0.5), bool(rng.random() < 0.7)) if chosen[3] else None,
     )
+
+
+def _emitting(rng: Rng, scene: Scene) -> Scene:
+    """Sometimes with objects that emit light."""
+    if rng.random() < 0.5:
+        return scene
+    materials = [evolve(o.material, emission=rng.integers(0, 256, 3)) for o in scene.objects]
+    return evolve(scene, objects=[evolve(o, material=m) for o, m in zip(scene.objects, materials, strict=True)])
 
 
 def _textures(rng: Rng) -> Scene:

@@ -131,7 +131,7 @@ def test_sources_compile_with_default_settings(optimized: bool) -> None:
     # none imports another
     assert build_contracts.follow_imports(sources) == sources
     assert not [name for name in sources if name.startswith(("pipeline/", "uniforms/")) or "Engine" in name]
-    numbers = constants("scene/Records.sol")
+    numbers = constants("words/Records.sol")
     kept = constants("scene/Extensions.sol") | constants("effects/EffectRecords.sol")
     assert numbers
     assert kept

@@ -29,14 +29,7 @@ from shackled import (
 from shackled.chain import ContractChain, open_chain
 from shackled.datasets import pieces
 from shackled.scene import (
-    ANTIALIAS,
-    FOG,
-    HEMISPHERE,
     NORMAL_UNIT,
-    OPACITY,
-    RIM,
-    SPOT,
-    TONE,
     Hemisphere,
     Projection,
     Shading,
@@ -47,6 +40,7 @@ from shackled.scene import (
     render_call,
     unpack,
 )
+from shackled.scene._records import ANTIALIAS, FOG, HEMISPHERE, OPACITY_OF, RIM, SPOT, TONE
 
 TRIANGLE = Mesh([[0, 0, 0], [1000, 0, 0], [0, 1000, 0]], [[0, 1, 2]], [[1, 2, 3], [4, 5, 6], [255, 0, 128]])
 SCENE = Scene(
@@ -315,16 +309,16 @@ OPAQUE, HALF = (2**24).to_bytes(4, "big"), (2**23).to_bytes(4, "big")
         (record(SPOT, 0, spot())[:-1], "cut off at byte 0"),
         (record(SPOT, 0, spot()) + b"\2\0", "cut off at byte 45"),
         (record(SPOT, 0, spot()) * 2, "must ascend"),
-        (record(OPACITY, 0, HALF) + record(SPOT, 0, spot()), "must ascend"),
-        (record(ANTIALIAS, 0, b"") + record(OPACITY, 0, HALF), "must ascend"),
+        (record(OPACITY_OF, 0, HALF) + record(SPOT, 0, spot()), "must ascend"),
+        (record(ANTIALIAS, 0, b"") + record(OPACITY_OF, 0, HALF), "must ascend"),
         (record(ANTIALIAS, 0, b"") * 2, "must ascend"),
         (record(255, 0, b""), "kind 255 and 0 bytes is not known"),
         (record(ANTIALIAS, 0, b"\1"), "kind 3 and 1 bytes is not known"),
         (record(ANTIALIAS, 1, b""), "number 1 of 1"),
         (record(SPOT, 0, HALF), "kind 1 and 4 bytes is not known"),
         (record(SPOT, 1, spot()), "number 1 of 1"),
-        (record(OPACITY, 7, HALF), "number 7 of 1"),
-        (record(OPACITY, 0, OPAQUE), "below 1"),
+        (record(OPACITY_OF, 7, HALF), "number 7 of 1"),
+        (record(OPACITY_OF, 0, OPAQUE), "below 1"),
         (record(SPOT, 0, spot(x=0)), "direction of a spot light must not be zero"),
         (record(SPOT, 0, spot(x=2**59)), "the direction of lights.0. must be from"),
         (record(SPOT, 0, spot(2**32 + 1)), "a cosine of lights.0. must be from -1 to 1"),

@@ -116,6 +116,7 @@ contract BuilderProbe {
             if (step == "3") stage.spot(StageMaker.units(0, 0, 0), StageMaker.units(1 << 31, 0, 0), 0, 1, 0);
             if (step == "4") stage.hemisphere(0, 1 << 24);
             if (step == "5") stage.rim(1 << 24, 1);
+            if (step == "e") stage.emission(1 << 24);
             if (step == "6") stage.rim(0, 257);
             if (step == "7") stage.fog(0, 0, 1 << 32);
             if (step == "8") stage.tone((1 << 24) + 100, true, true);
@@ -159,6 +160,7 @@ contract BuilderProbe {
         stage.sun(StageMaker.units(-1, 2, 3), 0xffffff);
         stage.spot(StageMaker.units(10, -20, 30), StageMaker.units(0, 1, -2), StageMaker.fraction(45, 2), StageMaker.unit(120), 0x808080);
         stage.add(hex"0000000000", StageMaker.unlit());
+        stage.emission(0x0a0b0c);
         stage.add(hex"0000000000", StageMaker.unlit());
         stage.opacity(0);
         stage.spot(StageMaker.units(1, 2, 3), StageMaker.units(-1, 0, 0), 0, 180, 0x010203);

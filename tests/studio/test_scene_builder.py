@@ -165,7 +165,7 @@ def test_what_the_structs_do_not_hold(world: World, probe: bytes) -> None:
     cones = [b"".join(number.to_bytes(8, "big", signed=True) for number in cone) for cone in numbers]
     fog = b"\xc0\xff\xee" + (2 * ONE).to_bytes(8, "big") + (5 * ONE).to_bytes(8, "big")
     effects = b"\4\0\0\0\6\1\2\3\4\5\6" + b"\5\0\0\0\4\7\10\11\4" + b"\6\0\0\0\x13" + fog
-    effects += b"\7\0\0\0\5\0\0\x80\0\2"
+    effects += b"\7\0\0\0\5\0\0\x80\0\2" + b"\14\0\1\0\1" + (0x0A0B0C).to_bytes(32, "big")
     spots = b"\1\0\1\0\x28" + cones[0] + b"\1\0\2\0\x28" + cones[1]
     assert scene[7] == spots + b"\2\0\0\0\4\0\x80\0\0" + b"\2\0\2\0\4\0\0\0\0" + b"\3\0\0\0\0" + effects
     call = call_data(f"render({SCENE_STRUCT})", scene)

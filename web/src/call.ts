@@ -3,18 +3,16 @@
 import { InputError } from "./errors.js";
 import { add, largest, rotation, times, type Quaternion, type Vector } from "./scene/arithmetic.js";
 import { MAX_LIGHTS, MAX_SIDE } from "./scene/checked.js";
-import { FIRST_IN_WORDS, FUNCTIONS, SPOT, WORD, type FunctionName } from "./scene/encode.js";
+import { FUNCTIONS, WORD, type FunctionName } from "./scene/encode.js";
 import { MAX_COORDINATE, MIN_HALF_HEIGHT } from "./scene/fit.js";
 import { FACE, HEADER, NORMALS, WIDE, vertexSize } from "./scene/mesh.js";
+import { LONG_KINDS, RECORD_HEADER, SIZES, SPOT } from "./scene/records.js";
 
 const SELECTOR = 4;
 /** Words of the structs, up to their arrays. */
 const SCENE_WORDS = 21;
 const LIGHT_WORDS = 5;
 const OBJECT_WORDS = 15;
-/** Bytes of an extension before its content, and of the content of a spot light. */
-const RECORD = 5;
-const SPOT_SIZE = 40;
 
 /** A number and the place of its word. */
 export interface Field<T> {
@@ -148,14 +146,14 @@ class Reader {
         const [start, size] = this.array(place, scene, 1);
         const spots: Field<Vector>[] = [];
         for (let record = start; record < start + size;) {
-            const left = start + size - record - RECORD;
-            const unit = (this.#bytes[record] as number) < FIRST_IN_WORDS ? 1 : WORD;
+            const left = start + size - record - RECORD_HEADER;
+            const unit = (this.#bytes[record] as number) < LONG_KINDS ? 1 : WORD;
             const content = left < 0 ? 0 : unit * this.#view.getUint16(record + 3);
             const isSpot = this.#bytes[record] === SPOT;
-            if (left < content || left < 0 || (isSpot && content !== SPOT_SIZE)) {
+            if (left < content || left < 0 || (isSpot && content !== SIZES[SPOT])) {
                 throw new InputError(`the extension at byte ${record} of the call has the wrong size, or is cut off`);
             }
-            const numbers = record + RECORD;
+            const numbers = record + RECORD_HEADER;
             if (isSpot) {
                 const value = [0, 8, 16].map((at) => Number(this.#view.getBigInt64(numbers + at)) / 2 ** 32) as Vector;
                 if (!(largest(value) > 0 && largest(value) <= MAX_COORDINATE)) {

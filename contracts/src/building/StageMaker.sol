@@ -8,9 +8,10 @@ import {fromEuler, sinCosOfHalf} from "../math/Euler.sol";
 import {HEADER_SIZE, PackedMesh} from "../mesh/PackedMesh.sol";
 import {NORMALS, WIDE} from "../scene/Mesh.sol";
 import {
-    ANTIALIAS, FOG, GROUND, HEMISPHERE, OPACITIES_OF, OPACITY_OF, RIM, SHADOW, SHADOWS_ALL, SPOT, TEXTURE_BILINEAR, TEXTURE_CLAMP,
-    TEXTURE_OF, TONE, TONE_FILMIC, TONE_GAMMA, addRecord, copyBytes
-} from "../scene/Records.sol";
+    ANTIALIAS, EMISSION_OF, FOG, GROUND, HEMISPHERE, OPACITIES_OF, OPACITY_OF, RIM, SHADOW, SHADOWS_ALL, SPOT, TEXTURE_BILINEAR,
+    TEXTURE_CLAMP, TEXTURE_OF, TONE, TONE_FILMIC, TONE_GAMMA
+} from "../words/Records.sol";
+import {addRecord, copyBytes} from "../scene/RecordWriter.sol";
 import {
     Scene, Canvas, Background, Light, Material, Object, PERSPECTIVE, DIRECTIONAL, POINT, UNLIT, FLAT, SMOOTH, CULL_BACKFACES
 } from "../scene/Scene.sol";
@@ -235,6 +236,12 @@ library StageMaker {
         uint256 factor = (exposure << 16) / 100;
         if (exposure >> 16 != 0) revert SceneErrors.ExposureOutOfRange(factor);
         extend(made, TONE, abi.encodePacked(uint32(factor), uint8(flags)));
+    }
+
+    /// @notice Sets the colour of the light that the last object emits, 0xRRGGBB, which is added to the light that it reflects.
+    function emission(Stage memory made, uint256 color) internal pure {
+        checkColor(color);
+        made.scene.extensions = addRecord(made.scene.extensions, EMISSION_OF, last(made), abi.encode(color));
     }
 
     /// @notice Multiplies the colours of the last object by a texture: see Texture.sol.

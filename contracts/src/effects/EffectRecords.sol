@@ -5,9 +5,10 @@ import {Extensions} from "../scene/Extensions.sol";
 import {openMesh} from "../scene/Mesh.sol";
 import {
     ANTIALIAS,
+    EMISSION_OF,
     FOG,
     GROUND,
-    HEMISPHERE,
+    OPACITIES_OF,
     RECORD_HEADER,
     RIM,
     SHADOW,
@@ -18,11 +19,12 @@ import {
     TONE,
     TONE_FILMIC,
     TONE_GAMMA
-} from "../scene/Records.sol";
+} from "../words/Records.sol";
 import {Scene} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 
-// Effect records: see `Extensions.sol`. Kinds up to TONE belong to the scene and have index 0. Colours are three bytes: red, green, blue.
+// The contents of effect records: see `Extensions.sol`, and `words/Records.sol` for what they belong to. Colours are three bytes: red,
+// green, blue.
 //
 //   HEMISPHERE   the colour of the light from above (+y), then of the light from below
 //   RIM          the colour of the light at silhouettes; the exponent of its falloff, 1 byte, 1..16
@@ -42,13 +44,9 @@ import {SceneErrors} from "../scene/SceneErrors.sol";
 //   GROUND       of an object that casts no shadow and fades into the background: a word, whose upper half contains two distances from
 //                the object's position, at which it begins to fade and at which it vanishes, 8 bytes each, Q32, 0 to 2^58, the second
 //                above the first
+//   EMISSION     of an object: the colour of the light that it emits, a word, 0xRRGGBB
 //
 // `SurfaceLight`, `Texture` and `Ground` implement them.
-
-uint256 constant HEMISPHERE_SIZE = 6;
-uint256 constant RIM_SIZE = 4;
-uint256 constant FOG_SIZE = 19;
-uint256 constant TONE_SIZE = 5;
 
 uint256 constant MAX_RIM_POWER = 16;
 /// @dev 2^26 units, Q32.
@@ -73,16 +71,14 @@ library EffectRecords {
             for (; record != end; record += RECORD_HEADER + Extensions.sizeOf(record)) {
                 uint256 key = Extensions.keyOf(record);
                 (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
-                if (kind > GROUND) revert SceneErrors.UnknownExtension(kind, index);
-                uint256 count = kind <= TONE ? 1 : kind == SHADOW ? scene.lights.length : scene.objects.length;
-                if (index >= count) revert SceneErrors.ExtensionIndex(kind, index, count);
-                (uint256 size, uint256 expected) = (Extensions.sizeOf(record), sizeOf(scene, record, kind, index));
-                if (size != expected) revert SceneErrors.ExtensionSize(kind, index, expected, size);
+                Extensions.checkHeader(scene, record);
                 uint256 content = Extensions.word(record + RECORD_HEADER);
+                if (kind == TEXTURE_OF || kind == OPACITIES_OF) checkSize(scene, record, kind, index);
                 if (kind == RIM) checkRim(content);
                 if (kind == FOG) checkFog(content);
                 if (kind == TONE) checkTone(content);
                 if (kind == GROUND) checkGround(content, index);
+                if (kind == EMISSION_OF && content > 0xffffff) revert SceneErrors.EmissionNotAColor(index, content);
                 if (kind == SHADOW) {
                     if (hasShadow) revert SceneErrors.SeveralShadows(index);
                     hasShadow = true;
@@ -92,26 +88,23 @@ library EffectRecords {
         }
     }
 
-    /// @dev Returns the required size of a record's content, in bytes.
-    function sizeOf(Scene calldata scene, uint256 record, uint256 kind, uint256 index) private pure returns (uint256) {
+    /// @dev Checks the size of a record that has data for each vertex.
+    function checkSize(Scene calldata scene, uint256 record, uint256 kind, uint256 index) private pure {
         unchecked {
-            if (kind == HEMISPHERE) return HEMISPHERE_SIZE;
-            if (kind == RIM) return RIM_SIZE;
-            if (kind == FOG) return FOG_SIZE;
-            if (kind == TONE) return TONE_SIZE;
-            if (kind >= SHADOW) return 32;
-            uint256 size = openMesh(scene.objects[index].mesh).vertexCount;
+            uint256 size = Extensions.sizeOf(record);
+            uint256 expected = openMesh(scene.objects[index].mesh).vertexCount;
             if (kind == TEXTURE_OF) {
-                if (Extensions.sizeOf(record) == 0) return 32;
+                if (size == 0) revert SceneErrors.ExtensionSize(kind, index, 32, 0);
                 record += RECORD_HEADER;
                 uint256 header = Extensions.word(record) >> 224;
                 (uint256 flags, uint256 bits) = (header >> 24, header & 0xff);
                 if (flags > TEXTURE_BILINEAR | TEXTURE_CLAMP || (BITS_ALLOWED >> bits) & 1 == 0) {
                     revert SceneErrors.TextureFormat(index, flags, bits);
                 }
-                size = UV_SIZE * size + uvsOf(record) - record;
+                expected = UV_SIZE * expected + uvsOf(record) - record;
             }
-            return size == 0 ? 32 : (size + 31) & ~uint256(31);
+            expected = expected == 0 ? 32 : (expected + 31) & ~uint256(31);
+            if (size != expected) revert SceneErrors.ExtensionSize(kind, index, expected, size);
         }
     }
 

@@ -7,8 +7,8 @@ import {Vector} from "../math/Vector.sol";
 import {EffectRecords} from "./EffectRecords.sol";
 import {Extensions} from "../scene/Extensions.sol";
 import {
-    ANTIALIAS, FOG, GROUND, HEMISPHERE, OPACITIES_OF, RECORD_HEADER, RIM, SHADOW, TEXTURE_OF, TONE, TONE_GAMMA
-} from "../scene/Records.sol";
+    ANTIALIAS, EMISSION_OF, FOG, GROUND, HEMISPHERE, OPACITIES_OF, RECORD_HEADER, RIM, SHADOW, TEXTURE_OF, TONE, TONE_GAMMA
+} from "../words/Records.sol";
 import {Light, Material, Object, Scene, POINT, UNLIT} from "../scene/Scene.sol";
 import {Lights} from "../uniforms/Lights.sol";
 import {MeshSpace} from "../uniforms/MeshSpace.sol";
@@ -59,7 +59,6 @@ library EffectUniforms {
                     store(SHADOW_LIGHT, LIGHTS + index * LIGHT_SIZE);
                 }
             }
-            store(IS_CHANGED, load(RIM_COLOR) | load(IS_TONED) | load(FOG_RANGE) != 0 ? 1 : 0);
             if (load(TONE_FLAGS) & TONE_GAMMA != 0) Gamma.setTables();
             ambient.light = lightOf(Lights.colorLanes(scene.ambientLight));
             ambient.sky = lightOf(ambient.sky);
@@ -83,6 +82,9 @@ library EffectUniforms {
             store(TEXTURE_UVS, content == 0 ? 0 : EffectRecords.uvsOf(content) + moved);
             content = Extensions.find(scene, OPACITIES_OF, number);
             store(OPACITIES, content == 0 ? 0 : content + moved);
+            content = Extensions.find(scene, EMISSION_OF, number);
+            store(EMISSION, content == 0 ? 0 : lightOf(Lights.colorLanes(Extensions.word(content))));
+            store(IS_CHANGED, load(EMISSION) | load(RIM_COLOR) | load(IS_TONED) | load(FOG_RANGE) != 0 ? 1 : 0);
             store(HAS_DETAILS, load(TEXTURE) | load(OPACITIES) | (load(TONE_FLAGS) & TONE_GAMMA) != 0 ? 1 : 0);
             uint256 varies = load(TEXTURE) | load(OPACITIES) | load(FOG_RANGE) | load(RIM_COLOR);
             for (uint256 i; i != scene.lights.length; ++i) {

@@ -2,14 +2,14 @@
 pragma solidity 0.8.37;
 
 import {Gamma, LANES_END, Q8} from "./Gamma.sol";
-import {TONE_FILMIC, TONE_GAMMA} from "../scene/Records.sol";
+import {TONE_FILMIC, TONE_GAMMA} from "../words/Records.sol";
 import {FragmentLight} from "../pipeline/shading/FragmentLight.sol";
 import {OPACITY_AT, Texture} from "./Texture.sol";
 import "../words/EffectRegisters.sol";
 
 // The fragment shader of scenes with effects. With albedo, light and highlights as in FragmentLight:
 //
-//   radiance = albedo * (light + hemisphere) + highlights + rim * (1 - max(N.V, 0))^power
+//   radiance = albedo * (light + hemisphere) + highlights + emission + rim * (1 - max(N.V, 0))^power
 //   hemisphere = ambient coefficient * (ground + (sky - ground) * (1 + N.up) / 2)
 //   colour = tone(radiance * exposure), blended with the fog by the distance along the line of sight
 //
@@ -90,6 +90,9 @@ library SurfaceLight {
             color = albedo;
         }
         if (load(IS_CHANGED) != 0) {
+            unchecked {
+                color += load(EMISSION);
+            }
             if (load(RIM_COLOR) != 0 && load(MODE) & IS_LIT != 0) color = withRim(color, rimAt());
             if (load(IS_TONED) != 0) color = toned(color);
             if (load(FOG_RANGE) != 0) color = fogged(color, fogAt(attribute));

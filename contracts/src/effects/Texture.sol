@@ -2,7 +2,7 @@
 pragma solidity 0.8.37;
 
 import {TEXTURE_COLOR_BITS, TEXTURE_HEADER, UV_SIZE} from "./EffectRecords.sol";
-import {TEXTURE_BILINEAR, TEXTURE_CLAMP} from "../scene/Records.sol";
+import {TEXTURE_BILINEAR, TEXTURE_CLAMP} from "../words/Records.sol";
 import {Triangles} from "../pipeline/geometry/Triangles.sol";
 import {VertexShader} from "../pipeline/geometry/VertexShader.sol";
 import "../words/EffectRegisters.sol";

@@ -6,7 +6,7 @@ import {Quaternion} from "../math/Quaternion.sol";
 import {sqrt} from "../math/Roots.sol";
 import {checkLayout, checkObject} from "../scene/Checks.sol";
 import {Extensions, OPAQUE} from "../scene/Extensions.sol";
-import {OPACITY_OF, RECORD_HEADER} from "../scene/Records.sol";
+import {OPACITY_OF, RECORD_HEADER} from "../words/Records.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
 import {Object, Scene, CULL_BACKFACES, WIREFRAME, SMOOTH, UNLIT} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";

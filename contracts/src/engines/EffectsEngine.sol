@@ -14,8 +14,8 @@ import {SmoothShading} from "../pipeline/shading/SmoothShading.sol";
 import "../words/EffectRegisters.sol";
 
 /// @title EffectsEngine: transforms vertices to pixels, for scenes with effects.
-/// @notice Called by the Renderer: see Engine. Draws all objects of a scene that has a hemisphere light, a rim, fog, a tone, a texture, a
-/// shadow or a ground, with four samples per pixel, and shades every fragment individually.
+/// @notice Called by the Renderer: see Engine. Draws all objects of a scene that has any record of EffectRecords, with four samples per
+/// pixel, and shades every fragment individually.
 contract EffectsEngine is SampleBuffer, SampleWires {
     function registersEnd() internal pure override returns (uint256) {
         return EFFECT_REGISTERS_END;

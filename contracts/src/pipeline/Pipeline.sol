@@ -161,7 +161,7 @@ abstract contract Pipeline is PrimitiveAssembly {
     /// @return drawn The number of faces drawn that were not listed before.
     function drawObject(Mesh memory mesh, uint256[3] memory list, bool atOnce, uint256 shift) private pure returns (uint256 drawn) {
         if (load(OBJECT_FLAGS) & WIREFRAME == 0) {
-            if (atOnce) (, drawn) = assemble(mesh, list[0], shift, 0, load(OBJECT_FLAGS) & CULL_BACKFACES != 0);
+            if (atOnce) (, drawn) = assemble(mesh, list[0], shift, load(ZERO_SLOT), load(OBJECT_FLAGS) & CULL_BACKFACES != 0);
             drawList(list[1], list[2]);
         } else {
             drawWires(list[1], list[2]);

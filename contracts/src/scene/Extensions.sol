@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {ANTIALIAS, LONG_KINDS, OPACITY_OF, RECORD_HEADER, SPOT} from "./Records.sol";
+import {
+    ANTIALIAS, ANY_WORDS, LONG_KINDS, OF_LIGHT, OF_OBJECT, OPACITY_OF, RECORD_HEADER, RECORD_OWNERS, RECORD_SIZES, SPOT
+} from "../words/Records.sol";
 import {Scene, POINT} from "./Scene.sol";
 import {SceneErrors} from "./SceneErrors.sol";
 
@@ -21,9 +23,6 @@ import {SceneErrors} from "./SceneErrors.sol";
 //   4 and above        effects, of the scene or of an object: see `EffectRecords.sol`. The EffectsEngine draws scenes that have any
 //
 // The pairs of kind and index, as one number, must strictly ascend. A missing record means the default, so each property has one encoding.
-
-uint256 constant SPOT_SIZE = 40;
-uint256 constant OPACITY_SIZE = 4;
 
 /// @dev One, as Q24.
 uint256 constant OPAQUE = 1 << 24;
@@ -49,16 +48,11 @@ library Extensions {
                 (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
                 if (key < least) revert SceneErrors.ExtensionOrder(kind, index);
                 least = key + 1;
-                if (kind == 0) revert SceneErrors.UnknownExtension(kind, index);
                 if (kind > ANTIALIAS) {
                     record += RECORD_HEADER + size;
                     continue;
                 }
-                (uint256 expected, uint256 count) = kind == SPOT
-                    ? (SPOT_SIZE, scene.lights.length)
-                    : kind == OPACITY_OF ? (OPACITY_SIZE, scene.objects.length) : (0, 1);
-                if (size != expected) revert SceneErrors.ExtensionSize(kind, index, expected, size);
-                if (index >= count) revert SceneErrors.ExtensionIndex(kind, index, count);
+                checkHeader(scene, record);
                 if (kind == SPOT) {
                     if (scene.lights[index].kind != POINT) revert SceneErrors.SpotIsNoPoint(index);
                     checkSpot(record, index);
@@ -67,6 +61,21 @@ library Extensions {
                     revert SceneErrors.OpacityOutOfRange(index, opacityOf(record));
                 }
                 record += RECORD_HEADER + size;
+            }
+        }
+    }
+
+    /// @notice Checks the kind of a record, that its light or object exists, and its size unless it may have any number of words.
+    function checkHeader(Scene calldata scene, uint256 record) internal pure {
+        unchecked {
+            (uint256 kind, uint256 index) = (keyOf(record) >> 16, keyOf(record) & 0xffff);
+            uint256 owner = (RECORD_OWNERS >> 2 * kind) & 3;
+            if (owner == 0) revert SceneErrors.UnknownExtension(kind, index);
+            uint256 count = owner == OF_OBJECT ? scene.objects.length : owner == OF_LIGHT ? scene.lights.length : 1;
+            if (index >= count) revert SceneErrors.ExtensionIndex(kind, index, count);
+            uint256 expected = (RECORD_SIZES >> 8 * kind) & 0xff;
+            if (expected != ANY_WORDS && expected != sizeOf(record)) {
+                revert SceneErrors.ExtensionSize(kind, index, expected, sizeOf(record));
             }
         }
     }

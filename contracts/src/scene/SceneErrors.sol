@@ -88,6 +88,8 @@ interface SceneErrors {
     error ShadowRuleOutOfRange(uint256 light, uint256 rule);
     /// @notice The inner radius of a ground must be below the outer one, which must be at most 2^58 (Q32).
     error GroundOutOfRange(uint256 object, uint256 inner, uint256 outer);
+    /// @notice The light that an object emits must be 0xRRGGBB.
+    error EmissionNotAColor(uint256 object, uint256 value);
     /// @notice The flags of a texture must be 0 to 3, and its texels must have 1, 2, 4, 8 or 24 bits.
     error TextureFormat(uint256 object, uint256 flags, uint256 bits);
     /// @notice The face has a vertex index that is not below `vertexCount`.

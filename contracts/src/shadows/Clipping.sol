@@ -46,9 +46,9 @@ library Clipping {
             }
             uint256 placesEnd = begin + 0x120;
             bool isOrthographic = load(FRAME_IS_ORTHOGRAPHIC) != 0;
-            uint256 corner = receiver.planes + POLYGON_1;
+            uint256 corner = receiver.planes + POLYGON_1; // clip coordinates, for a while
             bool isPlain = true;
-            int256 most;
+            int256 most; // the greatest distance
             for (uint256 q = begin; q != placesEnd; q += 0x60) {
                 VertexShader.clipCoordinates((numbers >> FACE_FIRST_AT) & FACE_INDEX_MASK, corner);
                 numbers <<= FACE_SECOND_AT;
@@ -65,7 +65,7 @@ library Clipping {
             (int256 top, int256 bottom, int256 right) = (0, int256(4 * height), int256(width << POINT_BITS));
             if (!isPlain) {
                 // nearer than the near plane, or far beyond the canvas
-                most = 0;
+                most = 0; // from here on, the bits of all coordinates
                 for (uint256 q = begin; q != placesEnd; q += 0x60) {
                     int256 w = loadSigned(q + 0x40);
                     storeSigned(q, loadSigned(q) - bias * w);
@@ -75,8 +75,8 @@ library Clipping {
             }
             uint256 shift = excess(uint256(most), isPlain ? DISTANCE_BITS : CLIP_BITS);
             if (isPlain) {
-                if (isOrthographic) shift = Q32;
-                int256 low = type(int256).max;
+                if (isOrthographic) shift = Q32; // distances become 1
+                int256 low = type(int256).max; // the first and last row, and the last column, in sub-pixels
                 int256 high = type(int256).min;
                 int256 far = high;
                 for (uint256 q = begin; q != placesEnd; q += 0x60) {
@@ -90,6 +90,7 @@ library Clipping {
                     if (y > high) high = y;
                     if (x > far) far = x;
                 }
+                // from here on, rows of samples, and a column in the unit of positions: two sub-pixels wider
                 low = (((low - 2) << SUBPIXEL_TO_POINT) + int256(ROW_UP)) >> ROW_SHIFT;
                 high = (((high + 2) << SUBPIXEL_TO_POINT) + int256(ROW_UP)) >> ROW_SHIFT;
                 far = ((far + 2) << SUBPIXEL_TO_POINT) + int256(1 << POINT_BITS);
@@ -102,6 +103,7 @@ library Clipping {
             receiver.top = uint256(top + int256(ROW_BIAS));
             receiver.bottom = uint256(bottom + int256(ROW_BIAS));
             receiver.right = uint256(right + int256(POINT_BIAS));
+            // of the three corners: its sign is that of their order on the canvas
             int256 determinant = (p[1] * p[5] - p[2] * p[4]) * p[6] + (p[2] * p[3] - p[0] * p[5]) * p[7];
             determinant += (p[0] * p[4] - p[1] * p[3]) * p[8];
             receiver.isVisible = determinant != 0 && top < bottom;
@@ -147,8 +149,8 @@ library Clipping {
         }
     }
 
-    /// @dev Returns the position on the canvas of the shadow of a caster's corner; 0 if it is far outside or does not exist. This is placeOf
-    /// and isFar, written out: it is called for each corner.
+    /// @dev Returns the position on the canvas of the shadow of a caster's corner; 0 if it is far outside or does not exist. This is
+    /// placeOf and isFar, written out: it is called for each corner.
     /// @param lane The position of its lane.
     function cornerOf(Receiver memory receiver, uint256 lane) private pure returns (uint256 point) {
         unchecked {

@@ -4,7 +4,7 @@ pragma solidity 0.8.37;
 import {ZERO} from "../math/Fixed.sol";
 import {Vector, normalize} from "../math/Vector.sol";
 import {Extensions} from "../scene/Extensions.sol";
-import {SHADOW} from "../scene/Records.sol";
+import {SHADOW} from "../words/Records.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
 import {Object, Scene, CULL_BACKFACES, FLAT, UNLIT, WIREFRAME} from "../scene/Scene.sol";
 import {Triangles} from "../pipeline/geometry/Triangles.sol";
@@ -15,6 +15,7 @@ import {Clipping} from "./Clipping.sol";
 import {CASTER_SIZE, FACE_ENTRY, FACE_RECORD_SIZE, FACE_SIDE, Faces, PLANES_SIZE} from "./Faces.sol";
 import {LightSpace} from "./LightSpace.sol";
 import {Outlines} from "./Outlines.sol";
+import {SHADOW_DARK, SHADOW_ENTRY_AT, SHADOW_ENTRY_SIZE} from "./ShadowRows.sol";
 import {COVERED, MISSED, Receiver, Receivers} from "./Receivers.sol";
 import "../words/EffectRegisters.sol";
 
@@ -26,14 +27,11 @@ import "../words/EffectRegisters.sol";
 
 library Shadows {
     uint256 private constant LIT = 0;
-    uint256 private constant DARK = 1;
-    uint256 private constant ENTRY_BITS = 32;
-    uint256 private constant ENTRIES = 8;
 
     /// @notice Computes the parts that the light of the SHADOW does not reach. The registers of the frame must be set: see EffectUniforms.
     /// @return begin The address of the result: for each object a word, the offset of its faces' entries from the beginning. Then the
     /// entries, 4 bytes for each face of all objects: 0 if it is lit, 1 if it is dark, otherwise the offset, in words, of the functions of
-    /// the shadows on it: see Outlines. The entries are padded to whole words.
+    /// the shadows on it: see Outlines. The entries are padded to whole words, with at least 28 bytes.
     /// @return size The size of the result in bytes.
     function cast(Scene calldata scene, View memory view_) internal pure returns (uint256 begin, uint256 size) {
         unchecked {
@@ -163,7 +161,7 @@ library Shadows {
         }
     }
 
-    /// @return The entry of a face: LIT, DARK, or the address of a list: see Outlines.finish.
+    /// @return The entry of a face: LIT, SHADOW_DARK, or the address of a list: see Outlines.finish.
     function shadeFace(
         ShadowScene memory state,
         Receiver memory receiver,
@@ -194,7 +192,7 @@ library Shadows {
                     if (shade == MISSED) continue;
                     if (shade == COVERED) {
                         Outlines.clear(receiver);
-                        return DARK;
+                        return SHADOW_DARK;
                     }
                     if (!receiver.isPlaced) Clipping.place(receiver, Triangles.readIndices(source), state.width, state.height);
                     Outlines.add(receiver, caster);
@@ -207,31 +205,20 @@ library Shadows {
     /// @dev Writes the entries and lists of all faces.
     function answer(ShadowScene memory state) private pure returns (uint256 begin, uint256 size) {
         unchecked {
-            uint256 face = state.faces[0];
-            uint256 last = state.faces[state.faces.length - 1];
-            begin = freeMemory();
             uint256 objects = state.faces.length - 1;
+            (uint256 face, uint256 last) = (state.faces[0], state.faces[objects]);
+            begin = freeMemory();
             uint256 target = begin + 32 * objects;
             for (uint256 i; i != objects; ++i) {
-                store(begin + 32 * i, 32 * objects + (ENTRY_BITS / 8) * ((state.faces[i] - face) / FACE_RECORD_SIZE));
+                store(begin + 32 * i, target - begin + SHADOW_ENTRY_SIZE * ((state.faces[i] - face) / FACE_RECORD_SIZE));
             }
-            uint256 end = target + (((ENTRY_BITS / 8) * ((last - face) / FACE_RECORD_SIZE) + 31) & ~uint256(31));
-            while (face != last) {
-                uint256 word = 0;
-                for (uint256 i; i != ENTRIES; ++i) {
-                    word <<= ENTRY_BITS;
-                    if (face == last) continue;
-                    uint256 entry = load(face + FACE_ENTRY);
-                    face += FACE_RECORD_SIZE;
-                    if (entry > DARK) {
-                        word |= end - begin;
-                        end = copyList(entry, end);
-                    } else {
-                        word |= entry;
-                    }
-                }
-                store(target, word);
-                target += 32;
+            // entries are written as words, of which the last reaches beyond it
+            uint256 end = target + ((SHADOW_ENTRY_SIZE * ((last - face) / FACE_RECORD_SIZE) + 63 - SHADOW_ENTRY_SIZE) & ~uint256(31));
+            for (; face != last; face += FACE_RECORD_SIZE) {
+                uint256 entry = load(face + FACE_ENTRY);
+                store(target, (entry > SHADOW_DARK ? end - begin : entry) << SHADOW_ENTRY_AT);
+                if (entry > SHADOW_DARK) end = copyList(entry, end);
+                target += SHADOW_ENTRY_SIZE;
             }
             size = end - begin;
         }

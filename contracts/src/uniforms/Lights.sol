@@ -3,8 +3,8 @@ pragma solidity 0.8.37;
 
 import {Fixed} from "../math/Fixed.sol";
 import {Vector, normalize} from "../math/Vector.sol";
-import {Extensions, SPOT_SIZE} from "../scene/Extensions.sol";
-import {RECORD_HEADER, SPOT} from "../scene/Records.sol";
+import {Extensions} from "../scene/Extensions.sol";
+import {RECORD_HEADER, SPOT} from "../words/Records.sol";
 import {Light, Scene, POINT} from "../scene/Scene.sol";
 import {View} from "./View.sol";
 import "../words/Registers.sol";
@@ -34,7 +34,7 @@ library Lights {
                 store(record + LIGHT_COLOR, colorLanes(light.color));
                 if (Extensions.isOf(extension, end, SPOT, i)) {
                     setSpot(view_, extension, record);
-                    extension += RECORD_HEADER + SPOT_SIZE;
+                    extension += RECORD_HEADER + Extensions.sizeOf(extension);
                 }
                 record += LIGHT_SIZE;
             }

@@ -3,8 +3,8 @@ pragma solidity 0.8.37;
 
 import {Matrix} from "../math/Quaternion.sol";
 import {Object, Rectangle, Scene, UNLIT, WIREFRAME} from "../scene/Scene.sol";
-import {Extensions, OPACITY_SIZE, OPAQUE} from "../scene/Extensions.sol";
-import {ANTIALIAS, OPACITIES_OF, OPACITY_OF, RECORD_HEADER} from "../scene/Records.sol";
+import {Extensions, OPAQUE} from "../scene/Extensions.sol";
+import {ANTIALIAS, OPACITIES_OF, OPACITY_OF, RECORD_HEADER} from "../words/Records.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
 import {Lights} from "./Lights.sol";
 import {Materials} from "./Materials.sol";
@@ -31,7 +31,7 @@ library Uniforms {
     /// @param room The number of bytes to leave free before the calldata, from the free memory pointer on.
     /// @return data The beginning of the calldata.
     /// @return end The end of the calldata.
-    function write(bytes4 selector, Scene calldata scene, Rectangle memory tile, bool countPixels, uint256 room)
+    function write(bytes4 selector, Scene calldata scene, Rectangle memory tile, uint256 room)
         internal
         pure
         returns (uint256 data, uint256 end)
@@ -41,7 +41,6 @@ library Uniforms {
             if (freeMemory() < REGISTERS_END) reserveRegisters(REGISTERS, REGISTERS_END);
             View memory view_ = lookAt(scene.camera, scene.canvas.width, scene.canvas.height);
             uint256 extension = setFrame(view_, scene, tile);
-            store(COUNT_PIXELS, countPixels ? 1 : 0);
             int256[2] memory range = [type(int256).max, type(int256).min];
             data = freeMemory() + room;
             uint256 size;
@@ -127,7 +126,7 @@ library Uniforms {
                 return extension;
             }
             store(OPACITY, Extensions.opacityOf(extension));
-            return extension + RECORD_HEADER + OPACITY_SIZE;
+            return extension + RECORD_HEADER + Extensions.sizeOf(extension);
         }
     }
 

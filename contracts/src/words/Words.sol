@@ -63,16 +63,110 @@ uint256 constant FACE_SECOND_IN_WORD = 224;
 uint256 constant FACE_SECOND_AT = 16;
 uint256 constant FACE_INDEX_MASK = 0xffff;
 
+// ------------------------------------------------------------------------------------------------------------------------ words of memory
+
+/// @dev A word has 2^5 bytes.
+uint256 constant WORD_SHIFT = 5;
+/// @dev The sign of a word: shifted right by this as a signed number, it is -1 or 0.
+uint256 constant SIGN_AT = 255;
+
+// ------------------------------------------------------------------------------------------------------------------- words of the buffers
+
+/// @dev The first depth of a word, the next two, and everything after the first.
+uint256 constant FIRST_DEPTH = 0xffffffffffffffff000000000000000000000000000000000000000000000000;
+uint256 constant SECOND_DEPTH = 0xffffffffffffffff00000000000000000000000000000000;
+uint256 constant THIRD_DEPTH = 0xffffffffffffffff0000000000000000;
+uint256 constant BEHIND_DEPTH = 0xffffffffffffffffffffffffffffffffffffffffffffffff;
+/// @dev The first pixel of a word, and everything after it.
+uint256 constant FIRST_PIXEL = 0xffffff0000000000000000000000000000000000000000000000000000000000;
+uint256 constant BEHIND_PIXEL = 0xffffffffffffffffffffffffffffffffffffffffffffffffffffffffff;
+
+// ---------------------------------------------------------------------------------------------------------------------------------- light
+
+/// @dev The positions of Q16 numbers in lanes of Q40.
+uint256 constant BLUE_Q40_AT = 24;
+uint256 constant GREEN_Q40_AT = 80;
+uint256 constant RED_Q40_AT = 136;
+/// @dev The number of steps in the table of the highlight; the index of its last entry, Q40.
+uint256 constant SPECULAR_ENTRIES = 64;
+uint256 constant SPECULAR_LAST = 0x400000000000;
+/// @dev The shift from an index into the table, Q40, to bytes; the mask of whole words; the position and mask of the fraction between two
+/// entries, Q16.
+uint256 constant SPECULAR_ENTRY_SHIFT = 35;
+uint256 constant SPECULAR_ENTRY_MASK = 0xffffe0;
+uint256 constant SPECULAR_REST_AT = 24;
+uint256 constant SPECULAR_REST_MASK = 0xffff;
+/// @dev The position of an entry's value.
+uint256 constant SPECULAR_VALUE_AT = 128;
+/// @dev The same for an index in Q24; the mask of the fraction between two entries, at bit 128.
+uint256 constant SPECULAR_ENTRY_SHIFT_24 = 19;
+uint256 constant SPECULAR_ENTRY_MASK_24 = 0xfe0;
+uint256 constant SPECULAR_REST_AT_128 = 0xffffff00000000000000000000000000000000;
+
+// ------------------------------------------------------------------------------------------------------------------- normals of fragments
+
+/// @dev The positions of Q24 numbers in interpolated normals (Q36, lanes of 85 bits), their mask, and the bias that keeps them positive.
+uint256 constant NORMAL_X_AT = 12;
+uint256 constant NORMAL_Y_AT = 97;
+uint256 constant NORMAL_Z_AT = 182;
+uint256 constant NORMAL_MASK = 0x7ffffff;
+uint256 constant NORMAL_HALF = 0x4000000;
+/// @dev That bias in each lane.
+uint256 constant NORMAL_BIAS = 0x10000000000000000000008000000000000000000004000000000;
+
+// ---------------------------------------------------------------------------------------------------------------------------- screen word
+// The position of a vertex on the screen. Comparing screen words as numbers compares rows. The bits below the column must stay below bit
+// 41: see the area in PrimitiveAssembly, to whose error they contribute 2^149 times; half of the minimum area is 2^191.
+// | 128..147 row | 64..83 column | 37 IS_BACK | 36 IS_BELOW | 35 IS_ABOVE | 34 IS_RIGHT | 33 IS_LEFT | 32 MUST_CLIP | 0..31 record |
+
+/// @dev Address of the vertex record.
+uint256 constant SCREEN_RECORD_MASK = 0xffffffff;
+/// @dev The triangle must be clipped.
+uint256 constant MUST_CLIP = 0x100000000;
+/// @dev The vertex lies left of the tile; right of it; above it; below it.
+uint256 constant IS_LEFT = 0x200000000;
+uint256 constant IS_RIGHT = 0x400000000;
+uint256 constant IS_ABOVE = 0x800000000;
+uint256 constant IS_BELOW = 0x1000000000;
+/// @dev Of the first vertex of a triangle: the face is turned away from the eye.
+uint256 constant IS_BACK = 0x2000000000;
+/// @dev Sub-pixel column.
+uint256 constant SCREEN_COLUMN_AT = 64;
+uint256 constant SCREEN_COLUMN_MASK = 0xfffff;
+/// @dev Sub-pixel row.
+uint256 constant SCREEN_ROW_AT = 128;
+uint256 constant SCREEN_ROW_MASK = 0xfffff;
+
 // ------------------------------------------------------------------------------------------------------------------ parts of screen words
 
 /// @dev All bits of the column.
 uint256 constant SCREEN_COLUMNS = 0xfffff0000000000000000;
 /// @dev Row in whole pixels.
 uint256 constant SCREEN_PIXEL_ROW_AT = 136;
-/// @dev The bits of the column that are whole pixels.
-uint256 constant SCREEN_PIXEL_COLUMNS = 0xfff000000000000000000;
-/// @dev Added, it rounds row and column up to whole pixels.
-uint256 constant SCREEN_ROUND_UP = 0xff00000000000000ff0000000000000000;
+
+// --------------------------------------------------------------------------------------------------------- flags of screen words together
+
+/// @dev Left or right; above or below; any of them; that or MUST_CLIP.
+uint256 constant IS_BESIDE = 0x600000000;
+uint256 constant IS_OVER = 0x1800000000;
+uint256 constant IS_OUTSIDE = 0x1e00000000;
+uint256 constant IS_NOT_PLAIN = 0x1f00000000;
+
+// ------------------------------------------------------------------------------------------------------------------------- attribute word
+// Depth and colours of a vertex: colours as described below, Q10. For a vertex that must be clipped, the outcode instead.
+// | 168..223 depth | 112..167 red | 56..111 green | 0..55 blue |
+
+/// @dev Depth: see DEPTH_SCALE.
+uint256 constant ATTRIBUTE_DEPTH_AT = 168;
+uint256 constant ATTRIBUTE_DEPTH_MASK = 0xffffffffffffff;
+
+// ---------------------------------------------------------------------------------------------------------------------------- accumulator
+// An attribute word with 32 more bits, incremented from pixel to pixel. It may contain barycentric coordinates in place of colours: s in
+// the middle lane, t in the lowest.
+// | 192..255 depth | 112..167 red | 56..111 green or s | 0..55 blue or t |
+
+/// @dev Depth with 8 more bits than in a vertex, as in the buffer.
+uint256 constant ACCUMULATOR_DEPTH_AT = 192;
 
 // ------------------------------------------------------------------------------------------------------------------ parts of accumulators
 
@@ -109,6 +203,32 @@ uint256 constant FINE_TO_24 = 20;
 /// @dev The last byte of both lanes in an attribute word or an accumulator with coordinates that are not fine.
 uint256 constant WEIGHTS_LAST_BYTE = 20;
 
+// --------------------------------------------------------------------------------------------------------------------- triangle of a list
+// The first vertex is the topmost, and the vertices are counter-clockwise on the screen.
+// | 157 BACK_BIT | 147 CROSSING_BIT | 144..146 edges | 128..143 face | 112..127 bottom | 96..111 top | 64..95 a | 32..63 b | 0..31 c |
+
+/// @dev Addresses of the third, second and first vertex record.
+uint256 constant TRIANGLE_C_MASK = 0xffffffff;
+uint256 constant TRIANGLE_B_AT = 32;
+uint256 constant TRIANGLE_B_MASK = 0xffffffff;
+uint256 constant TRIANGLE_A_AT = 64;
+uint256 constant TRIANGLE_A_MASK = 0xffffffff;
+/// @dev The first pixel row that may be covered, and the row after the last.
+uint256 constant TRIANGLE_TOP_AT = 96;
+uint256 constant TRIANGLE_TOP_MASK = 0xffff;
+uint256 constant TRIANGLE_BOTTOM_AT = 112;
+uint256 constant TRIANGLE_BOTTOM_MASK = 0xffff;
+/// @dev The number of the face.
+uint256 constant TRIANGLE_FACE_AT = 128;
+uint256 constant TRIANGLE_FACE_MASK = 0xffff;
+/// @dev Which edges belong to the face: first to second vertex, second to third, third to first.
+uint256 constant TRIANGLE_EDGES_AT = 144;
+uint256 constant TRIANGLE_EDGES_MASK = 7;
+/// @dev Whether it reaches beyond the left or right border of the tile.
+uint256 constant CROSSING_BIT = 0x8000000000000000000000000000000000000;
+/// @dev Whether it is turned away from the eye.
+uint256 constant BACK_BIT = 0x002000000000000000000000000000000000000000;
+
 // --------------------------------------------------------------------------------------------------------------------- parts of triangles
 
 /// @dev The three edges.
@@ -116,19 +236,31 @@ uint256 constant EDGE_AB = 0x1000000000000000000000000000000000000;
 uint256 constant EDGE_BC = 0x2000000000000000000000000000000000000;
 uint256 constant EDGE_CA = 0x4000000000000000000000000000000000000;
 
+// ----------------------------------------------------------------------------------------------------------------------- clip coordinates
+// Column * distance, row * distance and distance, all Q32. The first two are signed, and CLIP_BIAS adds half their range to them.
+// | 192..255 w | 96..191 y | 0..95 x |
+
+uint256 constant CLIP_X_MASK = 0xffffffffffffffffffffffff;
+uint256 constant CLIP_Y_AT = 96;
+uint256 constant CLIP_Y_MASK = 0xffffffffffffffffffffffff;
+uint256 constant CLIP_W_AT = 192;
+
 // -------------------------------------------------------------------------------------------------------------- parts of clip coordinates
 
 uint256 constant CLIP_BIAS = 0x800000000000000000000000800000000000000000000000;
 /// @dev The addend of each.
 uint256 constant CLIP_HALF = 0x800000000000000000000000;
 
-// ----------------------------------------------------------------------------------------------------------------------- parts of borders
+// ---------------------------------------------------------------------------------------------------------------------------------- edges
+// Two columns, Q48, in lanes of 128 bits: the integer part is the first pixel whose centre is not left of the edge. A Q48 column is a Q45
+// offset of depths in bytes: with the address of a row added, edges are addresses of depths.
+// | 176..191 right column | 128..175 fraction | 48..63 left column | 0..47 fraction |
 
-/// @dev The bits of a lane; the number of lanes.
-uint256 constant BORDER_BITS = 28;
-uint256 constant BORDER_COUNT = 9;
-/// @dev 2^27, which bounds values, minus 2^16 for the tile and plus 2^16 for the guard band, which is more than their rounding error.
-uint256 constant BORDER_BIAS = 0x801000080100008010000801000080100007ff00007ff00007ff00007ff0000;
+/// @dev Whole pixels of the left edge, and of the right one.
+uint256 constant EDGES_LEFT_COLUMN_AT = 48;
+uint256 constant EDGES_LEFT_COLUMN_MASK = 0xffff;
+uint256 constant EDGES_RIGHT_COLUMN_AT = 176;
+uint256 constant EDGES_RIGHT_COLUMN_MASK = 0xffff;
 
 // ------------------------------------------------------------------------------------------------------------------------- parts of edges
 
@@ -151,6 +283,124 @@ uint256 constant UPPER_LANE_128 = 0xffffffffffffffffffffffffffffffff000000000000
 uint256 constant GRADIENT_SHIFT = 37;
 /// @dev The shift from such a gradient times sub-pixels to the fraction of an accumulator.
 uint256 constant GRADIENT_TO_ACCUMULATOR = 5;
+
+// -------------------------------------------------------------------------------------------------------------------- face in light space
+// The first word of a face's record: see Faces.
+// | 255 BESIDE | 128..191 box | 96 HAS_PLANES | 64..95 c | 32..63 b | 0..31 a |
+
+/// @dev The addresses of its vertices.
+uint256 constant FACE_A_MASK = 0xffffffff;
+uint256 constant FACE_B_AT = 32;
+uint256 constant FACE_B_MASK = 0xffffffff;
+uint256 constant FACE_C_AT = 64;
+uint256 constant FACE_C_MASK = 0xffffffff;
+/// @dev Its functions are written.
+uint256 constant HAS_PLANES = 0x1000000000000000000000000;
+/// @dev Its ranges.
+uint256 constant FACE_BOX_AT = 128;
+uint256 constant FACE_BOX_MASK = 0xffffffffffffffff;
+
+// ------------------------------------------------------------------------------------------------------------------ ranges of coordinates
+// Where a face lies among BUCKETS ranges of each coordinate in light space: the minimum in the lower byte of a lane, the maximum in the
+// upper one. Of a vertex only lower bytes. See LightSpace.
+// | 255 BESIDE | 63 HAS_BOX | 48..50 side | 32..47 z | 16..31 y | 0..15 x |
+
+uint256 constant BOX_X_MASK = 0xffff;
+uint256 constant BOX_Y_AT = 16;
+uint256 constant BOX_Y_MASK = 0xffff;
+uint256 constant BOX_Z_AT = 32;
+uint256 constant BOX_Z_MASK = 0xffff;
+/// @dev The side of the cube around a point light.
+uint256 constant BOX_SIDE_AT = 48;
+uint256 constant BOX_SIDE_MASK = 7;
+/// @dev There are ranges.
+uint256 constant HAS_BOX = 0x8000000000000000;
+/// @dev The vertex is beside or behind a point light without a cube, or at the light. Of a face: one of its vertices is, or they are on
+/// several sides of the cube; in its first word, too.
+uint256 constant BESIDE = 0x8000000000000000000000000000000000000000000000000000000000000000;
+
+// ----------------------------------------------------------------------------------------------------------------- position on the canvas
+// Integers with POINT_BITS bits below the pixel, plus POINT_BIAS: see Clipping.
+// | 64..127 row | 0..63 column |
+
+uint256 constant POINT_COLUMN_MASK = 0xffffffffffffffff;
+uint256 constant POINT_ROW_AT = 64;
+uint256 constant POINT_ROW_MASK = 0xffffffffffffffff;
+
+// ----------------------------------------------------------------------------------------------------------------------- edge of a shadow
+// A position on the canvas, in eighths of a pixel, is to the right of the edge if its function is at least 0: VALUE + x * DX + y * DY,
+// signed numbers. See Outlines.
+// | 208..255 dx | 160..207 dy | 96..159 value | 80..95 top | 64..79 bottom | 8 LAST_EDGE | 0 ENDS_SHADOW |
+
+/// @dev To the right of it, a shadow ends; otherwise one begins.
+uint256 constant ENDS_SHADOW = 1;
+/// @dev It is the last of its list.
+uint256 constant LAST_EDGE = 0x100;
+/// @dev The row of samples, four for each row of pixels, after the last that the edge crosses; and the first.
+uint256 constant SHADOW_EDGE_BOTTOM_AT = 64;
+uint256 constant SHADOW_EDGE_BOTTOM_MASK = 0xffff;
+uint256 constant SHADOW_EDGE_TOP_AT = 80;
+uint256 constant SHADOW_EDGE_TOP_MASK = 0xffff;
+/// @dev The value at the centre of the canvas's first pixel; its change downward; and to the right.
+uint256 constant SHADOW_EDGE_VALUE_AT = 96;
+uint256 constant SHADOW_EDGE_VALUE_MASK = 0xffffffffffffffff;
+uint256 constant SHADOW_EDGE_DY_AT = 160;
+uint256 constant SHADOW_EDGE_DY_MASK = 0xffffffffffff;
+uint256 constant SHADOW_EDGE_DX_AT = 208;
+
+// ------------------------------------------------------------------------------------------------------------- flags of the mode together
+
+/// @dev The bits that select the loop for the rows of a smooth triangle.
+uint256 constant IS_GREY_OR_STEEP = 0xc00;
+uint256 constant IS_CUT_OR_CROSSING = 0x2080;
+/// @dev The modes of triangles of samples to which SPAN_BEGIN and SPAN_END are applied: see IS_CLAMPED.
+uint256 constant IS_CLAMPED_MODE = 0x380;
+
+// ----------------------------------------------------------------------------------------------------------------- flags that are shifted
+
+/// @dev From a triangle of a list to its mode, for both of its bits there.
+uint256 constant TRIANGLE_CROSSING_SHIFT = 140;
+
+// -------------------------------------------------------------------------------------------------------------------- borders of the tile
+// Four lanes of 28 bits for the left, right, upper and lower border: positive if a vertex lies beyond it. See TileCulling.
+// | 84..111 lower border | 56..83 upper | 28..55 right | 0..27 left |
+
+/// @dev Set if the value is positive.
+uint256 constant BORDER_SIGNS = 0x8000000800000080000008000000;
+
+// -------------------------------------------------------------------------------------------------------------- borders of the guard band
+// After these, five lanes for the left, right, upper and lower border of the guard band, and the near plane.
+// | 224..255 near plane | 196..223 lower border | 168..195 upper | 140..167 right | 112..139 left |
+
+/// @dev Set if the value is positive.
+uint256 constant GUARD_SIGNS = 0x800000080000008000000800000080000000000000000000000000000000000;
+
+// ----------------------------------------------------------------------------------------------------------------------- parts of borders
+
+/// @dev The bits of a lane; the number of lanes.
+uint256 constant BORDER_BITS = 28;
+uint256 constant BORDER_COUNT = 9;
+/// @dev 2^27, which bounds values, minus 2^16 for the tile and plus 2^16 for the guard band, which is more than their rounding error.
+uint256 constant BORDER_BIAS = 0x801000080100008010000801000080100007ff00007ff00007ff00007ff0000;
+
+// -------------------------------------------------------------------------------------------------------------------------------- colours
+// Three lanes of 56 bits: blue at bit 0, green at 56, red at 112. One ADD or MUL works on all of them. A negative number in a lane borrows
+// from the lane above; the lanes are correct if the final sum is positive in every lane, which a bias ensures.
+// | 112..167 red | 56..111 green | 0..55 blue |
+
+/// @dev 1 in each lane.
+uint256 constant ONES = 0x10000000000000100000000000001;
+/// @dev The lower bits of each lane: all bits that a colour of Q10 uses in the lanes of a triangle.
+uint256 constant LANES_24 = 0xffffff00000000ffffff00000000ffffff;
+uint256 constant LANES_32 = 0xffffffff000000ffffffff000000ffffffff;
+/// @dev Half a level, Q10.
+uint256 constant HALF_LEVEL = 0x2000000000000020000000000000200;
+/// @dev The bits that are set in lanes of Q10 above 255; the addend that makes them carry into bit OVERFLOW_CARRY_AT.
+uint256 constant OVERFLOW = 0xfc000000000000fc000000000000fc0000;
+uint256 constant OVERFLOW_TO_CARRY = 0x3ffc00000000003ffc00000000003ffc0000;
+/// @dev A byte in each lane; a byte as Q10.
+uint256 constant BYTES_56 = 0xff000000000000ff000000000000ff;
+uint256 constant BYTES_Q10 = 0x3fc000000000003fc000000000003fc00;
 
 // ----------------------------------------------------------------------------------------------------------------------- parts of colours
 
@@ -183,6 +433,66 @@ uint256 constant OVERFLOW_CARRY_AT = 30;
 /// @dev Multiplier that collects BYTES_56 at the top of a word; the same for BYTES_Q10.
 uint256 constant LANES_TO_PIXEL = 0x100000000000000010000000000000001000000000000000000000000000000;
 uint256 constant Q10_TO_PIXEL = 0x400000000000000040000000000000004000000000000000000000000000;
+
+// --------------------------------------------------------------------------------------------------------------------------------- depths
+// Four depths in a word, the leftmost uppermost.
+// | 192..255 first | 128..191 second | 64..127 third | 0..63 fourth |
+
+/// @dev The highest bit of each lane; and the bits below it.
+uint256 constant TOPS_64 = 0x8000000000000000800000000000000080000000000000008000000000000000;
+uint256 constant BELOW_TOPS_64 = 0x7fffffffffffffff7fffffffffffffff7fffffffffffffff7fffffffffffffff;
+
+// --------------------------------------------------------------------------------------------------------------------------------- pixels
+// Colours of eight pixels in a word, or a channel of eight (Q9), the leftmost uppermost.
+
+uint256 constant ONES_24 = 0x1000001000001000001000001000001000001000001;
+/// @dev The distance of each pixel to the left of the last; the squares of the distances.
+uint256 constant STEPS_24 = 0x7000006000005000004000003000002000001000000;
+uint256 constant SQUARES_24 = 0x31000024000019000010000009000004000001000000;
+/// @dev The bits set below 0 or above 255; the bit set below 0; the addend that makes values above 255 carry; the byte.
+uint256 constant BEYOND_BYTES_24 = 0xfe0000fe0000fe0000fe0000fe0000fe0000fe0000fe0000;
+uint256 constant TOPS_24 = 0x800000800000800000800000800000800000800000800000;
+uint256 constant CARRY_24 = 0x7e00007e00007e00007e00007e00007e00007e00007e0000;
+uint256 constant BYTES_24 = 0x1fe0001fe0001fe0001fe0001fe0001fe0001fe0001fe00;
+
+// ------------------------------------------------------------------------------------------------------------------------ parts of pixels
+
+/// @dev 1 in each of ten pixels.
+uint256 constant TEN_PIXELS = 0x1000001000001000001000001000001000001000001000001000001;
+/// @dev Multiplier that copies bits 0, 64, 128, 192 to bits 120, 144, 168, 192, among others; and the mask of these.
+uint256 constant TOPS_64_TO_24 = 0x1000000000100000000010000000001;
+uint256 constant PIXELS_AT_120 = 0x1000001000001000001000000000000000000000000000000;
+
+// -------------------------------------------------------------------------------------------------------------------------------- samples
+// Four samples of a pixel in a word. Each lane contains the colour of the nearest surface, blue uppermost; three status bits; and above
+// them the highest 36 bits of its depth, 0 if there is none. The highest bit stays free. The sample positions are those of Direct3D and of
+// most OpenGL drivers.
+// Each lane: | 27..62 depth | 26 IS_LISTED | 25 DRAWN_SAMPLES | 24 FOUND_SAMPLES | 16..23 blue | 8..15 green | 0..7 red |
+
+uint256 constant ONES_64 = 0x1000000000000000100000000000000010000000000000001;
+/// @dev The depths.
+uint256 constant SAMPLE_DEPTHS = 0x7ffffffff80000007ffffffff80000007ffffffff80000007ffffffff8000000;
+/// @dev Their unit.
+uint256 constant SAMPLE_DEPTH_UNIT = 0x8000000000000000800000000000000080000000000000008000000;
+/// @dev Below the depth, for translucent objects: found by the first pass; drawn by the second pass; and the mask of all bits that
+/// distinguish them: see BlendedSamples.
+uint256 constant FOUND_SAMPLES = 0x1000000000000000100000000000000010000000000000001000000;
+uint256 constant DRAWN_SAMPLES = 0x2000000000000000200000000000000020000000000000002000000;
+uint256 constant PASSES_OF_SAMPLES = 0x7ffffffffb0000007ffffffffb0000007ffffffffb0000007ffffffffb000000;
+/// @dev The bits below the depths; the colours.
+uint256 constant BELOW_SAMPLE_DEPTHS = 0x7ffffff0000000007ffffff0000000007ffffff0000000007ffffff;
+uint256 constant SAMPLE_COLORS = 0xffffff0000000000ffffff0000000000ffffff0000000000ffffff;
+/// @dev The offsets of the samples from the pixel centre, in eighths of a pixel: columns, and rows.
+uint256 constant SAMPLE_X_8 = 0xfffffffffffffffd0000000000000002ffffffffffffffff;
+uint256 constant SAMPLE_Y_8 = 0x30000000000000000fffffffffffffffefffffffffffffffd;
+/// @dev A left side at column 0: its bias, the offsets of the samples in the pixel, and 2^-29, which puts samples that lie exactly on an
+/// edge to the right of it. Edges have errors below 2^-30, and samples that do not lie on an edge are at least 2^-28 away from it.
+uint256 constant LEFT_AT_0 = 0x80000080000020007ffffe800000200080000180000020007fffff8000002000;
+/// @dev A byte of samples, Q37, of which a column has 32.
+uint256 constant ADDRESS_64 = 0x2000000000000000200000000000000020000000000000002000000000;
+/// @dev Red and blue, green.
+uint256 constant RED_BLUE_64 = 0xff00ff0000000000ff00ff0000000000ff00ff0000000000ff00ff;
+uint256 constant GREEN_64 = 0xff00000000000000ff00000000000000ff00000000000000ff00;
 
 // ----------------------------------------------------------------------------------------------------------------------- parts of samples
 
@@ -247,21 +557,22 @@ uint256 constant MEAN_OF_GREEN_AT = 26;
 /// @dev Half a level for the sums of four colours: red lowest, blue at bit 16, green at bit 32; the position of their bytes.
 uint256 constant ROUND_SUM = 0x200020002;
 
-// ------------------------------------------------------------------------------------------------------------------------ parts of pixels
+// ------------------------------------------------------------------------------------------------------------------------- signed colours
+// Three signed lanes of 85 bits, for quadratic functions. An incremented colour is Q58, and a colour times its depth Q72 (Q24 without the
+// last 48 bits).
+// | 170..255 red | 85..169 green | 0..84 blue |
 
-/// @dev 1 in each of ten pixels.
-uint256 constant TEN_PIXELS = 0x1000001000001000001000001000001000001000001000001000001;
-/// @dev Multiplier that copies bits 0, 64, 128, 192 to bits 120, 144, 168, 192, among others; and the mask of these.
-uint256 constant TOPS_64_TO_24 = 0x1000000000100000000010000000001;
-uint256 constant PIXELS_AT_120 = 0x1000001000001000001000000000000000000000000000000;
-
-// ------------------------------------------------------------------------------------------------ parts of vectors in the space of a mesh
-
-uint256 constant MIDDLE_86_AT = 86;
-uint256 constant UPPER_86_AT = 172;
-/// @dev Half the unit of the middle lane, and half the unit of the upper one: they round to nearest.
-uint256 constant HALF_MIDDLE_86 = 0x2000000000000000000000;
-uint256 constant HALF_UPPER_86 = 0x8000000000000000000000000000000000000000000;
+/// @dev Half the range of a lane, which keeps it positive; the same without the last 48 bits; all bits of that.
+uint256 constant BIAS_84 = 0x4000000000000000000002000000000000000000001000000000000000000000;
+uint256 constant BIAS_36 = 0x4000000000000000000002000000000000000000001000000000;
+uint256 constant LANES_37 = 0x7ffffffffc000000000003ffffffffe000000000001fffffffff;
+/// @dev Half of the last bit that a second difference retains.
+uint256 constant BEND_ROUNDING = 0x4000000000000000000002000000000000000000001000000000000;
+/// @dev The byte of each lane, Q58; the bits above; the bit into which they carry if they are added to themselves; the sign.
+uint256 constant BYTES_Q58 = 0xff00000000000000000007f80000000000000000003fc00000000000000;
+uint256 constant ABOVE_Q58 = 0x7ffff00000000000000003ffff80000000000000001ffffc0000000000000000;
+uint256 constant CARRIES_85 = 0x8000000000000000000004000000000000000000002000000000000000000000;
+uint256 constant SIGNS_85 = 0x4000000000000000000002000000000000000000001000000000000000000000;
 
 // ---------------------------------------------------------------------------------------------------------------- parts of signed colours
 
@@ -294,324 +605,20 @@ uint256 constant RED_TO_TOP = 4;
 uint256 constant SECOND_BYTE = 0xff000000000000000000000000000000000000000000000000000000000000;
 uint256 constant THIRD_BYTE = 0xff0000000000000000000000000000000000000000000000000000000000;
 
-// ------------------------------------------------------------------------------------------------------------------- words of the buffers
-
-/// @dev The first depth of a word, the next two, and everything after the first.
-uint256 constant FIRST_DEPTH = 0xffffffffffffffff000000000000000000000000000000000000000000000000;
-uint256 constant SECOND_DEPTH = 0xffffffffffffffff00000000000000000000000000000000;
-uint256 constant THIRD_DEPTH = 0xffffffffffffffff0000000000000000;
-uint256 constant BEHIND_DEPTH = 0xffffffffffffffffffffffffffffffffffffffffffffffff;
-/// @dev The first pixel of a word, and everything after it.
-uint256 constant FIRST_PIXEL = 0xffffff0000000000000000000000000000000000000000000000000000000000;
-uint256 constant BEHIND_PIXEL = 0xffffffffffffffffffffffffffffffffffffffffffffffffffffffffff;
-
-// ---------------------------------------------------------------------------------------------------------------------------------- light
-
-/// @dev The positions of Q16 numbers in lanes of Q40.
-uint256 constant BLUE_Q40_AT = 24;
-uint256 constant GREEN_Q40_AT = 80;
-uint256 constant RED_Q40_AT = 136;
-/// @dev The number of steps in the table of the highlight; the index of its last entry, Q40.
-uint256 constant SPECULAR_ENTRIES = 64;
-uint256 constant SPECULAR_LAST = 0x400000000000;
-/// @dev The shift from an index into the table, Q40, to bytes; the mask of whole words; the position and mask of the fraction between two
-/// entries, Q16.
-uint256 constant SPECULAR_ENTRY_SHIFT = 35;
-uint256 constant SPECULAR_ENTRY_MASK = 0xffffe0;
-uint256 constant SPECULAR_REST_AT = 24;
-uint256 constant SPECULAR_REST_MASK = 0xffff;
-/// @dev The position of an entry's value.
-uint256 constant SPECULAR_VALUE_AT = 128;
-/// @dev The same for an index in Q24; the mask of the fraction between two entries, at bit 128.
-uint256 constant SPECULAR_ENTRY_SHIFT_24 = 19;
-uint256 constant SPECULAR_ENTRY_MASK_24 = 0xfe0;
-uint256 constant SPECULAR_REST_AT_128 = 0xffffff00000000000000000000000000000000;
-
-// ------------------------------------------------------------------------------------------------------------------- normals of fragments
-
-/// @dev The positions of Q24 numbers in interpolated normals (Q36, lanes of 85 bits), their mask, and the bias that keeps them positive.
-uint256 constant NORMAL_X_AT = 12;
-uint256 constant NORMAL_Y_AT = 97;
-uint256 constant NORMAL_Z_AT = 182;
-uint256 constant NORMAL_MASK = 0x7ffffff;
-uint256 constant NORMAL_HALF = 0x4000000;
-/// @dev That bias in each lane.
-uint256 constant NORMAL_BIAS = 0x10000000000000000000008000000000000000000004000000000;
-
-// ------------------------------------------------------------------------------------------------------------------------ words of memory
-
-/// @dev A word has 2^5 bytes.
-uint256 constant WORD_SHIFT = 5;
-/// @dev The sign of a word: shifted right by this as a signed number, it is -1 or 0.
-uint256 constant SIGN_AT = 255;
-
-// ---------------------------------------------------------------------------------------------------------------------------- screen word
-// The position of a vertex on the screen. Comparing screen words as numbers compares rows. The bits below the column must stay below bit
-// 41: see the area in PrimitiveAssembly, to whose error they contribute 2^149 times; half of the minimum area is 2^191.
-
-/// @dev Address of the vertex record.
-uint256 constant SCREEN_RECORD_AT = 0;
-uint256 constant SCREEN_RECORD_MASK = 0xffffffff;
-/// @dev The triangle must be clipped.
-uint256 constant MUST_CLIP = 0x100000000;
-/// @dev The vertex lies left of the tile; right of it; above it; below it.
-uint256 constant IS_LEFT = 0x200000000;
-uint256 constant IS_RIGHT = 0x400000000;
-uint256 constant IS_ABOVE = 0x800000000;
-uint256 constant IS_BELOW = 0x1000000000;
-/// @dev Of the first vertex of a triangle: the face is turned away from the eye.
-uint256 constant IS_BACK = 0x2000000000;
-/// @dev Sub-pixel column.
-uint256 constant SCREEN_COLUMN_AT = 64;
-uint256 constant SCREEN_COLUMN_MASK = 0xfffff;
-/// @dev Sub-pixel row.
-uint256 constant SCREEN_ROW_AT = 128;
-uint256 constant SCREEN_ROW_MASK = 0xfffff;
-
-// ------------------------------------------------------------------------------------------------------------------------- attribute word
-// Depth and colours of a vertex: colours as described below, Q10. For a vertex that must be clipped, the outcode instead.
-
-/// @dev Depth: see DEPTH_SCALE.
-uint256 constant ATTRIBUTE_DEPTH_AT = 168;
-uint256 constant ATTRIBUTE_DEPTH_MASK = 0xffffffffffffff;
-
-// ---------------------------------------------------------------------------------------------------------------------------- accumulator
-// An attribute word with 32 more bits, incremented from pixel to pixel. It may contain barycentric coordinates in place of colours: s in
-// the middle lane, t in the lowest.
-
-/// @dev Depth with 8 more bits than in a vertex, as in the buffer.
-uint256 constant ACCUMULATOR_DEPTH_AT = 192;
-uint256 constant ACCUMULATOR_DEPTH_MASK = 0xffffffffffffffff;
-
-// --------------------------------------------------------------------------------------------------------------------- triangle of a list
-// The first vertex is the topmost, and the vertices are counter-clockwise on the screen.
-
-/// @dev Addresses of the third, second and first vertex record.
-uint256 constant TRIANGLE_C_AT = 0;
-uint256 constant TRIANGLE_C_MASK = 0xffffffff;
-uint256 constant TRIANGLE_B_AT = 32;
-uint256 constant TRIANGLE_B_MASK = 0xffffffff;
-uint256 constant TRIANGLE_A_AT = 64;
-uint256 constant TRIANGLE_A_MASK = 0xffffffff;
-/// @dev The first pixel row that may be covered, and the row after the last.
-uint256 constant TRIANGLE_TOP_AT = 96;
-uint256 constant TRIANGLE_TOP_MASK = 0xffff;
-uint256 constant TRIANGLE_BOTTOM_AT = 112;
-uint256 constant TRIANGLE_BOTTOM_MASK = 0xffff;
-/// @dev The number of the face.
-uint256 constant TRIANGLE_FACE_AT = 128;
-uint256 constant TRIANGLE_FACE_MASK = 0xffff;
-/// @dev Which edges belong to the face: first to second vertex, second to third, third to first.
-uint256 constant TRIANGLE_EDGES_AT = 144;
-uint256 constant TRIANGLE_EDGES_MASK = 7;
-/// @dev Whether it reaches beyond the left or right border of the tile.
-uint256 constant CROSSING_BIT = 0x8000000000000000000000000000000000000;
-/// @dev Whether it is turned away from the eye.
-uint256 constant BACK_BIT = 0x002000000000000000000000000000000000000000;
-
-// ----------------------------------------------------------------------------------------------------------------------- clip coordinates
-// Column * distance, row * distance and distance, all Q32. The first two are signed, and CLIP_BIAS adds half their range to them.
-
-uint256 constant CLIP_X_AT = 0;
-uint256 constant CLIP_X_MASK = 0xffffffffffffffffffffffff;
-uint256 constant CLIP_Y_AT = 96;
-uint256 constant CLIP_Y_MASK = 0xffffffffffffffffffffffff;
-uint256 constant CLIP_W_AT = 192;
-uint256 constant CLIP_W_MASK = 0xffffffffffffffff;
-
-// ---------------------------------------------------------------------------------------------------------------------------------- edges
-// Two columns, Q48, in lanes of 128 bits: the integer part is the first pixel whose centre is not left of the edge. A Q48 column is a Q45
-// offset of depths in bytes: with the address of a row added, edges are addresses of depths.
-
-/// @dev Whole pixels of the left edge, and of the right one.
-uint256 constant EDGES_LEFT_COLUMN_AT = 48;
-uint256 constant EDGES_LEFT_COLUMN_MASK = 0xffff;
-uint256 constant EDGES_RIGHT_COLUMN_AT = 176;
-uint256 constant EDGES_RIGHT_COLUMN_MASK = 0xffff;
-
-// -------------------------------------------------------------------------------------------------------------------- face in light space
-// The first word of a face's record: see Faces.
-
-/// @dev The addresses of its vertices.
-uint256 constant FACE_A_AT = 0;
-uint256 constant FACE_A_MASK = 0xffffffff;
-uint256 constant FACE_B_AT = 32;
-uint256 constant FACE_B_MASK = 0xffffffff;
-uint256 constant FACE_C_AT = 64;
-uint256 constant FACE_C_MASK = 0xffffffff;
-/// @dev Its functions are written.
-uint256 constant HAS_PLANES = 0x1000000000000000000000000;
-/// @dev Its ranges.
-uint256 constant FACE_BOX_AT = 128;
-uint256 constant FACE_BOX_MASK = 0xffffffffffffffff;
-
-// ------------------------------------------------------------------------------------------------------------------ ranges of coordinates
-// Where a face lies among BUCKETS ranges of each coordinate in light space: the minimum in the lower byte of a lane, the maximum in the
-// upper one. Of a vertex only lower bytes. See LightSpace.
-
-uint256 constant BOX_X_AT = 0;
-uint256 constant BOX_X_MASK = 0xffff;
-uint256 constant BOX_Y_AT = 16;
-uint256 constant BOX_Y_MASK = 0xffff;
-uint256 constant BOX_Z_AT = 32;
-uint256 constant BOX_Z_MASK = 0xffff;
-/// @dev The side of the cube around a point light.
-uint256 constant BOX_SIDE_AT = 48;
-uint256 constant BOX_SIDE_MASK = 7;
-/// @dev There are ranges.
-uint256 constant HAS_BOX = 0x8000000000000000;
-/// @dev The vertex is beside or behind a point light without a cube, or at the light. Of a face: one of its vertices is, or they are on
-/// several sides of the cube; in its first word, too.
-uint256 constant BESIDE = 0x8000000000000000000000000000000000000000000000000000000000000000;
-
-// ----------------------------------------------------------------------------------------------------------------- position on the canvas
-// Integers with POINT_BITS bits below the pixel, plus POINT_BIAS: see Clipping.
-
-uint256 constant POINT_COLUMN_AT = 0;
-uint256 constant POINT_COLUMN_MASK = 0xffffffffffffffff;
-uint256 constant POINT_ROW_AT = 64;
-uint256 constant POINT_ROW_MASK = 0xffffffffffffffff;
-
-// ----------------------------------------------------------------------------------------------------------------------- edge of a shadow
-// A position on the canvas, in eighths of a pixel, is to the right of the edge if its function is at least 0: VALUE + x * DX + y * DY,
-// signed numbers. See Outlines.
-
-/// @dev To the right of it, a shadow ends; otherwise one begins.
-uint256 constant ENDS_SHADOW = 1;
-/// @dev It is the last of its list.
-uint256 constant LAST_EDGE = 0x100;
-/// @dev The row of samples, four for each row of pixels, after the last that the edge crosses; and the first.
-uint256 constant SHADOW_EDGE_BOTTOM_AT = 64;
-uint256 constant SHADOW_EDGE_BOTTOM_MASK = 0xffff;
-uint256 constant SHADOW_EDGE_TOP_AT = 80;
-uint256 constant SHADOW_EDGE_TOP_MASK = 0xffff;
-/// @dev The value at the centre of the canvas's first pixel; its change downward; and to the right.
-uint256 constant SHADOW_EDGE_VALUE_AT = 96;
-uint256 constant SHADOW_EDGE_VALUE_MASK = 0xffffffffffffffff;
-uint256 constant SHADOW_EDGE_DY_AT = 160;
-uint256 constant SHADOW_EDGE_DY_MASK = 0xffffffffffff;
-uint256 constant SHADOW_EDGE_DX_AT = 208;
-uint256 constant SHADOW_EDGE_DX_MASK = 0xffffffffffff;
-
-// ------------------------------------------------------------------------------------------------------------------------- flags together
-
-/// @dev Left or right; above or below; any of them; that or MUST_CLIP.
-uint256 constant IS_BESIDE = 0x600000000;
-uint256 constant IS_OVER = 0x1800000000;
-uint256 constant IS_OUTSIDE = 0x1e00000000;
-uint256 constant IS_NOT_PLAIN = 0x1f00000000;
-/// @dev The bits that select the loop for the rows of a smooth triangle.
-uint256 constant IS_GREY_OR_STEEP = 0xc00;
-uint256 constant IS_CUT_OR_CROSSING = 0x2080;
-/// @dev The modes of triangles of samples to which SPAN_BEGIN and SPAN_END are applied: see IS_CLAMPED.
-uint256 constant IS_CLAMPED_MODE = 0x380;
-
-// ----------------------------------------------------------------------------------------------------------------- flags that are shifted
-
-/// @dev From a triangle of a list to its mode, for both of its bits there.
-uint256 constant TRIANGLE_CROSSING_SHIFT = 140;
-
-// -------------------------------------------------------------------------------------------------------------------- borders of the tile
-// Four lanes of 28 bits for the left, right, upper and lower border: positive if a vertex lies beyond it. See TileCulling.
-
-/// @dev Set if the value is positive.
-uint256 constant BORDER_SIGNS = 0x8000000800000080000008000000;
-
-// -------------------------------------------------------------------------------------------------------------- borders of the guard band
-// After these, five lanes for the left, right, upper and lower border of the guard band, and the near plane.
-
-/// @dev Set if the value is positive.
-uint256 constant GUARD_SIGNS = 0x800000080000008000000800000080000000000000000000000000000000000;
-
-// -------------------------------------------------------------------------------------------------------------------------------- colours
-// Three lanes of 56 bits: blue at bit 0, green at 56, red at 112. One ADD or MUL works on all of them. A negative number in a lane borrows
-// from the lane above; the lanes are correct if the final sum is positive in every lane, which a bias ensures.
-
-/// @dev 1 in each lane.
-uint256 constant ONES = 0x10000000000000100000000000001;
-/// @dev The lower bits of each lane: all bits that a colour of Q10 uses in the lanes of a triangle.
-uint256 constant LANES_24 = 0xffffff00000000ffffff00000000ffffff;
-uint256 constant LANES_32 = 0xffffffff000000ffffffff000000ffffffff;
-/// @dev Half a level, Q10.
-uint256 constant HALF_LEVEL = 0x2000000000000020000000000000200;
-/// @dev The bits that are set in lanes of Q10 above 255; the addend that makes them carry into bit OVERFLOW_CARRY_AT.
-uint256 constant OVERFLOW = 0xfc000000000000fc000000000000fc0000;
-uint256 constant OVERFLOW_TO_CARRY = 0x3ffc00000000003ffc00000000003ffc0000;
-/// @dev A byte in each lane; a byte as Q10.
-uint256 constant BYTES_56 = 0xff000000000000ff000000000000ff;
-uint256 constant BYTES_Q10 = 0x3fc000000000003fc000000000003fc00;
-
-// --------------------------------------------------------------------------------------------------------------------------------- depths
-// Four depths in a word, the leftmost uppermost.
-
-/// @dev The highest bit of each lane; and the bits below it.
-uint256 constant TOPS_64 = 0x8000000000000000800000000000000080000000000000008000000000000000;
-uint256 constant BELOW_TOPS_64 = 0x7fffffffffffffff7fffffffffffffff7fffffffffffffff7fffffffffffffff;
-
-// --------------------------------------------------------------------------------------------------------------------------------- pixels
-// Colours of eight pixels in a word, or a channel of eight (Q9), the leftmost uppermost.
-
-uint256 constant ONES_24 = 0x1000001000001000001000001000001000001000001;
-/// @dev The distance of each pixel to the left of the last; the squares of the distances.
-uint256 constant STEPS_24 = 0x7000006000005000004000003000002000001000000;
-uint256 constant SQUARES_24 = 0x31000024000019000010000009000004000001000000;
-/// @dev The bits set below 0 or above 255; the bit set below 0; the addend that makes values above 255 carry; the byte.
-uint256 constant BEYOND_BYTES_24 = 0xfe0000fe0000fe0000fe0000fe0000fe0000fe0000fe0000;
-uint256 constant TOPS_24 = 0x800000800000800000800000800000800000800000800000;
-uint256 constant CARRY_24 = 0x7e00007e00007e00007e00007e00007e00007e00007e0000;
-uint256 constant BYTES_24 = 0x1fe0001fe0001fe0001fe0001fe0001fe0001fe0001fe00;
-
-// -------------------------------------------------------------------------------------------------------------------------------- samples
-// Four samples of a pixel in a word. Each lane contains the colour of the nearest surface, blue uppermost; three status bits; and above
-// them the highest 36 bits of its depth, 0 if there is none. The highest bit stays free. The sample positions are those of Direct3D and of
-// most OpenGL drivers.
-
-uint256 constant ONES_64 = 0x1000000000000000100000000000000010000000000000001;
-/// @dev The depths.
-uint256 constant SAMPLE_DEPTHS = 0x7ffffffff80000007ffffffff80000007ffffffff80000007ffffffff8000000;
-/// @dev Their unit.
-uint256 constant SAMPLE_DEPTH_UNIT = 0x8000000000000000800000000000000080000000000000008000000;
-/// @dev Below the depth, for translucent objects: found by the first pass; drawn by the second pass; and the mask of all bits that
-/// distinguish them: see BlendedSamples.
-uint256 constant FOUND_SAMPLES = 0x1000000000000000100000000000000010000000000000001000000;
-uint256 constant DRAWN_SAMPLES = 0x2000000000000000200000000000000020000000000000002000000;
-uint256 constant PASSES_OF_SAMPLES = 0x7ffffffffb0000007ffffffffb0000007ffffffffb0000007ffffffffb000000;
-/// @dev The bits below the depths; the colours.
-uint256 constant BELOW_SAMPLE_DEPTHS = 0x7ffffff0000000007ffffff0000000007ffffff0000000007ffffff;
-uint256 constant SAMPLE_COLORS = 0xffffff0000000000ffffff0000000000ffffff0000000000ffffff;
-/// @dev The offsets of the samples from the pixel centre, in eighths of a pixel: columns, and rows.
-uint256 constant SAMPLE_X_8 = 0xfffffffffffffffd0000000000000002ffffffffffffffff;
-uint256 constant SAMPLE_Y_8 = 0x30000000000000000fffffffffffffffefffffffffffffffd;
-/// @dev A left side at column 0: its bias, the offsets of the samples in the pixel, and 2^-29, which puts samples that lie exactly on an
-/// edge to the right of it. Edges have errors below 2^-30, and samples that do not lie on an edge are at least 2^-28 away from it.
-uint256 constant LEFT_AT_0 = 0x80000080000020007ffffe800000200080000180000020007fffff8000002000;
-/// @dev A byte of samples, Q37, of which a column has 32.
-uint256 constant ADDRESS_64 = 0x2000000000000000200000000000000020000000000000002000000000;
-/// @dev Red and blue, green.
-uint256 constant RED_BLUE_64 = 0xff00ff0000000000ff00ff0000000000ff00ff0000000000ff00ff;
-uint256 constant GREEN_64 = 0xff00000000000000ff00000000000000ff00000000000000ff00;
-
-// ------------------------------------------------------------------------------------------------------------------------- signed colours
-// Three signed lanes of 85 bits, for quadratic functions. An incremented colour is Q58, and a colour times its depth Q72 (Q24 without the
-// last 48 bits).
-
-/// @dev Half the range of a lane, which keeps it positive; the same without the last 48 bits; all bits of that.
-uint256 constant BIAS_84 = 0x4000000000000000000002000000000000000000001000000000000000000000;
-uint256 constant BIAS_36 = 0x4000000000000000000002000000000000000000001000000000;
-uint256 constant LANES_37 = 0x7ffffffffc000000000003ffffffffe000000000001fffffffff;
-/// @dev Half of the last bit that a second difference retains.
-uint256 constant BEND_ROUNDING = 0x4000000000000000000002000000000000000000001000000000000;
-/// @dev The byte of each lane, Q58; the bits above; the bit into which they carry if they are added to themselves; the sign.
-uint256 constant BYTES_Q58 = 0xff00000000000000000007f80000000000000000003fc00000000000000;
-uint256 constant ABOVE_Q58 = 0x7ffff00000000000000003ffff80000000000000001ffffc0000000000000000;
-uint256 constant CARRIES_85 = 0x8000000000000000000004000000000000000000002000000000000000000000;
-uint256 constant SIGNS_85 = 0x4000000000000000000002000000000000000000001000000000000000000000;
-
 // --------------------------------------------------------------------------------------------------------- vectors in the space of a mesh
 // Three signed lanes of 86 bits. The middle coefficient of the product of two vectors, one of them with reversed lanes, is their dot
 // product, which occupies all bits from UPPER_86_AT on: the higher coefficients are beyond the word.
+// | 172..255 x | 86..171 y | 0..85 z |
 
 /// @dev Half the range of each lane; the bits of a lane of Q80 that remain as Q32; half of their range.
 uint256 constant HALF_86 = 0x8000000000000000000008000000000000000000002000000000000000000000;
 uint256 constant Q32_86 = 0xfffffffff000000000000fffffffffc000000000003fffffffff;
 uint256 constant HALF_Q32_86 = 0x8000000000000000000008000000000000000000002000000000;
+
+// ------------------------------------------------------------------------------------------------ parts of vectors in the space of a mesh
+
+uint256 constant MIDDLE_86_AT = 86;
+uint256 constant UPPER_86_AT = 172;
+/// @dev Half the unit of the middle lane, and half the unit of the upper one: they round to nearest.
+uint256 constant HALF_MIDDLE_86 = 0x2000000000000000000000;
+uint256 constant HALF_UPPER_86 = 0x8000000000000000000000000000000000000000000;

@@ -21,7 +21,7 @@ from ..errors import (
     WrongChainError,
 )
 from ..ethereum import checksum_address, intrinsic_gas, to_hex, word
-from ..scene import ANTIALIAS, FIRST_IN_WORDS
+from ..scene import ANTIALIAS, LONG_KINDS, RECORD_HEADER
 from ._address_book import AddressBook
 from ._chain import ContractCaller, NodeResult
 from ._connection import Connection
@@ -42,9 +42,8 @@ METER = bytes.fromhex("5ac61ed000000000000000000000000000000002")
 GAS_LEFT = bytes.fromhex("5a5f525f5f5f5e60205ff3")
 
 
-#: Bytes from the beginning of a scene in calldata to the offset of its extensions, and of an extension's kind, index
-#: and size.
-EXTENSIONS, RECORD = 20 * 32, 5
+#: Bytes from the beginning of a scene in calldata to the offset of its extensions.
+EXTENSIONS = 20 * 32
 
 
 class Method(Enum):
@@ -295,11 +294,11 @@ def engines(data: bytes) -> list[str]:
     place = scene + _word(data, scene + EXTENSIONS)
     end = place + 32 + _word(data, place)
     place, last = place + 32, 0
-    while place + RECORD <= min(end, len(data)):
+    while place + RECORD_HEADER <= min(end, len(data)):
         # kinds ascend
         last = data[place]
-        size = int.from_bytes(data[place + 3 : place + RECORD], "big")
-        place += RECORD + size * (32 if last >= FIRST_IN_WORDS else 1)
+        size = int.from_bytes(data[place + 3 : place + RECORD_HEADER], "big")
+        place += RECORD_HEADER + size * (32 if last >= LONG_KINDS else 1)
     if last > ANTIALIAS:
         return ["EffectsEngine", "Effects"]
     prefix = "Antialiased" if last == ANTIALIAS else ""

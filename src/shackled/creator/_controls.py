@@ -193,6 +193,7 @@ CONTROLS: tuple[Control, ...] = (
     _set("surface.diffuse", "material", "Diffuse", reach=(0, 2)),
     _set("surface.specular", "material", "Specular", reach=(0, 2)),
     _set("surface.shininess", "material", "Shininess"),
+    _set("surface.emission", "material", "Emission"),
     _set("surface.opacity", "material", "Opacity"),
     *(
         _set(f"opacities.{number}", "material", f"Opacity of object {number + 1}", "opacity", none="as all")

@@ -37,7 +37,7 @@ from ._controls import tidy, within
 from ._state import Backdrop, Curve, Haze, Lamp, Orbit, Outline, Pose, Size, Sky, Source, State, Surface, Vector
 
 #: The fields that a surface has in common with a material.
-MATERIAL = ("shading", "ambient", "diffuse", "specular", "shininess")
+MATERIAL = ("shading", "ambient", "diffuse", "specular", "shininess", "emission")
 #: The fields of a state that are those of every object.
 OBJECT = ("cull", "wireframe")
 #: The flags of a state that are those of the scene.
@@ -94,7 +94,10 @@ def describe(source: Source, scene: Scene, title: str, notice: str = "", licence
     mixed |= {name for name in OBJECT if len({getattr(o, name) for o in objects}) > 1}
     if len({o.opacity for o in objects}) > 1:
         mixed.add("surface.opacity")
-    own = {name: getattr(first.material, name) for name in MATERIAL} | {"opacity": first.opacity} if first else {}
+    own: dict[str, Any] = {}
+    if first:
+        own = {name: getattr(first.material, name) for name in MATERIAL}
+        own |= {"emission": _hex(first.material.emission), "opacity": first.opacity}
     flags: dict[str, Any] = {name: getattr(first, name) if first else False for name in OBJECT}
     defaults = State(
         source,

@@ -151,6 +151,7 @@ class Surface:
     shininess: int | None = None
     color: str | None = None
     opacity: float | None = None
+    emission: str | None = None
 
     def __post_init__(self) -> None:
         check_fields(self, "surface", "material", optional=True)

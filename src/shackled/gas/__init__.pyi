@@ -1,5 +1,6 @@
 from ._exact import KEPT, Limit, counting, floor_gas, limits, margin, measure, needed_for, render_call
 from ._flame_graph import MARGIN, WIDTH, flame_graph
+from ._function_sizes import function_sizes
 from ._profile import Profile, profile
 from ._report import GasReport, make_report
 from ._runs import engine_calls
@@ -24,6 +25,7 @@ __all__ = [
     "engine_calls",
     "flame_graph",
     "floor_gas",
+    "function_sizes",
     "limits",
     "make_report",
     "margin",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from bisect import bisect_right
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -75,25 +76,32 @@ def source_map(contract: str) -> SourceMap:
     data = _data()["contracts"][contract]
     places: dict[int, SourceLocation] = {}
     spans: dict[int, tuple[int, int, int]] = {}
-    fields = ["0", "0", "-1", "-"]
-    entries = data["map"].split(";")
-    for at, entry in zip(_instructions(artifact(contract).runtime), entries, strict=False):
-        # begin:length:source:jump:..., where empty fields repeat the entry before
-        for i, field in enumerate(entry.split(":")[:4]):
-            fields[i] = field or fields[i]
-        begin, length, number = map(int, fields[:3])
+    for at, number, begin, end, jump in instruction_sources(artifact(contract).runtime, data["map"]):
         source = _sources().get(number)
         if source is None:
-            places[at] = SourceLocation("", None, 0, fields[3], False)
+            places[at] = SourceLocation("", None, 0, jump, False)
             continue
-        spans[at] = number, begin, begin + length
+        spans[at] = number, begin, end
         block = source.text.startswith(b"assembly", begin)
-        function = source.function(begin, begin + length)
-        places[at] = SourceLocation(source.name, function, source.line(begin), fields[3], block)
+        places[at] = SourceLocation(source.name, source.function(begin, end), source.line(begin), jump, block)
     names, lines = {}, {}
     for name, at in data["entries"].items():
         names[at], lines[at] = _entry(name, spans.get(at))
     return SourceMap(contract, places, names, lines)
+
+
+def instruction_sources(code: bytes, entries: str) -> Iterator[tuple[int, int, int, int, str]]:
+    """Yield, for each instruction, its position, the number of its source (-1: none), begin, end and jump.
+
+    entries: the compiler's source map.
+    """
+    fields = ["0", "0", "-1", "-"]
+    for at, entry in zip(_instructions(code), entries.split(";"), strict=False):
+        # begin:length:source:jump:..., where empty fields repeat the entry before
+        for i, field in enumerate(entry.split(":")[:4]):
+            fields[i] = field or fields[i]
+        begin, length, number = map(int, fields[:3])
+        yield at, number, begin, begin + length, fields[3]
 
 
 def _entry(name: str, span: tuple[int, int, int] | None) -> tuple[str, int]:

@@ -2,20 +2,11 @@ from ._arithmetic import cosine, sine, tangent
 from ._background import Background
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
 from ._codec import (
-    ANTIALIAS,
     CULL_BACKFACES,
-    FIRST_IN_WORDS,
-    FOG,
-    HEMISPHERE,
     LIGHTS,
     ONE,
-    OPACITY,
     PROJECTIONS,
-    RIM,
     SHADINGS,
-    SPOT,
-    TEXTURE,
-    TONE,
     WIREFRAME,
     Rectangle,
     encode,
@@ -47,6 +38,7 @@ from ._mesh import DEFAULT_COLOR, MAX_VERTICES, Mesh, components, vertex_normals
 from ._object import Object
 from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack, unpack
 from ._packed_texture import pack_texture, unpack_texture
+from ._records import ANTIALIAS, LONG_KINDS, RECORD_HEADER
 from ._rotation import euler, from_axis_angle, from_euler, multiply, rotate
 from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
 from ._simplify import FORCEFUL, GENTLE, simplify, simplify_scene
@@ -76,15 +68,13 @@ __all__ = [
     "EXPOSURES",
     "FILLED",
     "FILTERS",
-    "FIRST_IN_WORDS",
-    "FOG",
     "FORCEFUL",
     "GENTLE",
-    "HEMISPHERE",
     "INNER_ANGLE",
     "LIGHTS",
     "LIGHT_KINDS",
     "LONGEST_TEXT",
+    "LONG_KINDS",
     "MAX_BYTES",
     "MAX_COORDINATE",
     "MAX_LIGHTS",
@@ -95,21 +85,17 @@ __all__ = [
     "NORMALS",
     "NORMAL_UNIT",
     "ONE",
-    "OPACITY",
     "OUTER_ANGLE",
     "PICTURE",
     "POWERS",
     "PROJECTIONS",
     "READERS",
-    "RIM",
+    "RECORD_HEADER",
     "SCENES",
     "SETTINGS",
     "SHADINGS",
     "SIMPLIFIED_CREASE",
-    "SPOT",
-    "TEXTURE",
     "TEXTURED",
-    "TONE",
     "WHITE",
     "WIDE",
     "WIREFRAME",

@@ -22,6 +22,25 @@ from ._light import Light
 from ._object import Object
 from ._packed_mesh import pack
 from ._packed_texture import pack_texture
+from ._records import (
+    ANTIALIAS,
+    EMISSION_OF,
+    FOG,
+    GROUND,
+    HEMISPHERE,
+    LONG_KINDS,
+    OPACITIES_OF,
+    OPACITY_OF,
+    RIM,
+    SHADOW,
+    SHADOWS_ALL,
+    SHADOWS_BACK_FACES,
+    SPOT,
+    TEXTURE_OF,
+    TONE,
+    TONE_FILMIC,
+    TONE_GAMMA,
+)
 from ._scene import Scene
 from ._staging import are_closed
 
@@ -30,20 +49,6 @@ ONE = 1 << 32
 PROJECTIONS = {"perspective": 0, "orthographic": 1}
 LIGHTS = {"directional": 0, "point": 1, "spot": 1}
 SHADINGS = {"unlit": 0, "flat": 1, "smooth": 2}
-#: Kinds of records in contracts/src/scene/Extensions.sol.
-SPOT = 1
-OPACITY = 2
-ANTIALIAS = 3
-HEMISPHERE = 4
-RIM = 5
-FOG = 6
-TONE = 7
-TEXTURE = 8
-OPACITIES = 9
-SHADOW = 10
-GROUND = 11
-#: Records from this kind on have a size in words of 32 bytes, others in bytes.
-FIRST_IN_WORDS = 8
 #: Bytes of a word.
 WORD = 32
 #: The unit of opacities.
@@ -54,15 +59,8 @@ EXPOSURE_STEP = 2.0**-16
 CULL_BACKFACES = 1
 WIREFRAME = 2
 
-#: Rules of a shadow: which faces of culled objects cast it.
-ALL_FACES = 1
-TURNED_AWAY = 2
 #: The largest outer and inner radius of a ground, Q32; both are floats.
 MAX_FADE, MAX_INNER_FADE = 1 << 58, (1 << 58) - 64
-
-#: Flags of a tone.
-FILMIC = 1
-GAMMA = 2
 
 
 @dataclass(frozen=True)
@@ -129,7 +127,7 @@ def extensions(scene: Scene) -> bytes:
     for index, thing in enumerate(scene.objects):
         opacity = round(thing.opacity / OPACITY_STEP)
         if opacity < 1 / OPACITY_STEP:
-            records.append(_record(OPACITY, index, opacity.to_bytes(4, "big")))
+            records.append(_record(OPACITY_OF, index, opacity.to_bytes(4, "big")))
     if scene.antialias:
         records.append(_record(ANTIALIAS, 0, b""))
     if scene.hemisphere is not None:
@@ -142,16 +140,16 @@ def extensions(scene: Scene) -> bytes:
         records.append(_record(FOG, 0, bytes(scene.fog.color) + distances))
     if scene.tone is not None:
         exposure = max(round(scene.tone.exposure / EXPOSURE_STEP), 1)
-        flags = FILMIC * scene.tone.filmic + GAMMA * scene.tone.gamma
+        flags = TONE_FILMIC * scene.tone.filmic + TONE_GAMMA * scene.tone.gamma
         records.append(_record(TONE, 0, exposure.to_bytes(4, "big") + bytes([flags])))
     for index, thing in enumerate(scene.objects):
         if thing.material.texture is not None and thing.mesh.uvs is not None:
             with about(f"objects[{index}]"):
-                records.append(_record(TEXTURE, index, pack_texture(thing.material.texture, thing.mesh.uvs)))
+                records.append(_record(TEXTURE_OF, index, pack_texture(thing.material.texture, thing.mesh.uvs)))
     for index, thing in enumerate(scene.objects):
         if thing.mesh.opacities is not None:
             levels = thing.mesh.rgba[:, 3].tobytes()
-            records.append(_record(OPACITIES, index, levels + bytes(-len(levels) % WORD)))
+            records.append(_record(OPACITIES_OF, index, levels + bytes(-len(levels) % WORD)))
     for index, light in enumerate(scene.lights):
         if light.shadow:
             records.append(_record(SHADOW, index, shadow_rule(scene).to_bytes(32, "big")))
@@ -161,6 +159,9 @@ def extensions(scene: Scene) -> bytes:
             inner, outer = min(inner, MAX_INNER_FADE), min(outer, MAX_FADE)
             radii = inner.to_bytes(8, "big") + max(outer, inner + 1).to_bytes(8, "big")
             records.append(_record(GROUND, index, radii.ljust(32, b"\0")))
+    for index, thing in enumerate(scene.objects):
+        if any(thing.material.emission):
+            records.append(_record(EMISSION_OF, index, _words([_rgb(thing.material.emission)])))
     return b"".join(records)
 
 
@@ -169,7 +170,7 @@ def shadow_rule(scene: Scene) -> int:
     together are closed.
     """
     casters = [_as_sent(o) for o in scene.objects if o.cull and not o.wireframe and o.is_opaque and o.fade is None]
-    return TURNED_AWAY if are_closed(casters) else ALL_FACES
+    return SHADOWS_BACK_FACES if are_closed(casters) else SHADOWS_ALL
 
 
 def _as_sent(o: Object) -> Object:
@@ -181,10 +182,10 @@ def _as_sent(o: Object) -> Object:
 def _record(kind: int, index: int, content: bytes) -> bytes:
     if index >> 16:
         raise InputError(
-            "objects with an opacity, a texture or a fade must be among the first 65,536 of a scene, "
+            "objects with an opacity, a texture, a fade or an emission must be among the first 65,536 of a scene, "
             f"not number {index:,}"
         )
-    size = len(content) // WORD if kind >= FIRST_IN_WORDS else len(content)
+    size = len(content) // WORD if kind >= LONG_KINDS else len(content)
     return bytes([kind]) + index.to_bytes(2, "big") + size.to_bytes(2, "big") + content
 
 

@@ -14,27 +14,13 @@ from ..errors import InputError
 from ._background import Background
 from ._camera import Camera
 from ._codec import (
-    ANTIALIAS,
     CULL_BACKFACES,
     EXPOSURE_STEP,
-    FILMIC,
-    FIRST_IN_WORDS,
-    FOG,
-    GAMMA,
-    GROUND,
-    HEMISPHERE,
     LIGHTS,
     ONE,
-    OPACITIES,
-    OPACITY,
     OPACITY_STEP,
     PROJECTIONS,
-    RIM,
     SHADINGS,
-    SHADOW,
-    SPOT,
-    TEXTURE,
-    TONE,
     WIREFRAME,
     WORD,
     encode_object,
@@ -51,26 +37,30 @@ from ._mesh import Mesh
 from ._object import Object
 from ._packed_mesh import WIDE, unpack
 from ._packed_texture import unpack_texture
+from ._records import (
+    ANTIALIAS,
+    EMISSION_OF,
+    FOG,
+    GROUND,
+    HEMISPHERE,
+    LONG_KINDS,
+    OPACITIES_OF,
+    OPACITY_OF,
+    OWNERS,
+    RECORD_HEADER,
+    RIM,
+    SHADOW,
+    SIZES,
+    SPOT,
+    TEXTURE_OF,
+    TONE,
+    TONE_FILMIC,
+    TONE_GAMMA,
+)
 from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
 
 #: Words of a struct Scene before its arrays, of a light, and of an object before its mesh.
 SCENE_WORDS, LIGHT_WORDS, OBJECT_WORDS = 21, 5, 15
-
-RECORD_HEADER = 5
-#: Bytes of the content of a record, by kind; None for those of any size.
-RECORD_SIZES: dict[int, int | None] = {
-    SPOT: 40,
-    OPACITY: 4,
-    ANTIALIAS: 0,
-    HEMISPHERE: 6,
-    RIM: 4,
-    FOG: 19,
-    TONE: 5,
-    TEXTURE: None,
-    OPACITIES: None,
-    SHADOW: 32,
-    GROUND: 32,
-}
 
 #: Contents of records by kind and index.
 Records = Mapping[tuple[int, int], bytes]
@@ -114,9 +104,7 @@ def read_call(data: bytes) -> Scene:
         words.expect(f"objects[{index}]", first + offset)
         objects.append(_object(words, f"objects[{index}]"))
     words.expect(_PARTS[2], begin + to_extensions)
-    counts = dict.fromkeys((SPOT, SHADOW), len(lights))
-    counts |= dict.fromkeys((OPACITY, TEXTURE, OPACITIES, GROUND), len(objects))
-    records = _records(words.bytes("the extensions"), counts)
+    records = _records(words.bytes("the extensions"), {"scene": 1, "light": len(lights), "object": len(objects)})
     if words.place != len(words.data):
         raise InputError(f"{len(words.data) - words.place:,} bytes follow the scene; none must")
     lights = [evolve(each, shadow=(SHADOW, index) in records) for index, each in enumerate(lights)]
@@ -269,14 +257,14 @@ def _object(words: _Words, where: str) -> Object:
         return Object(mesh, position, rotation, scale, material, cull, wireframe)
 
 
-def _records(data: bytes, counts: Mapping[int, int]) -> Records:
-    """Return the records of the extensions. counts: of what records of a kind may belong to, if not to the scene."""
+def _records(data: bytes, counts: Mapping[str, int]) -> Records:
+    """Return the records of the extensions. counts: of what a record may belong to."""
     records: dict[tuple[int, int], bytes] = {}
     place, last = 0, -1
     while place < len(data):
         header = data[place : place + RECORD_HEADER]
         size = int.from_bytes(header[3:], "big")
-        size *= WORD if header[0] >= FIRST_IN_WORDS else 1
+        size *= WORD if header[0] >= LONG_KINDS else 1
         content = data[place + RECORD_HEADER : place + RECORD_HEADER + size]
         if len(header) < RECORD_HEADER or len(content) < size:
             raise InputError(f"the extensions are cut off at byte {place}")
@@ -284,9 +272,9 @@ def _records(data: bytes, counts: Mapping[int, int]) -> Records:
         kind, index = key >> 16, key & 0xFFFF
         if key <= last:
             raise InputError(f"the extensions must ascend by kind and index; {kind}, {index} does not")
-        if kind not in RECORD_SIZES or RECORD_SIZES[kind] not in (None, size):
+        if kind not in SIZES or SIZES[kind] not in (None, size):
             raise InputError(f"an extension of kind {kind} and {len(content)} bytes is not known")
-        if index >= (count := counts.get(kind, 1)):
+        if index >= (count := counts[OWNERS[kind]]):
             raise InputError(f"an extension belongs to number {index} of {count}, counted from 0")
         records[kind, index] = content
         place, last = place + RECORD_HEADER + len(content), key
@@ -308,22 +296,27 @@ def _with_spot(light: Light, record: bytes | None, where: str) -> Light:
 
 
 def _with_records(thing: Object, records: Records, index: int) -> Object:
-    if (OPACITY, index) in records:
-        opacity = int.from_bytes(records[OPACITY, index], "big") * OPACITY_STEP
+    if (OPACITY_OF, index) in records:
+        opacity = int.from_bytes(records[OPACITY_OF, index], "big") * OPACITY_STEP
         if opacity >= 1:
             raise InputError("an opacity in the extensions must be below 1")
         thing = evolve(thing, opacity=opacity)
-    if (TEXTURE, index) in records:
+    if (TEXTURE_OF, index) in records:
         with about(f"the texture of objects[{index}]"):
-            texture, uvs = unpack_texture(records[TEXTURE, index], len(thing.mesh.positions))
+            texture, uvs = unpack_texture(records[TEXTURE_OF, index], len(thing.mesh.positions))
         thing = evolve(thing, mesh=evolve(thing.mesh, uvs=uvs), material=evolve(thing.material, texture=texture))
-    if (record := records.get((OPACITIES, index))) is not None:
+    if (record := records.get((OPACITIES_OF, index))) is not None:
         thing = evolve(thing, mesh=_with_opacities(thing.mesh, record, f"objects[{index}]"))
     if (record := records.get((GROUND, index))) is not None:
         if any(record[16:]):
             raise InputError("zeros must fill the word of a ground in the extensions")
         radii = [int.from_bytes(record[at : at + 8], "big") for at in (0, 8)]
         thing = evolve(thing, fade=[_number(each, "a radius of a ground", 0, MAX_COORDINATE) for each in radii])
+    if (record := records.get((EMISSION_OF, index))) is not None:
+        emission = _Words(record).color(f"the emission of objects[{index}]")
+        if not any(emission):
+            raise InputError("an emission in the extensions must not be black")
+        thing = evolve(thing, material=evolve(thing.material, emission=emission))
     return thing
 
 
@@ -367,7 +360,7 @@ def _effects(records: Records) -> dict[str, Any]:
         found["fog"] = Fog(tuple(record[:3]), near, far)
     if (record := records.get((TONE, 0))) is not None:
         exposure, flags = int.from_bytes(record[:4], "big") * EXPOSURE_STEP, record[4]
-        if not EXPOSURE_STEP <= exposure <= EXPOSURES[1] or flags > FILMIC | GAMMA:
+        if not EXPOSURE_STEP <= exposure <= EXPOSURES[1] or flags > TONE_FILMIC | TONE_GAMMA:
             raise InputError("the tone in the extensions has an exposure beyond its range, or unknown flags")
-        found["tone"] = Tone(exposure, bool(flags & FILMIC), bool(flags & GAMMA))
+        found["tone"] = Tone(exposure, bool(flags & TONE_FILMIC), bool(flags & TONE_GAMMA))
     return found

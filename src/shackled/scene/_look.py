@@ -309,6 +309,9 @@ SETTINGS = (
         *EXPONENTS,
         default=f"{_SURFACE.shininess:g} for mesh files",
     ),
+    Setting(
+        "emission", "color", "material", "Surface", "Colour of the light that surfaces emit.", default="black, none"
+    ),
     Setting("color", "color", "object", "Surface", "One colour for all meshes.", default="their own"),
     Setting(
         "cull",
@@ -369,6 +372,7 @@ class LookOptions(TypedDict, total=False):
     diffuse: float | None
     specular: float | None
     shininess: int | None
+    emission: AnyColor | None
     color: AnyColor | None
     cull: bool | None
     wireframe: bool | None
@@ -388,6 +392,7 @@ _INSTEAD = {
     "bg": "did you mean background?",
     "camera": "`eye`, `target`, `up` and `fov` place the camera, or render a Scene with a Camera",
     "depth": "depths are not returned",
+    "emissive": "did you mean emission?",
     "fps": "`duration` of a turntable is the time of a frame in milliseconds",
     **dict.fromkeys(("output", "path", "filename"), "`save` of what is returned writes it to a file"),
     "projection": "did you mean orthographic?",

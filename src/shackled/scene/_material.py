@@ -6,7 +6,7 @@ from typing import Literal, cast
 
 from attrs import field, frozen
 
-from ..checks import choice, instance, number, whole
+from ..checks import Color, choice, color, instance, number, whole
 from ..values import checked, with_names
 from ._texture import Texture
 
@@ -36,6 +36,8 @@ class Material:
     shading: "unlit" shows the vertex colours as they are, "flat" takes the normals of the faces, "smooth" those of the
         vertices.
     texture: multiplied with the colours of the vertices, or None. It needs a mesh with `uvs`.
+    emission: the colour of the light that the surface emits, added to what it reflects; black for none. It does not reach
+        other objects.
     """
 
     shading: Shading = field(default="flat", converter=_shading)
@@ -50,3 +52,4 @@ class Material:
     )
     shininess: int = field(default=24, converter=whole, metadata=checked("the shininess of a material", *EXPONENTS))
     texture: Texture | None = field(default=None, converter=_texture)
+    emission: Color = field(default=(0, 0, 0), converter=color, metadata=checked("the emission of a material"))

@@ -1,4 +1,4 @@
-"""Packed textures, in the format of the record TEXTURE of contracts/src/scene/Extensions.sol."""
+"""Packed textures, in the format of the record TEXTURE of contracts/src/effects/EffectRecords.sol."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ from numpy.typing import NDArray
 
 from ..checks import Floats
 from ..errors import InputError
+from ._records import TEXTURE_BILINEAR, TEXTURE_CLAMP
 from ._texture import Texture
 
-BILINEAR = 1
-CLAMP = 2
 #: Bytes before the palette: flags, width - 1, height - 1, bits of a texel.
 HEADER = 4
 #: Bits of a texel that is the number of a colour in a palette of 2^bits colours, and of one that is a colour.
@@ -28,7 +27,7 @@ def pack_texture(texture: Texture, uvs: Floats) -> bytes:
 
     An image of up to 256 colours has a palette. InputError for coordinates out of range.
     """
-    flags = BILINEAR * (texture.filter == "bilinear") + CLAMP * (texture.wrap == "clamp")
+    flags = TEXTURE_BILINEAR * (texture.filter == "bilinear") + TEXTURE_CLAMP * (texture.wrap == "clamp")
     texels = texture.pixels.reshape(-1, 3)
     colors, numbers = np.unique(texels, axis=0, return_inverse=True)
     bits = next((each for each in INDEX_BITS if len(colors) <= 1 << each), COLOR_BITS)
@@ -61,7 +60,11 @@ def unpack_texture(packed: bytes, vertices: int) -> tuple[Texture, Floats]:
 
     InputError for any others.
     """
-    if len(packed) < HEADER or packed[0] > BILINEAR + CLAMP or packed[3] not in (*INDEX_BITS, COLOR_BITS):
+    if (
+        len(packed) < HEADER
+        or packed[0] > TEXTURE_BILINEAR + TEXTURE_CLAMP
+        or packed[3] not in (*INDEX_BITS, COLOR_BITS)
+    ):
         raise InputError("a packed texture must begin with flags from 0 to 3, two sides, and 1, 2, 4, 8 or 24 bits")
     width, height, bits = packed[1] + 1, packed[2] + 1, packed[3]
     palette = 0 if bits == COLOR_BITS else 3 << bits
@@ -87,8 +90,8 @@ def unpack_texture(packed: bytes, vertices: int) -> tuple[Texture, Floats]:
     flags = packed[0]
     texture = Texture(
         colors.reshape(height, width, 3),
-        "bilinear" if flags & BILINEAR else "nearest",
-        "clamp" if flags & CLAMP else "repeat",
+        "bilinear" if flags & TEXTURE_BILINEAR else "nearest",
+        "clamp" if flags & TEXTURE_CLAMP else "repeat",
     )
     if pack_texture(texture, uvs) != packed:
         raise InputError(

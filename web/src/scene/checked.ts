@@ -49,7 +49,7 @@ const LIGHTS = {
     spot: ["kind", "position", "direction", "color", "innerAngle", "outerAngle", "shadow"],
 } as const;
 const OBJECT = ["mesh", "position", "rotation", "scale", "material", "cull", "wireframe", "opacity", "fade"] as const;
-const MATERIAL = ["shading", "ambient", "diffuse", "specular", "shininess", "texture"] as const;
+const MATERIAL = ["shading", "ambient", "diffuse", "specular", "shininess", "texture", "emission"] as const;
 const MESH = ["positions", "faces", "colors", "normals", "uvs", "opacities"] as const;
 const TEXTURE = ["width", "height", "pixels", "filter", "wrap"] as const;
 export const FILTERS = ["nearest", "bilinear"] as const;
@@ -85,6 +85,7 @@ export interface Material {
     specular: number;
     shininess: number;
     texture: Texture | undefined;
+    emission: Rgb;
 }
 
 export interface SceneObject {
@@ -235,6 +236,7 @@ function checkedMaterial(material: given.Material, where: string): Material {
         specular: check.number(material.specular ?? 0.3, `${where}.specular`, 0, 4),
         shininess: check.whole(material.shininess ?? 24, `${where}.shininess`, 1, 128),
         texture: material.texture && checkedTexture(material.texture, `${where}.texture`),
+        emission: check.color(material.emission ?? [0, 0, 0], `${where}.emission`),
     };
 }
 

@@ -10,6 +10,7 @@ import type { Rgb } from "./checks.js";
 import { fit, type FittedScene } from "./fit.js";
 import { OPAQUE, isOpaque, shadowRule } from "./ground.js";
 import { pack } from "./mesh.js";
+import * as records from "./records.js";
 import { packTexture } from "./texture.js";
 import type { Rectangle, Scene } from "./types.js";
 
@@ -25,20 +26,6 @@ export const FUNCTIONS = {
 export type FunctionName = keyof typeof FUNCTIONS;
 
 export const WORD = 32;
-/** Kinds of records in contracts/src/scene/Extensions.sol. */
-export const SPOT = 1;
-const OPACITY = 2;
-const ANTIALIAS = 3;
-const HEMISPHERE = 4;
-const RIM = 5;
-const FOG = 6;
-const TONE = 7;
-const TEXTURE = 8;
-const OPACITIES = 9;
-const SHADOW = 10;
-const GROUND = 11;
-/** Records from this kind on have a size in words of 32 bytes, others in bytes. */
-export const FIRST_IN_WORDS = 8;
 /** The largest outer and inner radius of a ground, Q32; both are numbers without loss. */
 const MAX_FADE = 2n ** 58n;
 const MAX_INNER_FADE = MAX_FADE - 64n;
@@ -50,8 +37,6 @@ const LIGHT_NUMBERS = { directional: 0, point: 1, spot: 1 } as const;
 const SHADING_NUMBERS = { unlit: 0, flat: 1, smooth: 2 } as const;
 const CULL_BACKFACES = 1;
 const WIREFRAME = 2;
-const FILMIC = 1;
-const GAMMA = 2;
 
 /**
  * Return the bytes of the call that draws a scene: the calldata for `eth_call`.
@@ -111,35 +96,35 @@ function encodeScene(scene: FittedScene): Uint8Array {
 
 /** Return the fields that the structs do not have: records in ascending order of kind and index. */
 function extensions(scene: CheckedScene): Uint8Array {
-    const records: Uint8Array[] = [];
+    const made: Uint8Array[] = [];
     scene.lights.forEach(({ cone }, index) => {
         if (!cone) return;
-        const content = new DataView(new ArrayBuffer(40));
+        const content = new DataView(new ArrayBuffer(records.SIZES[records.SPOT]));
         const numbers = [...cone.direction, cosine(cone.innerAngle), cosine(cone.outerAngle)];
         numbers.forEach((value, place) => content.setBigInt64(8 * place, q32(value)));
-        records.push(record(SPOT, index, content));
+        made.push(record(records.SPOT, index, content));
     });
     scene.objects.forEach((object, index) => {
         if (isOpaque(object)) return;
-        const content = new DataView(new ArrayBuffer(4));
+        const content = new DataView(new ArrayBuffer(records.SIZES[records.OPACITY_OF]));
         content.setUint32(0, rint(object.opacity * OPAQUE));
-        records.push(record(OPACITY, index, content));
+        made.push(record(records.OPACITY_OF, index, content));
     });
-    if (scene.antialias) records.push(record(ANTIALIAS, 0, new DataView(new ArrayBuffer(0))));
-    records.push(...effects(scene));
+    if (scene.antialias) made.push(record(records.ANTIALIAS, 0, new DataView(new ArrayBuffer(0))));
+    made.push(...effects(scene));
     scene.objects.forEach(({ mesh, material: { texture } }, index) => {
         if (!texture || !mesh.uvs) return;
         const content = packTexture(texture, mesh.uvs, `objects[${index}]`);
-        records.push(record(TEXTURE, index, new DataView(content.buffer)));
+        made.push(record(records.TEXTURE_OF, index, new DataView(content.buffer)));
     });
     scene.objects.forEach(({ mesh: { opacities } }, index) => {
         if (!opacities) return;
         const content = new Uint8Array(opacities.length + (-opacities.length & (WORD - 1)));
         content.set(opacities);
-        records.push(record(OPACITIES, index, new DataView(content.buffer)));
+        made.push(record(records.OPACITIES_OF, index, new DataView(content.buffer)));
     });
     scene.lights.forEach(({ shadow }, index) => {
-        if (shadow) records.push(record(SHADOW, index, new DataView(words([shadowRule(scene)]).buffer)));
+        if (shadow) made.push(record(records.SHADOW, index, new DataView(words([shadowRule(scene)]).buffer)));
     });
     scene.objects.forEach(({ fade }, index) => {
         if (!fade) return;
@@ -148,43 +133,51 @@ function extensions(scene: CheckedScene): Uint8Array {
         const [inner, outer] = [within(fade[0], MAX_INNER_FADE), within(fade[1], MAX_FADE)];
         content.setBigInt64(0, inner);
         content.setBigInt64(8, outer > inner ? outer : inner + 1n);
-        records.push(record(GROUND, index, content));
+        made.push(record(records.GROUND, index, content));
     });
-    return joined(records);
+    scene.objects.forEach(({ material: { emission } }, index) => {
+        if (!emission.some(Boolean)) return;
+        made.push(record(records.EMISSION_OF, index, new DataView(words([rgb(emission)]).buffer)));
+    });
+    return joined(made);
 }
 
 function effects({ hemisphere, rim, fog, tone }: CheckedScene): Uint8Array[] {
-    const records: Uint8Array[] = [];
+    const made: Uint8Array[] = [];
     const add = (kind: number, ...bytes: number[]): void => {
-        records.push(record(kind, 0, new DataView(Uint8Array.from(bytes).buffer)));
+        made.push(record(kind, 0, new DataView(Uint8Array.from(bytes).buffer)));
     };
-    if (hemisphere) add(HEMISPHERE, ...hemisphere.sky, ...hemisphere.ground);
-    if (rim) add(RIM, ...rim.color, rim.power);
+    if (hemisphere) add(records.HEMISPHERE, ...hemisphere.sky, ...hemisphere.ground);
+    if (rim) add(records.RIM, ...rim.color, rim.power);
     if (fog) {
         const distances = new DataView(new ArrayBuffer(16));
         const [near, far] = [q32(fog.near), q32(fog.far)];
         distances.setBigInt64(0, near);
         distances.setBigInt64(8, far > near ? far : near + 1n);
-        add(FOG, ...fog.color, ...new Uint8Array(distances.buffer));
+        add(records.FOG, ...fog.color, ...new Uint8Array(distances.buffer));
     }
     if (tone) {
         const exposure = new DataView(new ArrayBuffer(4));
         exposure.setUint32(0, Math.max(rint(tone.exposure * EXPOSURE), 1));
-        add(TONE, ...new Uint8Array(exposure.buffer), (tone.filmic ? FILMIC : 0) | (tone.gamma ? GAMMA : 0));
+        add(
+            records.TONE,
+            ...new Uint8Array(exposure.buffer),
+            (tone.filmic ? records.TONE_FILMIC : 0) | (tone.gamma ? records.TONE_GAMMA : 0),
+        );
     }
-    return records;
+    return made;
 }
 
 function record(kind: number, index: number, content: DataView): Uint8Array {
     if (index > 0xffff) {
         throw new InputError(
-            `objects with an opacity, a texture or a fade must be among the first 65,536 of a scene, not number ${index}`,
+            `objects with an opacity, a texture, a fade or an emission must be among the first 65,536 of a scene, not number ${index}`,
         );
     }
-    const head = new DataView(new ArrayBuffer(5));
+    const head = new DataView(new ArrayBuffer(records.RECORD_HEADER));
     head.setUint8(0, kind);
     head.setUint16(1, index);
-    head.setUint16(3, kind < FIRST_IN_WORDS ? content.byteLength : content.byteLength / WORD);
+    head.setUint16(3, kind < records.LONG_KINDS ? content.byteLength : content.byteLength / WORD);
     return joined([new Uint8Array(head.buffer), new Uint8Array(content.buffer)]);
 }
 

@@ -40,7 +40,7 @@ const ANGLES = ["azimuth", "elevation", "margin"] as const;
 const CAMERA = [...PLACES, ...ANGLES, "fov", "half_height", "near", "projection"];
 const LIGHT = ["kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow"];
 const OBJECT = ["color", "cull", "wireframe", "opacity", "fade", "mesh", "position", "rotation", "scale", "material"];
-const MATERIAL = ["texture", "shading", "ambient", "diffuse", "specular", "shininess"];
+const MATERIAL = ["texture", "shading", "ambient", "diffuse", "specular", "shininess", "emission"];
 const GROUND = ["color", "height", "radius", "center", "inner"];
 const TEXTURE = ["image", "width", "height", "pixels", "filter", "wrap"];
 
@@ -249,6 +249,7 @@ function materialOf(keys: Table): given.Material {
         specular: keys.number("specular", 0, 4),
         shininess: keys.number("shininess", 1, 128),
         texture: keys.has("texture") ? textureOf(keys) : undefined,
+        emission: keys.read("emission", check.color),
     };
 }
 

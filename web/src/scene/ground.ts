@@ -2,6 +2,7 @@
 
 import { cross, dot, exponentOf, length, powerOfTwo, rint, type Vector } from "./arithmetic.js";
 import { checkInner, worldPositions, type Ground, type Scene, type SceneObject } from "./checked.js";
+import { SHADOWS_ALL, SHADOWS_BACK_FACES } from "./records.js";
 
 /**
  * The radius of a ground, as a multiple of half the diagonal of the box around the objects; the part of the radius at
@@ -46,7 +47,15 @@ function groundUnder({ color, height, radius, center, inner }: Ground, points: V
         rotation: [0, 0, 0, 1],
         scale,
         // matte
-        material: { shading: "flat", ambient: 0.4, diffuse: 0.7, specular: 0, shininess: 24, texture: undefined },
+        material: {
+            shading: "flat",
+            ambient: 0.4,
+            diffuse: 0.7,
+            specular: 0,
+            shininess: 24,
+            texture: undefined,
+            emission: [0, 0, 0],
+        },
         cull: true,
         wireframe: false,
         opacity: 1,
@@ -55,14 +64,14 @@ function groundUnder({ color, height, radius, center, inner }: Ground, points: V
 }
 
 /**
- * Return which faces of culled objects cast shadows: 1 for all, 2 for those turned away from the light, if all of them
- * together are closed.
+ * Return which faces of culled objects cast shadows: all, or those turned away from the light, if all of them together
+ * are closed.
  */
 export function shadowRule({ objects }: Scene): number {
     const casters = objects.filter(
         (each) => each.cull && !each.wireframe && isOpaque(each) && !each.mesh.opacities && !each.fade,
     );
-    return areClosed(casters.map(asSent)) ? 2 : 1;
+    return areClosed(casters.map(asSent)) ? SHADOWS_BACK_FACES : SHADOWS_ALL;
 }
 
 /** Return the object with the place that its Q32 numbers give it. */

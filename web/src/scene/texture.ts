@@ -3,9 +3,8 @@
 import { InputError } from "../errors.js";
 import { rint } from "./arithmetic.js";
 import type { Texture } from "./checked.js";
+import { TEXTURE_BILINEAR, TEXTURE_CLAMP } from "./records.js";
 
-const BILINEAR = 1;
-const CLAMP = 2;
 /** Bytes before the palette: flags, width - 1, height - 1, bits of a texel. */
 const HEADER = 4;
 /** Bits of a texel that is the number of a colour in a palette of 2^bits colours, and of one that is a colour. */
@@ -29,7 +28,8 @@ export function packTexture(texture: Texture, uvs: Float64Array, where: string):
     const uvsAt = begin + Math.ceil((texels.length * bits) / 8);
     const size = uvsAt + 3 * uvs.length;
     const bytes = new Uint8Array(size + (-size & (WORD - 1)));
-    const flags = (texture.filter === "bilinear" ? BILINEAR : 0) | (texture.wrap === "clamp" ? CLAMP : 0);
+    const flags =
+        (texture.filter === "bilinear" ? TEXTURE_BILINEAR : 0) | (texture.wrap === "clamp" ? TEXTURE_CLAMP : 0);
     bytes.set([flags, width - 1, height - 1, bits]);
     if (bits === COLOR_BITS) {
         bytes.set(pixels, begin);

@@ -61,6 +61,8 @@ export interface Material {
     shininess?: number | undefined;
     /** Needs a mesh with `uvs`. */
     texture?: Texture | undefined;
+    /** The light that the surface emits, added to what it reflects; black, for none, by default. */
+    emission?: Color | undefined;
 }
 
 /** A mesh in the world: a vertex v is at position + rotation(scale * v). */

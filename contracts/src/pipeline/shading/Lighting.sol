@@ -97,7 +97,9 @@ library Lighting {
                 let facing := sar(UPPER_86_AT, mul(mload(FACE_NORMAL), mload(add(record, LIGHT_MESH_X))))
                 facing := sdiv(shl(LENGTH_FRACTION, facing), length)
                 if mload(add(record, LIGHT_IS_POINT)) {
-                    facing := sdiv(sar(MESH_FRACTION, mul(dot(add(record, LIGHT_MESH_X), not(0)), mload(SCALE))), length)
+                    // not a literal: see ZERO_SLOT
+                    facing := dot(add(record, LIGHT_MESH_X), not(mload(ZERO_SLOT)))
+                    facing := sdiv(sar(MESH_FRACTION, mul(facing, mload(SCALE))), length)
                     mode := or(mode, mul(IS_LIT_AND_DIFFUSE, sgt(facing, 0)))
                 }
                 if sgt(facing, 0) {
@@ -134,16 +136,17 @@ library Lighting {
                 sum := add(sum, mul(n, sub(mload(vector), shl(MESH_FRACTION, sar(rest, corner)))))
             }
 
-            switch and(mload(OBJECT_MODE), IS_ORTHOGRAPHIC)
+            let all := sub(gt(and(mload(OBJECT_MODE), IS_ORTHOGRAPHIC), 0), 1)
+            // normal * (corner - eye), or normal * line of sight; not literals: see ZERO_SLOT
+            let product := dot(add(EYE_X, mload(ZERO_SLOT)), all)
+            switch all
             case 0 {
-                // normal * (corner - eye)
-                mstore(FACE_N_DOT_RAY_SLOPE, sdiv(mul(sub(0, dot(EYE_X, not(0))), mload(SCALE_PER_NEAR)), mload(FACE_LENGTH)))
-                mstore(FACE_N_DOT_RAY, 0)
+                mstore(FACE_N_DOT_RAY_SLOPE, 0)
+                mstore(FACE_N_DOT_RAY, sdiv(shl(40, product), mload(FACE_LENGTH)))
             }
             default {
-                // normal * line of sight
-                mstore(FACE_N_DOT_RAY_SLOPE, 0)
-                mstore(FACE_N_DOT_RAY, sdiv(shl(40, dot(EYE_X, 0)), mload(FACE_LENGTH)))
+                mstore(FACE_N_DOT_RAY_SLOPE, sdiv(mul(sub(0, product), mload(SCALE_PER_NEAR)), mload(FACE_LENGTH)))
+                mstore(FACE_N_DOT_RAY, 0)
             }
         }
     }

@@ -127,6 +127,16 @@ library SmoothLight {
             }
             // fills the part of a vertex record that is common to all adjacent triangles
             function setVertex(vertex) {
+                let n := mload(add(vertex, VERTEX_NORMAL))
+                let r := add(n, VECTOR_BIAS)
+                r := shl(1, sub(or(or(shl(UPPER_85_AT, and(r, LANE_85)), shr(UPPER_85_AT, r)), and(r, MIDDLE_LANE_85)), VECTOR_BIAS))
+                mstore(add(vertex, VERTEX_REVERSED), r)
+                // the square of the normal, Q40, must be 15/16 to 17/16
+                setDirections(vertex, lt(sub(sar(SQUARE_AT, mul(n, r)), LEAST_SQUARE), SQUARES))
+            }
+
+            // sets the directions to the light and halfway to the eye, and the state: LIT if they and the normal are bounded
+            function setDirections(vertex, bounded) {
                 let screen := mload(vertex)
                 // the ray (x, y, 1), Q24
                 let x := add(
@@ -137,7 +147,6 @@ library SmoothLight {
                 let lx := mload(add(LIGHTS, LIGHT_X))
                 let ly := mload(add(LIGHTS, LIGHT_Y))
                 let lz := mload(add(LIGHTS, LIGHT_Z))
-                let bounded := 1
                 let length := ONE_24
                 if mload(add(LIGHTS, LIGHT_IS_POINT)) {
                     // from the vertex to the light, Q16
@@ -153,8 +162,9 @@ library SmoothLight {
                     square := add(square, mul(z, z))
                     length := add(add(mul(lx, lx), mul(ly, ly)), mul(lz, lz))
                     // the light must not be nearer than the eye by more than a factor of the root of 5/4
-                    bounded := iszero(gt(shl(2, square), mul(5, length)))
-                    length := root(length, add(LIGHTS, LIGHT_HINT))
+                    bounded := and(bounded, iszero(gt(shl(2, square), mul(5, length))))
+                    // not a literal: see ZERO_SLOT; copies for the other two roots, of each vertex, are wanted
+                    length := root(length, add(add(LIGHTS, LIGHT_HINT), mload(ZERO_SLOT)))
                 }
                 lx := sdiv(shl(Q20, lx), length)
                 ly := sdiv(shl(Q20, ly), length)
@@ -179,12 +189,6 @@ library SmoothLight {
                 lz := sdiv(shl(Q20, lz), length)
                 mstore(add(vertex, VERTEX_HALF), shl(Q20_TO_Q29, add(add(lx, shl(MIDDLE_85_AT, ly)), shl(UPPER_85_AT, lz))))
                 mstore(add(vertex, VERTEX_HALF_REVERSED), shl(1, add(add(lz, shl(MIDDLE_85_AT, ly)), shl(UPPER_85_AT, lx))))
-                x := mload(add(vertex, VERTEX_NORMAL))
-                y := add(x, VECTOR_BIAS)
-                y := shl(1, sub(or(or(shl(UPPER_85_AT, and(y, LANE_85)), shr(UPPER_85_AT, y)), and(y, MIDDLE_LANE_85)), VECTOR_BIAS))
-                mstore(add(vertex, VERTEX_REVERSED), y)
-                // the square of the normal, Q40, must be 15/16 to 17/16
-                bounded := and(bounded, lt(sub(sar(SQUARE_AT, mul(x, y)), LEAST_SQUARE), SQUARES))
                 mstore(add(vertex, VERTEX_STATE), or(open, sub(UNBOUNDED, bounded)))
             }
 
@@ -217,15 +221,16 @@ library SmoothLight {
                 packed := products(n, sub(mload(add(placeV, REVERSED)), mload(add(placeU, REVERSED))), square, sub(n, h), reversed)
             }
 
-            // sets MIDDLE to the middle of two vertices, with the normal of one
+            // sets MIDDLE to the middle of two vertices, without a normal
             function setMiddle(u, v) {
                 mstore(MIDDLE, shl(SCREEN_COLUMN_AT, shr(1, add(shr(SCREEN_COLUMN_AT, mload(u)), shr(SCREEN_COLUMN_AT, mload(v))))))
                 u := add(u, VERTEX_ATTRIBUTES)
                 v := shr(ATTRIBUTE_DEPTH_AT, mload(add(v, VERTEX_ATTRIBUTES)))
                 v := shl(ATTRIBUTE_DEPTH_AT, shr(1, add(shr(ATTRIBUTE_DEPTH_AT, mload(u)), v)))
                 mstore(add(MIDDLE, VERTEX_ATTRIBUTES), v)
-                mstore(add(MIDDLE, VERTEX_NORMAL), mload(add(u, sub(VERTEX_NORMAL, VERTEX_ATTRIBUTES))))
-                setVertex(MIDDLE)
+                // not literals: see ZERO_SLOT
+                u := mload(ZERO_SLOT)
+                setDirections(add(MIDDLE, u), add(1, u))
             }
 
             function size20(value) -> positive { positive := xor(value, sar(255, value)) }
@@ -331,11 +336,15 @@ library SmoothLight {
                         kind := mul(kind, and(lt(size, mload(SMOOTH_REACH_3)), lt(change, MOST_HALF_CHANGE)))
                         if kind {
                             mstore(HALF_SKEW, 0)
-                            ab := add(ab, correction(a, b, NORMAL_0, NORMAL_1))
+                            // not literals: see ZERO_SLOT
+                            let normals := add(NORMAL_0, mload(ZERO_SLOT))
+                            let normalsB := add(normals, sub(NORMAL_1, NORMAL_0))
+                            let normalsC := add(normals, sub(NORMAL_2, NORMAL_0))
+                            ab := add(ab, correction(a, b, normals, normalsB))
                             kind := mul(kind, and(mload(add(MIDDLE, VERTEX_STATE)), LIT))
-                            ac := add(ac, correction(a, c, NORMAL_0, NORMAL_2))
+                            ac := add(ac, correction(a, c, normals, normalsC))
                             kind := mul(kind, and(mload(add(MIDDLE, VERTEX_STATE)), LIT))
-                            bc := add(bc, correction(b, c, NORMAL_1, NORMAL_2))
+                            bc := add(bc, correction(b, c, normalsB, normalsC))
                             kind := mul(kind, and(mload(add(MIDDLE, VERTEX_STATE)), LIT))
                             setMiddle(a, MIDDLE)
                             // 16 times the products at (1/2, 1/4, 1/4), and the error of N * H there, in the lowest lane
@@ -346,11 +355,12 @@ library SmoothLight {
                             error := mul(mul(error, mload(HALF_SLOPE)), add(THREE_20, least))
                             if gt(error, mul(least, THREE_AND_A_HALF_16)) {
                                 // not near the highlight, by the nodes, between which vectors turn by less than half as much
-                                error := nearer(inner, 4, 0)
-                                error := nearer(sub(shl(1, add(p, q)), ab), 2, error)
-                                error := nearer(sub(shl(1, add(p, r)), ac), 2, error)
-                                error := nearer(sub(shl(1, add(q, r)), bc), 2, error)
-                                error := nearer(p, 0, nearer(q, 0, nearer(r, 0, error)))
+                                let none := mload(ZERO_SLOT)
+                                error := nearer(inner, add(none, 4), none)
+                                error := nearer(sub(shl(1, add(p, q)), ab), add(none, 2), error)
+                                error := nearer(sub(shl(1, add(p, r)), ac), add(none, 2), error)
+                                error := nearer(sub(shl(1, add(q, r)), bc), add(none, 2), error)
+                                error := nearer(p, none, nearer(q, none, nearer(r, none, error)))
                                 error := add(error, shr(2, add(most, shr(Q20, change))))
                                 kind := mul(kind, slt(error, mload(FAR_FROM_HIGHLIGHT)))
                             }

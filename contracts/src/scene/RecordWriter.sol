@@ -1,40 +1,10 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
+import {LONG_KINDS, RECORD_HEADER} from "../words/Records.sol";
 import {SceneErrors} from "./SceneErrors.sol";
 
-// The kinds of the records of `Scene.extensions` (see `Extensions.sol` and `EffectRecords.sol`), and a function that adds records in
-// memory. External contracts import this file, so it must compile for any EVM version.
-
-uint256 constant SPOT = 1;
-uint256 constant OPACITY_OF = 2;
-uint256 constant ANTIALIAS = 3;
-uint256 constant HEMISPHERE = 4;
-uint256 constant RIM = 5;
-uint256 constant FOG = 6;
-uint256 constant TONE = 7;
-uint256 constant TEXTURE_OF = 8;
-uint256 constant OPACITIES_OF = 9;
-uint256 constant SHADOW = 10;
-uint256 constant GROUND = 11;
-
-/// @dev The first kind whose size is given in words.
-uint256 constant LONG_KINDS = 8;
-
-uint256 constant RECORD_HEADER = 5;
-
-/// @dev Flags of a TONE: the filmic curve; lighting in linear light, with colours decoded from and encoded as sRGB.
-uint256 constant TONE_FILMIC = 1;
-uint256 constant TONE_GAMMA = 2;
-/// @dev Flags of a TEXTURE: bilinear interpolation; clamping to the edge.
-uint256 constant TEXTURE_BILINEAR = 1;
-uint256 constant TEXTURE_CLAMP = 2;
-
-/// @dev The faces of culled objects that cast shadows: all; those that face away from the light, which suffice if all such objects together
-/// are closed; those that face the light.
-uint256 constant SHADOWS_ALL = 1;
-uint256 constant SHADOWS_BACK_FACES = 2;
-uint256 constant SHADOWS_FRONT_FACES = 3;
+// Adds records to `Scene.extensions` in memory. External contracts import this file, so it must compile for any EVM version.
 
 /// @notice Adds a record. It replaces one of the same kind and index.
 /// @dev Avoids MCOPY, which older EVMs lack.
