@@ -19,7 +19,7 @@ def function_sizes(code: bytes, entries: str, sources: dict[str, Any]) -> Counte
     entries: the compiler's source map of the code. sources: by its numbers, each with a `name` and its `functions`:
     name, first byte, and number of bytes, as in source-maps.json.
     """
-    ordered = {}
+    ordered: dict[int, tuple[str, list[list[Any]], list[int]]] = {}
     for number, source in sources.items():
         functions = sorted(source["functions"], key=lambda function: int(function[1]))
         ordered[int(number)] = source["name"], functions, [begin for _, begin, _ in functions]
