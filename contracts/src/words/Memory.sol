@@ -7,8 +7,8 @@ import {RegisterErrors} from "./RegisterErrors.sol";
 // one costs 6 gas, half of the cost of a memory struct's field, and needs no stack slot. Registers that are constant for a frame or an
 // object are uniforms: the Renderer fills them at the same addresses, and passes them to the engine as they are (see Uniforms.sol).
 
-/// @dev A word that Solidity keeps zero. Loaded, it is a zero that is not a literal: for literal arguments, the compiler makes copies of
-/// functions.
+/// @dev A word that Solidity keeps zero. Loaded, it is a zero that is not a literal: for each set of literal arguments, the compiler makes
+/// a copy of the function, and of those that it calls with them. Where such copies are wanted, a comment says so.
 uint256 constant ZERO_SLOT = 0x60;
 
 /// @notice Reserves the memory of the registers, so that nothing is allocated there.

@@ -19,10 +19,10 @@ def function_sizes(code: bytes, entries: str, sources: dict[str, Any]) -> Counte
     entries: the compiler's source map of the code. sources: by its numbers, each with a `name` and its `functions`:
     name, first byte, and number of bytes, as in source-maps.json.
     """
-    ordered = {}
-    for number, source in sources.items():
+    ordered: dict[int, tuple[str, list[list[Any]], list[int]]] = {}
+    for key, source in sources.items():
         functions = sorted(source["functions"], key=lambda function: int(function[1]))
-        ordered[int(number)] = source["name"], functions, [begin for _, begin, _ in functions]
+        ordered[int(key)] = source["name"], functions, [begin for _, begin, _ in functions]
     counted: Counter[str] = Counter()
     instructions = [(at, number, begin) for at, number, begin, _, _ in instruction_sources(code, entries)]
     for (at, number, begin), (end, _, _) in pairwise([*instructions, (len(code), -1, 0)]):

@@ -130,14 +130,14 @@ library Patches {
     /// @notice Fits a quadratic function to six exact colours of the triangle.
     function fitWhole(uint256 a, uint256 b, uint256 c, uint256 za, uint256 zb, uint256 zc, uint256 top) internal pure {
         unchecked {
-            // copies for zeros are wanted, since they compute less, but not for others: see ZERO_SLOT
-            uint256 one = ONE_24 + load(ZERO_SLOT);
-            uint256 half = one >> 1;
+            // a copy for two zeros is wanted, since it computes less, but none for other literals: see ZERO_SLOT
+            uint256 none = load(ZERO_SLOT);
+            (uint256 one, uint256 half) = (none + ONE_24, none + HALF_24);
             uint256 fa = between(a, a, za << 8, 0, 0);
-            uint256 fb = between(b, b, zb << 8, one, 0);
-            uint256 fc = between(c, c, zc << 8, 0, one);
-            uint256 ab = between(a, b, (za + zb) << 7, half, 0);
-            uint256 ac = between(a, c, (za + zc) << 7, 0, half);
+            uint256 fb = between(b, b, zb << 8, one, none);
+            uint256 fc = between(c, c, zc << 8, none, one);
+            uint256 ab = between(a, b, (za + zb) << 7, half, none);
+            uint256 ac = between(a, c, (za + zc) << 7, none, half);
             Quadratic.fromNodes(fa, fb, fc, ab, ac, between(b, c, (zb + zc) << 7, half, half));
             Quadratic.setDifferences(a, b, c, top);
             store(QUADRATIC_START, load(QUADRATIC_START) + bias());

@@ -305,6 +305,7 @@ library SmoothLight {
                         size := add(size, mul(depth, depth))
                     }
                 }
+                // places are literals, since copies for them are wanted: every triangle needs them
                 p := atVertex(a, p, NORMAL_0)
                 q := atVertex(b, q, NORMAL_1)
                 r := atVertex(c, r, NORMAL_2)
