@@ -49,7 +49,7 @@ def ask(shelf: Shelf, path: str, **parameters: str) -> tuple[int, bytes, dict[st
 
 
 def test_the_table_is_up_to_date() -> None:
-    assert tool.SHELF.read_text("utf-8") == tool.source(), "run tools/library.py"
+    assert tool.TABLE.read_text("utf-8") == tool.source(), "run tools/library.py"
 
 
 def test_items_by_name(shelf: Shelf) -> None:
