@@ -168,7 +168,10 @@ def _object_changes(before: Any, after: Any) -> dict[str, str]:
         if not np.array_equal(getattr(before, name), getattr(after, name)):
             changes[name] = _numbers(getattr(after, name))
     if before.material != after.material:
-        material = ", ".join(f"{name}={json.dumps(getattr(after.material, name))}" for name in MATERIAL)
+        fields = {name: json.dumps(getattr(after.material, name)) for name in MATERIAL if name != "emission"}
+        if any(after.material.emission):
+            fields["emission"] = _numbers(after.material.emission)
+        material = ", ".join(f"{name}={value}" for name, value in fields.items())
         changes["material"] = f"shackled.Material({material})"
     for name in ("scale", "cull", "wireframe", "opacity"):
         if getattr(before, name) != getattr(after, name):

@@ -309,9 +309,7 @@ SETTINGS = (
         *EXPONENTS,
         default=f"{_SURFACE.shininess:g} for mesh files",
     ),
-    Setting(
-        "emission", "color", "material", "Surface", "Colour of the light that surfaces emit.", default="black, none"
-    ),
+    Setting("emission", "color", "material", "Surface", "Colour of the light that surfaces emit.", default="black"),
     Setting("color", "color", "object", "Surface", "One colour for all meshes.", default="their own"),
     Setting(
         "cull",

@@ -36,8 +36,8 @@ class Material:
     shading: "unlit" shows the vertex colours as they are, "flat" takes the normals of the faces, "smooth" those of the
         vertices.
     texture: multiplied with the colours of the vertices, or None. It needs a mesh with `uvs`.
-    emission: the colour of the light that the surface emits, added to what it reflects; black for none. It does not reach
-        other objects.
+    emission: the colour of the light that the surface emits, added to what it reflects; black for none. Other objects
+        are not lit by it.
     """
 
     shading: Shading = field(default="flat", converter=_shading)
