@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {max, min} from "../geometry/Screen.sol";
 import {ExactSpans, HALF_85} from "./ExactSpans.sol";
 import {FragmentLight} from "../shading/FragmentLight.sol";
 import {Quadratic} from "../shading/Quadratic.sol";
@@ -351,13 +352,5 @@ library Patches {
                 mstore(QUADRATIC_DX, add(mload(QUADRATIC_DX), mload(QUADRATIC_DXY)))
             }
         }
-    }
-
-    function min(uint256 a, uint256 b) private pure returns (uint256) {
-        return a < b ? a : b;
-    }
-
-    function max(uint256 a, uint256 b) private pure returns (uint256) {
-        return a > b ? a : b;
     }
 }

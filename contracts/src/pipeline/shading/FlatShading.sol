@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {Lighting} from "./Lighting.sol";
 import {Patches} from "../pixels/Patches.sol";
 import {Rasterizer} from "../geometry/Rasterizer.sol";
+import {doubleAreaOf, firstRowOf, max, min} from "../geometry/Screen.sol";
 import {EIGHT_ROWS, Shading} from "./Shading.sol";
 import {VertexHighlights} from "./VertexHighlights.sol";
 import "../../words/Registers.sol";
@@ -124,7 +125,7 @@ abstract contract FlatShading is Rasterizer {
             uint256 size = patchSize(a, b, c, p, q, r);
             store(PATCH_SIZE, size);
             if (size == 0) {
-                uint256 top = Shading.max((a + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT, load(BAND_TOP));
+                uint256 top = max(firstRowOf(a), load(BAND_TOP));
                 Patches.fitWhole(a, b, c, p >> ATTRIBUTE_DEPTH_AT, q >> ATTRIBUTE_DEPTH_AT, r >> ATTRIBUTE_DEPTH_AT, top);
             }
         }
@@ -150,11 +151,11 @@ abstract contract FlatShading is Rasterizer {
     function patchSize(uint256 a, uint256 b, uint256 c, uint256 za, uint256 zb, uint256 zc) private pure returns (uint256 size) {
         unchecked {
             uint256 mode = load(MODE);
-            uint256 area = Shading.doubleArea(a, b, c);
+            uint256 area = uint256(doubleAreaOf(a, b, c));
             // small triangles need the fewest exact colours this way
             if (area < SMALL || mode & IS_STEEP != 0) return 1;
-            uint256 nearest = Shading.max(za, Shading.max(zb, zc)) >> ATTRIBUTE_DEPTH_AT;
-            uint256 farthest = Shading.min(za, Shading.min(zb, zc)) >> ATTRIBUTE_DEPTH_AT;
+            uint256 nearest = max(za, max(zb, zc)) >> ATTRIBUTE_DEPTH_AT;
+            uint256 farthest = min(za, min(zb, zc)) >> ATTRIBUTE_DEPTH_AT;
             uint256 reach = NO_LIMIT;
             if (mode & IS_LIT != 0) reach = mode & IS_DIFFUSE == 0 ? load(REACH) : Lighting.pointReach(farthest);
             uint256 along;
@@ -182,7 +183,7 @@ abstract contract FlatShading is Rasterizer {
 
     /// @dev Returns the square of the longest edge, in sub-pixels.
     function longest(uint256 a, uint256 b, uint256 c) private pure returns (uint256) {
-        return Shading.max(squareLength(a, b), Shading.max(squareLength(a, c), squareLength(b, c)));
+        return max(squareLength(a, b), max(squareLength(a, c), squareLength(b, c)));
     }
 
     /// @dev Returns the square of an edge, in sub-pixels.

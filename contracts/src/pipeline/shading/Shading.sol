@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {max, min} from "../geometry/Screen.sol";
 import {WEIGHTED_BIAS} from "./FragmentLight.sol";
 import {Lighting} from "./Lighting.sol";
 import {VERTEX_NORMAL} from "./SmoothLight.sol";
@@ -195,24 +196,6 @@ library Shading {
             let yc := sub(shr(SCREEN_ROW_AT, c), y)
             sum := add(add(mul(xb, xb), mul(xc, xc)), add(mul(yb, yb), mul(yc, yc)))
         }
-    }
-
-    /// @dev Returns twice the area, in sub-pixels.
-    function doubleArea(uint256 a, uint256 b, uint256 c) internal pure returns (uint256 area) {
-        assembly ("memory-safe") {
-            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
-            let y := shr(SCREEN_ROW_AT, a)
-            area := mul(sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x), sub(shr(SCREEN_ROW_AT, b), y))
-            area := sub(area, mul(sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x), sub(shr(SCREEN_ROW_AT, c), y)))
-        }
-    }
-
-    function min(uint256 a, uint256 b) internal pure returns (uint256) {
-        return a < b ? a : b;
-    }
-
-    function max(uint256 a, uint256 b) internal pure returns (uint256) {
-        return a > b ? a : b;
     }
 
     /// @dev Returns the attribute word with its colour multiplied by the light of the face.

@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import {Quadratic} from "./Quadratic.sol";
 import {Rasterizer} from "../geometry/Rasterizer.sol";
+import {firstRowOf, max} from "../geometry/Screen.sol";
 import {Shading} from "./Shading.sol";
 import {SmoothLight, UNBOUNDED_LIGHT, STEEP_LIGHT} from "./SmoothLight.sol";
 import "../../words/Registers.sol";
@@ -24,12 +25,10 @@ abstract contract SmoothShading is Rasterizer {
             }
             if (kind == UNBOUNDED_LIGHT) return shadeExact(a, b, c, crossing);
             (uint256 attributesA, uint256 attributesB, uint256 attributesC) = Shading.attributesOf(a, b, c);
-            uint256 top = (a + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT;
-            if (top < load(BAND_TOP)) top = load(BAND_TOP);
-            Quadratic.setDifferences(a, b, c, top);
+            Quadratic.setDifferences(a, b, c, max(firstRowOf(a), load(BAND_TOP)));
             if (kind == STEEP_LIGHT && !Shading.isAffine(attributesA, attributesB, attributesC, a, b, c)) {
                 mode |= IS_STEEP;
-                uint256 nearest = Shading.max(attributesA, Shading.max(attributesB, attributesC)) >> ATTRIBUTE_DEPTH_AT;
+                uint256 nearest = max(attributesA, max(attributesB, attributesC)) >> ATTRIBUTE_DEPTH_AT;
                 store(NEAREST, nearest << Q24);
                 attributesA = weighted(attributesA, nearest);
                 attributesB = weighted(attributesB, nearest);
