@@ -295,7 +295,7 @@ uint256 constant RAY_HINT = 0x2e80;
 uint256 constant HALF_HINT = 0x2ea0;
 /// @dev The record of a vertex at the midpoint of an edge.
 uint256 constant MIDDLE = 0x2ec0;
-/// @dev Twice the largest skew of a product N * H along an edge, Q20: see SmoothLight.correction.
+/// @dev Twice the largest skew of a product N * H along an edge, Q20: see SmoothTriangle.correction.
 uint256 constant HALF_SKEW = 0x2fc0;
 /// @dev Half of QUADRATIC_DXX, by which QUADRATIC_DX is reduced while rows are drawn.
 uint256 constant QUADRATIC_HALF_DXX = 0x2fe0;
@@ -344,7 +344,7 @@ uint256 constant LIGHT_DIFFUSE = 0xba0;
 uint256 constant LIGHT_N_DOT_L = 0xbc0;
 
 // --------------------------------------------------------------------------------------------------------------------------------- vertex
-// The beginning of every vertex record; for the rest see VertexShader and SmoothLight.
+// The beginning of every vertex record; for the rest see VertexShader and SmoothVertex.
 
 /// @dev The screen word.
 uint256 constant VERTEX_SCREEN = 0;
@@ -394,9 +394,9 @@ uint256 constant IS_ORTHOGRAPHIC = 32;
 uint256 constant IS_FLAT = 64;
 /// @dev The triangle reaches beyond the left or right border of the tile.
 uint256 constant IS_CROSSING = 128;
-/// @dev The accumulator contains barycentric coordinates, and PATCH_SIZE selects how colours are computed: see Patches.
+/// @dev The accumulator contains barycentric coordinates, and PATCH_SIZE selects how colours are computed: see PatchSpans.
 uint256 constant IS_PATCHED = 0x100;
-/// @dev Light is computed from products that are quadratic over the triangle: see SmoothLight.
+/// @dev Light is computed from products that are quadratic over the triangle: see SmoothTriangle.
 uint256 constant IS_QUADRATIC = 0x200;
 /// @dev The effect of perspective is not negligible: depths differ by more than a factor of 64, or, with IS_QUADRATIC, colours are
 /// multiplied by them.

@@ -9,17 +9,10 @@ import "../../words/Registers.sol";
 // Rasterizes the edges of triangles to fragments. A line has one pixel in each column, or in each row if it is steeper than 45 degrees: the
 // pixel nearest to it, with the depth and colour of the line at the centre of that column or row.
 
-/// @dev The modes of triangles whose fragments do not have linear colours.
-uint256 constant BY_FRAGMENTS = IS_BLENDED | IS_DEPTH_PASS | IS_PATCHED;
-
 /// @dev Divided by the length of a line in sub-pixels (Q8), this is the fraction of the line per pixel, Q32.
 int256 constant STEP_ONE = 1 << 40;
 
 abstract contract Wireframe is PixelRasterizer, SmoothShading {
-    /// @notice Draws the rows from `row` (inclusive) to `last` (exclusive), if the mode is one of BY_FRAGMENTS: see
-    /// PixelRasterizer.drawRows, where rows are addresses.
-    function drawFragments(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure virtual;
-
     /// @notice Draws the edges of the triangles of a list into the current band.
     function drawWires(uint256 list, uint256 end) internal pure virtual {
         unchecked {
@@ -132,7 +125,6 @@ abstract contract Wireframe is PixelRasterizer, SmoothShading {
     /// @dev Draws the fragments of the rows from `top` (inclusive) to `bottom` (exclusive).
     function draw(uint256 edges, uint256 slopes, uint256 attribute, uint256 top, uint256 bottom) private pure {
         unchecked {
-            if (load(MODE) & BY_FRAGMENTS != 0) return drawFragments(edges, slopes, attribute, top, bottom);
             (uint256 origin, uint256 stride) = (load(DEPTH_ORIGIN), load(DEPTH_STRIDE));
             drawRows(edges, slopes, attribute, origin - stride * top, origin - stride * bottom);
         }

@@ -5,7 +5,7 @@ import {Quadratic} from "./Quadratic.sol";
 import {Rasterizer} from "../geometry/Rasterizer.sol";
 import {firstRowOf, max} from "../geometry/Screen.sol";
 import {Shading} from "./Shading.sol";
-import {SmoothLight, UNBOUNDED_LIGHT, STEEP_LIGHT} from "./SmoothLight.sol";
+import {SmoothTriangle, STEEP_LIGHT, UNBOUNDED_LIGHT} from "./SmoothTriangle.sol";
 import "../../words/Registers.sol";
 
 // Selects the shading of triangles whose fragments are lit: smooth surfaces, and all that no other method draws.
@@ -21,7 +21,7 @@ abstract contract SmoothShading is Rasterizer {
             if (mode & (IS_QUADRATIC | IS_BLENDED) == IS_QUADRATIC) {
                 uint256 size = Shading.squareSize(a, b, c);
                 // skip triangles that are too large
-                if (size < load(SMOOTH_REACH_3)) kind = SmoothLight.setLight(a, b, c, size);
+                if (size < load(SMOOTH_REACH_3)) kind = SmoothTriangle.setLight(a, b, c, size);
             }
             if (kind == UNBOUNDED_LIGHT) return shadeExact(a, b, c, crossing);
             (uint256 attributesA, uint256 attributesB, uint256 attributesC) = Shading.attributesOf(a, b, c);
