@@ -189,7 +189,7 @@ def numbers(table: dict[str, Any]) -> Iterator[Section]:
 
 
 def solidity_literal(value: int) -> str:
-    """Return a number in hexadecimal; with 39 to 41 digits it would be read as an address, so there it begins with zeros."""
+    """Return a number in hexadecimal; with 39 to 41 digits it would be an address, so there it begins with zeros."""
     if value < 256:
         return str(value)
     digits = f"{value:x}"

@@ -128,8 +128,8 @@ library PatchSpans {
             while (true) {
                 uint256 keep; // colours to keep
                 assembly ("memory-safe") {
-                    // The depth test of four pixels; the last n of them except for the last r take part. Writes depths, and returns ones for
-                    // the colours to keep.
+                    // The depth test of four pixels; the last n of them except for the last r take part. Writes depths, and returns ones
+                    // for the colours to keep.
                     function depths(p_, n_, r_, attribute_) -> hidden_ {
                         // as exact as the depths of single fragments, so that the first of coinciding surfaces remains
                         let dx := mload(DX)

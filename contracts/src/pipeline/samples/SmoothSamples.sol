@@ -3,8 +3,8 @@ pragma solidity 0.8.37;
 
 import "../../words/SampleRegisters.sol";
 
-// Smooth surfaces lit by a single lamp, with four samples per pixel: the products of SmoothTriangle, at the centroid of the samples that the
-// triangle covers.
+// Smooth surfaces lit by a single lamp, with four samples per pixel: the products of SmoothTriangle, at the centroid of the samples that
+// the triangle covers.
 
 /// @dev The additional bits of 128 times a product.
 uint256 constant MORE_BITS = 7;

@@ -207,16 +207,20 @@ library Shading {
         }
     }
 
-    /// @notice Returns the attribute word with its colour multiplied by coloured light, lanes of Q16.
+    /// @notice Returns the attribute word with its colour multiplied by light, lanes of Q16.
     function lit(uint256 word, uint256 factor) internal pure returns (uint256 product) {
         assembly ("memory-safe") {
             let color := and(word, LANES_24)
-            product := shr(LIGHT_FRACTION, mul(and(factor, LANE_32), and(color, LANE_24))) // blue
-            word := xor(word, color) // from here on without colour
-            let green := mul(and(shr(MIDDLE_AT, factor), LANE_32), and(shr(MIDDLE_AT, color), LANE_24))
-            product := or(product, shl(MIDDLE_AT, shr(LIGHT_FRACTION, green)))
-            product := or(product, shl(UPPER_AT, shr(LIGHT_FRACTION, mul(shr(UPPER_AT, factor), shr(UPPER_AT, color))))) // red
-            product := or(product, word)
+            product := and(factor, LANE_32) // blue light
+            switch eq(factor, mul(product, ONES))
+            case 1 { product := and(shr(LIGHT_FRACTION, mul(color, product)), LANES_24) } // grey: all channels at once
+            default {
+                product := shr(LIGHT_FRACTION, mul(product, and(color, LANE_24))) // blue
+                let green := mul(and(shr(MIDDLE_AT, factor), LANE_32), and(shr(MIDDLE_AT, color), LANE_24))
+                product := or(product, shl(MIDDLE_AT, shr(LIGHT_FRACTION, green)))
+                product := or(product, shl(UPPER_AT, shr(LIGHT_FRACTION, mul(shr(UPPER_AT, factor), shr(UPPER_AT, color))))) // red
+            }
+            product := or(product, xor(word, color)) // and the depth as it is
         }
     }
 }
