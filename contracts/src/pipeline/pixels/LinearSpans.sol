@@ -22,7 +22,7 @@ library LinearSpans {
                 for {} rows {} {
                     let p := and(shr(EDGE_ADDRESS_FRACTION, edges), ADDRESS) // the first pixel
                     let last := and(shr(EDGE_RIGHT_ADDRESS_AT, edges), ADDRESS) // the one after the last
-                    if lt(p, last) {
+                    if lt(p, last) { // not an empty row
                         let attribute := add(start, mul(mload(DX_8), p)) // start + DX * column
                         let pixel := add(mload(IMAGE_ORIGIN), mul(3, shr(DEPTH_SIZE_BITS, p))) // IMAGE_ORIGIN + 3 * (p / 8)
                         for {} 1 {} {
@@ -40,20 +40,20 @@ library LinearSpans {
                                 mcopy(pixel, 0, 3)
                             }
                             p := add(p, 8) // the next pixel
-                            if eq(p, last) { break }
+                            if eq(p, last) { break } // do .. while (p != last)
                             pixel := add(pixel, 3)
-                            attribute := add(attribute, row)
+                            attribute := add(attribute, row) // + DX
                         }
                     }
                     edges := add(edges, mload(SLOPES)) // the next row
-                    start := add(start, mload(ROW_STEP))
+                    start := add(start, mload(ROW_STEP)) // + DY, and the stride
                     rows := sub(rows, 1)
                 }
                 rows := mload(LOWER_ROWS) // the lower part, once
-                if iszero(rows) { break }
+                if iszero(rows) { break } // there is none, or it has been drawn
                 edges := or(and(edges, mload(LOWER_KEPT)), mload(LOWER_EDGE)) // one edge goes on, the other is replaced
                 mstore(SLOPES, mload(LOWER_SLOPES))
-                mstore(LOWER_ROWS, 0)
+                mstore(LOWER_ROWS, 0) // no third part
             }
         }
     }

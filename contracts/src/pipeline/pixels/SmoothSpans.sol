@@ -16,7 +16,7 @@ library SmoothSpans {
                 for {} 1 {} {
                     if gt(attribute, or(mload(p), BEHIND_DEPTH)) { // depth > the one in the buffer
                         // copying a few bytes is cheaper than inserting them into a word
-                        mstore(0, attribute)
+                        mstore(0, attribute) // depth uppermost
                         mcopy(p, 0, 8)
                         // N * N, Q68, and twice its root, Q34
                         let square := shr(UPPER_85_AT, light)
@@ -26,12 +26,12 @@ library SmoothSpans {
                         let sum := HALF_LEVEL // the highlight, lanes of Q10, rounded in the end
                         // N * L, Q59
                         let t := sar(N_DOT_L_AT, shl(MIDDLE_85_TO_TOP, light))
-                        if sgt(t, 0) {
+                        if sgt(t, 0) { // the light is before the surface
                             // divided by |N|, Q24
                             factor := add(factor, mul(mload(add(LIGHTS, LIGHT_DIFFUSE)), div(t, length))) // + diffuse * N.L / |N|
                             // N * H, Q46
                             t := sar(N_DOT_H_AT, shl(LOWER_85_TO_TOP, light))
-                            if sgt(t, 0) {
+                            if sgt(t, 0) { // H is before the surface
                                 t := div(mul(t, t), square) // (N.H)^2 / N.N, Q24
                                 if gt(t, mload(SPECULAR_BEGIN)) {
                                     t := mul(sub(t, mload(SPECULAR_BEGIN)), mload(SPECULAR_SCALE)) // index into the table, Q40
@@ -41,6 +41,7 @@ library SmoothSpans {
                                         shr(SPECULAR_VALUE_AT, entry),
                                         shr(Q16, mul(and(entry, LANE_32), and(shr(SPECULAR_REST_AT, t), SPECULAR_REST_MASK)))
                                     )
+                                    // + colour * highlight
                                     sum := add(sum, and(shr(Q16_TO_Q10, mul(mload(add(LIGHTS, LIGHT_COLOR)), entry)), LANES_24))
                                 }
                             }
@@ -55,6 +56,7 @@ library SmoothSpans {
                             factor := shr(Q40_TO_Q16, factor)
                             sum := add(sum, shr(Q16, mul(and(t, LANE_24), and(factor, LANE_32)))) // + blue * light
                             t := shr(MIDDLE_AT, t) // green lowest
+                            // + green * light, + red * light
                             sum := add(sum, shl(MIDDLE_AT, shr(Q16, mul(and(t, LANE_24), and(shr(MIDDLE_AT, factor), LANE_32)))))
                             t := add(sum, shl(UPPER_AT, shr(Q16, mul(shr(MIDDLE_AT, t), shr(UPPER_AT, factor)))))
                         }
@@ -64,9 +66,9 @@ library SmoothSpans {
                         mcopy(pixel, 0, 3)
                     }
                     p := add(p, 8)
-                    if eq(p, end) { break }
+                    if eq(p, end) { break } // do .. while (p != end)
                     pixel := add(pixel, 3)
-                    attribute := add(attribute, mload(DX))
+                    attribute := add(attribute, mload(DX)) // the next pixel
                     light := add(light, step) // forward differences
                     step := add(step, mload(QUADRATIC_DXX))
                 }
@@ -78,8 +80,8 @@ library SmoothSpans {
             let start := sub(mload(START), mul(mload(DX_8), row))
             mstore(DX, shl(DEPTH_SIZE_BITS, mload(DX_8))) // 8 DX_8
             mstore(ROW_STEP, add(mload(DY), mul(mload(DX_8), mload(DEPTH_STRIDE)))) // a row down, from the same address
-            let light := mload(QUADRATIC_START)
-            let down := mload(QUADRATIC_DY)
+            let light := mload(QUADRATIC_START) // products at column 0 of the row
+            let down := mload(QUADRATIC_DY) // their change to the next row
             // half the second difference, and the first difference without it: the value at column x is then that at column 0 plus x * (DX
             // + x * HALF_DXX). The bit lost at the top does no harm: x * (x - 1) is even.
             mstore(QUADRATIC_HALF_DXX, shr(1, mload(QUADRATIC_DXX)))
@@ -137,13 +139,13 @@ library SmoothSpans {
                     light := add(light, down) // forward differences
                     down := add(down, mload(QUADRATIC_DYY))
                     mstore(QUADRATIC_DX, add(mload(QUADRATIC_DX), mload(QUADRATIC_DXY)))
-                    rows := sub(rows, 1)
+                    rows := sub(rows, 1) // while (rows)
                 }
                 rows := mload(LOWER_ROWS) // the lower part, once
                 if iszero(rows) { break }
                 edges := or(and(edges, mload(LOWER_KEPT)), mload(LOWER_EDGE)) // one edge goes on, the other is replaced
                 mstore(SLOPES, mload(LOWER_SLOPES))
-                mstore(LOWER_ROWS, 0)
+                mstore(LOWER_ROWS, 0) // no third part
             }
         }
     }

@@ -133,7 +133,7 @@ library FragmentLight {
             length := add(mload(LENGTH_AT_0), shr(Q48, mul(x, mload(LENGTH_SLOPE))))
             length := shr(1, add(length, div(x, length))) // Newton: (l + x / l) / 2
             for { let steps := mload(LENGTH_STEPS) } steps { steps := sub(steps, 1) } {
-                length := shr(1, add(length, div(x, length)))
+                length := shr(1, add(length, div(x, length))) // and again
             }
         }
     }
@@ -144,7 +144,7 @@ library FragmentLight {
             if (square > load(SPECULAR_BEGIN)) {
                 assembly ("memory-safe") {
                     square := mul(sub(square, mload(SPECULAR_BEGIN)), mload(SPECULAR_SCALE)) // index into the table, Q40
-                    if gt(square, SPECULAR_LAST) { square := SPECULAR_LAST }
+                    if gt(square, SPECULAR_LAST) { square := SPECULAR_LAST } // min(square, SPECULAR_LAST)
                     value := mload(add(SPECULAR_TABLE, and(shr(SPECULAR_ENTRY_SHIFT, square), SPECULAR_ENTRY_MASK)))
                     square := and(shr(SPECULAR_REST_AT, square), SPECULAR_REST_MASK) // fraction of the index, Q16
                     value := add(shr(SPECULAR_VALUE_AT, value), shr(Q16, mul(and(value, LANE_32), square))) // value + increase * fraction
@@ -190,7 +190,7 @@ library FragmentLight {
                 let cosine := add(mul(mload(add(record, LIGHT_AXIS_X)), lx), mul(mload(add(record, LIGHT_AXIS_Y)), ly))
                 cosine := add(cosine, mul(mload(add(record, LIGHT_AXIS_Z)), lz)) // axis * L, Q40
                 cosine := sub(sub(0, sdiv(cosine, distance)), mload(add(record, LIGHT_COS_OUTER))) // -axis * L / |L| - outer, Q24
-                if slt(cosine, 0) { cosine := 0 }
+                if slt(cosine, 0) { cosine := 0 } // max(cosine, 0)
                 cosine := div(shl(Q16, cosine), mload(add(record, LIGHT_CONE))) // relative to inner - outer, Q16
                 if lt(cosine, ONE_16) { strength := shr(Q16, mul(cosine, cosine)) }
             }
@@ -223,8 +223,9 @@ library FragmentLight {
                             lz := sub(lz, shr(Q16, distance))
                         }
                         default {
-                            lx := sub(lx, mload(FRAGMENT_PLACE_X))
+                            lx := sub(lx, mload(FRAGMENT_PLACE_X)) // L - place of the fragment, Q16
                             ly := sub(ly, mload(FRAGMENT_PLACE_Y))
+                            // depth = DEPTH_SCALE - distance / 256, with DEPTH_FRACTION more bits
                             lz := sub(lz, sar(Q16, sub(shl(DEPTH_FRACTION, mload(DEPTH_SCALE)), depth)))
                         }
                         distance := add(add(mul(lx, lx), mul(ly, ly)), mul(lz, lz)) // |L|^2, Q32
@@ -238,7 +239,7 @@ library FragmentLight {
                     switch and(mload(MODE), IS_SMOOTH)
                     case 0 { nDotL := shl(Q24, mload(add(record, LIGHT_N_DOT_L))) }
                     default {
-                        nDotL := add(mul(mload(FRAGMENT_NORMAL_X), lx), mul(mload(FRAGMENT_NORMAL_Y), ly))
+                        nDotL := add(mul(mload(FRAGMENT_NORMAL_X), lx), mul(mload(FRAGMENT_NORMAL_Y), ly)) // N.x L.x + N.y L.y + N.z L.z
                         nDotL := add(nDotL, mul(mload(FRAGMENT_NORMAL_Z), lz))
                     }
                 }
@@ -246,7 +247,7 @@ library FragmentLight {
                     assembly ("memory-safe") {
                         // N.L of unit vectors, Q24; then multiplied by the cone, Q24
                         let lambert := div(shl(Q24, nDotL), mul(distance, mload(FRAGMENT_NORMAL_LENGTH)))
-                        lambert := shr(Q16, mul(lambert, mload(FRAGMENT_CONE)))
+                        lambert := shr(Q16, mul(lambert, mload(FRAGMENT_CONE))) // * cone
                         mstore(FRAGMENT_LIGHT, add(mload(FRAGMENT_LIGHT), mul(mload(add(record, LIGHT_DIFFUSE)), lambert))) // Q40
                         // nDotL from here on: the numerator of N.H in the formula above, N.L |r| - N.r d
                         nDotL := sub(mul(nDotL, length), mul(distance, mload(FRAGMENT_NORMAL_RAY)))
@@ -286,16 +287,16 @@ library FragmentLight {
             t := add(add(mload(NORMALS_0), t), NORMAL_BIAS)
             s := sub(and(shr(NORMAL_X_AT, t), NORMAL_MASK), NORMAL_HALF)
             mstore(FRAGMENT_NORMAL_X, s)
-            square := mul(s, s)
+            square := mul(s, s) // N.x^2, to which the others are added
             x := mul(s, x) // x from here on: N.r, Q48
             s := sub(and(shr(NORMAL_Y_AT, t), NORMAL_MASK), NORMAL_HALF)
             mstore(FRAGMENT_NORMAL_Y, s)
             square := add(square, mul(s, s))
-            x := add(x, mul(s, y))
+            x := add(x, mul(s, y)) // N.x x + N.y y
             s := sub(shr(NORMAL_Z_AT, t), NORMAL_HALF)
             mstore(FRAGMENT_NORMAL_Z, s)
             square := add(square, mul(s, s)) // N.N, Q48
-            mstore(FRAGMENT_NORMAL_RAY, add(x, shl(Q24, s)))
+            mstore(FRAGMENT_NORMAL_RAY, add(x, shl(Q24, s))) // + N.z
             mstore(FRAGMENT_SQUARE, square)
         }
         square = sqrtNear(square, NORMAL_HINT);

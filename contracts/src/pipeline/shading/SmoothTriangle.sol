@@ -91,24 +91,24 @@ library SmoothTriangle {
             assembly ("memory-safe") {
                 if iszero(mload(FRAME_IS_ORTHOGRAPHIC)) {
                     // depths relative to the greatest of them
-                    p := shr(ATTRIBUTE_DEPTH_AT, mload(add(a, VERTEX_ATTRIBUTES)))
+                    p := shr(ATTRIBUTE_DEPTH_AT, mload(add(a, VERTEX_ATTRIBUTES))) // depth of a
                     q := shr(ATTRIBUTE_DEPTH_AT, mload(add(b, VERTEX_ATTRIBUTES)))
                     r := shr(ATTRIBUTE_DEPTH_AT, mload(add(c, VERTEX_ATTRIBUTES)))
                     let depth := p
-                    if gt(q, depth) { depth := q }
-                    if gt(r, depth) { depth := r }
+                    if gt(q, depth) { depth := q } // max(p, q)
+                    if gt(r, depth) { depth := r } // max(p, q, r)
                     p := div(shl(Q10, p), depth) // depth of a / the greatest, Q10
                     q := div(shl(Q10, q), depth)
                     r := div(shl(Q10, r), depth)
                     // colours of up to 255 may differ by any amount if depths differ by at most 12 / 255: see Shading.isAffine
-                    kind := add(AFFINE_LIGHT, or(or(lt(p, NEAR_ONE), lt(q, NEAR_ONE)), lt(r, NEAR_ONE)))
-                    if and(mload(add(LIGHTS, LIGHT_IS_POINT)), shr(1, kind)) {
-                        depth := p
+                    kind := add(AFFINE_LIGHT, or(or(lt(p, NEAR_ONE), lt(q, NEAR_ONE)), lt(r, NEAR_ONE))) // any < NEAR_ONE ? STEEP : AFFINE
+                    if and(mload(add(LIGHTS, LIGHT_IS_POINT)), shr(1, kind)) { // a lamp, and STEEP_LIGHT
+                        depth := p // the least weight from here on
                         if lt(q, depth) { depth := q }
-                        if lt(r, depth) { depth := r }
+                        if lt(r, depth) { depth := r } // min(p, q, r)
                         // the change of depth, as long as it would be on the screen; weights below a half have N * N below 1/4
                         depth := div(shl(Q32, sub(ONE_10, depth)), mul(add(depth, 1), mload(RAY_STEP))) // (1 - least) / least / RAY_STEP
-                        size := add(size, mul(depth, depth))
+                        size := add(size, mul(depth, depth)) // size + change^2
                     }
                 }
             }
@@ -127,12 +127,12 @@ library SmoothTriangle {
             assembly ("memory-safe") {
                 // the least N * N is the minimum of the vertices minus a third of the largest square of a change: three times that
                 least := p
-                if slt(q, least) { least := q }
-                if slt(r, least) { least := r }
+                if slt(q, least) { least := q } // words compare like their upper lanes, N * N
+                if slt(r, least) { least := r } // min(p, q, r)
                 least := mul(3, sar(UPPER_85_AT, least)) // 3 * min(N * N), Q20
                 let most := sub(least, LEAST_SQUARE_3) // the squares of all changes must be below it
                 most := and(and(slt(sar(UPPER_85_AT, ab), most), slt(sar(UPPER_85_AT, ac), most)), slt(sar(UPPER_85_AT, bc), most))
-                kind := mul(kind, most)
+                kind := mul(kind, most) // most ? kind : UNBOUNDED_LIGHT
             }
             if (kind == UNBOUNDED_LIGHT) return kind;
             // 3 - 3q is at most three times 3q
@@ -141,30 +141,32 @@ library SmoothTriangle {
                 assembly ("memory-safe") {
                     most := ab
                     if sgt(ac, most) { most := ac }
-                    if sgt(bc, most) { most := bc }
+                    if sgt(bc, most) { most := bc } // max(ab, ac, bc)
                     most := sar(UPPER_85_AT, most) // the largest square of a change, Q20
-                    least := sub(least, most)
+                    least := sub(least, most) // 3 * min(N * N) - max((N_i - N_j)^2)
                 }
                 if (size >= reach || isTurning(change, least)) {
                     // the products must be exact at the midpoints
                     if (size >= load(SMOOTH_REACH_3) || change >= MOST_HALF_CHANGE) return UNBOUNDED_LIGHT;
-                    store(HALF_SKEW, 0);
-                    ab += correction(a, b, NORMAL_0, NORMAL_1);
+                    // addresses that are not literals: see ZERO_SLOT (those of atVertex and along are, since copies of these pay)
+                    uint256 none = load(ZERO_SLOT);
+                    store(HALF_SKEW, none);
+                    ab += correction(a, b, none + NORMAL_0, none + NORMAL_1);
                     if (load(MIDDLE + VERTEX_STATE) & LIT == 0) return UNBOUNDED_LIGHT;
-                    ac += correction(a, c, NORMAL_0, NORMAL_2);
+                    ac += correction(a, c, none + NORMAL_0, none + NORMAL_2);
                     if (load(MIDDLE + VERTEX_STATE) & LIT == 0) return UNBOUNDED_LIGHT;
-                    bc += correction(b, c, NORMAL_1, NORMAL_2);
+                    bc += correction(b, c, none + NORMAL_1, none + NORMAL_2);
                     if (load(MIDDLE + VERTEX_STATE) & LIT == 0) return UNBOUNDED_LIGHT;
-                    SmoothVertex.setMiddle(a, MIDDLE);
+                    SmoothVertex.setMiddle(a, none + MIDDLE);
                     if (isSkewed(p, q, r, ab, ac, bc, least, most + (change >> Q20))) return UNBOUNDED_LIGHT;
                 }
             }
             assembly ("memory-safe") {
                 mstore(QUADRATIC_1, p)
-                mstore(QUADRATIC_S, sub(sub(q, p), ab))
-                mstore(QUADRATIC_T, sub(sub(r, p), ac))
+                mstore(QUADRATIC_S, sub(sub(q, p), ab)) // q - p - ab: along the edge p + s (q - p) - s (1 - s) ab
+                mstore(QUADRATIC_T, sub(sub(r, p), ac)) // r - p - ac
                 mstore(QUADRATIC_SS, ab)
-                mstore(QUADRATIC_ST, sub(add(ab, ac), bc))
+                mstore(QUADRATIC_ST, sub(add(ab, ac), bc)) // ab + ac - bc
                 mstore(QUADRATIC_TT, ac)
             }
         }
@@ -219,18 +221,19 @@ library SmoothTriangle {
             function size20(value) -> positive { positive := xor(value, sar(255, value)) }
 
             let n := add(mload(placeU), mload(placeV)) // N_u + N_v
+            // L_u + L_v - 2 L
             let t := sub(add(mload(add(u, VERTEX_LIGHT)), mload(add(v, VERTEX_LIGHT))), shl(1, mload(add(MIDDLE, VERTEX_LIGHT))))
             packed := and(sar(PRODUCT_TO_MIDDLE, mul(n, t)), UPPER_LANES_85) // (N_u + N_v) * (L_u + L_v - 2 L)
             t := add(mload(add(u, VERTEX_HALF_REVERSED)), mload(add(v, VERTEX_HALF_REVERSED)))
             t := sub(t, shl(1, mload(add(MIDDLE, VERTEX_HALF_REVERSED)))) // H_u + H_v - 2 H
-            packed := add(packed, sar(PRODUCT_TO_LOWER, mul(n, t)))
+            packed := add(packed, sar(PRODUCT_TO_LOWER, mul(n, t))) // + (N_u + N_v) * t, in the lowest lane
             let skew := size20(sar(PRODUCT_TO_LOWER, mul(sub(mload(placeV), mload(placeU)), t))) // |(N_v - N_u) * t|
             n := sub(mload(add(u, VERTEX_HALF)), mload(add(v, VERTEX_HALF))) // H_u - H_v from here on, t the same reversed
             t := sub(mload(add(u, VERTEX_HALF_REVERSED)), mload(add(v, VERTEX_HALF_REVERSED)))
             packed := add(packed, sar(PRODUCT_TO_LOWER, mul(n, t))) // + (H_u - H_v)^2
             // half vectors are Q29, normals Q30: 2 H * (H_u - H_v)
             skew := shl(1, add(skew, size20(sar(PRODUCT_TO_LOWER_4, mul(mload(add(MIDDLE, VERTEX_HALF)), t)))))
-            if gt(skew, mload(HALF_SKEW)) { mstore(HALF_SKEW, skew) }
+            if gt(skew, mload(HALF_SKEW)) { mstore(HALF_SKEW, skew) } // max(HALF_SKEW, skew)
         }
     }
 
@@ -258,23 +261,23 @@ library SmoothTriangle {
             function nearer(packed, shift, square) -> most {
                 most := lowest(packed)
                 most := div(mul(mul(most, most), sgt(most, 0)), shl(shift, sar(UPPER_85_AT, packed))) // (N * H)^2 / N * N
-                if lt(most, square) { most := square }
+                if lt(most, square) { most := square } // max(most, square)
             }
 
             // 16 times the products at (1/2, 1/4, 1/4), and the error of N * H there, in the lowest lane
             let inner := sub(add(shl(3, p), shl(2, add(q, r))), add(shl(1, add(ab, ac)), bc)) // 8 p + 4 (q + r) - 2 (ab + ac) - bc
             let error := add(add(shl(1, mload(NORMAL_0)), mload(NORMAL_1)), mload(NORMAL_2)) // 4 N
             error := shl(2, sar(PRODUCT_TO_LOWER, mul(error, mload(add(MIDDLE, VERTEX_HALF_REVERSED))))) // 16 N * H
-            error := lowest(sub(error, inner))
+            error := lowest(sub(error, inner)) // 16 times the error of N * H
             error := add(xor(error, sar(255, error)), mload(HALF_SKEW)) // |error| + HALF_SKEW
             error := mul(mul(error, mload(HALF_SLOPE)), add(THREE_20, least))
-            if gt(error, mul(least, THREE_AND_A_HALF_16)) {
+            if gt(error, mul(least, THREE_AND_A_HALF_16)) { // error * slope / N * N > 3.5 levels
                 // not near the highlight, by the nodes, between which vectors turn by less than half as much
                 error := nearer(inner, 4, 0) // a cos^2 from here on
                 error := nearer(sub(shl(1, add(p, q)), ab), 2, error) // 4 times the products at a midpoint: 2 (p + q) - ab
                 error := nearer(sub(shl(1, add(p, r)), ac), 2, error)
                 error := nearer(sub(shl(1, add(q, r)), bc), 2, error)
-                error := nearer(p, 0, nearer(q, 0, nearer(r, 0, error)))
+                error := nearer(p, 0, nearer(q, 0, nearer(r, 0, error))) // max of the three vertices too
                 yes := iszero(slt(add(error, shr(2, turn)), mload(FAR_FROM_HIGHLIGHT)))
             }
         }

@@ -76,9 +76,9 @@ library SmoothVertex {
                     let place := sar(Q40, mul(x, z)) // Q24 * Q32 to Q16
                     lx := sub(lx, place)
                     let square := mul(place, place)
-                    place := sar(Q40, mul(y, z))
+                    place := sar(Q40, mul(y, z)) // y of the vertex, Q16
                     ly := sub(ly, place)
-                    square := add(square, mul(place, place))
+                    square := add(square, mul(place, place)) // + y^2
                     z := shr(Q16, z)
                     lz := sub(lz, z)
                     square := add(square, mul(z, z)) // of the distance from the eye, Q32
