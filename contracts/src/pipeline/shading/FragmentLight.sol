@@ -77,29 +77,28 @@ library FragmentLight {
                     }
                 }
             }
+            // without `return`, so that the compiler can put the function where it is called
             if (isSurface) {
                 setNormal(depth, s, t, x, y);
                 // colours of lights are Q10 with effects
-                return (light(depth, x, y) >> Q16) & LANES_24;
-            }
-            assembly ("memory-safe") {
-                // each lane has a bias of 2^24, so that it is positive
-                color := shr(Q24, add(add(mload(COLOR_0), mul(mload(COLOR_1), s)), mul(mload(COLOR_2), t)))
-            }
-            if (mode & IS_LIT != 0) {
-                if (mode & IS_DIFFUSE != 0) {
-                    setNormal(depth, s, t, x, y);
-                    return modulated(color, light(depth, x, y));
-                }
-                color += (highlights(faceRayAt(depth), x, y) >> Q16_TO_Q10) & LANES_24;
-            }
-            if (mode & IS_DIFFUSE == 0) {
+                color = (light(depth, x, y) >> Q16) & LANES_24;
+            } else {
                 assembly ("memory-safe") {
-                    color := add( // to lanes of 85 bits
-                        add(and(color, LANE_32), shl(MIDDLE_85_AT, and(shr(MIDDLE_AT, color), LANE_32))),
-                        shl(UPPER_85_AT, and(shr(UPPER_AT, color), LANE_32))
-                    )
-                    color := sub(color, BIAS_85)
+                    // each lane has a bias of 2^24, so that it is positive
+                    color := shr(Q24, add(add(mload(COLOR_0), mul(mload(COLOR_1), s)), mul(mload(COLOR_2), t)))
+                }
+                if (mode & IS_DIFFUSE == 0) {
+                    if (mode & IS_LIT != 0) color += (highlights(faceRayAt(depth), x, y) >> Q16_TO_Q10) & LANES_24;
+                    assembly ("memory-safe") {
+                        color := add( // to lanes of 85 bits
+                            add(and(color, LANE_32), shl(MIDDLE_85_AT, and(shr(MIDDLE_AT, color), LANE_32))),
+                            shl(UPPER_85_AT, and(shr(UPPER_AT, color), LANE_32))
+                        )
+                        color := sub(color, BIAS_85)
+                    }
+                } else {
+                    setNormal(depth, s, t, x, y);
+                    color = modulated(color, light(depth, x, y));
                 }
             }
         }
@@ -271,15 +270,20 @@ library FragmentLight {
         }
     }
 
-    /// @dev Sets FRAGMENT_NORMAL_RAY, and for a smooth surface the interpolated normal of the fragment, Q24, its length and square.
+    /// @dev Sets FRAGMENT_NORMAL_RAY, and for a smooth surface the normal of the fragment, its length and square.
     function setNormal(uint256 depth, uint256 s, uint256 t, uint256 x, uint256 y) private pure {
         if (load(MODE) & IS_SMOOTH == 0) {
             x = faceRayAt(depth);
             assembly ("memory-safe") {
                 mstore(FRAGMENT_NORMAL_RAY, x)
             }
-            return;
+        } else {
+            interpolateNormal(s, t, x, y);
         }
+    }
+
+    /// @dev Interpolates the vertex normals at a fragment, Q24.
+    function interpolateNormal(uint256 s, uint256 t, uint256 x, uint256 y) private pure {
         uint256 square;
         assembly ("memory-safe") {
             // t from here on: the normal, Q36 = Q20 * Q16, with a bias; s each of its coordinates, Q24
