@@ -467,15 +467,15 @@ uint256 constant EDGES_RIGHT_COLUMN_MASK = 0xffff;
 // ------------------------------------------------------------------------------------------------------------------------- flags together
 
 /// @dev Left or right; above or below; any of them; that or MUST_CLIP.
-uint256 constant IS_BESIDE = 0x600000000;
-uint256 constant IS_OVER = 0x1800000000;
+uint256 constant OUTSIDE_COLUMNS = 0x600000000;
+uint256 constant OUTSIDE_ROWS = 0x1800000000;
 uint256 constant IS_OUTSIDE = 0x1e00000000;
-uint256 constant IS_NOT_PLAIN = 0x1f00000000;
+uint256 constant NEEDS_CARE = 0x1f00000000;
 /// @dev Light of all kinds for each fragment.
 uint256 constant IS_LIT_AND_DIFFUSE = 6;
 /// @dev The bits that select the loop for the rows of a smooth triangle.
 uint256 constant IS_GREY_OR_STEEP = 0xc00;
-uint256 constant IS_CUT_OR_CROSSING = 0x2080;
+uint256 constant CROSSES_COLUMNS_OR_ROWS = 0x2080;
 /// @dev The modes of triangles of samples to which SPAN_BEGIN and SPAN_END are applied: see IS_CLAMPED.
 uint256 constant IS_CLAMPED_MODE = 0x380;
 

@@ -137,7 +137,7 @@ library VertexShader {
                     let n := mul(sar(MESH_NORMAL_AT, data), mload(NORMAL_X))
                     n := add(n, mul(sar(MESH_NORMAL_AT, shl(MESH_NORMAL_Y, data)), mload(NORMAL_Y)))
                     n := add(n, mul(sar(MESH_NORMAL_AT, shl(MESH_NORMAL_Z, data)), mload(NORMAL_Z)))
-                    mstore(add(record, 0x40), n)
+                    mstore(add(record, VERTEX_NORMAL), n)
                     record := add(record, recordSize)
                     normal := add(normal, stride)
                 }

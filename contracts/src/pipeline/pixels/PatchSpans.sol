@@ -72,7 +72,7 @@ library PatchSpans {
                     switch sgt(n, SHORT_SPAN)
                     case 0 {
                         n := 0
-                        if and(mload(MODE), IS_CROSSING) {
+                        if and(mload(MODE), CROSSES_COLUMNS) {
                             if lt(column, mload(COLUMN_BEGIN)) { column := mload(COLUMN_BEGIN) } // max(column, COLUMN_BEGIN)
                             if gt(end, mload(COLUMN_END)) { end := mload(COLUMN_END) } // min(end, COLUMN_END)
                         }
@@ -82,7 +82,7 @@ library PatchSpans {
                         // in groups of eight from the right, the same whether the tile cuts them or not: so its pixels are those of the
                         // whole picture
                         end := sub(end, 1) // the last column from here on
-                        if and(mload(MODE), IS_CROSSING) {
+                        if and(mload(MODE), CROSSES_COLUMNS) {
                             if lt(column, mload(COLUMN_BEGIN)) { n := sub(end, sub(mload(COLUMN_BEGIN), 1)) } // without those before
                             if gt(end, sub(mload(COLUMN_END), 1)) {
                                 // beyond the tile: whole groups are left out, the rest of r remains in its group

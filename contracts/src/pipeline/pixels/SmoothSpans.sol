@@ -75,7 +75,7 @@ library SmoothSpans {
             }
             let mode := mload(MODE)
             // 0 for most triangles, 1 if only the light or the colours need more
-            mode := or(and(mode, IS_CUT_OR_CROSSING), iszero(eq(and(mode, IS_GREY_OR_STEEP), IS_GREY)))
+            mode := or(and(mode, CROSSES_COLUMNS_OR_ROWS), iszero(eq(and(mode, IS_GREY_OR_STEEP), IS_GREY)))
             // START is relative to column 0; make it relative to address 0
             let start := sub(mload(START), mul(mload(DX_8), row))
             mstore(DX, shl(DEPTH_SIZE_BITS, mload(DX_8))) // 8 DX_8

@@ -27,7 +27,7 @@ abstract contract Wireframe is PixelRasterizer, SmoothShading {
                 uint256 b = load((word >> TRIANGLE_B_AT) & TRIANGLE_B_MASK);
                 uint256 c = load(word & TRIANGLE_C_MASK);
                 store(FACE, load(MESH_FACES) + FACE_SIZE * ((word >> TRIANGLE_FACE_AT) & TRIANGLE_FACE_MASK));
-                shadeExact(a, b, c, (word >> TRIANGLE_CROSSING_SHIFT) & IS_CROSSING);
+                shadeExact(a, b, c, (word >> TRIANGLE_CROSSING_SHIFT) & CROSSES_COLUMNS);
                 (uint256 start, uint256 toB, uint256 toC) = (load(ATTRIBUTE_0), load(DELTA_1), load(DELTA_2));
                 if (load(MODE) & IS_DEEP != 0) {
                     uint256 depth = depthOf(a);
