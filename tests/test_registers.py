@@ -77,7 +77,7 @@ def test_mode_bits_are_bits_of_their_own() -> None:
     assert all(value & (value - 1) == 0 for value in modes)
     # what the code gets from one bit by shifting another
     assert REGISTERS["HAS_SPECULAR"] == 4 * REGISTERS["IS_LIT"]
-    assert REGISTERS["IS_CROSSING"] == WORDS["CROSSING_BIT"] >> WORDS["TRIANGLE_CROSSING_SHIFT"]
+    assert REGISTERS["CROSSES_COLUMNS"] == WORDS["CROSSING_BIT"] >> WORDS["TRIANGLE_CROSSING_SHIFT"]
 
 
 def test_fields_of_packed_words_do_not_overlap() -> None:

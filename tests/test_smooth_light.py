@@ -1,4 +1,4 @@
-"""The bounds within which the light of smooth triangles is made of quadratic products: see SmoothLight.sol."""
+"""The bounds within which the light of smooth triangles is made of quadratic products: see SmoothTriangle.sol."""
 
 from __future__ import annotations
 
@@ -176,7 +176,7 @@ def vectors(t: Triangles, at: Array) -> tuple[Array, Array, Array, Array, Boolea
 
 
 def judged(t: Triangles, exact_middles: bool, old: bool) -> tuple[Booleans, Array]:
-    """Whether triangles are accepted, by the bounds of SmoothLight.sol or old ones, and their errors in levels."""
+    """Whether triangles are accepted, by the bounds of SmoothTriangle.sol or old ones, and their errors in levels."""
     n, k, kd = t["n"], t["k"], np.maximum(t["kd"], 1e-9)
     normal, light, half, length, far = vectors(t, NODES)
     bends, turns = (v[:, ENDS[0]] - v[:, ENDS[1]] for v in (normal, half))
@@ -245,7 +245,7 @@ def worst(exact_middles: bool, old: bool, generations: int, seed: int) -> float:
 
 @pytest.mark.parametrize("exact_middles", [False, True], ids=["vertices", "midpoints"])
 def test_accepted_triangles_have_the_light_of_their_points(exact_middles: bool) -> None:
-    """Within the bounds that SmoothLight.sol documents, for products of vertices and of midpoints too."""
+    """Within the bounds that SmoothTriangle.sol documents, for products of vertices and of midpoints too."""
     assert 4 < worst(exact_middles, False, 14, 0) < FOUND
 
 

@@ -1,7 +1,7 @@
 """Print the gas of one function of a contract: its basic blocks with counts, gas and instructions.
 
     python tools/gas_blocks.py teapot                              the functions of the engine, most gas first
-    python tools/gas_blocks.py teapot LinearSpans.plain             the blocks of one of them
+    python tools/gas_blocks.py teapot LinearSpans.draw              the blocks of one of them
     python tools/gas_blocks.py --call Genesis 0x5d6c... Layouts.fits    of a call of another contract, by its data
 
 For a scene (a file or the name of a dataset piece) the call is `Renderer.render`. Look for repetition: a value that is

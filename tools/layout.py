@@ -281,11 +281,11 @@ def kinds_of_packages(table: dict[str, Any]) -> tuple[str, str]:
 
 
 def solidity_literal(value: int) -> str:
-    """Return a number in hexadecimal; with 40 digits it would be an address, so there it begins with two more zeros."""
+    """Return a number in hexadecimal; with 39 to 41 digits it would be an address, so there it begins with zeros."""
     if value < 256:
         return str(value)
     digits = f"{value:x}"
-    return f"0x{'00' if len(digits) == 40 else ''}{digits}"
+    return f"0x{digits.zfill(42) if 39 <= len(digits) <= 41 else digits}"
 
 
 def solidity(sections: Iterator[Section], *imports: str, version: str = "0.8.37") -> str:

@@ -10,7 +10,7 @@ import {SurfaceLight} from "./SurfaceLight.sol";
 import "../words/EffectRegisters.sol";
 
 // The fragments of scenes with effects, opaque or translucent, with four samples per pixel. Each is shaded individually, at the centroid of
-// the samples that the triangle covers. Translucent ones are drawn in two passes: see BlendedSpans. A fragment of which some samples are in
+// the samples that the triangle covers. Translucent ones are drawn in two passes: see Spans. A fragment of which some samples are in
 // shadow and others are not is drawn twice: with the light that casts shadows switched off, and on.
 
 //

@@ -32,7 +32,6 @@ uint256 constant HALF_16_AT = 15;
 /// @dev The position of opacities in colours, and a bias that keeps them positive.
 uint256 constant OPACITY_AT = 168;
 uint256 constant OPACITY_BIAS = 1 << (48 + OPACITY_AT);
-uint256 constant Q34 = 34;
 
 library Texture {
     /// @notice Sets the texture coordinates of a triangle: at the first vertex (Q40), and the differences to the others (Q16).

@@ -4,7 +4,8 @@ pragma solidity 0.8.37;
 import {DepthBuffer} from "../pipeline/pixels/DepthBuffer.sol";
 import {FlatShading} from "../pipeline/shading/FlatShading.sol";
 import {LinearSpans} from "../pipeline/pixels/LinearSpans.sol";
-import {Patches} from "../pipeline/pixels/Patches.sol";
+import {PatchSpans} from "../pipeline/pixels/PatchSpans.sol";
+import {Spans} from "../pipeline/pixels/Spans.sol";
 import "../words/Registers.sol";
 
 /// @title Engine: transforms vertices to pixels, for flat and unlit surfaces.
@@ -13,14 +14,14 @@ import "../words/Registers.sol";
 contract Engine is DepthBuffer, FlatShading {
     function drawParts(uint256 edges, uint256 rows, uint256 row) internal pure override {
         uint256 mode = load(MODE);
-        if (mode == 0) LinearSpans.plain(edges, rows, row);
-        else if (mode == IS_LINEAR) LinearSpans.saturating(edges, rows, row);
+        if (mode == 0) LinearSpans.draw(edges, rows, row, false);
+        else if (mode == IS_LINEAR) LinearSpans.draw(edges, rows, row, true);
         else drawBothParts(edges, rows, row);
     }
 
     function drawRows(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 end) internal pure override {
-        if (load(MODE) & IS_PATCHED == 0) LinearSpans.general(edges, slopes, start, row, end);
-        else Patches.fill(edges, slopes, start, rowAt(row), rowAt(end));
+        if (load(MODE) & IS_PATCHED == 0) Spans.rows(edges, slopes, start, row, end, true, false);
+        else PatchSpans.fill(edges, slopes, start, row, end);
     }
 
     /// @dev The FragmentEngine draws wires.

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {BlendedSpans} from "../pipeline/pixels/BlendedSpans.sol";
 import {DepthBuffer} from "../pipeline/pixels/DepthBuffer.sol";
-import {ExactSpans} from "../pipeline/pixels/ExactSpans.sol";
-import {LinearSpans} from "../pipeline/pixels/LinearSpans.sol";
 import {Pipeline} from "../pipeline/Pipeline.sol";
 import {Shading} from "../pipeline/shading/Shading.sol";
-import {SmoothLight} from "../pipeline/shading/SmoothLight.sol";
-import {BY_FRAGMENTS, Wireframe} from "../pipeline/pixels/Wireframe.sol";
+import {SmoothSpans} from "../pipeline/pixels/SmoothSpans.sol";
+import {Spans} from "../pipeline/pixels/Spans.sol";
+import {Wireframe} from "../pipeline/pixels/Wireframe.sol";
 import "../words/Registers.sol";
 
 /// @title FragmentEngine: transforms vertices to pixels, for surfaces that are shaded per fragment.
@@ -24,18 +22,15 @@ contract FragmentEngine is DepthBuffer, Wireframe {
     }
 
     function drawParts(uint256 edges, uint256 rows, uint256 row) internal pure override {
-        if (load(MODE) & IS_QUADRATIC != 0) SmoothLight.drawParts(edges, rows, row);
+        if (load(MODE) & IS_QUADRATIC != 0) SmoothSpans.drawParts(edges, rows, row);
         else drawBothParts(edges, rows, row);
     }
 
     function drawRows(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 end) internal pure override {
-        if (load(MODE) & BY_FRAGMENTS == 0) LinearSpans.general(edges, slopes, start, row, end);
-        else drawFragments(edges, slopes, start, rowAt(row), rowAt(end));
-    }
-
-    function drawFragments(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure override {
-        if (load(MODE) & (IS_BLENDED | IS_DEPTH_PASS) != 0) BlendedSpans.rows(edges, slopes, start, row, last);
-        else ExactSpans.rows(edges, slopes, start, row, last);
+        uint256 mode = load(MODE);
+        if (mode & (IS_BLENDED | IS_DEPTH_PASS) != 0) Spans.rows(edges, slopes, start, row, end, false, true);
+        else if (mode & IS_PATCHED != 0) Spans.rows(edges, slopes, start, row, end, false, false);
+        else Spans.rows(edges, slopes, start, row, end, true, false);
     }
 
     function drawWires(uint256 list, uint256 end) internal pure override(Pipeline, Wireframe) {

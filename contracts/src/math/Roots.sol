@@ -24,3 +24,25 @@ function sqrt(uint256 x) pure returns (uint256 r) {
         }
     }
 }
+
+/// @notice Returns the square root of `x` as `sqrt` does.
+/// @param hint The address of h for the last root of the same kind, which is kept there: neighbours have similar magnitudes.
+function sqrtNear(uint256 x, uint256 hint) pure returns (uint256 r) {
+    assembly ("memory-safe") {
+        let h := mload(hint)
+        if gt(sub(shr(shl(1, h), x), 1), 2) {
+            // not 1 <= m < 4
+            h := shl(7, lt(0xffffffffffffffffffffffffffffffff, x))
+            h := or(h, shl(6, lt(0xffffffffffffffff, shr(h, x))))
+            h := or(h, shl(5, lt(0xffffffff, shr(h, x))))
+            h := or(h, shl(4, lt(0xffff, shr(h, x))))
+            h := or(h, shl(3, lt(0xff, shr(h, x))))
+            h := or(h, shl(2, lt(0xf, shr(h, x))))
+            h := shr(1, or(h, shl(1, lt(0x3, shr(h, x)))))
+            mstore(hint, h)
+        }
+        r := shr(10, mul(351, add(shr(h, x), shl(h, 2))))
+        r := shr(1, add(r, div(x, r)))
+        r := shr(1, add(r, div(x, r)))
+    }
+}

@@ -47,11 +47,11 @@ library Compositor {
 
     /// @notice Returns a fragment blended over its pixel: color * OPACITY + behind * (1 - OPACITY).
     /// @param color Signed lanes of 85 bits, Q10; clamped to 0..255 first.
-    /// @param p The address of the pixel's depth.
-    function over(uint256 color, uint256 p) internal pure returns (uint256 mixed) {
+    /// @param pixel The address of the pixel.
+    function over(uint256 color, uint256 pixel) internal pure returns (uint256 mixed) {
         unchecked {
             // blue, green and red at the top of the word
-            uint256 behind = load(load(IMAGE_ORIGIN) + 3 * (p >> 3));
+            uint256 behind = load(pixel);
             for (uint256 lane; lane != 3; ++lane) {
                 int256 value = int256(color << 171) >> 171;
                 // remove what the lane below has borrowed

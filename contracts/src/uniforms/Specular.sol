@@ -52,7 +52,7 @@ library Specular {
         }
     }
 
-    /// @notice Sets how far half vectors can be interpolated: see SmoothLight.
+    /// @notice Sets how far half vectors can be interpolated: see SmoothTriangle.
     /// @param lampReach The maximum sum of the squares of two edges, in sub-pixels, for which directions to a lamp can be.
     /// @param focal The focal length in sub-pixels; 0 for an orthographic camera, for which half vectors are constant.
     function setReaches(uint256 coefficient, uint256 shininess, uint256 lampReach, uint256 focal) internal pure {

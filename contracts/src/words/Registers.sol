@@ -295,7 +295,7 @@ uint256 constant RAY_HINT = 0x2e80;
 uint256 constant HALF_HINT = 0x2ea0;
 /// @dev The record of a vertex at the midpoint of an edge.
 uint256 constant MIDDLE = 0x2ec0;
-/// @dev Twice the largest skew of a product N * H along an edge, Q20: see SmoothLight.correction.
+/// @dev Twice the largest skew of a product N * H along an edge, Q20: see SmoothTriangle.correction.
 uint256 constant HALF_SKEW = 0x2fc0;
 /// @dev Half of QUADRATIC_DXX, by which QUADRATIC_DX is reduced while rows are drawn.
 uint256 constant QUADRATIC_HALF_DXX = 0x2fe0;
@@ -344,7 +344,7 @@ uint256 constant LIGHT_DIFFUSE = 0xba0;
 uint256 constant LIGHT_N_DOT_L = 0xbc0;
 
 // --------------------------------------------------------------------------------------------------------------------------------- vertex
-// The beginning of every vertex record; for the rest see VertexShader and SmoothLight.
+// The beginning of every vertex record; for the rest see VertexShader and SmoothVertex.
 
 /// @dev The screen word.
 uint256 constant VERTEX_SCREEN = 0;
@@ -376,8 +376,8 @@ uint256 constant CORNER_IS_EDGE = 160;
 uint256 constant CORNER_SIZE = 192;
 
 // ----------------------------------------------------------------------------------------------------------------------------------- mode
-// The shading of fragments: the sum of these is in MODE; 0 selects the plain loop. IS_CROSSING is at the position to which a shift moves
-// the bit of a triangle.
+// The shading of fragments: the sum of these is in MODE; 0 selects the plain loop. CROSSES_COLUMNS is at the position to which a shift
+// moves the bit of a triangle.
 
 /// @dev The accumulator contains the lit colour, which may exceed 255.
 uint256 constant IS_LINEAR = 1;
@@ -393,10 +393,10 @@ uint256 constant IS_SMOOTH = 16;
 uint256 constant IS_ORTHOGRAPHIC = 32;
 uint256 constant IS_FLAT = 64;
 /// @dev The triangle reaches beyond the left or right border of the tile.
-uint256 constant IS_CROSSING = 128;
-/// @dev The accumulator contains barycentric coordinates, and PATCH_SIZE selects how colours are computed: see Patches.
+uint256 constant CROSSES_COLUMNS = 128;
+/// @dev The accumulator contains barycentric coordinates, and PATCH_SIZE selects how colours are computed: see PatchSpans.
 uint256 constant IS_PATCHED = 0x100;
-/// @dev Light is computed from products that are quadratic over the triangle: see SmoothLight.
+/// @dev Light is computed from products that are quadratic over the triangle: see SmoothTriangle.
 uint256 constant IS_QUADRATIC = 0x200;
 /// @dev The effect of perspective is not negligible: depths differ by more than a factor of 64, or, with IS_QUADRATIC, colours are
 /// multiplied by them.
@@ -406,7 +406,7 @@ uint256 constant IS_GREY = 0x800;
 /// @dev Depths differ by more than a factor of 2^12, and are interpolated separately.
 uint256 constant IS_DEEP = 0x1000;
 /// @dev The triangle reaches above or below the band.
-uint256 constant IS_CUT = 0x2000;
+uint256 constant CROSSES_ROWS = 0x2000;
 /// @dev A light of the scene is a spot light.
 uint256 constant IS_SPOT_LIT = 0x4000;
 /// @dev The object is translucent: the nearest fragment of each pixel is blended with what is behind it.

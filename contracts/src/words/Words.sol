@@ -3,6 +3,18 @@ pragma solidity 0.8.37;
 
 // Written by tools/layout.py from layout.toml.
 
+// ------------------------------------------------------------------------------------------------------------- vertex of a smooth surface
+
+/// @dev More words of its record: the normal; with one light, the normal with reversed lanes; the direction to the light with reversed
+/// lanes, Q21 and even; the half vector, Q29; the half vector with reversed lanes, Q21 and even; and whether they can be used: see
+/// SmoothVertex.
+uint256 constant VERTEX_NORMAL = 64;
+uint256 constant VERTEX_REVERSED = 96;
+uint256 constant VERTEX_LIGHT = 128;
+uint256 constant VERTEX_HALF = 160;
+uint256 constant VERTEX_HALF_REVERSED = 192;
+uint256 constant VERTEX_STATE = 224;
+
 // ----------------------------------------------------------------------------------------------------------------------------- guard band
 
 /// @dev The guard band reaches from pixel -PIXEL_BIAS to GUARD_BAND - PIXEL_BIAS; the canvas lies at 0..2048 in it.
@@ -18,6 +30,7 @@ uint256 constant SUBPIXEL_BITS = 8;
 /// @dev The mask of these bits; added before a right shift, it rounds up.
 uint256 constant SUBPIXEL_MASK = 255;
 uint256 constant HALF_PIXEL = 128;
+uint256 constant ONE_PIXEL = 0x100;
 /// @dev Shifted left by this, a quotient of sub-pixel lengths and twice an area is Q24 per pixel.
 uint256 constant SUBPIXEL_TO_Q24 = 32;
 
@@ -25,13 +38,16 @@ uint256 constant SUBPIXEL_TO_Q24 = 32;
 
 /// @dev Fraction bits. Numbers are converted between formats by shifts by the difference.
 uint256 constant Q10 = 10;
+uint256 constant Q14 = 14;
 uint256 constant Q16 = 16;
 uint256 constant Q20 = 20;
 uint256 constant Q24 = 24;
 uint256 constant Q32 = 32;
+uint256 constant Q34 = 34;
 uint256 constant Q40 = 40;
 uint256 constant Q48 = 48;
 uint256 constant Q16_TO_Q10 = 6;
+uint256 constant Q24_TO_Q16 = 8;
 uint256 constant Q40_TO_Q16 = 24;
 /// @dev One in each.
 uint256 constant ONE_10 = 0x400;
@@ -62,6 +78,13 @@ uint256 constant FACE_FIRST_IN_WORD = 240;
 uint256 constant FACE_SECOND_IN_WORD = 224;
 uint256 constant FACE_SECOND_AT = 16;
 uint256 constant FACE_INDEX_MASK = 0xffff;
+
+// ----------------------------------------------------------------------------------------------------- parts of colours of an accumulator
+
+/// @dev Multiplier that collects BYTES_OF_LANES at the top of a word; the bits below are undefined.
+uint256 constant LANES_TO_BYTES = 0x4000000000000000400000000000000040000000000000000000;
+/// @dev The distance from the lowest bit of the next lane to that of a byte.
+uint256 constant NEXT_LANE_TO_BYTE = 14;
 
 // ------------------------------------------------------------------------------------------------------------------------ words of memory
 
@@ -102,6 +125,16 @@ uint256 constant SPECULAR_VALUE_AT = 128;
 uint256 constant SPECULAR_ENTRY_SHIFT_24 = 19;
 uint256 constant SPECULAR_ENTRY_MASK_24 = 0xfe0;
 uint256 constant SPECULAR_REST_AT_128 = 0xffffff00000000000000000000000000000000;
+
+// --------------------------------------------------------------------------------------------------------------------- quadratic products
+
+/// @dev At fragments: twice the root of N * N, Q34, is approximated within 3 % by ROOT_AT_0 + (N * N) * ROOT_SLOPE >> ROOT_SHIFT.
+uint256 constant ROOT_AT_0 = 0x15f3aeee1;
+uint256 constant ROOT_SLOPE = 0x2be;
+uint256 constant ROOT_SHIFT = 44;
+/// @dev The positions of N * L as Q59 and N * H as Q46, with their lanes at the top of a word.
+uint256 constant N_DOT_L_AT = 180;
+uint256 constant N_DOT_H_AT = 193;
 
 // ------------------------------------------------------------------------------------------------------------------- normals of fragments
 
@@ -147,10 +180,10 @@ uint256 constant SCREEN_PIXEL_ROW_AT = 136;
 // --------------------------------------------------------------------------------------------------------- flags of screen words together
 
 /// @dev Left or right; above or below; any of them; that or MUST_CLIP.
-uint256 constant IS_BESIDE = 0x600000000;
-uint256 constant IS_OVER = 0x1800000000;
+uint256 constant OUTSIDE_COLUMNS = 0x600000000;
+uint256 constant OUTSIDE_ROWS = 0x1800000000;
 uint256 constant IS_OUTSIDE = 0x1e00000000;
-uint256 constant IS_NOT_PLAIN = 0x1f00000000;
+uint256 constant NEEDS_CARE = 0x1f00000000;
 
 // ------------------------------------------------------------------------------------------------------------------------- attribute word
 // Depth and colours of a vertex: colours as described below, Q10. For a vertex that must be clipped, the outcode instead.
@@ -267,8 +300,9 @@ uint256 constant EDGES_RIGHT_COLUMN_MASK = 0xffff;
 /// @dev The fraction bits of a column; of an edge as an address of depths.
 uint256 constant EDGE_FRACTION = 48;
 uint256 constant EDGE_ADDRESS_FRACTION = 45;
-/// @dev The position of the right edge's address.
+/// @dev The position of the right edge's address; the mask of an address of a depth, a multiple of 8.
 uint256 constant EDGE_RIGHT_ADDRESS_AT = 173;
+uint256 constant ADDRESS = 0xfffffff8;
 /// @dev The shift from sub-pixels to a column.
 uint256 constant EDGE_SUBPIXEL_SHIFT = 40;
 uint256 constant HALF_COLUMN = 0x800000000000;
@@ -350,9 +384,11 @@ uint256 constant SHADOW_EDGE_DX_AT = 208;
 
 // ------------------------------------------------------------------------------------------------------------- flags of the mode together
 
+/// @dev Light of all kinds for each fragment.
+uint256 constant IS_LIT_AND_DIFFUSE = 6;
 /// @dev The bits that select the loop for the rows of a smooth triangle.
 uint256 constant IS_GREY_OR_STEEP = 0xc00;
-uint256 constant IS_CUT_OR_CROSSING = 0x2080;
+uint256 constant CROSSES_COLUMNS_OR_ROWS = 0x2080;
 /// @dev The modes of triangles of samples to which SPAN_BEGIN and SPAN_END are applied: see IS_CLAMPED.
 uint256 constant IS_CLAMPED_MODE = 0x380;
 
@@ -360,6 +396,8 @@ uint256 constant IS_CLAMPED_MODE = 0x380;
 
 /// @dev From a triangle of a list to its mode, for both of its bits there.
 uint256 constant TRIANGLE_CROSSING_SHIFT = 140;
+/// @dev To the mode of a face that a highlight may reach.
+uint256 constant SPECULAR_TO_LIT = 2;
 
 // -------------------------------------------------------------------------------------------------------------------- borders of the tile
 // Four lanes of 28 bits for the left, right, upper and lower border: positive if a vertex lies beyond it. See TileCulling.
@@ -433,6 +471,14 @@ uint256 constant OVERFLOW_CARRY_AT = 30;
 /// @dev Multiplier that collects BYTES_56 at the top of a word; the same for BYTES_Q10.
 uint256 constant LANES_TO_PIXEL = 0x100000000000000010000000000000001000000000000000000000000000000;
 uint256 constant Q10_TO_PIXEL = 0x400000000000000040000000000000004000000000000000000000000000;
+
+// -------------------------------------------------------------------------------------------------------------- colours of an accumulator
+// The lanes of colours in an accumulator, 32 bits further up.
+
+/// @dev The bytes; the bits above them, and the lowest bits of the lanes above these.
+uint256 constant BYTES_OF_LANES = 0x03fc000000000003fc000000000003fc0000000000;
+uint256 constant ABOVE_BYTES = 0xfc000000000000fc000000000000fc000000000000;
+uint256 constant NEXT_LANES = 0x1000000000000010000000000000100000000000000;
 
 // --------------------------------------------------------------------------------------------------------------------------------- depths
 // Four depths in a word, the leftmost uppermost.
@@ -573,6 +619,14 @@ uint256 constant BYTES_Q58 = 0xff00000000000000000007f80000000000000000003fc0000
 uint256 constant ABOVE_Q58 = 0x7ffff00000000000000003ffff80000000000000001ffffc0000000000000000;
 uint256 constant CARRIES_85 = 0x8000000000000000000004000000000000000000002000000000000000000000;
 uint256 constant SIGNS_85 = 0x4000000000000000000002000000000000000000001000000000000000000000;
+/// @dev 1 in each lane.
+uint256 constant ONES_85 = 0x4000000000000000000002000000000000000000001;
+/// @dev Half a level, Q58 and Q10.
+uint256 constant HALF_85 = 0x800000000000000000000400000000000000000000200000000000000;
+uint256 constant HALF_85_Q10 = 0x800000000000000000000400000000000000000000200;
+/// @dev Bits 18 to 36, which are zero for a colour of 0 to 255, Q10. Adding the mask to the masked lane carries into bit BEYOND_CARRY
+/// unless these bits are zero; bit BEYOND_SIGN is the sign.
+uint256 constant BEYOND_BYTE_85 = 0x7ffff00000000000000003ffff80000000000000001ffffc0000;
 
 // ---------------------------------------------------------------------------------------------------------------- parts of signed colours
 
@@ -589,6 +643,13 @@ uint256 constant MIDDLE_85_TO_TOP = 86;
 /// @dev The sign of the lowest lane, and the bit into which it carries.
 uint256 constant SIGN_85 = 84;
 uint256 constant CARRY_85 = 85;
+/// @dev See BEYOND_BYTE_85.
+uint256 constant BEYOND_CARRY = 37;
+uint256 constant BEYOND_SIGN = 36;
+/// @dev The lowest bit of the byte of each channel, Q10.
+uint256 constant BLUE_Q10_AT = 10;
+uint256 constant GREEN_Q10_AT = 95;
+uint256 constant RED_Q10_AT = 180;
 uint256 constant Q10_TO_Q58 = 48;
 /// @dev The positions of Q9 numbers in lanes of Q58.
 uint256 constant BLUE_Q9_AT = 49;

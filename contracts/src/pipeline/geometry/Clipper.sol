@@ -90,7 +90,7 @@ library Clipper {
                 isCut = isCut || mustClip;
                 outcodes &= mustClip ? load(record + VERTEX_ATTRIBUTES) : 0;
                 VertexShader.clipCoordinates(index, polygon);
-                store(polygon + CORNER_NORMAL, load(record + 0x40));
+                store(polygon + CORNER_NORMAL, load(record + VERTEX_NORMAL));
                 store(polygon + CORNER_IS_EDGE, 1);
                 polygon += CORNER_SIZE;
             }
@@ -184,7 +184,7 @@ library Clipper {
             uint256 depth = load(FRAME_IS_ORTHOGRAPHIC) == 0 ? load(DEPTH_SCALE) / uint256(w) : load(DEPTH_SCALE) - uint256(w >> 8);
             store(record, VertexShader.screenWord(x, y, record));
             store(record + VERTEX_ATTRIBUTES, (depth << ATTRIBUTE_DEPTH_AT) | load(corner + CORNER_COLOR));
-            store(record + 0x40, load(corner + CORNER_NORMAL));
+            store(record + VERTEX_NORMAL, load(corner + CORNER_NORMAL));
         }
     }
 

@@ -65,7 +65,7 @@ abstract contract PrimitiveAssembly is Rasterizer {
                     area = -area;
                     crossing = IS_TURNED_AWAY;
                 }
-                uint256 flags = (a | b | c) & IS_NOT_PLAIN;
+                uint256 flags = (a | b | c) & NEEDS_CARE;
                 if (flags != 0) {
                     if (flags & MUST_CLIP != 0 || a & b & c & IS_OUTSIDE != 0) continue;
                     crossing |= crossingOf(flags);
@@ -93,7 +93,7 @@ abstract contract PrimitiveAssembly is Rasterizer {
     /// @dev Converts the combined flags of a triangle's vertices to bits of its mode.
     function crossingOf(uint256 flags) private pure returns (uint256 mode) {
         assembly ("memory-safe") {
-            mode := add(mul(IS_CROSSING, gt(and(flags, IS_BESIDE), 0)), mul(IS_CUT, gt(and(flags, IS_OVER), 0)))
+            mode := add(mul(CROSSES_COLUMNS, gt(and(flags, OUTSIDE_COLUMNS), 0)), mul(CROSSES_ROWS, gt(and(flags, OUTSIDE_ROWS), 0)))
         }
     }
 }

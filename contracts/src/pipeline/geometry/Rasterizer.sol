@@ -9,7 +9,7 @@ import "../../words/Registers.sol";
 abstract contract Rasterizer {
     /// @notice Selects how a triangle is shaded, and sets the registers for it: MODE, ATTRIBUTE_0, DELTA_1, DELTA_2 and others.
     /// @param a, b, c The screen words of its vertices, the topmost first, counter-clockwise.
-    /// @param crossing The sum of IS_CROSSING, IS_CUT and IS_TURNED_AWAY, or of some of them.
+    /// @param crossing The sum of CROSSES_COLUMNS, CROSSES_ROWS and IS_TURNED_AWAY, or of some of them.
     function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure virtual;
 
     /// @notice Draws a triangle for which `shade` was called.
@@ -55,8 +55,8 @@ abstract contract Rasterizer {
                 uint256 a = load((word >> TRIANGLE_A_AT) & TRIANGLE_A_MASK);
                 uint256 b = load((word >> TRIANGLE_B_AT) & TRIANGLE_B_MASK);
                 uint256 c = load(word & TRIANGLE_C_MASK);
-                uint256 mode = (word >> TRIANGLE_CROSSING_SHIFT) & (IS_CROSSING | IS_TURNED_AWAY);
-                shade(a, b, c, mode | (top < bandTop || bottom > bandBottom ? IS_CUT : 0));
+                uint256 mode = (word >> TRIANGLE_CROSSING_SHIFT) & (CROSSES_COLUMNS | IS_TURNED_AWAY);
+                shade(a, b, c, mode | (top < bandTop || bottom > bandBottom ? CROSSES_ROWS : 0));
                 drawTriangle(a, b, c);
             }
         }

@@ -49,7 +49,7 @@ library Triangles {
             uint256 bottom = ((b > c ? b : c) + load(ROUND_BOTTOM)) >> SCREEN_PIXEL_ROW_AT;
             if (top >= bottom) return list;
             uint256 face = (load(FACE) - load(MESH_FACES)) / FACE_SIZE;
-            uint256 crossing = (a | b | c) & IS_BESIDE == 0 ? 0 : CROSSING_BIT;
+            uint256 crossing = (a | b | c) & OUTSIDE_COLUMNS == 0 ? 0 : CROSSING_BIT;
             if ((a | b | c) & IS_BACK != 0) crossing |= BACK_BIT;
             store(
                 list,

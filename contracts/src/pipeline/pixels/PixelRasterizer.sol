@@ -9,6 +9,13 @@ import "../../words/Registers.sol";
 // Edges are two columns, Q48, in lanes of 128 bits, such that the integer part is the first pixel whose centre is not left of the edge: the
 // left edge in the lower lane, the right one in the upper lane. Rows are represented by the addresses of their depths at column 0, which
 // decrease downward. A Q48 column is a Q45 offset of depths in bytes, so with the address of the row added, edges are addresses of depths.
+
+/// @dev Shifts by which a number is divided by 8 and by 64, or multiplied.
+uint256 constant EIGHTH = 3;
+uint256 constant SIXTY_FOURTH = 6;
+/// @dev The position of whole pixels in a sub-pixel coordinate with 16 more bits.
+uint256 constant PIXELS_Q16_AT = 24;
+
 abstract contract PixelRasterizer is Rasterizer {
     /// @notice Draws the fragments of a triangle.
     /// @param edges Addresses at the upper part; SLOPES are their changes.
@@ -26,81 +33,84 @@ abstract contract PixelRasterizer is Rasterizer {
     function drawTriangle(uint256 a, uint256 b, uint256 c) internal pure override {
         uint256 edges;
         assembly ("memory-safe") {
-            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
-            let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
-            let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)
-            a := shr(SCREEN_ROW_AT, a)
-            b := sub(shr(SCREEN_ROW_AT, b), a)
-            c := sub(shr(SCREEN_ROW_AT, c), a)
+            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK) // xa, in sub-pixels
+            let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x) // column of b - xa
+            let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x) // column of c - xa
+            a := shr(SCREEN_ROW_AT, a) // a from here on: ya, in sub-pixels
+            b := sub(shr(SCREEN_ROW_AT, b), a) // b from here on: row of b - ya
+            c := sub(shr(SCREEN_ROW_AT, c), a) // c from here on: row of c - ya
             // from the first vertex to the centres of the first row
-            let y := and(sub(0, a), SUBPIXEL_MASK)
+            let y := and(sub(0, a), SUBPIXEL_MASK) // -ya mod 256
             {
                 // The gradients of the barycentric coordinates t (of c) and s (of b), Q29 per pixel: dt/dx = yb / area, dt/dy = -xb / area,
                 // ds/dx = -yc / area, ds/dy = xc / area. Rounded to 2^-29, over the 4,096 pixels of the guard band in both directions they
                 // leave s + t within 2^-15.
                 let area := sub(mul(xc, b), mul(xb, c)) // xc * yb - xb * yc: twice the area, in sub-pixels
-                let dx := sdiv(shl(GRADIENT_SHIFT, b), area)
-                let dy := sdiv(shl(GRADIENT_SHIFT, xb), area)
+                let dx := sdiv(shl(GRADIENT_SHIFT, b), area) // dt/dx = yb / area
+                let dy := sdiv(shl(GRADIENT_SHIFT, xb), area) // -dt/dy
                 let delta := mload(DELTA_2)
                 mstore(DX_8, mul(delta, dx)) // (c - a) * dt/dx; Q29 per pixel is Q32 per byte of depths, of which a pixel has 8
-                mstore(DY, mul(delta, dy))
+                mstore(DY, mul(delta, dy)) // -(c - a) * dt/dy, for now
                 // from the first vertex to the centre of pixel 0 in the first row
                 mstore(START, sub(mload(ATTRIBUTE_0), mul(delta, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, dx), mul(y, dy))))))
-                dx := sdiv(shl(GRADIENT_SHIFT, c), area)
-                dy := sdiv(shl(GRADIENT_SHIFT, xc), area)
-                delta := mload(DELTA_1)
+                dx := sdiv(shl(GRADIENT_SHIFT, c), area) // -ds/dx = yc / area
+                dy := sdiv(shl(GRADIENT_SHIFT, xc), area) // ds/dy
+                delta := mload(DELTA_1) // b - a
                 mstore(START, add(mload(START), mul(delta, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, dx), mul(y, dy))))))
-                mstore(DX_8, sub(mload(DX_8), mul(delta, dx)))
-                mstore(DY, shl(3, sub(mul(delta, dy), mload(DY))))
+                mstore(DX_8, sub(mload(DX_8), mul(delta, dx))) // (c - a) * dt/dx + (b - a) * ds/dx
+                mstore(DY, shl(EIGHTH, sub(mul(delta, dy), mload(DY)))) // the same with d/dy, Q32 per pixel
             }
             // columns per row, Q48: left (xb / yb) and right (xc / yc)
             let slopes := add(sdiv(shl(EDGE_FRACTION, xb), b), shl(RIGHT_EDGE_AT, sdiv(shl(EDGE_FRACTION, xc), c)))
             // In the shifted product, 8 bits of the upper lane enter the top of the lower one, where they do no harm.
             edges := sar(SUBPIXEL_BITS, mul(y, slopes)) // y * slope, Q48
-            // the edge between b and c
+            // the edge between b and c; y from here on: its slope, columns per row, Q48
             y := sdiv(shl(EDGE_FRACTION, sub(xc, xb)), sub(c, b))
             switch lt(b, c)
             case 1 {
-                c := shr(SUBPIXEL_BITS, add(add(a, c), SUBPIXEL_MASK))
-                xc := add(a, b)
-                b := shr(SUBPIXEL_BITS, add(xc, SUBPIXEL_MASK))
-                mstore(LOWER_ROWS, sub(c, b))
+                // b is above c: the lower part begins at b, and its left edge is that from b to c
+                c := shr(SUBPIXEL_BITS, add(add(a, c), SUBPIXEL_MASK)) // c from here on: ceil(yc), the row after the last
+                xc := add(a, b) // xc from here on: yb, from row 0
+                b := shr(SUBPIXEL_BITS, add(xc, SUBPIXEL_MASK)) // b from here on: ceil(yb), the first row of the lower part
+                mstore(LOWER_ROWS, sub(c, b)) // ceil(yc) - ceil(yb)
                 mstore(LOWER_EDGE, and(LANE_128, add(
                     add(
-                        shl(EDGE_SUBPIXEL_SHIFT, add(x, xb)),
+                        shl(EDGE_SUBPIXEL_SHIFT, add(x, xb)), // the column of b, Q48
+                        // rounded up, plus the address of row b
                         add(CEIL_48, shl(EDGE_ADDRESS_FRACTION, sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), b))))
                     ),
-                    sar(SUBPIXEL_BITS, mul(sub(shl(SUBPIXEL_BITS, b), xc), y))
+                    sar(SUBPIXEL_BITS, mul(sub(shl(SUBPIXEL_BITS, b), xc), y)) // (ceil(yb) - yb) * slope
                 )))
-                mstore(LOWER_KEPT, UPPER_LANE_128)
-                mstore(LOWER_SLOPES, sub(add(sub(slopes, signextend(15, slopes)), y), mload(STRIDE_LANES)))
+                mstore(LOWER_KEPT, UPPER_LANE_128) // the right edge goes on
+                mstore(LOWER_SLOPES, sub(add(sub(slopes, signextend(15, slopes)), y), mload(STRIDE_LANES))) // left: y in place of the old
             }
             default {
-                xb := add(a, c)
-                c := shr(SUBPIXEL_BITS, add(xb, SUBPIXEL_MASK))
-                mstore(LOWER_ROWS, sub(shr(SUBPIXEL_BITS, add(add(a, b), SUBPIXEL_MASK)), c))
-                b := c
+                // c is above b: the lower part begins at c, and its right edge is that from c to b
+                xb := add(a, c) // xb from here on: yc, from row 0
+                c := shr(SUBPIXEL_BITS, add(xb, SUBPIXEL_MASK)) // c from here on: ceil(yc), the first row of the lower part
+                mstore(LOWER_ROWS, sub(shr(SUBPIXEL_BITS, add(add(a, b), SUBPIXEL_MASK)), c)) // ceil(yb) - ceil(yc)
+                b := c // b from here on: the first row of the lower part, as in the other case
                 mstore(LOWER_EDGE, shl(RIGHT_EDGE_AT, add(
                     add(
-                        shl(EDGE_SUBPIXEL_SHIFT, add(x, xc)),
+                        shl(EDGE_SUBPIXEL_SHIFT, add(x, xc)), // the column of c, Q48
                         add(CEIL_48, shl(EDGE_ADDRESS_FRACTION, sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), b))))
                     ),
-                    sar(SUBPIXEL_BITS, mul(sub(shl(SUBPIXEL_BITS, b), xb), y))
+                    sar(SUBPIXEL_BITS, mul(sub(shl(SUBPIXEL_BITS, b), xb), y)) // (ceil(yc) - yc) * slope
                 )))
-                mstore(LOWER_KEPT, LANE_128)
-                mstore(LOWER_SLOPES, sub(add(signextend(15, slopes), shl(RIGHT_EDGE_AT, y)), mload(STRIDE_LANES)))
+                mstore(LOWER_KEPT, LANE_128) // the left edge goes on
+                mstore(LOWER_SLOPES, sub(add(signextend(15, slopes), shl(RIGHT_EDGE_AT, y)), mload(STRIDE_LANES))) // right: y
             }
-            // the address of the first row; the number of rows of the upper part
-            a := shr(SUBPIXEL_BITS, add(a, SUBPIXEL_MASK))
-            b := sub(b, a)
-            a := sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), a))
+            a := shr(SUBPIXEL_BITS, add(a, SUBPIXEL_MASK)) // a from here on: ceil(ya), the first row
+            b := sub(b, a) // b from here on: the number of rows of the upper part
+            a := sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), a)) // a from here on: the address of the first row
+            // both edges begin at the first vertex: + (xa rounded up + address) in each lane
             edges := add(edges, mul(add(add(shl(EDGE_SUBPIXEL_SHIFT, x), CEIL_48), shl(EDGE_ADDRESS_FRACTION, a)), ONES_128))
-            mstore(SLOPES, sub(slopes, mload(STRIDE_LANES)))
+            mstore(SLOPES, sub(slopes, mload(STRIDE_LANES))) // a row down is a lower address
         }
         if (load(MODE) & IS_TURNED_AWAY != 0) {
-            // DX_8 is the change over an eighth of a pixel, DY over a pixel
+            // over a 64th of a pixel: DX_8 is the change over an eighth of a pixel, DY over a pixel
             unchecked {
-                uint256 depth = setBack(uint256(loadSigned(DX_8) >> 3), uint256(loadSigned(DY) >> 6), 0);
+                uint256 depth = setBack(uint256(loadSigned(DX_8) >> EIGHTH), uint256(loadSigned(DY) >> SIXTY_FOURTH), 0);
                 store(START, load(START) - (depth << ACCUMULATOR_DEPTH_AT));
             }
         }
@@ -115,19 +125,21 @@ abstract contract PixelRasterizer is Rasterizer {
             let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
             let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
             let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)
-            x := shl(16, x)
-            a := shr(SCREEN_ROW_AT, a)
+            x := shl(Q16, x) // x from here on: Q16
+            a := shr(SCREEN_ROW_AT, a) // a, b, c from here on: ya, yb - ya, yc - ya
             b := sub(shr(SCREEN_ROW_AT, b), a)
             c := sub(shr(SCREEN_ROW_AT, c), a)
             nothing := 1
             // rows from the first one, in sub-pixels below the first vertex
-            for { let y := and(sub(0, a), SUBPIXEL_MASK) } or(lt(y, b), lt(y, c)) { y := add(y, 256) } {
+            for { let y := and(sub(0, a), SUBPIXEL_MASK) } or(lt(y, b), lt(y, c)) { y := add(y, ONE_PIXEL) } {
                 // columns, Q16 in sub-pixels: on the left from a via b to c; on the right from a to c, or via c to b
-                let left := add(shl(16, xb), sdiv(mul(sub(y, b), shl(16, sub(xc, xb))), sub(c, b)))
+                // xb + (y - yb) * (xc - xb) / (yc - yb)
+                let left := add(shl(Q16, xb), sdiv(mul(sub(y, b), shl(Q16, sub(xc, xb))), sub(c, b)))
                 let right := left
-                if lt(y, b) { left := sdiv(mul(y, shl(16, xb)), b) }
-                if lt(y, c) { right := sdiv(mul(y, shl(16, xc)), c) }
-                if lt(shr(24, add(x, sub(left, 2))), shr(24, add(x, add(right, 1)))) {
+                if lt(y, b) { left := sdiv(mul(y, shl(Q16, xb)), b) } // y * xb / yb
+                if lt(y, c) { right := sdiv(mul(y, shl(Q16, xc)), c) } // y * xc / yc
+                // floor(left - 2 units) < floor(right + 1 unit), in pixels: a centre between them, or nearly
+                if lt(shr(PIXELS_Q16_AT, add(x, sub(left, 2))), shr(PIXELS_Q16_AT, add(x, add(right, 1)))) {
                     nothing := 0
                     break
                 }
@@ -139,7 +151,7 @@ abstract contract PixelRasterizer is Rasterizer {
     function drawBothParts(uint256 edges, uint256 rows, uint256 row) internal pure {
         unchecked {
             uint256 start = load(START);
-            store(DX, load(DX_8) << 3);
+            store(DX, load(DX_8) << EIGHTH);
             if (load(MODE) & IS_DEEP != 0) {
                 start += load(DEEP_START);
                 store(DX, load(DX) + (load(DEEP_DX) << ATTRIBUTE_DEPTH_AT));
@@ -175,13 +187,6 @@ abstract contract PixelRasterizer is Rasterizer {
             if (int256(end) < int256(last)) end = last;
             if (int256(row) <= int256(end)) return;
             drawRows(edges - (row << EDGE_ADDRESS_FRACTION) * ONES_128, slopes + load(STRIDE_LANES), start, row, end);
-        }
-    }
-
-    /// @dev Returns the row of which this is the address of the depth at column 0.
-    function rowAt(uint256 position) internal pure returns (uint256) {
-        unchecked {
-            return (load(DEPTH_ORIGIN) - position) / load(DEPTH_STRIDE);
         }
     }
 }

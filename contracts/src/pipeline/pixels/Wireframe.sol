@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {columnOf, depthOf, firstRowOf, max, min, rowOf} from "../geometry/Screen.sol";
 import {PixelRasterizer} from "./PixelRasterizer.sol";
 import {SmoothShading} from "../shading/SmoothShading.sol";
 import "../../words/Registers.sol";
@@ -8,17 +9,10 @@ import "../../words/Registers.sol";
 // Rasterizes the edges of triangles to fragments. A line has one pixel in each column, or in each row if it is steeper than 45 degrees: the
 // pixel nearest to it, with the depth and colour of the line at the centre of that column or row.
 
-/// @dev The modes of triangles whose fragments do not have linear colours.
-uint256 constant BY_FRAGMENTS = IS_BLENDED | IS_DEPTH_PASS | IS_PATCHED;
-
 /// @dev Divided by the length of a line in sub-pixels (Q8), this is the fraction of the line per pixel, Q32.
 int256 constant STEP_ONE = 1 << 40;
 
 abstract contract Wireframe is PixelRasterizer, SmoothShading {
-    /// @notice Draws the rows from `row` (inclusive) to `last` (exclusive), if the mode is one of BY_FRAGMENTS: see
-    /// PixelRasterizer.drawRows, where rows are addresses.
-    function drawFragments(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure virtual;
-
     /// @notice Draws the edges of the triangles of a list into the current band.
     function drawWires(uint256 list, uint256 end) internal pure virtual {
         unchecked {
@@ -33,7 +27,7 @@ abstract contract Wireframe is PixelRasterizer, SmoothShading {
                 uint256 b = load((word >> TRIANGLE_B_AT) & TRIANGLE_B_MASK);
                 uint256 c = load(word & TRIANGLE_C_MASK);
                 store(FACE, load(MESH_FACES) + FACE_SIZE * ((word >> TRIANGLE_FACE_AT) & TRIANGLE_FACE_MASK));
-                shadeExact(a, b, c, (word >> TRIANGLE_CROSSING_SHIFT) & IS_CROSSING);
+                shadeExact(a, b, c, (word >> TRIANGLE_CROSSING_SHIFT) & CROSSES_COLUMNS);
                 (uint256 start, uint256 toB, uint256 toC) = (load(ATTRIBUTE_0), load(DELTA_1), load(DELTA_2));
                 if (load(MODE) & IS_DEEP != 0) {
                     uint256 depth = depthOf(a);
@@ -48,17 +42,13 @@ abstract contract Wireframe is PixelRasterizer, SmoothShading {
         }
     }
 
-    function depthOf(uint256 screenWord) private pure returns (uint256) {
-        return load((screenWord & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES) >> ATTRIBUTE_DEPTH_AT;
-    }
-
     /// @param p, q The screen words of the ends.
     /// @param attribute The accumulator at p.
     /// @param change The change of the attribute word from p to q.
     function line(uint256 p, uint256 q, uint256 attribute, uint256 change, uint256 top, uint256 bottom) private pure {
         unchecked {
-            int256 dx = column(q) - column(p);
-            int256 dy = row(q) - row(p);
+            int256 dx = columnOf(q) - columnOf(p);
+            int256 dy = rowOf(q) - rowOf(p);
             bool steep = dy * dy >= dx * dx;
             // the same pixels for both faces that share the edge
             if (steep ? dy < 0 : dx < 0) {
@@ -79,14 +69,14 @@ abstract contract Wireframe is PixelRasterizer, SmoothShading {
         pure
     {
         unchecked {
-            top = max(top, (p + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT);
-            bottom = min(bottom, (q + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT);
+            top = max(top, firstRowOf(p));
+            bottom = min(bottom, firstRowOf(q));
             if (top >= bottom) return;
-            int256 below = int256(top << SUBPIXEL_BITS) - row(p);
+            int256 below = int256(top << SUBPIXEL_BITS) - rowOf(p);
             int256 slope = (dx << EDGE_FRACTION) / dy;
             uint256 step = uint256(STEP_ONE / dy);
             // the pixel whose centre is nearest
-            uint256 left = uint256((column(p) << EDGE_SUBPIXEL_SHIFT) + ((below * slope) >> SUBPIXEL_BITS) + int256(HALF_COLUMN));
+            uint256 left = uint256((columnOf(p) << EDGE_SUBPIXEL_SHIFT) + ((below * slope) >> SUBPIXEL_BITS) + int256(HALF_COLUMN));
             store(DX, 0);
             store(DY, change * step);
             attribute += change * ((uint256(below) * step) >> SUBPIXEL_BITS);
@@ -100,22 +90,22 @@ abstract contract Wireframe is PixelRasterizer, SmoothShading {
         pure
     {
         unchecked {
-            int256 begin = (column(p) + int256(SUBPIXEL_MASK)) >> SUBPIXEL_BITS;
-            int256 end = (column(q) + int256(SUBPIXEL_MASK)) >> SUBPIXEL_BITS;
+            int256 begin = (columnOf(p) + int256(SUBPIXEL_MASK)) >> SUBPIXEL_BITS;
+            int256 end = (columnOf(q) + int256(SUBPIXEL_MASK)) >> SUBPIXEL_BITS;
             if (begin >= end) return;
             top = max(top, (min(p, q) + (HALF_PIXEL << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT);
             bottom = min(bottom, ((max(p, q) + (HALF_PIXEL << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT) + 1);
             uint256 step = uint256(STEP_ONE / dx);
             store(DX, change * step);
             store(DY, 0);
-            attribute += change * uint256((-column(p) * int256(step)) >> SUBPIXEL_BITS);
+            attribute += change * uint256((-columnOf(p) * int256(step)) >> SUBPIXEL_BITS);
             // the column at which the line enters the first row, and its change per row
             int256 enter = begin << EDGE_FRACTION;
             int256 slope = (end - begin) << EDGE_FRACTION;
             if (dy != 0) {
                 slope = (dx << EDGE_FRACTION) / dy;
-                enter = (column(p) << EDGE_SUBPIXEL_SHIFT)
-                    + (((int256(top << SUBPIXEL_BITS) - int256(HALF_PIXEL) - row(p)) * slope) >> SUBPIXEL_BITS) + int256(CEIL_48);
+                enter = (columnOf(p) << EDGE_SUBPIXEL_SHIFT)
+                    + (((int256(top << SUBPIXEL_BITS) - int256(HALF_PIXEL) - rowOf(p)) * slope) >> SUBPIXEL_BITS) + int256(CEIL_48);
             }
             for (; top < bottom; ++top) {
                 int256 exit = enter + slope;
@@ -135,25 +125,8 @@ abstract contract Wireframe is PixelRasterizer, SmoothShading {
     /// @dev Draws the fragments of the rows from `top` (inclusive) to `bottom` (exclusive).
     function draw(uint256 edges, uint256 slopes, uint256 attribute, uint256 top, uint256 bottom) private pure {
         unchecked {
-            if (load(MODE) & BY_FRAGMENTS != 0) return drawFragments(edges, slopes, attribute, top, bottom);
             (uint256 origin, uint256 stride) = (load(DEPTH_ORIGIN), load(DEPTH_STRIDE));
             drawRows(edges, slopes, attribute, origin - stride * top, origin - stride * bottom);
         }
-    }
-
-    function column(uint256 screenWord) private pure returns (int256) {
-        return int256((screenWord >> SCREEN_COLUMN_AT) & SCREEN_COLUMN_MASK);
-    }
-
-    function row(uint256 screenWord) private pure returns (int256) {
-        return int256(screenWord >> SCREEN_ROW_AT);
-    }
-
-    function min(uint256 a, uint256 b) private pure returns (uint256) {
-        return a < b ? a : b;
-    }
-
-    function max(uint256 a, uint256 b) private pure returns (uint256) {
-        return a > b ? a : b;
     }
 }

@@ -5,7 +5,7 @@ import {ExactSamples} from "./ExactSamples.sol";
 import {Samples} from "./Samples.sol";
 import "../../words/Registers.sol";
 
-// Draws translucent objects with four samples per pixel: the two passes of BlendedSpans, for each sample.
+// Draws translucent objects with four samples per pixel: the two passes of Spans, for each sample.
 
 /// @dev The lowest byte of each sample.
 uint256 constant BYTE_OF_SAMPLES = 0xff * ONES_64;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {ExactSpans} from "../pixels/ExactSpans.sol";
+import {FragmentLight} from "../shading/FragmentLight.sol";
 import {Samples} from "./Samples.sol";
 import "../../words/Registers.sol";
 
@@ -29,7 +29,7 @@ library ExactSamples {
             uint256 step = load(RAY_STEP);
             x = load(RAY_LEFT) + column * step + uint256(int256(x * step) >> 3);
             y = load(RAY_TOP) + row * step + uint256(int256(y * step) >> 3);
-            return ExactSpans.colorAt(attribute, x, y);
+            return FragmentLight.colorOf(attribute, x, y);
         }
     }
 }

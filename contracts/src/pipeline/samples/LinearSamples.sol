@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {ABOVE_BYTES, BYTES_OF_LANES, LANES_TO_BYTES, NEXT_LANES, NEXT_LANE_TO_BYTE} from "../pixels/LinearSpans.sol";
 import "../../words/SampleRegisters.sol";
 
 // Draws triangles whose colour is in the accumulator, with four samples per pixel: see Samples. Most triangles of models are small and

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {HALF_85} from "../pixels/ExactSpans.sol";
-import {Patches} from "../pixels/Patches.sol";
+import {Patches} from "../shading/Patches.sol";
 import {SampleRasterizer} from "./SampleRasterizer.sol";
 import "../../words/SampleRegisters.sol";
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {BEYOND_BYTE_85, BEYOND_CARRY, BEYOND_SIGN} from "../pixels/ExactSpans.sol";
-import {BLUE_Q10_AT, GREEN_Q10_AT, HALF_85_Q10, ONES_85, RED_Q10_AT} from "../pixels/ExactSpans.sol";
+import {FragmentLight} from "../shading/FragmentLight.sol";
 import "../../words/SampleRegisters.sol";
 
 // Fragments of four samples: see SampleRasterizer. Each lane of a pixel contains a depth and a colour; a nearer fragment replaces both. If
@@ -53,15 +52,11 @@ library Samples {
 
     /// @dev Converts a colour from signed lanes of 85 bits, Q10, to three bytes, blue uppermost.
     function bytesOf(uint256 color) internal pure returns (uint256 pixel) {
+        unchecked {
+            color += HALF_85_Q10;
+            if (color & BEYOND_BYTE_85 != 0) color = FragmentLight.clamped(color);
+        }
         assembly ("memory-safe") {
-            color := add(color, HALF_85_Q10)
-            let beyond := and(color, BEYOND_BYTE_85)
-            if beyond {
-                // as in ExactSpans
-                beyond := and(shr(BEYOND_CARRY, add(beyond, BEYOND_BYTE_85)), ONES_85)
-                color := or(color, mul(beyond, BYTE_Q10))
-                color := and(color, not(mul(and(shr(BEYOND_SIGN, color), ONES_85), BYTE_Q10)))
-            }
             pixel := or(shl(16, and(shr(BLUE_Q10_AT, color), 0xff)), shl(8, and(shr(GREEN_Q10_AT, color), 0xff)))
             pixel := or(pixel, and(shr(RED_Q10_AT, color), 0xff))
         }

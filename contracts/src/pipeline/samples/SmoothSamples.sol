@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {N_DOT_H_AT, N_DOT_L_AT, ROOT_AT_0, ROOT_SHIFT, ROOT_SLOPE} from "../shading/SmoothLight.sol";
 import "../../words/SampleRegisters.sol";
 
-// Smooth surfaces lit by a single lamp, with four samples per pixel: the products of SmoothLight, at the centroid of the samples that the
-// triangle covers.
+// Smooth surfaces lit by a single lamp, with four samples per pixel: the products of SmoothTriangle, at the centroid of the samples that
+// the triangle covers.
 
 /// @dev The additional bits of 128 times a product.
 uint256 constant MORE_BITS = 7;
@@ -14,7 +13,7 @@ library SmoothSamples {
     /// @notice Draws the fragments of a row: see SampleRasterizer.drawSpan.
     function draw(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
         assembly ("memory-safe") {
-            // a colour in lanes of Q10, from the accumulator and 128 times the products: see SmoothLight
+            // a colour in lanes of Q10, from the accumulator and 128 times the products: see SmoothSpans
             function colorAt(attribute, light) -> color {
                 let square := shr(add(UPPER_85_AT, MORE_BITS), light)
                 let length := add(shr(ROOT_SHIFT, mul(ROOT_SLOPE, square)), ROOT_AT_0)

@@ -2,8 +2,9 @@
 pragma solidity 0.8.37;
 
 import {Lighting} from "./Lighting.sol";
-import {Patches} from "../pixels/Patches.sol";
+import {Patches} from "./Patches.sol";
 import {Rasterizer} from "../geometry/Rasterizer.sol";
+import {doubleAreaOf, firstRowOf, max, min} from "../geometry/Screen.sol";
 import {EIGHT_ROWS, Shading} from "./Shading.sol";
 import {VertexHighlights} from "./VertexHighlights.sol";
 import "../../words/Registers.sol";
@@ -32,11 +33,11 @@ abstract contract FlatShading is Rasterizer {
             // At most 8 rows, and depths that differ by at most 1/24 of the first vertex's depth, and so by less than 1/22 of the minimum:
             // equivalent to `isAffine` without computing minima. |d| <= depth / 24 is computed as 0 <= 24 * d + depth <= 2 * depth on whole
             // words: the bits below the depths are less than one unit of depth.
-            let second := mul(24, sub(q, p))
-            let third := mul(24, sub(r, p))
+            let second := mul(24, sub(q, p)) // 24 (q - p)
+            let third := mul(24, sub(r, p)) // 24 (r - p)
             let limit := shl(1, p)
             linear := or(or(gt(add(second, p), limit), gt(add(third, p), limit)), gt(add(sub(second, third), p), limit))
-            limit := add(a, EIGHT_ROWS)
+            limit := add(a, EIGHT_ROWS) // a limit of b and c from here on
             linear := iszero(or(linear, or(gt(b, limit), gt(c, limit))))
         }
         if (linear || Shading.isAffine(p, q, r, a, b, c)) return Shading.setLinear(p, q, r, crossing);
@@ -56,26 +57,10 @@ abstract contract FlatShading is Rasterizer {
         }
         if (mode & IS_DIFFUSE == 0) {
             bool linear;
+            if (mode & IS_GREY == 0) (p, q, r) = (Shading.lit(p, light), Shading.lit(q, light), Shading.lit(r, light));
             assembly ("memory-safe") {
-                // returns the attribute word of a vertex with its colour multiplied by coloured light
-                function lit(attributes, factor) -> product {
-                    let color := and(attributes, LANES_24)
-                    product := shr(LIGHT_FRACTION, mul(and(factor, LANE_32), and(color, LANE_24)))
-                    product := or(
-                        product,
-                        shl(MIDDLE_AT, shr(LIGHT_FRACTION, mul(and(shr(MIDDLE_AT, factor), LANE_32), and(shr(MIDDLE_AT, color), LANE_24))))
-                    )
-                    product := or(product, shl(UPPER_AT, shr(LIGHT_FRACTION, mul(shr(UPPER_AT, factor), shr(UPPER_AT, color)))))
-                    product := or(product, xor(attributes, color))
-                }
-
-                switch and(mode, IS_GREY)
-                case 0 {
-                    p := lit(p, light)
-                    q := lit(q, light)
-                    r := lit(r, light)
-                }
-                default {
+                if and(mode, IS_GREY) {
+                    // all channels at once: color * light, Q16, and the depth as it is
                     light := and(light, LANE_32)
                     let color := and(p, LANES_24)
                     p := or(and(shr(LIGHT_FRACTION, mul(color, light)), LANES_24), xor(p, color))
@@ -85,12 +70,12 @@ abstract contract FlatShading is Rasterizer {
                     r := or(and(shr(LIGHT_FRACTION, mul(color, light)), LANES_24), xor(r, color))
                 }
                 // as in `shade`
-                let second := mul(24, sub(q, p))
-                let third := mul(24, sub(r, p))
+                let second := mul(24, sub(q, p)) // 24 (q - p)
+                let third := mul(24, sub(r, p)) // 24 (r - p)
                 let limit := shl(1, p)
                 linear := or(gt(add(sub(second, third), p), limit), and(or(or(p, q), r), OVERFLOW))
                 linear := or(linear, or(gt(add(second, p), limit), gt(add(third, p), limit)))
-                limit := add(a, EIGHT_ROWS)
+                limit := add(a, EIGHT_ROWS) // a limit of b and c from here on
                 linear := iszero(or(linear, or(gt(b, limit), gt(c, limit))))
             }
             if (linear || Shading.isAffine(p, q, r, a, b, c)) {
@@ -109,7 +94,7 @@ abstract contract FlatShading is Rasterizer {
     function setLit(uint256 p, uint256 q, uint256 r, uint256 crossing) private pure {
         assembly ("memory-safe") {
             let above := or(or(add(p, NEARLY_ABOVE), add(q, NEARLY_ABOVE)), add(r, NEARLY_ABOVE))
-            mstore(MODE, or(crossing, iszero(iszero(and(above, OVERFLOW)))))
+            mstore(MODE, or(crossing, iszero(iszero(and(above, OVERFLOW))))) // crossing, and IS_LINEAR if any bit of OVERFLOW is set
             mstore(ATTRIBUTE_0, add(shl(ACCUMULATOR_FRACTION, p), COLOR_BIAS))
             mstore(DELTA_1, sub(q, p))
             mstore(DELTA_2, sub(r, p))
@@ -124,7 +109,7 @@ abstract contract FlatShading is Rasterizer {
             uint256 size = patchSize(a, b, c, p, q, r);
             store(PATCH_SIZE, size);
             if (size == 0) {
-                uint256 top = Shading.max((a + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT, load(BAND_TOP));
+                uint256 top = max(firstRowOf(a), load(BAND_TOP));
                 Patches.fitWhole(a, b, c, p >> ATTRIBUTE_DEPTH_AT, q >> ATTRIBUTE_DEPTH_AT, r >> ATTRIBUTE_DEPTH_AT, top);
             }
         }
@@ -150,11 +135,11 @@ abstract contract FlatShading is Rasterizer {
     function patchSize(uint256 a, uint256 b, uint256 c, uint256 za, uint256 zb, uint256 zc) private pure returns (uint256 size) {
         unchecked {
             uint256 mode = load(MODE);
-            uint256 area = Shading.doubleArea(a, b, c);
+            uint256 area = uint256(doubleAreaOf(a, b, c));
             // small triangles need the fewest exact colours this way
             if (area < SMALL || mode & IS_STEEP != 0) return 1;
-            uint256 nearest = Shading.max(za, Shading.max(zb, zc)) >> ATTRIBUTE_DEPTH_AT;
-            uint256 farthest = Shading.min(za, Shading.min(zb, zc)) >> ATTRIBUTE_DEPTH_AT;
+            uint256 nearest = max(za, max(zb, zc)) >> ATTRIBUTE_DEPTH_AT;
+            uint256 farthest = min(za, min(zb, zc)) >> ATTRIBUTE_DEPTH_AT;
             uint256 reach = NO_LIMIT;
             if (mode & IS_LIT != 0) reach = mode & IS_DIFFUSE == 0 ? load(REACH) : Lighting.pointReach(farthest);
             uint256 along;
@@ -182,15 +167,15 @@ abstract contract FlatShading is Rasterizer {
 
     /// @dev Returns the square of the longest edge, in sub-pixels.
     function longest(uint256 a, uint256 b, uint256 c) private pure returns (uint256) {
-        return Shading.max(squareLength(a, b), Shading.max(squareLength(a, c), squareLength(b, c)));
+        return max(squareLength(a, b), max(squareLength(a, c), squareLength(b, c)));
     }
 
     /// @dev Returns the square of an edge, in sub-pixels.
     function squareLength(uint256 p, uint256 q) private pure returns (uint256 square) {
         assembly ("memory-safe") {
-            square := sub(shr(SCREEN_ROW_AT, p), shr(SCREEN_ROW_AT, q))
+            square := sub(shr(SCREEN_ROW_AT, p), shr(SCREEN_ROW_AT, q)) // dy; p from here on dx
             p := sub(and(shr(SCREEN_COLUMN_AT, p), SCREEN_COLUMN_MASK), and(shr(SCREEN_COLUMN_AT, q), SCREEN_COLUMN_MASK))
-            square := add(mul(square, square), mul(p, p))
+            square := add(mul(square, square), mul(p, p)) // dy^2 + dx^2
         }
     }
 
@@ -201,14 +186,14 @@ abstract contract FlatShading is Rasterizer {
         returns (uint256 along, uint256 down)
     {
         assembly ("memory-safe") {
-            za := shr(ATTRIBUTE_DEPTH_AT, za)
+            za := shr(ATTRIBUTE_DEPTH_AT, za) // depths from here on: of the first vertex, and relative to it
             zb := sub(shr(ATTRIBUTE_DEPTH_AT, zb), za)
             zc := sub(shr(ATTRIBUTE_DEPTH_AT, zc), za)
             let y := shr(SCREEN_ROW_AT, a)
             let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
-            along := sub(mul(zc, sub(shr(SCREEN_ROW_AT, b), y)), mul(zb, sub(shr(SCREEN_ROW_AT, c), y)))
-            along := xor(along, sar(255, along))
-            down := sub(
+            along := sub(mul(zc, sub(shr(SCREEN_ROW_AT, b), y)), mul(zb, sub(shr(SCREEN_ROW_AT, c), y))) // zc yb - zb yc
+            along := xor(along, sar(255, along)) // the absolute value, or one less
+            down := sub( // zb xc - zc xb
                 mul(zb, sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)),
                 mul(zc, sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x))
             )

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {sqrtNear} from "../../math/Roots.sol";
 import "../../words/Registers.sol";
 
 // Computes the colour of a triangle at any point: perspective-correct interpolated colours times diffuse light, plus highlights
@@ -22,176 +23,50 @@ import "../../words/Registers.sol";
 uint256 constant WEIGHTED_BIAS = 0x010000000400000100000004000001000000040000;
 /// @dev The bit of WEIGHTED_BIAS above a colour of Q10, in lanes of 85 bits.
 uint256 constant BIAS_85 = 0x4000000000000000000002000000000000000000001000000;
+/// @dev From FACE_N_DOT_RAY_SLOPE times a depth with DEPTH_FRACTION bits to Q48.
+uint256 constant Q142_TO_Q48 = 94;
 
 library FragmentLight {
+    /// @notice Returns the colour for an accumulator with barycentric coordinates, and a ray: see colorAt.
+    function colorOf(uint256 attribute, uint256 x, uint256 y) internal pure returns (uint256 color) {
+        uint256 s;
+        uint256 t;
+        assembly ("memory-safe") {
+            s := sar(ACCUMULATOR_S_AT, signextend(ACCUMULATOR_S_LAST_BYTE, attribute)) // Q24
+            t := sar(ACCUMULATOR_T_AT, signextend(ACCUMULATOR_T_LAST_BYTE, attribute))
+        }
+        return colorAt(attribute >> ACCUMULATOR_DEPTH_AT, s, t, x, y, false);
+    }
+
+    /// @notice Returns a colour, Q10 in signed lanes of 85 bits to which half a level was added, with the bytes of 0 or 255 in lanes
+    /// beyond these. Needed if a bit of BEYOND_BYTE_85 is set.
+    function clamped(uint256 color) internal pure returns (uint256 inside) {
+        assembly ("memory-safe") {
+            // 255 in lanes above 255 or below 0, then 0 in those below 0
+            inside := and(shr(BEYOND_CARRY, add(and(color, BEYOND_BYTE_85), BEYOND_BYTE_85)), ONES_85)
+            inside := or(color, mul(inside, BYTE_Q10))
+            inside := and(inside, not(mul(and(shr(BEYOND_SIGN, color), ONES_85), BYTE_Q10)))
+        }
+    }
+
     /// @param depth, s, t The depth (with 8 more bits than in a vertex) and the screen-space barycentric coordinates, Q24; outside the
     /// triangle these can be negative or above 1.
     /// @param x, y The ray through the point, Q24; for an orthographic camera the point itself, Q32.
     /// @param isSurface Whether s and t are already perspective-correct, and only highlights are returned; the diffuse light is then left
-    /// in FRAGMENT_LIGHT, and the length of the ray in FRAGMENT_RAY_LENGTH.
+    /// in FRAGMENT_LIGHT, and the length of the ray in FRAGMENT_RAY_LENGTH. A literal, of which the compiler is to make two functions.
     /// @return color Signed lanes of 85 bits, Q10, not clamped to 0..255; lanes of 56 bits if `isSurface`.
     function colorAt(uint256 depth, uint256 s, uint256 t, uint256 x, uint256 y, bool isSurface) internal pure returns (uint256 color) {
-        assembly ("memory-safe") {
-            // sqrt(value); `hint` stores the magnitude of the previous result as a first guess
-            function root(value, hint) -> r {
-                let h := mload(hint)
-                if gt(sub(shr(shl(1, h), value), 1), 2) {
-                    // as in Roots.sol: the search of solady's LibBit
-                    h := shl(7, lt(0xffffffffffffffffffffffffffffffff, value))
-                    h := or(h, shl(6, lt(0xffffffffffffffff, shr(h, value))))
-                    h := or(h, shl(5, lt(0xffffffff, shr(h, value))))
-                    h := or(h, shl(4, lt(0xffff, shr(h, value))))
-                    h := or(h, shl(3, lt(0xff, shr(h, value))))
-                    h := or(h, shl(2, lt(0xf, shr(h, value))))
-                    h := shr(1, or(h, shl(1, lt(0x3, shr(h, value)))))
-                    mstore(hint, h)
+        unchecked {
+            uint256 mode = load(MODE);
+            if (mode & IS_ORTHOGRAPHIC != 0) {
+                assembly ("memory-safe") {
+                    mstore(FRAGMENT_PLACE_X, sar(Q16, x))
+                    mstore(FRAGMENT_PLACE_Y, sar(Q16, y))
+                    x := 0
+                    y := 0
                 }
-                r := shr(10, mul(351, add(shr(h, value), shl(h, 2))))
-                r := shr(1, add(r, div(value, r)))
-                r := shr(1, add(r, div(value, r)))
-            }
-
-            // length of the ray (x, y, 1)
-            function rayLength(x_, y_) -> length {
-                x_ := add(add(mul(x_, x_), mul(y_, y_)), ONE_48)
-                length := add(mload(LENGTH_AT_0), shr(48, mul(x_, mload(LENGTH_SLOPE))))
-                length := shr(1, add(length, div(x_, length)))
-                for { let steps := mload(LENGTH_STEPS) } steps { steps := sub(steps, 1) } {
-                    length := shr(1, add(length, div(x_, length)))
-                }
-            }
-
-            // the highlight, Q16, from the square of its cosine, Q24
-            function specular(square) -> value {
-                switch gt(square, mload(SPECULAR_BEGIN))
-                case 0 {
-                    if mload(SPECULAR_ROOT) {
-                        if gt(square, ONE_24) { square := ONE_24 }
-                        value := shr(24, mul(mload(SPECULAR_ROOT), root(shl(24, square), NORMAL_HINT)))
-                    }
-                }
-                default {
-                    square := mul(sub(square, mload(SPECULAR_BEGIN)), mload(SPECULAR_SCALE))
-                    if gt(square, SPECULAR_LAST) { square := SPECULAR_LAST }
-                    value := mload(add(SPECULAR_TABLE, and(shr(SPECULAR_ENTRY_SHIFT, square), SPECULAR_ENTRY_MASK)))
-                    value := add(shr(SPECULAR_VALUE_AT, value), shr(16, mul(and(value, LANE_32), and(shr(24, square), SPECULAR_REST_MASK))))
-                }
-            }
-
-            // highlights of directional lights; their diffuse light is in the colour
-            function highlights(normalRay, x_, y_) -> sum {
-                let length := rayLength(x_, y_)
-                for { let record := LIGHTS } 1 {} {
-                    if sgt(mload(add(record, LIGHT_N_DOT_L)), 0) {
-                        // (N.H)^2 = (N.L |r| - N.r)^2 / (2 |r| (|r| - L.r)), where |r| = length, Q24
-                        let nDotH := sub(mul(mload(add(record, LIGHT_N_DOT_L)), length), normalRay)
-                        if sgt(nDotH, 0) {
-                            // L.r, Q48
-                            let lightRay := add(mul(mload(add(record, LIGHT_X)), x_), mul(mload(add(record, LIGHT_Y)), y_))
-                            lightRay := add(lightRay, shl(24, mload(add(record, LIGHT_Z))))
-                            nDotH := div(mul(nDotH, nDotH), mul(shl(1, length), sub(shl(24, length), lightRay)))
-                            sum := add(sum, mul(mload(add(record, LIGHT_COLOR)), specular(nDotH)))
-                        }
-                    }
-                    record := add(record, LIGHT_SIZE)
-                    if eq(record, mload(LIGHTS_END)) { break }
-                }
-            }
-
-            // The attenuation of a spot light for a direction of length `distance` (Q16): the square of a linear function of the cosine to
-            // its axis, 1 at the inner angle and 0 at the outer one, as in the glTF extension KHR_lights_punctual; Q16
-            function cone(record, lx, ly, lz, distance) -> strength {
-                strength := ONE_16
-                if mload(add(record, LIGHT_CONE)) {
-                    let cosine := add(mul(mload(add(record, LIGHT_AXIS_X)), lx), mul(mload(add(record, LIGHT_AXIS_Y)), ly))
-                    cosine := add(cosine, mul(mload(add(record, LIGHT_AXIS_Z)), lz))
-                    cosine := sub(sub(0, sdiv(cosine, distance)), mload(add(record, LIGHT_COS_OUTER)))
-                    if slt(cosine, 0) { cosine := 0 }
-                    cosine := div(shl(16, cosine), mload(add(record, LIGHT_CONE)))
-                    if lt(cosine, ONE_16) { strength := shr(16, mul(cosine, cosine)) }
-                }
-            }
-
-            // light of all kinds of lights; leaves the diffuse light in FRAGMENT_LIGHT
-            function light(depth_, x_, y_) -> sum {
-                let length := rayLength(x_, y_)
-                mstore(FRAGMENT_RAY_LENGTH, length)
-                mstore(FRAGMENT_LIGHT, shl(24, mload(AMBIENT)))
-                for { let record := LIGHTS } 1 {} {
-                    let lx := mload(add(record, LIGHT_X))
-                    let ly := mload(add(record, LIGHT_Y))
-                    let lz := mload(add(record, LIGHT_Z))
-                    let distance := ONE_24
-                    if mload(add(record, LIGHT_IS_POINT)) {
-                        // from the fragment to the light, Q16
-                        distance := div(shl(8, mload(DEPTH_SCALE)), depth_)
-                        switch and(mload(MODE), IS_ORTHOGRAPHIC)
-                        case 0 {
-                            lx := sub(lx, sar(40, mul(x_, distance)))
-                            ly := sub(ly, sar(40, mul(y_, distance)))
-                            lz := sub(lz, shr(16, distance))
-                        }
-                        default {
-                            lx := sub(lx, mload(FRAGMENT_PLACE_X))
-                            ly := sub(ly, mload(FRAGMENT_PLACE_Y))
-                            lz := sub(lz, sar(16, sub(shl(8, mload(DEPTH_SCALE)), depth_)))
-                        }
-                        distance := root(add(add(mul(lx, lx), mul(ly, ly)), mul(lz, lz)), add(record, LIGHT_HINT))
-                    }
-                    mstore(FRAGMENT_CONE, cone(record, lx, ly, lz, distance))
-                    // N.L: Q48 for a directional light, Q40 for a point light
-                    let nDotL
-                    switch and(mload(MODE), IS_SMOOTH)
-                    case 0 { nDotL := shl(24, mload(add(record, LIGHT_N_DOT_L))) }
-                    default {
-                        nDotL := add(mul(mload(FRAGMENT_NORMAL_X), lx), mul(mload(FRAGMENT_NORMAL_Y), ly))
-                        nDotL := add(nDotL, mul(mload(FRAGMENT_NORMAL_Z), lz))
-                    }
-                    if sgt(nDotL, 0) {
-                        // N.L of unit vectors, Q24; then multiplied by the cone, Q24
-                        let lambert := div(shl(24, nDotL), mul(distance, mload(FRAGMENT_NORMAL_LENGTH)))
-                        lambert := shr(16, mul(lambert, mload(FRAGMENT_CONE)))
-                        mstore(FRAGMENT_LIGHT, add(mload(FRAGMENT_LIGHT), mul(mload(add(record, LIGHT_DIFFUSE)), lambert)))
-                        // the numerator of N.H in the formula above
-                        nDotL := sub(mul(nDotL, length), mul(distance, mload(FRAGMENT_NORMAL_RAY)))
-                        if sgt(nDotL, 0) {
-                            lx := add(add(mul(lx, x_), mul(ly, y_)), shl(24, lz))
-                            lx := mul(mul(distance, shl(1, length)), sub(mul(distance, length), lx))
-                            // its square, Q24
-                            nDotL := div(shl(24, mul(nDotL, nDotL)), mul(mload(FRAGMENT_SQUARE), lx))
-                            nDotL := shr(16, mul(specular(nDotL), mload(FRAGMENT_CONE)))
-                            sum := add(sum, mul(mload(add(record, LIGHT_COLOR)), nDotL))
-                        }
-                    }
-                    record := add(record, LIGHT_SIZE)
-                    if eq(record, mload(LIGHTS_END)) { break }
-                }
-            }
-
-            // interpolates the vertex normals at a fragment, Q24
-            function interpolateNormal(second, third, x_, y_) {
-                third := add(mul(mload(NORMALS_1), shr(8, second)), mul(mload(NORMALS_2), shr(8, third)))
-                third := add(add(mload(NORMALS_0), third), NORMAL_BIAS)
-                second := sub(and(shr(NORMAL_X_AT, third), NORMAL_MASK), NORMAL_HALF)
-                mstore(FRAGMENT_NORMAL_X, second)
-                let square := mul(second, second)
-                x_ := mul(second, x_)
-                second := sub(and(shr(NORMAL_Y_AT, third), NORMAL_MASK), NORMAL_HALF)
-                mstore(FRAGMENT_NORMAL_Y, second)
-                square := add(square, mul(second, second))
-                x_ := add(x_, mul(second, y_))
-                second := sub(shr(NORMAL_Z_AT, third), NORMAL_HALF)
-                mstore(FRAGMENT_NORMAL_Z, second)
-                square := add(square, mul(second, second))
-                mstore(FRAGMENT_NORMAL_RAY, add(x_, shl(24, second)))
-                mstore(FRAGMENT_SQUARE, square)
-                mstore(FRAGMENT_NORMAL_LENGTH, root(square, NORMAL_HINT))
-            }
-
-            let mode := mload(MODE)
-            switch and(mode, IS_ORTHOGRAPHIC)
-            case 0 {
-                if iszero(isSurface) {
+            } else if (!isSurface) {
+                assembly ("memory-safe") {
                     // perspective-correct: s * vertex depth / depth of the point, Q24
                     s := sdiv(mul(s, mload(DEPTH_1)), depth)
                     t := sdiv(mul(t, mload(DEPTH_2)), depth)
@@ -202,52 +77,235 @@ library FragmentLight {
                     }
                 }
             }
-            default {
-                mstore(FRAGMENT_PLACE_X, sar(16, x))
-                mstore(FRAGMENT_PLACE_Y, sar(16, y))
-                x := 0
-                y := 0
-            }
-            switch isSurface
-            case 1 {
-                switch and(mode, IS_SMOOTH)
-                case 0 { mstore(FRAGMENT_NORMAL_RAY, add(mload(FACE_N_DOT_RAY), sar(94, mul(mload(FACE_N_DOT_RAY_SLOPE), depth)))) }
-                default { interpolateNormal(s, t, x, y) }
+            // without `return`, so that the compiler can put the function where it is called
+            if (isSurface) {
+                setNormal(depth, s, t, x, y);
                 // colours of lights are Q10 with effects
-                color := and(shr(16, light(depth, x, y)), LANES_24)
-            }
-            default {
-                // each lane has a bias of 2^24, so that it is positive
-                color := shr(24, add(add(mload(COLOR_0), mul(mload(COLOR_1), s)), mul(mload(COLOR_2), t)))
-                if and(mode, IS_LIT) {
-                    // N.r, Q48
-                    let normalRay := add(mload(FACE_N_DOT_RAY), sar(94, mul(mload(FACE_N_DOT_RAY_SLOPE), depth)))
-                    switch and(mode, IS_DIFFUSE)
-                    case 0 { color := add(color, and(shr(6, highlights(normalRay, x, y)), LANES_24)) }
-                    default {
-                        switch and(mode, IS_SMOOTH)
-                        case 0 { mstore(FRAGMENT_NORMAL_RAY, normalRay) }
-                        default { interpolateNormal(s, t, x, y) }
-                        s := and(shr(6, light(depth, x, y)), LANES_24)
-                        t := mload(FRAGMENT_LIGHT)
-                        // colours of Q10 times light of Q40
-                        y := sar(16, mul(sub(and(color, LANE_32), ONE_24), and(shr(BLUE_Q40_AT, t), LANE_32)))
-                        x := sar(16, mul(sub(and(shr(MIDDLE_AT, color), LANE_32), ONE_24), and(shr(GREEN_Q40_AT, t), LANE_32)))
-                        color := sar(16, mul(sub(and(shr(UPPER_AT, color), LANE_32), ONE_24), and(shr(RED_Q40_AT, t), LANE_32)))
-                        color := add(
-                            add(shl(UPPER_85_AT, add(color, shr(UPPER_AT, s))), shl(MIDDLE_85_AT, add(x, and(shr(MIDDLE_AT, s), LANE_24)))),
-                            add(y, and(s, LANE_24))
+                color = (light(depth, x, y) >> Q16) & LANES_24;
+            } else {
+                assembly ("memory-safe") {
+                    // each lane has a bias of 2^24, so that it is positive
+                    color := shr(Q24, add(add(mload(COLOR_0), mul(mload(COLOR_1), s)), mul(mload(COLOR_2), t)))
+                }
+                if (mode & IS_DIFFUSE == 0) {
+                    if (mode & IS_LIT != 0) color += (highlights(faceRayAt(depth), x, y) >> Q16_TO_Q10) & LANES_24;
+                    assembly ("memory-safe") {
+                        color := add( // to lanes of 85 bits
+                            add(and(color, LANE_32), shl(MIDDLE_85_AT, and(shr(MIDDLE_AT, color), LANE_32))),
+                            shl(UPPER_85_AT, and(shr(UPPER_AT, color), LANE_32))
                         )
+                        color := sub(color, BIAS_85)
+                    }
+                } else {
+                    setNormal(depth, s, t, x, y);
+                    color = modulated(color, light(depth, x, y));
+                }
+            }
+        }
+    }
+
+    /// @dev Returns N.r, the normal of the face times the ray to a point of this depth, Q48.
+    function faceRayAt(uint256 depth) private pure returns (uint256 normalRay) {
+        assembly ("memory-safe") {
+            normalRay := add(mload(FACE_N_DOT_RAY), sar(Q142_TO_Q48, mul(mload(FACE_N_DOT_RAY_SLOPE), depth)))
+        }
+    }
+
+    /// @dev Returns a colour (lanes of Q10 with a bias of 2^24) times FRAGMENT_LIGHT, plus highlights (lanes of Q16).
+    function modulated(uint256 color, uint256 shine) private pure returns (uint256 sum) {
+        assembly ("memory-safe") {
+            shine := and(shr(Q16_TO_Q10, shine), LANES_24) // Q10 from here on
+            let factor := mload(FRAGMENT_LIGHT)
+            // colours of Q10 times light of Q40, taken as Q16
+            let blue := sar(Q16, mul(sub(and(color, LANE_32), ONE_24), and(shr(BLUE_Q40_AT, factor), LANE_32)))
+            let green := sar(Q16, mul(sub(and(shr(MIDDLE_AT, color), LANE_32), ONE_24), and(shr(GREEN_Q40_AT, factor), LANE_32)))
+            let red := sar(Q16, mul(sub(and(shr(UPPER_AT, color), LANE_32), ONE_24), and(shr(RED_Q40_AT, factor), LANE_32)))
+            green := shl(MIDDLE_85_AT, add(green, and(shr(MIDDLE_AT, shine), LANE_24)))
+            sum := add(add(shl(UPPER_85_AT, add(red, shr(UPPER_AT, shine))), green), add(blue, and(shine, LANE_24)))
+        }
+    }
+
+    /// @dev Returns the length of the ray (x, y, 1), Q24.
+    function rayLength(uint256 x, uint256 y) private pure returns (uint256 length) {
+        assembly ("memory-safe") {
+            x := add(add(mul(x, x), mul(y, y)), ONE_48) // x from here on: x^2 + y^2 + 1, Q48
+            length := add(mload(LENGTH_AT_0), shr(Q48, mul(x, mload(LENGTH_SLOPE))))
+            length := shr(1, add(length, div(x, length))) // Newton: (l + x / l) / 2
+            for { let steps := mload(LENGTH_STEPS) } steps { steps := sub(steps, 1) } {
+                length := shr(1, add(length, div(x, length))) // and again
+            }
+        }
+    }
+
+    /// @dev Returns the highlight, Q16, from the square of its cosine, Q24.
+    function specular(uint256 square) private pure returns (uint256 value) {
+        unchecked {
+            if (square > load(SPECULAR_BEGIN)) {
+                assembly ("memory-safe") {
+                    square := mul(sub(square, mload(SPECULAR_BEGIN)), mload(SPECULAR_SCALE)) // index into the table, Q40
+                    if gt(square, SPECULAR_LAST) { square := SPECULAR_LAST } // min(square, SPECULAR_LAST)
+                    value := mload(add(SPECULAR_TABLE, and(shr(SPECULAR_ENTRY_SHIFT, square), SPECULAR_ENTRY_MASK)))
+                    square := and(shr(SPECULAR_REST_AT, square), SPECULAR_REST_MASK) // fraction of the index, Q16
+                    value := add(shr(SPECULAR_VALUE_AT, value), shr(Q16, mul(and(value, LANE_32), square))) // value + increase * fraction
+                }
+            } else if (load(SPECULAR_ROOT) != 0) {
+                if (square > ONE_24) square = ONE_24;
+                value = (load(SPECULAR_ROOT) * sqrtNear(square << Q24, NORMAL_HINT)) >> Q24;
+            }
+        }
+    }
+
+    /// @dev Returns the highlights of directional lights; their diffuse light is in the colour.
+    function highlights(uint256 normalRay, uint256 x, uint256 y) private pure returns (uint256 sum) {
+        unchecked {
+            uint256 length = rayLength(x, y);
+            uint256 record = LIGHTS;
+            while (true) {
+                if (loadSigned(record + LIGHT_N_DOT_L) > 0) {
+                    // (N.H)^2 = (N.L |r| - N.r)^2 / (2 |r| (|r| - L.r)), where |r| = length, Q24
+                    uint256 nDotH = load(record + LIGHT_N_DOT_L) * length - normalRay;
+                    if (int256(nDotH) > 0) {
+                        assembly ("memory-safe") {
+                            // L.r, Q48
+                            let lightRay := add(mul(mload(add(record, LIGHT_X)), x), mul(mload(add(record, LIGHT_Y)), y))
+                            lightRay := add(lightRay, shl(Q24, mload(add(record, LIGHT_Z))))
+                            nDotH := div(mul(nDotH, nDotH), mul(shl(1, length), sub(shl(Q24, length), lightRay))) // its square, Q24
+                        }
+                        sum += load(record + LIGHT_COLOR) * specular(nDotH);
                     }
                 }
-                if iszero(and(mode, IS_DIFFUSE)) {
-                    color := add(
-                        add(and(color, LANE_32), shl(MIDDLE_85_AT, and(shr(MIDDLE_AT, color), LANE_32))),
-                        shl(UPPER_85_AT, and(shr(UPPER_AT, color), LANE_32))
-                    )
-                    color := sub(color, BIAS_85)
-                }
+                record += LIGHT_SIZE;
+                if (record == load(LIGHTS_END)) break;
             }
+        }
+    }
+
+    /// @dev Sets FRAGMENT_CONE, the attenuation of a spot light for a direction of length `distance` (Q16): the square of a linear function
+    /// of the cosine to its axis, 1 at the inner angle and 0 at the outer one, as in the glTF extension KHR_lights_punctual; Q16.
+    function setCone(uint256 record, uint256 lx, uint256 ly, uint256 lz, uint256 distance) private pure {
+        assembly ("memory-safe") {
+            let strength := ONE_16
+            if mload(add(record, LIGHT_CONE)) {
+                let cosine := add(mul(mload(add(record, LIGHT_AXIS_X)), lx), mul(mload(add(record, LIGHT_AXIS_Y)), ly))
+                cosine := add(cosine, mul(mload(add(record, LIGHT_AXIS_Z)), lz)) // axis * L, Q40
+                cosine := sub(sub(0, sdiv(cosine, distance)), mload(add(record, LIGHT_COS_OUTER))) // -axis * L / |L| - outer, Q24
+                if slt(cosine, 0) { cosine := 0 } // max(cosine, 0)
+                cosine := div(shl(Q16, cosine), mload(add(record, LIGHT_CONE))) // relative to inner - outer, Q16
+                if lt(cosine, ONE_16) { strength := shr(Q16, mul(cosine, cosine)) }
+            }
+            mstore(FRAGMENT_CONE, strength)
+        }
+    }
+
+    /// @dev Returns the highlights of all kinds of lights; leaves the diffuse light in FRAGMENT_LIGHT.
+    function light(uint256 depth, uint256 x, uint256 y) private pure returns (uint256 sum) {
+        unchecked {
+            uint256 length = rayLength(x, y);
+            assembly ("memory-safe") {
+                mstore(FRAGMENT_RAY_LENGTH, length)
+                mstore(FRAGMENT_LIGHT, shl(Q40_TO_Q16, mload(AMBIENT)))
+            }
+            uint256 record = LIGHTS;
+            while (true) {
+                uint256 lx = load(record + LIGHT_X);
+                uint256 ly = load(record + LIGHT_Y);
+                uint256 lz = load(record + LIGHT_Z);
+                uint256 distance = ONE_24;
+                if (load(record + LIGHT_IS_POINT) != 0) {
+                    assembly ("memory-safe") {
+                        // from the fragment to the light, Q16
+                        distance := div(shl(DEPTH_FRACTION, mload(DEPTH_SCALE)), depth) // from the eye, Q32
+                        switch and(mload(MODE), IS_ORTHOGRAPHIC)
+                        case 0 {
+                            lx := sub(lx, sar(Q40, mul(x, distance))) // Q24 * Q32 to Q16
+                            ly := sub(ly, sar(Q40, mul(y, distance)))
+                            lz := sub(lz, shr(Q16, distance))
+                        }
+                        default {
+                            lx := sub(lx, mload(FRAGMENT_PLACE_X)) // L - place of the fragment, Q16
+                            ly := sub(ly, mload(FRAGMENT_PLACE_Y))
+                            // depth = DEPTH_SCALE - distance / 256, with DEPTH_FRACTION more bits
+                            lz := sub(lz, sar(Q16, sub(shl(DEPTH_FRACTION, mload(DEPTH_SCALE)), depth)))
+                        }
+                        distance := add(add(mul(lx, lx), mul(ly, ly)), mul(lz, lz)) // |L|^2, Q32
+                    }
+                    distance = sqrtNear(distance, record + LIGHT_HINT);
+                }
+                setCone(record, lx, ly, lz, distance);
+                // N.L: Q48 for a directional light, Q40 for a point light
+                uint256 nDotL;
+                assembly ("memory-safe") {
+                    switch and(mload(MODE), IS_SMOOTH)
+                    case 0 { nDotL := shl(Q24, mload(add(record, LIGHT_N_DOT_L))) }
+                    default {
+                        nDotL := add(mul(mload(FRAGMENT_NORMAL_X), lx), mul(mload(FRAGMENT_NORMAL_Y), ly)) // N.x L.x + N.y L.y + N.z L.z
+                        nDotL := add(nDotL, mul(mload(FRAGMENT_NORMAL_Z), lz))
+                    }
+                }
+                if (int256(nDotL) > 0) {
+                    assembly ("memory-safe") {
+                        // N.L of unit vectors, Q24; then multiplied by the cone, Q24
+                        let lambert := div(shl(Q24, nDotL), mul(distance, mload(FRAGMENT_NORMAL_LENGTH)))
+                        lambert := shr(Q16, mul(lambert, mload(FRAGMENT_CONE))) // * cone
+                        mstore(FRAGMENT_LIGHT, add(mload(FRAGMENT_LIGHT), mul(mload(add(record, LIGHT_DIFFUSE)), lambert))) // Q40
+                        // nDotL from here on: the numerator of N.H in the formula above, N.L |r| - N.r d
+                        nDotL := sub(mul(nDotL, length), mul(distance, mload(FRAGMENT_NORMAL_RAY)))
+                    }
+                    if (int256(nDotL) > 0) {
+                        assembly ("memory-safe") {
+                            lx := add(add(mul(lx, x), mul(ly, y)), shl(Q24, lz)) // lx from here on: L.r
+                            lx := mul(mul(distance, shl(1, length)), sub(mul(distance, length), lx)) // 2 d |r| (d |r| - L.r)
+                            // its square, Q24
+                            nDotL := div(shl(Q24, mul(nDotL, nDotL)), mul(mload(FRAGMENT_SQUARE), lx))
+                        }
+                        nDotL = specular(nDotL); // nDotL from here on: the highlight
+                        assembly ("memory-safe") {
+                            sum := add(sum, mul(mload(add(record, LIGHT_COLOR)), shr(Q16, mul(nDotL, mload(FRAGMENT_CONE)))))
+                        }
+                    }
+                }
+                record += LIGHT_SIZE;
+                if (record == load(LIGHTS_END)) break;
+            }
+        }
+    }
+
+    /// @dev Sets FRAGMENT_NORMAL_RAY, and for a smooth surface the normal of the fragment, its length and square.
+    function setNormal(uint256 depth, uint256 s, uint256 t, uint256 x, uint256 y) private pure {
+        if (load(MODE) & IS_SMOOTH == 0) {
+            x = faceRayAt(depth);
+            assembly ("memory-safe") {
+                mstore(FRAGMENT_NORMAL_RAY, x)
+            }
+        } else {
+            interpolateNormal(s, t, x, y);
+        }
+    }
+
+    /// @dev Interpolates the vertex normals at a fragment, Q24.
+    function interpolateNormal(uint256 s, uint256 t, uint256 x, uint256 y) private pure {
+        uint256 square;
+        assembly ("memory-safe") {
+            // t from here on: the normal, Q36 = Q20 * Q16, with a bias; s each of its coordinates, Q24
+            t := add(mul(mload(NORMALS_1), shr(Q24_TO_Q16, s)), mul(mload(NORMALS_2), shr(Q24_TO_Q16, t)))
+            t := add(add(mload(NORMALS_0), t), NORMAL_BIAS)
+            s := sub(and(shr(NORMAL_X_AT, t), NORMAL_MASK), NORMAL_HALF)
+            mstore(FRAGMENT_NORMAL_X, s)
+            square := mul(s, s) // N.x^2, to which the others are added
+            x := mul(s, x) // x from here on: N.r, Q48
+            s := sub(and(shr(NORMAL_Y_AT, t), NORMAL_MASK), NORMAL_HALF)
+            mstore(FRAGMENT_NORMAL_Y, s)
+            square := add(square, mul(s, s))
+            x := add(x, mul(s, y)) // N.x x + N.y y
+            s := sub(shr(NORMAL_Z_AT, t), NORMAL_HALF)
+            mstore(FRAGMENT_NORMAL_Z, s)
+            square := add(square, mul(s, s)) // N.N, Q48
+            mstore(FRAGMENT_NORMAL_RAY, add(x, shl(Q24, s))) // + N.z
+            mstore(FRAGMENT_SQUARE, square)
+        }
+        square = sqrtNear(square, NORMAL_HINT);
+        assembly ("memory-safe") {
+            mstore(FRAGMENT_NORMAL_LENGTH, square)
         }
     }
 }

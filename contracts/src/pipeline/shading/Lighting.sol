@@ -9,9 +9,8 @@ import "../../words/Registers.sol";
 uint256 constant MESH_FRACTION = 32;
 uint256 constant LENGTH_FRACTION = 16;
 uint256 constant SQUARE_FRACTION = 32;
-/// @dev The shift from HAS_SPECULAR to IS_LIT; IS_LIT and IS_DIFFUSE.
-uint256 constant SPECULAR_TO_LIT = 2;
-uint256 constant IS_LIT_AND_DIFFUSE = 6;
+/// @dev From FACE_N_DOT_RAY_SLOPE times DEPTH_SCALE, without DEPTH_FRACTION, to Q16.
+uint256 constant Q166_TO_Q16 = 150;
 
 library Lighting {
     /// @notice Computes the normal and light of a flat face from its corners in the mesh.
@@ -19,27 +18,9 @@ library Lighting {
     /// light shines on it; in the latter case, fragments sum the diffuse light of all lights.
     /// @return light The light that does not depend on the fragment, lanes of Q16; undefined if IS_DIFFUSE.
     function setFace() internal pure returns (uint256 mode, uint256 light) {
+        // the length of the normal, which is twice the area of the face; first its square
+        uint256 length;
         assembly ("memory-safe") {
-            // normal * (vector - first corner); if `all` is 0, normal * vector; Q32
-            function dot(vector, all) -> sum {
-                let corner := calldataload(mload(FACE))
-                corner := calldataload(add(mload(MESH_VERTICES), mul(shr(FACE_FIRST_IN_WORD, corner), mload(MESH_STRIDE))))
-                corner := and(corner, all)
-                let bits := mload(MESH_BITS)
-                let rest := sub(256, bits)
-                // unpack the coordinates of the normal, the uppermost first
-                let normal := mload(FACE_NORMAL)
-                let n := sar(UPPER_86_AT, add(normal, HALF_UPPER_86))
-                sum := mul(n, sub(mload(add(vector, 0x40)), shl(MESH_FRACTION, sar(rest, shl(shl(1, bits), corner)))))
-                normal := sub(normal, shl(UPPER_86_AT, n))
-                n := sar(MIDDLE_86_AT, add(normal, HALF_MIDDLE_86))
-                sum := add(sum, mul(n, sub(mload(add(vector, 0x20)), shl(MESH_FRACTION, sar(rest, shl(bits, corner))))))
-                n := sub(normal, shl(MIDDLE_86_AT, n))
-                sum := add(sum, mul(n, sub(mload(vector), shl(MESH_FRACTION, sar(rest, corner)))))
-            }
-
-            // the length of the normal, which is twice the area of the face; first its square
-            let length
             {
                 // the corners, three numbers of `bits` each at the top of a word
                 let bits := calldataload(mload(FACE))
@@ -50,7 +31,7 @@ library Lighting {
                 let b := calldataload(add(rest, mul(x, and(shr(FACE_AT, bits), FACE_INDEX_MASK))))
                 bits := mload(MESH_BITS)
                 rest := sub(256, bits)
-                x := sar(rest, p)
+                x := sar(rest, p) // from here on a coordinate of the first corner
                 let ax := sub(sar(rest, a), x)
                 let bx := sub(sar(rest, b), x)
                 p := shl(bits, p)
@@ -60,14 +41,14 @@ library Lighting {
                 let ay := sub(sar(rest, a), x)
                 let by := sub(sar(rest, b), x)
                 x := sar(rest, shl(bits, p))
-                a := sub(sar(rest, shl(bits, a)), x)
+                a := sub(sar(rest, shl(bits, a)), x) // az and bz from here on
                 b := sub(sar(rest, shl(bits, b)), x)
                 // the cross product of the two edges (ax, ay, a) and (bx, by, b); its coordinates are up to 2^49
-                x := sub(mul(ay, b), mul(a, by))
-                p := sub(mul(a, bx), mul(ax, b))
-                a := sub(mul(ax, by), mul(ay, bx))
+                x := sub(mul(ay, b), mul(a, by)) // the normal from here on: x = ay bz - az by
+                p := sub(mul(a, bx), mul(ax, b)) // y = az bx - ax bz
+                a := sub(mul(ax, by), mul(ay, bx)) // z = ax by - ay bx
                 mstore(FACE_NORMAL, add(add(x, shl(MIDDLE_86_AT, p)), shl(UPPER_86_AT, a)))
-                length := add(add(mul(x, x), mul(p, p)), mul(a, a))
+                length := add(add(mul(x, x), mul(p, p)), mul(a, a)) // x^2 + y^2 + z^2
             }
             mstore(FACE_SQUARE, length)
             length := shl(SQUARE_FRACTION, length)
@@ -83,33 +64,44 @@ library Lighting {
                     for {} gt(shr(shl(1, h), length), 63) {} { h := add(h, 3) }
                     mstore(FACE_HINT, h)
                 }
-                h := shr(10, mul(140, add(shr(h, length), shl(h, 8))))
-                h := shr(1, add(h, div(length, h)))
+                h := shr(10, mul(140, add(shr(h, length), shl(h, 8)))) // 140 / 1024 * (m + 8) * 2^h; the root from here on
+                h := shr(1, add(h, div(length, h))) // Newton: (r + x / r) / 2
                 h := shr(1, add(h, div(length, h)))
                 length := shr(1, add(h, div(length, h)))
             }
             mstore(FACE_LENGTH, length)
-            mode := mload(OBJECT_MODE)
-            light := mload(AMBIENT)
+        }
+        unchecked {
+            mode = load(OBJECT_MODE);
+            light = load(AMBIENT);
             // if there are no lights, the first record is zero
-            for { let record := LIGHTS } 1 {} {
-                // the middle coefficient of the product; the bits below borrow at most one
-                let facing := sar(UPPER_86_AT, mul(mload(FACE_NORMAL), mload(add(record, LIGHT_MESH_X))))
-                facing := sdiv(shl(LENGTH_FRACTION, facing), length)
-                if mload(add(record, LIGHT_IS_POINT)) {
-                    // not a literal: see ZERO_SLOT
-                    facing := dot(add(record, LIGHT_MESH_X), not(mload(ZERO_SLOT)))
-                    facing := sdiv(sar(MESH_FRACTION, mul(facing, mload(SCALE))), length)
-                    mode := or(mode, mul(IS_LIT_AND_DIFFUSE, sgt(facing, 0)))
+            uint256 record = LIGHTS;
+            while (true) {
+                uint256 facing;
+                if (load(record + LIGHT_IS_POINT) == 0) {
+                    assembly ("memory-safe") {
+                        // the middle coefficient of the product; the bits below borrow at most one
+                        facing := sar(UPPER_86_AT, mul(mload(FACE_NORMAL), mload(add(record, LIGHT_MESH_X))))
+                        facing := sdiv(shl(LENGTH_FRACTION, facing), length) // N.L / |N|, Q24
+                    }
+                } else {
+                    // all ones, but not a literal: see ZERO_SLOT
+                    facing = dot(record + LIGHT_MESH_X, ~load(ZERO_SLOT));
+                    assembly ("memory-safe") {
+                        facing := sdiv(sar(MESH_FRACTION, mul(facing, mload(SCALE))), length) // N.L / |N|, Q16
+                        mode := or(mode, mul(IS_LIT_AND_DIFFUSE, sgt(facing, 0)))
+                    }
                 }
-                if sgt(facing, 0) {
-                    light := add(light, and(shr(COSINE_FRACTION, mul(mload(add(record, LIGHT_DIFFUSE)), facing)), LANES_32))
-                    // a highlight requires the light at each fragment
-                    mode := or(mode, shr(SPECULAR_TO_LIT, and(mode, HAS_SPECULAR)))
+                assembly ("memory-safe") {
+                    if sgt(facing, 0) {
+                        light := add(light, and(shr(COSINE_FRACTION, mul(mload(add(record, LIGHT_DIFFUSE)), facing)), LANES_32))
+                        // a highlight requires the light at each fragment
+                        mode := or(mode, shr(SPECULAR_TO_LIT, and(mode, HAS_SPECULAR)))
+                    }
+                    mstore(add(record, LIGHT_N_DOT_L), facing)
                 }
-                mstore(add(record, LIGHT_N_DOT_L), facing)
-                record := add(record, LIGHT_SIZE)
-                if iszero(lt(record, mload(LIGHTS_END))) { break }
+                record += LIGHT_SIZE;
+                if (record >= load(LIGHTS_END)) break;
             }
         }
     }
@@ -117,37 +109,39 @@ library Lighting {
     /// @notice Computes the product of the normal and a ray for fragments that are shaded individually: FACE_N_DOT_RAY and
     /// FACE_N_DOT_RAY_SLOPE.
     function setFacing() internal pure {
+        bool isParallel = load(OBJECT_MODE) & IS_ORTHOGRAPHIC != 0;
+        // normal * line of sight, or normal * (eye - corner)
+        uint256 product = dot(EYE_X + load(ZERO_SLOT), isParallel ? 0 : type(uint256).max);
         assembly ("memory-safe") {
-            // normal * (vector - first corner); if `all` is 0, normal * vector; Q32
-            function dot(vector, all) -> sum {
-                let corner := calldataload(mload(FACE))
-                corner := calldataload(add(mload(MESH_VERTICES), mul(shr(FACE_FIRST_IN_WORD, corner), mload(MESH_STRIDE))))
-                corner := and(corner, all)
-                let bits := mload(MESH_BITS)
-                let rest := sub(256, bits)
-                // unpack the coordinates of the normal, the uppermost first
-                let normal := mload(FACE_NORMAL)
-                let n := sar(UPPER_86_AT, add(normal, HALF_UPPER_86))
-                sum := mul(n, sub(mload(add(vector, 0x40)), shl(MESH_FRACTION, sar(rest, shl(shl(1, bits), corner)))))
-                normal := sub(normal, shl(UPPER_86_AT, n))
-                n := sar(MIDDLE_86_AT, add(normal, HALF_MIDDLE_86))
-                sum := add(sum, mul(n, sub(mload(add(vector, 0x20)), shl(MESH_FRACTION, sar(rest, shl(bits, corner))))))
-                n := sub(normal, shl(MIDDLE_86_AT, n))
-                sum := add(sum, mul(n, sub(mload(vector), shl(MESH_FRACTION, sar(rest, corner)))))
-            }
-
-            let all := sub(gt(and(mload(OBJECT_MODE), IS_ORTHOGRAPHIC), 0), 1)
-            // normal * (corner - eye), or normal * line of sight; not literals: see ZERO_SLOT
-            let product := dot(add(EYE_X, mload(ZERO_SLOT)), all)
-            switch all
+            switch isParallel
             case 0 {
-                mstore(FACE_N_DOT_RAY_SLOPE, 0)
-                mstore(FACE_N_DOT_RAY, sdiv(shl(40, product), mload(FACE_LENGTH)))
-            }
-            default {
                 mstore(FACE_N_DOT_RAY_SLOPE, sdiv(mul(sub(0, product), mload(SCALE_PER_NEAR)), mload(FACE_LENGTH)))
                 mstore(FACE_N_DOT_RAY, 0)
             }
+            default {
+                mstore(FACE_N_DOT_RAY_SLOPE, 0)
+                mstore(FACE_N_DOT_RAY, sdiv(shl(Q40, product), mload(FACE_LENGTH)))
+            }
+        }
+    }
+
+    /// @dev Returns normal * (vector - first corner) of the face; if `all` is 0, not all ones, normal * vector; Q32.
+    function dot(uint256 vector, uint256 all) private pure returns (uint256 sum) {
+        assembly ("memory-safe") {
+            let corner := calldataload(mload(FACE)) // the face; its first corner from here on
+            corner := calldataload(add(mload(MESH_VERTICES), mul(shr(FACE_FIRST_IN_WORD, corner), mload(MESH_STRIDE))))
+            corner := and(corner, all)
+            let bits := mload(MESH_BITS)
+            let rest := sub(256, bits)
+            // unpack the coordinates of the normal, the uppermost first
+            let normal := mload(FACE_NORMAL)
+            let n := sar(UPPER_86_AT, add(normal, HALF_UPPER_86)) // z
+            sum := mul(n, sub(mload(add(vector, 0x40)), shl(MESH_FRACTION, sar(rest, shl(shl(1, bits), corner)))))
+            normal := sub(normal, shl(UPPER_86_AT, n))
+            n := sar(MIDDLE_86_AT, add(normal, HALF_MIDDLE_86)) // y
+            sum := add(sum, mul(n, sub(mload(add(vector, 0x20)), shl(MESH_FRACTION, sar(rest, shl(bits, corner))))))
+            n := sub(normal, shl(MIDDLE_86_AT, n)) // x
+            sum := add(sum, mul(n, sub(mload(vector), shl(MESH_FRACTION, sar(rest, corner)))))
         }
     }
 
@@ -159,7 +153,7 @@ library Lighting {
     function pointReach(uint256 farthest) internal pure returns (uint256) {
         unchecked {
             // distances: of the vertex from the eye; of the nearest light and of the eye from the plane of the face; Q16
-            uint256 distance = (load(DEPTH_SCALE) >> 16) / (farthest + 1) + 1;
+            uint256 distance = (load(DEPTH_SCALE) >> Q16) / (farthest + 1) + 1;
             uint256 height = type(uint256).max >> 1;
             bool isBehind = load(OBJECT_MODE) & HAS_SPECULAR != 0 && loadSigned(FACE_N_DOT_RAY_SLOPE) > 0;
             uint256 end = load(LIGHTS_END);
@@ -170,7 +164,7 @@ library Lighting {
                 if (facing < height) height = facing;
             }
             int256 plane = loadSigned(FACE_N_DOT_RAY_SLOPE) * loadSigned(DEPTH_SCALE);
-            uint256 eyeHeight = uint256(plane < 0 ? -plane : plane) >> 150;
+            uint256 eyeHeight = uint256(plane < 0 ? -plane : plane) >> Q166_TO_Q16;
             // the cosine of the angle at the vertex is about eyeHeight / distance, and larger elsewhere: increase it by a third
             eyeHeight = 4 * eyeHeight / 3;
             if (eyeHeight < distance) height = height * eyeHeight / distance;

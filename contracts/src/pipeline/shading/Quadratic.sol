@@ -19,12 +19,12 @@ library Quadratic {
     function fromNodes(uint256 a, uint256 b, uint256 c, uint256 ab, uint256 ac, uint256 bc) internal pure {
         assembly ("memory-safe") {
             // along an edge: value = a + s * (b - a) + s * (1 - s) * (4 * ab - 2 * (a + b))
-            ab := sub(shl(2, ab), shl(1, add(a, b)))
+            ab := sub(shl(2, ab), shl(1, add(a, b))) // from here on 4 * ab - 2 * (a + b), the bend of the edge
             ac := sub(shl(2, ac), shl(1, add(a, c)))
-            mstore(QUADRATIC_ST, sub(sub(sub(shl(2, bc), shl(1, add(b, c))), ab), ac))
+            mstore(QUADRATIC_ST, sub(sub(sub(shl(2, bc), shl(1, add(b, c))), ab), ac)) // that of bc - ab - ac
             mstore(QUADRATIC_SS, sub(0, ab))
             mstore(QUADRATIC_TT, sub(0, ac))
-            mstore(QUADRATIC_S, add(sub(b, a), ab))
+            mstore(QUADRATIC_S, add(sub(b, a), ab)) // b - a + bend
             mstore(QUADRATIC_T, add(sub(c, a), ac))
             mstore(QUADRATIC_1, a)
         }
@@ -38,35 +38,35 @@ library Quadratic {
             let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
             let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
             let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)
-            a := shr(SCREEN_ROW_AT, a)
+            a := shr(SCREEN_ROW_AT, a) // rows from here on: ya, yb - ya, yc - ya
             b := sub(shr(SCREEN_ROW_AT, b), a)
             c := sub(shr(SCREEN_ROW_AT, c), a)
             // from the first vertex to the centres of the row
-            a := sub(shl(SUBPIXEL_BITS, top), a)
+            a := sub(shl(SUBPIXEL_BITS, top), a) // a from here on: y
             // change of s and t per pixel, Q24: (ds/dx, dt/dx) = (-c, b) / area, (ds/dy, dt/dy) = (xc, -xb) / area, in sub-pixels
-            top := sub(mul(xc, b), mul(xb, c))
+            top := sub(mul(xc, b), mul(xb, c)) // top from here on: twice the area
             let dsdx := sub(0, sdiv(shl(SUBPIXEL_TO_Q24, c), top))
             let dtdx := sdiv(shl(SUBPIXEL_TO_Q24, b), top)
-            xc := sdiv(shl(SUBPIXEL_TO_Q24, xc), top)
-            xb := sub(0, sdiv(shl(SUBPIXEL_TO_Q24, xb), top))
-            // s and t at column 0 of the first row, Q24
-            b := sar(SUBPIXEL_BITS, sub(mul(xc, a), mul(dsdx, x)))
+            xc := sdiv(shl(SUBPIXEL_TO_Q24, xc), top) // xc from here on: ds/dy
+            xb := sub(0, sdiv(shl(SUBPIXEL_TO_Q24, xb), top)) // xb from here on: dt/dy
+            // b and c from here on: s and t at column 0 of the first row, Q24
+            b := sar(SUBPIXEL_BITS, sub(mul(xc, a), mul(dsdx, x))) // ds/dy * y - ds/dx * x
             c := sar(SUBPIXEL_BITS, sub(mul(xb, a), mul(dtdx, x)))
             {
                 // the value, and its derivatives with respect to s and t, Qn+24
-                a := mul(b, mload(QUADRATIC_SS))
+                a := mul(b, mload(QUADRATIC_SS)) // a and x from here on: s * SS and t * TT
                 x := mul(c, mload(QUADRATIC_TT))
-                let ds := add(add(shl(Q24, mload(QUADRATIC_S)), a), mul(c, mload(QUADRATIC_ST)))
-                let dt := add(shl(Q24, mload(QUADRATIC_T)), x)
-                mstore(QUADRATIC_START, add(shl(Q48, mload(QUADRATIC_1)), add(mul(b, ds), mul(c, dt))))
-                ds := add(ds, a)
-                dt := add(add(dt, x), mul(b, mload(QUADRATIC_ST)))
+                let ds := add(add(shl(Q24, mload(QUADRATIC_S)), a), mul(c, mload(QUADRATIC_ST))) // S + s * SS + t * ST
+                let dt := add(shl(Q24, mload(QUADRATIC_T)), x) // T + t * TT
+                mstore(QUADRATIC_START, add(shl(Q48, mload(QUADRATIC_1)), add(mul(b, ds), mul(c, dt)))) // 1 + s * ds + t * dt
+                ds := add(ds, a) // S + 2 s * SS + t * ST
+                dt := add(add(dt, x), mul(b, mload(QUADRATIC_ST))) // T + 2 t * TT + s * ST
                 // half the second difference along the row: dsdx * (SS * dsdx) + dtdx * (ST * dsdx + TT * dtdx)
-                a := mul(dsdx, mload(QUADRATIC_SS))
+                a := mul(dsdx, mload(QUADRATIC_SS)) // a, x, b, c from here on: the terms of this
                 x := mul(dtdx, mload(QUADRATIC_TT))
                 b := add(mul(dsdx, mload(QUADRATIC_ST)), x)
                 c := add(mul(dsdx, a), mul(dtdx, b))
-                mstore(QUADRATIC_DX, add(c, add(mul(dsdx, ds), mul(dtdx, dt))))
+                mstore(QUADRATIC_DX, add(c, add(mul(dsdx, ds), mul(dtdx, dt)))) // c + ds/dx * ds + dt/dx * dt
                 mstore(QUADRATIC_DXX, shl(1, c))
                 // dsdy * (2 * SS * dsdx + ST * dtdx) + dtdy * (ST * dsdx + 2 * TT * dtdx)
                 a := add(shl(1, a), mul(dtdx, mload(QUADRATIC_ST)))

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {max, min} from "../geometry/Screen.sol";
 import {WEIGHTED_BIAS} from "./FragmentLight.sol";
 import {Lighting} from "./Lighting.sol";
-import {VERTEX_NORMAL} from "./SmoothLight.sol";
 import "../../words/Registers.sol";
 
 // The common parts of triangle shading: the test whether colours can be linear on the screen, and the registers of linear triangles and of
@@ -14,6 +14,15 @@ uint256 constant GUARDS = 0x00400000000000004000000000000040000000000000;
 uint256 constant LIMITS = 0x00000003000000000000030000000000000300000000;
 /// @dev Twice the area of three pixels, in sub-pixels.
 uint256 constant THREE_PIXELS = 0x60000;
+/// @dev 1, Q84: divided by a depth, its inverse; and the shift from that times a depth to Q20.
+uint256 constant ONE_84 = 0x1000000000000000000000;
+uint256 constant Q84_TO_Q20 = 64;
+/// @dev 2 to this power is the factor of depths from which on they are interpolated separately: see IS_DEEP.
+uint256 constant DEEP_BITS = 12;
+/// @dev From the normals of vertices to NORMALS_0.
+uint256 constant Q20_TO_Q36 = 16;
+/// @dev From a quotient of sub-pixel lengths and twice an area to Q32 per pixel.
+uint256 constant SUBPIXEL_TO_Q32 = 40;
 /// @dev Eight rows in the format of screen words.
 uint256 constant EIGHT_ROWS = 0x80000000000000000000000000000000000;
 
@@ -71,32 +80,32 @@ library Shading {
         }
         if (large) large = isLarge(screenA, screenB, screenC);
         assembly ("memory-safe") {
-            let least := xor(a, mul(xor(a, b), lt(b, a)))
-            let change := xor(xor(a, b), least)
-            least := shr(ATTRIBUTE_DEPTH_AT, xor(least, mul(xor(least, c), lt(c, least))))
-            change := sub(shr(ATTRIBUTE_DEPTH_AT, xor(change, mul(xor(change, c), lt(change, c)))), least)
+            let least := xor(a, mul(xor(a, b), lt(b, a))) // min(a, b)
+            let change := xor(xor(a, b), least) // max(a, b)
+            least := shr(ATTRIBUTE_DEPTH_AT, xor(least, mul(xor(least, c), lt(c, least)))) // the least depth
+            change := sub(shr(ATTRIBUTE_DEPTH_AT, xor(change, mul(xor(change, c), lt(change, c)))), least) // the greatest minus it
             // colours of up to 255 may differ by any amount if depths differ by at most 12 / 255, in large triangles 8 / 255
             yes := iszero(or(gt(mul(add(22, mul(11, large)), change), least), and(or(or(a, b), c), OVERFLOW)))
             if iszero(yes) {
-                let inverse := div(0x1000000000000000000000, least)
-                let limits := or(GUARDS, shr(large, LIMITS))
+                let inverse := div(ONE_84, least) // z^-1, Q84
+                let limits := or(GUARDS, shr(large, LIMITS)) // half of LIMITS if large
                 // |z_i - z_j| / z, Q20, times the difference of the colours (Q10), in each lane: if it exceeds the limit, a bit above is
                 // cleared; more than 2^32 would not fit the lanes, since colours are up to 20 times 255
-                change := sub(b, a)
+                change := sub(b, a) // from here on a pair's difference of attribute words, then of colours times the ratio
                 let ratio := sar(ATTRIBUTE_DEPTH_AT, change)
-                ratio := shr(64, mul(xor(ratio, sar(255, ratio)), inverse))
+                ratio := shr(Q84_TO_Q20, mul(xor(ratio, sar(255, ratio)), inverse)) // |z_i - z_j| / z
                 let most := ratio
                 change := mul(change, ratio)
-                let guards := and(add(limits, change), sub(limits, change))
+                let guards := and(add(limits, change), sub(limits, change)) // |change| <= limit in each lane
                 change := sub(c, a)
                 ratio := sar(ATTRIBUTE_DEPTH_AT, change)
-                ratio := shr(64, mul(xor(ratio, sar(255, ratio)), inverse))
+                ratio := shr(Q84_TO_Q20, mul(xor(ratio, sar(255, ratio)), inverse)) // |z_i - z_j| / z
                 most := or(most, ratio)
                 change := mul(change, ratio)
                 guards := and(guards, and(add(limits, change), sub(limits, change)))
                 change := sub(c, b)
                 ratio := sar(ATTRIBUTE_DEPTH_AT, change)
-                ratio := shr(64, mul(xor(ratio, sar(255, ratio)), inverse))
+                ratio := shr(Q84_TO_Q20, mul(xor(ratio, sar(255, ratio)), inverse)) // |z_i - z_j| / z
                 most := or(most, ratio)
                 change := mul(change, ratio)
                 guards := and(guards, and(add(limits, change), sub(limits, change)))
@@ -109,11 +118,11 @@ library Shading {
     /// expensive, with little benefit.
     function isLarge(uint256 a, uint256 b, uint256 c) internal pure returns (bool large) {
         assembly ("memory-safe") {
-            let rows := xor(b, mul(xor(b, c), lt(b, c)))
-            rows := shr(SCREEN_PIXEL_ROW_AT, add(rows, mload(ROUND_BOTTOM)))
-            rows := sub(rows, shr(SCREEN_PIXEL_ROW_AT, add(a, mload(ROUND_TOP))))
+            let rows := xor(b, mul(xor(b, c), lt(b, c))) // max(b, c)
+            rows := shr(SCREEN_PIXEL_ROW_AT, add(rows, mload(ROUND_BOTTOM))) // the row after the last
+            rows := sub(rows, shr(SCREEN_PIXEL_ROW_AT, add(a, mload(ROUND_TOP)))) // minus the first
             let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
-            a := shr(SCREEN_ROW_AT, a)
+            a := shr(SCREEN_ROW_AT, a) // the row of the first vertex from here on
             let area := mul(sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x), sub(shr(SCREEN_ROW_AT, b), a))
             area := sub(area, mul(sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x), sub(shr(SCREEN_ROW_AT, c), a)))
             large := and(gt(rows, 8), gt(area, mul(rows, THREE_PIXELS)))
@@ -130,20 +139,20 @@ library Shading {
             uint256 farthest = min(attributesA, min(attributesB, attributesC)) >> ATTRIBUTE_DEPTH_AT;
             mode |= IS_PATCHED;
             if (nearest >= 64 * farthest) mode |= IS_STEEP;
-            if (nearest >= farthest << 12) mode |= IS_DEEP;
+            if (nearest >= farthest << DEEP_BITS) mode |= IS_DEEP;
             store(MODE, mode);
             store(PATCH_SIZE, 1);
             store(PATCH_BEGIN, 0);
             store(PATCH_END, GUARD_BAND);
             uint256 color = attributesA & LANES_24;
-            store(COLOR_0, (color << 24) + WEIGHTED_BIAS);
+            store(COLOR_0, (color << Q24) + WEIGHTED_BIAS);
             store(COLOR_1, (attributesB & LANES_24) - color);
             store(COLOR_2, (attributesC & LANES_24) - color);
             attributesA >>= ATTRIBUTE_DEPTH_AT;
             attributesB >>= ATTRIBUTE_DEPTH_AT;
             attributesC >>= ATTRIBUTE_DEPTH_AT;
-            store(DEPTH_1, attributesB << 8);
-            store(DEPTH_2, attributesC << 8);
+            store(DEPTH_1, attributesB << DEPTH_FRACTION);
+            store(DEPTH_2, attributesC << DEPTH_FRACTION);
             if (mode & IS_DEEP != 0) {
                 setDepths(a, b, c, attributesA, attributesB - attributesA, attributesC - attributesA);
                 (attributesA, attributesB, attributesC) = (0, 0, 0);
@@ -161,16 +170,17 @@ library Shading {
             let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
             let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
             let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)
-            a := shr(SCREEN_ROW_AT, a)
+            a := shr(SCREEN_ROW_AT, a) // rows from here on: of the first vertex, and relative to it
             b := sub(shr(SCREEN_ROW_AT, b), a)
             c := sub(shr(SCREEN_ROW_AT, c), a)
-            let area := sub(mul(xc, b), mul(xb, c))
-            let dx := sdiv(shl(40, sub(mul(zc, b), mul(zb, c))), area)
-            let dy := sdiv(shl(40, sub(mul(zb, xc), mul(zc, xb))), area)
+            let area := sub(mul(xc, b), mul(xb, c)) // twice the area
+            let dx := sdiv(shl(SUBPIXEL_TO_Q32, sub(mul(zc, b), mul(zb, c))), area) // (zc yb - zb yc) / area
+            let dy := sdiv(shl(SUBPIXEL_TO_Q32, sub(mul(zb, xc), mul(zc, xb))), area) // (zb xc - zc xb) / area
             mstore(DEEP_DX, dx)
             mstore(DEEP_DY, dy)
             // from the first vertex to the centre of pixel 0 in the first row
-            mstore(DEEP_START, shl(ATTRIBUTE_DEPTH_AT, add(shl(32, z), sar(8, sub(mul(and(sub(0, a), SUBPIXEL_MASK), dy), mul(x, dx))))))
+            dy := sub(mul(and(sub(0, a), SUBPIXEL_MASK), dy), mul(x, dx)) // y dy - x dx from here on
+            mstore(DEEP_START, shl(ATTRIBUTE_DEPTH_AT, add(shl(Q32, z), sar(SUBPIXEL_BITS, dy))))
         }
     }
 
@@ -178,7 +188,7 @@ library Shading {
     function setNormals(uint256 a, uint256 b, uint256 c) internal pure {
         assembly ("memory-safe") {
             a := mload(add(and(a, SCREEN_RECORD_MASK), VERTEX_NORMAL))
-            mstore(NORMALS_0, shl(16, a))
+            mstore(NORMALS_0, shl(Q20_TO_Q36, a))
             mstore(NORMALS_1, sub(mload(add(and(b, SCREEN_RECORD_MASK), VERTEX_NORMAL)), a))
             mstore(NORMALS_2, sub(mload(add(and(c, SCREEN_RECORD_MASK), VERTEX_NORMAL)), a))
         }
@@ -197,40 +207,20 @@ library Shading {
         }
     }
 
-    /// @dev Returns twice the area, in sub-pixels.
-    function doubleArea(uint256 a, uint256 b, uint256 c) internal pure returns (uint256 area) {
-        assembly ("memory-safe") {
-            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
-            let y := shr(SCREEN_ROW_AT, a)
-            area := mul(sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x), sub(shr(SCREEN_ROW_AT, b), y))
-            area := sub(area, mul(sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x), sub(shr(SCREEN_ROW_AT, c), y)))
-        }
-    }
-
-    function min(uint256 a, uint256 b) internal pure returns (uint256) {
-        return a < b ? a : b;
-    }
-
-    function max(uint256 a, uint256 b) internal pure returns (uint256) {
-        return a > b ? a : b;
-    }
-
-    /// @dev Returns the attribute word with its colour multiplied by the light of the face.
-    function lit(uint256 word, uint256 factor) private pure returns (uint256 product) {
+    /// @notice Returns the attribute word with its colour multiplied by light, lanes of Q16.
+    function lit(uint256 word, uint256 factor) internal pure returns (uint256 product) {
         assembly ("memory-safe") {
             let color := and(word, LANES_24)
-            product := and(factor, LANE_32)
+            product := and(factor, LANE_32) // blue light
             switch eq(factor, mul(product, ONES))
-            case 1 { product := and(shr(16, mul(color, product)), LANES_24) }
+            case 1 { product := and(shr(LIGHT_FRACTION, mul(color, product)), LANES_24) } // grey: all channels at once
             default {
-                product := shr(16, mul(product, and(color, LANE_24)))
-                product := or(
-                    product,
-                    shl(MIDDLE_AT, shr(16, mul(and(shr(MIDDLE_AT, factor), LANE_32), and(shr(MIDDLE_AT, color), LANE_24))))
-                )
-                product := or(product, shl(UPPER_AT, shr(16, mul(shr(UPPER_AT, factor), shr(UPPER_AT, color)))))
+                product := shr(LIGHT_FRACTION, mul(product, and(color, LANE_24))) // blue
+                let green := mul(and(shr(MIDDLE_AT, factor), LANE_32), and(shr(MIDDLE_AT, color), LANE_24))
+                product := or(product, shl(MIDDLE_AT, shr(LIGHT_FRACTION, green)))
+                product := or(product, shl(UPPER_AT, shr(LIGHT_FRACTION, mul(shr(UPPER_AT, factor), shr(UPPER_AT, color))))) // red
             }
-            product := or(product, xor(word, color))
+            product := or(product, xor(word, color)) // and the depth as it is
         }
     }
 }

@@ -3,8 +3,9 @@ pragma solidity 0.8.37;
 
 import {Quadratic} from "./Quadratic.sol";
 import {Rasterizer} from "../geometry/Rasterizer.sol";
+import {firstRowOf, max} from "../geometry/Screen.sol";
 import {Shading} from "./Shading.sol";
-import {SmoothLight, UNBOUNDED_LIGHT, STEEP_LIGHT} from "./SmoothLight.sol";
+import {SmoothTriangle, STEEP_LIGHT, UNBOUNDED_LIGHT} from "./SmoothTriangle.sol";
 import "../../words/Registers.sol";
 
 // Selects the shading of triangles whose fragments are lit: smooth surfaces, and all that no other method draws.
@@ -20,16 +21,14 @@ abstract contract SmoothShading is Rasterizer {
             if (mode & (IS_QUADRATIC | IS_BLENDED) == IS_QUADRATIC) {
                 uint256 size = Shading.squareSize(a, b, c);
                 // skip triangles that are too large
-                if (size < load(SMOOTH_REACH_3)) kind = SmoothLight.setLight(a, b, c, size);
+                if (size < load(SMOOTH_REACH_3)) kind = SmoothTriangle.setLight(a, b, c, size);
             }
             if (kind == UNBOUNDED_LIGHT) return shadeExact(a, b, c, crossing);
             (uint256 attributesA, uint256 attributesB, uint256 attributesC) = Shading.attributesOf(a, b, c);
-            uint256 top = (a + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT;
-            if (top < load(BAND_TOP)) top = load(BAND_TOP);
-            Quadratic.setDifferences(a, b, c, top);
+            Quadratic.setDifferences(a, b, c, max(firstRowOf(a), load(BAND_TOP)));
             if (kind == STEEP_LIGHT && !Shading.isAffine(attributesA, attributesB, attributesC, a, b, c)) {
                 mode |= IS_STEEP;
-                uint256 nearest = Shading.max(attributesA, Shading.max(attributesB, attributesC)) >> ATTRIBUTE_DEPTH_AT;
+                uint256 nearest = max(attributesA, max(attributesB, attributesC)) >> ATTRIBUTE_DEPTH_AT;
                 store(NEAREST, nearest << Q24);
                 attributesA = weighted(attributesA, nearest);
                 attributesB = weighted(attributesB, nearest);

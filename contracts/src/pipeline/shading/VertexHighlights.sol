@@ -35,28 +35,28 @@ library VertexHighlights {
             // for each light, H and its square, after the first two words of a record
             function fill(vertex) {
                 let x := mload(vertex)
-                let y := add(mload(RAY_TOP), sar(SUBPIXEL_BITS, mul(shr(SCREEN_ROW_AT, x), mload(RAY_STEP))))
+                let y := add(mload(RAY_TOP), sar(SUBPIXEL_BITS, mul(shr(SCREEN_ROW_AT, x), mload(RAY_STEP)))) // RAY_TOP + row * RAY_STEP
                 x := and(shr(SCREEN_COLUMN_AT, x), SCREEN_COLUMN_MASK)
                 x := add(mload(RAY_LEFT), sar(SUBPIXEL_BITS, mul(x, mload(RAY_STEP))))
                 if mload(FRAME_IS_ORTHOGRAPHIC) {
                     x := 0
                     y := 0
                 }
-                let square := add(add(mul(x, x), mul(y, y)), ONE_48)
-                let length := add(mload(LENGTH_AT_0), shr(48, mul(square, mload(LENGTH_SLOPE))))
-                length := shr(1, add(length, div(square, length)))
+                let square := add(add(mul(x, x), mul(y, y)), ONE_48) // |r|^2, Q48
+                let length := add(mload(LENGTH_AT_0), shr(Q48, mul(square, mload(LENGTH_SLOPE)))) // |r|, Q24
+                length := shr(1, add(length, div(square, length))) // Newton: (l + x / l) / 2
                 for { let steps := mload(LENGTH_STEPS) } steps { steps := sub(steps, 1) } {
                     length := shr(1, add(length, div(square, length)))
                 }
                 // V, Q80
                 let ray := add(add(mul(x, mload(NORMAL_X)), mul(y, mload(NORMAL_Y))), shl(COSINE_FRACTION, mload(NORMAL_Z)))
-                ray := mul(ray, div(ONE_56, length))
+                ray := mul(ray, div(ONE_56, length)) // r / |r|
                 for { let record := LIGHTS } 1 {} {
                     vertex := add(vertex, HALF_SIZE)
-                    square := sub(shl(Q24_TO_Q80, mload(add(record, LIGHT_MESH_X))), ray)
+                    square := sub(shl(Q24_TO_Q80, mload(add(record, LIGHT_MESH_X))), ray) // square from here on: L - V, Q80
                     mstore(add(vertex, HALF_VECTOR), sub(and(shr(Q80_TO_Q32, add(square, HALF_86)), Q32_86), HALF_Q32_86))
                     // H^2 = 2 * (length - L.V) / length
-                    square := add(mul(mload(add(record, LIGHT_X)), x), mul(mload(add(record, LIGHT_Y)), y))
+                    square := add(mul(mload(add(record, LIGHT_X)), x), mul(mload(add(record, LIGHT_Y)), y)) // then L.r, H^2 / 2 * length
                     square := sub(mul(length, ABOVE_ONE_24), add(square, shl(COSINE_FRACTION, mload(add(record, LIGHT_Z)))))
                     mstore(add(vertex, HALF_SQUARE), sdiv(shl(SQUARE_SHIFT, square), mul(length, mload(SPECULAR_SCALE))))
                     record := add(record, LIGHT_SIZE)
@@ -66,11 +66,10 @@ library VertexHighlights {
 
             // the light of a light record for a vertex whose cached values are at `kept`: lanes of Q10
             function shine(record, kept) -> color {
-                let place := sar(UPPER_86_AT, mul(mload(FACE_NORMAL), mload(add(kept, HALF_VECTOR))))
-                // 0 if N.H is negative
-                place := mul(place, sgt(place, 0))
-                place := div(mul(place, place), mul(mload(FACE_SQUARE), mload(add(kept, HALF_SQUARE))))
-                place := sub(place, mload(SPECULAR_OFFSET))
+                let place := sar(UPPER_86_AT, mul(mload(FACE_NORMAL), mload(add(kept, HALF_VECTOR)))) // N.H
+                place := mul(place, sgt(place, 0)) // max(N.H, 0)
+                place := div(mul(place, place), mul(mload(FACE_SQUARE), mload(add(kept, HALF_SQUARE)))) // (N.H)^2 / (N.N * square)
+                place := sub(place, mload(SPECULAR_OFFSET)) // from here on the index into the table, Q24
                 if sgt(place, 0) {
                     color := mload(add(SPECULAR_TABLE, and(shr(SPECULAR_ENTRY_SHIFT_24, place), SPECULAR_ENTRY_MASK_24)))
                     // (value * 2^24 + increase * fraction of the index), Q40, is the upper half of a product
@@ -79,7 +78,7 @@ library VertexHighlights {
                 }
             }
 
-            a := add(and(a, SCREEN_RECORD_MASK), VERTEX_SIZE)
+            a := add(and(a, SCREEN_RECORD_MASK), VERTEX_SIZE) // from here on the addresses of half vectors
             b := add(and(b, SCREEN_RECORD_MASK), VERTEX_SIZE)
             c := add(and(c, SCREEN_RECORD_MASK), VERTEX_SIZE)
             if iszero(mload(a)) { fill(sub(a, VERTEX_SIZE)) }
