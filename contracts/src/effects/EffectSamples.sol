@@ -13,63 +13,7 @@ import "../words/EffectRegisters.sol";
 // the samples that the triangle covers. Translucent ones are drawn in two passes: see BlendedSpans. A fragment of which some samples are in
 // shadow and others are not is drawn twice: with the light that casts shadows switched off, and on.
 
-//
-// Barycentric coordinates are fine: their error, of gradients that are rounded, grows with the distance from the first vertex, which may be
-// thousands of pixels away where a face is clipped, and in perspective with the ratio of depths, which may be 1,000 there.
-
 library EffectSamples {
-    /// @notice Sets the accumulator as SampleRasterizer.setGradients, with fine barycentric coordinates.
-    function setGradients(uint256 a, uint256 b, uint256 c) internal pure {
-        assembly ("memory-safe") {
-            // moves the depth of an attribute word, which the larger gradients move back
-            function fine(word) -> moved {
-                moved := signextend(WEIGHTS_LAST_BYTE, word)
-                moved := add(moved, sar(FINE_BITS, sub(word, moved)))
-            }
-
-            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
-            let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
-            let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)
-            a := shr(SCREEN_ROW_AT, a)
-            b := sub(shr(SCREEN_ROW_AT, b), a)
-            c := sub(shr(SCREEN_ROW_AT, c), a)
-            let y := and(sub(0, a), SUBPIXEL_MASK)
-            mstore(START_ROW, shr(SUBPIXEL_BITS, add(a, SUBPIXEL_MASK)))
-            a := sub(mul(xc, b), mul(xb, c))
-            b := sdiv(shl(FINE_GRADIENT_SHIFT, b), a)
-            xb := sdiv(shl(FINE_GRADIENT_SHIFT, xb), a)
-            c := sdiv(shl(FINE_GRADIENT_SHIFT, c), a)
-            xc := sdiv(shl(FINE_GRADIENT_SHIFT, xc), a)
-            let toB := fine(mload(DELTA_1))
-            let toC := fine(mload(DELTA_2))
-            // the ends of lines have coordinates of 1
-            let start := mload(ATTRIBUTE_0)
-            start := add(start, mul(signextend(WEIGHTS_LAST_BYTE, sub(start, WEIGHT_BIAS)), FINE_FACTOR_LESS_1))
-            start := sub(start, mul(toC, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, b), mul(y, xb)))))
-            start := add(start, mul(toB, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, c), mul(y, xc)))))
-            b := sub(mul(toC, b), mul(toB, c))
-            c := sub(mul(toB, xc), mul(toC, xb))
-            // see SampleRasterizer
-            x := sar(ACCUMULATOR_DEPTH_AT, b)
-            y := sar(ACCUMULATOR_DEPTH_AT, c)
-            mstore(DX, shl(3, b))
-            mstore(DY, shl(3, c))
-            mstore(DX_8, b)
-            mstore(DY_8, c)
-            if and(mload(MODE), IS_DEEP) {
-                start := add(start, mload(DEEP_START))
-                b := mload(DEEP_DX)
-                c := mload(DEEP_DY)
-                x := add(x, signextend(7, sar(DEEP_8_AT, b)))
-                y := add(y, signextend(7, sar(DEEP_8_AT, c)))
-                mstore(DX, add(mload(DX), shl(ATTRIBUTE_DEPTH_AT, b)))
-                mstore(DY, add(mload(DY), shl(ATTRIBUTE_DEPTH_AT, c)))
-            }
-            mstore(START, start)
-            mstore(DEPTH_OFFSETS, sub(shl(mload(SAMPLE_SHIFT), add(mul(x, SAMPLE_X_8), mul(y, SAMPLE_Y_8))), mload(DEPTH_BASE)))
-        }
-    }
-
     /// @notice Draws the fragments of a row: see SampleRasterizer.drawSpan.
     function draw(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
         if (load(MODE) & IS_PARTLY_DARK == 0) return drawRow(left, right, column, end, row, false);

@@ -91,8 +91,8 @@ contract EffectsEngine is SampleBuffer, SampleWires {
         }
     }
 
-    function setGradients(uint256 a, uint256 b, uint256 c) internal pure override {
-        EffectSamples.setGradients(a, b, c);
+    function fineBits() internal pure override returns (uint256) {
+        return FINE_BITS;
     }
 
     function drawFragments(uint256 row, uint256 last) internal pure override {

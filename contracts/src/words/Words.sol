@@ -98,8 +98,7 @@ uint256 constant WEIGHT_BIAS = 0x10000000000000000000000000000000200000000000002
 /// @dev Fine barycentric coordinates, of scenes with effects, have 12 more bits: Q44. The lane of s is wider, so that t is still below it;
 /// lanes of 56 bits hold -2048 to 2048.
 uint256 constant FINE_BITS = 12;
-/// @dev GRADIENT_SHIFT for them; the factor minus 1; the position of s, and the last bytes of the lanes.
-uint256 constant FINE_GRADIENT_SHIFT = 49;
+/// @dev The factor minus 1; the position of s, and the last bytes of the lanes.
 uint256 constant FINE_FACTOR_LESS_1 = 0xfff;
 uint256 constant FINE_S_AT = 56;
 uint256 constant FINE_S_LAST_BYTE = 18;
@@ -353,8 +352,6 @@ uint256 constant IS_LEFT = 0x200000000;
 uint256 constant IS_RIGHT = 0x400000000;
 uint256 constant IS_ABOVE = 0x800000000;
 uint256 constant IS_BELOW = 0x1000000000;
-/// @dev Of the first vertex of a triangle: the face is turned away from the eye.
-uint256 constant IS_BACK = 0x2000000000;
 /// @dev Sub-pixel column.
 uint256 constant SCREEN_COLUMN_AT = 64;
 uint256 constant SCREEN_COLUMN_MASK = 0xfffff;
@@ -401,7 +398,7 @@ uint256 constant TRIANGLE_EDGES_MASK = 7;
 /// @dev Whether it reaches beyond the left or right border of the tile.
 uint256 constant CROSSING_BIT = 0x8000000000000000000000000000000000000;
 /// @dev Whether it is turned away from the eye.
-uint256 constant BACK_BIT = 0x002000000000000000000000000000000000000000;
+uint256 constant TURNED_AWAY_BIT = 0x002000000000000000000000000000000000000000;
 
 // ----------------------------------------------------------------------------------------------------------------------- clip coordinates
 // Column * distance, row * distance and distance, all Q32. The first two are signed, and CLIP_BIAS adds half their range to them.

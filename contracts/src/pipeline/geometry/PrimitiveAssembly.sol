@@ -61,7 +61,7 @@ abstract contract PrimitiveAssembly is Rasterizer {
                 if (area <= loadSigned(LEAST_AREA)) continue;
                 if (area < HALF_AREA) {
                     if (area > -HALF_AREA) continue;
-                    (a, b, c) = (a | IS_BACK, c, b);
+                    (b, c) = (c, b);
                     area = -area;
                     crossing = IS_TURNED_AWAY;
                 }
@@ -84,7 +84,7 @@ abstract contract PrimitiveAssembly is Rasterizer {
                     shade(a, b, c, crossing);
                     drawTriangle(a, b, c);
                 } else {
-                    store(LIST, Triangles.pack(load(LIST), a, b, c, ALL_EDGES + load(ZERO_SLOT)));
+                    store(LIST, Triangles.pack(load(LIST), a, b, c, ALL_EDGES + load(ZERO_SLOT), crossing & IS_TURNED_AWAY));
                 }
             }
         }

@@ -32,6 +32,13 @@ abstract contract SampleRasterizer is Rasterizer {
     /// @notice Sets further registers that shading requires, before the sides of the triangle are set.
     function prepare(uint256, uint256, uint256) internal pure virtual {}
 
+    /// @notice Returns how many more bits barycentric coordinates have: FINE_BITS or 0, a literal. Their error, of gradients that are
+    /// rounded, grows with the distance from the first vertex, which may be thousands of pixels away where a face is clipped, and in
+    /// perspective with the ratio of depths, which may be 1,000 there: too much for textures.
+    function fineBits() internal pure virtual returns (uint256) {
+        return 0;
+    }
+
     /// @notice Draws the rows from `row` (inclusive) to `last` (exclusive) of the current triangle, as its mode selects.
     function drawFragments(uint256 row, uint256 last) internal pure virtual;
 
@@ -60,8 +67,15 @@ abstract contract SampleRasterizer is Rasterizer {
     }
 
     /// @dev Sets the accumulator at column 0 of the row of the first pixel centres below the first vertex, and its changes.
-    function setGradients(uint256 a, uint256 b, uint256 c) internal pure virtual {
+    function setGradients(uint256 a, uint256 b, uint256 c) private pure {
+        uint256 bits = fineBits();
         assembly ("memory-safe") {
+            // moves the depth of an attribute word, which the larger gradients move back
+            function fine(word) -> moved {
+                moved := signextend(WEIGHTS_LAST_BYTE, word)
+                moved := add(moved, sar(FINE_BITS, sub(word, moved)))
+            }
+
             let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
             let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
             let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)
@@ -72,22 +86,32 @@ abstract contract SampleRasterizer is Rasterizer {
             mstore(START_ROW, shr(SUBPIXEL_BITS, add(a, SUBPIXEL_MASK)))
             // as in PixelRasterizer
             a := sub(mul(xc, b), mul(xb, c))
-            b := sdiv(shl(GRADIENT_SHIFT, b), a)
-            xb := sdiv(shl(GRADIENT_SHIFT, xb), a)
-            c := sdiv(shl(GRADIENT_SHIFT, c), a)
-            xc := sdiv(shl(GRADIENT_SHIFT, xc), a)
+            b := sdiv(shl(add(GRADIENT_SHIFT, bits), b), a)
+            xb := sdiv(shl(add(GRADIENT_SHIFT, bits), xb), a)
+            c := sdiv(shl(add(GRADIENT_SHIFT, bits), c), a)
+            xc := sdiv(shl(add(GRADIENT_SHIFT, bits), xc), a)
+            let start := mload(ATTRIBUTE_0)
             let toB := mload(DELTA_1)
             let toC := mload(DELTA_2)
-            // Colours are extrapolated up to a pixel outside the triangle. They fit their lanes if a barycentric coordinate changes by at
-            // most 16 per pixel: thinner triangles have the colour of their first vertex.
-            a := or(or(add(b, LEAST_WIDTH), add(xb, LEAST_WIDTH)), or(add(c, LEAST_WIDTH), add(xc, LEAST_WIDTH)))
-            if and(a, ABOVE_LEAST_WIDTH) {
-                if iszero(and(mload(MODE), or(IS_PATCHED, IS_QUADRATIC))) {
-                    toB := shl(ATTRIBUTE_DEPTH_AT, sar(ATTRIBUTE_DEPTH_AT, add(toB, HALF_DEPTH)))
-                    toC := shl(ATTRIBUTE_DEPTH_AT, sar(ATTRIBUTE_DEPTH_AT, add(toC, HALF_DEPTH)))
+            switch bits
+            case 0 {
+                // Colours are extrapolated up to a pixel outside the triangle. They fit their lanes if a barycentric coordinate changes by
+                // at most 16 per pixel: thinner triangles have the colour of their first vertex.
+                a := or(or(add(b, LEAST_WIDTH), add(xb, LEAST_WIDTH)), or(add(c, LEAST_WIDTH), add(xc, LEAST_WIDTH)))
+                if and(a, ABOVE_LEAST_WIDTH) {
+                    if iszero(and(mload(MODE), or(IS_PATCHED, IS_QUADRATIC))) {
+                        toB := shl(ATTRIBUTE_DEPTH_AT, sar(ATTRIBUTE_DEPTH_AT, add(toB, HALF_DEPTH)))
+                        toC := shl(ATTRIBUTE_DEPTH_AT, sar(ATTRIBUTE_DEPTH_AT, add(toC, HALF_DEPTH)))
+                    }
                 }
             }
-            let start := sub(mload(ATTRIBUTE_0), mul(toC, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, b), mul(y, xb)))))
+            default {
+                toB := fine(toB)
+                toC := fine(toC)
+                // the ends of lines have coordinates of 1
+                start := add(start, mul(signextend(WEIGHTS_LAST_BYTE, sub(start, WEIGHT_BIAS)), FINE_FACTOR_LESS_1))
+            }
+            start := sub(start, mul(toC, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, b), mul(y, xb)))))
             start := add(start, mul(toB, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, c), mul(y, xc)))))
             b := sub(mul(toC, b), mul(toB, c))
             c := sub(mul(toB, xc), mul(toC, xb))
