@@ -5,7 +5,6 @@ import {BlendedSpans} from "../pipeline/pixels/BlendedSpans.sol";
 import {DepthBuffer} from "../pipeline/pixels/DepthBuffer.sol";
 import {ExactSpans} from "../pipeline/pixels/ExactSpans.sol";
 import {LinearSpans} from "../pipeline/pixels/LinearSpans.sol";
-import {Pipeline} from "../pipeline/Pipeline.sol";
 import {Shading} from "../pipeline/shading/Shading.sol";
 import {SmoothLight} from "../pipeline/shading/SmoothLight.sol";
 import {BY_FRAGMENTS, Wireframe} from "../pipeline/pixels/Wireframe.sol";
@@ -36,9 +35,5 @@ contract FragmentEngine is DepthBuffer, Wireframe {
     function drawFragments(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure override {
         if (load(MODE) & (IS_BLENDED | IS_DEPTH_PASS) != 0) BlendedSpans.rows(edges, slopes, start, row, last);
         else ExactSpans.rows(edges, slopes, start, row, last);
-    }
-
-    function drawWires(uint256 list, uint256 end) internal pure override(Pipeline, Wireframe) {
-        Wireframe.drawWires(list, end);
     }
 }

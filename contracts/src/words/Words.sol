@@ -33,6 +33,11 @@ uint256 constant Q40 = 40;
 uint256 constant Q48 = 48;
 uint256 constant Q16_TO_Q10 = 6;
 uint256 constant Q40_TO_Q16 = 24;
+uint256 constant Q32_TO_Q24 = 8;
+uint256 constant Q24_TO_Q58 = 34;
+uint256 constant Q72_TO_Q24 = 48;
+/// @dev The position of a word's sign; shifted to the right by this, with the sign, a word is -1 if it is negative, else 0.
+uint256 constant SIGN_AT = 255;
 /// @dev One in each.
 uint256 constant ONE_10 = 0x400;
 uint256 constant ONE_16 = 0x10000;
@@ -144,7 +149,9 @@ uint256 constant RIGHT_EDGE_AT = 128;
 uint256 constant CEIL_48 = 0xffffffffc000;
 /// @dev 1 in both lanes.
 uint256 constant ONES_128 = 0x100000000000000000000000000000001;
+/// @dev The lower lane, and its last byte.
 uint256 constant LANE_128 = 0xffffffffffffffffffffffffffffffff;
+uint256 constant LANE_128_LAST_BYTE = 15;
 uint256 constant UPPER_LANE_128 = 0xffffffffffffffffffffffffffffffff00000000000000000000000000000000;
 /// @dev Shifted left by this, a quotient of sub-pixel lengths and twice an area is Q29 per pixel.
 uint256 constant GRADIENT_SHIFT = 37;
@@ -185,7 +192,10 @@ uint256 constant Q10_TO_PIXEL = 0x4000000000000000400000000000000040000000000000
 
 // ----------------------------------------------------------------------------------------------------------------------- parts of samples
 
+/// @dev The lowest lane, its last byte, and the position of its highest bit.
 uint256 constant LANE_64 = 0xffffffffffffffff;
+uint256 constant LANE_64_LAST_BYTE = 7;
+uint256 constant TOP_64_AT = 63;
 /// @dev In the lowest lane: the pixel is on the list of those whose samples may differ.
 uint256 constant IS_LISTED = 0x4000000;
 /// @dev The position of the samples' address in an entry of that list; the position of the colour's address, and its mask; the size of an
@@ -195,8 +205,11 @@ uint256 constant MIXED_PIXEL_AT = 192;
 uint256 constant MIXED_PIXEL_MASK = 0xffffffff;
 uint256 constant MIXED_SIZE = 8;
 uint256 constant UPPER_LANE_64_AT = 192;
-/// @dev The samples of a pixel have 2^5 bytes.
+/// @dev The samples of a pixel have 2^5 bytes; an eighth of a pixel, in which their positions are, is 2^-3; 1/64 is 2^-6.
 uint256 constant SAMPLE_SIZE_BITS = 5;
+uint256 constant SAMPLE_SIZE = 32;
+uint256 constant EIGHTH_BITS = 3;
+uint256 constant PIXEL_64_BITS = 6;
 /// @dev The fraction bits of a column.
 uint256 constant COLUMN_FRACTION = 42;
 uint256 constant SUBPIXEL_TO_COLUMN = 34;
@@ -206,6 +219,8 @@ uint256 constant WHOLE_SAMPLES = 0xfffffffffffffffffffffffffffffffffffffffffffff
 /// @dev The mask of whole pixels for a non-negative address; the position of the upper bound's address.
 uint256 constant ADDRESS_32 = 0xffffffe0;
 uint256 constant UPPER_ADDRESS_AT = 165;
+/// @dev The lane of the upper bound.
+uint256 constant UPPER_BOUND_AT = 128;
 /// @dev The position of a screen word's column in whole pixels; the addends that yield the first column with a sample, and the last.
 uint256 constant SCREEN_PIXEL_COLUMN_AT = 72;
 uint256 constant FROM_FIRST_SAMPLE = 0x9f0000000000000000;

@@ -54,6 +54,7 @@ _SOURCES = {
     "pipeline/samples/LinearSamples.sol": ROWS,
     "pipeline/pixels/Wireframe.sol": ROWS,
     "pipeline/samples/SampleWires.sol": ROWS,
+    "pipeline/geometry/Wires.sol": ROWS,
     "pipeline/pixels/Patches.sol": FRAGMENTS,
     "pipeline/pixels/ExactSpans.sol": FRAGMENTS,
     "pipeline/pixels/BlendedSpans.sol": FRAGMENTS,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {doubleAreaOf} from "./Screen.sol";
 import "../../words/Registers.sol";
 
 // A triangle of a list, in one word: see TRIANGLE_ in Words.sol.
@@ -28,7 +29,7 @@ library Triangles {
         returns (uint256 end, uint256 drawn)
     {
         unchecked {
-            int256 area = (column(c) - column(a)) * (row(b) - row(a)) - (column(b) - column(a)) * (row(c) - row(a));
+            int256 area = doubleAreaOf(a, b, c);
             if (area == 0 || (cull && area < 0) || a & b & c & IS_OUTSIDE != 0) return (list, 0);
             if (area < 0) {
                 (b, c) = (c, b);
@@ -59,13 +60,5 @@ library Triangles {
             );
             return list + 32;
         }
-    }
-
-    function column(uint256 screenWord) private pure returns (int256) {
-        return int256((screenWord >> SCREEN_COLUMN_AT) & SCREEN_COLUMN_MASK);
-    }
-
-    function row(uint256 screenWord) private pure returns (int256) {
-        return int256(screenWord >> SCREEN_ROW_AT);
     }
 }

@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {Rectangle} from "../../scene/Scene.sol";
 import {Compositor, OVERHANG} from "../Compositor.sol";
 import {Pipeline} from "../Pipeline.sol";
+import {max, min} from "../geometry/Screen.sol";
 import {SampleRasterizer} from "./SampleRasterizer.sol";
 import "../../words/SampleRegisters.sol";
 
@@ -97,10 +98,10 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
                         continue
                     }
                     last := rounded
-                    mstore(samples, mul(shr(PIXEL_AT, mul(rounded, LANES_TO_PIXEL)), ONES_64))
-                    let done := 32
-                    for {} lt(shl(1, done), stride) { done := shl(1, done) } { mcopy(add(samples, done), samples, done) }
-                    mcopy(add(samples, done), samples, sub(stride, done))
+                    mstore(samples, mul(shr(PIXEL_AT, mul(rounded, LANES_TO_PIXEL)), ONES_64)) // 0xBBGGRR in each sample
+                    let done := SAMPLE_SIZE
+                    for {} lt(shl(1, done), stride) { done := shl(1, done) } { mcopy(add(samples, done), samples, done) } // doubles
+                    mcopy(add(samples, done), samples, sub(stride, done)) // the rest
                 }
             }
         }
@@ -192,9 +193,9 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
                 p := shr(MIXED_AT, p)
                 let samples := mload(p)
                 mstore(p, and(samples, not(IS_LISTED)))
-                samples := mul(or(and(samples, RED_BLUE_64), shl(GREEN_OF_SUM, and(samples, GREEN_64))), ONES_64)
-                samples := add(shr(UPPER_LANE_64_AT, samples), ROUND_SUM)
-                samples := or(and(shr(2, samples), RED_BLUE), and(shr(MEAN_OF_GREEN_AT, samples), GREEN))
+                samples := mul(or(and(samples, RED_BLUE_64), shl(GREEN_OF_SUM, and(samples, GREEN_64))), ONES_64) // sums in the top lane
+                samples := add(shr(UPPER_LANE_64_AT, samples), ROUND_SUM) // + 2 in each channel
+                samples := or(and(shr(2, samples), RED_BLUE), and(shr(MEAN_OF_GREEN_AT, samples), GREEN)) // / 4
                 mstore(0, shl(PIXEL_AT, samples))
                 mcopy(pixel, 0, 3)
             }
@@ -209,7 +210,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
             if (bottom <= top) return 0;
             uint256 end = p + (bottom - top) * load(SAMPLE_STRIDE);
             assembly ("memory-safe") {
-                for {} lt(p, end) { p := add(p, 32) } { count := add(count, iszero(iszero(and(mload(p), SAMPLE_DEPTHS)))) }
+                for {} lt(p, end) { p := add(p, SAMPLE_SIZE) } { count := add(count, iszero(iszero(and(mload(p), SAMPLE_DEPTHS)))) }
             }
         }
     }
