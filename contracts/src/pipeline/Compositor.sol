@@ -30,7 +30,7 @@ library Compositor {
                 let rounded := and(shr(Q24, color), BYTES_56)
                 color := add(color, step)
                 if eq(rounded, last) {
-                    mcopy(row, sub(row, rowBytes), rowBytes)
+                    mcopy(row, sub(row, rowBytes), rowBytes) // as the row before
                     continue
                 }
                 last := rounded
@@ -69,7 +69,7 @@ library Compositor {
         assembly ("memory-safe") {
             let end := add(image, size)
             for {} lt(image, end) { image := add(image, 64) } {
-                mstore(image, not(mload(image)))
+                mstore(image, not(mload(image))) // 255 - v
                 mstore(add(image, 32), not(mload(add(image, 32))))
             }
         }
@@ -82,10 +82,10 @@ library Compositor {
             // four depths in a word; 1 or 0 for each, in separate lanes that are summed at the end
             let counts := 0
             for {} lt(depth, end) { depth := add(depth, 32) } {
-                let depths := mload(depth)
+                let depths := mload(depth) // four
                 // the highest bit of a lane is set if any of its bits is set
                 let some := add(and(depths, BELOW_TOPS_64), BELOW_TOPS_64)
-                counts := add(counts, shr(TOP_64_AT, and(or(some, depths), TOPS_64)))
+                counts := add(counts, shr(TOP_64_AT, and(or(some, depths), TOPS_64))) // + 1 in each lane that is not 0
             }
             count := mod(counts, 0xffffffffffffffff)
         }

@@ -38,9 +38,9 @@ library VertexShader {
                     let data := calldataload(vertex)
                     // clip = x * MATRIX_X + y * MATRIX_Y + z * MATRIX_Z + MATRIX_T
                     clip := add(mul(sar(rest, data), mload(MATRIX_X)), mload(MATRIX_T)) // x * X + T, three lanes
-                    data := shl(bits, data)
+                    data := shl(bits, data) // the next coordinate
                     clip := add(clip, mul(sar(rest, data), mload(MATRIX_Y))) // + y * Y
-                    data := shl(bits, data)
+                    data := shl(bits, data) // the next coordinate
                     clip := add(clip, mul(sar(rest, data), mload(MATRIX_Z))) // + z * Z
                     data := shr(MESH_COLOR_AT, shl(bits, data)) // from here on the colour, 0xRRGGBB
                     let divisor := sar(CLIP_W_AT, clip) // distance, Q32
@@ -102,9 +102,9 @@ library VertexShader {
             let data := calldataload(add(mload(MESH_VERTICES), mul(index, mload(MESH_STRIDE))))
             let rest := sub(256, bits)
             let clip := add(mul(sar(rest, data), mload(MATRIX_X)), add(mload(MATRIX_T), CLIP_BIAS)) // as in project
-            data := shl(bits, data)
+            data := shl(bits, data) // the next coordinate
             clip := add(clip, mul(sar(rest, data), mload(MATRIX_Y))) // + y * Y
-            data := shl(bits, data)
+            data := shl(bits, data) // the next coordinate
             clip := add(clip, mul(sar(rest, data), mload(MATRIX_Z))) // + z * Z
             data := shr(MESH_COLOR_AT, shl(bits, data)) // from here on the colour, 0xRRGGBB
             mstore(corner, sub(and(clip, CLIP_X_MASK), CLIP_HALF)) // x without the bias
@@ -133,7 +133,7 @@ library VertexShader {
             uint256 stride = mesh.stride;
             assembly ("memory-safe") {
                 for {} lt(record, end) {} {
-                    let data := calldataload(normal)
+                    let data := calldataload(normal) // three components at the top
                     let n := mul(sar(MESH_NORMAL_AT, data), mload(NORMAL_X)) // x * X, three lanes
                     n := add(n, mul(sar(MESH_NORMAL_AT, shl(MESH_NORMAL_Y, data)), mload(NORMAL_Y))) // + y * Y
                     n := add(n, mul(sar(MESH_NORMAL_AT, shl(MESH_NORMAL_Z, data)), mload(NORMAL_Z))) // + z * Z

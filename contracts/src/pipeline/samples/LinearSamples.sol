@@ -17,8 +17,8 @@ library LinearSamples {
     function draw(uint256 row, uint256 last) internal pure {
         assembly ("memory-safe") {
             let left := mload(SIDE_LEFT)
-            let right := mload(SIDE_RIGHT)
-            let bounds := mload(BOUNDS)
+            let right := mload(SIDE_RIGHT) // four columns each: see SampleRasterizer
+            let bounds := mload(BOUNDS) // two addresses, Q37
             // START is relative to column 0; make it relative to address 0
             let start := sar(SAMPLE_SIZE_BITS, sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))) // column 0 / 32
             mstore(ROW_IMAGE, sub(mload(SAMPLE_IMAGE), mul(3, add(mul(row, mload(TILE_WIDTH)), start))))
@@ -26,12 +26,12 @@ library LinearSamples {
             mstore(ROW_STEP_32, add(mload(DY), mul(shr(SAMPLE_SIZE_BITS, mload(SAMPLE_STRIDE)), mload(DX)))) // rows go up in memory
             if mload(IS_CLAMPED) {
                 // as addresses
-                let base := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))
+                let base := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE))) // of column 0
                 mstore(SPAN_BEGIN, add(base, shl(SAMPLE_SIZE_BITS, mload(SPAN_BEGIN)))) // base + 32 * column
                 mstore(SPAN_END, add(base, shl(SAMPLE_SIZE_BITS, mload(SPAN_END))))
             }
             // the rows above the row of the kink; the number of rows from that one on
-            let rows := sub(last, row)
+            let rows := sub(last, row) // the number of rows
             last := sub(last, mload(KINK_ROW)) // last: the number of rows from the kink on
             if sgt(last, 0) { rows := sub(rows, last) }
             row := 1 // row: 1 above the kink, then 0
@@ -51,10 +51,10 @@ library LinearSamples {
                     if lt(p, end) {
                         let attribute := add(start, mul(shr(SAMPLE_SIZE_BITS, p), mload(DX))) // start + x DX
                         for {} 1 {} {
-                            let old := mload(p)
-                            let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE))
+                            let old := mload(p) // what is there
+                            let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE)) // of the pixel centre
                             z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS) // the depths of four samples
-                            let seen := mul(p, ADDRESS_64)
+                            let seen := mul(p, ADDRESS_64) // the address in each lane, Q37
                             // nearer by at least one, whatever the colour bits below the old depth are
                             seen := and(and(add(left, seen), sub(right, seen)), and(sub(add(z, BELOW_TOPS_64), old), TOPS_64))
                             if seen {
@@ -70,7 +70,7 @@ library LinearSamples {
                                 z := or(z, mul(color, ONES_64)) // the colour in each sample
                                 switch eq(seen, TOPS_64)
                                 case 1 {
-                                    mstore(0, shl(PIXEL_AT, color))
+                                    mstore(0, shl(PIXEL_AT, color)) // three bytes
                                     mcopy(add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p))), 0, 3)
                                 }
                                 default {
@@ -85,12 +85,12 @@ library LinearSamples {
                             }
                             p := add(p, SAMPLE_SIZE)
                             if eq(p, end) { break }
-                            attribute := add(attribute, mload(DX))
+                            attribute := add(attribute, mload(DX)) // the next column
                         }
                     }
-                    left := add(left, mload(SIDE_LEFT_STEP))
+                    left := add(left, mload(SIDE_LEFT_STEP)) // the next row
                     right := add(right, mload(SIDE_RIGHT_STEP))
-                    bounds := add(bounds, mload(BOUND_STEPS))
+                    bounds := add(bounds, mload(BOUND_STEPS)) // both
                     start := add(start, mload(ROW_STEP_32))
                     mstore(ROW_IMAGE, sub(mload(ROW_IMAGE), mload(ROW_IMAGE_STEP)))
                 }
@@ -99,18 +99,18 @@ library LinearSamples {
                 case 0 {
                     // the rows below the kink
                     mstore(sub(add(mload(KINK_SIDE), SIDE_LEFT_STEP), SIDE_LEFT), mload(KINK_STEP)) // the step of that side
-                    rows := last
+                    rows := last // the rest
                     last := 0
                 }
                 default {
                     // the row of the kink is drawn separately, with samples on both edges; its step leads to the lower edge
-                    row := 0
-                    rows := 1
+                    row := 0 // the kink is drawn next
+                    rows := 1 // it alone
                     last := sub(last, 1)
                     bounds := or(and(bounds, mload(KINK_KEPT)), mload(KINK_BOUND)) // replace the bound of that side
                     mstore(BOUND_STEPS, mload(KINK_BOUND_STEPS))
-                    let mask := mload(KINK_MASK)
-                    let edge := mload(KINK_EDGE)
+                    let mask := mload(KINK_MASK) // the samples below the kink
+                    let edge := mload(KINK_EDGE) // the lower edge in this row
                     switch eq(mload(KINK_SIDE), SIDE_LEFT)
                     case 1 {
                         left := or(and(left, not(mask)), and(edge, mask)) // the edge in the lanes below the kink

@@ -54,7 +54,7 @@ abstract contract PatchSamples is SampleRasterizer {
                     f := sub(and(shr(Q72_TO_Q24, f), LANES_37), BIAS_36) // colour times depth, Q24
                     f := add(mul(f, div(shl(Q24_TO_Q58, mload(PATCH_WEIGHT)), attribute)), HALF_85) // * nearest / depth: Q58
                 }
-                color := and(f, BYTES_Q58)
+                color := and(f, BYTES_Q58) // the integer parts
                 if and(f, ABOVE_Q58) {
                     let beyond := and(add(and(f, ABOVE_Q58), ABOVE_Q58), CARRIES_85) // 1 above each lane below 0 or above 255
                     color := or(color, mul(shr(CARRY_85, beyond), BYTE_Q58)) // 255 there
@@ -66,11 +66,11 @@ abstract contract PatchSamples is SampleRasterizer {
             {
                 // in the row of the kink, no pixel counts as fully covered
                 let inner := mload(INSETS)
-                if iszero(lt(row, mload(KINK_ROW))) { inner := mload(KINK_INSETS) }
+                if iszero(lt(row, mload(KINK_ROW))) { inner := mload(KINK_INSETS) } // row >= kink
                 if eq(row, mload(KINK_ROW)) { inner := NO_INSIDE }
                 inner := add(mload(ROW_BOUNDS), shl(1, inner)) // bounds + 2 * insets
                 mstore(INNER_BEGIN, and(sar(ADDRESS_FRACTION, signextend(LANE_128_LAST_BYTE, inner)), WHOLE_SAMPLES))
-                mstore(INNER_END, and(sar(UPPER_ADDRESS_AT, inner), WHOLE_SAMPLES))
+                mstore(INNER_END, and(sar(UPPER_ADDRESS_AT, inner), WHOLE_SAMPLES)) // floor of the upper one
             }
             let p := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE))) // of column 0
             mstore(ROW_IMAGE, sub(mload(SAMPLE_IMAGE), mul(3, add(mul(row, mload(TILE_WIDTH)), sar(SAMPLE_SIZE_BITS, p)))))
@@ -83,16 +83,16 @@ abstract contract PatchSamples is SampleRasterizer {
             let f := add(mload(QUADRATIC_START), mul(row, mload(QUADRATIC_DY))) // f + y dy
             f := add(f, mul(shr(1, mul(row, sub(row, 1))), mload(QUADRATIC_DYY))) // + y (y - 1) / 2 dyy
             f := add(f, add(mul(column, g), mul(shr(1, mul(column, sub(column, 1))), mload(QUADRATIC_DXX)))) // + x g + x (x - 1) / 2 dxx
-            g := add(g, mul(column, mload(QUADRATIC_DXX)))
+            g := add(g, mul(column, mload(QUADRATIC_DXX))) // + x dxx
             // first the pixels before the fully covered ones; row is the end of these, and of those that follow
             row := end
             if lt(mload(INNER_BEGIN), row) { row := mload(INNER_BEGIN) } // min
             for {} 1 {} {
                 for {} slt(p, row) {} {
-                    let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE))
+                    let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE)) // of the pixel centre
                     z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS) // the depths of four samples
-                    let old := mload(p)
-                    let seen := mul(p, ADDRESS_64)
+                    let old := mload(p) // what is there
+                    let seen := mul(p, ADDRESS_64) // the address in each lane, Q37
                     seen := and(and(add(left, seen), sub(right, seen)), and(sub(add(z, BELOW_TOPS_64), old), TOPS_64))
                     if seen {
                         let color := bytesOf(f, attribute)
@@ -115,7 +115,7 @@ abstract contract PatchSamples is SampleRasterizer {
                     }
                     p := add(p, SAMPLE_SIZE)
                     attribute := add(attribute, mload(DX))
-                    f := add(f, g)
+                    f := add(f, g) // the next column
                     g := add(g, mload(QUADRATIC_DXX))
                 }
                 if iszero(lt(p, end)) { break }
@@ -128,12 +128,12 @@ abstract contract PatchSamples is SampleRasterizer {
                         let color := bytesOf(f, attribute)
                         mstore(0, shl(PIXEL_AT, color))
                         mcopy(column, 0, 3)
-                        let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE))
+                        let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE)) // of the pixel centre
                         mstore(p, or(and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS), mul(color, ONES_64)))
                         p := add(p, SAMPLE_SIZE)
                         column := add(column, 3)
                         attribute := add(attribute, mload(DX))
-                        f := add(f, g)
+                        f := add(f, g) // the next column
                         g := add(g, mload(QUADRATIC_DXX))
                         if eq(p, row) { break }
                     }

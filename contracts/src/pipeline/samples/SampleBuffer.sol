@@ -91,10 +91,10 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
                 // not a valid colour
                 let last := ONE_24
                 for {} lt(samples, end) { samples := add(samples, stride) } {
-                    let rounded := and(shr(Q24, color), BYTES_56)
+                    let rounded := and(shr(Q24, color), BYTES_56) // whole levels
                     color := add(color, step)
                     if eq(rounded, last) {
-                        mcopy(samples, sub(samples, stride), stride)
+                        mcopy(samples, sub(samples, stride), stride) // as the row before
                         continue
                     }
                     last := rounded
@@ -144,12 +144,12 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
                 assembly ("memory-safe") {
                     for {} lt(record, end) { record := add(record, size) } {
                         let word := mload(record)
-                        isClipped := or(isClipped, and(word, MUST_CLIP))
-                        if lt(word, least) { least := word }
-                        if gt(word, most) { most := word }
+                        isClipped := or(isClipped, and(word, MUST_CLIP)) // of any vertex
+                        if lt(word, least) { least := word } // the topmost
+                        if gt(word, most) { most := word } // the lowest
                         word := and(word, SCREEN_COLUMNS)
-                        if lt(word, left) { left := word }
-                        if gt(word, right) { right := word }
+                        if lt(word, left) { left := word } // min
+                        if gt(word, right) { right := word } // max
                     }
                     isClipped := iszero(iszero(isClipped))
                 }
@@ -188,11 +188,11 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
         assembly ("memory-safe") {
             let end := mload(MIXED_END)
             for { let entry := mload(MIXED) } lt(entry, end) { entry := add(entry, MIXED_SIZE) } {
-                let p := mload(entry)
+                let p := mload(entry) // p: the entry, then the address of the samples
                 let pixel := and(shr(MIXED_PIXEL_AT, p), MIXED_PIXEL_MASK)
                 p := shr(MIXED_AT, p)
                 let samples := mload(p)
-                mstore(p, and(samples, not(IS_LISTED)))
+                mstore(p, and(samples, not(IS_LISTED))) // for the next band or engine
                 samples := mul(or(and(samples, RED_BLUE_64), shl(GREEN_OF_SUM, and(samples, GREEN_64))), ONES_64) // sums in the top lane
                 samples := add(shr(UPPER_LANE_64_AT, samples), ROUND_SUM) // + 2 in each channel
                 samples := or(and(shr(2, samples), RED_BLUE), and(shr(MEAN_OF_GREEN_AT, samples), GREEN)) // / 4

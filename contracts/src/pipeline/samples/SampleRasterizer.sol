@@ -92,11 +92,11 @@ abstract contract SampleRasterizer is Rasterizer {
                 moved := add(moved, sar(FINE_BITS, sub(word, moved))) // weights + depth / 2^12
             }
 
-            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
-            let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
-            let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)
-            a := shr(SCREEN_ROW_AT, a)
-            b := sub(shr(SCREEN_ROW_AT, b), a)
+            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK) // column of a
+            let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x) // columns from a to b
+            let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x) // and to c
+            a := shr(SCREEN_ROW_AT, a) // a: its row
+            b := sub(shr(SCREEN_ROW_AT, b), a) // b, c: rows from a to b, and to c
             c := sub(shr(SCREEN_ROW_AT, c), a)
             let y := and(sub(0, a), SUBPIXEL_MASK) // sub-pixels down to the centres of the next row
             mstore(START_ROW, shr(SUBPIXEL_BITS, add(a, SUBPIXEL_MASK))) // ceil(a)
@@ -127,8 +127,8 @@ abstract contract SampleRasterizer is Rasterizer {
                 // the ends of lines have coordinates of 1
                 start := add(start, mul(signextend(WEIGHTS_LAST_BYTE, sub(start, WEIGHT_BIAS)), FINE_FACTOR_LESS_1))
             }
-            start := sub(start, mul(toC, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, b), mul(y, xb)))))
-            start := add(start, mul(toB, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, c), mul(y, xc)))))
+            start := sub(start, mul(toC, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, b), mul(y, xb))))) // + toC * t
+            start := add(start, mul(toB, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, c), mul(y, xc))))) // + toB * s
             // from here on the changes of the accumulator over an eighth of a pixel: b to the right, c downward
             b := sub(mul(toC, b), mul(toB, c)) // toC * dt/dx + toB * ds/dx
             c := sub(mul(toB, xc), mul(toC, xb)) // toB * ds/dy + toC * dt/dy
@@ -175,11 +175,11 @@ abstract contract SampleRasterizer is Rasterizer {
                 if sgt(dx, reach) { reach := dx } // max(s + 3, |3 * s - 1|)
             }
 
-            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
-            let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
-            let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)
-            a := shr(SCREEN_ROW_AT, a)
-            b := sub(shr(SCREEN_ROW_AT, b), a)
+            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK) // column of a
+            let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x) // columns from a to b
+            let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x) // and to c
+            a := shr(SCREEN_ROW_AT, a) // a: its row
+            b := sub(shr(SCREEN_ROW_AT, b), a) // b, c: rows from a to b, and to c
             c := sub(shr(SCREEN_ROW_AT, c), a)
             mstore(SIDE_ROW, row)
             mstore(IS_CLAMPED, 0)
@@ -195,15 +195,15 @@ abstract contract SampleRasterizer is Rasterizer {
                 mstore(SIDE_LEFT, side)
                 mstore(SIDE_LEFT_STEP, mul(sub(0, step), ONES_64)) // -step in each lane
                 mstore(BOUNDS, sub(line, reach)) // lower lane: ceil(line - reach)
-                mstore(BOUND_STEPS, step)
-                mstore(INSETS, reach)
+                mstore(BOUND_STEPS, step) // lower lane
+                mstore(INSETS, reach) // lower lane: + reach
                 // to the third vertex on the right; a horizontal edge has no side below it: nothing is left of address 0
                 side, step, line, reach := edge(xc, c, mul(x, gt(c, 0)), row)
                 mstore(SIDE_RIGHT, not(side)) // 2^63 - 1 - (side - 2^63) in each lane
                 mstore(SIDE_RIGHT_STEP, mul(step, ONES_64)) // step in each lane
                 mstore(BOUNDS, add(mload(BOUNDS), shl(UPPER_BOUND_AT, add(line, reach)))) // upper lane: ceil(line + reach)
                 mstore(BOUND_STEPS, add(mload(BOUND_STEPS), shl(UPPER_BOUND_AT, step)))
-                mstore(INSETS, sub(mload(INSETS), shl(UPPER_BOUND_AT, reach)))
+                mstore(INSETS, sub(mload(INSETS), shl(UPPER_BOUND_AT, reach))) // upper lane: - reach
             }
             // from the upper to the lower of both; shift and sign are 0 and -1 on the left, 128 and 1 on the right
             let shift := shl(7, iszero(lt(b, c))) // b < c ? 0 : 128
@@ -214,8 +214,8 @@ abstract contract SampleRasterizer is Rasterizer {
             // the beginning of the kink: the first row with a sample below it; samples above it are still on the upper edge
             switch shift
             case 0 {
-                row := add(a, b)
-                x := add(x, shl(SUBPIXEL_TO_COLUMN, xb))
+                row := add(a, b) // row: of the vertex of the kink
+                x := add(x, shl(SUBPIXEL_TO_COLUMN, xb)) // x: the address of the vertex of the kink
             }
             default {
                 row := add(a, c)
@@ -233,7 +233,7 @@ abstract contract SampleRasterizer is Rasterizer {
                 mstore(KINK_EDGE, xor(side, sub(0, gt(shift, 0)))) // left ? side : ~side
                 mstore(KINK_STEP, mul(mul(sign, step), ONES_64)) // left ? -step : step
                 // the borrow between lanes is less than the rounding of the bounds
-                step := shl(shift, step)
+                step := shl(shift, step) // in the lane of that side
                 mstore(KINK_BOUND, and(shl(shift, add(line, mul(sign, reach))), not(kept)))
                 mstore(KINK_BOUND_STEPS, add(and(mload(BOUND_STEPS), kept), step))
                 mstore(KINK_INSETS, sub(and(mload(INSETS), kept), shl(shift, mul(sign, reach))))
@@ -249,9 +249,9 @@ abstract contract SampleRasterizer is Rasterizer {
                     mstore(mload(KINK_SIDE), add(mload(KINK_EDGE), mul(a, mload(KINK_STEP)))) // edge + a * step
                     mstore(sub(add(mload(KINK_SIDE), SIDE_LEFT_STEP), SIDE_LEFT), mload(KINK_STEP))
                     mstore(BOUNDS, add(or(and(mload(BOUNDS), mload(KINK_KEPT)), mload(KINK_BOUND)), mul(a, step)))
-                    mstore(BOUND_STEPS, mload(KINK_BOUND_STEPS))
+                    mstore(BOUND_STEPS, mload(KINK_BOUND_STEPS)) // the changes below the kink
                     mstore(INSETS, mload(KINK_INSETS))
-                    mstore(KINK_ROW, GUARD_BAND)
+                    mstore(KINK_ROW, GUARD_BAND) // no kink in the band
                 }
             }
         }
@@ -262,7 +262,7 @@ abstract contract SampleRasterizer is Rasterizer {
         assembly ("memory-safe") {
             let x := and(a, SCREEN_COLUMNS)
             let end := x
-            let other := and(b, SCREEN_COLUMNS)
+            let other := and(b, SCREEN_COLUMNS) // columns in the format of screen words
             if lt(other, x) { x := other } // x = min(columns)
             if gt(other, end) { end := other } // end = max(columns)
             other := and(c, SCREEN_COLUMNS)

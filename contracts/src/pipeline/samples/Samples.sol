@@ -31,20 +31,20 @@ library Samples {
     {
         assembly ("memory-safe") {
             there := attribute
-            rayX := add(mload(RAY_LEFT), mul(column, mload(RAY_STEP)))
+            rayX := add(mload(RAY_LEFT), mul(column, mload(RAY_STEP))) // left + column * step
             rayY := add(mload(RAY_TOP), mul(row, mload(RAY_STEP)))
-            if xor(covered, TOPS_64) {
+            if xor(covered, TOPS_64) { // not all samples
                 // relative to the centre of the pixel, in eighths of a pixel
                 let set := and(shr(SET_AT, mul(shr(TOP_64_AT, covered), COVERED_TO_SET)), SET_MASK) // 16 * the number of the set
-                let x := signextend(0, shr(add(8, set), CENTROIDS))
-                let y := signextend(0, shr(set, CENTROIDS))
+                let x := signextend(0, shr(add(8, set), CENTROIDS)) // the upper byte of two, signed
+                let y := signextend(0, shr(set, CENTROIDS)) // the lower
                 there := add(there, add(mul(x, mload(DX_8)), mul(y, mload(DY_8)))) // + x DX / 8 + y DY / 8
                 if and(mload(MODE), IS_DEEP) {
-                    let depth := add(mul(x, mload(DEEP_DX)), mul(y, mload(DEEP_DY)))
+                    let depth := add(mul(x, mload(DEEP_DX)), mul(y, mload(DEEP_DY))) // 8 times the change of the depth
                     there := add(there, shl(ATTRIBUTE_DEPTH_AT, sar(EIGHTH_BITS, depth)))
                 }
                 rayX := add(rayX, sar(EIGHTH_BITS, mul(x, mload(RAY_STEP)))) // + x step / 8
-                rayY := add(rayY, sar(EIGHTH_BITS, mul(y, mload(RAY_STEP))))
+                rayY := add(rayY, sar(EIGHTH_BITS, mul(y, mload(RAY_STEP)))) // + y step / 8
             }
         }
     }
@@ -89,9 +89,9 @@ library Samples {
     /// @param z The new samples; only those whose highest bit is set in `seen` are written.
     function write(uint256 p, uint256 z, uint256 seen) internal pure {
         assembly ("memory-safe") {
-            let old := mload(p)
+            let old := mload(p) // what is there
             z := or(xor(old, and(xor(old, z), sub(shl(1, seen), shr(TOP_64_AT, seen)))), IS_LISTED) // z where seen, else old
-            if iszero(and(old, IS_LISTED)) {
+            if iszero(and(old, IS_LISTED)) { // once
                 let pixel := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p)))
                 mstore(mload(MIXED_END), or(shl(MIXED_AT, p), shl(MIXED_PIXEL_AT, pixel))) // append (p, pixel)
                 mstore(MIXED_END, add(mload(MIXED_END), MIXED_SIZE))

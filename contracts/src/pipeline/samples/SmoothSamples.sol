@@ -41,7 +41,7 @@ library SmoothSamples {
                     }
                 }
                 t := and(shr(ACCUMULATOR_FRACTION, attribute), LANES_24) // the surface's colour, Q10
-                let mode := and(mload(MODE), IS_GREY_OR_STEEP)
+                let mode := and(mload(MODE), IS_GREY_OR_STEEP) // which of the three products
                 switch eq(mode, IS_GREY)
                 case 1 { color := add(color, and(shr(Q16, mul(t, and(shr(BLUE_Q40_AT, factor), LANE_32))), LANES_24)) } // all lanes at once
                 default {
@@ -76,9 +76,9 @@ library SmoothSamples {
             // and to the next row
             mstore(QUADRATIC_DOWN, add(mload(QUADRATIC_DY), mul(row, mload(QUADRATIC_DYY))))
             for {} 1 {} {
-                let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE))
+                let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE)) // of the pixel centre
                 z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS) // the depths of four samples
-                let old := mload(p)
+                let old := mload(p) // what is there
                 let covered := mul(p, ADDRESS_64)
                 covered := and(add(left, covered), sub(right, covered)) // see SampleRasterizer
                 let seen := and(and(covered, sub(add(z, BELOW_TOPS_64), old)), TOPS_64) // covered, and nearer: z - 1 >= old
@@ -123,7 +123,7 @@ library SmoothSamples {
                 if eq(p, end) { break }
                 column := add(column, 1)
                 attribute := add(attribute, mload(DX))
-                light := add(light, step)
+                light := add(light, step) // the next column
                 step := add(step, mload(QUADRATIC_DXX))
             }
         }
