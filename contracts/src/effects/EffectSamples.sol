@@ -4,99 +4,25 @@ pragma solidity 0.8.37;
 import {BlendedSamples} from "../pipeline/samples/BlendedSamples.sol";
 import {OPAQUE} from "../scene/Extensions.sol";
 import {Ground} from "./Ground.sol";
+import {BLENDED, EXACT, PARTLY_DARK} from "../pipeline/samples/SampleRasterizer.sol";
 import {Samples} from "../pipeline/samples/Samples.sol";
 import {ShadowRows} from "../shadows/ShadowRows.sol";
 import {SurfaceLight} from "./SurfaceLight.sol";
 import "../words/EffectRegisters.sol";
 
 // The fragments of scenes with effects, opaque or translucent, with four samples per pixel. Each is shaded individually, at the centroid of
-// the samples that the triangle covers. Translucent ones are drawn in two passes: see Spans. A fragment of which some samples are in
-// shadow and others are not is drawn twice: with the light that casts shadows switched off, and on.
-
-//
-// Barycentric coordinates are fine: their error, of gradients that are rounded, grows with the distance from the first vertex, which may be
-// thousands of pixels away where a face is clipped, and in perspective with the ratio of depths, which may be 1,000 there.
-
-library EffectSamples {
-    /// @notice Sets the accumulator as SampleRasterizer.setGradients, with fine barycentric coordinates.
-    function setGradients(uint256 a, uint256 b, uint256 c) internal pure {
-        assembly ("memory-safe") {
-            // moves the depth of an attribute word, which the larger gradients move back
-            function fine(word) -> moved {
-                moved := signextend(WEIGHTS_LAST_BYTE, word)
-                moved := add(moved, sar(FINE_BITS, sub(word, moved)))
-            }
-
-            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
-            let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
-            let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)
-            a := shr(SCREEN_ROW_AT, a)
-            b := sub(shr(SCREEN_ROW_AT, b), a)
-            c := sub(shr(SCREEN_ROW_AT, c), a)
-            let y := and(sub(0, a), SUBPIXEL_MASK)
-            mstore(START_ROW, shr(SUBPIXEL_BITS, add(a, SUBPIXEL_MASK)))
-            a := sub(mul(xc, b), mul(xb, c))
-            b := sdiv(shl(FINE_GRADIENT_SHIFT, b), a)
-            xb := sdiv(shl(FINE_GRADIENT_SHIFT, xb), a)
-            c := sdiv(shl(FINE_GRADIENT_SHIFT, c), a)
-            xc := sdiv(shl(FINE_GRADIENT_SHIFT, xc), a)
-            let toB := fine(mload(DELTA_1))
-            let toC := fine(mload(DELTA_2))
-            // the ends of lines have coordinates of 1
-            let start := mload(ATTRIBUTE_0)
-            start := add(start, mul(signextend(WEIGHTS_LAST_BYTE, sub(start, WEIGHT_BIAS)), FINE_FACTOR_LESS_1))
-            start := sub(start, mul(toC, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, b), mul(y, xb)))))
-            start := add(start, mul(toB, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, c), mul(y, xc)))))
-            b := sub(mul(toC, b), mul(toB, c))
-            c := sub(mul(toB, xc), mul(toC, xb))
-            // see SampleRasterizer
-            x := sar(ACCUMULATOR_DEPTH_AT, b)
-            y := sar(ACCUMULATOR_DEPTH_AT, c)
-            mstore(DX, shl(3, b))
-            mstore(DY, shl(3, c))
-            mstore(DX_8, b)
-            mstore(DY_8, c)
-            if and(mload(MODE), IS_DEEP) {
-                start := add(start, mload(DEEP_START))
-                b := mload(DEEP_DX)
-                c := mload(DEEP_DY)
-                x := add(x, signextend(7, sar(DEEP_8_AT, b)))
-                y := add(y, signextend(7, sar(DEEP_8_AT, c)))
-                mstore(DX, add(mload(DX), shl(ATTRIBUTE_DEPTH_AT, b)))
-                mstore(DY, add(mload(DY), shl(ATTRIBUTE_DEPTH_AT, c)))
-            }
-            mstore(START, start)
-            mstore(DEPTH_OFFSETS, sub(shl(mload(SAMPLE_SHIFT), add(mul(x, SAMPLE_X_8), mul(y, SAMPLE_Y_8))), mload(DEPTH_BASE)))
-        }
-    }
-
-    /// @notice Draws the fragments of a row: see SampleRasterizer.drawSpan.
-    function draw(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
-        if (load(MODE) & IS_PARTLY_DARK == 0) return drawRow(left, right, column, end, row, false);
+// the samples that the triangle covers. A fragment of which some samples are in shadow and others are not is drawn twice: with the light
+// that casts shadows switched off, and on.
+abstract contract EffectSamples is BlendedSamples {
+    function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure override {
+        uint256 mode = load(MODE);
+        if (mode & (IS_PARTLY_DARK | IS_BLENDED | IS_DEPTH_PASS) == 0) return drawEach(left, right, column, end, row, EXACT);
+        if (mode & IS_PARTLY_DARK == 0) return drawEach(left, right, column, end, row, BLENDED);
         ShadowRows.prepare(column, end, row);
-        drawRow(left, right, column, end, row, true);
+        drawEach(left, right, column, end, row, PARTLY_DARK);
     }
 
-    /// @dev The compiler makes one function for each value of `isPartlyDark`.
-    function drawRow(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row, bool isPartlyDark) private pure {
-        unchecked {
-            uint256 attribute = load(START) + (row - load(START_ROW)) * load(DY) + column * load(DX);
-            uint256 p = Samples.place(row, column);
-            for (; column != end; ++column) {
-                uint256 covered = Samples.coverage(left, right, p);
-                if (covered != 0) {
-                    if (isPartlyDark) partlyDark(p, attribute, covered, column, row);
-                    else if (load(MODE) & (IS_BLENDED | IS_DEPTH_PASS) == 0) opaque(p, attribute, covered, column, row);
-                    else blended(p, attribute, covered, column, row);
-                }
-                p += 32;
-                attribute += load(DX);
-            }
-        }
-    }
-
-    /// @dev Draws a fragment of which some samples may be in shadow.
-    function partlyDark(uint256 p, uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure {
+    function drawPartlyDark(uint256 p, uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure override {
         unchecked {
             uint256 dark = ShadowRows.darkOf(covered, column);
             uint256 lit = covered ^ dark;
@@ -116,56 +42,37 @@ library EffectSamples {
     /// @dev Draws the samples that are visible, with the light that casts shadows off if `dark` is not zero.
     function inLight(uint256 p, uint256 attribute, uint256 covered, uint256 column, uint256 row, uint256 dark) private pure {
         ShadowRows.setLight(dark);
-        if (load(MODE) & IS_BLENDED == 0) opaque(p, attribute, covered, column, row);
-        else blended(p, attribute, covered, column, row);
+        if (load(MODE) & IS_BLENDED == 0) drawExact(p, attribute, covered, column, row);
+        else drawBlended(p, attribute, covered, column, row);
     }
 
-    function opaque(uint256 p, uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure {
+    function drawExact(uint256 p, uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure override {
         unchecked {
             uint256 z = Samples.depthsOf(attribute);
             uint256 seen = covered & (z + BELOW_TOPS_64 - load(p));
             if (seen == 0) return;
             uint256 color = colorAt(attribute, covered, column, row);
             if (load(OPACITY) == OPAQUE) {
-                if (seen == TOPS_64) return Samples.paint(p, row, column, z, color);
                 z |= color * ONES_64;
+                if (seen == TOPS_64) return Samples.paint(p, z);
             } else {
                 // where a ground fades
-                z |= BlendedSamples.over(color, load(p));
-                store(OPACITY, OPAQUE);
+                z |= over(color, load(p));
             }
-            Samples.write(p, row, column, z, seen);
+            Samples.write(p, z, seen);
         }
     }
 
-    function blended(uint256 p, uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure {
-        unchecked {
-            uint256 z = Samples.depthsOf(attribute);
-            uint256 old = load(p);
-            bool isFirst = load(MODE) & IS_BLENDED == 0;
-            // nearer than the stored depth; or equal to the depth found by the first pass
-            uint256 seen = isFirst ? z + BELOW_TOPS_64 - old : TOPS_64 - ((old ^ (z | FOUND_SAMPLES)) & PASSES_OF_SAMPLES);
-            seen &= covered;
-            if (seen == 0) return;
-            if (isFirst) {
-                z |= FOUND_SAMPLES | (old & SAMPLE_COLORS);
-            } else {
-                uint256 color = colorAt(attribute, covered, column, row);
-                z |= DRAWN_SAMPLES | BlendedSamples.over(color, old);
-                // the fragment's own opacity if vertices have opacities
-                store(OPACITY, load(OBJECT_OPACITY));
-            }
-            Samples.write(p, row, column, z, seen);
-        }
+    /// @dev The opacity of a fragment, which `colorAt` sets if vertices have opacities or a ground fades, is valid until it is blended.
+    function over(uint256 color, uint256 behind) internal pure override returns (uint256 mixed) {
+        mixed = super.over(color, behind);
+        store(OPACITY, load(OBJECT_OPACITY));
     }
 
-    /// @dev Returns the colour at the centroid of the covered samples.
-    function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure returns (uint256) {
+    function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure override returns (uint256) {
         if (load(IS_UNIFORM) | load(FADE_RANGE) != 0) return uniformAt(attribute, covered, column, row);
-        uint256 x;
-        uint256 y;
-        (attribute, x, y) = centroid(attribute, covered, column, row);
-        return SurfaceLight.colorAt(attribute, x, y);
+        (uint256 there, uint256 x, uint256 y) = Samples.centroid(attribute, covered, column, row);
+        return SurfaceLight.colorAt(there, x, y);
     }
 
     /// @dev The same for triangles that are uniform or fade.
@@ -173,35 +80,13 @@ library EffectSamples {
         unchecked {
             color = load(UNIFORM_LIT + load(IS_DARK));
             if (color != 0 && load(FADE_RANGE) == 0) return color ^ ONE_24;
-            uint256 x;
-            uint256 y;
-            (attribute, x, y) = centroid(attribute, covered, column, row);
-            // valid until the fragment is drawn
-            if (load(FADE_RANGE) != 0) store(OPACITY, Ground.opacityAt(attribute, x, y));
+            (uint256 there, uint256 x, uint256 y) = Samples.centroid(attribute, covered, column, row);
+            if (load(FADE_RANGE) != 0) store(OPACITY, Ground.opacityAt(there, x, y));
             if (color == 0) {
-                color = SurfaceLight.colorAt(attribute, x, y) | ONE_24;
+                color = SurfaceLight.colorAt(there, x, y) | ONE_24;
                 if (load(IS_UNIFORM) != 0) store(UNIFORM_LIT + load(IS_DARK), color);
             }
             return color ^ ONE_24;
-        }
-    }
-
-    /// @dev Returns the accumulator and the ray at the centroid of the covered samples.
-    function centroid(uint256 attribute, uint256 covered, uint256 column, uint256 row)
-        private
-        pure
-        returns (uint256, uint256 x, uint256 y)
-    {
-        unchecked {
-            x = load(RAY_LEFT) + column * load(RAY_STEP);
-            y = load(RAY_TOP) + row * load(RAY_STEP);
-            if (covered != TOPS_64) {
-                (uint256 dx, uint256 dy) = Samples.centroid(covered);
-                attribute = Samples.moved(attribute, dx, dy);
-                x += uint256(int256(dx * load(RAY_STEP)) >> 3);
-                y += uint256(int256(dy * load(RAY_STEP)) >> 3);
-            }
-            return (attribute, x, y);
         }
     }
 }

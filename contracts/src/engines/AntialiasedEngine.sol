@@ -5,13 +5,15 @@ import {ExactSamples} from "../pipeline/samples/ExactSamples.sol";
 import {FlatShading} from "../pipeline/shading/FlatShading.sol";
 import {LinearSamples} from "../pipeline/samples/LinearSamples.sol";
 import {PatchSamples} from "../pipeline/samples/PatchSamples.sol";
+import {EXACT} from "../pipeline/samples/SampleRasterizer.sol";
 import {SampleBuffer} from "../pipeline/samples/SampleBuffer.sol";
 import "../words/Registers.sol";
 
 /// @title AntialiasedEngine: does the work of the Engine with four samples per pixel.
 /// @notice Called by the Renderer: see Engine.
-contract AntialiasedEngine is SampleBuffer, PatchSamples, FlatShading {
+contract AntialiasedEngine is SampleBuffer, PatchSamples, ExactSamples, FlatShading {
     function prepare(uint256 a, uint256 b, uint256 c) internal pure override {
+        setGradients(a, b, c, 0);
         setQuadratic(a, b, c);
     }
 
@@ -22,13 +24,13 @@ contract AntialiasedEngine is SampleBuffer, PatchSamples, FlatShading {
 
     function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure override {
         if (load(PATCH_SIZE) != 1) drawQuadratic(left, right, column, end, row);
-        else drawEach(left, right, column, end, row);
+        else drawEach(left, right, column, end, row, EXACT);
     }
 
-    function drawFragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure override {
-        ExactSamples.fragment(attribute, covered, column, row);
-    }
+    /// @dev The AntialiasedFragmentEngine draws wires and translucent objects, the EffectsEngine shadows.
+    function drawEdges(uint256, uint256, uint256, uint256) internal pure override {}
 
-    /// @dev The AntialiasedFragmentEngine draws wires.
-    function drawWires(uint256, uint256) internal pure override {}
+    function drawBlended(uint256, uint256, uint256, uint256, uint256) internal pure override {}
+
+    function drawPartlyDark(uint256, uint256, uint256, uint256, uint256) internal pure override {}
 }

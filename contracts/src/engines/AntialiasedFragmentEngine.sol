@@ -2,8 +2,7 @@
 pragma solidity 0.8.37;
 
 import {BlendedSamples} from "../pipeline/samples/BlendedSamples.sol";
-import {ExactSamples} from "../pipeline/samples/ExactSamples.sol";
-import {Pipeline} from "../pipeline/Pipeline.sol";
+import {BLENDED, EXACT} from "../pipeline/samples/SampleRasterizer.sol";
 import {SampleBuffer} from "../pipeline/samples/SampleBuffer.sol";
 import {SampleWires} from "../pipeline/samples/SampleWires.sol";
 import {SmoothSamples} from "../pipeline/samples/SmoothSamples.sol";
@@ -11,11 +10,10 @@ import "../words/SampleRegisters.sol";
 
 /// @title AntialiasedFragmentEngine: does the work of the FragmentEngine with four samples per pixel.
 /// @notice Called by the Renderer: see FragmentEngine.
-contract AntialiasedFragmentEngine is SampleBuffer, SampleWires {
-    function prepare(uint256 a, uint256, uint256) internal pure override {
-        unchecked {
-            store(QUADRATIC_ROW, max((a + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT, load(BAND_TOP)));
-        }
+contract AntialiasedFragmentEngine is SampleBuffer, SampleWires, BlendedSamples {
+    function prepare(uint256 a, uint256 b, uint256 c) internal pure override {
+        setGradients(a, b, c, 0);
+        setQuadraticRow(a);
     }
 
     function drawFragments(uint256 row, uint256 last) internal pure override {
@@ -23,16 +21,12 @@ contract AntialiasedFragmentEngine is SampleBuffer, SampleWires {
     }
 
     function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure override {
-        if (load(MODE) & IS_QUADRATIC != 0) SmoothSamples.draw(left, right, column, end, row);
-        else drawEach(left, right, column, end, row);
+        uint256 mode = load(MODE);
+        if (mode & IS_QUADRATIC != 0) SmoothSamples.draw(left, right, column, end, row);
+        // not a literal: one loop is smaller
+        else drawEach(left, right, column, end, row, mode & (IS_BLENDED | IS_DEPTH_PASS) == 0 ? EXACT : BLENDED);
     }
 
-    function drawFragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure override {
-        if (load(MODE) & (IS_BLENDED | IS_DEPTH_PASS) != 0) BlendedSamples.fragment(attribute, covered, column, row);
-        else ExactSamples.fragment(attribute, covered, column, row);
-    }
-
-    function drawWires(uint256 list, uint256 end) internal pure override(Pipeline, SampleWires) {
-        SampleWires.drawWires(list, end);
-    }
+    /// @dev The EffectsEngine draws shadows.
+    function drawPartlyDark(uint256, uint256, uint256, uint256, uint256) internal pure override {}
 }

@@ -3,7 +3,6 @@ pragma solidity 0.8.37;
 
 import {EffectSamples} from "../effects/EffectSamples.sol";
 import {Lighting} from "../pipeline/shading/Lighting.sol";
-import {Pipeline} from "../pipeline/Pipeline.sol";
 import {SampleBuffer} from "../pipeline/samples/SampleBuffer.sol";
 import {SampleWires} from "../pipeline/samples/SampleWires.sol";
 import {Rasterizer} from "../pipeline/geometry/Rasterizer.sol";
@@ -16,7 +15,7 @@ import "../words/EffectRegisters.sol";
 /// @title EffectsEngine: transforms vertices to pixels, for scenes with effects.
 /// @notice Called by the Renderer: see Engine. Draws all objects of a scene that has any record of EffectRecords, with four samples per
 /// pixel, and shades every fragment individually.
-contract EffectsEngine is SampleBuffer, SampleWires {
+contract EffectsEngine is SampleBuffer, SampleWires, EffectSamples {
     function registersEnd() internal pure override returns (uint256) {
         return EFFECT_REGISTERS_END;
     }
@@ -91,19 +90,11 @@ contract EffectsEngine is SampleBuffer, SampleWires {
         }
     }
 
-    function setGradients(uint256 a, uint256 b, uint256 c) internal pure override {
-        EffectSamples.setGradients(a, b, c);
+    function prepare(uint256 a, uint256 b, uint256 c) internal pure override {
+        setGradients(a, b, c, FINE_BITS);
     }
 
     function drawFragments(uint256 row, uint256 last) internal pure override {
         drawSpans(row, last);
-    }
-
-    function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure override {
-        EffectSamples.draw(left, right, column, end, row);
-    }
-
-    function drawWires(uint256 list, uint256 end) internal pure override(Pipeline, SampleWires) {
-        SampleWires.drawWires(list, end);
     }
 }

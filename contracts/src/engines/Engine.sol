@@ -25,5 +25,5 @@ contract Engine is DepthBuffer, FlatShading {
     }
 
     /// @dev The FragmentEngine draws wires.
-    function drawWires(uint256, uint256) internal pure override {}
+    function drawEdges(uint256, uint256, uint256, uint256) internal pure override {}
 }

@@ -2,7 +2,6 @@
 pragma solidity 0.8.37;
 
 import {DepthBuffer} from "../pipeline/pixels/DepthBuffer.sol";
-import {Pipeline} from "../pipeline/Pipeline.sol";
 import {Shading} from "../pipeline/shading/Shading.sol";
 import {SmoothSpans} from "../pipeline/pixels/SmoothSpans.sol";
 import {Spans} from "../pipeline/pixels/Spans.sol";
@@ -31,9 +30,5 @@ contract FragmentEngine is DepthBuffer, Wireframe {
         if (mode & (IS_BLENDED | IS_DEPTH_PASS) != 0) Spans.rows(edges, slopes, start, row, end, false, true);
         else if (mode & IS_PATCHED != 0) Spans.rows(edges, slopes, start, row, end, false, false);
         else Spans.rows(edges, slopes, start, row, end, true, false);
-    }
-
-    function drawWires(uint256 list, uint256 end) internal pure override(Pipeline, Wireframe) {
-        Wireframe.drawWires(list, end);
     }
 }

@@ -27,20 +27,20 @@ library Compositor {
             // not a valid colour
             let last := ONE_24
             for {} lt(row, end) { row := add(row, rowBytes) } {
-                let rounded := and(shr(24, color), BYTES_56)
+                let rounded := and(shr(Q24, color), BYTES_56)
                 color := add(color, step)
                 if eq(rounded, last) {
-                    mcopy(row, sub(row, rowBytes), rowBytes)
+                    mcopy(row, sub(row, rowBytes), rowBytes) // as the row before
                     continue
                 }
                 last := rounded
                 // b g r b g r ...: 32 bytes hold ten and two thirds pixels
-                rounded := shr(232, mul(rounded, LANES_TO_PIXEL))
-                let word := or(mul(shl(16, rounded), TEN_PIXELS), shr(8, rounded))
+                rounded := shr(PIXEL_AT, mul(rounded, LANES_TO_PIXEL)) // 0xBBGGRR
+                let word := or(mul(shl(16, rounded), TEN_PIXELS), shr(8, rounded)) // ten pixels, and two bytes of the next
                 mstore(row, word)
-                mstore(add(row, 32), or(shl(248, rounded), shr(8, word)))
-                mstore(add(row, 64), or(shl(240, rounded), shr(16, word)))
-                for { let done := 96 } lt(done, rowBytes) { done := shl(1, done) } { mcopy(add(row, done), row, done) }
+                mstore(add(row, 32), or(shl(248, rounded), shr(8, word))) // the last byte of that, and ten pixels, ...
+                mstore(add(row, 64), or(shl(240, rounded), shr(16, word))) // the last two bytes, ten pixels
+                for { let done := 96 } lt(done, rowBytes) { done := shl(1, done) } { mcopy(add(row, done), row, done) } // doubles it
             }
         }
     }
@@ -53,13 +53,13 @@ library Compositor {
             // blue, green and red at the top of the word
             uint256 behind = load(pixel);
             for (uint256 lane; lane != 3; ++lane) {
-                int256 value = int256(color << 171) >> 171;
+                int256 value = int256(color << LOWER_85_TO_TOP) >> LOWER_85_TO_TOP;
                 // remove what the lane below has borrowed
                 color = uint256(int256(color - uint256(value)) >> MIDDLE_85_AT);
                 if (value < 0) value = 0;
                 if (value > BRIGHTEST) value = BRIGHTEST;
                 uint256 byte_ = (behind >> (248 - 8 * lane)) & 0xff;
-                mixed |= ((uint256(value) * load(OPACITY) + (byte_ << 10) * (ONE_24 - load(OPACITY))) >> 24) << (MIDDLE_85_AT * lane);
+                mixed |= ((uint256(value) * load(OPACITY) + (byte_ << Q10) * (ONE_24 - load(OPACITY))) >> Q24) << (MIDDLE_85_AT * lane);
             }
         }
     }
@@ -69,7 +69,7 @@ library Compositor {
         assembly ("memory-safe") {
             let end := add(image, size)
             for {} lt(image, end) { image := add(image, 64) } {
-                mstore(image, not(mload(image)))
+                mstore(image, not(mload(image))) // 255 - v
                 mstore(add(image, 32), not(mload(add(image, 32))))
             }
         }
@@ -82,10 +82,10 @@ library Compositor {
             // four depths in a word; 1 or 0 for each, in separate lanes that are summed at the end
             let counts := 0
             for {} lt(depth, end) { depth := add(depth, 32) } {
-                let depths := mload(depth)
+                let depths := mload(depth) // four
                 // the highest bit of a lane is set if any of its bits is set
                 let some := add(and(depths, BELOW_TOPS_64), BELOW_TOPS_64)
-                counts := add(counts, shr(63, and(or(some, depths), TOPS_64)))
+                counts := add(counts, shr(TOP_64_AT, and(or(some, depths), TOPS_64))) // + 1 in each lane that is not 0
             }
             count := mod(counts, 0xffffffffffffffff)
         }

@@ -28,9 +28,6 @@ struct Picture {
 }
 
 abstract contract Pipeline is PrimitiveAssembly {
-    /// @notice Draws the edges of the triangles of a list, if this engine draws wires.
-    function drawWires(uint256 list, uint256 end) internal pure virtual;
-
     /// @notice Returns the end of the registers that this engine uses.
     function registersEnd() internal pure virtual returns (uint256) {
         return REGISTERS_END;
@@ -160,12 +157,10 @@ abstract contract Pipeline is PrimitiveAssembly {
 
     /// @return drawn The number of faces drawn that were not listed before.
     function drawObject(Mesh memory mesh, uint256[3] memory list, bool atOnce, uint256 shift) private pure returns (uint256 drawn) {
-        if (load(OBJECT_FLAGS) & WIREFRAME == 0) {
-            if (atOnce) (, drawn) = assemble(mesh, list[0], shift, load(ZERO_SLOT), load(OBJECT_FLAGS) & CULL_BACKFACES != 0);
-            drawList(list[1], list[2]);
-        } else {
-            drawWires(list[1], list[2]);
-        }
+        uint256 flags = load(OBJECT_FLAGS);
+        // not a literal: see ZERO_SLOT
+        if (atOnce && flags & WIREFRAME == 0) (, drawn) = assemble(mesh, list[0], shift, load(ZERO_SLOT), flags & CULL_BACKFACES != 0);
+        drawList(list[1], list[2]);
     }
 
     /// @dev Makes the vertices and triangles of the current object, after the data already in memory.

@@ -21,8 +21,6 @@ uint256 constant VALUE_AT_TOP = 192;
 uint256 constant LANE_SHIFT = 6;
 uint256 constant SAMPLE_ROWS_SHIFT = 2;
 uint256 constant EIGHTHS_SHIFT = 3;
-/// @dev The highest bit of a lane of samples.
-uint256 constant TOP_64_AT = 63;
 
 library ShadowRows {
     /// @notice Finds the entries of the faces of an object, and its light from the shadow-casting lamp.

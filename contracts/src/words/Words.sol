@@ -49,6 +49,11 @@ uint256 constant Q48 = 48;
 uint256 constant Q16_TO_Q10 = 6;
 uint256 constant Q24_TO_Q16 = 8;
 uint256 constant Q40_TO_Q16 = 24;
+uint256 constant Q32_TO_Q24 = 8;
+uint256 constant Q24_TO_Q58 = 34;
+uint256 constant Q72_TO_Q24 = 48;
+/// @dev The position of a word's sign; shifted to the right by this, with the sign, a word is -1 if it is negative, else 0.
+uint256 constant SIGN_AT = 255;
 /// @dev One in each.
 uint256 constant ONE_10 = 0x400;
 uint256 constant ONE_16 = 0x10000;
@@ -90,8 +95,6 @@ uint256 constant NEXT_LANE_TO_BYTE = 14;
 
 /// @dev A word has 2^5 bytes.
 uint256 constant WORD_SHIFT = 5;
-/// @dev The sign of a word: shifted right by this as a signed number, it is -1 or 0.
-uint256 constant SIGN_AT = 255;
 
 // ------------------------------------------------------------------------------------------------------------------- words of the buffers
 
@@ -150,7 +153,7 @@ uint256 constant NORMAL_BIAS = 0x10000000000000000000008000000000000000000004000
 // ---------------------------------------------------------------------------------------------------------------------------- screen word
 // The position of a vertex on the screen. Comparing screen words as numbers compares rows. The bits below the column must stay below bit
 // 41: see the area in PrimitiveAssembly, to whose error they contribute 2^149 times; half of the minimum area is 2^191.
-// | 128..147 row | 64..83 column | 37 IS_BACK | 36 IS_BELOW | 35 IS_ABOVE | 34 IS_RIGHT | 33 IS_LEFT | 32 MUST_CLIP | 0..31 record |
+// | 128..147 row | 64..83 column | 36 IS_BELOW | 35 IS_ABOVE | 34 IS_RIGHT | 33 IS_LEFT | 32 MUST_CLIP | 0..31 record |
 
 /// @dev Address of the vertex record.
 uint256 constant SCREEN_RECORD_MASK = 0xffffffff;
@@ -161,8 +164,6 @@ uint256 constant IS_LEFT = 0x200000000;
 uint256 constant IS_RIGHT = 0x400000000;
 uint256 constant IS_ABOVE = 0x800000000;
 uint256 constant IS_BELOW = 0x1000000000;
-/// @dev Of the first vertex of a triangle: the face is turned away from the eye.
-uint256 constant IS_BACK = 0x2000000000;
 /// @dev Sub-pixel column.
 uint256 constant SCREEN_COLUMN_AT = 64;
 uint256 constant SCREEN_COLUMN_MASK = 0xfffff;
@@ -225,8 +226,7 @@ uint256 constant WEIGHT_BIAS = 0x10000000000000000000000000000000200000000000002
 /// @dev Fine barycentric coordinates, of scenes with effects, have 12 more bits: Q44. The lane of s is wider, so that t is still below it;
 /// lanes of 56 bits hold -2048 to 2048.
 uint256 constant FINE_BITS = 12;
-/// @dev GRADIENT_SHIFT for them; the factor minus 1; the position of s, and the last bytes of the lanes.
-uint256 constant FINE_GRADIENT_SHIFT = 49;
+/// @dev The factor minus 1; the position of s, and the last bytes of the lanes.
 uint256 constant FINE_FACTOR_LESS_1 = 0xfff;
 uint256 constant FINE_S_AT = 56;
 uint256 constant FINE_S_LAST_BYTE = 18;
@@ -238,7 +238,8 @@ uint256 constant WEIGHTS_LAST_BYTE = 20;
 
 // --------------------------------------------------------------------------------------------------------------------- triangle of a list
 // The first vertex is the topmost, and the vertices are counter-clockwise on the screen.
-// | 157 BACK_BIT | 147 CROSSING_BIT | 144..146 edges | 128..143 face | 112..127 bottom | 96..111 top | 64..95 a | 32..63 b | 0..31 c |
+// | 157 TURNED_AWAY_BIT | 147 CROSSING_BIT | 144..146 edges | 128..143 face | 112..127 bottom | 96..111 top | 64..95 a | 32..63 b | 0..31 c
+// |
 
 /// @dev Addresses of the third, second and first vertex record.
 uint256 constant TRIANGLE_C_MASK = 0xffffffff;
@@ -260,7 +261,7 @@ uint256 constant TRIANGLE_EDGES_MASK = 7;
 /// @dev Whether it reaches beyond the left or right border of the tile.
 uint256 constant CROSSING_BIT = 0x8000000000000000000000000000000000000;
 /// @dev Whether it is turned away from the eye.
-uint256 constant BACK_BIT = 0x002000000000000000000000000000000000000000;
+uint256 constant TURNED_AWAY_BIT = 0x002000000000000000000000000000000000000000;
 
 // --------------------------------------------------------------------------------------------------------------------- parts of triangles
 
@@ -311,7 +312,9 @@ uint256 constant RIGHT_EDGE_AT = 128;
 uint256 constant CEIL_48 = 0xffffffffc000;
 /// @dev 1 in both lanes.
 uint256 constant ONES_128 = 0x100000000000000000000000000000001;
+/// @dev The lower lane, and its last byte.
 uint256 constant LANE_128 = 0xffffffffffffffffffffffffffffffff;
+uint256 constant LANE_128_LAST_BYTE = 15;
 uint256 constant UPPER_LANE_128 = 0xffffffffffffffffffffffffffffffff00000000000000000000000000000000;
 /// @dev Shifted left by this, a quotient of sub-pixel lengths and twice an area is Q29 per pixel.
 uint256 constant GRADIENT_SHIFT = 37;
@@ -542,6 +545,9 @@ uint256 constant GREEN_64 = 0xff00000000000000ff00000000000000ff00000000000000ff
 
 // ----------------------------------------------------------------------------------------------------------------------- parts of samples
 
+/// @dev The last byte of the lowest lane, and the position of its highest bit.
+uint256 constant LANE_64_LAST_BYTE = 7;
+uint256 constant TOP_64_AT = 63;
 /// @dev In the lowest lane: the pixel is on the list of those whose samples may differ.
 uint256 constant IS_LISTED = 0x4000000;
 /// @dev The position of the samples' address in an entry of that list; the position of the colour's address, and its mask; the size of an
@@ -551,8 +557,11 @@ uint256 constant MIXED_PIXEL_AT = 192;
 uint256 constant MIXED_PIXEL_MASK = 0xffffffff;
 uint256 constant MIXED_SIZE = 8;
 uint256 constant UPPER_LANE_64_AT = 192;
-/// @dev The samples of a pixel have 2^5 bytes.
+/// @dev The samples of a pixel have 2^5 bytes; an eighth of a pixel, in which their positions are, is 2^-3; 1/64 is 2^-6.
 uint256 constant SAMPLE_SIZE_BITS = 5;
+uint256 constant SAMPLE_SIZE = 32;
+uint256 constant EIGHTH_BITS = 3;
+uint256 constant PIXEL_64_BITS = 6;
 /// @dev The fraction bits of a column.
 uint256 constant COLUMN_FRACTION = 42;
 uint256 constant SUBPIXEL_TO_COLUMN = 34;
@@ -562,6 +571,8 @@ uint256 constant WHOLE_SAMPLES = 0xfffffffffffffffffffffffffffffffffffffffffffff
 /// @dev The mask of whole pixels for a non-negative address; the position of the upper bound's address.
 uint256 constant ADDRESS_32 = 0xffffffe0;
 uint256 constant UPPER_ADDRESS_AT = 165;
+/// @dev The lane of the upper bound.
+uint256 constant UPPER_BOUND_AT = 128;
 /// @dev The position of a screen word's column in whole pixels; the addends that yield the first column with a sample, and the last.
 uint256 constant SCREEN_PIXEL_COLUMN_AT = 72;
 uint256 constant FROM_FIRST_SAMPLE = 0x9f0000000000000000;

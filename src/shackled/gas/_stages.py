@@ -54,6 +54,7 @@ _SOURCES = {
     "pipeline/samples/LinearSamples.sol": ROWS,
     "pipeline/pixels/Wireframe.sol": ROWS,
     "pipeline/samples/SampleWires.sol": ROWS,
+    "pipeline/shading/Wires.sol": ROWS,
     "pipeline/shading/Patches.sol": FRAGMENTS,
     "pipeline/pixels/PatchSpans.sol": FRAGMENTS,
     "pipeline/pixels/Spans.sol": FRAGMENTS,

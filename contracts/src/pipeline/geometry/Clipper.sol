@@ -165,13 +165,13 @@ library Clipper {
                 storeSigned(target + offset, value + (loadSigned(outside + offset) - value) * inner / whole);
             }
             // colours and normals keep 32 more bits until they are summed
-            uint256 part = uint256((inner << 32) / whole);
+            uint256 part = uint256((inner << Q32) / whole);
             uint256 lanes = load(inside + CORNER_COLOR);
-            lanes = (lanes << 32) + (load(outside + CORNER_COLOR) - lanes) * part;
-            store(target + CORNER_COLOR, (lanes >> 32) & LANES_24);
+            lanes = (lanes << Q32) + (load(outside + CORNER_COLOR) - lanes) * part;
+            store(target + CORNER_COLOR, (lanes >> Q32) & LANES_24);
             lanes = load(inside + CORNER_NORMAL);
-            lanes = (lanes << 32) + (load(outside + CORNER_NORMAL) - lanes) * part + (NORMAL_LANES_BIAS << 32);
-            store(target + CORNER_NORMAL, ((lanes >> 32) & NORMAL_LANES) - NORMAL_LANES_BIAS);
+            lanes = (lanes << Q32) + (load(outside + CORNER_NORMAL) - lanes) * part + (NORMAL_LANES_BIAS << Q32);
+            store(target + CORNER_NORMAL, ((lanes >> Q32) & NORMAL_LANES) - NORMAL_LANES_BIAS);
         }
     }
 
@@ -181,7 +181,8 @@ library Clipper {
             int256 w = loadSigned(corner + CORNER_W);
             uint256 x = inGuardBand(loadSigned(corner + CORNER_X) / divisor(w));
             uint256 y = inGuardBand(loadSigned(corner + CORNER_Y) / divisor(w));
-            uint256 depth = load(FRAME_IS_ORTHOGRAPHIC) == 0 ? load(DEPTH_SCALE) / uint256(w) : load(DEPTH_SCALE) - uint256(w >> 8);
+            uint256 depth = load(DEPTH_SCALE);
+            depth = load(FRAME_IS_ORTHOGRAPHIC) == 0 ? depth / uint256(w) : depth - uint256(w >> Q32_TO_Q24);
             store(record, VertexShader.screenWord(x, y, record));
             store(record + VERTEX_ATTRIBUTES, (depth << ATTRIBUTE_DEPTH_AT) | load(corner + CORNER_COLOR));
             store(record + VERTEX_NORMAL, load(corner + CORNER_NORMAL));
@@ -189,7 +190,7 @@ library Clipper {
     }
 
     /// @dev Clamps: rounding may have put a point slightly outside.
-    function inGuardBand(int256 value) private pure returns (uint256) {
+    function inGuardBand(int256 value) internal pure returns (uint256) {
         if (value < 0) return 0;
         return uint256(value) >> GUARD_BITS == 0 ? uint256(value) : (1 << GUARD_BITS) - 1;
     }

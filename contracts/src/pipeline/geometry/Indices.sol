@@ -20,16 +20,14 @@ library Indices {
             uint256 bad;
             assembly ("memory-safe") {
                 // 16 indices at once: index + 2^16 - count, in lanes of 32 bits, is at least 2^16 if the index is out of range
-                let bias := mul(sub(0x10000, count), LOW_32)
-                let place := faces
+                let bias := mul(sub(0x10000, count), LOW_32) // 2^16 - count in each lane
                 let end := add(faces, size)
-                for {} lt(add(place, 32), end) { place := add(place, 32) } {
-                    let numbers := calldataload(place)
-                    bad := or(bad, or(add(and(numbers, LOW_16), bias), add(and(shr(16, numbers), LOW_16), bias)))
-                }
-                // the rest of the last word
-                if lt(place, end) {
-                    let numbers := shr(shl(3, sub(add(place, 32), end)), calldataload(place))
+                // the first word begins before the faces if their size is not a multiple of 32: index 0 in place of what is there
+                let before := and(sub(0, size), 31) // -size mod 32
+                let mask := shr(shl(3, before), not(0)) // without the first 8 * before bits
+                for { let place := sub(faces, before) } lt(place, end) { place := add(place, 32) } {
+                    let numbers := and(calldataload(place), mask)
+                    mask := not(0)
                     bad := or(bad, or(add(and(numbers, LOW_16), bias), add(and(shr(16, numbers), LOW_16), bias)))
                 }
                 bad := and(bad, shl(16, LOW_32))

@@ -48,20 +48,20 @@ abstract contract PrimitiveAssembly is Rasterizer {
                 int256 area;
                 uint256 crossing;
                 assembly ("memory-safe") {
-                    c := shr(down, calldataload(face))
+                    c := shr(down, calldataload(face)) // c: the three indices
                     face := add(face, FACE_SIZE)
-                    a := mload(add(records, and(shr(FACE_FIRST_AT, c), mask)))
+                    a := mload(add(records, and(shr(FACE_FIRST_AT, c), mask))) // a, b, c: the screen words
                     b := mload(add(records, and(shr(FACE_SECOND_AT, c), mask)))
                     c := mload(add(records, and(c, mask)))
                     // Twice the area, (xc - xa) * (yb - ya) - (xb - xa) * (yc - ya), as the upper part of the product of K^2 * (yb - ya) +
                     // K * (xb - xa) and K * (xc - xa) - K^2 * (yc - ya), where K = 2^64; what is below K is noise, and so are all bits of
                     // the product below 2^186. Columns are mirrored by subtracting them from 2^20 - 1.
-                    area := mul(sub(b, a), sub(xor(a, SCREEN_COLUMNS), xor(c, SCREEN_COLUMNS)))
+                    area := mul(sub(b, a), sub(xor(a, SCREEN_COLUMNS), xor(c, SCREEN_COLUMNS))) // (b - a) * (mirrored a - mirrored c)
                 }
                 if (area <= loadSigned(LEAST_AREA)) continue;
                 if (area < HALF_AREA) {
                     if (area > -HALF_AREA) continue;
-                    (a, b, c) = (a | IS_BACK, c, b);
+                    (b, c) = (c, b);
                     area = -area;
                     crossing = IS_TURNED_AWAY;
                 }
@@ -84,7 +84,7 @@ abstract contract PrimitiveAssembly is Rasterizer {
                     shade(a, b, c, crossing);
                     drawTriangle(a, b, c);
                 } else {
-                    store(LIST, Triangles.pack(load(LIST), a, b, c, ALL_EDGES + load(ZERO_SLOT)));
+                    store(LIST, Triangles.pack(load(LIST), a, b, c, ALL_EDGES + load(ZERO_SLOT), crossing & IS_TURNED_AWAY));
                 }
             }
         }

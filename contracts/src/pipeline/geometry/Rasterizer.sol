@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {WIREFRAME} from "../../scene/Scene.sol";
 import "../../words/Registers.sol";
 
 // Rasterizes triangles to fragments: PixelRasterizer samples pixel centres, SampleRasterizer four samples per pixel.
@@ -26,14 +27,15 @@ abstract contract Rasterizer {
             let mode := mload(MODE)
             mstore(MODE, xor(mode, IS_TURNED_AWAY))
             if iszero(and(mode, IS_DEEP)) {
-                depth := add(shr(ACCUMULATOR_DEPTH_AT, or(xor(dx, sar(255, dx)), xor(dy, sar(255, dy)))), 512)
+                depth := add(shr(ACCUMULATOR_DEPTH_AT, or(xor(dx, sar(SIGN_AT, dx)), xor(dy, sar(SIGN_AT, dy)))), 512) // |dx| or |dy|, + 2
                 // of the vertices: of the first, then of the farthest
                 dx := mload(DELTA_1)
-                dy := mload(DELTA_2)
-                if slt(dy, dx) { dx := dy }
-                dx := mul(sar(ATTRIBUTE_DEPTH_AT, dx), slt(dx, 0))
-                dx := shl(7, sub(add(dx, shr(ACCUMULATOR_VERTEX_DEPTH_AT, mload(ATTRIBUTE_0))), sar(8, base)))
-                if lt(dx, depth) { depth := dx }
+                dy := mload(DELTA_2) // dx, dy: the differences of the other vertices
+                if slt(dy, dx) { dx := dy } // min
+                // (the least depth - base) / 2
+                dx := mul(sar(ATTRIBUTE_DEPTH_AT, dx), slt(dx, 0)) // min(dx, 0), of the depth
+                dx := shl(7, sub(add(dx, shr(ACCUMULATOR_VERTEX_DEPTH_AT, mload(ATTRIBUTE_0))), sar(DEPTH_FRACTION, base)))
+                if lt(dx, depth) { depth := dx } // min
             }
         }
     }
@@ -42,7 +44,12 @@ abstract contract Rasterizer {
     /// @param a, b, c As for `drawTriangle`.
     function coversNothing(uint256 a, uint256 b, uint256 c) internal pure virtual returns (bool);
 
-    /// @notice Draws the triangles of a list into the current band.
+    /// @notice Draws the edges of a triangle that belong to its face, if this engine draws wires.
+    /// @param a, b, c The screen words of its vertices.
+    /// @param triangle The triangle of a list.
+    function drawEdges(uint256 a, uint256 b, uint256 c, uint256 triangle) internal pure virtual;
+
+    /// @notice Draws the triangles of a list, or their edges, into the current band.
     function drawList(uint256 list, uint256 end) internal pure {
         unchecked {
             (uint256 bandTop, uint256 bandBottom) = (load(BAND_TOP), load(BAND_BOTTOM));
@@ -55,6 +62,10 @@ abstract contract Rasterizer {
                 uint256 a = load((word >> TRIANGLE_A_AT) & TRIANGLE_A_MASK);
                 uint256 b = load((word >> TRIANGLE_B_AT) & TRIANGLE_B_MASK);
                 uint256 c = load(word & TRIANGLE_C_MASK);
+                if (load(OBJECT_FLAGS) & WIREFRAME != 0) {
+                    drawEdges(a, b, c, word);
+                    continue;
+                }
                 uint256 mode = (word >> TRIANGLE_CROSSING_SHIFT) & (CROSSES_COLUMNS | IS_TURNED_AWAY);
                 shade(a, b, c, mode | (top < bandTop || bottom > bandBottom ? CROSSES_ROWS : 0));
                 drawTriangle(a, b, c);

@@ -37,17 +37,17 @@ library VertexShader {
                 assembly ("memory-safe") {
                     let data := calldataload(vertex)
                     // clip = x * MATRIX_X + y * MATRIX_Y + z * MATRIX_Z + MATRIX_T
-                    clip := add(mul(sar(rest, data), mload(MATRIX_X)), mload(MATRIX_T))
-                    data := shl(bits, data)
-                    clip := add(clip, mul(sar(rest, data), mload(MATRIX_Y)))
-                    data := shl(bits, data)
-                    clip := add(clip, mul(sar(rest, data), mload(MATRIX_Z)))
-                    data := shr(MESH_COLOR_AT, shl(bits, data))
+                    clip := add(mul(sar(rest, data), mload(MATRIX_X)), mload(MATRIX_T)) // x * X + T, three lanes
+                    data := shl(bits, data) // the next coordinate
+                    clip := add(clip, mul(sar(rest, data), mload(MATRIX_Y))) // + y * Y
+                    data := shl(bits, data) // the next coordinate
+                    clip := add(clip, mul(sar(rest, data), mload(MATRIX_Z))) // + z * Z
+                    data := shr(MESH_COLOR_AT, shl(bits, data)) // from here on the colour, 0xRRGGBB
                     let divisor := sar(CLIP_W_AT, clip) // distance, Q32
-                    isPlain := slt(divisor, mload(NEAR))
-                    let depth := div(mload(DEPTH_SCALE), divisor)
+                    isPlain := slt(divisor, mload(NEAR)) // the opposite, until its last assignment
+                    let depth := div(mload(DEPTH_SCALE), divisor) // scale / distance
                     if mload(FRAME_IS_ORTHOGRAPHIC) {
-                        depth := sub(mload(DEPTH_SCALE), sar(8, divisor))
+                        depth := sub(mload(DEPTH_SCALE), sar(Q32_TO_Q24, divisor)) // scale - distance
                         divisor := ONE_32
                     }
                     // spread colour bytes to their lanes, times 2^10
@@ -57,11 +57,11 @@ library VertexShader {
                     )
                     // a negative lane, which has borrowed from the one above, yields a value far beyond the guard band
                     let x := div(and(clip, CLIP_X_MASK), divisor) // column * distance / distance, sub-pixels
-                    let y := div(and(shr(CLIP_Y_AT, clip), CLIP_Y_MASK), divisor)
+                    let y := div(and(shr(CLIP_Y_AT, clip), CLIP_Y_MASK), divisor) // row * distance / distance
                     mstore(record, or(or(shl(SCREEN_ROW_AT, y), shl(SCREEN_COLUMN_AT, x)), record))
                     isPlain := iszero(or(
-                        or(isPlain, gt(sub(x, mload(TILE_LEFT)), mload(TILE_SPAN))),
-                        gt(sub(y, mload(TILE_TOP)), mload(TILE_ROWS))
+                        or(isPlain, gt(sub(x, mload(TILE_LEFT)), mload(TILE_SPAN))), // x < left or x > right
+                        gt(sub(y, mload(TILE_TOP)), mload(TILE_ROWS)) // y < top or y > bottom
                     ))
                 }
                 if (isPlain == 0) setFlags(record, clip);
@@ -101,16 +101,16 @@ library VertexShader {
         assembly ("memory-safe") {
             let data := calldataload(add(mload(MESH_VERTICES), mul(index, mload(MESH_STRIDE))))
             let rest := sub(256, bits)
-            let clip := add(mul(sar(rest, data), mload(MATRIX_X)), add(mload(MATRIX_T), CLIP_BIAS))
-            data := shl(bits, data)
-            clip := add(clip, mul(sar(rest, data), mload(MATRIX_Y)))
-            data := shl(bits, data)
-            clip := add(clip, mul(sar(rest, data), mload(MATRIX_Z)))
-            data := shr(MESH_COLOR_AT, shl(bits, data))
-            mstore(corner, sub(and(clip, CLIP_X_MASK), CLIP_HALF))
-            mstore(add(corner, CORNER_Y), sub(and(shr(CLIP_Y_AT, clip), CLIP_Y_MASK), CLIP_HALF))
-            mstore(add(corner, CORNER_W), sar(CLIP_W_AT, clip))
-            mstore(add(corner, CORNER_COLOR), and(mul(data, COLOR_SPREAD), BYTES_Q10))
+            let clip := add(mul(sar(rest, data), mload(MATRIX_X)), add(mload(MATRIX_T), CLIP_BIAS)) // as in project
+            data := shl(bits, data) // the next coordinate
+            clip := add(clip, mul(sar(rest, data), mload(MATRIX_Y))) // + y * Y
+            data := shl(bits, data) // the next coordinate
+            clip := add(clip, mul(sar(rest, data), mload(MATRIX_Z))) // + z * Z
+            data := shr(MESH_COLOR_AT, shl(bits, data)) // from here on the colour, 0xRRGGBB
+            mstore(corner, sub(and(clip, CLIP_X_MASK), CLIP_HALF)) // x without the bias
+            mstore(add(corner, CORNER_Y), sub(and(shr(CLIP_Y_AT, clip), CLIP_Y_MASK), CLIP_HALF)) // y
+            mstore(add(corner, CORNER_W), sar(CLIP_W_AT, clip)) // w
+            mstore(add(corner, CORNER_COLOR), and(mul(data, COLOR_SPREAD), BYTES_Q10)) // lanes of Q10
         }
     }
 
@@ -133,10 +133,10 @@ library VertexShader {
             uint256 stride = mesh.stride;
             assembly ("memory-safe") {
                 for {} lt(record, end) {} {
-                    let data := calldataload(normal)
-                    let n := mul(sar(MESH_NORMAL_AT, data), mload(NORMAL_X))
-                    n := add(n, mul(sar(MESH_NORMAL_AT, shl(MESH_NORMAL_Y, data)), mload(NORMAL_Y)))
-                    n := add(n, mul(sar(MESH_NORMAL_AT, shl(MESH_NORMAL_Z, data)), mload(NORMAL_Z)))
+                    let data := calldataload(normal) // three components at the top
+                    let n := mul(sar(MESH_NORMAL_AT, data), mload(NORMAL_X)) // x * X, three lanes
+                    n := add(n, mul(sar(MESH_NORMAL_AT, shl(MESH_NORMAL_Y, data)), mload(NORMAL_Y))) // + y * Y
+                    n := add(n, mul(sar(MESH_NORMAL_AT, shl(MESH_NORMAL_Z, data)), mload(NORMAL_Z))) // + z * Z
                     mstore(add(record, VERTEX_NORMAL), n)
                     record := add(record, recordSize)
                     normal := add(normal, stride)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {columnOf, depthOf, firstRowOf, max, min, rowOf} from "../geometry/Screen.sol";
+import {columnOf, firstRowOf, max, min, rowOf} from "../geometry/Screen.sol";
 import {PixelRasterizer} from "./PixelRasterizer.sol";
-import {SmoothShading} from "../shading/SmoothShading.sol";
+import {Wires} from "../shading/Wires.sol";
 import "../../words/Registers.sol";
 
 // Rasterizes the edges of triangles to fragments. A line has one pixel in each column, or in each row if it is steeper than 45 degrees: the
@@ -12,40 +12,8 @@ import "../../words/Registers.sol";
 /// @dev Divided by the length of a line in sub-pixels (Q8), this is the fraction of the line per pixel, Q32.
 int256 constant STEP_ONE = 1 << 40;
 
-abstract contract Wireframe is PixelRasterizer, SmoothShading {
-    /// @notice Draws the edges of the triangles of a list into the current band.
-    function drawWires(uint256 list, uint256 end) internal pure virtual {
-        unchecked {
-            (uint256 bandTop, uint256 bandBottom) = (load(BAND_TOP), load(BAND_BOTTOM));
-            for (; list != end; list += 32) {
-                uint256 word = load(list);
-                if (
-                    (word >> TRIANGLE_BOTTOM_AT) & TRIANGLE_BOTTOM_MASK <= bandTop
-                        || (word >> TRIANGLE_TOP_AT) & TRIANGLE_TOP_MASK >= bandBottom
-                ) continue;
-                uint256 a = load((word >> TRIANGLE_A_AT) & TRIANGLE_A_MASK);
-                uint256 b = load((word >> TRIANGLE_B_AT) & TRIANGLE_B_MASK);
-                uint256 c = load(word & TRIANGLE_C_MASK);
-                store(FACE, load(MESH_FACES) + FACE_SIZE * ((word >> TRIANGLE_FACE_AT) & TRIANGLE_FACE_MASK));
-                shadeExact(a, b, c, (word >> TRIANGLE_CROSSING_SHIFT) & CROSSES_COLUMNS);
-                (uint256 start, uint256 toB, uint256 toC) = (load(ATTRIBUTE_0), load(DELTA_1), load(DELTA_2));
-                if (load(MODE) & IS_DEEP != 0) {
-                    uint256 depth = depthOf(a);
-                    start += depth << ACCUMULATOR_VERTEX_DEPTH_AT;
-                    toB += (depthOf(b) - depth) << ATTRIBUTE_DEPTH_AT;
-                    toC += (depthOf(c) - depth) << ATTRIBUTE_DEPTH_AT;
-                }
-                if (word & EDGE_AB != 0) line(a, b, start, toB, bandTop, bandBottom);
-                if (word & EDGE_BC != 0) line(b, c, start + (toB << ACCUMULATOR_FRACTION), toC - toB, bandTop, bandBottom);
-                if (word & EDGE_CA != 0) line(c, a, start + (toC << ACCUMULATOR_FRACTION), 0 - toC, bandTop, bandBottom);
-            }
-        }
-    }
-
-    /// @param p, q The screen words of the ends.
-    /// @param attribute The accumulator at p.
-    /// @param change The change of the attribute word from p to q.
-    function line(uint256 p, uint256 q, uint256 attribute, uint256 change, uint256 top, uint256 bottom) private pure {
+abstract contract Wireframe is PixelRasterizer, Wires {
+    function line(uint256 p, uint256 q, uint256 attribute, uint256 change) internal pure override {
         unchecked {
             int256 dx = columnOf(q) - columnOf(p);
             int256 dy = rowOf(q) - rowOf(p);
@@ -57,20 +25,20 @@ abstract contract Wireframe is PixelRasterizer, SmoothShading {
                 attribute += change << ACCUMULATOR_FRACTION;
                 change = 0 - change;
             }
-            if (steep) steepLine(p, q, dx, dy, attribute, change, top, bottom);
-            else flatLine(p, q, dx, dy, attribute, change, top, bottom);
+            if (steep) steepLine(p, q, dx, dy, attribute, change);
+            else flatLine(p, q, dx, dy, attribute, change);
         }
     }
 
     /// @param attribute The accumulator at the upper end.
     /// @param change The change of the attribute word along the line.
-    function steepLine(uint256 p, uint256 q, int256 dx, int256 dy, uint256 attribute, uint256 change, uint256 top, uint256 bottom)
+    function steepLine(uint256 p, uint256 q, int256 dx, int256 dy, uint256 attribute, uint256 change)
         private
         pure
     {
         unchecked {
-            top = max(top, firstRowOf(p));
-            bottom = min(bottom, firstRowOf(q));
+            uint256 top = max(load(BAND_TOP), firstRowOf(p));
+            uint256 bottom = min(load(BAND_BOTTOM), firstRowOf(q));
             if (top >= bottom) return;
             int256 below = int256(top << SUBPIXEL_BITS) - rowOf(p);
             int256 slope = (dx << EDGE_FRACTION) / dy;
@@ -85,7 +53,7 @@ abstract contract Wireframe is PixelRasterizer, SmoothShading {
         }
     }
 
-    function flatLine(uint256 p, uint256 q, int256 dx, int256 dy, uint256 attribute, uint256 change, uint256 top, uint256 bottom)
+    function flatLine(uint256 p, uint256 q, int256 dx, int256 dy, uint256 attribute, uint256 change)
         private
         pure
     {
@@ -93,8 +61,8 @@ abstract contract Wireframe is PixelRasterizer, SmoothShading {
             int256 begin = (columnOf(p) + int256(SUBPIXEL_MASK)) >> SUBPIXEL_BITS;
             int256 end = (columnOf(q) + int256(SUBPIXEL_MASK)) >> SUBPIXEL_BITS;
             if (begin >= end) return;
-            top = max(top, (min(p, q) + (HALF_PIXEL << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT);
-            bottom = min(bottom, ((max(p, q) + (HALF_PIXEL << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT) + 1);
+            uint256 top = max(load(BAND_TOP), (min(p, q) + (HALF_PIXEL << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT);
+            uint256 bottom = min(load(BAND_BOTTOM), ((max(p, q) + (HALF_PIXEL << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT) + 1);
             uint256 step = uint256(STEP_ONE / dx);
             store(DX, change * step);
             store(DY, 0);

@@ -10,30 +10,26 @@ import "../../words/Registers.sol";
 /// @dev The lowest byte of each sample.
 uint256 constant BYTE_OF_SAMPLES = 0xff * ONES_64;
 
-library BlendedSamples {
-    /// @notice Draws a fragment: see SampleRasterizer.drawFragment.
-    function fragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure {
+abstract contract BlendedSamples is ExactSamples {
+    function drawBlended(uint256 p, uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure override {
         unchecked {
-            uint256 p = Samples.place(row, column);
-            uint256 old = load(p);
-            uint256 depths = Samples.depthsOf(attribute);
             bool isFirst = load(MODE) & IS_BLENDED == 0;
+            uint256 z = Samples.depthsOf(attribute);
+            uint256 old = load(p);
             // nearer than the stored depth; or equal to the depth found by the first pass
-            uint256 seen = isFirst
-                ? (depths | TOPS_64) - (old | BELOW_SAMPLE_DEPTHS)
-                : TOPS_64 - ((old ^ (depths | FOUND_SAMPLES)) & PASSES_OF_SAMPLES);
+            uint256 seen = isFirst ? z + BELOW_TOPS_64 - old : TOPS_64 - ((old ^ (z | FOUND_SAMPLES)) & PASSES_OF_SAMPLES);
             seen &= covered;
             if (seen == 0) return;
-            depths |= isFirst
+            z |= isFirst
                 ? FOUND_SAMPLES | (old & SAMPLE_COLORS)
-                : DRAWN_SAMPLES | over(Samples.bytesOf(ExactSamples.colorAt(attribute, covered, column, row)), old);
-            Samples.write(p, row, column, depths, seen);
+                : DRAWN_SAMPLES | over(colorAt(attribute, covered, column, row), old);
+            Samples.write(p, z, seen);
         }
     }
 
     /// @dev Returns a colour blended over those of the four samples: color * OPACITY + behind * (1 - OPACITY), rounded to the nearest
     /// level.
-    function over(uint256 color, uint256 behind) internal pure returns (uint256 mixed) {
+    function over(uint256 color, uint256 behind) internal pure virtual returns (uint256 mixed) {
         unchecked {
             (uint256 opacity, uint256 rest) = (load(OPACITY), ONE_24 - load(OPACITY));
             for (uint256 channel; channel != 24; channel += 8) {

@@ -16,79 +16,80 @@ library LinearSamples {
     function draw(uint256 row, uint256 last) internal pure {
         assembly ("memory-safe") {
             let left := mload(SIDE_LEFT)
-            let right := mload(SIDE_RIGHT)
-            let bounds := mload(BOUNDS)
+            let right := mload(SIDE_RIGHT) // four columns each: see SampleRasterizer
+            let bounds := mload(BOUNDS) // two addresses, Q37
             // START is relative to column 0; make it relative to address 0
-            let start := sar(SAMPLE_SIZE_BITS, sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE))))
+            let start := sar(SAMPLE_SIZE_BITS, sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))) // column 0 / 32
             mstore(ROW_IMAGE, sub(mload(SAMPLE_IMAGE), mul(3, add(mul(row, mload(TILE_WIDTH)), start))))
-            start := sub(add(mload(START), mul(sub(row, mload(START_ROW)), mload(DY))), mul(start, mload(DX)))
-            mstore(ROW_STEP_32, add(mload(DY), mul(shr(SAMPLE_SIZE_BITS, mload(SAMPLE_STRIDE)), mload(DX))))
+            start := sub(add(mload(START), mul(sub(row, mload(START_ROW)), mload(DY))), mul(start, mload(DX))) // start + y DY - start DX
+            mstore(ROW_STEP_32, add(mload(DY), mul(shr(SAMPLE_SIZE_BITS, mload(SAMPLE_STRIDE)), mload(DX)))) // rows go up in memory
             if mload(IS_CLAMPED) {
                 // as addresses
-                let base := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))
-                mstore(SPAN_BEGIN, add(base, shl(SAMPLE_SIZE_BITS, mload(SPAN_BEGIN))))
+                let base := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE))) // of column 0
+                mstore(SPAN_BEGIN, add(base, shl(SAMPLE_SIZE_BITS, mload(SPAN_BEGIN)))) // base + 32 * column
                 mstore(SPAN_END, add(base, shl(SAMPLE_SIZE_BITS, mload(SPAN_END))))
             }
             // the rows above the row of the kink; the number of rows from that one on
-            let rows := sub(last, row)
-            last := sub(last, mload(KINK_ROW))
+            let rows := sub(last, row) // the number of rows
+            last := sub(last, mload(KINK_ROW)) // last: the number of rows from the kink on
             if sgt(last, 0) { rows := sub(rows, last) }
-            row := 1
+            row := 1 // row: 1 above the kink, then 0
             for {} 1 {} {
                 for {} rows { rows := sub(rows, 1) } {
-                    let p := and(shr(ADDRESS_FRACTION, bounds), ADDRESS_32)
-                    let end := and(shr(UPPER_ADDRESS_AT, bounds), ADDRESS_32)
+                    let p := and(shr(ADDRESS_FRACTION, bounds), ADDRESS_32) // floor of the lower bound
+                    let end := and(shr(UPPER_ADDRESS_AT, bounds), ADDRESS_32) // floor of the upper bound
                     if mload(IS_CLAMPED) {
-                        p := and(sar(ADDRESS_FRACTION, signextend(15, bounds)), WHOLE_SAMPLES)
+                        p := and(sar(ADDRESS_FRACTION, signextend(LANE_128_LAST_BYTE, bounds)), WHOLE_SAMPLES)
                         end := and(sar(UPPER_ADDRESS_AT, bounds), WHOLE_SAMPLES)
-                        if slt(p, mload(SPAN_BEGIN)) { p := mload(SPAN_BEGIN) }
-                        if sgt(end, mload(SPAN_END)) { end := mload(SPAN_END) }
-                        end := mul(end, sgt(end, 0))
+                        if slt(p, mload(SPAN_BEGIN)) { p := mload(SPAN_BEGIN) } // max
+                        if sgt(end, mload(SPAN_END)) { end := mload(SPAN_END) } // min
+                        end := mul(end, sgt(end, 0)) // max(end, 0)
                         mstore(SPAN_BEGIN, sub(mload(SPAN_BEGIN), mload(SAMPLE_STRIDE)))
                         mstore(SPAN_END, sub(mload(SPAN_END), mload(SAMPLE_STRIDE)))
                     }
                     if lt(p, end) {
-                        let attribute := add(start, mul(shr(SAMPLE_SIZE_BITS, p), mload(DX)))
+                        let attribute := add(start, mul(shr(SAMPLE_SIZE_BITS, p), mload(DX))) // start + x DX
                         for {} 1 {} {
-                            let old := mload(p)
-                            let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE))
-                            z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
-                            let seen := mul(p, ADDRESS_64)
+                            let old := mload(p) // what is there
+                            let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE)) // of the pixel centre
+                            z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS) // the depths of four samples
+                            let seen := mul(p, ADDRESS_64) // the address in each lane, Q37
                             // nearer by at least one, whatever the colour bits below the old depth are
                             seen := and(and(add(left, seen), sub(right, seen)), and(sub(add(z, BELOW_TOPS_64), old), TOPS_64))
                             if seen {
                                 let color := attribute
                                 if and(color, ABOVE_BYTES) {
                                     // set all bits of the byte if above 255, none if below 0
-                                    color := and(add(and(attribute, ABOVE_BYTES), ABOVE_BYTES), NEXT_LANES)
-                                    color := or(attribute, shr(NEXT_LANE_TO_BYTE, mul(color, 0xff)))
-                                    color := and(color, not(shr(SIGN_TO_BYTE, mul(and(attribute, BELOW_NEXT_LANES), 0xff))))
+                                    color := and(add(and(attribute, ABOVE_BYTES), ABOVE_BYTES), NEXT_LANES) // 1 above each lane > 255
+                                    color := or(attribute, shr(NEXT_LANE_TO_BYTE, mul(color, 0xff))) // 255 there
+                                    color := and(color, not(shr(SIGN_TO_BYTE, mul(and(attribute, BELOW_NEXT_LANES), 0xff)))) // 0 below 0
                                 }
-                                color := shr(PIXEL_AT, mul(and(color, BYTES_OF_LANES), LANES_TO_BYTES))
-                                z := or(z, mul(color, ONES_64))
+                                color := shr(PIXEL_AT, mul(and(color, BYTES_OF_LANES), LANES_TO_BYTES)) // 0xBBGGRR
+                                // as Samples.paint and write: a call would cost some 40 gas per fragment
+                                z := or(z, mul(color, ONES_64)) // the colour in each sample
                                 switch eq(seen, TOPS_64)
                                 case 1 {
-                                    mstore(0, shl(PIXEL_AT, color))
+                                    mstore(0, shl(PIXEL_AT, color)) // three bytes
                                     mcopy(add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p))), 0, 3)
                                 }
                                 default {
-                                    z := or(xor(old, and(xor(old, z), sub(shl(1, seen), shr(63, seen)))), IS_LISTED)
+                                    z := or(xor(old, and(xor(old, z), sub(shl(1, seen), shr(TOP_64_AT, seen)))), IS_LISTED)
                                     if iszero(and(old, IS_LISTED)) {
                                         seen := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p)))
-                                        mstore(mload(MIXED_END), or(shl(MIXED_AT, p), shl(MIXED_PIXEL_AT, seen)))
+                                        mstore(mload(MIXED_END), or(shl(MIXED_AT, p), shl(MIXED_PIXEL_AT, seen))) // append (p, pixel)
                                         mstore(MIXED_END, add(mload(MIXED_END), MIXED_SIZE))
                                     }
                                 }
                                 mstore(p, z)
                             }
-                            p := add(p, 32)
+                            p := add(p, SAMPLE_SIZE)
                             if eq(p, end) { break }
-                            attribute := add(attribute, mload(DX))
+                            attribute := add(attribute, mload(DX)) // the next column
                         }
                     }
-                    left := add(left, mload(SIDE_LEFT_STEP))
+                    left := add(left, mload(SIDE_LEFT_STEP)) // the next row
                     right := add(right, mload(SIDE_RIGHT_STEP))
-                    bounds := add(bounds, mload(BOUND_STEPS))
+                    bounds := add(bounds, mload(BOUND_STEPS)) // both
                     start := add(start, mload(ROW_STEP_32))
                     mstore(ROW_IMAGE, sub(mload(ROW_IMAGE), mload(ROW_IMAGE_STEP)))
                 }
@@ -96,23 +97,23 @@ library LinearSamples {
                 switch row
                 case 0 {
                     // the rows below the kink
-                    mstore(sub(add(mload(KINK_SIDE), SIDE_LEFT_STEP), SIDE_LEFT), mload(KINK_STEP))
-                    rows := last
+                    mstore(sub(add(mload(KINK_SIDE), SIDE_LEFT_STEP), SIDE_LEFT), mload(KINK_STEP)) // the step of that side
+                    rows := last // the rest
                     last := 0
                 }
                 default {
                     // the row of the kink is drawn separately, with samples on both edges; its step leads to the lower edge
-                    row := 0
-                    rows := 1
+                    row := 0 // the kink is drawn next
+                    rows := 1 // it alone
                     last := sub(last, 1)
-                    bounds := or(and(bounds, mload(KINK_KEPT)), mload(KINK_BOUND))
+                    bounds := or(and(bounds, mload(KINK_KEPT)), mload(KINK_BOUND)) // replace the bound of that side
                     mstore(BOUND_STEPS, mload(KINK_BOUND_STEPS))
-                    let mask := mload(KINK_MASK)
-                    let edge := mload(KINK_EDGE)
+                    let mask := mload(KINK_MASK) // the samples below the kink
+                    let edge := mload(KINK_EDGE) // the lower edge in this row
                     switch eq(mload(KINK_SIDE), SIDE_LEFT)
                     case 1 {
-                        left := or(and(left, not(mask)), and(edge, mask))
-                        mstore(SIDE_LEFT_STEP, sub(add(edge, mload(KINK_STEP)), left))
+                        left := or(and(left, not(mask)), and(edge, mask)) // the edge in the lanes below the kink
+                        mstore(SIDE_LEFT_STEP, sub(add(edge, mload(KINK_STEP)), left)) // to the edge in the next row
                     }
                     default {
                         right := or(and(right, not(mask)), and(edge, mask))

@@ -2,6 +2,7 @@
 pragma solidity 0.8.37;
 
 import {Patches} from "../shading/Patches.sol";
+import {depthOf, max, min} from "../geometry/Screen.sol";
 import {SampleRasterizer} from "./SampleRasterizer.sol";
 import "../../words/SampleRegisters.sol";
 
@@ -11,11 +12,8 @@ abstract contract PatchSamples is SampleRasterizer {
     function setQuadratic(uint256 a, uint256 b, uint256 c) internal pure {
         unchecked {
             if (load(MODE) & IS_PATCHED == 0) return;
-            uint256 farthest = load((a & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES);
-            farthest = min(farthest, load((b & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES));
-            farthest = min(farthest, load((c & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES));
-            store(FARTHEST, farthest >> ATTRIBUTE_DEPTH_AT << DEPTH_FRACTION);
-            store(QUADRATIC_ROW, max((a + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT, load(BAND_TOP)));
+            store(FARTHEST, min(depthOf(a), min(depthOf(b), depthOf(c))) << DEPTH_FRACTION);
+            setQuadraticRow(a);
         }
     }
 
@@ -50,53 +48,55 @@ abstract contract PatchSamples is SampleRasterizer {
             function bytesOf(f, attribute) -> color {
                 if mload(PATCH_WEIGHT) {
                     // outside the triangle the depth can be anything
-                    attribute := sar(ACCUMULATOR_DEPTH_AT, attribute)
+                    attribute := sar(ACCUMULATOR_DEPTH_AT, attribute) // attribute: the depth
                     if slt(attribute, mload(FARTHEST)) { attribute := mload(FARTHEST) }
-                    f := add(mul(sub(and(shr(48, f), LANES_37), BIAS_36), div(shl(34, mload(PATCH_WEIGHT)), attribute)), HALF_85)
+                    f := sub(and(shr(Q72_TO_Q24, f), LANES_37), BIAS_36) // colour times depth, Q24
+                    f := add(mul(f, div(shl(Q24_TO_Q58, mload(PATCH_WEIGHT)), attribute)), HALF_85) // * nearest / depth: Q58
                 }
-                color := and(f, BYTES_Q58)
+                color := and(f, BYTES_Q58) // the integer parts
                 if and(f, ABOVE_Q58) {
-                    let beyond := and(add(and(f, ABOVE_Q58), ABOVE_Q58), CARRIES_85)
-                    color := or(color, mul(shr(CARRY_85, beyond), BYTE_Q58))
-                    color := and(color, not(mul(shr(SIGN_85, and(f, SIGNS_85)), BYTE_Q58)))
+                    let beyond := and(add(and(f, ABOVE_Q58), ABOVE_Q58), CARRIES_85) // 1 above each lane below 0 or above 255
+                    color := or(color, mul(shr(CARRY_85, beyond), BYTE_Q58)) // 255 there
+                    color := and(color, not(mul(shr(SIGN_85, and(f, SIGNS_85)), BYTE_Q58))) // 0 where negative
                 }
-                color := shr(PIXEL_AT, mul(color, Q58_TO_TOP))
+                color := shr(PIXEL_AT, mul(color, Q58_TO_TOP)) // 0xBBGGRR
             }
 
             {
                 // in the row of the kink, no pixel counts as fully covered
                 let inner := mload(INSETS)
-                if iszero(lt(row, mload(KINK_ROW))) { inner := mload(KINK_INSETS) }
+                if iszero(lt(row, mload(KINK_ROW))) { inner := mload(KINK_INSETS) } // row >= kink
                 if eq(row, mload(KINK_ROW)) { inner := NO_INSIDE }
-                inner := add(mload(ROW_BOUNDS), shl(1, inner))
-                mstore(INNER_BEGIN, and(sar(ADDRESS_FRACTION, signextend(15, inner)), WHOLE_SAMPLES))
-                mstore(INNER_END, and(sar(UPPER_ADDRESS_AT, inner), WHOLE_SAMPLES))
+                inner := add(mload(ROW_BOUNDS), shl(1, inner)) // bounds + 2 * insets
+                mstore(INNER_BEGIN, and(sar(ADDRESS_FRACTION, signextend(LANE_128_LAST_BYTE, inner)), WHOLE_SAMPLES))
+                mstore(INNER_END, and(sar(UPPER_ADDRESS_AT, inner), WHOLE_SAMPLES)) // floor of the upper one
             }
-            let p := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))
+            let p := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE))) // of column 0
             mstore(ROW_IMAGE, sub(mload(SAMPLE_IMAGE), mul(3, add(mul(row, mload(TILE_WIDTH)), sar(SAMPLE_SIZE_BITS, p)))))
-            let attribute := add(add(mload(START), mul(sub(row, mload(START_ROW)), mload(DY))), mul(column, mload(DX)))
-            end := add(p, shl(SAMPLE_SIZE_BITS, end))
+            let attribute := add(add(mload(START), mul(sub(row, mload(START_ROW)), mload(DY))), mul(column, mload(DX))) // at the column
+            end := add(p, shl(SAMPLE_SIZE_BITS, end)) // p + 32 * end
             p := add(p, shl(SAMPLE_SIZE_BITS, column))
-            row := sub(row, mload(QUADRATIC_ROW))
+            row := sub(row, mload(QUADRATIC_ROW)) // row: relative to QUADRATIC_ROW
             // the value at the column, Q58, and its change to the next column
-            let g := add(mload(QUADRATIC_DX), mul(row, mload(QUADRATIC_DXY)))
-            let f := add(mload(QUADRATIC_START), mul(row, mload(QUADRATIC_DY)))
-            f := add(f, mul(shr(1, mul(row, sub(row, 1))), mload(QUADRATIC_DYY)))
-            f := add(f, add(mul(column, g), mul(shr(1, mul(column, sub(column, 1))), mload(QUADRATIC_DXX))))
-            g := add(g, mul(column, mload(QUADRATIC_DXX)))
-            // first the pixels before the fully covered ones
+            let g := add(mload(QUADRATIC_DX), mul(row, mload(QUADRATIC_DXY))) // dx + y dxy
+            let f := add(mload(QUADRATIC_START), mul(row, mload(QUADRATIC_DY))) // f + y dy
+            f := add(f, mul(shr(1, mul(row, sub(row, 1))), mload(QUADRATIC_DYY))) // + y (y - 1) / 2 dyy
+            f := add(f, add(mul(column, g), mul(shr(1, mul(column, sub(column, 1))), mload(QUADRATIC_DXX)))) // + x g + x (x - 1) / 2 dxx
+            g := add(g, mul(column, mload(QUADRATIC_DXX))) // + x dxx
+            // first the pixels before the fully covered ones; row is the end of these, and of those that follow
             row := end
-            if lt(mload(INNER_BEGIN), row) { row := mload(INNER_BEGIN) }
+            if lt(mload(INNER_BEGIN), row) { row := mload(INNER_BEGIN) } // min
             for {} 1 {} {
                 for {} slt(p, row) {} {
-                    let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE))
-                    z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
-                    let old := mload(p)
-                    let seen := mul(p, ADDRESS_64)
+                    let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE)) // of the pixel centre
+                    z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS) // the depths of four samples
+                    let old := mload(p) // what is there
+                    let seen := mul(p, ADDRESS_64) // the address in each lane, Q37
                     seen := and(and(add(left, seen), sub(right, seen)), and(sub(add(z, BELOW_TOPS_64), old), TOPS_64))
                     if seen {
                         let color := bytesOf(f, attribute)
-                        z := or(z, mul(color, ONES_64))
+                        // as Samples.paint and write: a call would cost some 40 gas per fragment
+                        z := or(z, mul(color, ONES_64)) // the colour in each sample
                         let pixel := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p)))
                         switch eq(seen, TOPS_64)
                         case 1 {
@@ -104,35 +104,35 @@ abstract contract PatchSamples is SampleRasterizer {
                             mcopy(pixel, 0, 3)
                         }
                         default {
-                            z := or(xor(old, and(xor(old, z), sub(shl(1, seen), shr(63, seen)))), IS_LISTED)
+                            z := or(xor(old, and(xor(old, z), sub(shl(1, seen), shr(TOP_64_AT, seen)))), IS_LISTED) // where seen
                             if iszero(and(old, IS_LISTED)) {
-                                mstore(mload(MIXED_END), or(shl(MIXED_AT, p), shl(MIXED_PIXEL_AT, pixel)))
+                                mstore(mload(MIXED_END), or(shl(MIXED_AT, p), shl(MIXED_PIXEL_AT, pixel))) // append (p, pixel)
                                 mstore(MIXED_END, add(mload(MIXED_END), MIXED_SIZE))
                             }
                         }
                         mstore(p, z)
                     }
-                    p := add(p, 32)
+                    p := add(p, SAMPLE_SIZE)
                     attribute := add(attribute, mload(DX))
-                    f := add(f, g)
+                    f := add(f, g) // the next column
                     g := add(g, mload(QUADRATIC_DXX))
                 }
                 if iszero(lt(p, end)) { break }
                 // then the fully covered ones, while the buffer is empty
                 row := end
-                if lt(mload(INNER_END), row) { row := mload(INNER_END) }
+                if lt(mload(INNER_END), row) { row := mload(INNER_END) } // min
                 if slt(p, row) {
-                    column := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p)))
-                    for {} iszero(and(mload(p), SAMPLE_DEPTHS)) {} {
+                    column := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p))) // column: the address of the pixel
+                    for {} iszero(and(mload(p), SAMPLE_DEPTHS)) {} { // while the buffer is empty
                         let color := bytesOf(f, attribute)
                         mstore(0, shl(PIXEL_AT, color))
                         mcopy(column, 0, 3)
-                        let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE))
+                        let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE)) // of the pixel centre
                         mstore(p, or(and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS), mul(color, ONES_64)))
-                        p := add(p, 32)
+                        p := add(p, SAMPLE_SIZE)
                         column := add(column, 3)
                         attribute := add(attribute, mload(DX))
-                        f := add(f, g)
+                        f := add(f, g) // the next column
                         g := add(g, mload(QUADRATIC_DXX))
                         if eq(p, row) { break }
                     }

@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {Rectangle} from "../../scene/Scene.sol";
 import {Compositor, OVERHANG} from "../Compositor.sol";
 import {Pipeline} from "../Pipeline.sol";
+import {max, min} from "../geometry/Screen.sol";
 import {SampleRasterizer} from "./SampleRasterizer.sol";
 import "../../words/SampleRegisters.sol";
 
@@ -90,17 +91,17 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
                 // not a valid colour
                 let last := ONE_24
                 for {} lt(samples, end) { samples := add(samples, stride) } {
-                    let rounded := and(shr(Q24, color), BYTES_56)
+                    let rounded := and(shr(Q24, color), BYTES_56) // whole levels
                     color := add(color, step)
                     if eq(rounded, last) {
-                        mcopy(samples, sub(samples, stride), stride)
+                        mcopy(samples, sub(samples, stride), stride) // as the row before
                         continue
                     }
                     last := rounded
-                    mstore(samples, mul(shr(PIXEL_AT, mul(rounded, LANES_TO_PIXEL)), ONES_64))
-                    let done := 32
-                    for {} lt(shl(1, done), stride) { done := shl(1, done) } { mcopy(add(samples, done), samples, done) }
-                    mcopy(add(samples, done), samples, sub(stride, done))
+                    mstore(samples, mul(shr(PIXEL_AT, mul(rounded, LANES_TO_PIXEL)), ONES_64)) // 0xBBGGRR in each sample
+                    let done := SAMPLE_SIZE
+                    for {} lt(shl(1, done), stride) { done := shl(1, done) } { mcopy(add(samples, done), samples, done) } // doubles
+                    mcopy(add(samples, done), samples, sub(stride, done)) // the rest
                 }
             }
         }
@@ -143,12 +144,12 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
                 assembly ("memory-safe") {
                     for {} lt(record, end) { record := add(record, size) } {
                         let word := mload(record)
-                        isClipped := or(isClipped, and(word, MUST_CLIP))
-                        if lt(word, least) { least := word }
-                        if gt(word, most) { most := word }
+                        isClipped := or(isClipped, and(word, MUST_CLIP)) // of any vertex
+                        if lt(word, least) { least := word } // the topmost
+                        if gt(word, most) { most := word } // the lowest
                         word := and(word, SCREEN_COLUMNS)
-                        if lt(word, left) { left := word }
-                        if gt(word, right) { right := word }
+                        if lt(word, left) { left := word } // min
+                        if gt(word, right) { right := word } // max
                     }
                     isClipped := iszero(iszero(isClipped))
                 }
@@ -181,14 +182,14 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
         assembly ("memory-safe") {
             let end := mload(MIXED_END)
             for { let entry := mload(MIXED) } lt(entry, end) { entry := add(entry, MIXED_SIZE) } {
-                let p := mload(entry)
+                let p := mload(entry) // p: the entry, then the address of the samples
                 let pixel := and(shr(MIXED_PIXEL_AT, p), MIXED_PIXEL_MASK)
                 p := shr(MIXED_AT, p)
                 let samples := mload(p)
-                mstore(p, and(samples, not(IS_LISTED)))
-                samples := mul(or(and(samples, RED_BLUE_64), shl(GREEN_OF_SUM, and(samples, GREEN_64))), ONES_64)
-                samples := add(shr(UPPER_LANE_64_AT, samples), ROUND_SUM)
-                samples := or(and(shr(2, samples), RED_BLUE), and(shr(MEAN_OF_GREEN_AT, samples), GREEN))
+                mstore(p, and(samples, not(IS_LISTED))) // for the next band or engine
+                samples := mul(or(and(samples, RED_BLUE_64), shl(GREEN_OF_SUM, and(samples, GREEN_64))), ONES_64) // sums in the top lane
+                samples := add(shr(UPPER_LANE_64_AT, samples), ROUND_SUM) // + 2 in each channel
+                samples := or(and(shr(2, samples), RED_BLUE), and(shr(MEAN_OF_GREEN_AT, samples), GREEN)) // / 4
                 mstore(0, shl(PIXEL_AT, samples))
                 mcopy(pixel, 0, 3)
             }
@@ -203,7 +204,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
             if (bottom <= top) return 0;
             uint256 end = p + (bottom - top) * load(SAMPLE_STRIDE);
             assembly ("memory-safe") {
-                for {} lt(p, end) { p := add(p, 32) } { count := add(count, iszero(iszero(and(mload(p), SAMPLE_DEPTHS)))) }
+                for {} lt(p, end) { p := add(p, SAMPLE_SIZE) } { count := add(count, iszero(iszero(and(mload(p), SAMPLE_DEPTHS)))) }
             }
         }
     }

@@ -17,27 +17,33 @@ library Samples {
     /// @param p The address of the pixel's samples.
     function coverage(uint256 left, uint256 right, uint256 p) internal pure returns (uint256 lanes) {
         assembly ("memory-safe") {
-            lanes := mul(p, ADDRESS_64)
-            lanes := and(and(add(left, lanes), sub(right, lanes)), TOPS_64)
+            lanes := mul(p, ADDRESS_64) // the address in each lane, Q37
+            lanes := and(and(add(left, lanes), sub(right, lanes)), TOPS_64) // p >= left side, p < right side
         }
     }
 
-    /// @dev Returns the centroid of the covered samples, relative to the centre of the pixel, in eighths of a pixel.
-    function centroid(uint256 lanes) internal pure returns (uint256 x, uint256 y) {
+    /// @dev Returns the accumulator and the ray at the centroid of the covered samples.
+    function centroid(uint256 attribute, uint256 covered, uint256 column, uint256 row)
+        internal
+        pure
+        returns (uint256 there, uint256 rayX, uint256 rayY)
+    {
         assembly ("memory-safe") {
-            lanes := and(shr(SET_AT, mul(shr(63, lanes), COVERED_TO_SET)), SET_MASK)
-            x := signextend(0, shr(add(8, lanes), CENTROIDS))
-            y := signextend(0, shr(lanes, CENTROIDS))
-        }
-    }
-
-    /// @dev Returns the accumulator at an offset in eighths of a pixel.
-    function moved(uint256 attribute, uint256 x, uint256 y) internal pure returns (uint256 there) {
-        assembly ("memory-safe") {
-            there := add(attribute, add(mul(x, mload(DX_8)), mul(y, mload(DY_8))))
-            if and(mload(MODE), IS_DEEP) {
-                x := add(mul(x, mload(DEEP_DX)), mul(y, mload(DEEP_DY)))
-                there := add(there, shl(ATTRIBUTE_DEPTH_AT, sar(3, x)))
+            there := attribute
+            rayX := add(mload(RAY_LEFT), mul(column, mload(RAY_STEP))) // left + column * step
+            rayY := add(mload(RAY_TOP), mul(row, mload(RAY_STEP)))
+            if xor(covered, TOPS_64) { // not all samples
+                // relative to the centre of the pixel, in eighths of a pixel
+                let set := and(shr(SET_AT, mul(shr(TOP_64_AT, covered), COVERED_TO_SET)), SET_MASK) // 16 * the number of the set
+                let x := signextend(0, shr(add(8, set), CENTROIDS)) // the upper byte of two, signed
+                let y := signextend(0, shr(set, CENTROIDS)) // the lower
+                there := add(there, add(mul(x, mload(DX_8)), mul(y, mload(DY_8)))) // + x DX / 8 + y DY / 8
+                if and(mload(MODE), IS_DEEP) {
+                    let depth := add(mul(x, mload(DEEP_DX)), mul(y, mload(DEEP_DY))) // 8 times the change of the depth
+                    there := add(there, shl(ATTRIBUTE_DEPTH_AT, sar(EIGHTH_BITS, depth)))
+                }
+                rayX := add(rayX, sar(EIGHTH_BITS, mul(x, mload(RAY_STEP)))) // + x step / 8
+                rayY := add(rayY, sar(EIGHTH_BITS, mul(y, mload(RAY_STEP)))) // + y step / 8
             }
         }
     }
@@ -46,7 +52,7 @@ library Samples {
     function depthsOf(uint256 attribute) internal pure returns (uint256 z) {
         assembly ("memory-safe") {
             z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE))
-            z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
+            z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS) // z_i = z * scale + offset_i
         }
     }
 
@@ -64,36 +70,36 @@ library Samples {
 
     /// @dev Writes all samples of a pixel, and the pixel of the picture.
     /// @param p The address of the pixel's samples.
-    /// @param z The depths of the samples.
-    function paint(uint256 p, uint256 row, uint256 column, uint256 z, uint256 color) internal pure {
+    /// @param z The new samples, of one colour.
+    function paint(uint256 p, uint256 z) internal pure {
         assembly ("memory-safe") {
-            mstore(p, or(z, mul(color, ONES_64)))
-            mstore(0, shl(PIXEL_AT, color))
-            mcopy(add(mload(SAMPLE_IMAGE), mul(3, sub(column, mul(row, mload(TILE_WIDTH))))), 0, 3)
+            mstore(p, z)
+            mstore(0, shl(PIXEL_AT, z)) // the colour of the lowest lane
+            mcopy(add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p))), 0, 3)
         }
     }
 
-    /// @dev Writes samples of a pixel.
+    /// @dev Writes samples of a pixel, and lists it.
     /// @param p The address of the pixel's samples.
     /// @param z The new samples; only those whose highest bit is set in `seen` are written.
-    function write(uint256 p, uint256 row, uint256 column, uint256 z, uint256 seen) internal pure {
+    function write(uint256 p, uint256 z, uint256 seen) internal pure {
         assembly ("memory-safe") {
-            let old := mload(p)
-            z := xor(old, and(xor(old, z), sub(shl(1, seen), shr(63, seen))))
-            z := or(z, IS_LISTED)
-            if iszero(and(old, IS_LISTED)) {
-                let pixel := add(mload(SAMPLE_IMAGE), mul(3, sub(column, mul(row, mload(TILE_WIDTH)))))
-                mstore(mload(MIXED_END), or(shl(MIXED_AT, p), shl(MIXED_PIXEL_AT, pixel)))
+            let old := mload(p) // what is there
+            z := or(xor(old, and(xor(old, z), sub(shl(1, seen), shr(TOP_64_AT, seen)))), IS_LISTED) // z where seen, else old
+            if iszero(and(old, IS_LISTED)) { // once
+                let pixel := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p)))
+                mstore(mload(MIXED_END), or(shl(MIXED_AT, p), shl(MIXED_PIXEL_AT, pixel))) // append (p, pixel)
                 mstore(MIXED_END, add(mload(MIXED_END), MIXED_SIZE))
             }
             mstore(p, z)
         }
     }
 
-    /// @dev Returns the address of a pixel's samples.
-    function place(uint256 row, uint256 column) internal pure returns (uint256 p) {
+    /// @dev Returns the address of the samples of column 0, and sets ROW_IMAGE.
+    function openRow(uint256 row) internal pure returns (uint256 p) {
         assembly ("memory-safe") {
-            p := add(sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE))), shl(SAMPLE_SIZE_BITS, column))
+            p := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))
+            mstore(ROW_IMAGE, sub(mload(SAMPLE_IMAGE), mul(3, add(mul(row, mload(TILE_WIDTH)), sar(SAMPLE_SIZE_BITS, p)))))
         }
     }
 }
