@@ -119,6 +119,8 @@ def test_kinds_of_records() -> None:
         assert found[name] == getattr(_records, name) == int(value)
 
 
-def test_no_number_of_40_hexadecimal_digits_which_would_be_an_address() -> None:
+def test_no_number_of_39_to_41_hexadecimal_digits_which_would_be_an_address() -> None:
     assert layout.solidity_literal((1 << 160) - 1) == "0x00" + "f" * 40
-    assert layout.solidity_literal(1 << 160) == "0x1" + "0" * 40
+    assert layout.solidity_literal(1 << 160) == "0x01" + "0" * 40
+    assert layout.solidity_literal(1 << 152) == "0x0001" + "0" * 38
+    assert layout.solidity_literal(1 << 164) == "0x1" + "0" * 41
