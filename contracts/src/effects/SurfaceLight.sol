@@ -27,7 +27,7 @@ import "../words/EffectRegisters.sol";
 //
 // EffectUniforms sets three registers without which the term may not be computed:
 //
-//   IS_CHANGED    if the scene has a term that follows the light, such as rim, tone and fog
+//   IS_CHANGED    if the scene or the object has a term that follows the light, such as rim, tone, fog and emission
 //   HAS_DETAILS   if the object has a term that changes the albedo, such as a texture
 //   VARIES        if the object has a term that is not the same all over a flat face; otherwise such a face may get the colour of one of
 //                 its fragments
