@@ -94,8 +94,8 @@ def test_packed_words_are_drawn() -> None:
     for part in TABLE["words"]:
         (head,) = re.findall(rf"^// -+ {part['title']}\n((?:// .*\n)+)", text, re.MULTILINE)
         line = head.splitlines()[-1]
-        drawn = re.findall(r"\| (\d+)(?:\.\.(\d+))? ([^|]+?) (?=\|)", line)
-        assert line == "// " + "".join(f"| {low}{'..' * bool(high)}{high} {name} " for low, high, name in drawn) + "|"
+        drawn = re.findall(r"\| (\d+)(?:\.\.(\d+))? ([^|]+?)(?= \||$)", line)
+        assert line == "// " + " ".join(f"| {low}{'..' * bool(high)}{high} {name}" for low, high, name in drawn)
         places = [(int(low), int(high or low)) for low, high, _ in drawn]
         assert all(low <= high < above for (low, high), (above, _) in pairwise(reversed(places)))
         fields = {(at, at + width - 1): name for name, at, width, _ in part["rows"]}

@@ -77,7 +77,7 @@ def drawing(part: dict[str, Any], fields: Iterable[tuple[str, int, int]] = ()) -
     each = sorted([*fields, *part.get("drawn", [])], key=lambda row: row[1], reverse=True)
     cells = [f"{at} {name}" if width == 1 else f"{at}..{at + width - 1} {name}" for name, at, width in each]
     caption = f"{part['caption']}: " if "caption" in part else ""
-    return f"{caption}| {' | '.join(cells)} |" if cells else ""
+    return f"{caption}| {' | '.join(cells)}" if cells else ""
 
 
 def lanes_of(part: dict[str, Any]) -> Iterator[tuple[str, int, int]]:

@@ -153,7 +153,7 @@ uint256 constant NORMAL_BIAS = 0x10000000000000000000008000000000000000000004000
 // ---------------------------------------------------------------------------------------------------------------------------- screen word
 // The position of a vertex on the screen. Comparing screen words as numbers compares rows. The bits below the column must stay below bit
 // 41: see the area in PrimitiveAssembly, to whose error they contribute 2^149 times; half of the minimum area is 2^191.
-// | 128..147 row | 64..83 column | 36 IS_BELOW | 35 IS_ABOVE | 34 IS_RIGHT | 33 IS_LEFT | 32 MUST_CLIP | 0..31 record |
+// | 128..147 row | 64..83 column | 36 IS_BELOW | 35 IS_ABOVE | 34 IS_RIGHT | 33 IS_LEFT | 32 MUST_CLIP | 0..31 record
 
 /// @dev Address of the vertex record.
 uint256 constant SCREEN_RECORD_MASK = 0xffffffff;
@@ -188,7 +188,7 @@ uint256 constant NEEDS_CARE = 0x1f00000000;
 
 // ------------------------------------------------------------------------------------------------------------------------- attribute word
 // Depth and colours of a vertex: colours as described below, Q10. For a vertex that must be clipped, the outcode instead.
-// | 168..223 depth | 112..167 red | 56..111 green | 0..55 blue |
+// | 168..223 depth | 112..167 red | 56..111 green | 0..55 blue
 
 /// @dev Depth: see DEPTH_SCALE.
 uint256 constant ATTRIBUTE_DEPTH_AT = 168;
@@ -197,7 +197,7 @@ uint256 constant ATTRIBUTE_DEPTH_MASK = 0xffffffffffffff;
 // ---------------------------------------------------------------------------------------------------------------------------- accumulator
 // An attribute word with 32 more bits, incremented from pixel to pixel. It may contain barycentric coordinates in place of colours: s in
 // the middle lane, t in the lowest.
-// | 192..255 depth | 112..167 red | 56..111 green or s | 0..55 blue or t |
+// | 192..255 depth | 112..167 red | 56..111 green or s | 0..55 blue or t
 
 /// @dev Depth with 8 more bits than in a vertex, as in the buffer.
 uint256 constant ACCUMULATOR_DEPTH_AT = 192;
@@ -239,7 +239,6 @@ uint256 constant WEIGHTS_LAST_BYTE = 20;
 // --------------------------------------------------------------------------------------------------------------------- triangle of a list
 // The first vertex is the topmost, and the vertices are counter-clockwise on the screen.
 // | 157 TURNED_AWAY_BIT | 147 CROSSING_BIT | 144..146 edges | 128..143 face | 112..127 bottom | 96..111 top | 64..95 a | 32..63 b | 0..31 c
-// |
 
 /// @dev Addresses of the third, second and first vertex record.
 uint256 constant TRIANGLE_C_MASK = 0xffffffff;
@@ -272,7 +271,7 @@ uint256 constant EDGE_CA = 0x4000000000000000000000000000000000000;
 
 // ----------------------------------------------------------------------------------------------------------------------- clip coordinates
 // Column * distance, row * distance and distance, all Q32. The first two are signed, and CLIP_BIAS adds half their range to them.
-// | 192..255 w | 96..191 y | 0..95 x |
+// | 192..255 w | 96..191 y | 0..95 x
 
 uint256 constant CLIP_X_MASK = 0xffffffffffffffffffffffff;
 uint256 constant CLIP_Y_AT = 96;
@@ -288,7 +287,7 @@ uint256 constant CLIP_HALF = 0x800000000000000000000000;
 // ---------------------------------------------------------------------------------------------------------------------------------- edges
 // Two columns, Q48, in lanes of 128 bits: the integer part is the first pixel whose centre is not left of the edge. A Q48 column is a Q45
 // offset of depths in bytes: with the address of a row added, edges are addresses of depths.
-// | 176..191 right column | 128..175 fraction | 48..63 left column | 0..47 fraction |
+// | 176..191 right column | 128..175 fraction | 48..63 left column | 0..47 fraction
 
 /// @dev Whole pixels of the left edge, and of the right one.
 uint256 constant EDGES_LEFT_COLUMN_AT = 48;
@@ -323,7 +322,7 @@ uint256 constant GRADIENT_TO_ACCUMULATOR = 5;
 
 // -------------------------------------------------------------------------------------------------------------------- face in light space
 // The first word of a face's record: see Faces.
-// | 255 BESIDE | 128..191 box | 96 HAS_PLANES | 64..95 c | 32..63 b | 0..31 a |
+// | 255 BESIDE | 128..191 box | 96 HAS_PLANES | 64..95 c | 32..63 b | 0..31 a
 
 /// @dev The addresses of its vertices.
 uint256 constant FACE_A_MASK = 0xffffffff;
@@ -340,7 +339,7 @@ uint256 constant FACE_BOX_MASK = 0xffffffffffffffff;
 // ------------------------------------------------------------------------------------------------------------------ ranges of coordinates
 // Where a face lies among BUCKETS ranges of each coordinate in light space: the minimum in the lower byte of a lane, the maximum in the
 // upper one. Of a vertex only lower bytes. See LightSpace.
-// | 255 BESIDE | 63 HAS_BOX | 48..50 side | 32..47 z | 16..31 y | 0..15 x |
+// | 255 BESIDE | 63 HAS_BOX | 48..50 side | 32..47 z | 16..31 y | 0..15 x
 
 uint256 constant BOX_X_MASK = 0xffff;
 uint256 constant BOX_Y_AT = 16;
@@ -358,7 +357,7 @@ uint256 constant BESIDE = 0x8000000000000000000000000000000000000000000000000000
 
 // ----------------------------------------------------------------------------------------------------------------- position on the canvas
 // Integers with POINT_BITS bits below the pixel, plus POINT_BIAS: see Clipping.
-// | 64..127 row | 0..63 column |
+// | 64..127 row | 0..63 column
 
 uint256 constant POINT_COLUMN_MASK = 0xffffffffffffffff;
 uint256 constant POINT_ROW_AT = 64;
@@ -367,7 +366,7 @@ uint256 constant POINT_ROW_MASK = 0xffffffffffffffff;
 // ----------------------------------------------------------------------------------------------------------------------- edge of a shadow
 // A position on the canvas, in eighths of a pixel, is to the right of the edge if its function is at least 0: VALUE + x * DX + y * DY,
 // signed numbers. See Outlines.
-// | 208..255 dx | 160..207 dy | 96..159 value | 80..95 top | 64..79 bottom | 8 LAST_EDGE | 0 ENDS_SHADOW |
+// | 208..255 dx | 160..207 dy | 96..159 value | 80..95 top | 64..79 bottom | 8 LAST_EDGE | 0 ENDS_SHADOW
 
 /// @dev To the right of it, a shadow ends; otherwise one begins.
 uint256 constant ENDS_SHADOW = 1;
@@ -404,14 +403,14 @@ uint256 constant SPECULAR_TO_LIT = 2;
 
 // -------------------------------------------------------------------------------------------------------------------- borders of the tile
 // Four lanes of 28 bits for the left, right, upper and lower border: positive if a vertex lies beyond it. See TileCulling.
-// | 84..111 lower border | 56..83 upper | 28..55 right | 0..27 left |
+// | 84..111 lower border | 56..83 upper | 28..55 right | 0..27 left
 
 /// @dev Set if the value is positive.
 uint256 constant BORDER_SIGNS = 0x8000000800000080000008000000;
 
 // -------------------------------------------------------------------------------------------------------------- borders of the guard band
 // After these, five lanes for the left, right, upper and lower border of the guard band, and the near plane.
-// | 224..255 near plane | 196..223 lower border | 168..195 upper | 140..167 right | 112..139 left |
+// | 224..255 near plane | 196..223 lower border | 168..195 upper | 140..167 right | 112..139 left
 
 /// @dev Set if the value is positive.
 uint256 constant GUARD_SIGNS = 0x800000080000008000000800000080000000000000000000000000000000000;
@@ -427,7 +426,7 @@ uint256 constant BORDER_BIAS = 0x801000080100008010000801000080100007ff00007ff00
 // -------------------------------------------------------------------------------------------------------------------------------- colours
 // Three lanes of 56 bits: blue at bit 0, green at 56, red at 112. One ADD or MUL works on all of them. A negative number in a lane borrows
 // from the lane above; the lanes are correct if the final sum is positive in every lane, which a bias ensures.
-// | 112..167 red | 56..111 green | 0..55 blue |
+// | 112..167 red | 56..111 green | 0..55 blue
 
 /// @dev 1 in each lane.
 uint256 constant ONES = 0x10000000000000100000000000001;
@@ -485,7 +484,7 @@ uint256 constant NEXT_LANES = 0x1000000000000010000000000000100000000000000;
 
 // --------------------------------------------------------------------------------------------------------------------------------- depths
 // Four depths in a word, the leftmost uppermost.
-// | 192..255 first | 128..191 second | 64..127 third | 0..63 fourth |
+// | 192..255 first | 128..191 second | 64..127 third | 0..63 fourth
 
 /// @dev The highest bit of each lane; and the bits below it.
 uint256 constant TOPS_64 = 0x8000000000000000800000000000000080000000000000008000000000000000;
@@ -516,7 +515,7 @@ uint256 constant PIXELS_AT_120 = 0x100000100000100000100000000000000000000000000
 // Four samples of a pixel in a word. Each lane contains the colour of the nearest surface, blue uppermost; three status bits; and above
 // them the highest 36 bits of its depth, 0 if there is none. The highest bit stays free. The sample positions are those of Direct3D and of
 // most OpenGL drivers.
-// Each lane: | 27..62 depth | 26 IS_LISTED | 25 DRAWN_SAMPLES | 24 FOUND_SAMPLES | 16..23 blue | 8..15 green | 0..7 red |
+// Each lane: | 27..62 depth | 26 IS_LISTED | 25 DRAWN_SAMPLES | 24 FOUND_SAMPLES | 16..23 blue | 8..15 green | 0..7 red
 
 uint256 constant ONES_64 = 0x1000000000000000100000000000000010000000000000001;
 /// @dev The depths.
@@ -617,7 +616,7 @@ uint256 constant ROUND_SUM = 0x200020002;
 // ------------------------------------------------------------------------------------------------------------------------- signed colours
 // Three signed lanes of 85 bits, for quadratic functions. An incremented colour is Q58, and a colour times its depth Q72 (Q24 without the
 // last 48 bits).
-// | 170..255 red | 85..169 green | 0..84 blue |
+// | 170..255 red | 85..169 green | 0..84 blue
 
 /// @dev Half the range of a lane, which keeps it positive; the same without the last 48 bits; all bits of that.
 uint256 constant BIAS_84 = 0x4000000000000000000002000000000000000000001000000000000000000000;
@@ -680,7 +679,7 @@ uint256 constant THIRD_BYTE = 0xff0000000000000000000000000000000000000000000000
 // --------------------------------------------------------------------------------------------------------- vectors in the space of a mesh
 // Three signed lanes of 86 bits. The middle coefficient of the product of two vectors, one of them with reversed lanes, is their dot
 // product, which occupies all bits from UPPER_86_AT on: the higher coefficients are beyond the word.
-// | 172..255 x | 86..171 y | 0..85 z |
+// | 172..255 x | 86..171 y | 0..85 z
 
 /// @dev Half the range of each lane; the bits of a lane of Q80 that remain as Q32; half of their range.
 uint256 constant HALF_86 = 0x8000000000000000000008000000000000000000002000000000000000000000;
