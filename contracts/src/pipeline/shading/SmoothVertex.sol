@@ -37,7 +37,7 @@ library SmoothVertex {
         }
     }
 
-    /// @notice Sets the record at MIDDLE to the middle of two vertices, with the normal of the first.
+    /// @notice Sets the record at MIDDLE to the middle of two vertices, without a normal.
     /// @param u, v The addresses of the vertex records.
     function setMiddle(uint256 u, uint256 v) internal pure {
         assembly ("memory-safe") {
@@ -47,13 +47,30 @@ library SmoothVertex {
             v := shr(ATTRIBUTE_DEPTH_AT, mload(add(v, VERTEX_ATTRIBUTES)))
             v := shl(ATTRIBUTE_DEPTH_AT, shr(1, add(shr(ATTRIBUTE_DEPTH_AT, mload(u)), v))) // (depth of u + depth of v) / 2
             mstore(add(MIDDLE, VERTEX_ATTRIBUTES), v)
-            mstore(add(MIDDLE, VERTEX_NORMAL), mload(add(u, sub(VERTEX_NORMAL, VERTEX_ATTRIBUTES))))
         }
-        fill(MIDDLE);
+        unchecked {
+            // not literals: see ZERO_SLOT
+            u = load(ZERO_SLOT);
+            setDirections(u + MIDDLE, u + 1);
+        }
     }
 
-    /// @dev Fills the words of a record after its normal: L, H, and the reversed normal.
+    /// @dev Fills the words of a record after its normal: the reversed normal, L, and H.
     function fill(uint256 vertex) private pure {
+        uint256 bounded;
+        assembly ("memory-safe") {
+            let n := mload(add(vertex, VERTEX_NORMAL)) // N, Q20, and r the reversed one, doubled
+            let r := add(n, VECTOR_BIAS) // positive lanes
+            r := shl(1, sub(or(or(shl(UPPER_85_AT, and(r, LANE_85)), shr(UPPER_85_AT, r)), and(r, MIDDLE_LANE_85)), VECTOR_BIAS))
+            mstore(add(vertex, VERTEX_REVERSED), r)
+            // the square of the normal, Q40, must be 15/16 to 17/16
+            bounded := lt(sub(sar(SQUARE_AT, mul(n, r)), LEAST_SQUARE), SQUARES)
+        }
+        setDirections(vertex, bounded);
+    }
+
+    /// @dev Sets L and H of a record, and its state: LIT if they are bounded, and its normal is.
+    function setDirections(uint256 vertex, uint256 bounded) private pure {
         unchecked {
             // the ray (x, y, 1), Q24
             uint256 x;
@@ -64,7 +81,6 @@ library SmoothVertex {
                 x := add(mload(RAY_LEFT), sar(SUBPIXEL_BITS, mul(x, mload(RAY_STEP)))) // RAY_LEFT + column * RAY_STEP
                 y := add(mload(RAY_TOP), sar(SUBPIXEL_BITS, mul(shr(SCREEN_ROW_AT, y), mload(RAY_STEP))))
             }
-            uint256 bounded = 1;
             uint256 length = ONE_24;
             uint256 lx = load(LIGHTS + LIGHT_X);
             uint256 ly = load(LIGHTS + LIGHT_Y);
@@ -84,7 +100,7 @@ library SmoothVertex {
                     square := add(square, mul(z, z)) // of the distance from the eye, Q32
                     length := add(add(mul(lx, lx), mul(ly, ly)), mul(lz, lz)) // |L|^2, Q32
                     // the light must not be nearer than the eye by more than a factor of the root of 5/4
-                    bounded := iszero(gt(shl(2, square), mul(5, length))) // 4 * square <= 5 * |L|^2
+                    bounded := and(bounded, iszero(gt(shl(2, square), mul(5, length)))) // 4 * square <= 5 * |L|^2
                 }
                 // hints are not literals here: see ZERO_SLOT
                 length = sqrtNear(length, load(ZERO_SLOT) + LIGHTS + LIGHT_HINT);
@@ -118,12 +134,6 @@ library SmoothVertex {
                 lz := sdiv(shl(Q20, lz), length)
                 mstore(add(vertex, VERTEX_HALF), shl(Q20_TO_Q29, add(add(lx, shl(MIDDLE_85_AT, ly)), shl(UPPER_85_AT, lz)))) // H, Q29
                 mstore(add(vertex, VERTEX_HALF_REVERSED), shl(1, add(add(lz, shl(MIDDLE_85_AT, ly)), shl(UPPER_85_AT, lx)))) // 2 H
-                x := mload(add(vertex, VERTEX_NORMAL)) // N from here on, Q20, and y the reversed one, doubled
-                y := add(x, VECTOR_BIAS) // positive lanes
-                y := shl(1, sub(or(or(shl(UPPER_85_AT, and(y, LANE_85)), shr(UPPER_85_AT, y)), and(y, MIDDLE_LANE_85)), VECTOR_BIAS))
-                mstore(add(vertex, VERTEX_REVERSED), y)
-                // the square of the normal, Q40, must be 15/16 to 17/16
-                bounded := and(bounded, lt(sub(sar(SQUARE_AT, mul(x, y)), LEAST_SQUARE), SQUARES))
                 mstore(add(vertex, VERTEX_STATE), or(state, sub(UNBOUNDED, bounded))) // bounded ? LIT : UNBOUNDED
             }
         }
