@@ -112,16 +112,49 @@ library SmoothTriangle {
                     }
                 }
             }
-            // the products at the vertices from here on
-            p = atVertex(a, p, NORMAL_0);
-            q = atVertex(b, q, NORMAL_1);
-            r = atVertex(c, r, NORMAL_2);
+            uint256 ab;
+            uint256 ac;
+            uint256 bc;
             assembly ("memory-safe") {
+                // The products of three pairs of vectors in lanes: n * o, n * l, m * h, where o, l, h have reversed lanes; n and m are
+                // Q30, the sums Q20. A dot product is in the uppermost lane of the product of two words, except for bit 255, which would be
+                // the lowest bit of the next lane: it is 0, since one of the vectors is doubled.
+                function products(n, o, l, m, h) -> packed {
+                    packed := and(sar(PRODUCT_TO_UPPER, mul(n, o)), UPPER_LANE_85) // n * o
+                    packed := add(packed, and(sar(PRODUCT_TO_MIDDLE, mul(n, l)), UPPER_LANES_85)) // n * l; its sign fills the upper lane
+                    packed := add(packed, sar(PRODUCT_TO_LOWER, mul(m, h))) // m * h
+                }
+
+                // the products at a vertex, whose normals are multiplied by a weight (Q10) and kept at `place`
+                function atVertex(vertex, weight, place) -> packed {
+                    let n := mul(weight, mload(add(vertex, VERTEX_NORMAL))) // weight * N
+                    let o := mul(weight, mload(add(vertex, VERTEX_REVERSED))) // the same, reversed
+                    mstore(place, n)
+                    mstore(add(place, REVERSED), o)
+                    packed := products(n, o, mload(add(vertex, VERTEX_LIGHT)), n, mload(add(vertex, VERTEX_HALF_REVERSED)))
+                }
+
+                // the products of the changes from one vertex to another, whose normals are at `placeU` and `placeV`; updates HALF_CHANGE
+                function along(u, v, placeU, placeV) -> packed {
+                    let h := sub(mload(add(v, VERTEX_HALF)), mload(add(u, VERTEX_HALF))) // H_v - H_u
+                    let reversed := sub(mload(add(v, VERTEX_HALF_REVERSED)), mload(add(u, VERTEX_HALF_REVERSED)))
+                    let square := sar(HALF_SQUARE_AT, mul(h, reversed)) // (H_v - H_u)^2, Q40
+                    if sgt(square, mload(HALF_CHANGE)) { mstore(HALF_CHANGE, square) } // max(HALF_CHANGE, square)
+                    square := sub(mload(placeV), mload(placeU)) // N_v - N_u from here on; u the change of L
+                    u := sub(mload(add(v, VERTEX_LIGHT)), mload(add(u, VERTEX_LIGHT)))
+                    v := sub(mload(add(placeV, REVERSED)), mload(add(placeU, REVERSED)))
+                    packed := products(square, v, u, sub(square, h), reversed)
+                }
+
+                // places are literals, since copies for them are wanted: every triangle needs them
+                p := atVertex(a, p, NORMAL_0) // the products at the vertices from here on
+                q := atVertex(b, q, NORMAL_1)
+                r := atVertex(c, r, NORMAL_2)
                 mstore(HALF_CHANGE, 0)
+                ab := along(a, b, NORMAL_0, NORMAL_1)
+                ac := along(a, c, NORMAL_0, NORMAL_2)
+                bc := along(b, c, NORMAL_1, NORMAL_2)
             }
-            uint256 ab = along(a, b, NORMAL_0, NORMAL_1);
-            uint256 ac = along(a, c, NORMAL_0, NORMAL_2);
-            uint256 bc = along(b, c, NORMAL_1, NORMAL_2);
             uint256 least;
             uint256 change = load(HALF_CHANGE);
             assembly ("memory-safe") {
@@ -169,46 +202,6 @@ library SmoothTriangle {
                 mstore(QUADRATIC_ST, sub(add(ab, ac), bc)) // ab + ac - bc
                 mstore(QUADRATIC_TT, ac)
             }
-        }
-    }
-
-    /// @dev Returns the products of three pairs of vectors in lanes: n * r, n * l, m * h, where r, l, h have reversed lanes; n and m are
-    /// Q30, the sums Q20. A dot product is in the uppermost lane of the product of two words, except for bit 255, which would be the lowest
-    /// bit of the next lane: it is 0, since one of the vectors is doubled.
-    function products(uint256 n, uint256 r, uint256 l, uint256 m, uint256 h) private pure returns (uint256 packed) {
-        assembly ("memory-safe") {
-            packed := and(sar(PRODUCT_TO_UPPER, mul(n, r)), UPPER_LANE_85) // n * r
-            packed := add(packed, and(sar(PRODUCT_TO_MIDDLE, mul(n, l)), UPPER_LANES_85)) // n * l; its sign fills the upper lane
-            packed := add(packed, sar(PRODUCT_TO_LOWER, mul(m, h))) // m * h
-        }
-    }
-
-    /// @dev Returns the products at a vertex, whose normals are multiplied by a weight (Q10) and kept at `place`.
-    function atVertex(uint256 vertex, uint256 weight, uint256 place) private pure returns (uint256) {
-        unchecked {
-            uint256 n = weight * load(vertex + VERTEX_NORMAL);
-            uint256 r = weight * load(vertex + VERTEX_REVERSED);
-            assembly ("memory-safe") {
-                mstore(place, n)
-                mstore(add(place, REVERSED), r)
-            }
-            return products(n, r, load(vertex + VERTEX_LIGHT), n, load(vertex + VERTEX_HALF_REVERSED));
-        }
-    }
-
-    /// @dev Returns the products of the changes from one vertex to another, and updates HALF_CHANGE.
-    /// @param placeU, placeV The addresses of their normals.
-    function along(uint256 u, uint256 v, uint256 placeU, uint256 placeV) private pure returns (uint256) {
-        unchecked {
-            uint256 n = load(placeV) - load(placeU);
-            uint256 h = load(v + VERTEX_HALF) - load(u + VERTEX_HALF);
-            uint256 reversed = load(v + VERTEX_HALF_REVERSED) - load(u + VERTEX_HALF_REVERSED);
-            uint256 light = load(v + VERTEX_LIGHT) - load(u + VERTEX_LIGHT);
-            assembly ("memory-safe") {
-                let square := sar(HALF_SQUARE_AT, mul(h, reversed)) // (H_v - H_u)^2, Q40
-                if sgt(square, mload(HALF_CHANGE)) { mstore(HALF_CHANGE, square) }
-            }
-            return products(n, load(placeV + REVERSED) - load(placeU + REVERSED), light, n - h, reversed);
         }
     }
 

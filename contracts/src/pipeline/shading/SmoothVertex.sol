@@ -103,7 +103,7 @@ library SmoothVertex {
                     bounded := and(bounded, iszero(gt(shl(2, square), mul(5, length)))) // 4 * square <= 5 * |L|^2
                 }
                 // hints are not literals here: see ZERO_SLOT
-                length = sqrtNear(length, load(ZERO_SLOT) + LIGHTS + LIGHT_HINT);
+                length = sqrtNear(length, load(ZERO_SLOT) + (LIGHTS + LIGHT_HINT));
             }
             assembly ("memory-safe") {
                 lx := sdiv(shl(Q20, lx), length) // L / |L|, Q20
