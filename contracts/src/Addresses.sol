@@ -6,21 +6,21 @@ pragma solidity ^0.8.25;
 /// @title Addresses: the contract addresses of `shackled deploy`, the same on every chain.
 /// @notice Derived from the bytecode: another version of a contract has another address.
 library Addresses {
-    address internal constant ENGINE = 0x67cC395a7C4D1d8154A2cCdC2Ea418ab889c6974;
-    address internal constant FRAGMENT_ENGINE = 0x39a991b1f9aEba26DC3951Ea4A488A11c439FC8f;
-    address internal constant ANTIALIASED_ENGINE = 0xA436EbdF828eeF01E9247B4135A100591410746B;
-    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x1dc593b58fd7a0C1E909B71682bD8190c8A2bE66;
-    address internal constant EFFECTS_ENGINE = 0x1112D07c06290747279b6866C4556bbD4735EB8c;
-    address internal constant EFFECTS = 0x03bED4605644c03eb9DEf76085c64ED54e22CF97;
-    address internal constant RENDERER = 0x09C22ac6189e478b9AE355AC1Ca8ee593AD23751;
-    address internal constant ORIGINAL = 0x5a5B8528EBf3e117975075112d9f0CFcd80933c0;
-    address internal constant GENESIS = 0xc409aD206Fd58e9Ce1864E2067BE3693D1FB0E02;
-    address internal constant PNG_ENCODER = 0xD35d1Fe27b16DC0b1c5526981643a50eAc5c7e0e;
-    address internal constant TURNTABLE = 0x800E0e32822e0a0cD8eb3a8fC396CcCeF02BA317;
-    address internal constant GLB_ENCODER = 0xDc1780BBD46D9065a22bf449BEA3cF54a2314383;
-    address internal constant STUDIO = 0xC7921841490654200d578B00e6f2ffdCB9A67a57;
-    address internal constant LIBRARY = 0x036bAC247f4b1986572F255448d06F9295F827D8;
-    address internal constant WEB = 0xE222641C28372242D86C73e251ac330aCc7272BB;
-    address internal constant EDITIONS = 0x1F24fa3147C1Dca9C28f202Dc9a38917e3CF7803;
-    address internal constant GENESIS_METADATA = 0x8534580c24A3B611D2226A6F14A306784107a2e7;
+    address internal constant ENGINE = 0x165Ca039FaaDca318fED1a0673A9a2cb6f9CA849;
+    address internal constant FRAGMENT_ENGINE = 0x497134a2cdec9c5AD9808e2F112c3Affa2Fc517F;
+    address internal constant ANTIALIASED_ENGINE = 0xdA1e016986D31Db16c694a29518bE97a0E6574d4;
+    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x644Cd7b08C77afBf1e05462Bd1e42754e248eE18;
+    address internal constant EFFECTS_ENGINE = 0xf0A83D4fDe6e34347b57E36A84BB566D07557f1D;
+    address internal constant EFFECTS = 0x5fc076f4157B62C63921508247B018Fe8BE79d05;
+    address internal constant RENDERER = 0x58819e3C4b356bFc049E5F1f5c7339948fC2DA3A;
+    address internal constant ORIGINAL = 0xbFED3D2248962F9bC6dAf7e29f716b550C11B349;
+    address internal constant GENESIS = 0x67046FA8c7350617E1AC58549D8AF197F2137CBa;
+    address internal constant PNG_ENCODER = 0x72A25989288b6193eDe481BA7ad20EddECBa08BD;
+    address internal constant TURNTABLE = 0x5CEd17BAaF8DA09831a2655436d5829db74306C1;
+    address internal constant GLB_ENCODER = 0xBcf77312a660eE0Aa6F8d88f37aB56356EF2452f;
+    address internal constant STUDIO = 0xE81e309A3c5CD899Ac3cBa5576FA3e595eF2c9ec;
+    address internal constant LIBRARY = 0x95608621BFd2B9B94fD50d9f88451Ea2d64d5A5e;
+    address internal constant WEB = 0xaB9f754aC2d2901F988ffeA45306E461268F39b6;
+    address internal constant EDITIONS = 0xd063ffB92856aD9F992501Ee81E942DF62f0A538;
+    address internal constant GENESIS_METADATA = 0xdfF7a822D15cb46A34Fb2F1312A8e6799948178f;
 }

@@ -124,89 +124,94 @@ library PatchSpans {
     /// @param attribute, f The accumulator and the quadratic function at the last fragment.
     /// @param g The slope of the function there.
     function wide(uint256 p, uint256 n, uint256 r, uint256 attribute, uint256 f, uint256 g) private pure {
-        unchecked {
-            while (true) {
-                uint256 keep; // colours to keep
-                assembly ("memory-safe") {
-                    // The depth test of four pixels; the last n of them except for the last r take part. Writes depths, and returns ones
-                    // for the colours to keep.
-                    function depths(p_, n_, r_, attribute_) -> hidden_ {
-                        // as exact as the depths of single fragments, so that the first of coinciding surfaces remains
-                        let dx := mload(DX)
-                        let z := shr(ACCUMULATOR_DEPTH_AT, attribute_) // the last pixel, in the lowest lane
-                        attribute_ := sub(attribute_, dx)
-                        z := or(z, and(shr(128, attribute_), THIRD_DEPTH))
-                        attribute_ := sub(attribute_, dx)
-                        z := or(z, and(shr(64, attribute_), SECOND_DEPTH))
-                        z := or(z, and(sub(attribute_, dx), FIRST_DEPTH))
-                        let old := mload(p_)
-                        let keep_ := or(shl(shl(6, n_), not(0)), sub(shl(shl(6, r_), 1), 1)) // lanes from n on, and below r
-                        // depths have a free bit above them
-                        let fail := sub(TOPS_64, z)
-                        fail := and(add(old, fail), TOPS_64) // old + 2^63 - z >= 2^63: where old >= z
-                        fail := and(fail, not(keep_))
-                        if fail {
-                            keep_ := or(keep_, or(fail, sub(fail, shr(63, fail)))) // whole lanes
-                            // spread bits 0, 64, 128 and 192 to lanes of 24 bits
-                            hidden_ := mul(shr(63, fail), TOPS_64_TO_24)
-                            hidden_ := shr(120, mul(and(hidden_, PIXELS_AT_120), LANE_24))
-                        }
-                        mstore(p_, xor(z, and(xor(z, old), keep_))) // keep ? old : z
-                    }
-
-                    // pixels from n or 8 on, and below r
-                    keep := or(or(shl(mul(24, n), not(0)), shl(192, not(0))), sub(shl(mul(24, r), 1), 1))
-                    if lt(r, 4) { keep := or(keep, depths(p, n, r, attribute)) }
-                    if gt(n, 4) {
-                        let rest := mul(gt(r, 4), sub(r, 4)) // max(r - 4, 0)
-                        keep := or(keep, shl(96, depths(sub(p, 32), sub(n, 4), rest, sub(attribute, shl(2, mload(DX))))))
-                    }
+        assembly ("memory-safe") {
+            // The depth test of four pixels; the last n of them except for the last r take part. Writes depths, and returns ones
+            // for the colours to keep.
+            function depths(p_, n_, r_, attribute_) -> hidden_ {
+                // as exact as the depths of single fragments, so that the first of coinciding surfaces remains
+                let dx := mload(DX)
+                let z := shr(ACCUMULATOR_DEPTH_AT, attribute_) // the last pixel, in the lowest lane
+                attribute_ := sub(attribute_, dx)
+                z := or(z, and(shr(128, attribute_), THIRD_DEPTH))
+                attribute_ := sub(attribute_, dx)
+                z := or(z, and(shr(64, attribute_), SECOND_DEPTH))
+                z := or(z, and(sub(attribute_, dx), FIRST_DEPTH))
+                let old := mload(p_)
+                let keep_ := or(shl(shl(6, n_), not(0)), sub(shl(shl(6, r_), 1), 1)) // lanes from n on, and below r
+                // depths have a free bit above them
+                let fail := sub(TOPS_64, z)
+                fail := and(add(old, fail), TOPS_64) // old + 2^63 - z >= 2^63: where old >= z
+                fail := and(fail, not(keep_))
+                if fail {
+                    keep_ := or(keep_, or(fail, sub(fail, shr(63, fail)))) // whole lanes
+                    // spread bits 0, 64, 128 and 192 to lanes of 24 bits
+                    hidden_ := mul(shr(63, fail), TOPS_64_TO_24)
+                    hidden_ := shr(120, mul(and(hidden_, PIXELS_AT_120), LANE_24))
                 }
-                (uint256 color, uint256 slope) = (f, g);
-                if (load(PATCH_WEIGHT) != 0) (color, slope) = unweighted(f, g, attribute);
-                assembly ("memory-safe") {
-                    // a channel of eight fragments, Q9 in 24 bits each, the last one lowest, clamped to 0..255
-                    function channel(value, slope_, bend) -> word {
-                        word := add(mul(and(value, LANE_24), ONES_24), bend) // value + x^2 * bend, for x = 0..7 to the left
-                        word := sub(word, mul(signextend(2, slope_), STEPS_24)) // - x * slope
-                        if and(word, BEYOND_BYTES_24) {
-                            let high := and(word, TOPS_24) // lanes below 0
-                            word := and(word, not(or(high, sub(high, shr(23, high))))) // become 0
-                            high := and(add(word, CARRY_24), TOPS_24) // lanes above 255
-                            word := or(word, sub(shr(6, high), shr(14, high))) // get all bits of 255
-                        }
-                        word := and(word, BYTES_24)
-                    }
-
-                    let word := shl(7, channel(shr(BLUE_Q9_AT, color), shr(BLUE_Q9_AT, slope), mload(BEND_BLUE)))
-                    word := or(word, shr(1, channel(shr(GREEN_Q9_AT, color), shr(GREEN_Q9_AT, slope), mload(BEND_GREEN))))
-                    word := or(word, shr(9, channel(shr(RED_Q9_AT, color), shr(RED_Q9_AT, slope), mload(BEND_RED))))
-                    // eight pixels are the lower 24 bytes of a word that ends with the last one
-                    let q := sub(add(mload(IMAGE_ORIGIN), mul(3, shr(DEPTH_SIZE_BITS, p))), 20)
-                    mstore(q, xor(word, and(xor(word, mload(q)), keep))) // keep ? old : word
-                }
-                if (n < 9) break;
-                n -= 8;
-                r = 0;
-                p -= 64;
-                attribute -= load(DX) << 3;
-                f = f - (g << 3) + (load(QUADRATIC_DXX) << 5); // at x = -8: f - 8 g + 64 / 2 * DXX
-                g -= load(QUADRATIC_DXX) << 3;
+                mstore(p_, xor(z, and(xor(z, old), keep_))) // keep ? old : z
             }
-        }
-    }
 
-    /// @dev Returns the colour at the last of eight fragments and its slope, and sets its bend, from a colour times its depth: quotients by
-    /// the depths of pixels 0, 4 and 8 to the left, and a parabola through them.
-    function unweighted(uint256 f, uint256 g, uint256 attribute) private pure returns (uint256 color, uint256 slope) {
-        unchecked {
-            color = Patches.unweighted(f, attribute >> ACCUMULATOR_DEPTH_AT);
-            slope = f - (g << 2) + (load(QUADRATIC_DXX) << 3); // at x = -4: f - 4 g + 16 / 2 * DXX
-            slope = Patches.unweighted(slope, (attribute - (load(DX) << 2)) >> ACCUMULATOR_DEPTH_AT);
-            uint256 sum = f - (g << 3) + (load(QUADRATIC_DXX) << 5);
-            sum = color + Patches.unweighted(sum, (attribute - (load(DX) << 3)) >> ACCUMULATOR_DEPTH_AT); // c(0) + c(-8)
-            setBend((sum - (slope << 1)) >> 5); // (c(0) - 2 c(-4) + c(-8)) / 32
-            slope = (sum - (slope << 2) + (color << 1)) >> 3; // (3 c(0) - 4 c(-4) + c(-8)) / 8
+            // a channel of eight fragments, Q9 in 24 bits each, the last one lowest, clamped to 0..255
+            function channel(value, slope_, bend) -> word {
+                word := add(mul(and(value, LANE_24), ONES_24), bend) // value + x^2 * bend, for x = 0..7 to the left
+                word := sub(word, mul(signextend(2, slope_), STEPS_24)) // - x * slope
+                if and(word, BEYOND_BYTES_24) {
+                    let high := and(word, TOPS_24) // lanes below 0
+                    word := and(word, not(or(high, sub(high, shr(23, high))))) // become 0
+                    high := and(add(word, CARRY_24), TOPS_24) // lanes above 255
+                    word := or(word, sub(shr(6, high), shr(14, high))) // get all bits of 255
+                }
+                word := and(word, BYTES_24)
+            }
+
+            // as Patches.unweighted
+            function unweighted(value, depth) -> quotient {
+                value := sub(and(shr(Q48, value), LANES_37), BIAS_36) // Q24
+                quotient := add(mul(value, div(shl(Q34, mload(PATCH_WEIGHT)), depth)), HALF_85)
+            }
+
+            // as setBend below
+            function storeBend(bend) {
+                bend := add(bend, BEND_ROUNDING)
+                mstore(BEND_BLUE, mul(signextend(2, shr(BLUE_Q9_AT, bend)), SQUARES_24))
+                mstore(BEND_GREEN, mul(signextend(2, shr(GREEN_Q9_AT, bend)), SQUARES_24))
+                mstore(BEND_RED, mul(signextend(2, shr(RED_Q9_AT, bend)), SQUARES_24))
+            }
+
+            for {} 1 {} {
+                // colours to keep: pixels from n or 8 on, and below r
+                let keep := or(or(shl(mul(24, n), not(0)), shl(192, not(0))), sub(shl(mul(24, r), 1), 1))
+                if lt(r, 4) { keep := or(keep, depths(p, n, r, attribute)) }
+                if gt(n, 4) {
+                    let rest := mul(gt(r, 4), sub(r, 4)) // max(r - 4, 0)
+                    keep := or(keep, shl(96, depths(sub(p, 32), sub(n, 4), rest, sub(attribute, shl(2, mload(DX))))))
+                }
+                let color := f
+                let slope := g
+                if mload(PATCH_WEIGHT) {
+                    // quotients by the depths of pixels 0, 4 and 8 to the left, and a parabola through them
+                    color := unweighted(f, shr(ACCUMULATOR_DEPTH_AT, attribute)) // c(0)
+                    slope := add(sub(f, shl(2, g)), shl(3, mload(QUADRATIC_DXX))) // at x = -4: f - 4 g + 16 / 2 * DXX
+                    slope := unweighted(slope, shr(ACCUMULATOR_DEPTH_AT, sub(attribute, shl(2, mload(DX))))) // c(-4), for now
+                    let sum := add(sub(f, shl(3, g)), shl(5, mload(QUADRATIC_DXX)))
+                    sum := add(color, unweighted(sum, shr(ACCUMULATOR_DEPTH_AT, sub(attribute, shl(3, mload(DX)))))) // c(0) + c(-8)
+                    storeBend(shr(5, sub(sum, shl(1, slope)))) // (c(0) - 2 c(-4) + c(-8)) / 32
+                    slope := shr(3, add(sub(sum, shl(2, slope)), shl(1, color))) // (3 c(0) - 4 c(-4) + c(-8)) / 8
+                }
+                let word := shl(7, channel(shr(BLUE_Q9_AT, color), shr(BLUE_Q9_AT, slope), mload(BEND_BLUE)))
+                word := or(word, shr(1, channel(shr(GREEN_Q9_AT, color), shr(GREEN_Q9_AT, slope), mload(BEND_GREEN))))
+                word := or(word, shr(9, channel(shr(RED_Q9_AT, color), shr(RED_Q9_AT, slope), mload(BEND_RED))))
+                // eight pixels are the lower 24 bytes of a word that ends with the last one
+                let q := sub(add(mload(IMAGE_ORIGIN), mul(3, shr(DEPTH_SIZE_BITS, p))), 20)
+                mstore(q, xor(word, and(xor(word, mload(q)), keep))) // keep ? old : word
+                if lt(n, 9) { break }
+                n := sub(n, 8)
+                r := 0
+                p := sub(p, 64)
+                attribute := sub(attribute, shl(3, mload(DX)))
+                f := add(sub(f, shl(3, g)), shl(5, mload(QUADRATIC_DXX))) // at x = -8: f - 8 g + 64 / 2 * DXX
+                g := sub(g, shl(3, mload(QUADRATIC_DXX)))
+            }
         }
     }
 
