@@ -6,21 +6,21 @@ pragma solidity ^0.8.25;
 /// @title Addresses: the contract addresses of `shackled deploy`, the same on every chain.
 /// @notice Derived from the bytecode: another version of a contract has another address.
 library Addresses {
-    address internal constant ENGINE = 0x165Ca039FaaDca318fED1a0673A9a2cb6f9CA849;
+    address internal constant ENGINE = 0x618d14C52128A2BD6e6E0a6872ADFcce01199aa4;
     address internal constant FRAGMENT_ENGINE = 0x497134a2cdec9c5AD9808e2F112c3Affa2Fc517F;
     address internal constant ANTIALIASED_ENGINE = 0xdA1e016986D31Db16c694a29518bE97a0E6574d4;
     address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x644Cd7b08C77afBf1e05462Bd1e42754e248eE18;
     address internal constant EFFECTS_ENGINE = 0xf0A83D4fDe6e34347b57E36A84BB566D07557f1D;
     address internal constant EFFECTS = 0x5fc076f4157B62C63921508247B018Fe8BE79d05;
-    address internal constant RENDERER = 0x58819e3C4b356bFc049E5F1f5c7339948fC2DA3A;
-    address internal constant ORIGINAL = 0xbFED3D2248962F9bC6dAf7e29f716b550C11B349;
-    address internal constant GENESIS = 0x67046FA8c7350617E1AC58549D8AF197F2137CBa;
+    address internal constant RENDERER = 0x8C5111ea9C78f237b8b7e7c431716C3cc12b2eFB;
+    address internal constant ORIGINAL = 0xcD8CBA412635814fE3e65a4f5f49f99f04146050;
+    address internal constant GENESIS = 0x9d279F65877cd36d2e76fce0a471cb396594BA28;
     address internal constant PNG_ENCODER = 0x72A25989288b6193eDe481BA7ad20EddECBa08BD;
-    address internal constant TURNTABLE = 0x5CEd17BAaF8DA09831a2655436d5829db74306C1;
+    address internal constant TURNTABLE = 0x122E9F553c824375A67322D86BFAF63BD44EFB0e;
     address internal constant GLB_ENCODER = 0xBcf77312a660eE0Aa6F8d88f37aB56356EF2452f;
-    address internal constant STUDIO = 0xE81e309A3c5CD899Ac3cBa5576FA3e595eF2c9ec;
-    address internal constant LIBRARY = 0x95608621BFd2B9B94fD50d9f88451Ea2d64d5A5e;
-    address internal constant WEB = 0xaB9f754aC2d2901F988ffeA45306E461268F39b6;
-    address internal constant EDITIONS = 0xd063ffB92856aD9F992501Ee81E942DF62f0A538;
-    address internal constant GENESIS_METADATA = 0xdfF7a822D15cb46A34Fb2F1312A8e6799948178f;
+    address internal constant STUDIO = 0xc2515C7F182f1Ab9B3D85F826fec9f9155eFE063;
+    address internal constant LIBRARY = 0x267F46c98Cd69780f04CEdD4F8e76EAB0E9e8863;
+    address internal constant WEB = 0x481FcD8732B6E044CE063455Cac12219E1A61590;
+    address internal constant EDITIONS = 0x187044884a911d0e175d7a85822694dFAa53dAFa;
+    address internal constant GENESIS_METADATA = 0xf9c098A91F503E82ea5382B6e74890DFf03F2Ae7;
 }
