@@ -6,21 +6,21 @@ pragma solidity ^0.8.25;
 /// @title Addresses: the contract addresses of `shackled deploy`, the same on every chain.
 /// @notice Derived from the bytecode: another version of a contract has another address.
 library Addresses {
-    address internal constant ENGINE = 0x618d14C52128A2BD6e6E0a6872ADFcce01199aa4;
-    address internal constant FRAGMENT_ENGINE = 0x497134a2cdec9c5AD9808e2F112c3Affa2Fc517F;
+    address internal constant ENGINE = 0x7fcb7B85F9081577DA51E08aD253F1a159E42641;
+    address internal constant FRAGMENT_ENGINE = 0x90e4c5ec9CB7d96dF38Ea0e4aCA965249224e27c;
     address internal constant ANTIALIASED_ENGINE = 0xdA1e016986D31Db16c694a29518bE97a0E6574d4;
     address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x644Cd7b08C77afBf1e05462Bd1e42754e248eE18;
     address internal constant EFFECTS_ENGINE = 0xf0A83D4fDe6e34347b57E36A84BB566D07557f1D;
     address internal constant EFFECTS = 0x5fc076f4157B62C63921508247B018Fe8BE79d05;
-    address internal constant RENDERER = 0x8C5111ea9C78f237b8b7e7c431716C3cc12b2eFB;
-    address internal constant ORIGINAL = 0xcD8CBA412635814fE3e65a4f5f49f99f04146050;
-    address internal constant GENESIS = 0x9d279F65877cd36d2e76fce0a471cb396594BA28;
+    address internal constant RENDERER = 0xd1FBE3D0244c799aB86a485880934b3d290422D6;
+    address internal constant ORIGINAL = 0x9799a6f4526f90567a33765b5352F38bB23f0b10;
+    address internal constant GENESIS = 0x954bd7DD6FAf2D898814E3f56473D232b6832986;
     address internal constant PNG_ENCODER = 0x72A25989288b6193eDe481BA7ad20EddECBa08BD;
-    address internal constant TURNTABLE = 0x122E9F553c824375A67322D86BFAF63BD44EFB0e;
+    address internal constant TURNTABLE = 0x7cdd016BeBd3E68e02935D2956778Ede55b85f63;
     address internal constant GLB_ENCODER = 0xBcf77312a660eE0Aa6F8d88f37aB56356EF2452f;
-    address internal constant STUDIO = 0xc2515C7F182f1Ab9B3D85F826fec9f9155eFE063;
-    address internal constant LIBRARY = 0x267F46c98Cd69780f04CEdD4F8e76EAB0E9e8863;
-    address internal constant WEB = 0x481FcD8732B6E044CE063455Cac12219E1A61590;
-    address internal constant EDITIONS = 0x187044884a911d0e175d7a85822694dFAa53dAFa;
-    address internal constant GENESIS_METADATA = 0xf9c098A91F503E82ea5382B6e74890DFf03F2Ae7;
+    address internal constant STUDIO = 0x1FA922045f7e9e0eb4FB0062A44d912C7B45688f;
+    address internal constant LIBRARY = 0x734Ec3522DD768eb75577d961a2f508BBa74005a;
+    address internal constant WEB = 0x69b04c6Ad14BAed93DDE559b31243feC31f5007c;
+    address internal constant EDITIONS = 0x3935fA47aED7A68E594DC479d827769BFbAc0969;
+    address internal constant GENESIS_METADATA = 0xA3E2f20e541BF79687CEc948caF6fB7f006F2aE9;
 }
