@@ -206,6 +206,10 @@ WRONG: list[tuple[Callable[[Values], None], str]] = [
         "SeveralShadows(light=1)",
     ),
     (put(EXTENSIONS, value=b"\x0b\0\0\0\1" + bytes(32)), "GroundOutOfRange(object=0, inner=0, outer=0)"),
+    (
+        put(EXTENSIONS, value=b"\x0c\0\0\0\1" + (1 << 24).to_bytes(32, "big")),
+        "EmissionNotAColor(object=0, value=16777216)",
+    ),
 ]
 
 

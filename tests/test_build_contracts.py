@@ -126,7 +126,7 @@ def test_lines_of_documentation_stand_before_declarations_that_have_none() -> No
     text = source("words/Memory.sol") or ""
     lines = text.split("\n")
     found = [lines[i] for i in comment_lines.places(text)]
-    assert "error RegistersOverlap();" in found
+    assert "function freeMemory() pure returns (uint256) {" in found
     assert any(line.startswith("function load(") for line in found)
     assert not any("ZERO_SLOT" in line or "function reserveRegisters" in line for line in found)
     # functions of assembly are none of the syntax tree of Solidity
@@ -152,10 +152,13 @@ def test_no_line_of_the_contracts_is_too_long() -> None:
 
 def test_documentation_names_one_thing_a_tag() -> None:
     """In `@param a The ... b The ...` what is said of `b` would be part of the text of `a`."""
+    inherited = "".join(path.read_text("utf-8") for path in (ROOT / "contracts" / "src" / "interfaces").glob("I*.sol"))
     for path in (ROOT / "contracts" / "src").rglob("*.sol"):
         text = path.read_text("utf-8")
         for found in re.finditer(
             r"((?:^ *///.*\n)*)^ +function (\w+)\([^{;]*?\) (?:external|public)[^{;]*[{;]", text, re.MULTILINE
         ):
             documented = "@notice" in found[1] or "@inheritdoc" in found[1] or " override" in found[0]
+            # of an interface that the contract inherits
+            documented |= "/interfaces/I" in text and f"function {found[2]}(" in inherited
             assert documented, f"{path.name}: {found[2]}"

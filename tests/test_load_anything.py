@@ -281,6 +281,7 @@ VALUES: dict[str, Any] = {
     "diffuse": 0.1,
     "specular": 4.0,
     "shininess": 2,
+    "emission": "maroon",
     "color": "tomato",
     "cull": False,
     "wireframe": True,

@@ -6,10 +6,9 @@ import re
 import tomllib
 from itertools import pairwise
 from pathlib import Path
+from runpy import run_path
 
 from tools import layout
-
-from shackled.scene import _records
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "contracts" / "src" / "words"
@@ -105,18 +104,18 @@ def test_packed_words_are_drawn() -> None:
 
 def test_kinds_of_records() -> None:
     """The tables of the contracts say what those of Python do, and those of the package of contracts' authors too."""
-    found = constants("Records.sol")
+    found, made = constants("Records.sol"), run_path(str(ROOT / "src" / "shackled" / "scene" / "_records.py"))
     names = {found["OF_SCENE"]: "scene", found["OF_LIGHT"]: "light", found["OF_OBJECT"]: "object", 0: None}
     for kind in range(256):
-        assert names[found["RECORD_OWNERS"] >> 2 * kind & 3] == _records.OWNERS.get(kind)
+        assert names[found["RECORD_OWNERS"] >> 2 * kind & 3] == made["OWNERS"].get(kind)
         size = found["RECORD_SIZES"] >> 8 * kind & 255
-        assert (None if size == found["ANY_WORDS"] else size) == _records.SIZES.get(kind, 0)
-        assert kind < _records.LONG_KINDS or size == found["ANY_WORDS"] or size % 32 == 0
+        assert (None if size == found["ANY_WORDS"] else size) == made["SIZES"].get(kind, 0)
+        assert kind < made["LONG_KINDS"] or size == found["ANY_WORDS"] or size % 32 == 0
     kinds = [kind for _, kind, *_ in TABLE["extensions"]["kinds"]]
-    assert kinds == sorted(set(kinds)) == list(_records.OWNERS)
+    assert kinds == sorted(set(kinds)) == list(made["OWNERS"])
     web = (ROOT / "web" / "src" / "scene" / "records.ts").read_text("utf-8")
     for name, value in re.findall(r"^export const (\w+) = (\d+);", web, re.MULTILINE):
-        assert found[name] == getattr(_records, name) == int(value)
+        assert found[name] == made[name] == int(value)
 
 
 def test_no_number_of_39_to_41_hexadecimal_digits_which_would_be_an_address() -> None:

@@ -12,7 +12,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-FILE = Path(__file__).resolve().parent.parent / "contracts" / "src" / "studio" / "Glyphs.sol"
+FILE = Path(__file__).resolve().parent.parent / "contracts" / "src" / "building" / "Glyphs.sol"
 
 #: What a glyph ends with, and a stroke that is not its last. x is never 15.
 END_OF_GLYPH, END_OF_STROKE = 0xFF, 0xFE

@@ -272,7 +272,7 @@ def test_the_page_stands_alone() -> None:
     assert re.findall(r'(?:src|href|url)\s*[=(]\s*["\']?(?!data:)[\w/.:]+', html) == []
     assert html.count("<figure ") == 3
     assert "shackled datasets fetch bunny" in html
-    assert "12 triangles, 2.3 M gas" in html
+    assert "12 triangles, 2.2 M gas" in html
     assert "prefers-color-scheme: dark" in html
     assert "$" not in re.sub(r"<script>.*</script>", "", html, flags=re.DOTALL)
 

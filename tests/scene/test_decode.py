@@ -29,7 +29,14 @@ from shackled import (
 from shackled.chain import ContractChain, open_chain
 from shackled.datasets import pieces
 from shackled.scene import (
+    ANTIALIAS,
+    FOG,
+    HEMISPHERE,
     NORMAL_UNIT,
+    OPACITY_OF,
+    RIM,
+    SPOT,
+    TONE,
     Hemisphere,
     Projection,
     Shading,
@@ -40,7 +47,6 @@ from shackled.scene import (
     render_call,
     unpack,
 )
-from shackled.scene._records import ANTIALIAS, FOG, HEMISPHERE, OPACITY_OF, RIM, SPOT, TONE
 
 TRIANGLE = Mesh([[0, 0, 0], [1000, 0, 0], [0, 1000, 0]], [[0, 1, 2]], [[1, 2, 3], [4, 5, 6], [255, 0, 128]])
 SCENE = Scene(

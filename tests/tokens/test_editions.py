@@ -185,7 +185,7 @@ def test_what_takes_too_much_gas_to_draw_is_refused(show: Show) -> None:
     """Also what passes the check of the studio, which draws one pixel, and where a chain gives transactions more."""
     limit = show.editions.call("DRAWING_GAS")
     assert limit == 2**24
-    large = evolve(icon_scene("icons/lightning"), width=512, height=512)
+    large = evolve(icon_scene("icons/lightning"), width=768, height=768)
     # the renderer says that its engine ran out of gas; the encoder, of the second one, has no gas left to say it
     for picture, scale, error in ((large, 1, "OutOfGas"), (evolve(large, objects=()), 8, "DrawingOutOfGas")):
         scene = store_scene(show.s.studio, picture)

@@ -38,7 +38,7 @@ from ._mesh import DEFAULT_COLOR, MAX_VERTICES, Mesh, components, vertex_normals
 from ._object import Object
 from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack, unpack
 from ._packed_texture import pack_texture, unpack_texture
-from ._records import ANTIALIAS, LONG_KINDS, RECORD_HEADER
+from ._records import ANTIALIAS, FOG, HEMISPHERE, LONG_KINDS, OPACITY_OF, RECORD_HEADER, RIM, SPOT, TONE
 from ._rotation import euler, from_axis_angle, from_euler, multiply, rotate
 from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
 from ._simplify import FORCEFUL, GENTLE, simplify, simplify_scene
@@ -68,8 +68,10 @@ __all__ = [
     "EXPOSURES",
     "FILLED",
     "FILTERS",
+    "FOG",
     "FORCEFUL",
     "GENTLE",
+    "HEMISPHERE",
     "INNER_ANGLE",
     "LIGHTS",
     "LIGHT_KINDS",
@@ -85,17 +87,21 @@ __all__ = [
     "NORMALS",
     "NORMAL_UNIT",
     "ONE",
+    "OPACITY_OF",
     "OUTER_ANGLE",
     "PICTURE",
     "POWERS",
     "PROJECTIONS",
     "READERS",
     "RECORD_HEADER",
+    "RIM",
     "SCENES",
     "SETTINGS",
     "SHADINGS",
     "SIMPLIFIED_CREASE",
+    "SPOT",
     "TEXTURED",
+    "TONE",
     "WHITE",
     "WIDE",
     "WIREFRAME",

@@ -234,7 +234,7 @@ def test_rotation_as_quaternion(folder: Path) -> None:
          "objects[0]: the rotation of an object must not be the zero quaternion; the identity is (0, 0, 0, 1)"),
         ({"objects": [thing(), thing(material={"shine": 3})]},
          "unknown key 'shine' in objects[1].material; known are texture, shading, ambient, diffuse, specular, "
-         "shininess"),
+         "shininess, emission"),
         ({"objects": [thing(material={"shading": "gouraud"})]},
          "objects[0].material.shading must be one of unlit, flat, smooth, not 'gouraud'"),
         ({"objects": [thing(material={"diffuse": 5})]},
