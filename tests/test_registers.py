@@ -118,6 +118,14 @@ def test_kinds_of_records() -> None:
         assert found[name] == made[name] == int(value)
 
 
+def test_every_number_of_the_table_is_used() -> None:
+    """Fields of words and registers stand for their places; what is only a number is there for code."""
+    files = [path for path in (ROOT / "contracts" / "src").rglob("*.sol") if path.name != "Words.sol"]
+    used = {word for path in files for word in re.findall(r"\b[A-Z]\w+", path.read_text("utf-8"))}
+    rows = [row[0] for kind in ("numbers", "lanes", "unions", "shifts") for part in TABLE[kind] for row in part["rows"]]
+    assert not set(rows) - used
+
+
 def test_no_number_of_39_to_41_hexadecimal_digits_which_would_be_an_address() -> None:
     assert layout.solidity_literal((1 << 160) - 1) == "0x00" + "f" * 40
     assert layout.solidity_literal(1 << 160) == "0x01" + "0" * 40

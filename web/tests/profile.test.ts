@@ -4,6 +4,7 @@ import { test } from "node:test";
 
 import { CallError, encode, profile, render, type Scene } from "../src/index.js";
 import type { Stages } from "../src/evm/stages.js";
+import { TETRAHEDRON } from "./tetrahedron.js";
 
 const json = (name: string): Uint8Array<ArrayBuffer> => readFileSync(`../src/shackled/web/${name}.json`);
 const assets = {
@@ -12,22 +13,8 @@ const assets = {
     stages: json("stages"),
 };
 const { stages: STAGES, contracts: MAPS } = JSON.parse(assets.stages.toString()) as Stages;
-const tetrahedron = {
-    positions: [
-        [1, 1, 1],
-        [-1, -1, 1],
-        [-1, 1, -1],
-        [1, -1, -1],
-    ],
-    faces: [
-        [0, 2, 1],
-        [0, 1, 3],
-        [0, 3, 2],
-        [1, 2, 3],
-    ],
-} satisfies Scene["objects"][number]["mesh"];
 const scene = (shading: "unlit" | "flat" | "smooth", more: Partial<Scene> = {}): Scene => ({
-    objects: [{ mesh: tetrahedron, rotation: [0, 25, 0], material: { shading } }],
+    objects: [{ mesh: TETRAHEDRON, rotation: [0, 25, 0], material: { shading } }],
     width: 48,
     height: 40,
     ...more,

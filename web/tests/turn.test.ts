@@ -3,21 +3,7 @@ import { test } from "node:test";
 import { InputError, describeCall, encode, resizeCall, turnCall, type Scene } from "../src/index.js";
 import { readCall } from "../src/call.js";
 import { dot, length, subtract, type Vector } from "../src/scene/arithmetic.js";
-
-const TETRAHEDRON = {
-    positions: [
-        [1, 1, 1],
-        [-1, -1, 1],
-        [-1, 1, -1],
-        [1, -1, -1],
-    ],
-    faces: [
-        [0, 2, 1],
-        [0, 1, 3],
-        [0, 3, 2],
-        [1, 2, 3],
-    ],
-};
+import { TETRAHEDRON } from "./tetrahedron.js";
 
 const SCENE: Scene = {
     objects: [

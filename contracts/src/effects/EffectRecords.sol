@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import {Extensions} from "../scene/Extensions.sol";
 import {openMesh} from "../scene/Mesh.sol";
+import {loadCalldata} from "../words/Memory.sol";
 import {
     ANTIALIAS,
     EMISSION_OF,
@@ -72,7 +73,7 @@ library EffectRecords {
                 uint256 key = Extensions.keyOf(record);
                 (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
                 Extensions.checkHeader(scene, record);
-                uint256 content = Extensions.word(record + RECORD_HEADER);
+                uint256 content = loadCalldata(record + RECORD_HEADER);
                 if (kind == TEXTURE_OF || kind == OPACITIES_OF) checkSize(scene, record, kind, index);
                 if (kind == RIM) checkRim(content);
                 if (kind == FOG) checkFog(content);
@@ -96,7 +97,7 @@ library EffectRecords {
             if (kind == TEXTURE_OF) {
                 if (size == 0) revert SceneErrors.ExtensionSize(kind, index, 32, 0);
                 record += RECORD_HEADER;
-                uint256 header = Extensions.word(record) >> 224;
+                uint256 header = loadCalldata(record) >> 224;
                 (uint256 flags, uint256 bits) = (header >> 24, header & 0xff);
                 if (flags > TEXTURE_BILINEAR | TEXTURE_CLAMP || (BITS_ALLOWED >> bits) & 1 == 0) {
                     revert SceneErrors.TextureFormat(index, flags, bits);
@@ -111,7 +112,7 @@ library EffectRecords {
     /// @notice Returns the position of the texture coordinates in the content of a TEXTURE.
     function uvsOf(uint256 texture) internal pure returns (uint256) {
         unchecked {
-            uint256 header = Extensions.word(texture) >> 224;
+            uint256 header = loadCalldata(texture) >> 224;
             uint256 bits = header & 0xff;
             uint256 texels = (((header >> 16) & 0xff) + 1) * (((header >> 8) & 0xff) + 1);
             return texture + TEXTURE_HEADER + (bits == TEXTURE_COLOR_BITS ? 0 : 3 << bits) + (texels * bits + 7) / 8;

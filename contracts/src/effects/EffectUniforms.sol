@@ -38,7 +38,7 @@ library EffectUniforms {
             for (; record != end; record += RECORD_HEADER + Extensions.sizeOf(record)) {
                 uint256 key = Extensions.keyOf(record);
                 (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
-                uint256 content = Extensions.word(record + RECORD_HEADER);
+                uint256 content = loadCalldata(record + RECORD_HEADER);
                 if (kind == HEMISPHERE) {
                     ambient.sky = lanes(content);
                     ambient.ground = lanes(content << 24);
@@ -83,7 +83,7 @@ library EffectUniforms {
             content = Extensions.find(scene, OPACITIES_OF, number);
             store(OPACITIES, content == 0 ? 0 : content + moved);
             content = Extensions.find(scene, EMISSION_OF, number);
-            store(EMISSION, content == 0 ? 0 : lightOf(Lights.colorLanes(Extensions.word(content))));
+            store(EMISSION, content == 0 ? 0 : lightOf(Lights.colorLanes(loadCalldata(content))));
             store(IS_CHANGED, load(EMISSION) | load(RIM_COLOR) | load(IS_TONED) | load(FOG_RANGE) != 0 ? 1 : 0);
             store(HAS_DETAILS, load(TEXTURE) | load(OPACITIES) | (load(TONE_FLAGS) & TONE_GAMMA) != 0 ? 1 : 0);
             uint256 varies = load(TEXTURE) | load(OPACITIES) | load(FOG_RANGE) | load(RIM_COLOR);
@@ -95,7 +95,7 @@ library EffectUniforms {
             if (content == 0) {
                 store(FADE_RANGE, 0);
             } else {
-                (uint256 inner, uint256 outer) = EffectRecords.radiiOf(Extensions.word(content));
+                (uint256 inner, uint256 outer) = EffectRecords.radiiOf(loadCalldata(content));
                 store(FADE_SQUARE, outer * outer);
                 store(FADE_RANGE, outer * outer - inner * inner);
                 Transform.setMatrix(view_, object, rotation);

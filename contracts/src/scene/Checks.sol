@@ -23,6 +23,7 @@ import {
     OBJECT_WORDS
 } from "./Scene.sol";
 import {Extensions} from "./Extensions.sol";
+import {loadCalldata} from "../words/Memory.sol";
 import {NORMALS, WIDE} from "./Mesh.sol";
 import {SceneErrors} from "./SceneErrors.sol";
 
@@ -72,11 +73,11 @@ function checkLayout(Scene calldata scene) pure {
         checkTail(base, base + 32 * SCENE_LIGHTS, 32 * LIGHT_WORDS);
         uint256 objects = checkTail(base, base + 32 * SCENE_OBJECTS, 32);
         checkTail(base, base + 32 * SCENE_EXTENSIONS, 1);
-        uint256 count = word(objects);
+        uint256 count = loadCalldata(objects);
         objects += 32;
         for (uint256 i; i != count; ++i) {
-            uint256 object = objects + word(objects + 32 * i);
-            if (word(objects + 32 * i) > msg.data.length || object + 32 * OBJECT_WORDS > msg.data.length) {
+            uint256 object = objects + loadCalldata(objects + 32 * i);
+            if (loadCalldata(objects + 32 * i) > msg.data.length || object + 32 * OBJECT_WORDS > msg.data.length) {
                 revert SceneErrors.MalformedScene(objects + 32 * i);
             }
             checkTail(object, object, 1);
@@ -91,17 +92,11 @@ function checkLayout(Scene calldata scene) pure {
 /// @return tail The calldata position of the array's length.
 function checkTail(uint256 base, uint256 position, uint256 size) pure returns (uint256 tail) {
     unchecked {
-        tail = base + word(position);
+        tail = base + loadCalldata(position);
         uint256 end = msg.data.length;
-        if (word(position) > end || tail + 32 > end) revert SceneErrors.MalformedScene(position);
-        uint256 length = word(tail);
+        if (loadCalldata(position) > end || tail + 32 > end) revert SceneErrors.MalformedScene(position);
+        uint256 length = loadCalldata(tail);
         if (length > end || tail + 32 + length * size > end) revert SceneErrors.MalformedScene(tail);
-    }
-}
-
-function word(uint256 position) pure returns (uint256 value) {
-    assembly ("memory-safe") {
-        value := calldataload(position)
     }
 }
 

@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {
     ANTIALIAS, ANY_WORDS, LONG_KINDS, OF_LIGHT, OF_OBJECT, OPACITY_OF, RECORD_HEADER, RECORD_OWNERS, RECORD_SIZES, SPOT
 } from "../words/Records.sol";
+import {loadCalldata} from "../words/Memory.sol";
 import {Scene, POINT} from "./Scene.sol";
 import {SceneErrors} from "./SceneErrors.sol";
 
@@ -130,7 +131,7 @@ library Extensions {
     /// @notice Returns the size of a record's content in bytes.
     function sizeOf(uint256 record) internal pure returns (uint256) {
         unchecked {
-            uint256 header = word(record) >> 216;
+            uint256 header = loadCalldata(record) >> 216;
             return (header & 0xffff) << (header >> 32 < LONG_KINDS ? 0 : 5);
         }
     }
@@ -142,25 +143,19 @@ library Extensions {
 
     /// @notice Returns the kind and index as one number.
     function keyOf(uint256 record) internal pure returns (uint256) {
-        return word(record) >> 232;
+        return loadCalldata(record) >> 232;
     }
 
     /// @return Number `i` of a SPOT.
     function spotNumber(uint256 record, uint256 i) internal pure returns (int256) {
         unchecked {
-            return int256(word(record + RECORD_HEADER + 8 * i)) >> 192;
+            return int256(loadCalldata(record + RECORD_HEADER + 8 * i)) >> 192;
         }
     }
 
     function opacityOf(uint256 record) internal pure returns (uint256) {
         unchecked {
-            return word(record + RECORD_HEADER) >> 224;
-        }
-    }
-
-    function word(uint256 place) internal pure returns (uint256 value) {
-        assembly ("memory-safe") {
-            value := calldataload(place)
+            return loadCalldata(record + RECORD_HEADER) >> 224;
         }
     }
 }

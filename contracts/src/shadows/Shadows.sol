@@ -43,7 +43,7 @@ library Shadows {
                 state.frame = LightSpace.frameOf(scene.lights[light], bounds);
                 LightSpace.place(state.frame, state.vertices[0], state.vertices[scene.objects.length]);
                 setEye(scene, view_, state);
-                Casters.readFaces(scene, state, Extensions.word(Extensions.find(scene, SHADOW, light)));
+                Casters.readFaces(scene, state, loadCalldata(Extensions.find(scene, SHADOW, light)));
                 Receiver memory receiver;
                 (receiver.isPoint, receiver.chains) = (state.frame.isPoint, state.chains);
                 Receivers.open(receiver);

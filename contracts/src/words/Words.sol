@@ -103,9 +103,6 @@ uint256 constant FIRST_DEPTH = 0xffffffffffffffff0000000000000000000000000000000
 uint256 constant SECOND_DEPTH = 0xffffffffffffffff00000000000000000000000000000000;
 uint256 constant THIRD_DEPTH = 0xffffffffffffffff0000000000000000;
 uint256 constant BEHIND_DEPTH = 0xffffffffffffffffffffffffffffffffffffffffffffffff;
-/// @dev The first pixel of a word, and everything after it.
-uint256 constant FIRST_PIXEL = 0xffffff0000000000000000000000000000000000000000000000000000000000;
-uint256 constant BEHIND_PIXEL = 0xffffffffffffffffffffffffffffffffffffffffffffffffffffffffff;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- light
 
@@ -452,9 +449,8 @@ uint256 constant GREEN_AT = 8;
 uint256 constant RED_AT = 16;
 uint256 constant GREEN_TO_LANE = 48;
 uint256 constant RED_TO_LANE = 96;
-/// @dev Fraction bits of light; of light while it is summed; of a cosine, a direction, a ray.
+/// @dev Fraction bits of light; of a cosine, a direction, a ray.
 uint256 constant LIGHT_FRACTION = 16;
-uint256 constant LIGHT_SUM_FRACTION = 40;
 uint256 constant COSINE_FRACTION = 24;
 /// @dev The position of the bits above 255 in a lane of Q10, and the mask of these six bits.
 uint256 constant OVERFLOW_AT = 18;
@@ -527,8 +523,7 @@ uint256 constant SAMPLE_DEPTH_UNIT = 0x80000000000000008000000000000000800000000
 uint256 constant FOUND_SAMPLES = 0x1000000000000000100000000000000010000000000000001000000;
 uint256 constant DRAWN_SAMPLES = 0x2000000000000000200000000000000020000000000000002000000;
 uint256 constant PASSES_OF_SAMPLES = 0x7ffffffffb0000007ffffffffb0000007ffffffffb0000007ffffffffb000000;
-/// @dev The bits below the depths; the colours.
-uint256 constant BELOW_SAMPLE_DEPTHS = 0x7ffffff0000000007ffffff0000000007ffffff0000000007ffffff;
+/// @dev The colours.
 uint256 constant SAMPLE_COLORS = 0xffffff0000000000ffffff0000000000ffffff0000000000ffffff;
 /// @dev The offsets of the samples from the pixel centre, in eighths of a pixel: columns, and rows.
 uint256 constant SAMPLE_X_8 = 0xfffffffffffffffd0000000000000002ffffffffffffffff;
@@ -669,12 +664,6 @@ uint256 constant RED_Q9_AT = 219;
 uint256 constant BYTE_Q58 = 0x3fc00000000000000;
 /// @dev Multiplier that collects BYTES_Q58 at the top of a word, among others below.
 uint256 constant Q58_TO_TOP = 0x400000000000000000000002000000000000000000000010;
-/// @dev The shifts that move BYTES_Q58 to the top of a word: blue, green, red.
-uint256 constant BLUE_TO_TOP = 190;
-uint256 constant GREEN_TO_TOP = 97;
-uint256 constant RED_TO_TOP = 4;
-uint256 constant SECOND_BYTE = 0xff000000000000000000000000000000000000000000000000000000000000;
-uint256 constant THIRD_BYTE = 0xff0000000000000000000000000000000000000000000000000000000000;
 
 // --------------------------------------------------------------------------------------------------------- vectors in the space of a mesh
 // Three signed lanes of 86 bits. The middle coefficient of the product of two vectors, one of them with reversed lanes, is their dot

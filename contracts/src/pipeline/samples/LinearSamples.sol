@@ -65,7 +65,7 @@ library LinearSamples {
                                     color := and(color, not(shr(SIGN_TO_BYTE, mul(and(attribute, BELOW_NEXT_LANES), 0xff)))) // 0 below 0
                                 }
                                 color := shr(PIXEL_AT, mul(and(color, BYTES_OF_LANES), LANES_TO_BYTES)) // 0xBBGGRR
-                                // as Samples.paint and write: a call would cost some 40 gas per fragment
+                                // as Samples.paint and write, without their calls for each fragment
                                 z := or(z, mul(color, ONES_64)) // the colour in each sample
                                 switch eq(seen, TOPS_64)
                                 case 1 {

@@ -95,7 +95,7 @@ abstract contract PatchSamples is SampleRasterizer {
                     seen := and(and(add(left, seen), sub(right, seen)), and(sub(add(z, BELOW_TOPS_64), old), TOPS_64))
                     if seen {
                         let color := bytesOf(f, attribute)
-                        // as Samples.paint and write: a call would cost some 40 gas per fragment
+                        // as Samples.paint and write, without their calls for each fragment
                         z := or(z, mul(color, ONES_64)) // the colour in each sample
                         let pixel := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p)))
                         switch eq(seen, TOPS_64)

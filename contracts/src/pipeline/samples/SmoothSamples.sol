@@ -14,7 +14,7 @@ library SmoothSamples {
     function draw(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
         assembly ("memory-safe") {
             // Three bytes, blue uppermost, from the accumulator and 128 times the products. This is the light of SmoothSpans: there it is
-            // part of a loop over lanes that are not scaled, in whose place a call would cost some 30 gas per fragment.
+            // part of a loop over lanes that are not scaled, and no call.
             function colorAt(attribute, light) -> color {
                 let square := shr(add(UPPER_85_AT, MORE_BITS), light) // N.N, Q68
                 let length := add(shr(ROOT_SHIFT, mul(ROOT_SLOPE, square)), ROOT_AT_0) // about 2 sqrt(N.N), Q34
@@ -100,7 +100,7 @@ library SmoothSamples {
                         color := add(color, mul(y, add(shl(4, slope), mul(sub(y, 8), mload(QUADRATIC_DYY))))) // + y (16 dy + (y - 8) dyy)
                     }
                     color := colorAt(row, color)
-                    // as Samples.paint and write: a call would cost some 40 gas per fragment
+                    // as Samples.paint and write, without their calls for each fragment
                     z := or(z, mul(color, ONES_64)) // the colour in each sample
                     switch eq(seen, TOPS_64)
                     case 1 {
