@@ -171,7 +171,7 @@ library Uniforms {
                 if (mode & IS_SMOOTH != 0) Transform.setNormalMatrix(view_, rotation);
                 else MeshSpace.set(view_, scene, object, rotation);
                 // no square exceeds the beginning of an absent table
-                if (load(SPECULAR_BEGIN) != type(uint256).max) end = SPECULAR_TABLE_END;
+                if (load(SPECULAR_BEGIN) != NO_HIGHLIGHT) end = SPECULAR_TABLE_END;
                 else end = OBJECT_LIGHTS + scene.lights.length * LIGHT_SIZE;
             }
             if (hasEffects) {

@@ -5,15 +5,18 @@ pragma solidity 0.8.37;
 
 // ------------------------------------------------------------------------------------------------------------- vertex of a smooth surface
 
-/// @dev More words of its record: the normal; with one light, the normal with reversed lanes; the direction to the light with reversed
-/// lanes, Q21 and even; the half vector, Q29; the half vector with reversed lanes, Q21 and even; and whether they can be used: see
-/// SmoothVertex.
+/// @dev More words of its record: the normal; the node, whose last word is 0 if it is not computed yet: see SmoothNodes; the numbers of the
+/// next and of the previous vertices of the triangles around it, 16 bits each: see OpenEdges.
 uint256 constant VERTEX_NORMAL = 64;
-uint256 constant VERTEX_REVERSED = 96;
-uint256 constant VERTEX_LIGHT = 128;
-uint256 constant VERTEX_HALF = 160;
-uint256 constant VERTEX_HALF_REVERSED = 192;
-uint256 constant VERTEX_STATE = 224;
+uint256 constant VERTEX_NODE = 96;
+uint256 constant VERTEX_META = 160;
+uint256 constant VERTEX_NEXT = 192;
+uint256 constant VERTEX_PREVIOUS = 224;
+/// @dev Such a record has 2^8 bytes.
+uint256 constant SMOOTH_RECORD_BITS = 8;
+uint256 constant SMOOTH_RECORD_SIZE = 0x100;
+/// @dev The bits of a vertex number.
+uint256 constant NUMBER_BITS = 16;
 
 // ----------------------------------------------------------------------------------------------------------------------------- guard band
 
@@ -31,6 +34,9 @@ uint256 constant SUBPIXEL_BITS = 8;
 uint256 constant SUBPIXEL_MASK = 255;
 uint256 constant HALF_PIXEL = 128;
 uint256 constant ONE_PIXEL = 0x100;
+/// @dev The same of one with 16 more bits.
+uint256 constant SUBPIXEL_Q16_BITS = 24;
+uint256 constant SUBPIXEL_Q16_MASK = 0xffffff;
 /// @dev Shifted left by this, a quotient of sub-pixel lengths and twice an area is Q24 per pixel.
 uint256 constant SUBPIXEL_TO_Q24 = 32;
 
@@ -47,6 +53,8 @@ uint256 constant Q34 = 34;
 uint256 constant Q40 = 40;
 uint256 constant Q48 = 48;
 uint256 constant Q16_TO_Q10 = 6;
+uint256 constant Q26_TO_Q58 = 32;
+uint256 constant Q26_TO_Q34 = 8;
 uint256 constant Q24_TO_Q16 = 8;
 uint256 constant Q40_TO_Q16 = 24;
 uint256 constant Q32_TO_Q24 = 8;
@@ -110,6 +118,8 @@ uint256 constant BEHIND_DEPTH = 0xffffffffffffffffffffffffffffffffffffffffffffff
 uint256 constant BLUE_Q40_AT = 24;
 uint256 constant GREEN_Q40_AT = 80;
 uint256 constant RED_Q40_AT = 136;
+/// @dev SPECULAR_BEGIN of a material without a highlight.
+uint256 constant NO_HIGHLIGHT = 0x7fffffffffffffffffffffffffffffffffffffffffffffffffffffffffffffff;
 /// @dev The number of steps in the table of the highlight; the index of its last entry, Q40.
 uint256 constant SPECULAR_ENTRIES = 64;
 uint256 constant SPECULAR_LAST = 0x400000000000;
@@ -119,6 +129,17 @@ uint256 constant SPECULAR_ENTRY_SHIFT = 35;
 uint256 constant SPECULAR_ENTRY_MASK = 0xffffe0;
 uint256 constant SPECULAR_REST_AT = 24;
 uint256 constant SPECULAR_REST_MASK = 0xffff;
+/// @dev The position of the square of a cosine of a quadratic function, Q24, with its lane at the top of a word.
+uint256 constant SHINE_AT = 219;
+/// @dev That of N * L above it.
+uint256 constant N_DOT_L_Q72_AT = 133;
+/// @dev From a highlight of Q16 to a colour of Q58; from lanes of 56 bits to lanes of 85, the second and the third.
+uint256 constant SHINE_TO_Q58 = 42;
+uint256 constant MIDDLE_56_TO_85 = 29;
+uint256 constant UPPER_56_TO_85 = 58;
+/// @dev The lanes of light times a highlight, Q16.
+uint256 constant UPPER_LANE_24 = 0xffffff0000000000000000000000000000;
+uint256 constant MIDDLE_LANE_24 = 0xffffff00000000000000;
 /// @dev The position of an entry's value.
 uint256 constant SPECULAR_VALUE_AT = 128;
 /// @dev The same for an index in Q24; the mask of the fraction between two entries, at bit 128.
@@ -126,15 +147,32 @@ uint256 constant SPECULAR_ENTRY_SHIFT_24 = 19;
 uint256 constant SPECULAR_ENTRY_MASK_24 = 0xfe0;
 uint256 constant SPECULAR_REST_AT_128 = 0xffffff00000000000000000000000000000000;
 
-// --------------------------------------------------------------------------------------------------------------------- quadratic products
+// ------------------------------------------------------------------------------------------------------------------------- light at nodes
 
-/// @dev At fragments: twice the root of N * N, Q34, is approximated within 3 % by ROOT_AT_0 + (N * N) * ROOT_SLOPE >> ROOT_SHIFT.
-uint256 constant ROOT_AT_0 = 0x15f3aeee1;
-uint256 constant ROOT_SLOPE = 0x2be;
-uint256 constant ROOT_SHIFT = 44;
-/// @dev The positions of N * L as Q59 and N * H as Q46, with their lanes at the top of a word.
-uint256 constant N_DOT_L_AT = 180;
-uint256 constant N_DOT_H_AT = 193;
+/// @dev The bytes of a node; its other words; the distances from the first to the others.
+uint256 constant NODE_SIZE = 96;
+uint256 constant NODE_SECOND = 32;
+uint256 constant NODE_META = 64;
+uint256 constant NODE_TO_B = 96;
+uint256 constant NODE_TO_C = 192;
+uint256 constant NODE_TO_AB = 0x120;
+uint256 constant NODE_TO_AC = 0x180;
+uint256 constant NODE_TO_BC = 0x1e0;
+/// @dev The last word of a node: it is computed; a highlight shows there, and |L + V|^2 is below one there, so that half vectors turn fast,
+/// or the lamp is much nearer than the eye; or it is below 3; and the square of the turn of the normal along the edge, Q20.
+uint256 constant IS_NODE = 1;
+uint256 constant NODE_SHINES = 2;
+uint256 constant NODE_TURNS_FAST = 4;
+uint256 constant NODE_TURNS = 8;
+uint256 constant NODE_TURN_AT = 32;
+/// @dev 1.5, Q20: see SmoothShading.
+uint256 constant WIDEST_TURN = 0x180000;
+/// @dev The lanes of normals, Q20, with the bias that keeps them positive.
+uint256 constant NORMAL_Y_20_AT = 85;
+uint256 constant NORMAL_Z_20_AT = 170;
+uint256 constant NORMAL_20_MASK = 0x7fffff;
+uint256 constant NORMAL_20_HALF = 0x400000;
+uint256 constant NORMAL_20_BIAS = 0x1000000000000000000000800000000000000000000400000;
 
 // ------------------------------------------------------------------------------------------------------------------- normals of fragments
 
@@ -389,7 +427,7 @@ uint256 constant IS_LIT_AND_DIFFUSE = 6;
 uint256 constant IS_GREY_OR_STEEP = 0xc00;
 uint256 constant CROSSES_COLUMNS_OR_ROWS = 0x2080;
 /// @dev The modes of triangles of samples to which SPAN_BEGIN and SPAN_END are applied: see IS_CLAMPED.
-uint256 constant IS_CLAMPED_MODE = 0x380;
+uint256 constant IS_CLAMPED_MODE = 0x180;
 
 // ----------------------------------------------------------------------------------------------------------------- flags that are shifted
 
@@ -397,6 +435,13 @@ uint256 constant IS_CLAMPED_MODE = 0x380;
 uint256 constant TRIANGLE_CROSSING_SHIFT = 140;
 /// @dev To the mode of a face that a highlight may reach.
 uint256 constant SPECULAR_TO_LIT = 2;
+
+// ------------------------------------------------------------------------------------------------------------------------- vertex numbers
+// Sixteen numbers in a word: see OpenEdges.
+
+/// @dev 1 in each lane; the highest bit of each.
+uint256 constant ONES_16 = 0x1000100010001000100010001000100010001000100010001000100010001;
+uint256 constant TOPS_16 = 0x8000800080008000800080008000800080008000800080008000800080008000;
 
 // -------------------------------------------------------------------------------------------------------------------- borders of the tile
 // Four lanes of 28 bits for the left, right, upper and lower border: positive if a vertex lies beyond it. See TileCulling.
@@ -531,6 +576,8 @@ uint256 constant SAMPLE_Y_8 = 0x30000000000000000fffffffffffffffefffffffffffffff
 /// @dev A left side at column 0: its bias, the offsets of the samples in the pixel, and 2^-29, which puts samples that lie exactly on an
 /// edge to the right of it. Edges have errors below 2^-30, and samples that do not lie on an edge are at least 2^-28 away from it.
 uint256 constant LEFT_AT_0 = 0x80000080000020007ffffe800000200080000180000020007fffff8000002000;
+/// @dev In the second lane: the pixel is touched by an open edge: see OpenEdges.
+uint256 constant IS_EDGE = 0x40000000000000000000000;
 /// @dev A byte of samples, Q37, of which a column has 32.
 uint256 constant ADDRESS_64 = 0x2000000000000000200000000000000020000000000000002000000000;
 /// @dev Red and blue, green.
@@ -539,9 +586,16 @@ uint256 constant GREEN_64 = 0xff00000000000000ff00000000000000ff00000000000000ff
 
 // ----------------------------------------------------------------------------------------------------------------------- parts of samples
 
+/// @dev The lowest lane.
+uint256 constant LANE_64 = 0xffffffffffffffff;
+/// @dev Minus the lowest lane of a left side, and subtracted from that of a right one, these yield the address of the first pixel whose
+/// first sample is not left of the side, Q37, with the bits below whole pixels undefined.
+uint256 constant FIRST_SAMPLE_LEFT = 0x800003ffffffffff;
+uint256 constant FIRST_SAMPLE_RIGHT = 0x7ffffc0000000000;
 /// @dev The last byte of the lowest lane, and the position of its highest bit.
 uint256 constant LANE_64_LAST_BYTE = 7;
 uint256 constant TOP_64_AT = 63;
+uint256 constant TOP_64 = 0x8000000000000000;
 /// @dev In the lowest lane: the pixel is on the list of those whose samples may differ.
 uint256 constant IS_LISTED = 0x4000000;
 /// @dev The position of the samples' address in an entry of that list; the position of the colour's address, and its mask; the size of an
@@ -626,6 +680,9 @@ uint256 constant CARRIES_85 = 0x800000000000000000000400000000000000000000200000
 uint256 constant SIGNS_85 = 0x4000000000000000000002000000000000000000001000000000000000000000;
 /// @dev 1 in each lane.
 uint256 constant ONES_85 = 0x4000000000000000000002000000000000000000001;
+/// @dev Half the range of each lane; 78 bits of each.
+uint256 constant LANES_BIAS_85 = 0x2000000000000000000001000000000000000000000800000000000000000000;
+uint256 constant LANES_LESS_85 = 0xfffffffffffffffffffc07ffffffffffffffffffe03fffffffffffffffffff;
 /// @dev Half a level, Q58 and Q10.
 uint256 constant HALF_85 = 0x800000000000000000000400000000000000000000200000000000000;
 uint256 constant HALF_85_Q10 = 0x800000000000000000000400000000000000000000200;

@@ -22,7 +22,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
         return SAMPLE_REGISTERS_END;
     }
 
-    function openPicture(Rectangle memory tile, uint256 image, uint256, uint256[3][] memory lists)
+    function openPicture(Rectangle memory tile, uint256 image, uint256, uint256[4][] memory lists)
         internal
         pure
         override
@@ -128,7 +128,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
     }
 
     /// @dev Sets the columns and rows of the tile that the vertices reach; all of them if any vertex is clipped.
-    function setBorders(Rectangle memory tile, uint256[3][] memory lists) private pure {
+    function setBorders(Rectangle memory tile, uint256[4][] memory lists) private pure {
         unchecked {
             uint256 least = type(uint256).max;
             uint256 most;

@@ -45,7 +45,8 @@ abstract contract SampleRasterizer is Rasterizer {
 
     /// @notice Calls setGradients, and sets further registers that shading requires.
     /// @param a, b, c As for `drawTriangle`.
-    function prepare(uint256 a, uint256 b, uint256 c) internal pure virtual;
+    /// @param row The first row to draw.
+    function prepare(uint256 a, uint256 b, uint256 c, uint256 row) internal pure virtual;
 
     /// @notice Draws the rows from `row` (inclusive) to `last` (exclusive) of the current triangle, as its mode selects.
     function drawFragments(uint256 row, uint256 last) internal pure virtual;
@@ -61,7 +62,7 @@ abstract contract SampleRasterizer is Rasterizer {
             uint256 row = max((a + ((SUBPIXEL_MASK - OUTERMOST_SAMPLE) << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT, load(BAND_TOP));
             uint256 last = min(lowest >> SCREEN_PIXEL_ROW_AT, load(BAND_BOTTOM));
             if (row >= last) return;
-            prepare(a, b, c);
+            prepare(a, b, c, row);
             setSides(a, b, c, row);
             if (load(MODE) & IS_TURNED_AWAY != 0) {
                 (int256 dx, int256 dy) = (loadSigned(DX) >> PIXEL_64_BITS, loadSigned(DY) >> PIXEL_64_BITS);

@@ -16,12 +16,17 @@ import "../../words/Registers.sol";
 
 library Quadratic {
     /// @notice Computes the coefficients from the values at the vertices and the edge midpoints.
-    function fromNodes(uint256 a, uint256 b, uint256 c, uint256 ab, uint256 ac, uint256 bc) internal pure {
+    /// @param place The address of the first of these six words, which are NODE_SIZE bytes apart.
+    function fromNodes(uint256 place) internal pure {
         assembly ("memory-safe") {
-            // along an edge: value = a + s * (b - a) + s * (1 - s) * (4 * ab - 2 * (a + b))
-            ab := sub(shl(2, ab), shl(1, add(a, b))) // from here on 4 * ab - 2 * (a + b), the bend of the edge
-            ac := sub(shl(2, ac), shl(1, add(a, c)))
-            mstore(QUADRATIC_ST, sub(sub(sub(shl(2, bc), shl(1, add(b, c))), ab), ac)) // that of bc - ab - ac
+            let a := mload(place)
+            let b := mload(add(place, NODE_TO_B))
+            let c := mload(add(place, NODE_TO_C))
+            // along an edge: value = a + s * (b - a) + s * (1 - s) * (4 * ab - 2 * (a + b)); the bends of the edges, 4 * ab - 2 * (a + b)
+            let ab := sub(shl(2, mload(add(place, NODE_TO_AB))), shl(1, add(a, b)))
+            let ac := sub(shl(2, mload(add(place, NODE_TO_AC))), shl(1, add(a, c)))
+            let bc := sub(shl(2, mload(add(place, NODE_TO_BC))), shl(1, add(b, c)))
+            mstore(QUADRATIC_ST, sub(sub(bc, ab), ac))
             mstore(QUADRATIC_SS, sub(0, ab))
             mstore(QUADRATIC_TT, sub(0, ac))
             mstore(QUADRATIC_S, add(sub(b, a), ab)) // b - a + bend
@@ -30,10 +35,30 @@ library Quadratic {
         }
     }
 
+    /// @notice Copies the coefficients, or the differences, of one function to another.
+    function copy(uint256 target, uint256 source) internal pure {
+        assembly ("memory-safe") {
+            mcopy(target, source, 0xc0)
+        }
+    }
+
+    /// @notice Calls setDifferences for both functions of a smooth triangle.
+    function setBoth(uint256 a, uint256 b, uint256 c, uint256 top, uint256 column, uint256 further) internal pure {
+        setDifferences(a, b, c, top, column, further);
+        if (load(MODE) & IS_TWICE_LIT == 0) return;
+        copy(SECOND_START, QUADRATIC_START);
+        copy(QUADRATIC_1, SECOND_1);
+        setDifferences(a, b, c, top, column, further);
+        copy(QUADRATIC_1, QUADRATIC_START);
+        copy(QUADRATIC_START, SECOND_START);
+        copy(SECOND_START, QUADRATIC_1);
+    }
+
     /// @notice Computes the value at column 0 of row `top` (QUADRATIC_START) and its differences from the coefficients. The change from
     /// column x of row y to column x + 1 is QUADRATIC_DX + x * QUADRATIC_DXX + y * QUADRATIC_DXY; rows likewise.
     /// @param a, b, c The screen words of the vertices, as for the triangle.
-    function setDifferences(uint256 a, uint256 b, uint256 c, uint256 top) internal pure {
+    /// @param column The column that is meant by column 0 in row `top`, which is `further` columns to the right in each row below.
+    function setDifferences(uint256 a, uint256 b, uint256 c, uint256 top, uint256 column, uint256 further) internal pure {
         assembly ("memory-safe") {
             let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
             let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
@@ -43,6 +68,7 @@ library Quadratic {
             c := sub(shr(SCREEN_ROW_AT, c), a)
             // from the first vertex to the centres of the row
             a := sub(shl(SUBPIXEL_BITS, top), a) // a from here on: y
+            x := sub(x, shl(SUBPIXEL_BITS, column)) // from that column
             // change of s and t per pixel, Q24: (ds/dx, dt/dx) = (-c, b) / area, (ds/dy, dt/dy) = (xc, -xb) / area, in sub-pixels
             top := sub(mul(xc, b), mul(xb, c)) // top from here on: twice the area
             let dsdx := sub(0, sdiv(shl(SUBPIXEL_TO_Q24, c), top))
@@ -52,6 +78,8 @@ library Quadratic {
             // b and c from here on: s and t at column 0 of the first row, Q24
             b := sar(SUBPIXEL_BITS, sub(mul(xc, a), mul(dsdx, x))) // ds/dy * y - ds/dx * x
             c := sar(SUBPIXEL_BITS, sub(mul(xb, a), mul(dtdx, x)))
+            xc := add(xc, mul(further, dsdx)) // to the next row
+            xb := add(xb, mul(further, dtdx))
             {
                 // the value, and its derivatives with respect to s and t, Qn+24
                 a := mul(b, mload(QUADRATIC_SS)) // a and x from here on: s * SS and t * TT

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import "../../words/SampleRegisters.sol";
+
+// Silhouettes, borders and creases of smooth objects: the edges that do not lie between two triangles which are drawn. Only pixels that
+// such an edge touches need four samples: they are marked with IS_EDGE before the object is drawn. Every other pixel belongs, with all its
+// samples, to the triangle that covers its first sample. Which rule holds is a property of the pixel, so in each of them the triangles of a
+// surface neither overlap nor leave gaps.
+//
+// An edge from u to v is closed if another triangle has the edge from v to u. Vertex records keep the numbers of the next and of the
+// previous vertices of the triangles around, 16 bits each, for which 16 of either have room: an edge counts as open if both of its vertices
+// have more. Edges that clipping made are open, and those of triangles with such a vertex.
+
+/// @dev A row of pixels in the format of screen words.
+uint256 constant ONE_ROW = 1 << 136;
+
+library OpenEdges {
+    /// @notice Finds the open edges of the triangles of a list, and writes them behind `edges`, the address of a word for their end.
+    /// @param records The address of the vertex records; those from `made` on were made by clipping.
+    /// @return The first free address.
+    function find(uint256 list, uint256 end, uint256 records, uint256 made, uint256 edges) internal pure returns (uint256) {
+        assembly ("memory-safe") {
+            function enter(vertex, next, previous) {
+                vertex := add(vertex, VERTEX_NEXT)
+                mstore(vertex, or(shl(NUMBER_BITS, mload(vertex)), next))
+                vertex := add(vertex, sub(VERTEX_PREVIOUS, VERTEX_NEXT))
+                mstore(vertex, or(shl(NUMBER_BITS, mload(vertex)), previous))
+            }
+
+            // whether one of 16 numbers is this one: whether the difference of a lane is 0
+            function has(numbers, one) -> yes {
+                numbers := xor(numbers, mul(one, ONES_16))
+                yes := and(and(sub(numbers, ONES_16), not(numbers)), TOPS_16)
+            }
+
+            // writes the edge from u to v if it is open
+            function check(place, u, v, first) -> next {
+                next := place
+                if iszero(has(mload(add(v, VERTEX_NEXT)), shr(SMOOTH_RECORD_BITS, sub(u, first)))) {
+                    if iszero(has(mload(add(u, VERTEX_PREVIOUS)), shr(SMOOTH_RECORD_BITS, sub(v, first)))) {
+                        mstore(place, or(shl(TRIANGLE_A_AT, u), v))
+                        next := add(place, 32)
+                    }
+                }
+            }
+
+            records := sub(records, SMOOTH_RECORD_SIZE) // numbers are counted from 1
+            for { let triangle := list } lt(triangle, end) { triangle := add(triangle, 32) } {
+                let c := mload(triangle)
+                let a := and(shr(TRIANGLE_A_AT, c), TRIANGLE_A_MASK)
+                let b := and(shr(TRIANGLE_B_AT, c), TRIANGLE_B_MASK)
+                c := and(c, TRIANGLE_C_MASK)
+                if and(and(lt(a, made), lt(b, made)), lt(c, made)) {
+                    let numberA := shr(SMOOTH_RECORD_BITS, sub(a, records))
+                    let numberB := shr(SMOOTH_RECORD_BITS, sub(b, records))
+                    let numberC := shr(SMOOTH_RECORD_BITS, sub(c, records))
+                    enter(a, numberB, numberC)
+                    enter(b, numberC, numberA)
+                    enter(c, numberA, numberB)
+                }
+            }
+            let place := add(edges, 32)
+            for {} lt(list, end) { list := add(list, 32) } {
+                let c := mload(list)
+                let a := and(shr(TRIANGLE_A_AT, c), TRIANGLE_A_MASK)
+                let b := and(shr(TRIANGLE_B_AT, c), TRIANGLE_B_MASK)
+                c := and(c, TRIANGLE_C_MASK)
+                place := check(place, a, b, records)
+                place := check(place, b, c, records)
+                place := check(place, c, a, records)
+            }
+            mstore(edges, place)
+            edges := place
+        }
+        return edges;
+    }
+
+    /// @notice Marks the pixels of the band whose samples the edges may separate.
+    /// @param edges As for `find`.
+    function mark(uint256 edges) internal pure {
+        assembly ("memory-safe") {
+            // The pixels that a line touches, where u is the axis along which it is longer: in each row across that axis, those within
+            // OUTERMOST_SAMPLE of the line where it passes the samples of the row. Bounds are inclusive, `stride` are those of addresses.
+            function along(u, v, endU, endV, leastU, mostU, strideU, leastV, mostV, strideV, place) {
+                if gt(u, endU) {
+                    let swapped := u
+                    u := endU
+                    endU := swapped
+                    swapped := v
+                    v := endV
+                    endV := swapped
+                }
+                let slope := 0
+                if xor(u, endU) { slope := sdiv(shl(Q16, sub(endV, v)), sub(endU, u)) } // at most 1, Q16
+                // the line at row 0, Q16
+                let at0 := sub(shl(Q16, v), mul(slope, u))
+                let reach := mul(OUTERMOST_SAMPLE, add(xor(slope, sar(SIGN_AT, slope)), add(ONE_16, 1))) // 3/8 pixel * (1 + |slope|)
+                // the least and the greatest column with OUTERMOST_SAMPLE around it
+                if gt(v, endV) {
+                    let swapped := v
+                    v := endV
+                    endV := swapped
+                }
+                v := shl(Q16, sub(v, OUTERMOST_SAMPLE))
+                endV := shl(Q16, add(endV, OUTERMOST_SAMPLE))
+                u := shr(SUBPIXEL_BITS, add(u, sub(SUBPIXEL_MASK, OUTERMOST_SAMPLE)))
+                endU := shr(SUBPIXEL_BITS, add(endU, OUTERMOST_SAMPLE))
+                if lt(u, leastU) { u := leastU }
+                if gt(endU, mostU) { endU := mostU }
+                for {} iszero(gt(u, endU)) { u := add(u, 1) } {
+                    let first := add(at0, mul(slope, shl(SUBPIXEL_BITS, u)))
+                    let last := add(first, reach)
+                    first := sub(first, reach)
+                    if slt(first, v) { first := v }
+                    if sgt(last, endV) { last := endV }
+                    first := sar(SUBPIXEL_Q16_BITS, add(first, SUBPIXEL_Q16_MASK))
+                    last := sar(SUBPIXEL_Q16_BITS, last)
+                    if slt(first, leastV) { first := leastV }
+                    if sgt(last, mostV) { last := mostV }
+                    for {} iszero(sgt(first, last)) { first := add(first, 1) } {
+                        let p := add(place, add(mul(u, strideU), mul(first, strideV)))
+                        mstore(p, or(mload(p), IS_EDGE))
+                    }
+                }
+            }
+
+            let least := mload(BAND_TOP)
+            let most := mload(BAND_BOTTOM)
+            if lt(least, mload(SAMPLE_TOP)) { least := mload(SAMPLE_TOP) }
+            if gt(most, mload(SAMPLE_BOTTOM)) { most := mload(SAMPLE_BOTTOM) }
+            if and(lt(least, most), lt(mload(SAMPLE_BEGIN), mload(SAMPLE_END))) {
+                most := sub(most, 1)
+                let above := shl(SCREEN_PIXEL_ROW_AT, least) // in the format of screen words; a pixel more than needed
+                let below := shl(SCREEN_PIXEL_ROW_AT, add(most, 1))
+                let end := mload(edges)
+                for { edges := add(edges, 32) } lt(edges, end) { edges := add(edges, 32) } {
+                    let a := mload(edges)
+                    let b := mload(and(a, TRIANGLE_C_MASK)) // screen words
+                    a := mload(shr(TRIANGLE_A_AT, a))
+                    if and(or(gt(add(a, ONE_ROW), above), gt(add(b, ONE_ROW), above)), or(lt(a, below), lt(b, below))) {
+                        let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
+                        let endX := and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK)
+                        a := shr(SCREEN_ROW_AT, a) // a, b: the rows from here on
+                        b := shr(SCREEN_ROW_AT, b)
+                        let stride := sub(0, mload(SAMPLE_STRIDE))
+                        let last := sub(mload(SAMPLE_END), 1)
+                        let dx := sub(endX, x)
+                        let dy := sub(b, a)
+                        switch gt(mul(dx, dx), mul(dy, dy))
+                        case 0 { along(a, x, b, endX, least, most, stride, mload(SAMPLE_BEGIN), last, SAMPLE_SIZE, mload(SAMPLE_ORIGIN)) }
+                        default { along(x, a, endX, b, mload(SAMPLE_BEGIN), last, SAMPLE_SIZE, least, most, stride, mload(SAMPLE_ORIGIN)) }
+                    }
+                }
+            }
+        }
+    }
+}
