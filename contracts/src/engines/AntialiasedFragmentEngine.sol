@@ -8,26 +8,16 @@ import {SampleBuffer} from "../pipeline/samples/SampleBuffer.sol";
 import {SampleWires} from "../pipeline/samples/SampleWires.sol";
 import {OpenEdges} from "../pipeline/samples/OpenEdges.sol";
 import {QuadraticSamples} from "../pipeline/samples/QuadraticSamples.sol";
-import {Quadratic} from "../pipeline/shading/Quadratic.sol";
-import {SmoothNodes} from "../pipeline/shading/SmoothNodes.sol";
+import {SmoothSamples} from "../pipeline/samples/SmoothSamples.sol";
+import {SmoothShading} from "../pipeline/shading/SmoothShading.sol";
 import "../words/SampleRegisters.sol";
 
 /// @title AntialiasedFragmentEngine: does the work of the FragmentEngine with four samples per pixel.
 /// @notice Called by the Renderer: see FragmentEngine.
-contract AntialiasedFragmentEngine is SampleBuffer, SampleWires, BlendedSamples {
+contract AntialiasedFragmentEngine is SampleBuffer, SampleWires, BlendedSamples, SmoothSamples {
     function prepare(uint256 a, uint256 b, uint256 c, uint256 row) internal pure override {
-        unchecked {
-            setGradients(a, b, c, 0);
-            if (load(MODE) & IS_QUADRATIC == 0) return;
-            // relative to address 0, as QuadraticSamples needs them
-            uint256 column = load(SAMPLE_ORIGIN) - row * load(SAMPLE_STRIDE);
-            column = 0 - uint256(int256(column) >> SAMPLE_SIZE_BITS);
-            Quadratic.setBoth(a, b, c, row, column, load(SAMPLE_STRIDE) >> SAMPLE_SIZE_BITS);
-        }
-    }
-
-    function openFrame() internal pure override {
-        SmoothNodes.open();
+        setGradients(a, b, c, 0);
+        setRows(a, b, c, row);
     }
 
     function openObject(uint256) internal pure override {
@@ -45,6 +35,10 @@ contract AntialiasedFragmentEngine is SampleBuffer, SampleWires, BlendedSamples 
     function openList(uint256 kept) internal pure override {
         store(HAS_EDGES, kept);
         if (kept != 0) OpenEdges.mark(kept);
+    }
+
+    function setDifferences(uint256 a, uint256 b, uint256 c) internal pure override(SmoothShading, SmoothSamples) {
+        SmoothSamples.setDifferences(a, b, c);
     }
 
     function drawFragments(uint256 row, uint256 last) internal pure override {

@@ -2,11 +2,8 @@
 pragma solidity 0.8.37;
 
 import {DepthBuffer} from "../pipeline/pixels/DepthBuffer.sol";
-import {Quadratic} from "../pipeline/shading/Quadratic.sol";
-import {firstRowOf, max} from "../pipeline/geometry/Screen.sol";
 import {Shading} from "../pipeline/shading/Shading.sol";
-import {QuadraticSpans} from "../pipeline/pixels/QuadraticSpans.sol";
-import {SmoothNodes} from "../pipeline/shading/SmoothNodes.sol";
+import {SmoothSpans} from "../pipeline/pixels/SmoothSpans.sol";
 import {Spans} from "../pipeline/pixels/Spans.sol";
 import {Wireframe} from "../pipeline/pixels/Wireframe.sol";
 import "../words/Registers.sol";
@@ -14,19 +11,6 @@ import "../words/Registers.sol";
 /// @title FragmentEngine: transforms vertices to pixels, for surfaces that are shaded per fragment.
 /// @notice Draws smooth surfaces, wires, and all translucent or spot-lit objects; otherwise like `Engine`.
 contract FragmentEngine is DepthBuffer, Wireframe {
-    function openFrame() internal pure override {
-        SmoothNodes.open();
-    }
-
-    function openObject(uint256) internal pure override {
-        openSmooth();
-    }
-
-    function setDifferences(uint256 a, uint256 b, uint256 c) internal pure override {
-        uint256 none = load(ZERO_SLOT);
-        Quadratic.setBoth(a, b, c, max(firstRowOf(a), load(BAND_TOP)), none, none);
-    }
-
     /// @dev Triangles whose only varying attribute is a linearly varying colour need no per-fragment light.
     function shadeExact(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
         (uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode) = surface(a, b, c);
@@ -37,7 +21,7 @@ contract FragmentEngine is DepthBuffer, Wireframe {
     }
 
     function drawParts(uint256 edges, uint256 rows, uint256 row) internal pure override {
-        if (load(MODE) & IS_QUADRATIC != 0) QuadraticSpans.drawParts(edges, rows, row);
+        if (load(MODE) & IS_QUADRATIC != 0) SmoothSpans.drawParts(edges, rows, row);
         else drawBothParts(edges, rows, row);
     }
 

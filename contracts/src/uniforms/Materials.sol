@@ -32,10 +32,16 @@ library Materials {
                 store(FRAGMENT_SQUARE, ONE_48);
                 store(FRAGMENT_NORMAL_LENGTH, ONE_24);
             } else {
-                Specular.setCurve(uint256(material.specular.raw()), material.shininess);
-                bool hasLamp = setHalfTurn(view_, lights);
-                // there are two functions
-                if (lights.length - 1 < 2 && mode & IS_SPOT_LIT == 0 && !(view_.orthographic && hasLamp) && !Specular.isBroad(material)) mode |= IS_QUADRATIC;
+                store(FACE_LIGHT_40, load(AMBIENT) << (Q40 - Q16));
+                uint256 focal = uint256(view_.focal) >> Q32;
+                bool isPoint = load(LIGHTS + LIGHT_IS_POINT) != 0;
+                uint256 reach = smoothReach(focal, uint256(material.diffuse.raw()), isPoint);
+                if (view_.orthographic) focal = 0;
+                Specular.setReaches(uint256(material.specular.raw()), material.shininess, reach, focal);
+                // with several lights, most of the work would be repeated for each of them
+                if (lights.length == 1 && mode & IS_SPOT_LIT == 0 && !(view_.orthographic && isPoint) && !Specular.isBroad(material)) {
+                    mode |= IS_QUADRATIC;
+                }
                 mode |= IS_SMOOTH | IS_LIT | IS_DIFFUSE;
             }
         }
@@ -100,14 +106,14 @@ library Materials {
         }
     }
 
-    /// @dev Sets HALF_TURN: half vectors turn by half of what V turns, and for a lamp by half of what L turns, which is at most the root of
-    /// 5/4 of that: see LIGHT_TURNS_FAST.
-    function setHalfTurn(View memory view_, Light[] calldata lights) private pure returns (bool hasLamp) {
+    /// @dev Returns the maximum sum of the squares of two edges, in sub-pixels, for which directions to a lamp can be interpolated in a
+    /// triangle. The error is at most sum w_i w_j e_ij^2 / 2, where e is an edge divided by the distance of the lamp, or 5/4 of the edge
+    /// divided by the distance of the eye: 5/4 is the square of how much nearer lamps may be. The sum is at most a quarter of that of two
+    /// edges. Four levels of 255 are allowed.
+    function smoothReach(uint256 focal, uint256 coefficient, bool isPoint) private pure returns (uint256) {
         unchecked {
-            for (uint256 i; i != lights.length; ++i) if (lights[i].kind == POINT) hasLamp = true;
-            // (RAY_STEP / 2 / 256)^2 in Q48; of a lamp 4.5 times that
-            uint256 square = (load(RAY_STEP) * load(RAY_STEP)) >> (2 + 2 * SUBPIXEL_BITS - 4);
-            store(HALF_TURN, view_.orthographic ? 0 : hasLamp ? 9 * square / 2 : square);
+            // 4 * 4 * 4 / 5 = 13
+            return isPoint && coefficient != 0 ? (13 * focal * focal << Q32) / (255 * coefficient) : UNBOUNDED_REACH;
         }
     }
 }

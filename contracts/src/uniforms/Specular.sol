@@ -52,11 +52,19 @@ library Specular {
         }
     }
 
-    /// @notice Sets CURVE: see SmoothShading.
-    function setCurve(uint256 coefficient, uint256 shininess) internal pure {
+    /// @notice Sets how far half vectors can be interpolated: see SmoothTriangle.
+    /// @param lampReach The maximum sum of the squares of two edges, in sub-pixels, for which directions to a lamp can be.
+    /// @param focal The focal length in sub-pixels; 0 for an orthographic camera, for which half vectors are constant.
+    function setReaches(uint256 coefficient, uint256 shininess, uint256 lampReach, uint256 focal) internal pure {
         unchecked {
-            coefficient >>= Q16;
-            store(CURVE, coefficient * coefficient * shininess);
+            // the maximum slope of cos^n is 0.6 * sqrt(n): 4 / (255 * 0.6 * 0.15) = 0.174 = 11 / 63
+            uint256 slope = (sqrt(shininess << (Q32 + Q32)) * coefficient) >> Q32;
+            uint256 reach = slope == 0 || focal == 0 ? UNBOUNDED_REACH : (11 * focal * focal << (Q32 - 6)) / slope;
+            store(SMOOTH_REACH, lampReach < reach ? lampReach : reach);
+            store(SMOOTH_REACH_3, lampReach < 5 * reach / 2 ? 8 * lampReach : 20 * reach);
+            store(HALF_SLOPE, (3109 * shininess * coefficient) >> Q32);
+            // 2.8 = 2936013 / 2^20
+            store(FAR_FROM_HIGHLIGHT, (1 << Q20) - 2936013 / shininess);
         }
     }
 

@@ -10,7 +10,7 @@ import "./Words.sol";
 
 /// @dev The beginning of the registers: the maximum end of the compiler's variables in memory.
 uint256 constant REGISTERS = 0x800;
-uint256 constant REGISTERS_END = 0x3ae0;
+uint256 constant REGISTERS_END = 0x3080;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- frame
 // The uniforms of the frame, which the Renderer fills. Pixel columns and rows are counted from -PIXEL_BIAS, so that everything inside the
@@ -139,86 +139,90 @@ uint256 constant SCALE_PER_NEAR = 0x15c0;
 uint256 constant AMBIENT = 0x15e0;
 /// @dev The square of the distance, in sub-pixels, over which light is approximately linear.
 uint256 constant REACH = 0x1600;
-/// @dev The square of the highlight's strength, Q32, times its exponent; the square of the angle by which half vectors turn over a sub-
-/// pixel, Q52. See SmoothShading.
-uint256 constant CURVE = 0x1620;
-uint256 constant HALF_TURN = 0x1640;
+/// @dev The maximum sums of the squares of two edges for which directions can be interpolated in smooth triangles: linearly, and with
+/// errors of third order.
+uint256 constant SMOOTH_REACH = 0x1620;
+uint256 constant SMOOTH_REACH_3 = 0x1640;
+/// @dev The slope of the highlight at its maximum, in 84ths of a level of 255, Q10; and a cos^2, Q20, below which it is at most half of
+/// that.
+uint256 constant HALF_SLOPE = 0x1660;
+uint256 constant FAR_FROM_HIGHLIGHT = 0x1680;
+/// @dev The light of a smooth object that does not depend on the fragment, lanes of Q40.
+uint256 constant FACE_LIGHT_40 = 0x16a0;
 /// @dev The square and the length of a fragment's normal, Q48 and Q24: one, unless normals are interpolated.
-uint256 constant FRAGMENT_SQUARE = 0x1660;
-uint256 constant FRAGMENT_NORMAL_LENGTH = 0x1680;
+uint256 constant FRAGMENT_SQUARE = 0x16c0;
+uint256 constant FRAGMENT_NORMAL_LENGTH = 0x16e0;
 /// @dev The beginning of the highlight's table, as cos^2 in Q24; its entries per unit, Q16; their product, Q24.
-uint256 constant SPECULAR_BEGIN = 0x16a0;
-uint256 constant SPECULAR_SCALE = 0x16c0;
-uint256 constant SPECULAR_OFFSET = 0x16e0;
+uint256 constant SPECULAR_BEGIN = 0x1700;
+uint256 constant SPECULAR_SCALE = 0x1720;
+uint256 constant SPECULAR_OFFSET = 0x1740;
 /// @dev The specular coefficient, Q16, if the shininess is 1, otherwise 0.
-uint256 constant SPECULAR_ROOT = 0x1700;
+uint256 constant SPECULAR_ROOT = 0x1760;
 /// @dev The other halves of the records at LIGHTS.
-uint256 constant OBJECT_LIGHTS = 0x1720;
+uint256 constant OBJECT_LIGHTS = 0x1780;
 /// @dev 65 entries: the value of the highlight in the upper half, the increase to the next entry in the lower half, both Q16.
-uint256 constant SPECULAR_TABLE = 0x1ca0;
+uint256 constant SPECULAR_TABLE = 0x1d00;
 /// @dev The following uniform is for scenes with effects.
-uint256 constant SPECULAR_TABLE_END = 0x24c0;
+uint256 constant SPECULAR_TABLE_END = 0x2520;
 /// @dev The number of the object in the scene.
-uint256 constant OBJECT_NUMBER = 0x24c0;
-uint256 constant OBJECT_END = 0x24e0;
+uint256 constant OBJECT_NUMBER = 0x2520;
+uint256 constant OBJECT_END = 0x2540;
 
 // ------------------------------------------------------------------------------------------------------------------------------- triangle
 
 /// @dev The shading of fragments: see the mode.
-uint256 constant MODE = 0x24e0;
+uint256 constant MODE = 0x2540;
 /// @dev The accumulator at the first vertex, with the bias of its lanes; and the differences of the other attribute words to the first.
-uint256 constant ATTRIBUTE_0 = 0x2500;
-uint256 constant DELTA_1 = 0x2520;
-uint256 constant DELTA_2 = 0x2540;
+uint256 constant ATTRIBUTE_0 = 0x2560;
+uint256 constant DELTA_1 = 0x2580;
+uint256 constant DELTA_2 = 0x25a0;
 /// @dev The calldata offset of the face.
-uint256 constant FACE = 0x2560;
+uint256 constant FACE = 0x25c0;
 /// @dev The accumulator at column 0 of the first row, and its change per pixel and per row.
-uint256 constant START = 0x2580;
-uint256 constant DX = 0x25a0;
-uint256 constant DY = 0x25c0;
+uint256 constant START = 0x25e0;
+uint256 constant DX = 0x2600;
+uint256 constant DY = 0x2620;
 /// @dev Colour at the first vertex, and its differences to the others.
-uint256 constant COLOR_0 = 0x25e0;
-uint256 constant COLOR_1 = 0x2600;
-uint256 constant COLOR_2 = 0x2620;
+uint256 constant COLOR_0 = 0x2640;
+uint256 constant COLOR_1 = 0x2660;
+uint256 constant COLOR_2 = 0x2680;
 /// @dev Depths at the second and third vertex.
-uint256 constant DEPTH_1 = 0x2640;
-uint256 constant DEPTH_2 = 0x2660;
+uint256 constant DEPTH_1 = 0x26a0;
+uint256 constant DEPTH_2 = 0x26c0;
 /// @dev The side in pixels of the cells over which colours are quadratic; 0 if they are quadratic over the whole triangle, 1 if each is
 /// exact.
-uint256 constant PATCH_SIZE = 0x2680;
+uint256 constant PATCH_SIZE = 0x26e0;
 /// @dev The normal of a flat face, with a length of twice its area, in units of the mesh: signed lanes of 86 bits.
-uint256 constant FACE_NORMAL = 0x26a0;
+uint256 constant FACE_NORMAL = 0x2700;
 /// @dev The square of its length, and its length, Q16.
-uint256 constant FACE_SQUARE = 0x26c0;
-uint256 constant FACE_LENGTH = 0x26e0;
+uint256 constant FACE_SQUARE = 0x2720;
+uint256 constant FACE_LENGTH = 0x2740;
 /// @dev Unit normal times ray, Q48: FACE_N_DOT_RAY + FACE_N_DOT_RAY_SLOPE * depth >> 94.
-uint256 constant FACE_N_DOT_RAY = 0x2700;
-uint256 constant FACE_N_DOT_RAY_SLOPE = 0x2720;
+uint256 constant FACE_N_DOT_RAY = 0x2760;
+uint256 constant FACE_N_DOT_RAY_SLOPE = 0x2780;
 /// @dev Normals of a smooth triangle whose fragments are shaded individually: the normal at the first vertex (Q36), and the differences to
 /// the others (Q20).
-uint256 constant NORMALS_0 = 0x2740;
-uint256 constant NORMALS_1 = 0x2760;
-uint256 constant NORMALS_2 = 0x2780;
+uint256 constant NORMALS_0 = 0x27a0;
+uint256 constant NORMALS_1 = 0x27c0;
+uint256 constant NORMALS_2 = 0x27e0;
 
 // ------------------------------------------------------------------------------------------------------------------------------- fragment
 
 /// @dev The position of the fragment beside the line of sight of an orthographic camera, Q16.
-uint256 constant FRAGMENT_PLACE_X = 0x27a0;
-uint256 constant FRAGMENT_PLACE_Y = 0x27c0;
+uint256 constant FRAGMENT_PLACE_X = 0x2800;
+uint256 constant FRAGMENT_PLACE_Y = 0x2820;
 /// @dev The normal of the fragment, Q24, and its product with the ray.
-uint256 constant FRAGMENT_NORMAL_X = 0x27e0;
-uint256 constant FRAGMENT_NORMAL_Y = 0x2800;
-uint256 constant FRAGMENT_NORMAL_Z = 0x2820;
-uint256 constant FRAGMENT_NORMAL_RAY = 0x2840;
+uint256 constant FRAGMENT_NORMAL_X = 0x2840;
+uint256 constant FRAGMENT_NORMAL_Y = 0x2860;
+uint256 constant FRAGMENT_NORMAL_Z = 0x2880;
+uint256 constant FRAGMENT_NORMAL_RAY = 0x28a0;
 /// @dev Half the magnitude of the last square of a normal; of that of a face, a multiple of 3.
-uint256 constant NORMAL_HINT = 0x2860;
-uint256 constant FACE_HINT = 0x2880;
+uint256 constant NORMAL_HINT = 0x28c0;
+uint256 constant FACE_HINT = 0x28e0;
 /// @dev The fraction of a light's intensity that its cone lets through, Q16.
-uint256 constant FRAGMENT_CONE = 0x28a0;
+uint256 constant FRAGMENT_CONE = 0x2900;
 /// @dev The light that modulates the fragment's colour, lanes of Q40.
-uint256 constant FRAGMENT_LIGHT = 0x28c0;
-/// @dev The node that is computed: see NODES.
-uint256 constant FRAGMENT_NODE = 0x28e0;
+uint256 constant FRAGMENT_LIGHT = 0x2920;
 /// @dev The length of the fragment's ray, Q24.
 uint256 constant FRAGMENT_RAY_LENGTH = 0x2940;
 /// @dev If colours are multiplied by their depths, the nearest depth of the triangle, with 8 more bits than in a vertex; otherwise 0.
@@ -273,54 +277,39 @@ uint256 constant QUADRATIC_DY = 0x2cc0;
 uint256 constant QUADRATIC_DXX = 0x2ce0;
 uint256 constant QUADRATIC_DXY = 0x2d00;
 uint256 constant QUADRATIC_DYY = 0x2d20;
-/// @dev The same of a second function.
-uint256 constant SECOND_1 = 0x2d40;
-uint256 constant SECOND_S = 0x2d60;
-uint256 constant SECOND_T = 0x2d80;
-uint256 constant SECOND_SS = 0x2da0;
-uint256 constant SECOND_ST = 0x2dc0;
-uint256 constant SECOND_TT = 0x2de0;
-uint256 constant SECOND_START = 0x2e00;
-uint256 constant SECOND_DX = 0x2e20;
-uint256 constant SECOND_DY = 0x2e40;
-uint256 constant SECOND_DXX = 0x2e60;
-uint256 constant SECOND_DXY = 0x2e80;
-uint256 constant SECOND_DYY = 0x2ea0;
-/// @dev The six nodes of a smooth triangle: its vertices, and the midpoints of its edges from the first to the second, from the first to
-/// the third, from the second to the third. Each has three words: the light of two lamps, and its turn and flags. See SmoothNodes.
-uint256 constant NODES = 0x2ec0;
-uint256 constant NODE_B = 0x2f20;
-uint256 constant NODE_C = 0x2f80;
-uint256 constant NODE_AB = 0x2fe0;
-uint256 constant NODE_AC = 0x3040;
-uint256 constant NODE_BC = 0x30a0;
-uint256 constant NODES_END = 0x3100;
 /// @dev Changes over a word of eight colours: the quadratic part of each channel.
-uint256 constant BEND_BLUE = 0x3100;
-uint256 constant BEND_GREEN = 0x3120;
-uint256 constant BEND_RED = 0x3140;
+uint256 constant BEND_BLUE = 0x2d40;
+uint256 constant BEND_GREEN = 0x2d60;
+uint256 constant BEND_RED = 0x2d80;
 
 // ----------------------------------------------------------------------------------------------------------------------- smooth triangles
 
-/// @dev The colour of all vertices to which these refer, plus one bit; its part that all light reaches, Q58 with half a level, and what the
-/// lamps add per unit of N * L, Q34: lanes of 85 bits. See SmoothShading.
-uint256 constant SAME_COLOR = 0x3160;
-uint256 constant SAME_AMBIENT = 0x3180;
-uint256 constant SAME_DIFFUSE = 0x31a0;
-uint256 constant SAME_DIFFUSE_2 = 0x31c0;
-/// @dev The table of the highlight times the colour of the first lamp: lanes of 85 bits, Q42; the last entry twice.
-uint256 constant SHINE_TABLE = 0x31e0;
-/// @dev The beginning of a vertex record of zeros.
-uint256 constant NO_VERTEX = 0x3a20;
-/// @dev The address of the table of colours at the midpoints of edges: see SmoothNodes.
-uint256 constant EDGE_NODES = 0x3a80;
+/// @dev The normals at the vertices, times their weights, Q30; each followed by the same with reversed lanes.
+uint256 constant NORMAL_0 = 0x2da0;
+uint256 constant NORMAL_1 = 0x2de0;
+uint256 constant NORMAL_2 = 0x2e20;
+/// @dev The largest square of the changes of the half vector from vertex to vertex, Q40.
+uint256 constant HALF_CHANGE = 0x2e60;
+/// @dev Half the magnitudes of the last squares of a ray, and of a half vector.
+uint256 constant RAY_HINT = 0x2e80;
+uint256 constant HALF_HINT = 0x2ea0;
+/// @dev The record of a vertex at the midpoint of an edge.
+uint256 constant MIDDLE = 0x2ec0;
+/// @dev Twice the largest skew of a product N * H along an edge, Q20: see SmoothTriangle.correction.
+uint256 constant HALF_SKEW = 0x2fc0;
+/// @dev Half of QUADRATIC_DXX, by which QUADRATIC_DX is reduced while rows are drawn.
+uint256 constant QUADRATIC_HALF_DXX = 0x2fe0;
+/// @dev Bits that the engine adds to the mode.
+uint256 constant MORE_MODE = 0x3000;
+/// @dev The greatest depth of the vertices, Q24 relative to bit 192 of an accumulator.
+uint256 constant NEAREST = 0x3020;
 
 // ---------------------------------------------------------------------------------------------------------------------- answer of Effects
 // For the Renderer and for Effects: in memory, before the engine is called.
 
 /// @dev The memory address of the answer of the contract Effects, and its size: 0 if the scene has no effects.
-uint256 constant EFFECTS_AT = 0x3aa0;
-uint256 constant EFFECTS_SIZE = 0x3ac0;
+uint256 constant EFFECTS_AT = 0x3040;
+uint256 constant EFFECTS_SIZE = 0x3060;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- light
 // The properties of a light for the frame, at LIGHTS.
@@ -348,13 +337,13 @@ uint256 constant LIGHT_SIZE = 0x160;
 // The properties of a light for the object, at OBJECT_LIGHTS, in records of the same size: offsets from the record at LIGHTS.
 
 /// @dev The position in mesh space, Q32; or the direction in MESH_X, Q24, signed lanes of 86 bits, z lowest.
-uint256 constant LIGHT_MESH_X = 0xae0;
-uint256 constant LIGHT_MESH_Y = 0xb00;
-uint256 constant LIGHT_MESH_Z = 0xb20;
+uint256 constant LIGHT_MESH_X = 0xb40;
+uint256 constant LIGHT_MESH_Y = 0xb60;
+uint256 constant LIGHT_MESH_Z = 0xb80;
 /// @dev Colour times the diffuse coefficient, lanes of Q16.
-uint256 constant LIGHT_DIFFUSE = 0xb40;
+uint256 constant LIGHT_DIFFUSE = 0xba0;
 /// @dev Normal of the face times the vector to the light: Q24 for a direction, Q16 for a position.
-uint256 constant LIGHT_N_DOT_L = 0xb60;
+uint256 constant LIGHT_N_DOT_L = 0xbc0;
 
 // --------------------------------------------------------------------------------------------------------------------------------- vertex
 // The beginning of every vertex record; for the rest see VertexShader and SmoothVertex.
@@ -430,7 +419,7 @@ uint256 constant IS_DEPTH_PASS = 0x10000;
 uint256 constant IS_TURNED_AWAY = 0x20000;
 /// @dev Parts of the triangle are in shadow: see ShadowRows.
 uint256 constant IS_PARTLY_DARK = 0x40000;
-/// @dev With IS_QUADRATIC: there is a second lamp, and a second quadratic function.
-uint256 constant IS_TWICE_LIT = 0x80000;
+/// @dev With IS_QUADRATIC: the function is the light itself: see SmoothLight.
+uint256 constant IS_NORMALISED = 0x80000;
 /// @dev With IS_QUADRATIC: the vertices have several colours.
 uint256 constant IS_VARIED = 0x100000;

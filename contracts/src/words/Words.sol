@@ -5,18 +5,27 @@ pragma solidity 0.8.37;
 
 // ------------------------------------------------------------------------------------------------------------- vertex of a smooth surface
 
-/// @dev More words of its record: the normal; the node, whose last word is 0 if it is not computed yet: see SmoothNodes; the numbers of the
-/// next and of the previous vertices of the triangles around it, 16 bits each: see OpenEdges.
+/// @dev More words of its record: the normal; with one light, the normal with reversed lanes; the direction to the light with reversed
+/// lanes, Q21 and even; the half vector, Q29; the half vector with reversed lanes, Q21 and even; and whether they can be used: see
+/// SmoothVertex.
 uint256 constant VERTEX_NORMAL = 64;
-uint256 constant VERTEX_NODE = 96;
-uint256 constant VERTEX_META = 160;
-uint256 constant VERTEX_NEXT = 192;
-uint256 constant VERTEX_PREVIOUS = 224;
+uint256 constant VERTEX_REVERSED = 96;
+uint256 constant VERTEX_LIGHT = 128;
+uint256 constant VERTEX_HALF = 160;
+uint256 constant VERTEX_HALF_REVERSED = 192;
+uint256 constant VERTEX_STATE = 224;
 /// @dev Such a record has 2^8 bytes.
 uint256 constant SMOOTH_RECORD_BITS = 8;
 uint256 constant SMOOTH_RECORD_SIZE = 0x100;
-/// @dev The bits of a vertex number.
+/// @dev In its last word, above the state: the numbers of neighbours, 16 bits each, with 1 and the highest bit in each; the positions of
+/// the first and the last; a number. See OpenEdges.
+uint256 constant NUMBERS = 0xffffffffffffffffffffffffffffffffffffffffffffffffffff000000000000;
+uint256 constant NUMBER_ONES = 0x1000100010001000100010001000100010001000100010001000000000000;
+uint256 constant NUMBER_TOPS = 0x8000800080008000800080008000800080008000800080008000000000000000;
 uint256 constant NUMBER_BITS = 16;
+uint256 constant VERTEX_NUMBER_MASK = 0xffff;
+uint256 constant FIRST_NUMBER_AT = 48;
+uint256 constant LAST_NUMBER_AT = 240;
 
 // ----------------------------------------------------------------------------------------------------------------------------- guard band
 
@@ -118,8 +127,6 @@ uint256 constant BEHIND_DEPTH = 0xffffffffffffffffffffffffffffffffffffffffffffff
 uint256 constant BLUE_Q40_AT = 24;
 uint256 constant GREEN_Q40_AT = 80;
 uint256 constant RED_Q40_AT = 136;
-/// @dev SPECULAR_BEGIN of a material without a highlight.
-uint256 constant NO_HIGHLIGHT = 0x7fffffffffffffffffffffffffffffffffffffffffffffffffffffffffffffff;
 /// @dev The number of steps in the table of the highlight; the index of its last entry, Q40.
 uint256 constant SPECULAR_ENTRIES = 64;
 uint256 constant SPECULAR_LAST = 0x400000000000;
@@ -129,6 +136,8 @@ uint256 constant SPECULAR_ENTRY_SHIFT = 35;
 uint256 constant SPECULAR_ENTRY_MASK = 0xffffe0;
 uint256 constant SPECULAR_REST_AT = 24;
 uint256 constant SPECULAR_REST_MASK = 0xffff;
+/// @dev SPECULAR_BEGIN of a material without a highlight.
+uint256 constant NO_HIGHLIGHT = 0x7fffffffffffffffffffffffffffffffffffffffffffffffffffffffffffffff;
 /// @dev The position of the square of a cosine of a quadratic function, Q24, with its lane at the top of a word.
 uint256 constant SHINE_AT = 219;
 /// @dev That of N * L above it.
@@ -147,32 +156,15 @@ uint256 constant SPECULAR_ENTRY_SHIFT_24 = 19;
 uint256 constant SPECULAR_ENTRY_MASK_24 = 0xfe0;
 uint256 constant SPECULAR_REST_AT_128 = 0xffffff00000000000000000000000000000000;
 
-// ------------------------------------------------------------------------------------------------------------------------- light at nodes
+// --------------------------------------------------------------------------------------------------------------------- quadratic products
 
-/// @dev The bytes of a node; its other words; the distances from the first to the others.
-uint256 constant NODE_SIZE = 96;
-uint256 constant NODE_SECOND = 32;
-uint256 constant NODE_META = 64;
-uint256 constant NODE_TO_B = 96;
-uint256 constant NODE_TO_C = 192;
-uint256 constant NODE_TO_AB = 0x120;
-uint256 constant NODE_TO_AC = 0x180;
-uint256 constant NODE_TO_BC = 0x1e0;
-/// @dev The last word of a node: it is computed; a highlight shows there, and |L + V|^2 is below one there, so that half vectors turn fast,
-/// or the lamp is much nearer than the eye; or it is below 3; and the square of the turn of the normal along the edge, Q20.
-uint256 constant IS_NODE = 1;
-uint256 constant NODE_SHINES = 2;
-uint256 constant NODE_TURNS_FAST = 4;
-uint256 constant NODE_TURNS = 8;
-uint256 constant NODE_TURN_AT = 32;
-/// @dev 1.5, Q20: see SmoothShading.
-uint256 constant WIDEST_TURN = 0x180000;
-/// @dev The lanes of normals, Q20, with the bias that keeps them positive.
-uint256 constant NORMAL_Y_20_AT = 85;
-uint256 constant NORMAL_Z_20_AT = 170;
-uint256 constant NORMAL_20_MASK = 0x7fffff;
-uint256 constant NORMAL_20_HALF = 0x400000;
-uint256 constant NORMAL_20_BIAS = 0x1000000000000000000000800000000000000000000400000;
+/// @dev At fragments: twice the root of N * N, Q34, is approximated within 3 % by ROOT_AT_0 + (N * N) * ROOT_SLOPE >> ROOT_SHIFT.
+uint256 constant ROOT_AT_0 = 0x15f3aeee1;
+uint256 constant ROOT_SLOPE = 0x2be;
+uint256 constant ROOT_SHIFT = 44;
+/// @dev The positions of N * L as Q59 and N * H as Q46, with their lanes at the top of a word.
+uint256 constant N_DOT_L_AT = 180;
+uint256 constant N_DOT_H_AT = 193;
 
 // ------------------------------------------------------------------------------------------------------------------- normals of fragments
 
@@ -435,13 +427,6 @@ uint256 constant IS_CLAMPED_MODE = 0x180;
 uint256 constant TRIANGLE_CROSSING_SHIFT = 140;
 /// @dev To the mode of a face that a highlight may reach.
 uint256 constant SPECULAR_TO_LIT = 2;
-
-// ------------------------------------------------------------------------------------------------------------------------- vertex numbers
-// Sixteen numbers in a word: see OpenEdges.
-
-/// @dev 1 in each lane; the highest bit of each.
-uint256 constant ONES_16 = 0x1000100010001000100010001000100010001000100010001000100010001;
-uint256 constant TOPS_16 = 0x8000800080008000800080008000800080008000800080008000800080008000;
 
 // -------------------------------------------------------------------------------------------------------------------- borders of the tile
 // Four lanes of 28 bits for the left, right, upper and lower border: positive if a vertex lies beyond it. See TileCulling.

@@ -8,9 +8,9 @@ import "../../words/SampleRegisters.sol";
 // samples, to the triangle that covers its first sample. Which rule holds is a property of the pixel, so in each of them the triangles of a
 // surface neither overlap nor leave gaps.
 //
-// An edge from u to v is closed if another triangle has the edge from v to u. Vertex records keep the numbers of the next and of the
-// previous vertices of the triangles around, 16 bits each, for which 16 of either have room: an edge counts as open if both of its vertices
-// have more. Edges that clipping made are open, and those of triangles with such a vertex.
+// An edge from u to v is closed if another triangle has the edge from v to u. Vertex records keep the numbers of the next vertices of the
+// triangles around, 16 bits each, above VERTEX_STATE. There is room for 12; edges to vertices of more triangles count as closed. Edges that
+// clipping made are open, and those of triangles with such a vertex.
 
 /// @dev A row of pixels in the format of screen words.
 uint256 constant ONE_ROW = 1 << 136;
@@ -21,28 +21,24 @@ library OpenEdges {
     /// @return The first free address.
     function find(uint256 list, uint256 end, uint256 records, uint256 made, uint256 edges) internal pure returns (uint256) {
         assembly ("memory-safe") {
-            function enter(vertex, next, previous) {
-                vertex := add(vertex, VERTEX_NEXT)
-                mstore(vertex, or(shl(NUMBER_BITS, mload(vertex)), next))
-                vertex := add(vertex, sub(VERTEX_PREVIOUS, VERTEX_NEXT))
-                mstore(vertex, or(shl(NUMBER_BITS, mload(vertex)), previous))
+            function enter(vertex, next) {
+                vertex := add(vertex, VERTEX_STATE)
+                let numbers := mload(vertex)
+                switch shr(LAST_NUMBER_AT, numbers)
+                case 0 { mstore(vertex, or(shl(NUMBER_BITS, numbers), shl(FIRST_NUMBER_AT, next))) }
+                default { mstore(vertex, or(numbers, shl(LAST_NUMBER_AT, VERTEX_NUMBER_MASK))) }
             }
 
-            // whether one of 16 numbers is this one: whether the difference of a lane is 0
-            function has(numbers, one) -> yes {
-                numbers := xor(numbers, mul(one, ONES_16))
-                yes := and(and(sub(numbers, ONES_16), not(numbers)), TOPS_16)
-            }
-
-            // writes the edge from u to v if it is open
+            // writes the edge from u to v if it is open: if no number of v is that of u
             function check(place, u, v, first) -> next {
-                next := place
-                if iszero(has(mload(add(v, VERTEX_NEXT)), shr(SMOOTH_RECORD_BITS, sub(u, first)))) {
-                    if iszero(has(mload(add(u, VERTEX_PREVIOUS)), shr(SMOOTH_RECORD_BITS, sub(v, first)))) {
-                        mstore(place, or(shl(TRIANGLE_A_AT, u), v))
-                        next := add(place, 32)
-                    }
+                let numbers := mload(add(v, VERTEX_STATE))
+                next := xor(numbers, mul(shr(SMOOTH_RECORD_BITS, sub(u, first)), NUMBER_ONES)) // a lane is 0 if it is
+                next := and(and(sub(next, NUMBER_ONES), not(next)), NUMBER_TOPS)
+                if iszero(or(next, eq(shr(LAST_NUMBER_AT, numbers), VERTEX_NUMBER_MASK))) {
+                    mstore(place, or(shl(TRIANGLE_A_AT, u), v))
+                    place := add(place, 32)
                 }
+                next := place
             }
 
             records := sub(records, SMOOTH_RECORD_SIZE) // numbers are counted from 1
@@ -52,12 +48,9 @@ library OpenEdges {
                 let b := and(shr(TRIANGLE_B_AT, c), TRIANGLE_B_MASK)
                 c := and(c, TRIANGLE_C_MASK)
                 if and(and(lt(a, made), lt(b, made)), lt(c, made)) {
-                    let numberA := shr(SMOOTH_RECORD_BITS, sub(a, records))
-                    let numberB := shr(SMOOTH_RECORD_BITS, sub(b, records))
-                    let numberC := shr(SMOOTH_RECORD_BITS, sub(c, records))
-                    enter(a, numberB, numberC)
-                    enter(b, numberC, numberA)
-                    enter(c, numberA, numberB)
+                    enter(a, shr(SMOOTH_RECORD_BITS, sub(b, records)))
+                    enter(b, shr(SMOOTH_RECORD_BITS, sub(c, records)))
+                    enter(c, shr(SMOOTH_RECORD_BITS, sub(a, records)))
                 }
             }
             let place := add(edges, 32)

@@ -20,49 +20,25 @@ library QuadraticSamples {
                 color := and(color, not(mul(shr(SIGN_85, and(f, SIGNS_85)), BYTE_Q58))) // 0 where negative
             }
 
-            // the highlight of a lamp at a square of a cosine, Q24, above SPECULAR_BEGIN: lanes of 85 bits, Q58
-            function shine(t, record) -> color {
-                t := mul(sub(t, mload(SPECULAR_BEGIN)), mload(SPECULAR_SCALE)) // an index into the table, Q40
-                if gt(t, SPECULAR_LAST) { t := SPECULAR_LAST } // min
-                let entry := mload(add(SPECULAR_TABLE, and(shr(SPECULAR_ENTRY_SHIFT, t), SPECULAR_ENTRY_MASK))) // table[t]
-                entry := add( // value + increase * fraction of the index, Q16
-                    shr(SPECULAR_VALUE_AT, entry),
-                    shr(Q16, mul(and(entry, LANE_32), and(shr(SPECULAR_REST_AT, t), SPECULAR_REST_MASK)))
-                )
-                t := mul(mload(add(record, LIGHT_COLOR)), entry) // colour * highlight
-                entry := or(shl(MIDDLE_56_TO_85, and(t, MIDDLE_LANE_24)), shl(UPPER_56_TO_85, and(t, UPPER_LANE_24)))
-                color := shl(SHINE_TO_Q58, or(and(t, LANE_24), entry))
+            // N * L of unit vectors and the square of the cosine to the half vector, both Q24, from products: see SmoothTriangle
+            function lightOf(f) -> t, square {
+                square := shr(UPPER_85_AT, f) // N.N, Q68
+                t := add(shr(ROOT_SHIFT, mul(ROOT_SLOPE, square)), ROOT_AT_0) // about 2 sqrt(N.N), Q34
+                let length := add(t, div(square, t)) // one step of Newton: 2 |N|
+                t := sar(N_DOT_H_AT, shl(LOWER_85_TO_TOP, f)) // N.H
+                t := mul(t, sgt(t, 0))
+                square := div(mul(t, t), square) // cos^2 = (N.H)^2 / N.N
+                t := sdiv(sar(N_DOT_L_AT, shl(MIDDLE_85_TO_TOP, f)), length) // N.L / |N|
             }
 
-            // the same of the first lamp, by a table of its own
-            function shineOfFirst(t) -> color {
-                t := mul(sub(t, mload(SPECULAR_BEGIN)), mload(SPECULAR_SCALE)) // an index, Q40
+            // the highlight at the square of a cosine, Q24, above SPECULAR_BEGIN: lanes of 85 bits, Q58
+            function shine(square) -> color {
+                let t := mul(sub(square, mload(SPECULAR_BEGIN)), mload(SPECULAR_SCALE)) // an index, Q40
                 if gt(t, SPECULAR_LAST) { t := SPECULAR_LAST } // min
-                let place := add(SHINE_TABLE, and(shr(SPECULAR_ENTRY_SHIFT, t), SPECULAR_ENTRY_MASK))
-                color := mload(place)
+                square := add(SHINE_TABLE, and(shr(SPECULAR_ENTRY_SHIFT, t), SPECULAR_ENTRY_MASK)) // square: the address of the entry
+                color := mload(square)
                 t := and(shr(SPECULAR_REST_AT, t), SPECULAR_REST_MASK) // the fraction, Q16
-                color := add(shl(Q16, color), mul(sub(mload(add(place, 32)), color), t))
-            }
-
-            // the light of a lamp, f, on a colour: what it adds per unit of N * L is `diffuse`, Q34; lanes of 85 bits, Q58
-            function lit(f, diffuse, record) -> color {
-                let t := sar(N_DOT_L_Q72_AT, f) // N.L, Q24
-                if sgt(t, 0) {
-                    color := mul(diffuse, t)
-                    t := sar(SHINE_AT, shl(LOWER_85_TO_TOP, f)) // (N.H)^2, Q24
-                    if sgt(t, mload(SPECULAR_BEGIN)) { color := add(color, shine(t, record)) }
-                }
-            }
-
-            // the light of two lamps, the second only if it is there, on the colours of an accumulator
-            function varied(attribute, f, h) -> color {
-                attribute := shr(ACCUMULATOR_FRACTION, attribute) // lanes of Q10
-                color := add(HALF_85, shl(Q26_TO_Q58, times(attribute, mload(AMBIENT))))
-                color := add(color, lit(f, shl(Q26_TO_Q34, times(attribute, mload(add(LIGHTS, LIGHT_DIFFUSE)))), LIGHTS))
-                if and(mload(MODE), IS_TWICE_LIT) {
-                    f := add(LIGHTS, LIGHT_SIZE)
-                    color := add(color, lit(h, shl(Q26_TO_Q34, times(attribute, mload(add(f, LIGHT_DIFFUSE)))), f))
-                }
+                color := add(shl(Q16, color), mul(sub(mload(add(square, 32)), color), t))
             }
 
             // a colour, Q10, times light, Q16, both in lanes of 56 bits: in lanes of 85 bits, Q26
@@ -72,31 +48,41 @@ library QuadraticSamples {
                 lanes := add(lanes, shl(UPPER_85_AT, mul(and(shr(UPPER_AT, color), LANE_24), shr(UPPER_AT, light))))
             }
 
-            // the colour of a fragment
-            function colorAt(attribute, f, h) -> color {
+            // the colour of a fragment, Q58, with an accumulator and the function of the light
+            function colorAt(attribute, f) -> color {
+                let t := sar(N_DOT_L_Q72_AT, f) // N.L, Q24
+                let square := sar(SHINE_AT, shl(LOWER_85_TO_TOP, f)) // (N.H)^2, Q24
+                if iszero(and(mload(MODE), IS_NORMALISED)) { t, square := lightOf(f) }
+                color := mload(SAME_AMBIENT)
+                f := mload(SAME_DIFFUSE) // f: what the lamp adds per unit of N.L
                 if and(mload(MODE), IS_VARIED) {
-                    color := varied(attribute, f, h)
-                    leave
+                    let albedo := and(shr(ACCUMULATOR_FRACTION, attribute), LANES_24) // Q10
+                    if and(mload(MODE), IS_STEEP) {
+                        albedo := and(shr(Q16, mul(albedo, div(mload(NEAREST), shr(ACCUMULATOR_DEPTH_AT, attribute)))), LANES_24)
+                    }
+                    color := add(HALF_85, shl(Q26_TO_Q58, times(albedo, mload(AMBIENT))))
+                    f := shl(Q26_TO_Q34, times(albedo, mload(add(LIGHTS, LIGHT_DIFFUSE))))
                 }
-                color := add(mload(SAME_AMBIENT), lit(f, mload(SAME_DIFFUSE), LIGHTS))
-                if and(mload(MODE), IS_TWICE_LIT) { color := add(color, lit(h, mload(SAME_DIFFUSE_2), add(LIGHTS, LIGHT_SIZE))) }
+                if sgt(t, 0) {
+                    color := add(color, mul(f, t))
+                    if sgt(square, mload(SPECULAR_BEGIN)) { color := add(color, shine(square)) }
+                }
             }
 
-            // the lanes at the centroid of some samples; g is their change to the next column; the differences of the function lie `beyond`
-            // those of colours
-            function atCentroid(f, g, covered, p, beyond) -> there {
+            // the lanes at the centroid of some samples; g is their change to the next column
+            function atCentroid(f, g, covered, p) -> there {
                 covered := and(shr(SET_AT, mul(shr(TOP_64_AT, covered), COVERED_TO_SET)), SET_MASK) // 16 * the number of the set
                 let x := signextend(0, shr(add(8, covered), CENTROIDS))
                 let y := signextend(0, shr(covered, CENTROIDS))
                 // the differences to the next row at the same column: the next row at this address is w columns to the right
                 covered := mload(ROW_COLUMNS) // covered: w
-                let dxx := mload(add(QUADRATIC_DXX, beyond))
+                let dxx := mload(QUADRATIC_DXX)
                 let across := mul(covered, dxx) // w dxx
                 p := shr(SAMPLE_SIZE_BITS, p) // p: c
-                let dy := add(mload(add(QUADRATIC_DY, beyond)), mul(p, mload(add(QUADRATIC_DXY, beyond)))) // dy' + c dxy'
-                p := sub(mload(add(QUADRATIC_DXY, beyond)), across) // p: dxy = dxy' - w dxx
+                let dy := add(mload(QUADRATIC_DY), mul(p, mload(QUADRATIC_DXY))) // dy' + c dxy'
+                p := sub(mload(QUADRATIC_DXY), across) // p: dxy = dxy' - w dxx
                 dy := sub(dy, add(mul(covered, add(g, p)), mul(shr(1, mul(covered, sub(covered, 1))), dxx))) // - w (g + dxy) - w (w - 1) / 2 dxx
-                across := sub(mload(add(QUADRATIC_DYY, beyond)), mul(covered, add(shl(1, p), across))) // across: dyy = dyy' - w (2 dxy + w dxx)
+                across := sub(mload(QUADRATIC_DYY), mul(covered, add(shl(1, p), across))) // across: dyy = dyy' - w (2 dxy + w dxx)
                 // With the forward differences d at the centre, and x and y in eighths of a pixel, the quadratic function is
                 // f + (x dx + y dy) / 8 + (x (x - 8) dxx + 2 x y dxy + y (y - 8) dyy) / 128 there: exact, however thin the triangle
                 dxx := add(mul(sub(x, 8), dxx), mul(shl(1, y), p)) // dxx: (x - 8) dxx + 2 y dxy
@@ -126,20 +112,13 @@ library QuadraticSamples {
                 z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
                 let seen := and(sub(add(z, BELOW_TOPS_64), old), covered)
                 if seen {
-                    let h := 0
-                    if and(mload(MODE), IS_TWICE_LIT) {
-                        h := shr(SAMPLE_SIZE_BITS, p) // c
-                        let k := add(mload(SECOND_DX), mul(h, mload(SECOND_DXX))) // as in the loop of rows
-                        h := add(add(mload(SECOND_START), mul(h, mload(SECOND_DX))), mul(shr(1, mul(h, sub(h, 1))), mload(SECOND_DXX)))
-                        if xor(covered, TOPS_64) { h := atCentroid(h, k, covered, p, sub(SECOND_1, QUADRATIC_1)) }
-                    }
                     if xor(covered, TOPS_64) {
-                        f := atCentroid(f, g, covered, p, 0)
+                        f := atCentroid(f, g, covered, p)
                         g := and(shr(SET_AT, mul(shr(TOP_64_AT, covered), COVERED_TO_SET)), SET_MASK) // 16 * the number of the set
                         attribute := add(attribute, mul(signextend(0, shr(add(8, g), CENTROIDS)), mload(DX_8))) // + x DX / 8 + y DY / 8
                         attribute := add(attribute, mul(signextend(0, shr(g, CENTROIDS)), mload(DY_8)))
                     }
-                    f := colorAt(attribute, f, h)
+                    f := colorAt(attribute, f)
                     if and(f, ABOVE_Q58) { f := clamped(f) }
                     f := mul(and(f, BYTES_Q58), Q58_TO_TOP)
                     z := or(or(z, IS_EDGE), mul(shr(PIXEL_AT, f), ONES_64))
@@ -166,18 +145,14 @@ library QuadraticSamples {
                 }
             }
 
-            // Fragments of a row whose first samples are covered; f is the colour at the first one, g its change to the next. `continue` in
-            // place of branches, at whose ends the compiler moves the stack. h and k are the same of the second function, if it `twice`: a
-            // literal, for which the compiler is to make two functions.
-            function span(p, end, attribute, f, g, h, k, isPlain) {
+            // Fragments of a row whose first samples are covered; f is the function at the first one, g its change to the next. `isPlain` is a
+            // literal, for which the compiler is to make two functions: 1 for normalised light on one colour. `continue` in place of branches,
+            // at whose ends the compiler moves the stack.
+            function span(p, end, attribute, f, g, isPlain) {
                 for {} 1 {
                     attribute := add(attribute, mload(DX)) // the next column
                     f := add(f, g)
                     g := add(g, mload(QUADRATIC_DXX))
-                    if iszero(isPlain) {
-                        h := add(h, k)
-                        k := add(k, mload(SECOND_DXX))
-                    }
                 } {
                     let old := mload(p) // what is there
                     p := add(p, SAMPLE_SIZE) // the next pixel from here on
@@ -195,16 +170,16 @@ library QuadraticSamples {
                     }
                     let color
                     switch isPlain
-                    case 1 {
+                    case 0 { color := colorAt(attribute, f) }
+                    default {
                         color := mload(SAME_AMBIENT)
                         let t := sar(N_DOT_L_Q72_AT, f) // N.L, Q24
                         if sgt(t, 0) {
                             color := add(color, mul(mload(SAME_DIFFUSE), t))
                             t := sar(SHINE_AT, shl(LOWER_85_TO_TOP, f)) // (N.H)^2, Q24
-                            if sgt(t, mload(SPECULAR_BEGIN)) { color := add(color, shineOfFirst(t)) }
+                            if sgt(t, mload(SPECULAR_BEGIN)) { color := add(color, shine(t)) }
                         }
                     }
-                    default { color := colorAt(attribute, f, h) }
                     if and(color, ABOVE_Q58) { color := clamped(color) }
                     color := mul(and(color, BYTES_Q58), Q58_TO_TOP)
                     z := or(z, mul(shr(PIXEL_AT, color), ONES_64)) // the colour in each sample
@@ -224,19 +199,6 @@ library QuadraticSamples {
 
             function valueAt(c) -> f { // START + c DX + c (c - 1) / 2 DXX
                 f := add(add(mload(QUADRATIC_START), mul(c, mload(QUADRATIC_DX))), mul(shr(1, mul(c, sub(c, 1))), mload(QUADRATIC_DXX)))
-            }
-
-            function spanOfBoth(first, behind, c) {
-                span(
-                    first,
-                    behind,
-                    attributeAt(c),
-                    valueAt(c),
-                    add(mload(QUADRATIC_DX), mul(c, mload(QUADRATIC_DXX))),
-                    add(add(mload(SECOND_START), mul(c, mload(SECOND_DX))), mul(shr(1, mul(c, sub(c, 1))), mload(SECOND_DXX))),
-                    add(mload(SECOND_DX), mul(c, mload(SECOND_DXX))),
-                    0
-                )
             }
 
             {
@@ -289,9 +251,9 @@ library QuadraticSamples {
                     default {
                         if slt(p, first) { besides(p, first) }
                         p := shr(SAMPLE_SIZE_BITS, first) // c
-                        switch and(mload(MODE), or(IS_VARIED, IS_TWICE_LIT))
-                        case 0 { span(first, behind, attributeAt(p), valueAt(p), add(mload(QUADRATIC_DX), mul(p, mload(QUADRATIC_DXX))), 0, 0, 1) }
-                        default { spanOfBoth(first, behind, p) }
+                        switch and(mload(MODE), IS_NORMALISED)
+                        case 0 { span(first, behind, attributeAt(p), valueAt(p), add(mload(QUADRATIC_DX), mul(p, mload(QUADRATIC_DXX))), 0) }
+                        default { span(first, behind, attributeAt(p), valueAt(p), add(mload(QUADRATIC_DX), mul(p, mload(QUADRATIC_DXX))), 1) }
                         if slt(behind, end) { besides(behind, end) }
                     }
                     left := add(left, mload(SIDE_LEFT_STEP)) // the next row
@@ -301,11 +263,6 @@ library QuadraticSamples {
                     mstore(QUADRATIC_START, add(mload(QUADRATIC_START), mload(QUADRATIC_DY)))
                     mstore(QUADRATIC_DY, add(mload(QUADRATIC_DY), mload(QUADRATIC_DYY)))
                     mstore(QUADRATIC_DX, add(mload(QUADRATIC_DX), mload(QUADRATIC_DXY)))
-                    if and(mload(MODE), IS_TWICE_LIT) {
-                        mstore(SECOND_START, add(mload(SECOND_START), mload(SECOND_DY)))
-                        mstore(SECOND_DY, add(mload(SECOND_DY), mload(SECOND_DYY)))
-                        mstore(SECOND_DX, add(mload(SECOND_DX), mload(SECOND_DXY)))
-                    }
                 }
                 if slt(last, 1) { break }
                 switch row

@@ -109,13 +109,12 @@ library Patches {
             // a copy for two zeros is wanted, since it computes less, but none for other literals: see ZERO_SLOT
             uint256 none = load(ZERO_SLOT);
             (uint256 one, uint256 half) = (none + ONE_24, none + HALF_24);
-            store(NODES, between(a, a, za << DEPTH_FRACTION, 0, 0));
-            store(NODE_B, between(b, b, zb << DEPTH_FRACTION, one, none));
-            store(NODE_C, between(c, c, zc << DEPTH_FRACTION, none, one));
-            store(NODE_AB, between(a, b, (za + zb) << SUM_OF_DEPTHS_FRACTION, half, none));
-            store(NODE_AC, between(a, c, (za + zc) << SUM_OF_DEPTHS_FRACTION, none, half));
-            store(NODE_BC, between(b, c, (zb + zc) << SUM_OF_DEPTHS_FRACTION, half, half));
-            Quadratic.fromNodes(none + NODES);
+            uint256 fa = between(a, a, za << DEPTH_FRACTION, 0, 0);
+            uint256 fb = between(b, b, zb << DEPTH_FRACTION, one, none);
+            uint256 fc = between(c, c, zc << DEPTH_FRACTION, none, one);
+            uint256 ab = between(a, b, (za + zb) << SUM_OF_DEPTHS_FRACTION, half, none);
+            uint256 ac = between(a, c, (za + zc) << SUM_OF_DEPTHS_FRACTION, none, half);
+            Quadratic.fromNodes(fa, fb, fc, ab, ac, between(b, c, (zb + zc) << SUM_OF_DEPTHS_FRACTION, half, half));
             Quadratic.setDifferences(a, b, c, top, none, none);
             store(QUADRATIC_START, load(QUADRATIC_START) + bias());
         }

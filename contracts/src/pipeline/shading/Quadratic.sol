@@ -16,42 +16,18 @@ import "../../words/Registers.sol";
 
 library Quadratic {
     /// @notice Computes the coefficients from the values at the vertices and the edge midpoints.
-    /// @param place The address of the first of these six words, which are NODE_SIZE bytes apart.
-    function fromNodes(uint256 place) internal pure {
+    function fromNodes(uint256 a, uint256 b, uint256 c, uint256 ab, uint256 ac, uint256 bc) internal pure {
         assembly ("memory-safe") {
-            let a := mload(place)
-            let b := mload(add(place, NODE_TO_B))
-            let c := mload(add(place, NODE_TO_C))
-            // along an edge: value = a + s * (b - a) + s * (1 - s) * (4 * ab - 2 * (a + b)); the bends of the edges, 4 * ab - 2 * (a + b)
-            let ab := sub(shl(2, mload(add(place, NODE_TO_AB))), shl(1, add(a, b)))
-            let ac := sub(shl(2, mload(add(place, NODE_TO_AC))), shl(1, add(a, c)))
-            let bc := sub(shl(2, mload(add(place, NODE_TO_BC))), shl(1, add(b, c)))
-            mstore(QUADRATIC_ST, sub(sub(bc, ab), ac))
+            // along an edge: value = a + s * (b - a) + s * (1 - s) * (4 * ab - 2 * (a + b))
+            ab := sub(shl(2, ab), shl(1, add(a, b))) // from here on 4 * ab - 2 * (a + b), the bend of the edge
+            ac := sub(shl(2, ac), shl(1, add(a, c)))
+            mstore(QUADRATIC_ST, sub(sub(sub(shl(2, bc), shl(1, add(b, c))), ab), ac)) // that of bc - ab - ac
             mstore(QUADRATIC_SS, sub(0, ab))
             mstore(QUADRATIC_TT, sub(0, ac))
             mstore(QUADRATIC_S, add(sub(b, a), ab)) // b - a + bend
             mstore(QUADRATIC_T, add(sub(c, a), ac))
             mstore(QUADRATIC_1, a)
         }
-    }
-
-    /// @notice Copies the coefficients, or the differences, of one function to another.
-    function copy(uint256 target, uint256 source) internal pure {
-        assembly ("memory-safe") {
-            mcopy(target, source, 0xc0)
-        }
-    }
-
-    /// @notice Calls setDifferences for both functions of a smooth triangle.
-    function setBoth(uint256 a, uint256 b, uint256 c, uint256 top, uint256 column, uint256 further) internal pure {
-        setDifferences(a, b, c, top, column, further);
-        if (load(MODE) & IS_TWICE_LIT == 0) return;
-        copy(SECOND_START, QUADRATIC_START);
-        copy(QUADRATIC_1, SECOND_1);
-        setDifferences(a, b, c, top, column, further);
-        copy(QUADRATIC_1, QUADRATIC_START);
-        copy(QUADRATIC_START, SECOND_START);
-        copy(SECOND_START, QUADRATIC_1);
     }
 
     /// @notice Computes the value at column 0 of row `top` (QUADRATIC_START) and its differences from the coefficients. The change from

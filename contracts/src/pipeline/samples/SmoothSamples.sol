@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Quadratic} from "../shading/Quadratic.sol";
+import {doubleAreaOf} from "../geometry/Screen.sol";
+import {Shading} from "../shading/Shading.sol";
+import {SmoothLight} from "../shading/SmoothLight.sol";
+import {SmoothShading} from "../shading/SmoothShading.sol";
+import {OpenEdges} from "./OpenEdges.sol";
+import {QuadraticSamples} from "./QuadraticSamples.sol";
+import {SampleRasterizer} from "./SampleRasterizer.sol";
+import "../../words/SampleRegisters.sol";
+
+// Smooth surfaces lit by lamps, with four samples per pixel where open edges are: see OpenEdges.
+
+/// @dev Twice the area, in sub-pixels, of 12 pixels: below, six nodes cost more than they save at fragments.
+int256 constant LEAST_NORMALISED = 24 << 16;
+/// @dev The shift that leaves the colours of an attribute word; the bytes of the table of the highlight; from its format to that of
+/// SHINE_TABLE.
+uint256 constant COLORS_TO_TOP = 88;
+uint256 constant SPECULAR_SIZE = 0x820;
+uint256 constant Q16_TO_Q42 = 26;
+
+abstract contract SmoothSamples is SampleRasterizer, SmoothShading {
+    /// @dev Prepares the registers that differ between objects.
+    function openSmooth() internal pure {
+        unchecked {
+            store(SAME_COLOR, 0);
+            if (load(OBJECT_MODE) & IS_QUADRATIC == 0 || load(SPECULAR_BEGIN) == NO_HIGHLIGHT) return;
+            uint256 color = load(LIGHTS + LIGHT_COLOR);
+            assembly ("memory-safe") {
+                // lanes of 85 bits
+                let upper := or(shl(MIDDLE_56_TO_85, and(color, MIDDLE_LANE_24)), shl(UPPER_56_TO_85, and(color, UPPER_LANE_24)))
+                color := or(and(color, LANE_24), upper)
+                for { let i := 0 } lt(i, SPECULAR_SIZE) { i := add(i, 32) } {
+                    mstore(add(SHINE_TABLE, i), shl(Q16_TO_Q42, mul(color, shr(SPECULAR_VALUE_AT, mload(add(SPECULAR_TABLE, i))))))
+                }
+                mstore(add(SHINE_TABLE, SPECULAR_SIZE), mload(sub(add(SHINE_TABLE, SPECULAR_SIZE), 32)))
+            }
+        }
+    }
+
+    /// @dev Selects the function of the light; its differences follow when the triangle is drawn.
+    function setDifferences(uint256 a, uint256 b, uint256 c) internal pure virtual override {
+        unchecked {
+            (uint256 p, uint256 q, uint256 r) = Shading.attributesOf(a, b, c);
+            uint256 mode;
+            if (((p ^ q) | (p ^ r)) << COLORS_TO_TOP != 0) mode = IS_VARIED;
+            else if ((p << COLORS_TO_TOP) + 1 != load(SAME_COLOR)) setSame(p);
+            if (mode == 0 && doubleAreaOf(a, b, c) > LEAST_NORMALISED && SmoothLight.normalise()) mode = IS_NORMALISED;
+            store(MORE_MODE, mode);
+        }
+    }
+
+    /// @dev Sets the registers of a colour that all vertices have.
+    /// @param word An attribute word.
+    function setSame(uint256 word) private pure {
+        unchecked {
+            store(SAME_COLOR, (word << COLORS_TO_TOP) + 1);
+            store(SAME_AMBIENT, (product(word, load(AMBIENT)) << Q26_TO_Q58) + HALF_85);
+            store(SAME_DIFFUSE, product(word, load(LIGHTS + LIGHT_DIFFUSE)) << Q26_TO_Q34);
+        }
+    }
+
+    /// @dev Returns a colour, Q10, times light, Q16, both in lanes of 56 bits, in lanes of 85 bits, Q26.
+    function product(uint256 color, uint256 light) private pure returns (uint256 lanes) {
+        assembly ("memory-safe") {
+            lanes := mul(and(color, LANE_24), and(light, LANE_32))
+            lanes := add(lanes, shl(MIDDLE_85_AT, mul(and(shr(MIDDLE_AT, color), LANE_24), and(shr(MIDDLE_AT, light), LANE_32))))
+            lanes := add(lanes, shl(UPPER_85_AT, mul(and(shr(UPPER_AT, color), LANE_24), shr(UPPER_AT, light))))
+        }
+    }
+
+    /// @dev Sets the differences of the light relative to address 0, as QuadraticSamples needs them.
+    function setRows(uint256 a, uint256 b, uint256 c, uint256 row) internal pure {
+        unchecked {
+            if (load(MODE) & IS_QUADRATIC == 0) return;
+            uint256 column = load(SAMPLE_ORIGIN) - row * load(SAMPLE_STRIDE);
+            column = 0 - uint256(int256(column) >> SAMPLE_SIZE_BITS);
+            Quadratic.setDifferences(a, b, c, row, column, load(SAMPLE_STRIDE) >> SAMPLE_SIZE_BITS);
+        }
+    }
+}
