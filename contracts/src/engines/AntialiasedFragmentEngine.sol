@@ -5,15 +5,20 @@ import {BlendedSamples} from "../pipeline/samples/BlendedSamples.sol";
 import {BLENDED, EXACT} from "../pipeline/samples/SampleRasterizer.sol";
 import {SampleBuffer} from "../pipeline/samples/SampleBuffer.sol";
 import {SampleWires} from "../pipeline/samples/SampleWires.sol";
-import {SmoothSamples} from "../pipeline/samples/SmoothSamples.sol";
+import {Rasterizer} from "../pipeline/geometry/Rasterizer.sol";
+import {SmoothShading} from "../pipeline/shading/SmoothShading.sol";
 import "../words/SampleRegisters.sol";
 
-/// @title AntialiasedFragmentEngine: does the work of the FragmentEngine with four samples per pixel.
-/// @notice Called by the Renderer: see FragmentEngine.
+/// @title AntialiasedFragmentEngine: draws wires, translucent and spot-lit objects with four samples per pixel.
+/// @notice Called by the Renderer: see Engine. Draws what no other engine draws with four samples per pixel, and shades every fragment
+/// individually.
 contract AntialiasedFragmentEngine is SampleBuffer, SampleWires, BlendedSamples {
     function prepare(uint256 a, uint256 b, uint256 c) internal pure override {
         setGradients(a, b, c, 0);
-        setQuadraticRow(a);
+    }
+
+    function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override(Rasterizer, SmoothShading) {
+        shadeExact(a, b, c, crossing);
     }
 
     function drawFragments(uint256 row, uint256 last) internal pure override {
@@ -21,10 +26,8 @@ contract AntialiasedFragmentEngine is SampleBuffer, SampleWires, BlendedSamples 
     }
 
     function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure override {
-        uint256 mode = load(MODE);
-        if (mode & IS_QUADRATIC != 0) SmoothSamples.draw(left, right, column, end, row);
         // not a literal: one loop is smaller
-        else drawEach(left, right, column, end, row, mode & (IS_BLENDED | IS_DEPTH_PASS) == 0 ? EXACT : BLENDED);
+        drawEach(left, right, column, end, row, load(MODE) & (IS_BLENDED | IS_DEPTH_PASS) == 0 ? EXACT : BLENDED);
     }
 
     /// @dev The EffectsEngine draws shadows.
