@@ -231,6 +231,9 @@ def _color(rng: Rng) -> tuple[int, int, int]:
 SHADINGS = (*get_args(Shading), "wireframe")
 SAMPLING, PROJECTION = ("", "antialiased"), ("", "orthographic")
 LIT, LIGHTS = ("flat", "smooth"), ("no light", *(f"{kind} light" for kind in LIGHT_KINDS), "four lights")
+#: With one of these alone, light is quadratic.
+LAMPS = ("directional light", "point light")
+VARIANTS = ("both sides", "contacts", "gradient", "inverted", "slivers")
 EFFECTS = ("hemisphere", "rim", "fog", "exposure", "filmic", "gamma", "all effects")
 EMISSIONS = ("", "all effects")
 SHADOWS = tuple(f"shadow of a {kind} light" for kind in LIGHT_KINDS)
@@ -286,9 +289,14 @@ KINDS: tuple[tuple[Kind, int, tuple[Iterable[str], ...]], ...] = (
     ("tame", 1, (LIT, ("contacts",), ("translucent", *SHADOWS))),
     ("tame", 1, (LIT, ("slivers",), ("translucent", "all effects"))),
     ("tame", 1, (("smooth",), ("antialiased",), ("slivers",), ("point light", "spot light"))),
+    ("tame", 1, (("smooth",), ("antialiased",), LAMPS, VARIANTS)),
+    ("tame", 1, (("smooth",), ("antialiased",), LAMPS[:1], ("orthographic",), VARIANTS)),
+    ("tame", 2, (("mixed",), ("antialiased",), LAMPS)),
     ("tame", 1, (SHADINGS, ("emission",), EMISSIONS)),
     ("close", 1, (SHADINGS, SAMPLING, PROJECTION)),
     ("wild", 1, (SHADINGS, SAMPLING, PROJECTION)),
+    ("close", 1, (("smooth",), ("antialiased",), LAMPS)),
+    ("wild", 1, (("smooth",), ("antialiased",), LAMPS)),
 )
 PIECES = (
     *("teapot", "cornell-box", "cylinder", "dodecahedron", "icons/ethereum", "icons/diamond", "icons/crown"),

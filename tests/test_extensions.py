@@ -16,7 +16,7 @@ from shackled import Background, Camera, InputError, Light, Material, Mesh, Obje
 from shackled.artifacts import artifact
 from shackled.chain import engines
 from shackled.image import decode_bmp
-from shackled.scene import ONE, Rectangle, encode, encode_scene, extensions, fit
+from shackled.scene import ONE, Rectangle, encode, encode_scene, extensions, fit, render_call
 
 CORNERS = [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
 QUADS = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
@@ -350,6 +350,7 @@ def test_values_at_their_bounds(data: bytes) -> None:
 
 PLAIN = ["Engine", "FragmentEngine"]
 FOUR_SAMPLES = ["AntialiasedEngine", "AntialiasedFragmentEngine"]
+SMOOTH = ["AntialiasedSmoothEngine"]
 
 
 def test_engines_of_a_call() -> None:
@@ -361,6 +362,24 @@ def test_engines_of_a_call() -> None:
     # other functions of the Renderer, and data that are no call at all
     tile = encode(artifact("Renderer").selectors["renderTile"], evolve(mixed(), antialias=True), Rectangle(0, 0, 8, 8))
     assert engines(tile) == FOUR_SAMPLES
+    # of antialiased scenes: by light, projection, material and flags
+    smooth = scene_of(box(1.0, material=Material("smooth")), lights=[Light("point", (0, 0, 9))], antialias=True)
+    flat = box(1.0)
+    orthographic = evolve(smooth, camera=Camera(projection="orthographic"))
+    for scene, needed in (
+        (smooth, SMOOTH),
+        (orthographic, FOUR_SAMPLES[1:]),
+        (evolve(orthographic, lights=[Light("directional", (0, 0, 9))]), SMOOTH),
+        (evolve(smooth, lights=[]), FOUR_SAMPLES[:1]),
+        (evolve(smooth, lights=2 * [*smooth.lights]), FOUR_SAMPLES[1:]),
+        (evolve(smooth, objects=[]), FOUR_SAMPLES[:1]),
+        (evolve(smooth, objects=[flat]), FOUR_SAMPLES[:1]),
+        (evolve(smooth, objects=[flat, *smooth.objects]), [FOUR_SAMPLES[0], *SMOOTH]),
+        (evolve(smooth, objects=[evolve(flat, wireframe=True), *smooth.objects]), [FOUR_SAMPLES[1], *SMOOTH]),
+        (evolve(smooth, objects=[box(1.0, material=Material("smooth", 1, 1, 1, 1))]), FOUR_SAMPLES[1:]),
+        (evolve(smooth, objects=[box(1.0, material=Material("smooth", 1, 1, 0, 1))]), SMOOTH),
+    ):
+        assert engines(render_call(scene)) == needed
     for data in (b"", tile[:4], tile[:100], artifact("Renderer").selectors["engineCall"]):
         assert engines(data) == PLAIN
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import golden
 from pictures import chain
 from shackled.artifacts import artifact
+from shackled.chain import engines
 from shackled.gas import engine_calls
+from shackled.scene import render_call
 
 
 def test_pixels_and_gas() -> None:
@@ -16,10 +18,15 @@ def test_pixels_and_gas() -> None:
 
 
 def test_every_engine_draws_some_of_them() -> None:
-    engines = [call.engine for scene in golden.scenes().values() for call in engine_calls(scene, chain())]
+    drawing = []
+    for scene in golden.scenes().values():
+        called = [call.engine for call in engine_calls(scene, chain())]
+        # those that a creation call brings are among them
+        assert {*called} <= {*engines(render_call(scene))}
+        drawing += called
     parts = [name for name in artifact("Renderer").parts if name.endswith("Engine")]
-    assert len(parts) == 5
-    assert min(engines.count(name) for name in parts) > 20
+    assert len(parts) == 6
+    assert min(drawing.count(name) for name in parts) > 20
 
 
 def test_what_changed_is_told() -> None:

@@ -30,6 +30,8 @@ KINDS: dict[str, dict[str, Any]] = {
 }
 CAMERA = Camera((0, 0, 300), (0, 0, 0), near=1)
 LIGHTS = [Light("point", (80, 90, 200), (255, 240, 200)), Light("directional", (-1, 1, 2), (60, 80, 120))]
+#: Changes of a scene by which smooth objects have an engine of their own.
+FOUR_SAMPLES = {"antialias": True, "lights": LIGHTS[:1]}
 
 
 def colored(red: int, green: int, blue: int) -> Mesh:
@@ -59,9 +61,10 @@ def check(scene: Scene) -> None:
     assert output[32:96] == words(sum(counts(each)[0] for each in alone), int(np.any(lit, axis=0).sum()))
 
 
+@pytest.mark.parametrize("changes", [{}, FOUR_SAMPLES], ids=["plain", "antialiased"])
 @pytest.mark.parametrize("order", list(permutations(KINDS)))
-def test_kinds_in_any_order(order: tuple[str, ...]) -> None:
-    scene = scene_of(*(piece(kind, place) for place, kind in enumerate(order)), invert=order[0] == "wire")
+def test_kinds_in_any_order(order: tuple[str, ...], changes: dict[str, Any]) -> None:
+    scene = scene_of(*(piece(kind, place) for place, kind in enumerate(order)), invert=order[0] == "wire", **changes)
     check(scene)
     assert (draw(scene, Rectangle(5, 3, 17, 11)) == draw(scene)[3:14, 5:22]).all()
 
@@ -125,12 +128,13 @@ def wrong_index(scene: Scene, place: int) -> bytes:
     return after[:first] + b"\xff" + after[first + 1 :]
 
 
+@pytest.mark.parametrize("changes", [{}, FOUR_SAMPLES], ids=["plain", "antialiased"])
 @pytest.mark.parametrize("size", [(200, 130), (20, 900)])
-def test_large_pictures_equal_their_tiles(size: tuple[int, int]) -> None:
+def test_large_pictures_equal_their_tiles(size: tuple[int, int], changes: dict[str, Any]) -> None:
     """Several engines draw them band by band."""
     kinds = [*KINDS, "smooth", "flat"]
     objects = [piece(kind, place) for place, kind in enumerate(kinds)]
-    scene = scene_of(*objects, width=size[0], height=size[1])
+    scene = scene_of(*objects, width=size[0], height=size[1], **changes)
     check(scene)
     whole = draw(scene)
     rows = range(0, size[1], size[1] // 3 + 1)

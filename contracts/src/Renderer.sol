@@ -12,13 +12,14 @@ import {Bmp} from "./encode/Bmp.sol";
 import {Svg} from "./encode/Svg.sol";
 import {AntialiasedEngine} from "./engines/AntialiasedEngine.sol";
 import {AntialiasedFragmentEngine} from "./engines/AntialiasedFragmentEngine.sol";
+import {AntialiasedSmoothEngine} from "./engines/AntialiasedSmoothEngine.sol";
 import {Effects} from "./effects/Effects.sol";
 import {EffectsEngine} from "./engines/EffectsEngine.sol";
 import {Engine} from "./engines/Engine.sol";
 import {FragmentEngine} from "./engines/FragmentEngine.sol";
 import {Extensions} from "./scene/Extensions.sol";
 import {ANTIALIAS} from "./words/Records.sol";
-import {BY_FACES, Run, Runs} from "./uniforms/Runs.sol";
+import {BY_FACES, BY_QUADRATIC, Run, Runs} from "./uniforms/Runs.sol";
 import {Uniforms} from "./uniforms/Uniforms.sol";
 import "./words/Registers.sol";
 
@@ -29,6 +30,7 @@ contract Renderer is IRenderer {
     address public immutable fragmentEngine;
     address public immutable antialiasedEngine;
     address public immutable antialiasedFragmentEngine;
+    address public immutable antialiasedSmoothEngine;
     address public immutable effectsEngine;
     address public immutable effects;
 
@@ -50,6 +52,7 @@ contract Renderer is IRenderer {
         FragmentEngine fragmentEngine_,
         AntialiasedEngine antialiasedEngine_,
         AntialiasedFragmentEngine antialiasedFragmentEngine_,
+        AntialiasedSmoothEngine antialiasedSmoothEngine_,
         EffectsEngine effectsEngine_,
         Effects effects_
     ) {
@@ -57,6 +60,7 @@ contract Renderer is IRenderer {
         fragmentEngine = withCode(address(fragmentEngine_));
         antialiasedEngine = withCode(address(antialiasedEngine_));
         antialiasedFragmentEngine = withCode(address(antialiasedFragmentEngine_));
+        antialiasedSmoothEngine = withCode(address(antialiasedSmoothEngine_));
         effectsEngine = withCode(address(effectsEngine_));
         effects = withCode(address(effects_));
     }
@@ -278,6 +282,7 @@ contract Renderer is IRenderer {
 
     function engineOf(Run memory run) private view returns (address) {
         if (load(EFFECTS_SIZE) != 0) return address(effectsEngine);
+        if (run.turn == BY_QUADRATIC) return address(antialiasedSmoothEngine);
         if (load(FRAME_IS_ANTIALIASED) == 0) return run.turn == BY_FACES ? address(engine) : address(fragmentEngine);
         return run.turn == BY_FACES ? address(antialiasedEngine) : address(antialiasedFragmentEngine);
     }

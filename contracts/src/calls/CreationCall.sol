@@ -15,15 +15,14 @@ contract CreationCall {
     error NotCreated(uint256 index);
 
     /// @param limit The gas limit of the call; 0 for all available gas.
-    /// @param count The number of contracts to create. The constructor of each receives the addresses of the two created before it, the
-    /// last one first, three times: the Renderer takes two engines for plain pictures, two for antialiased ones, and one for effects
-    /// together with Effects. It calls one of the pairs, or the one for effects. If only one contract was created before, its address is
-    /// used for both.
-    /// @param packed Compressed by DEFLATE: for each contract its creation code, preceded by its size in four bytes; then the calldata.
+    /// @param count The number of contracts to create.
+    /// @param packed Compressed by DEFLATE: for each contract the size of its creation code in four bytes, eight bytes, and the code; then
+    /// the calldata. The eight bytes are the numbers, from 0, of the contracts whose addresses its constructor receives.
     constructor(uint256 limit, uint256 count, bytes memory packed) {
+        // before the data, whose end is overwritten below
+        uint256[] memory created = new uint256[](count);
         bytes memory data = inflate(packed);
         address target;
-        address before;
         uint256 next;
         uint256 end;
         assembly ("memory-safe") {
@@ -33,23 +32,23 @@ contract CreationCall {
         for (uint256 i; i != count; ++i) {
             assembly ("memory-safe") {
                 let size := shr(224, mload(next))
-                next := add(next, 4)
-                let code := next
-                next := add(next, size)
+                let numbers := shl(32, mload(next))
+                let code := add(next, 12)
+                next := add(code, size)
                 // the addresses temporarily overwrite the following data
-                let kept := add(mload(0x40), 0xc0)
-                mcopy(kept, next, 0xc0)
-                mstore(next, target)
-                mstore(add(next, 0x20), or(before, mul(iszero(before), target)))
-                mcopy(add(next, 0x40), next, 0x40)
-                mcopy(add(next, 0x80), next, 0x40)
-                before := target
-                target := create(0, code, add(size, 0xc0))
-                mcopy(next, kept, 0xc0)
+                let kept := add(mload(0x40), 0x100)
+                mcopy(kept, next, 0x100)
+                let addresses := add(created, 0x20)
+                for { let place := 0 } lt(place, 8) { place := add(place, 1) } {
+                    mstore(add(next, shl(5, place)), mload(add(addresses, shl(5, byte(place, numbers)))))
+                }
+                target := create(0, code, add(size, 0x100))
+                mcopy(next, kept, 0x100)
+                mstore(add(addresses, shl(5, i)), target)
             }
             if (target == address(0)) revert NotCreated(i);
         }
-        // each contract but the first one called is assumed to be accessed by the next: one too many if a single engine draws
+        // each contract but the first one called is assumed to be accessed by another: too many if some engines draw nothing
         answer(target, limit, next, end - next, (count - 1) * FIRST_ACCESS);
     }
 }

@@ -40,8 +40,8 @@ abstract contract Pipeline is PrimitiveAssembly {
     /// @param records The address of the object's vertex records.
     function openObject(uint256 records) internal pure virtual {}
 
-    /// @notice Returns whether the triangles of objects with this mode are listed before any of them is drawn.
-    function isListed(uint256) internal pure virtual returns (bool) {
+    /// @notice Returns whether all triangles of an object are listed before any of them is drawn.
+    function isListed() internal pure virtual returns (bool) {
         return false;
     }
 
@@ -176,7 +176,7 @@ abstract contract Pipeline is PrimitiveAssembly {
         uint256 flags = load(OBJECT_FLAGS);
         openList(list[3]);
         // not a literal: see ZERO_SLOT
-        if (atOnce && flags & WIREFRAME == 0 && !isListed(load(OBJECT_MODE))) (, drawn) = assemble(mesh, list[0], shift, load(ZERO_SLOT), flags & CULL_BACKFACES != 0);
+        if (atOnce && flags & WIREFRAME == 0 && !isListed()) (, drawn) = assemble(mesh, list[0], shift, load(ZERO_SLOT), flags & CULL_BACKFACES != 0);
         drawList(list[1], list[2]);
     }
 
@@ -193,7 +193,7 @@ abstract contract Pipeline is PrimitiveAssembly {
             uint256 list = records + (mesh.vertexCount << shift);
             uint256 end = list;
             bool cull = load(OBJECT_FLAGS) & CULL_BACKFACES != 0;
-            if (!atOnce || load(OBJECT_FLAGS) & WIREFRAME != 0 || isListed(mode)) (end, drawn) = assemble(mesh, records, shift, list, cull);
+            if (!atOnce || load(OBJECT_FLAGS) & WIREFRAME != 0 || isListed()) (end, drawn) = assemble(mesh, records, shift, list, cull);
             uint256 free = end;
             if (load(HAS_CLIPPED) != 0) {
                 uint256 cut;
@@ -201,7 +201,7 @@ abstract contract Pipeline is PrimitiveAssembly {
                 drawn += cut;
             }
             (lists[0], lists[1], lists[2]) = (records, list, end);
-            if (isListed(mode)) {
+            if (isListed()) {
                 lists[3] = free;
                 free = closeList(list, end, records, list, free);
             }

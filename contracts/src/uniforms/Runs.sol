@@ -11,6 +11,8 @@ import "../words/Registers.sol";
 uint256 constant BY_FACES = 0;
 uint256 constant BY_FRAGMENTS = 1;
 uint256 constant BLENDED = 2;
+/// @dev Opaque surfaces with IS_QUADRATIC, if pixels have four samples.
+uint256 constant BY_QUADRATIC = 3;
 
 /// @param first The number of the first object, and `count` the number of objects; 0 if there is nothing left to draw.
 /// @param position The address of the uniforms of the first object; `end` is the end of those of the last one.
@@ -63,8 +65,9 @@ library Runs {
             if (mode & IS_BLENDED != 0) return BLENDED;
             // a single engine draws everything
             if (load(EFFECTS_SIZE) != 0) return BY_FACES;
-            bool isWire = load(position + OBJECT_FLAGS - OBJECT_BYTES) & WIREFRAME != 0;
-            return isWire || mode & (IS_SMOOTH | IS_SPOT_LIT) != 0 ? BY_FRAGMENTS : BY_FACES;
+            if (load(position + OBJECT_FLAGS - OBJECT_BYTES) & WIREFRAME != 0) return BY_FRAGMENTS;
+            if (mode & IS_QUADRATIC != 0 && load(FRAME_IS_ANTIALIASED) != 0) return BY_QUADRATIC;
+            return mode & (IS_SMOOTH | IS_SPOT_LIT) != 0 ? BY_FRAGMENTS : BY_FACES;
         }
     }
 

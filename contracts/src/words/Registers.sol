@@ -10,7 +10,7 @@ import "./Words.sol";
 
 /// @dev The beginning of the registers: the maximum end of the compiler's variables in memory.
 uint256 constant REGISTERS = 0x800;
-uint256 constant REGISTERS_END = 0x3080;
+uint256 constant REGISTERS_END = 0x3060;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- frame
 // The uniforms of the frame, which the Renderer fills. Pixel columns and rows are counted from -PIXEL_BIAS, so that everything inside the
@@ -299,17 +299,15 @@ uint256 constant MIDDLE = 0x2ec0;
 uint256 constant HALF_SKEW = 0x2fc0;
 /// @dev Half of QUADRATIC_DXX, by which QUADRATIC_DX is reduced while rows are drawn.
 uint256 constant QUADRATIC_HALF_DXX = 0x2fe0;
-/// @dev Bits that the engine adds to the mode.
-uint256 constant MORE_MODE = 0x3000;
 /// @dev The greatest depth of the vertices, Q24 relative to bit 192 of an accumulator.
-uint256 constant NEAREST = 0x3020;
+uint256 constant NEAREST = 0x3000;
 
 // ---------------------------------------------------------------------------------------------------------------------- answer of Effects
 // For the Renderer and for Effects: in memory, before the engine is called.
 
 /// @dev The memory address of the answer of the contract Effects, and its size: 0 if the scene has no effects.
-uint256 constant EFFECTS_AT = 0x3040;
-uint256 constant EFFECTS_SIZE = 0x3060;
+uint256 constant EFFECTS_AT = 0x3020;
+uint256 constant EFFECTS_SIZE = 0x3040;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- light
 // The properties of a light for the frame, at LIGHTS.

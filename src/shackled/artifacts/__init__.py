@@ -20,6 +20,7 @@ RENDERER = (
     "FragmentEngine",
     "AntialiasedEngine",
     "AntialiasedFragmentEngine",
+    "AntialiasedSmoothEngine",
     "EffectsEngine",
     "Effects",
     "Renderer",

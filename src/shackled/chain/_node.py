@@ -21,7 +21,7 @@ from ..errors import (
     WrongChainError,
 )
 from ..ethereum import checksum_address, intrinsic_gas, to_hex, word
-from ..scene import ANTIALIAS, LONG_KINDS, RECORD_HEADER
+from ..scene import ANTIALIAS, LONG_KINDS, RECORD_HEADER, SHADINGS, WIREFRAME
 from ._address_book import AddressBook
 from ._chain import ContractCaller, NodeResult
 from ._connection import Connection
@@ -31,8 +31,8 @@ from ._failures import out_of_gas, revert_error
 #: Maximum size of the data of a call that creates a contract (EIP-3860).
 MAX_INIT_CODE = 49152
 
-#: The contracts that a creation call brings; antialiased pictures need two others of about the same size.
-CARRIED = ("Engine", "FragmentEngine", "Renderer")
+#: The contracts that draw antialiased pictures. A creation call brings these or, for other pictures, fewer.
+ANTIALIASED = ("AntialiasedEngine", "AntialiasedFragmentEngine", "AntialiasedSmoothEngine")
 
 #: Address at which a state override places the contract Meter, which counts gas.
 METER = bytes.fromhex("5ac61ed000000000000000000000000000000002")
@@ -42,8 +42,10 @@ METER = bytes.fromhex("5ac61ed000000000000000000000000000000002")
 GAS_LEFT = bytes.fromhex("5a5f525f5f5f5e60205ff3")
 
 
-#: Bytes from the beginning of a scene in calldata to the offset of its extensions.
-EXTENSIONS = 20 * 32
+#: Bytes from the beginning of a scene in calldata to its projection, and to the offsets of its lights, objects and
+#: extensions; from the beginning of an object to its shading, specular coefficient, shininess and flags.
+PROJECTION, LIGHTS, OBJECTS, EXTENSIONS = (place * 32 for place in (11, 18, 19, 20))
+OBJECT_FIELDS = tuple(place * 32 for place in (9, 12, 13, 14))
 
 
 class Method(Enum):
@@ -204,10 +206,16 @@ class NodeChain(ContractCaller):
 
     def _created(self, contract: str, data: bytes, gas_limit: int | None) -> NodeResult:
         """Call a contract through a creation call that creates the contracts first."""
-        names = [*reversed(self._below(contract, data)), contract]
-        codes = [artifact(name).creation for name in names]
-        packed = b"".join(len(code).to_bytes(4, "big") + code for code in codes) + data
-        head = artifact("CreationCall").creation + _limit(gas_limit) + word(len(codes))
+        names = list(dict.fromkeys([*reversed(self._below(contract, data)), contract]))
+        numbers = {name: number for number, name in enumerate(names)}
+        # in place of those that do not draw: every engine counts triangles
+        any_engine = max((number for name, number in numbers.items() if name.endswith("Engine")), default=0)
+        packed = b""
+        for built in map(artifact, names):
+            arguments = bytes(numbers.get(part, any_engine) for part in built.parts)
+            packed += len(built.creation).to_bytes(4, "big") + arguments.ljust(8, b"\0") + built.creation
+        packed += data
+        head = artifact("CreationCall").creation + _limit(gas_limit) + word(len(names))
         # uncompressed if it fits, since decompression costs gas
         for level in (0, 9):
             # blocks of memory level 6 are short, and their codes suit code and meshes better than those of 9: 2 % less
@@ -284,16 +292,21 @@ class NodeChain(ContractCaller):
         """An upper bound of the gas that a creation call uses to decompress and create the contracts."""
         if self._probed.overrides or self.place("Renderer") is not None:
             return 0
-        sizes = [(len(self._local.code(name)), len(artifact(name).creation)) for name in CARRIED]
+        sizes = [(len(self._local.code(name)), len(artifact(name).creation)) for name in (*ANTIALIASED, "Renderer")]
         return 6_000_000 + sum(200 * code + 200 * packed for code, packed in sizes)
 
 
 def engines(data: bytes) -> list[str]:
-    """Return the contracts that draw the scene of a call of the Renderer; those of plain scenes if it has none."""
+    """Return the contracts that may draw the scene of a call of the Renderer; those of plain scenes if it has none.
+
+    Of the three for antialiased scenes only those that are needed, as Materials.sol and Runs.sol say, since together
+    they leave little space in a creation call.
+    """
     scene = 4 + _word(data, 4)
     place = scene + _word(data, scene + EXTENSIONS)
     end = place + 32 + _word(data, place)
     place, last = place + 32, 0
+    alone = place + RECORD_HEADER == end
     while place + RECORD_HEADER <= min(end, len(data)):
         # kinds ascend
         last = data[place]
@@ -301,8 +314,22 @@ def engines(data: bytes) -> list[str]:
         place += RECORD_HEADER + size * (32 if last >= LONG_KINDS else 1)
     if last > ANTIALIAS:
         return ["EffectsEngine", "Effects"]
-    prefix = "Antialiased" if last == ANTIALIAS else ""
-    return [prefix + "Engine", prefix + "FragmentEngine"]
+    if last != ANTIALIAS:
+        return ["Engine", "FragmentEngine"]
+    lights, objects = (scene + _word(data, scene + offset) for offset in (LIGHTS, OBJECTS))
+    is_point, is_orthographic = _word(data, lights + 32), _word(data, scene + PROJECTION)
+    is_quadratic = _word(data, lights) == 1 and not (is_point and is_orthographic)
+    needed = set() if alone else {"AntialiasedFragmentEngine"}
+    first = objects + 32
+    for at in range(first, min(first + 32 * _word(data, objects), len(data)), 32):
+        shading, specular, shininess, flags = (_word(data, first + _word(data, at) + each) for each in OBJECT_FIELDS)
+        is_smooth = shading == SHADINGS["smooth"] and _word(data, lights) != 0
+        is_broad = shininess == 1 and specular != 0
+        if flags & WIREFRAME or (is_smooth and (is_broad or not is_quadratic)):
+            needed.add("AntialiasedFragmentEngine")
+        else:
+            needed.add("AntialiasedSmoothEngine" if is_smooth else "AntialiasedEngine")
+    return [name for name in ANTIALIASED if name in needed] or ["AntialiasedEngine"]
 
 
 def _word(data: bytes, place: int) -> int:

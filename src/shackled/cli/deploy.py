@@ -37,8 +37,9 @@ def deploy(
         option(
             "--contracts",
             "Comma-separated names: Engine, FragmentEngine, AntialiasedEngine, AntialiasedFragmentEngine, "
-            "EffectsEngine, Effects, Renderer, Original, Genesis, PngEncoder, Turntable, GlbEncoder, Studio, Library, "
-            "Web, Editions, GenesisMetadata. Default: all but GenesisMetadata. Required contracts are added.",
+            "AntialiasedSmoothEngine, EffectsEngine, Effects, Renderer, Original, Genesis, PngEncoder, Turntable, "
+            "GlbEncoder, Studio, Library, Web, Editions, GenesisMetadata. Default: all but GenesisMetadata. "
+            "Required contracts are added.",
             "NAMES",
         ),
     ] = None,

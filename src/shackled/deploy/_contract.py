@@ -16,6 +16,7 @@ STANDARD = (
     "FragmentEngine",
     "AntialiasedEngine",
     "AntialiasedFragmentEngine",
+    "AntialiasedSmoothEngine",
     "EffectsEngine",
     "Effects",
     "Renderer",

@@ -88,8 +88,11 @@ def _runs(data: bytes) -> list[list[_Object]]:
             _load(data, position + word - layout.OBJECT_BYTES) for word in (layout.OBJECT_MODE, layout.OBJECT_FLAGS)
         )
         is_blended = mode & layout.IS_BLENDED != 0
-        by_fragments = is_blended or flags & WIREFRAME or mode & (layout.IS_SMOOTH | layout.IS_SPOT_LIT)
-        engine = kind + ("FragmentEngine" if by_fragments else "Engine")
+        engine = kind + "Engine"
+        if kind and mode & layout.IS_QUADRATIC and not (is_blended or flags & WIREFRAME):
+            engine = "AntialiasedSmoothEngine"
+        elif is_blended or flags & WIREFRAME or mode & (layout.IS_SMOOTH | layout.IS_SPOT_LIT):
+            engine = kind + "FragmentEngine"
         objects.append(_Object(number, position, "EffectsEngine" if has_effects else engine, is_blended))
         position += _load(data, position)
     runs = [(key, list(run)) for key, run in groupby(objects, lambda each: (each.engine, each.is_blended))]

@@ -18,6 +18,7 @@ export const RENDERER = [
     "FragmentEngine",
     "AntialiasedEngine",
     "AntialiasedFragmentEngine",
+    "AntialiasedSmoothEngine",
     "EffectsEngine",
     "Effects",
     "Renderer",

@@ -73,9 +73,24 @@ library OpenEdges {
     /// @param edges As for `find`.
     function mark(uint256 edges) internal pure {
         assembly ("memory-safe") {
-            // The pixels that a line touches, where u is the axis along which it is longer: in each row across that axis, those within
-            // OUTERMOST_SAMPLE of the line where it passes the samples of the row. Bounds are inclusive, `stride` are those of addresses.
-            function along(u, v, endU, endV, leastU, mostU, strideU, leastV, mostV, strideV, place) {
+            // The pixels that a line touches, where u is the axis along which it is longer, columns if it `isFlat`, else rows: in each row
+            // across that axis, those within OUTERMOST_SAMPLE of the line where it passes the samples of the row. Bounds are inclusive,
+            // `stride` are those of addresses.
+            function along(u, v, endU, endV, isFlat) {
+                let leastU := mload(INNER_BEGIN)
+                let mostU := mload(INNER_END)
+                let leastV := mload(SAMPLE_BEGIN)
+                let mostV := sub(mload(SAMPLE_END), 1)
+                let strideU := sub(0, mload(SAMPLE_STRIDE))
+                let strideV := SAMPLE_SIZE
+                if isFlat {
+                    mostV := mostU
+                    leastV := leastU
+                    leastU := mload(SAMPLE_BEGIN)
+                    mostU := sub(mload(SAMPLE_END), 1)
+                    strideV := strideU
+                    strideU := SAMPLE_SIZE
+                }
                 if gt(u, endU) {
                     let swapped := u
                     u := endU
@@ -112,7 +127,7 @@ library OpenEdges {
                     if slt(first, leastV) { first := leastV }
                     if sgt(last, mostV) { last := mostV }
                     for {} iszero(sgt(first, last)) { first := add(first, 1) } {
-                        let p := add(place, add(mul(u, strideU), mul(first, strideV)))
+                        let p := add(mload(SAMPLE_ORIGIN), add(mul(u, strideU), mul(first, strideV)))
                         mstore(p, or(mload(p), IS_EDGE))
                     }
                 }
@@ -124,6 +139,8 @@ library OpenEdges {
             if gt(most, mload(SAMPLE_BOTTOM)) { most := mload(SAMPLE_BOTTOM) }
             if and(lt(least, most), lt(mload(SAMPLE_BEGIN), mload(SAMPLE_END))) {
                 most := sub(most, 1)
+                mstore(INNER_BEGIN, least)
+                mstore(INNER_END, most)
                 let above := shl(SCREEN_PIXEL_ROW_AT, least) // in the format of screen words; a pixel more than needed
                 let below := shl(SCREEN_PIXEL_ROW_AT, add(most, 1))
                 let end := mload(edges)
@@ -136,13 +153,18 @@ library OpenEdges {
                         let endX := and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK)
                         a := shr(SCREEN_ROW_AT, a) // a, b: the rows from here on
                         b := shr(SCREEN_ROW_AT, b)
-                        let stride := sub(0, mload(SAMPLE_STRIDE))
-                        let last := sub(mload(SAMPLE_END), 1)
                         let dx := sub(endX, x)
                         let dy := sub(b, a)
-                        switch gt(mul(dx, dx), mul(dy, dy))
-                        case 0 { along(a, x, b, endX, least, most, stride, mload(SAMPLE_BEGIN), last, SAMPLE_SIZE, mload(SAMPLE_ORIGIN)) }
-                        default { along(x, a, endX, b, mload(SAMPLE_BEGIN), last, SAMPLE_SIZE, least, most, stride, mload(SAMPLE_ORIGIN)) }
+                        let isFlat := gt(mul(dx, dx), mul(dy, dy))
+                        if isFlat {
+                            dx := a // swaps the axes
+                            a := x
+                            x := dx
+                            dx := b
+                            b := endX
+                            endX := dx
+                        }
+                        along(a, x, b, endX, isFlat)
                     }
                 }
             }

@@ -57,9 +57,6 @@ library QuadraticSamples {
                 f := mload(SAME_DIFFUSE) // f: what the lamp adds per unit of N.L
                 if and(mload(MODE), IS_VARIED) {
                     let albedo := and(shr(ACCUMULATOR_FRACTION, attribute), LANES_24) // Q10
-                    if and(mload(MODE), IS_STEEP) {
-                        albedo := and(shr(Q16, mul(albedo, div(mload(NEAREST), shr(ACCUMULATOR_DEPTH_AT, attribute)))), LANES_24)
-                    }
                     color := add(HALF_85, shl(Q26_TO_Q58, times(albedo, mload(AMBIENT))))
                     f := shl(Q26_TO_Q34, times(albedo, mload(add(LIGHTS, LIGHT_DIFFUSE))))
                 }

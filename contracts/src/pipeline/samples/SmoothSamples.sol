@@ -5,7 +5,8 @@ import {Quadratic} from "../shading/Quadratic.sol";
 import {doubleAreaOf} from "../geometry/Screen.sol";
 import {Shading} from "../shading/Shading.sol";
 import {SmoothLight} from "../shading/SmoothLight.sol";
-import {SmoothShading} from "../shading/SmoothShading.sol";
+import {SMOOTH_BIAS} from "../shading/SmoothShading.sol";
+import {SmoothTriangle, STEEP_LIGHT, UNBOUNDED_LIGHT} from "../shading/SmoothTriangle.sol";
 import {OpenEdges} from "./OpenEdges.sol";
 import {QuadraticSamples} from "./QuadraticSamples.sol";
 import {SampleRasterizer} from "./SampleRasterizer.sol";
@@ -21,7 +22,7 @@ uint256 constant COLORS_TO_TOP = 88;
 uint256 constant SPECULAR_SIZE = 0x820;
 uint256 constant Q16_TO_Q42 = 26;
 
-abstract contract SmoothSamples is SampleRasterizer, SmoothShading {
+abstract contract SmoothSamples is SampleRasterizer {
     /// @dev Prepares the registers that differ between objects.
     function openSmooth() internal pure {
         unchecked {
@@ -40,15 +41,30 @@ abstract contract SmoothSamples is SampleRasterizer, SmoothShading {
         }
     }
 
-    /// @dev Selects the function of the light; its differences follow when the triangle is drawn.
-    function setDifferences(uint256 a, uint256 b, uint256 c) internal pure virtual override {
+    function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
         unchecked {
+            uint256 kind = UNBOUNDED_LIGHT;
+            uint256 size = Shading.squareSize(a, b, c);
+            // skip triangles that are too large
+            if (size < load(SMOOTH_REACH_3)) kind = SmoothTriangle.setLight(a, b, c, size, false);
             (uint256 p, uint256 q, uint256 r) = Shading.attributesOf(a, b, c);
-            uint256 mode;
-            if (((p ^ q) | (p ^ r)) << COLORS_TO_TOP != 0) mode = IS_VARIED;
-            else if ((p << COLORS_TO_TOP) + 1 != load(SAME_COLOR)) setSame(p);
-            if (mode == 0 && doubleAreaOf(a, b, c) > LEAST_NORMALISED && SmoothLight.normalise()) mode = IS_NORMALISED;
-            store(MORE_MODE, mode);
+            uint256 mode = (load(OBJECT_MODE) & ~IS_QUADRATIC) | crossing;
+            bool varies = ((p ^ q) | (p ^ r)) << COLORS_TO_TOP != 0;
+            if (kind == UNBOUNDED_LIGHT || (varies && kind == STEEP_LIGHT)) {
+                Shading.setNormals(a, b, c);
+                return Shading.setExact(a, b, c, p, q, r, mode);
+            }
+            mode |= IS_QUADRATIC;
+            if (varies) {
+                mode |= IS_VARIED;
+            } else {
+                if ((p << COLORS_TO_TOP) + 1 != load(SAME_COLOR)) setSame(p);
+                if (doubleAreaOf(a, b, c) > LEAST_NORMALISED && SmoothLight.normalise()) mode |= IS_NORMALISED;
+            }
+            store(MODE, mode);
+            store(ATTRIBUTE_0, (p << ACCUMULATOR_FRACTION) + SMOOTH_BIAS);
+            store(DELTA_1, q - p);
+            store(DELTA_2, r - p);
         }
     }
 

@@ -21,11 +21,12 @@ abstract contract SmoothShading is Rasterizer {
             if (mode & (IS_QUADRATIC | IS_BLENDED) == IS_QUADRATIC) {
                 uint256 size = Shading.squareSize(a, b, c);
                 // skip triangles that are too large
-                if (size < load(SMOOTH_REACH_3)) kind = SmoothTriangle.setLight(a, b, c, size);
+                if (size < load(SMOOTH_REACH_3)) kind = SmoothTriangle.setLight(a, b, c, size, true);
             }
             if (kind == UNBOUNDED_LIGHT) return shadeExact(a, b, c, crossing);
             (uint256 attributesA, uint256 attributesB, uint256 attributesC) = Shading.attributesOf(a, b, c);
-            setDifferences(a, b, c);
+            uint256 none = load(ZERO_SLOT); // not a literal: see there
+            Quadratic.setDifferences(a, b, c, max(firstRowOf(a), load(BAND_TOP)), none, none);
             if (kind == STEEP_LIGHT && !Shading.isAffine(attributesA, attributesB, attributesC, a, b, c)) {
                 mode |= IS_STEEP;
                 uint256 nearest = max(attributesA, max(attributesB, attributesC)) >> ATTRIBUTE_DEPTH_AT;
@@ -34,17 +35,11 @@ abstract contract SmoothShading is Rasterizer {
                 attributesB = weighted(attributesB, nearest);
                 attributesC = weighted(attributesC, nearest);
             }
-            store(MODE, mode | crossing | load(MORE_MODE));
+            store(MODE, mode | crossing);
             store(ATTRIBUTE_0, (attributesA << ACCUMULATOR_FRACTION) + SMOOTH_BIAS);
             store(DELTA_1, attributesB - attributesA);
             store(DELTA_2, attributesC - attributesA);
         }
-    }
-
-    /// @notice Calls Quadratic.setDifferences, if that is not done when the triangle is drawn.
-    function setDifferences(uint256 a, uint256 b, uint256 c) internal pure virtual {
-        uint256 none = load(ZERO_SLOT); // not a literal: see there
-        Quadratic.setDifferences(a, b, c, max(firstRowOf(a), load(BAND_TOP)), none, none);
     }
 
     /// @notice Selects the shading of every fragment individually.

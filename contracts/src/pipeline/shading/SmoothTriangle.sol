@@ -72,9 +72,10 @@ library SmoothTriangle {
     /// @notice Computes the coefficients of a triangle's quadratic products.
     /// @param a, b, c The screen words of the vertices.
     /// @param size The sum of the squares of two edges.
+    /// @param corrects Whether products are made exact at midpoints where they must be: a literal, since one engine has no room for that.
     /// @return kind UNBOUNDED_LIGHT if the error may be too large; AFFINE_LIGHT if the depths of the vertices are so similar that colours
     /// can be interpolated linearly; otherwise STEEP_LIGHT.
-    function setLight(uint256 a, uint256 b, uint256 c, uint256 size) internal pure returns (uint256 kind) {
+    function setLight(uint256 a, uint256 b, uint256 c, uint256 size, bool corrects) internal pure returns (uint256 kind) {
         unchecked {
             // the addresses of the vertex records from here on
             (a, b, c) = (a & SCREEN_RECORD_MASK, b & SCREEN_RECORD_MASK, c & SCREEN_RECORD_MASK);
@@ -179,6 +180,7 @@ library SmoothTriangle {
                     least := sub(least, most) // 3 * min(N * N) - max((N_i - N_j)^2)
                 }
                 if (size >= reach || isTurning(change, least)) {
+                    if (!corrects) return UNBOUNDED_LIGHT;
                     // the products must be exact at the midpoints
                     if (size >= load(SMOOTH_REACH_3) || change >= MOST_HALF_CHANGE) return UNBOUNDED_LIGHT;
                     // addresses that are not literals: see ZERO_SLOT (those of atVertex and along are, since copies of these pay)

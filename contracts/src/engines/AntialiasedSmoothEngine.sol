@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {ExactSamples} from "../pipeline/samples/ExactSamples.sol";
+import {OpenEdges} from "../pipeline/samples/OpenEdges.sol";
+import {QuadraticSamples} from "../pipeline/samples/QuadraticSamples.sol";
+import {EXACT} from "../pipeline/samples/SampleRasterizer.sol";
+import {SampleBuffer} from "../pipeline/samples/SampleBuffer.sol";
+import {SmoothSamples} from "../pipeline/samples/SmoothSamples.sol";
+import "../words/SampleRegisters.sol";
+
+/// @title AntialiasedSmoothEngine: draws smooth surfaces with four samples per pixel.
+/// @notice Called by the Renderer: see Engine. Draws the opaque surfaces with IS_QUADRATIC: most smooth ones.
+contract AntialiasedSmoothEngine is SampleBuffer, ExactSamples, SmoothSamples {
+    function openObject(uint256) internal pure override {
+        openSmooth();
+    }
+
+    /// @dev Open edges are found when all triangles are known.
+    function isListed() internal pure override returns (bool) {
+        return true;
+    }
+
+    function closeList(uint256 list, uint256 end, uint256 records, uint256 made, uint256 free) internal pure override returns (uint256) {
+        return OpenEdges.find(list, end, records, made, free);
+    }
+
+    function openList(uint256 kept) internal pure override {
+        store(HAS_EDGES, 1);
+        OpenEdges.mark(kept);
+    }
+
+    function prepare(uint256 a, uint256 b, uint256 c, uint256 row) internal pure override {
+        setRows(a, b, c, row);
+        setGradients(a, b, c, 0);
+    }
+
+    function drawFragments(uint256 row, uint256 last) internal pure override {
+        if (load(MODE) & IS_QUADRATIC != 0) QuadraticSamples.draw(row, last);
+        else drawSpans(row, last);
+    }
+
+    function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure override {
+        drawEach(left, right, column, end, row, EXACT);
+    }
+
+    /// @dev The AntialiasedFragmentEngine draws wires and translucent objects, the EffectsEngine shadows.
+    function drawEdges(uint256, uint256, uint256, uint256) internal pure override {}
+
+    function drawBlended(uint256, uint256, uint256, uint256, uint256) internal pure override {}
+
+    function drawPartlyDark(uint256, uint256, uint256, uint256, uint256) internal pure override {}
+}
