@@ -7,7 +7,7 @@ import "./Registers.sol";
 
 // --------------------------------------------------------------------------------------------------------------------------------- bounds
 
-uint256 constant SAMPLE_REGISTERS_END = 0x3620;
+uint256 constant SAMPLE_REGISTERS_END = 0x3680;
 
 // -------------------------------------------------------------------------------------------------------------------------------- samples
 // For the engines that take four samples per pixel: see Samples and SampleRasterizer.
@@ -80,9 +80,13 @@ uint256 constant ROW_RIGHT_STEP = 0x3560;
 /// @dev The addresses of the first pixel of the row whose samples are all covered, and of the one after the last.
 uint256 constant INNER_BEGIN = 0x3580;
 uint256 constant INNER_END = 0x35a0;
+/// @dev The sides of the row that is drawn, and the address of the pixel after its last one.
+uint256 constant ROW_LEFT = 0x35c0;
+uint256 constant ROW_RIGHT = 0x35e0;
+uint256 constant ROW_END = 0x3600;
 /// @dev The change of a quadratic function at column 0 to the next row.
-uint256 constant QUADRATIC_DOWN = 0x35c0;
+uint256 constant QUADRATIC_DOWN = 0x3620;
 /// @dev The row to which the quadratic functions refer.
-uint256 constant QUADRATIC_ROW = 0x35e0;
+uint256 constant QUADRATIC_ROW = 0x3640;
 /// @dev The least depth of the vertices, with 8 more bits than in a vertex.
-uint256 constant FARTHEST = 0x3600;
+uint256 constant FARTHEST = 0x3660;

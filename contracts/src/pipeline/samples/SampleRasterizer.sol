@@ -316,7 +316,7 @@ abstract contract SampleRasterizer is Rasterizer {
     }
 
     /// @dev Returns the sides at a row; sets the registers of their changes to the next row and of the bounds.
-    function sidesAt(uint256 row) private pure returns (uint256 left, uint256 right) {
+    function sidesAt(uint256 row) internal pure returns (uint256 left, uint256 right) {
         unchecked {
             uint256 n = row - load(SIDE_ROW);
             store(ROW_LEFT_STEP, load(SIDE_LEFT_STEP));
@@ -355,7 +355,7 @@ abstract contract SampleRasterizer is Rasterizer {
 
     /// @dev Returns the first column of a row that may have a fragment, and the one after the last; there are none if they are not in this
     /// order.
-    function columnsBetween(uint256 row) private pure returns (uint256 first, uint256 end) {
+    function columnsBetween(uint256 row) internal pure returns (uint256 first, uint256 end) {
         assembly ("memory-safe") {
             let base := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE))) // of column 0
             let bounds := mload(ROW_BOUNDS)
