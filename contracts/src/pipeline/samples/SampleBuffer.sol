@@ -182,16 +182,20 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
         assembly ("memory-safe") {
             let end := mload(MIXED_END)
             for { let entry := mload(MIXED) } lt(entry, end) { entry := add(entry, MIXED_SIZE) } {
-                let p := mload(entry) // p: the entry, then the address of the samples
-                let pixel := and(shr(MIXED_PIXEL_AT, p), MIXED_PIXEL_MASK)
-                p := shr(MIXED_AT, p)
-                let samples := mload(p)
-                mstore(p, and(samples, not(IS_LISTED))) // for the next band or engine
-                samples := mul(or(and(samples, RED_BLUE_64), shl(GREEN_OF_SUM, and(samples, GREEN_64))), ONES_64) // sums in the top lane
-                samples := add(shr(UPPER_LANE_64_AT, samples), ROUND_SUM) // + 2 in each channel
-                samples := or(and(shr(2, samples), RED_BLUE), and(shr(MEAN_OF_GREEN_AT, samples), GREEN)) // / 4
-                mstore(0, shl(PIXEL_AT, samples))
-                mcopy(pixel, 0, 3)
+                let p := mload(entry)
+                let samples := mload(shr(MIXED_AT, p))
+                // sums in the top lane: red lowest, blue at bit 16, green at bit 32
+                samples := mul(or(and(samples, RED_BLUE_64), shl(GREEN_OF_SUM, and(samples, GREEN_64))), ONES_64)
+                samples := and(add(samples, ROUND_SUM), MEAN_OF_SUM) // + 2; the bits above the last two are the mean
+                mstore(0, mul(samples, SUM_TO_TOP)) // blue, green, red
+                mcopy(and(shr(MIXED_PIXEL_AT, p), MIXED_PIXEL_MASK), 0, 3)
+            }
+            if mload(RETURNS_DEPTHS) {
+                // the next engine has a list of its own
+                for { let entry := mload(MIXED) } lt(entry, end) { entry := add(entry, MIXED_SIZE) } {
+                    let p := shr(MIXED_AT, mload(entry))
+                    mstore(p, and(mload(p), not(IS_LISTED)))
+                }
             }
         }
     }
