@@ -3,7 +3,7 @@ pragma solidity 0.8.37;
 
 import {Rectangle} from "../../scene/Scene.sol";
 import {Compositor, OVERHANG} from "../Compositor.sol";
-import {Pipeline} from "../Pipeline.sol";
+import {BAND_PIXELS, Pipeline} from "../Pipeline.sol";
 import {max, min} from "../geometry/Screen.sol";
 import {SampleRasterizer} from "./SampleRasterizer.sol";
 import "../../words/SampleRegisters.sol";
@@ -16,10 +16,26 @@ import "../../words/SampleRegisters.sol";
 /// @dev The number of pixels beyond the outermost vertices that lines and samples may touch.
 uint256 constant MARGIN = 2;
 uint256 constant BORDERS_SIZE = 0x80;
+/// @dev With fewer faces, two bands are cheaper than the memory of the samples of one, whose price is quadratic.
+uint256 constant FEW_FACES = 160;
 
 abstract contract SampleBuffer is Pipeline, SampleRasterizer {
     function registersEnd() internal pure virtual override returns (uint256) {
         return SAMPLE_REGISTERS_END;
+    }
+
+    function bandPixels() internal pure override returns (uint256) {
+        unchecked {
+            // engines hand on the samples of whole pictures
+            if (load(DRAWN_BEFORE) | load(RETURNS_DEPTHS) != 0) return BAND_PIXELS;
+            uint256 faces;
+            uint256 uniforms = load(OBJECTS);
+            for (uint256 i = load(OBJECT_COUNT); i != 0; --i) {
+                faces += loadCalldata(uniforms + MESH_FACE_COUNT - OBJECT_BYTES);
+                uniforms += loadCalldata(uniforms);
+            }
+            return faces < FEW_FACES ? BAND_PIXELS / 2 : BAND_PIXELS;
+        }
     }
 
     function openPicture(Rectangle memory tile, uint256 image, uint256, uint256[3][] memory lists)
