@@ -48,12 +48,12 @@ library LinearSamples {
                         mstore(SPAN_END, sub(mload(SPAN_END), mload(SAMPLE_STRIDE)))
                     }
                     for { let attribute := add(start, mul(shr(SAMPLE_SIZE_BITS, p), mload(DX))) } lt(p, end) { // start + x DX
-                        p := add(p, SAMPLE_SIZE)
                         attribute := add(attribute, mload(DX)) // the next column
+                        p := add(p, SAMPLE_SIZE)
                     } {
-                        let old := mload(p) // what is there
                         let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE)) // of the pixel centre
                         z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS) // the depths of four samples
+                        let old := mload(p) // what is there
                         let seen := mul(p, ADDRESS_64) // the address in each lane, Q37
                         // nearer by at least one, whatever the colour bits below the old depth are
                         seen := and(and(add(left, seen), sub(right, seen)), and(sub(add(z, BELOW_TOPS_64), old), TOPS_64))
