@@ -577,9 +577,9 @@ uint256 constant THREE_EIGHTHS_42 = 0x18000000000;
 uint256 constant CEIL_42 = 0x3ffffffdfff;
 /// @dev An inset of the left side that leaves nothing inside.
 uint256 constant NO_INSIDE = 0x1000000000000000;
-/// @dev Sides that change by less than 16 columns per row have bounds that are never far outside the triangle; the bits of the sum of both.
-uint256 constant STEEPEST_42 = 0x400000000000;
-uint256 constant STEEP_42 = 0xffffffffffffffffffffffffffffffffffffffffffffffffffff800000000000;
+/// @dev Sides whose outermost samples are less than 4 columns away, which change by less than 11 columns per row, have bounds that are
+/// never far outside the triangle.
+uint256 constant FAR_42 = 0xfffffffffffffffffffffffffffffffffffffffffffffffffffff00000000000;
 /// @dev Sub-pixels from the centre of a pixel to the outermost of its samples.
 uint256 constant OUTERMOST_SAMPLE = 96;
 /// @dev Added to the row of a vertex, in sub-pixels, it yields the row of the first pixel with a sample below; then these bits are 64 times

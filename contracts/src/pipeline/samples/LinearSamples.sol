@@ -20,7 +20,7 @@ library LinearSamples {
             let bounds := mload(BOUNDS) // two addresses, Q37
             // START is relative to column 0; make it relative to address 0
             let start := sar(SAMPLE_SIZE_BITS, sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))) // column 0 / 32
-            mstore(ROW_IMAGE, sub(mload(SAMPLE_IMAGE), mul(3, add(mul(row, mload(TILE_WIDTH)), start))))
+            mstore(ROW_IMAGE, sub(mload(ROW_IMAGE_0), mul(row, mload(ROW_IMAGE_STEP))))
             start := sub(add(mload(START), mul(sub(row, mload(START_ROW)), mload(DY))), mul(start, mload(DX))) // start + y DY - start DX
             mstore(ROW_STEP_32, add(mload(DY), mul(shr(SAMPLE_SIZE_BITS, mload(SAMPLE_STRIDE)), mload(DX)))) // rows go up in memory
             if mload(IS_CLAMPED) {

@@ -42,7 +42,7 @@ abstract contract PatchSamples is SampleRasterizer {
         }
     }
 
-    /// @dev The same as drawSpans, with colours that are a quadratic function of the position.
+    /// @dev The same as drawSpans: the sides are in registers, since the loop over quadratic colours needs the stack.
     function drawRows(uint256 row, uint256 last) private pure {
         unchecked {
             while (row != last) {
@@ -63,7 +63,8 @@ abstract contract PatchSamples is SampleRasterizer {
         }
     }
 
-    /// @dev Draws the fragments of a row from `column` (inclusive) to `end` (exclusive).
+    /// @dev Draws the fragments of a row, whose sides are in ROW_LEFT and ROW_RIGHT, with colours that are a quadratic function of the
+    /// position: see drawSpan.
     function drawRow(uint256 column, uint256 end, uint256 row) private pure {
         assembly ("memory-safe") {
             // the bytes of a colour that is beyond them in some lane, Q58
@@ -92,7 +93,7 @@ abstract contract PatchSamples is SampleRasterizer {
                 mstore(INNER_END, and(sar(UPPER_ADDRESS_AT, inner), WHOLE_SAMPLES)) // floor of the upper one
             }
             let p := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE))) // of column 0
-            mstore(ROW_IMAGE, sub(mload(SAMPLE_IMAGE), mul(3, add(mul(row, mload(TILE_WIDTH)), sar(SAMPLE_SIZE_BITS, p)))))
+            mstore(ROW_IMAGE, sub(mload(ROW_IMAGE_0), mul(row, mload(ROW_IMAGE_STEP))))
             let attribute := add(add(mload(START), mul(sub(row, mload(START_ROW)), mload(DY))), mul(column, mload(DX))) // at the column
             end := add(p, shl(SAMPLE_SIZE_BITS, end)) // p + 32 * end
             p := add(p, shl(SAMPLE_SIZE_BITS, column))
@@ -153,9 +154,9 @@ abstract contract PatchSamples is SampleRasterizer {
                     let color := f
                     if mload(PATCH_WEIGHT) { color := unweighted(f, attribute) }
                     switch and(color, ABOVE_Q58)
-                    case 0 { color := and(color, BYTES_Q58) }
+                    case 0 { color := and(color, BYTES_Q58) } // the integer parts
                     default { color := clamped(color) }
-                    color := mul(color, Q58_TO_TOP)
+                    color := mul(color, Q58_TO_TOP) // blue, green, red at the top
                     mstore(0, color)
                     mcopy(add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p))), 0, 3)
                     let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE)) // of the pixel centre
