@@ -18,7 +18,7 @@ uint256 constant MARGIN = 2;
 uint256 constant BORDERS_SIZE = 0x80;
 /// @dev Moves the column of a screen word to the top.
 uint256 constant COLUMN_TO_TOP = 172;
-/// @dev With fewer faces, two bands are cheaper than the memory of the samples of one, whose price is quadratic.
+/// @dev With fewer faces, two bands are cheaper than one with twice the samples: the price of memory is quadratic.
 uint256 constant FEW_FACES = 160;
 
 abstract contract SampleBuffer is Pipeline, SampleRasterizer {
@@ -28,15 +28,9 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
 
     function bandPixels() internal pure override returns (uint256) {
         unchecked {
-            // engines hand on the samples of whole pictures
-            if (load(DRAWN_BEFORE) | load(RETURNS_DEPTHS) != 0) return BAND_PIXELS;
-            uint256 faces;
-            uint256 uniforms = load(OBJECTS);
-            for (uint256 i = load(OBJECT_COUNT); i != 0; --i) {
-                faces += loadCalldata(uniforms + MESH_FACE_COUNT - OBJECT_BYTES);
-                uniforms += loadCalldata(uniforms);
-            }
-            return faces < FEW_FACES ? BAND_PIXELS / 2 : BAND_PIXELS;
+            // engines hand on the samples of whole pictures; more objects have more faces
+            if (load(DRAWN_BEFORE) | load(RETURNS_DEPTHS) != 0 || load(OBJECT_COUNT) != 1) return BAND_PIXELS;
+            return loadCalldata(load(OBJECTS) + MESH_FACE_COUNT - OBJECT_BYTES) < FEW_FACES ? BAND_PIXELS / 2 : BAND_PIXELS;
         }
     }
 
