@@ -23,8 +23,7 @@ contract AntialiasedEngine is SampleBuffer, PatchSamples, ExactSamples, FlatShad
     }
 
     function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure override {
-        if (load(PATCH_SIZE) != 1) drawQuadratic(left, right, column, end, row);
-        else drawEach(left, right, column, end, row, EXACT);
+        drawEach(left, right, column, end, row, EXACT);
     }
 
     /// @dev The AntialiasedFragmentEngine draws wires and translucent objects, the EffectsEngine shadows.

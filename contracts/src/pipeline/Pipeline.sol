@@ -33,6 +33,11 @@ abstract contract Pipeline is PrimitiveAssembly {
         return REGISTERS_END;
     }
 
+    /// @notice Returns the number of pixels in a band of this picture: BAND_PIXELS, or a part of it if it has few faces.
+    function bandPixels() internal pure virtual returns (uint256) {
+        return BAND_PIXELS;
+    }
+
     /// @notice Called once, when the uniforms of the frame are in their registers.
     function openFrame() internal pure virtual {}
 
@@ -102,7 +107,7 @@ abstract contract Pipeline is PrimitiveAssembly {
             }
             store(STRIDE_LANES, (8 * tile.width << EDGE_ADDRESS_FRACTION) * ONES_128);
 
-            uint256 bandRows = BAND_PIXELS / tile.width;
+            uint256 bandRows = bandPixels() / tile.width;
             if (bandRows > tile.height) bandRows = tile.height;
             bool atOnce = bandRows == tile.height;
             // for each object, the vertex records, the beginning and end of its list of triangles, and what is kept of it

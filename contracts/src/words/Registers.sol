@@ -10,7 +10,7 @@ import "./Words.sol";
 
 /// @dev The beginning of the registers: the maximum end of the compiler's variables in memory.
 uint256 constant REGISTERS = 0x800;
-uint256 constant REGISTERS_END = 0x3060;
+uint256 constant REGISTERS_END = 0x3080;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- frame
 // The uniforms of the frame, which the Renderer fills. Pixel columns and rows are counted from -PIXEL_BIAS, so that everything inside the
@@ -227,87 +227,89 @@ uint256 constant FRAGMENT_LIGHT = 0x2920;
 uint256 constant FRAGMENT_RAY_LENGTH = 0x2940;
 /// @dev If colours are multiplied by their depths, the nearest depth of the triangle, with 8 more bits than in a vertex; otherwise 0.
 uint256 constant PATCH_WEIGHT = 0x2960;
+/// @dev The colour at the next fragment of PatchSpans.wide, if colours are multiplied by their depths.
+uint256 constant PATCH_COLOR = 0x2980;
 /// @dev The first column of the cell that is drawn, and the one after its last.
-uint256 constant PATCH_BEGIN = 0x2980;
-uint256 constant PATCH_END = 0x29a0;
+uint256 constant PATCH_BEGIN = 0x29a0;
+uint256 constant PATCH_END = 0x29c0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- edges
 
 /// @dev Not zero if a vertex of the object lies outside the guard band or nearer than the near plane.
-uint256 constant HAS_CLIPPED = 0x29c0;
+uint256 constant HAS_CLIPPED = 0x29e0;
 /// @dev DEPTH_STRIDE in both lanes of edges: see PixelRasterizer.
-uint256 constant STRIDE_LANES = 0x29e0;
+uint256 constant STRIDE_LANES = 0x2a00;
 /// @dev The change of the accumulator per byte of depths, an eighth of DX; and the change of START per row, if it refers to address 0.
-uint256 constant DX_8 = 0x2a00;
-uint256 constant ROW_STEP = 0x2a20;
+uint256 constant DX_8 = 0x2a20;
+uint256 constant ROW_STEP = 0x2a40;
 /// @dev The lower part of a triangle, in which the edge from the second to the third vertex replaces the one that has ended: the number of
 /// its rows; its edges = the edges of the upper part & LOWER_KEPT | LOWER_EDGE; their changes per row.
-uint256 constant LOWER_ROWS = 0x2a40;
-uint256 constant LOWER_KEPT = 0x2a60;
-uint256 constant LOWER_EDGE = 0x2a80;
-uint256 constant LOWER_SLOPES = 0x2aa0;
+uint256 constant LOWER_ROWS = 0x2a60;
+uint256 constant LOWER_KEPT = 0x2a80;
+uint256 constant LOWER_EDGE = 0x2aa0;
+uint256 constant LOWER_SLOPES = 0x2ac0;
 /// @dev Depths of a triangle that is IS_DEEP: an addend of START; changes of the depth for DX and DY, Q32.
-uint256 constant DEEP_START = 0x2ac0;
-uint256 constant DEEP_DX = 0x2ae0;
-uint256 constant DEEP_DY = 0x2b00;
+uint256 constant DEEP_START = 0x2ae0;
+uint256 constant DEEP_DX = 0x2b00;
+uint256 constant DEEP_DY = 0x2b20;
 /// @dev The address for the next triangle of the list; 0 if faces are drawn immediately.
-uint256 constant LIST = 0x2b20;
+uint256 constant LIST = 0x2b40;
 /// @dev The number of the object's faces that were drawn or listed.
-uint256 constant DRAWN = 0x2b40;
+uint256 constant DRAWN = 0x2b60;
 /// @dev Faces with twice an area, Q192, not above this are not drawn: they are back faces.
-uint256 constant LEAST_AREA = 0x2b60;
+uint256 constant LEAST_AREA = 0x2b80;
 /// @dev The changes of edges per row.
-uint256 constant SLOPES = 0x2b80;
+uint256 constant SLOPES = 0x2ba0;
 /// @dev The end of the faces in calldata.
-uint256 constant FACES_END = 0x2ba0;
+uint256 constant FACES_END = 0x2bc0;
 
 // -------------------------------------------------------------------------------------------------------------------- quadratic functions
 
 /// @dev The coefficients of quadratic functions over a triangle, signed lanes of 85 bits: see Quadratic.
-uint256 constant QUADRATIC_1 = 0x2bc0;
-uint256 constant QUADRATIC_S = 0x2be0;
-uint256 constant QUADRATIC_T = 0x2c00;
-uint256 constant QUADRATIC_SS = 0x2c20;
-uint256 constant QUADRATIC_ST = 0x2c40;
-uint256 constant QUADRATIC_TT = 0x2c60;
+uint256 constant QUADRATIC_1 = 0x2be0;
+uint256 constant QUADRATIC_S = 0x2c00;
+uint256 constant QUADRATIC_T = 0x2c20;
+uint256 constant QUADRATIC_SS = 0x2c40;
+uint256 constant QUADRATIC_ST = 0x2c60;
+uint256 constant QUADRATIC_TT = 0x2c80;
 /// @dev The values at column 0 of the first row, and their first and second differences to the next column and row.
-uint256 constant QUADRATIC_START = 0x2c80;
-uint256 constant QUADRATIC_DX = 0x2ca0;
-uint256 constant QUADRATIC_DY = 0x2cc0;
-uint256 constant QUADRATIC_DXX = 0x2ce0;
-uint256 constant QUADRATIC_DXY = 0x2d00;
-uint256 constant QUADRATIC_DYY = 0x2d20;
+uint256 constant QUADRATIC_START = 0x2ca0;
+uint256 constant QUADRATIC_DX = 0x2cc0;
+uint256 constant QUADRATIC_DY = 0x2ce0;
+uint256 constant QUADRATIC_DXX = 0x2d00;
+uint256 constant QUADRATIC_DXY = 0x2d20;
+uint256 constant QUADRATIC_DYY = 0x2d40;
 /// @dev Changes over a word of eight colours: the quadratic part of each channel.
-uint256 constant BEND_BLUE = 0x2d40;
-uint256 constant BEND_GREEN = 0x2d60;
-uint256 constant BEND_RED = 0x2d80;
+uint256 constant BEND_BLUE = 0x2d60;
+uint256 constant BEND_GREEN = 0x2d80;
+uint256 constant BEND_RED = 0x2da0;
 
 // ----------------------------------------------------------------------------------------------------------------------- smooth triangles
 
 /// @dev The normals at the vertices, times their weights, Q30; each followed by the same with reversed lanes.
-uint256 constant NORMAL_0 = 0x2da0;
-uint256 constant NORMAL_1 = 0x2de0;
-uint256 constant NORMAL_2 = 0x2e20;
+uint256 constant NORMAL_0 = 0x2dc0;
+uint256 constant NORMAL_1 = 0x2e00;
+uint256 constant NORMAL_2 = 0x2e40;
 /// @dev The largest square of the changes of the half vector from vertex to vertex, Q40.
-uint256 constant HALF_CHANGE = 0x2e60;
+uint256 constant HALF_CHANGE = 0x2e80;
 /// @dev Half the magnitudes of the last squares of a ray, and of a half vector.
-uint256 constant RAY_HINT = 0x2e80;
-uint256 constant HALF_HINT = 0x2ea0;
+uint256 constant RAY_HINT = 0x2ea0;
+uint256 constant HALF_HINT = 0x2ec0;
 /// @dev The record of a vertex at the midpoint of an edge.
-uint256 constant MIDDLE = 0x2ec0;
+uint256 constant MIDDLE = 0x2ee0;
 /// @dev Twice the largest skew of a product N * H along an edge, Q20: see SmoothTriangle.correction.
-uint256 constant HALF_SKEW = 0x2fc0;
+uint256 constant HALF_SKEW = 0x2fe0;
 /// @dev Half of QUADRATIC_DXX, by which QUADRATIC_DX is reduced while rows are drawn.
-uint256 constant QUADRATIC_HALF_DXX = 0x2fe0;
+uint256 constant QUADRATIC_HALF_DXX = 0x3000;
 /// @dev The greatest depth of the vertices, Q24 relative to bit 192 of an accumulator.
-uint256 constant NEAREST = 0x3000;
+uint256 constant NEAREST = 0x3020;
 
 // ---------------------------------------------------------------------------------------------------------------------- answer of Effects
 // For the Renderer and for Effects: in memory, before the engine is called.
 
 /// @dev The memory address of the answer of the contract Effects, and its size: 0 if the scene has no effects.
-uint256 constant EFFECTS_AT = 0x3020;
-uint256 constant EFFECTS_SIZE = 0x3040;
+uint256 constant EFFECTS_AT = 0x3040;
+uint256 constant EFFECTS_SIZE = 0x3060;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- light
 // The properties of a light for the frame, at LIGHTS.

@@ -7,86 +7,85 @@ import "./Registers.sol";
 
 // --------------------------------------------------------------------------------------------------------------------------------- bounds
 
-uint256 constant SAMPLE_REGISTERS_END = 0x3fa0;
+uint256 constant SAMPLE_REGISTERS_END = 0x4020;
 
 // -------------------------------------------------------------------------------------------------------------------------------- samples
 // For the engines that take four samples per pixel: see Samples and SampleRasterizer.
 
 /// @dev The columns and rows that have samples in memory: the first, and the one after the last.
-uint256 constant SAMPLE_BEGIN = 0x3060;
-uint256 constant SAMPLE_END = 0x3080;
-uint256 constant SAMPLE_TOP = 0x30a0;
-uint256 constant SAMPLE_BOTTOM = 0x30c0;
+uint256 constant SAMPLE_BEGIN = 0x3080;
+uint256 constant SAMPLE_END = 0x30a0;
+uint256 constant SAMPLE_TOP = 0x30c0;
+uint256 constant SAMPLE_BOTTOM = 0x30e0;
 /// @dev The size of a row of samples in bytes; the address of the samples of row 0, column 0, extrapolated, which may be negative. Rows go
 /// down in memory, as in a bitmap.
-uint256 constant SAMPLE_STRIDE = 0x30e0;
-uint256 constant SAMPLE_ORIGIN = 0x3100;
+uint256 constant SAMPLE_STRIDE = 0x3100;
+uint256 constant SAMPLE_ORIGIN = 0x3120;
 /// @dev The address of the colour of row 0, column 0, extrapolated; rows of TILE_WIDTH pixels go down.
-uint256 constant SAMPLE_IMAGE = 0x3120;
+uint256 constant SAMPLE_IMAGE = 0x3140;
 /// @dev The colour of a pixel of the current row with its samples at p is at ROW_IMAGE + 3 * (p / 32); the decrease of that to the next
 /// row.
-uint256 constant ROW_IMAGE = 0x3140;
-uint256 constant ROW_IMAGE_STEP = 0x3160;
+uint256 constant ROW_IMAGE = 0x3160;
+uint256 constant ROW_IMAGE_STEP = 0x3180;
+/// @dev ROW_IMAGE of row 0, extrapolated.
+uint256 constant ROW_IMAGE_0 = 0x31a0;
 /// @dev The list of the pixels whose samples may differ: the address of the samples, and of the colour.
-uint256 constant MIXED = 0x3180;
-uint256 constant MIXED_END = 0x31a0;
+uint256 constant MIXED = 0x31c0;
+uint256 constant MIXED_END = 0x31e0;
 /// @dev The row to which START refers; an eighth of DY.
-uint256 constant START_ROW = 0x31c0;
-uint256 constant DY_8 = 0x31e0;
+uint256 constant START_ROW = 0x3200;
+uint256 constant DY_8 = 0x3220;
 /// @dev The differences of the samples' depths from SAMPLE_SCALE times the depth of the pixel centre, signed lanes; the depth relative to
 /// SAMPLE_BASE that they refer to.
-uint256 constant DEPTH_OFFSETS = 0x3200;
-uint256 constant DEPTH_BASE = 0x3220;
+uint256 constant DEPTH_OFFSETS = 0x3240;
+uint256 constant DEPTH_BASE = 0x3260;
 /// @dev The row to which sides and bounds refer: the first with a sample of the triangle in the band.
-uint256 constant SIDE_ROW = 0x3240;
+uint256 constant SIDE_ROW = 0x3280;
 /// @dev The sides of the triangle at that row: see SampleRasterizer; and their changes per row.
-uint256 constant SIDE_LEFT = 0x3260;
-uint256 constant SIDE_RIGHT = 0x3280;
-uint256 constant SIDE_LEFT_STEP = 0x32a0;
-uint256 constant SIDE_RIGHT_STEP = 0x32c0;
+uint256 constant SIDE_LEFT = 0x32a0;
+uint256 constant SIDE_RIGHT = 0x32c0;
+uint256 constant SIDE_LEFT_STEP = 0x32e0;
+uint256 constant SIDE_RIGHT_STEP = 0x3300;
 /// @dev The addresses of the first pixel that may be covered, and of the one after the last, Q37 in lanes of 128 bits; their changes per
 /// row; the insets, which added to them bound the pixels whose samples are all covered.
-uint256 constant BOUNDS = 0x32e0;
-uint256 constant BOUND_STEPS = 0x3300;
-uint256 constant INSETS = 0x3320;
+uint256 constant BOUNDS = 0x3320;
+uint256 constant BOUND_STEPS = 0x3340;
+uint256 constant INSETS = 0x3360;
 /// @dev The row in which one side continues with the edge from the second to the third vertex; that side: the address of SIDE_LEFT or
 /// SIDE_RIGHT.
-uint256 constant KINK_ROW = 0x3340;
-uint256 constant KINK_SIDE = 0x3360;
+uint256 constant KINK_ROW = 0x3380;
+uint256 constant KINK_SIDE = 0x33a0;
 /// @dev The lanes of its samples that lie on that edge; that edge at that row, and its change per row.
-uint256 constant KINK_MASK = 0x3380;
-uint256 constant KINK_EDGE = 0x33a0;
-uint256 constant KINK_STEP = 0x33c0;
+uint256 constant KINK_MASK = 0x33c0;
+uint256 constant KINK_EDGE = 0x33e0;
+uint256 constant KINK_STEP = 0x3400;
 /// @dev From that row on: the mask of the bounds that remain, and the replacement of the others; their changes, and INSETS.
-uint256 constant KINK_KEPT = 0x33e0;
-uint256 constant KINK_BOUND = 0x3400;
-uint256 constant KINK_BOUND_STEPS = 0x3420;
-uint256 constant KINK_INSETS = 0x3440;
+uint256 constant KINK_KEPT = 0x3420;
+uint256 constant KINK_BOUND = 0x3440;
+uint256 constant KINK_BOUND_STEPS = 0x3460;
+uint256 constant KINK_INSETS = 0x3480;
 /// @dev Whether SPAN_BEGIN and SPAN_END must be applied in each row: the bounds may be far outside.
-uint256 constant IS_CLAMPED = 0x3460;
+uint256 constant IS_CLAMPED = 0x34a0;
 /// @dev The columns between which fragments may lie: of the triangle, of the tile, and of the cell that is drawn.
-uint256 constant SPAN_BEGIN = 0x3480;
-uint256 constant SPAN_END = 0x34a0;
+uint256 constant SPAN_BEGIN = 0x34c0;
+uint256 constant SPAN_END = 0x34e0;
 /// @dev SAMPLE_STRIDE in the format of sample addresses, Q37.
-uint256 constant STRIDE_37 = 0x34c0;
+uint256 constant STRIDE_37 = 0x3500;
 /// @dev The change of START per row, if it refers to address 0.
-uint256 constant ROW_STEP_32 = 0x34e0;
+uint256 constant ROW_STEP_32 = 0x3520;
 /// @dev The bounds of the row that drawSpans draws, and their changes.
-uint256 constant ROW_BOUNDS = 0x3500;
-uint256 constant ROW_BOUND_STEPS = 0x3520;
+uint256 constant ROW_BOUNDS = 0x3540;
+uint256 constant ROW_BOUND_STEPS = 0x3560;
 /// @dev The changes of its sides.
-uint256 constant ROW_LEFT_STEP = 0x3540;
-uint256 constant ROW_RIGHT_STEP = 0x3560;
+uint256 constant ROW_LEFT_STEP = 0x3580;
+uint256 constant ROW_RIGHT_STEP = 0x35a0;
 /// @dev The addresses of the first pixel of the row whose samples are all covered, and of the one after the last.
-uint256 constant INNER_BEGIN = 0x3580;
-uint256 constant INNER_END = 0x35a0;
+uint256 constant INNER_BEGIN = 0x35c0;
+uint256 constant INNER_END = 0x35e0;
 /// @dev The accumulator at address 0 of the row that QuadraticSamples draws.
-uint256 constant ROW_START = 0x35c0;
+uint256 constant ROW_START = 0x3600;
 /// @dev The columns of a row of samples.
-uint256 constant ROW_COLUMNS = 0x35e0;
-/// @dev The sides at the row.
-uint256 constant ROW_LEFT = 0x3600;
-uint256 constant ROW_RIGHT = 0x3620;
+uint256 constant ROW_COLUMNS = 0x3620;
 /// @dev The bounds of the row: of the left one, plus the lowest lane of the side, of the right one, minus that; they are the same for all
 /// rows of an edge.
 uint256 constant OUTER_LEFT = 0x3640;
@@ -102,7 +101,13 @@ uint256 constant SAME_AMBIENT = 0x36e0;
 uint256 constant SAME_DIFFUSE = 0x3700;
 /// @dev The table of the highlight times the colour of the first lamp: lanes of 85 bits, Q42; the last entry twice.
 uint256 constant SHINE_TABLE = 0x3720;
+/// @dev The sides of the row that is drawn, and the address of the pixel after its last one.
+uint256 constant ROW_LEFT = 0x3f60;
+uint256 constant ROW_RIGHT = 0x3f80;
+uint256 constant ROW_END = 0x3fa0;
+/// @dev The change of a quadratic function at column 0 to the next row.
+uint256 constant QUADRATIC_DOWN = 0x3fc0;
 /// @dev The row to which the quadratic functions refer.
-uint256 constant QUADRATIC_ROW = 0x3f60;
+uint256 constant QUADRATIC_ROW = 0x3fe0;
 /// @dev The least depth of the vertices, with 8 more bits than in a vertex.
-uint256 constant FARTHEST = 0x3f80;
+uint256 constant FARTHEST = 0x4000;

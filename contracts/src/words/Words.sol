@@ -589,7 +589,6 @@ uint256 constant MIXED_AT = 224;
 uint256 constant MIXED_PIXEL_AT = 192;
 uint256 constant MIXED_PIXEL_MASK = 0xffffffff;
 uint256 constant MIXED_SIZE = 8;
-uint256 constant UPPER_LANE_64_AT = 192;
 /// @dev The samples of a pixel have 2^5 bytes; an eighth of a pixel, in which their positions are, is 2^-3; 1/64 is 2^-6.
 uint256 constant SAMPLE_SIZE_BITS = 5;
 uint256 constant SAMPLE_SIZE = 32;
@@ -617,9 +616,9 @@ uint256 constant THREE_EIGHTHS_42 = 0x18000000000;
 uint256 constant CEIL_42 = 0x3ffffffdfff;
 /// @dev An inset of the left side that leaves nothing inside.
 uint256 constant NO_INSIDE = 0x1000000000000000;
-/// @dev Sides that change by less than 16 columns per row have bounds that are never far outside the triangle; the bits of the sum of both.
-uint256 constant STEEPEST_42 = 0x400000000000;
-uint256 constant STEEP_42 = 0xffffffffffffffffffffffffffffffffffffffffffffffffffff800000000000;
+/// @dev Sides whose outermost samples are less than 4 columns away, which change by less than 11 columns per row, have bounds that are
+/// never far outside the triangle.
+uint256 constant FAR_42 = 0xfffffffffffffffffffffffffffffffffffffffffffffffffffff00000000000;
 /// @dev Sub-pixels from the centre of a pixel to the outermost of its samples.
 uint256 constant OUTERMOST_SAMPLE = 96;
 /// @dev Added to the row of a vertex, in sub-pixels, it yields the row of the first pixel with a sample below; then these bits are 64 times
@@ -641,11 +640,11 @@ uint256 constant CENTROIDS = 0x1ff00ff02010002010000010300ff0000fefffd0101fe03ff
 uint256 constant GREEN_OF_SUM = 24;
 /// @dev A colour at the top of a word.
 uint256 constant PIXEL_AT = 232;
-/// @dev Red and blue of a colour; the position of green in the mean of four.
-uint256 constant RED_BLUE = 0xff00ff;
-uint256 constant MEAN_OF_GREEN_AT = 26;
-/// @dev Half a level for the sums of four colours: red lowest, blue at bit 16, green at bit 32; the position of their bytes.
-uint256 constant ROUND_SUM = 0x200020002;
+/// @dev In the sums of four colours in the upper lane, red lowest, blue at bit 16, green at bit 32: half a level of their mean; the bits of
+/// the mean; the multiplier that moves them to the top.
+uint256 constant ROUND_SUM = 0x200020002000000000000000000000000000000000000000000000000;
+uint256 constant MEAN_OF_SUM = 0x3fc03fc03fc000000000000000000000000000000000000000000000000;
+uint256 constant SUM_TO_TOP = 0x4000004000;
 
 // ------------------------------------------------------------------------------------------------------------------------- signed colours
 // Three signed lanes of 85 bits, for quadratic functions. An incremented colour is Q58, and a colour times its depth Q72 (Q24 without the

@@ -181,7 +181,7 @@ library PatchSpans {
             for {} 1 {} {
                 // colours to keep: pixels from n or 8 on, and below r
                 let keep := or(or(shl(mul(24, n), not(0)), shl(192, not(0))), sub(shl(mul(24, r), 1), 1))
-                if lt(r, 4) { keep := or(keep, depths(p, n, r, attribute)) }
+                keep := or(keep, depths(p, n, r, attribute))
                 if gt(n, 4) {
                     let rest := mul(gt(r, 4), sub(r, 4)) // max(r - 4, 0)
                     keep := or(keep, shl(96, depths(sub(p, 32), sub(n, 4), rest, sub(attribute, shl(2, mload(DX))))))
@@ -190,11 +190,14 @@ library PatchSpans {
                 let slope := g
                 if mload(PATCH_WEIGHT) {
                     // quotients by the depths of pixels 0, 4 and 8 to the left, and a parabola through them
-                    color := unweighted(f, shr(ACCUMULATOR_DEPTH_AT, attribute)) // c(0)
+                    color := mload(PATCH_COLOR) // c(0), of which half a level is at least left
+                    if iszero(color) { color := unweighted(f, shr(ACCUMULATOR_DEPTH_AT, attribute)) }
                     slope := add(sub(f, shl(2, g)), shl(3, mload(QUADRATIC_DXX))) // at x = -4: f - 4 g + 16 / 2 * DXX
                     slope := unweighted(slope, shr(ACCUMULATOR_DEPTH_AT, sub(attribute, shl(2, mload(DX))))) // c(-4), for now
                     let sum := add(sub(f, shl(3, g)), shl(5, mload(QUADRATIC_DXX)))
-                    sum := add(color, unweighted(sum, shr(ACCUMULATOR_DEPTH_AT, sub(attribute, shl(3, mload(DX)))))) // c(0) + c(-8)
+                    sum := unweighted(sum, shr(ACCUMULATOR_DEPTH_AT, sub(attribute, shl(3, mload(DX))))) // c(-8)
+                    mstore(PATCH_COLOR, sum)
+                    sum := add(color, sum) // c(0) + c(-8)
                     storeBend(shr(5, sub(sum, shl(1, slope)))) // (c(0) - 2 c(-4) + c(-8)) / 32
                     slope := shr(3, add(sub(sum, shl(2, slope)), shl(1, color))) // (3 c(0) - 4 c(-4) + c(-8)) / 8
                 }
@@ -204,7 +207,10 @@ library PatchSpans {
                 // eight pixels are the lower 24 bytes of a word that ends with the last one
                 let q := sub(add(mload(IMAGE_ORIGIN), mul(3, shr(DEPTH_SIZE_BITS, p))), 20)
                 mstore(q, xor(word, and(xor(word, mload(q)), keep))) // keep ? old : word
-                if lt(n, 9) { break }
+                if lt(n, 9) {
+                    mstore(PATCH_COLOR, 0)
+                    break
+                }
                 n := sub(n, 8)
                 r := 0
                 p := sub(p, 64)

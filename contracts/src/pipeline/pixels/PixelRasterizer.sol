@@ -46,19 +46,20 @@ abstract contract PixelRasterizer is Rasterizer {
                 // ds/dx = -yc / area, ds/dy = xc / area. Rounded to 2^-29, over the 4,096 pixels of the guard band in both directions they
                 // leave s + t within 2^-15.
                 let area := sub(mul(xc, b), mul(xb, c)) // xc * yb - xb * yc: twice the area, in sub-pixels
-                let dx := sdiv(shl(GRADIENT_SHIFT, b), area) // dt/dx = yb / area
-                let dy := sdiv(shl(GRADIENT_SHIFT, xb), area) // -dt/dy
-                let delta := mload(DELTA_2)
-                mstore(DX_8, mul(delta, dx)) // (c - a) * dt/dx; Q29 per pixel is Q32 per byte of depths, of which a pixel has 8
-                mstore(DY, mul(delta, dy)) // -(c - a) * dt/dy, for now
-                // from the first vertex to the centre of pixel 0 in the first row
-                mstore(START, sub(mload(ATTRIBUTE_0), mul(delta, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, dx), mul(y, dy))))))
-                dx := sdiv(shl(GRADIENT_SHIFT, c), area) // -ds/dx = yc / area
-                dy := sdiv(shl(GRADIENT_SHIFT, xc), area) // ds/dy
-                delta := mload(DELTA_1) // b - a
-                mstore(START, add(mload(START), mul(delta, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, dx), mul(y, dy))))))
-                mstore(DX_8, sub(mload(DX_8), mul(delta, dx))) // (c - a) * dt/dx + (b - a) * ds/dx
-                mstore(DY, shl(EIGHTH, sub(mul(delta, dy), mload(DY)))) // the same with d/dy, Q32 per pixel
+                let tDx := sdiv(shl(GRADIENT_SHIFT, b), area) // dt/dx = yb / area
+                let tDy := sdiv(shl(GRADIENT_SHIFT, xb), area) // -dt/dy = xb / area
+                let sDy := sdiv(shl(GRADIENT_SHIFT, xc), area) // ds/dy = xc / area
+                area := sdiv(shl(GRADIENT_SHIFT, c), area) // area: -ds/dx = yc / area
+                let toB := mload(DELTA_1)
+                let toC := mload(DELTA_2)
+                // from the first vertex to the centre of pixel 0 in the first row: + toB * s + toC * t
+                mstore(START, add(
+                    sub(mload(ATTRIBUTE_0), mul(toC, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, tDx), mul(y, tDy))))),
+                    mul(toB, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, area), mul(y, sDy))))
+                ))
+                // toC * dt/dx + toB * ds/dx; Q29 per pixel is Q32 per byte of depths, of which a pixel has 8
+                mstore(DX_8, sub(mul(toC, tDx), mul(toB, area)))
+                mstore(DY, shl(EIGHTH, sub(mul(toB, sDy), mul(toC, tDy)))) // the same with d/dy, Q32 per pixel
             }
             // columns per row, Q48: left (xb / yb) and right (xc / yc)
             let slopes := add(sdiv(shl(EDGE_FRACTION, xb), b), shl(RIGHT_EDGE_AT, sdiv(shl(EDGE_FRACTION, xc), c)))

@@ -20,7 +20,7 @@ library LinearSamples {
             let bounds := mload(BOUNDS) // two addresses, Q37
             // START is relative to column 0; make it relative to address 0
             let start := sar(SAMPLE_SIZE_BITS, sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))) // column 0 / 32
-            mstore(ROW_IMAGE, sub(mload(SAMPLE_IMAGE), mul(3, add(mul(row, mload(TILE_WIDTH)), start))))
+            mstore(ROW_IMAGE, sub(mload(ROW_IMAGE_0), mul(row, mload(ROW_IMAGE_STEP))))
             start := sub(add(mload(START), mul(sub(row, mload(START_ROW)), mload(DY))), mul(start, mload(DX))) // start + y DY - start DX
             mstore(ROW_STEP_32, add(mload(DY), mul(shr(SAMPLE_SIZE_BITS, mload(SAMPLE_STRIDE)), mload(DX)))) // rows go up in memory
             if mload(IS_CLAMPED) {
@@ -29,11 +29,11 @@ library LinearSamples {
                 mstore(SPAN_BEGIN, add(base, shl(SAMPLE_SIZE_BITS, mload(SPAN_BEGIN)))) // base + 32 * column
                 mstore(SPAN_END, add(base, shl(SAMPLE_SIZE_BITS, mload(SPAN_END))))
             }
-            // the rows above the row of the kink; the number of rows from that one on
-            let rows := sub(last, row) // the number of rows
-            last := sub(last, mload(KINK_ROW)) // last: the number of rows from the kink on
-            if sgt(last, 0) { rows := sub(rows, last) }
-            row := 1 // row: 1 above the kink, then 0
+            // the number of rows above the kink; and of those from it on, negative once its own row is drawn
+            let rows := sub(last, row)
+            last := sub(last, mload(KINK_ROW)) // last: the rows from the kink on
+            last := mul(last, sgt(last, 0)) // none if they are not in the band
+            rows := sub(rows, last)
             for {} 1 {} {
                 for {} rows { rows := sub(rows, 1) } {
                     let p := and(shr(ADDRESS_FRACTION, bounds), ADDRESS_32) // floor of the lower bound
@@ -47,45 +47,38 @@ library LinearSamples {
                         mstore(SPAN_BEGIN, sub(mload(SPAN_BEGIN), mload(SAMPLE_STRIDE)))
                         mstore(SPAN_END, sub(mload(SPAN_END), mload(SAMPLE_STRIDE)))
                     }
-                    if lt(p, end) {
-                        let attribute := add(start, mul(shr(SAMPLE_SIZE_BITS, p), mload(DX))) // start + x DX
-                        for {} 1 {} {
-                            let old := mload(p) // what is there
-                            let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE)) // of the pixel centre
-                            z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS) // the depths of four samples
-                            let seen := mul(p, ADDRESS_64) // the address in each lane, Q37
-                            // nearer by at least one, whatever the colour bits below the old depth are
-                            seen := and(and(add(left, seen), sub(right, seen)), and(sub(add(z, BELOW_TOPS_64), old), TOPS_64))
-                            if seen {
-                                let color := attribute
-                                if and(color, ABOVE_BYTES) {
-                                    // set all bits of the byte if above 255, none if below 0
-                                    color := and(add(and(attribute, ABOVE_BYTES), ABOVE_BYTES), NEXT_LANES) // 1 above each lane > 255
-                                    color := or(attribute, shr(NEXT_LANE_TO_BYTE, mul(color, 0xff))) // 255 there
-                                    color := and(color, not(shr(SIGN_TO_BYTE, mul(and(attribute, BELOW_NEXT_LANES), 0xff)))) // 0 below 0
-                                }
-                                color := shr(PIXEL_AT, mul(and(color, BYTES_OF_LANES), LANES_TO_BYTES)) // 0xBBGGRR
-                                // as Samples.paint and write, without their calls for each fragment
-                                z := or(z, mul(color, ONES_64)) // the colour in each sample
-                                switch eq(seen, TOPS_64)
-                                case 1 {
-                                    mstore(0, shl(PIXEL_AT, color)) // three bytes
-                                    mcopy(add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p))), 0, 3)
-                                }
-                                default {
-                                    z := or(xor(old, and(xor(old, z), sub(shl(1, seen), shr(TOP_64_AT, seen)))), IS_LISTED)
-                                    if iszero(and(old, IS_LISTED)) {
-                                        seen := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p)))
-                                        mstore(mload(MIXED_END), or(shl(MIXED_AT, p), shl(MIXED_PIXEL_AT, seen))) // append (p, pixel)
-                                        mstore(MIXED_END, add(mload(MIXED_END), MIXED_SIZE))
-                                    }
-                                }
-                                mstore(p, z)
-                            }
-                            p := add(p, SAMPLE_SIZE)
-                            if eq(p, end) { break }
-                            attribute := add(attribute, mload(DX)) // the next column
+                    for { let attribute := add(start, mul(shr(SAMPLE_SIZE_BITS, p), mload(DX))) } lt(p, end) { // start + x DX
+                        attribute := add(attribute, mload(DX)) // the next column
+                        p := add(p, SAMPLE_SIZE)
+                    } {
+                        let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE)) // of the pixel centre
+                        z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS) // the depths of four samples
+                        let old := mload(p) // what is there
+                        let seen := mul(p, ADDRESS_64) // the address in each lane, Q37
+                        // nearer by at least one, whatever the colour bits below the old depth are
+                        seen := and(and(add(left, seen), sub(right, seen)), and(sub(add(z, BELOW_TOPS_64), old), TOPS_64))
+                        if iszero(seen) { continue }
+                        let color := and(attribute, BYTES_OF_LANES)
+                        if and(attribute, ABOVE_BYTES) {
+                            // set all bits of the byte if above 255, none if below 0
+                            let beyond := and(add(and(attribute, ABOVE_BYTES), ABOVE_BYTES), NEXT_LANES) // 1 above each lane > 255
+                            color := or(color, shr(NEXT_LANE_TO_BYTE, mul(beyond, 0xff))) // 255 there
+                            color := and(color, not(shr(SIGN_TO_BYTE, mul(and(attribute, BELOW_NEXT_LANES), 0xff)))) // 0 below 0
                         }
+                        color := mul(color, LANES_TO_BYTES) // blue, green, red at the top
+                        z := or(z, mul(shr(PIXEL_AT, color), ONES_64)) // the colour in each sample
+                        // as Samples.paint and write, without their calls for each fragment
+                        if xor(seen, TOPS_64) {
+                            mstore(p, or(xor(old, and(xor(old, z), sub(shl(1, seen), shr(TOP_64_AT, seen)))), IS_LISTED))
+                            if and(old, IS_LISTED) { continue }
+                            z := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p)))
+                            mstore(mload(MIXED_END), or(shl(MIXED_AT, p), shl(MIXED_PIXEL_AT, z))) // append (p, pixel)
+                            mstore(MIXED_END, add(mload(MIXED_END), MIXED_SIZE))
+                            continue
+                        }
+                        mstore(p, z)
+                        mstore(0, color)
+                        mcopy(add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p))), 0, 3)
                     }
                     left := add(left, mload(SIDE_LEFT_STEP)) // the next row
                     right := add(right, mload(SIDE_RIGHT_STEP))
@@ -93,33 +86,28 @@ library LinearSamples {
                     start := add(start, mload(ROW_STEP_32))
                     mstore(ROW_IMAGE, sub(mload(ROW_IMAGE), mload(ROW_IMAGE_STEP)))
                 }
-                if slt(last, 1) { break }
-                switch row
-                case 0 {
+                if iszero(last) { break }
+                if slt(last, 0) {
                     // the rows below the kink
                     mstore(sub(add(mload(KINK_SIDE), SIDE_LEFT_STEP), SIDE_LEFT), mload(KINK_STEP)) // the step of that side
-                    rows := last // the rest
+                    rows := sub(0, last) // the rest
                     last := 0
+                    continue
                 }
-                default {
-                    // the row of the kink is drawn separately, with samples on both edges; its step leads to the lower edge
-                    row := 0 // the kink is drawn next
-                    rows := 1 // it alone
-                    last := sub(last, 1)
-                    bounds := or(and(bounds, mload(KINK_KEPT)), mload(KINK_BOUND)) // replace the bound of that side
-                    mstore(BOUND_STEPS, mload(KINK_BOUND_STEPS))
-                    let mask := mload(KINK_MASK) // the samples below the kink
-                    let edge := mload(KINK_EDGE) // the lower edge in this row
-                    switch eq(mload(KINK_SIDE), SIDE_LEFT)
-                    case 1 {
-                        left := or(and(left, not(mask)), and(edge, mask)) // the edge in the lanes below the kink
-                        mstore(SIDE_LEFT_STEP, sub(add(edge, mload(KINK_STEP)), left)) // to the edge in the next row
-                    }
-                    default {
-                        right := or(and(right, not(mask)), and(edge, mask))
-                        mstore(SIDE_RIGHT_STEP, sub(add(edge, mload(KINK_STEP)), right))
-                    }
+                // the row of the kink is drawn separately, with samples on both edges; its step leads to the lower edge
+                rows := 1 // it alone
+                last := sub(1, last)
+                bounds := or(and(bounds, mload(KINK_KEPT)), mload(KINK_BOUND)) // replace the bound of that side
+                mstore(BOUND_STEPS, mload(KINK_BOUND_STEPS))
+                let mask := mload(KINK_MASK) // the samples below the kink
+                let edge := mload(KINK_EDGE) // the lower edge in this row
+                if eq(mload(KINK_SIDE), SIDE_LEFT) {
+                    left := or(and(left, not(mask)), and(edge, mask)) // the edge in the lanes below the kink
+                    mstore(SIDE_LEFT_STEP, sub(add(edge, mload(KINK_STEP)), left)) // to the edge in the next row
+                    continue
                 }
+                right := or(and(right, not(mask)), and(edge, mask))
+                mstore(SIDE_RIGHT_STEP, sub(add(edge, mload(KINK_STEP)), right))
             }
         }
     }

@@ -3,7 +3,7 @@ pragma solidity 0.8.37;
 
 import {Rectangle} from "../../scene/Scene.sol";
 import {Compositor, OVERHANG} from "../Compositor.sol";
-import {Pipeline} from "../Pipeline.sol";
+import {BAND_PIXELS, Pipeline} from "../Pipeline.sol";
 import {max, min} from "../geometry/Screen.sol";
 import {SampleRasterizer} from "./SampleRasterizer.sol";
 import "../../words/SampleRegisters.sol";
@@ -16,10 +16,22 @@ import "../../words/SampleRegisters.sol";
 /// @dev The number of pixels beyond the outermost vertices that lines and samples may touch.
 uint256 constant MARGIN = 2;
 uint256 constant BORDERS_SIZE = 0x80;
+/// @dev Moves the column of a screen word to the top.
+uint256 constant COLUMN_TO_TOP = 172;
+/// @dev With fewer faces, two bands are cheaper than one with twice the samples: the price of memory is quadratic.
+uint256 constant FEW_FACES = 160;
 
 abstract contract SampleBuffer is Pipeline, SampleRasterizer {
     function registersEnd() internal pure virtual override returns (uint256) {
         return SAMPLE_REGISTERS_END;
+    }
+
+    function bandPixels() internal pure override returns (uint256) {
+        unchecked {
+            // engines hand on the samples of whole pictures; more objects have more faces
+            if (load(DRAWN_BEFORE) | load(RETURNS_DEPTHS) != 0 || load(OBJECT_COUNT) != 1) return BAND_PIXELS;
+            return loadCalldata(load(OBJECTS) + MESH_FACE_COUNT - OBJECT_BYTES) < FEW_FACES ? BAND_PIXELS / 2 : BAND_PIXELS;
+        }
     }
 
     function openPicture(Rectangle memory tile, uint256 image, uint256, uint256[4][] memory lists)
@@ -67,6 +79,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
             uint256 origin = samples + (row - 1) * stride;
             store(SAMPLE_ORIGIN, origin - (load(SAMPLE_BEGIN) << SAMPLE_SIZE_BITS));
             store(SAMPLE_IMAGE, image + 3 * ((tile.y + tile.height - 1 + PIXEL_BIAS) * tile.width - tile.x - PIXEL_BIAS));
+            store(ROW_IMAGE_0, load(SAMPLE_IMAGE) - 3 * uint256(loadSigned(SAMPLE_ORIGIN) >> SAMPLE_SIZE_BITS));
             store(MIXED, samples);
             store(MIXED_END, samples);
             uint256 top = max(load(BAND_TOP), load(SAMPLE_TOP));
@@ -130,11 +143,13 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
     /// @dev Sets the columns and rows of the tile that the vertices reach; all of them if any vertex is clipped.
     function setBorders(Rectangle memory tile, uint256[4][] memory lists) private pure {
         unchecked {
+            // of rows and of columns: the minimum, and the maximum minus it, for a single test of most vertices
             uint256 least = type(uint256).max;
-            uint256 most;
-            uint256 left = type(uint256).max;
-            uint256 right;
-            bool isClipped;
+            uint256 rows = 1;
+            uint256 left = least;
+            uint256 columns = 1;
+            // of any vertex
+            uint256 flags;
             uint256 uniforms = load(OBJECTS);
             for (uint256 i; i != lists.length; ++i) {
                 uniforms = readObject(uniforms);
@@ -144,14 +159,21 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
                 assembly ("memory-safe") {
                     for {} lt(record, end) { record := add(record, size) } {
                         let word := mload(record)
-                        isClipped := or(isClipped, and(word, MUST_CLIP)) // of any vertex
-                        if lt(word, least) { least := word } // the topmost
-                        if gt(word, most) { most := word } // the lowest
-                        word := and(word, SCREEN_COLUMNS)
-                        if lt(word, left) { left := word } // min
-                        if gt(word, right) { right := word } // max
+                        flags := or(flags, word)
+                        if gt(sub(word, least), rows) { // words compare like rows
+                            rows := add(least, rows) // rows: the maximum
+                            if lt(word, least) { least := word }
+                            if gt(word, rows) { rows := word }
+                            rows := sub(rows, least)
+                        }
+                        word := shl(COLUMN_TO_TOP, word) // now like columns
+                        if gt(sub(word, left), columns) {
+                            columns := add(left, columns) // columns: the maximum
+                            if lt(word, left) { left := word }
+                            if gt(word, columns) { columns := word }
+                            columns := sub(columns, left)
+                        }
                     }
-                    isClipped := iszero(iszero(isClipped))
                 }
             }
             uint256 begin = load(COLUMN_BEGIN);
@@ -160,20 +182,21 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
             store(SAMPLE_END, load(COLUMN_END));
             store(SAMPLE_TOP, top);
             store(SAMPLE_BOTTOM, top + tile.height);
-            if (isClipped) return;
-            if (most == 0) {
+            if (flags & MUST_CLIP != 0) return;
+            if (flags == 0) {
                 // nothing to draw
                 store(SAMPLE_END, begin);
                 store(SAMPLE_BOTTOM, top);
                 return;
             }
-            left >>= SCREEN_COLUMN_AT + SUBPIXEL_BITS;
-            right >>= SCREEN_COLUMN_AT + SUBPIXEL_BITS;
+            uint256 right = (left + columns) >> (COLUMN_TO_TOP + SCREEN_COLUMN_AT + SUBPIXEL_BITS);
+            left >>= COLUMN_TO_TOP + SCREEN_COLUMN_AT + SUBPIXEL_BITS;
             store(SAMPLE_BEGIN, max(begin, left < MARGIN ? 0 : left - MARGIN));
             store(SAMPLE_END, min(load(COLUMN_END), right + MARGIN + 1));
+            uint256 bottom = (least + rows) >> SCREEN_PIXEL_ROW_AT;
             least >>= SCREEN_PIXEL_ROW_AT;
             store(SAMPLE_TOP, max(top, least < MARGIN ? 0 : least - MARGIN));
-            store(SAMPLE_BOTTOM, min(top + tile.height, (most >> SCREEN_PIXEL_ROW_AT) + MARGIN + 1));
+            store(SAMPLE_BOTTOM, min(top + tile.height, bottom + MARGIN + 1));
         }
     }
 
@@ -182,16 +205,20 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
         assembly ("memory-safe") {
             let end := mload(MIXED_END)
             for { let entry := mload(MIXED) } lt(entry, end) { entry := add(entry, MIXED_SIZE) } {
-                let p := mload(entry) // p: the entry, then the address of the samples
-                let pixel := and(shr(MIXED_PIXEL_AT, p), MIXED_PIXEL_MASK)
-                p := shr(MIXED_AT, p)
-                let samples := mload(p)
-                mstore(p, and(samples, not(IS_LISTED))) // for the next band or engine
-                samples := mul(or(and(samples, RED_BLUE_64), shl(GREEN_OF_SUM, and(samples, GREEN_64))), ONES_64) // sums in the top lane
-                samples := add(shr(UPPER_LANE_64_AT, samples), ROUND_SUM) // + 2 in each channel
-                samples := or(and(shr(2, samples), RED_BLUE), and(shr(MEAN_OF_GREEN_AT, samples), GREEN)) // / 4
-                mstore(0, shl(PIXEL_AT, samples))
-                mcopy(pixel, 0, 3)
+                let p := mload(entry)
+                let samples := mload(shr(MIXED_AT, p))
+                // sums in the top lane: red lowest, blue at bit 16, green at bit 32
+                samples := mul(or(and(samples, RED_BLUE_64), shl(GREEN_OF_SUM, and(samples, GREEN_64))), ONES_64)
+                samples := and(add(samples, ROUND_SUM), MEAN_OF_SUM) // + 2; the bits above the last two are the mean
+                mstore(0, mul(samples, SUM_TO_TOP)) // blue, green, red
+                mcopy(and(shr(MIXED_PIXEL_AT, p), MIXED_PIXEL_MASK), 0, 3)
+            }
+            if mload(RETURNS_DEPTHS) {
+                // the next engine has a list of its own
+                for { let entry := mload(MIXED) } lt(entry, end) { entry := add(entry, MIXED_SIZE) } {
+                    let p := shr(MIXED_AT, mload(entry))
+                    mstore(p, and(mload(p), not(IS_LISTED)))
+                }
             }
         }
     }

@@ -164,7 +164,6 @@ abstract contract SampleRasterizer is Rasterizer {
             // whose complement is a right side; its change per row; its position, rounded up; and the distance of its outermost samples.
             function edge(dx, dy, at, below) -> side, step, line, reach {
                 step := sdiv(shl(COLUMN_FRACTION, dx), dy) // dx / dy, Q42 columns per row
-                mstore(IS_CLAMPED, or(mload(IS_CLAMPED), add(step, STEEPEST_42))) // bits of step + 16: see STEEP_42
                 line := add(at, sar(SUBPIXEL_BITS, mul(below, step))) // at + below * step: the edge at the pixel centre
                 reach := sar(EIGHTH_BITS, step) // s, in eighths, if s is the slope
                 side := sub(LEFT_AT_0, add(mul(line, ONES_64), mul(reach, SAMPLE_Y_8))) // 2^63 + x / 8 - line - s * y / 8 in each lane
@@ -183,7 +182,6 @@ abstract contract SampleRasterizer is Rasterizer {
             b := sub(shr(SCREEN_ROW_AT, b), a) // b, c: rows from a to b, and to c
             c := sub(shr(SCREEN_ROW_AT, c), a)
             mstore(SIDE_ROW, row)
-            mstore(IS_CLAMPED, 0)
             // the position of the first vertex
             x := add(
                 shl(ADDRESS_FRACTION, sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))),
@@ -198,6 +196,7 @@ abstract contract SampleRasterizer is Rasterizer {
                 mstore(BOUNDS, sub(line, reach)) // lower lane: ceil(line - reach)
                 mstore(BOUND_STEPS, step) // lower lane
                 mstore(INSETS, reach) // lower lane: + reach
+                mstore(IS_CLAMPED, reach) // for now, the bits of all three: see FAR_42
                 // to the third vertex on the right; a horizontal edge has no side below it: nothing is left of address 0
                 side, step, line, reach := edge(xc, c, mul(x, gt(c, 0)), row)
                 mstore(SIDE_RIGHT, not(side)) // 2^63 - 1 - (side - 2^63) in each lane
@@ -205,6 +204,7 @@ abstract contract SampleRasterizer is Rasterizer {
                 mstore(BOUNDS, add(mload(BOUNDS), shl(UPPER_BOUND_AT, add(line, reach)))) // upper lane: ceil(line + reach)
                 mstore(BOUND_STEPS, add(mload(BOUND_STEPS), shl(UPPER_BOUND_AT, step)))
                 mstore(INSETS, sub(mload(INSETS), shl(UPPER_BOUND_AT, reach))) // upper lane: - reach
+                mstore(IS_CLAMPED, or(mload(IS_CLAMPED), reach))
             }
             // from the upper to the lower of both; shift and sign are 0 and -1 on the left, 128 and 1 on the right
             let shift := shl(7, iszero(lt(b, c))) // b < c ? 0 : 128
@@ -238,7 +238,7 @@ abstract contract SampleRasterizer is Rasterizer {
                 mstore(KINK_BOUND, and(shl(shift, add(line, mul(sign, reach))), not(kept)))
                 mstore(KINK_BOUND_STEPS, add(and(mload(BOUND_STEPS), kept), step))
                 mstore(KINK_INSETS, sub(and(mload(INSETS), kept), shl(shift, mul(sign, reach))))
-                mstore(IS_CLAMPED, or(and(mload(IS_CLAMPED), STEEP_42), and(mload(MODE), IS_CLAMPED_MODE)))
+                mstore(IS_CLAMPED, or(and(or(mload(IS_CLAMPED), reach), FAR_42), and(mload(MODE), IS_CLAMPED_MODE)))
                 if eq(b, c) {
                     // there is no edge below
                     mstore(KINK_KEPT, not(0))
@@ -317,7 +317,7 @@ abstract contract SampleRasterizer is Rasterizer {
     }
 
     /// @dev Returns the sides at a row; sets the registers of their changes to the next row and of the bounds.
-    function sidesAt(uint256 row) private pure returns (uint256 left, uint256 right) {
+    function sidesAt(uint256 row) internal pure returns (uint256 left, uint256 right) {
         unchecked {
             uint256 n = row - load(SIDE_ROW);
             store(ROW_LEFT_STEP, load(SIDE_LEFT_STEP));
@@ -356,7 +356,7 @@ abstract contract SampleRasterizer is Rasterizer {
 
     /// @dev Returns the first column of a row that may have a fragment, and the one after the last; there are none if they are not in this
     /// order.
-    function columnsBetween(uint256 row) private pure returns (uint256 first, uint256 end) {
+    function columnsBetween(uint256 row) internal pure returns (uint256 first, uint256 end) {
         assembly ("memory-safe") {
             let base := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE))) // of column 0
             let bounds := mload(ROW_BOUNDS)
