@@ -4,7 +4,7 @@ pragma solidity 0.8.37;
 import {ExactSamples} from "../pipeline/samples/ExactSamples.sol";
 import {OpenEdges} from "../pipeline/samples/OpenEdges.sol";
 import {QuadraticSamples} from "../pipeline/samples/QuadraticSamples.sol";
-import {EXACT} from "../pipeline/samples/SampleRasterizer.sol";
+import {EXACT, SampleRasterizer} from "../pipeline/samples/SampleRasterizer.sol";
 import {SampleBuffer} from "../pipeline/samples/SampleBuffer.sol";
 import {SmoothSamples} from "../pipeline/samples/SmoothSamples.sol";
 import "../words/SampleRegisters.sol";
@@ -21,13 +21,12 @@ contract AntialiasedSmoothEngine is SampleBuffer, ExactSamples, SmoothSamples {
         return true;
     }
 
-    function closeList(uint256 list, uint256 end, uint256 records, uint256 made, uint256 free) internal pure override returns (uint256) {
-        return OpenEdges.find(list, end, records, made, free);
+    function closeList(uint256 list, uint256 end, uint256 records, uint256 free) internal pure override returns (uint256) {
+        return OpenEdges.find(list, end, records, free);
     }
 
-    function openList(uint256 kept) internal pure override {
-        store(HAS_EDGES, 1);
-        OpenEdges.mark(kept);
+    function openList(uint256 end) internal pure override {
+        OpenEdges.mark(end);
     }
 
     function prepare(uint256 a, uint256 b, uint256 c, uint256 row) internal pure override {
@@ -42,6 +41,21 @@ contract AntialiasedSmoothEngine is SampleBuffer, ExactSamples, SmoothSamples {
 
     function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure override {
         drawEach(left, right, column, end, row, EXACT);
+    }
+
+    /// @dev As QuadraticSamples, with the same mark.
+    function drawExact(uint256 p, uint256 attribute, uint256 covered, uint256 column, uint256 row)
+        internal
+        pure
+        override(ExactSamples, SampleRasterizer)
+    {
+        uint256 edge = load(p) & IS_EDGE;
+        if (edge == 0) {
+            if (covered & TOP_64 == 0) return;
+            covered = TOPS_64;
+        }
+        super.drawExact(p, attribute, covered, column, row);
+        store(p, load(p) | edge);
     }
 
     /// @dev The AntialiasedFragmentEngine draws wires and translucent objects, the EffectsEngine shadows.

@@ -50,23 +50,23 @@ abstract contract Pipeline is PrimitiveAssembly {
         return false;
     }
 
-    /// @notice Called when all triangles of an object are listed, if `isListed`: with the beginning and end of the list, the beginning of the
-    /// vertex records, and the end of those that clipping did not make.
-    /// @param free The address for what is to be kept of the list.
+    /// @notice Called when all triangles of an object are listed, if `isListed`: with the beginning and end of the list, before which are the
+    /// vertex records, from the third address on, except for those that clipping made.
+    /// @param free An address from which on memory is free, not before the end of the list. The word at that end is free, too.
     /// @return The first free address.
-    function closeList(uint256, uint256, uint256, uint256, uint256 free) internal pure virtual returns (uint256) {
+    function closeList(uint256, uint256, uint256, uint256 free) internal pure virtual returns (uint256) {
         return free;
     }
 
-    /// @notice Called before the triangles of an object are drawn: with the address of what `closeList` kept, or 0.
+    /// @notice Called before the triangles of an object are drawn: with the end of its list.
     function openList(uint256) internal pure virtual {}
 
     /// @notice Fills the pixels with the background, or with what was drawn before, and reserves memory for the depths after them.
     /// @param image The address of the pixels.
     /// @param bandRows The number of rows in a band.
-    /// @param lists For each object, the vertex records, the beginning and end of its list of triangles, and what is kept of it.
+    /// @param lists For each object, the vertex records, and the beginning and end of its list of triangles.
     /// @return size The number of bytes from `image` on to return: see Picture.
-    function openPicture(Rectangle memory tile, uint256 image, uint256 bandRows, uint256[4][] memory lists)
+    function openPicture(Rectangle memory tile, uint256 image, uint256 bandRows, uint256[3][] memory lists)
         internal
         pure
         virtual
@@ -110,14 +110,14 @@ abstract contract Pipeline is PrimitiveAssembly {
             uint256 bandRows = bandPixels() / tile.width;
             if (bandRows > tile.height) bandRows = tile.height;
             bool atOnce = bandRows == tile.height;
-            // for each object, the vertex records, the beginning and end of its list of triangles, and what is kept of it
-            uint256[4][] memory lists = new uint256[4][](load(OBJECT_COUNT));
+            // for each object, the vertex records, and the beginning and end of its list of triangles
+            uint256[3][] memory lists = new uint256[3][](load(OBJECT_COUNT));
             openFrame();
             uint256 uniforms = load(OBJECTS);
             for (uint256 i; i != lists.length; ++i) {
                 uniforms = readObject(uniforms);
                 uint256 drawn;
-                drawn = assembleObject(mesh, load(OBJECT_FIRST) + i, atOnce, lists[i]);
+                (lists[i][0], lists[i][1], lists[i][2], drawn) = assembleObject(mesh, load(OBJECT_FIRST) + i, atOnce);
                 // fully transparent objects are only checked
                 if (load(OPACITY) != 0) picture.triangles += drawn;
             }
@@ -177,26 +177,32 @@ abstract contract Pipeline is PrimitiveAssembly {
     }
 
     /// @return drawn The number of faces drawn that were not listed before.
-    function drawObject(Mesh memory mesh, uint256[4] memory list, bool atOnce, uint256 shift) private pure returns (uint256 drawn) {
+    function drawObject(Mesh memory mesh, uint256[3] memory list, bool atOnce, uint256 shift) private pure returns (uint256 drawn) {
         uint256 flags = load(OBJECT_FLAGS);
-        openList(list[3]);
+        openList(list[2]);
         // not a literal: see ZERO_SLOT
-        if (atOnce && flags & WIREFRAME == 0 && !isListed()) (, drawn) = assemble(mesh, list[0], shift, load(ZERO_SLOT), flags & CULL_BACKFACES != 0);
+        if (atOnce && flags & WIREFRAME == 0 && !isListed()) {
+            (, drawn) = assemble(mesh, list[0], shift, load(ZERO_SLOT), flags & CULL_BACKFACES != 0);
+        }
         drawList(list[1], list[2]);
     }
 
     /// @dev Makes the vertices and triangles of the current object, after the data already in memory.
     /// @param atOnce Whether faces that need no clipping are drawn immediately, rather than listed.
-    function assembleObject(Mesh memory mesh, uint256 index, bool atOnce, uint256[4] memory lists) private pure returns (uint256 drawn) {
+    function assembleObject(Mesh memory mesh, uint256 index, bool atOnce)
+        private
+        pure
+        returns (uint256 records, uint256 list, uint256 end, uint256 drawn)
+    {
         unchecked {
             uint256 mode = load(OBJECT_MODE);
             uint256 shift = recordShift(mode);
-            uint256 records = freeMemory();
+            records = freeMemory();
             store(HAS_CLIPPED, 0);
             VertexShader.run(mesh, records, 1 << shift, mode & IS_SMOOTH != 0);
             Indices.check(mesh, index);
-            uint256 list = records + (mesh.vertexCount << shift);
-            uint256 end = list;
+            list = records + (mesh.vertexCount << shift);
+            end = list;
             bool cull = load(OBJECT_FLAGS) & CULL_BACKFACES != 0;
             if (!atOnce || load(OBJECT_FLAGS) & WIREFRAME != 0 || isListed()) (end, drawn) = assemble(mesh, records, shift, list, cull);
             uint256 free = end;
@@ -205,11 +211,7 @@ abstract contract Pipeline is PrimitiveAssembly {
                 (end, free, cut) = Clipper.run(mesh, records, shift, end, cull);
                 drawn += cut;
             }
-            (lists[0], lists[1], lists[2]) = (records, list, end);
-            if (isListed()) {
-                lists[3] = free;
-                free = closeList(list, end, records, list, free);
-            }
+            if (isListed()) free = closeList(list, end, records, free);
             setFreeMemory(free);
         }
     }

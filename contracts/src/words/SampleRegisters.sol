@@ -7,7 +7,7 @@ import "./Registers.sol";
 
 // --------------------------------------------------------------------------------------------------------------------------------- bounds
 
-uint256 constant SAMPLE_REGISTERS_END = 0x4020;
+uint256 constant SAMPLE_REGISTERS_END = 0x4000;
 
 // -------------------------------------------------------------------------------------------------------------------------------- samples
 // For the engines that take four samples per pixel: see Samples and SampleRasterizer.
@@ -92,22 +92,20 @@ uint256 constant OUTER_LEFT = 0x3640;
 uint256 constant OUTER_RIGHT = 0x3660;
 /// @dev The bound of the lower edge in the row below that of the kink.
 uint256 constant KINK_OUTER = 0x3680;
-/// @dev Not zero if the pixels that open edges of the object touch are marked: see OpenEdges.
-uint256 constant HAS_EDGES = 0x36a0;
 /// @dev The colour of all vertices to which these refer, plus one bit; its part that all light reaches, Q58 with half a level, and what the
 /// lamps add per unit of N * L, Q34: lanes of 85 bits. See SmoothSamples.
-uint256 constant SAME_COLOR = 0x36c0;
-uint256 constant SAME_AMBIENT = 0x36e0;
-uint256 constant SAME_DIFFUSE = 0x3700;
+uint256 constant SAME_COLOR = 0x36a0;
+uint256 constant SAME_AMBIENT = 0x36c0;
+uint256 constant SAME_DIFFUSE = 0x36e0;
 /// @dev The table of the highlight times the colour of the first lamp: lanes of 85 bits, Q42; the last entry twice.
-uint256 constant SHINE_TABLE = 0x3720;
+uint256 constant SHINE_TABLE = 0x3700;
 /// @dev The sides of the row that is drawn, and the address of the pixel after its last one.
-uint256 constant ROW_LEFT = 0x3f60;
-uint256 constant ROW_RIGHT = 0x3f80;
-uint256 constant ROW_END = 0x3fa0;
+uint256 constant ROW_LEFT = 0x3f40;
+uint256 constant ROW_RIGHT = 0x3f60;
+uint256 constant ROW_END = 0x3f80;
 /// @dev The change of a quadratic function at column 0 to the next row.
-uint256 constant QUADRATIC_DOWN = 0x3fc0;
+uint256 constant QUADRATIC_DOWN = 0x3fa0;
 /// @dev The row to which the quadratic functions refer.
-uint256 constant QUADRATIC_ROW = 0x3fe0;
+uint256 constant QUADRATIC_ROW = 0x3fc0;
 /// @dev The least depth of the vertices, with 8 more bits than in a vertex.
-uint256 constant FARTHEST = 0x4000;
+uint256 constant FARTHEST = 0x3fe0;

@@ -9,7 +9,7 @@ import "../../words/Registers.sol";
 
 // The depth buffer of a band: 8 bytes for each pixel, rows as in the picture.
 abstract contract DepthBuffer is Pipeline, PixelRasterizer {
-    function openPicture(Rectangle memory tile, uint256 image, uint256 bandRows, uint256[4][] memory)
+    function openPicture(Rectangle memory tile, uint256 image, uint256 bandRows, uint256[3][] memory)
         internal
         pure
         override

@@ -16,10 +16,13 @@ import "../../words/SampleRegisters.sol";
 uint256 constant ONE_ROW = 1 << 136;
 
 library OpenEdges {
-    /// @notice Finds the open edges of the triangles of a list, and writes them behind `edges`, the address of a word for their end.
-    /// @param records The address of the vertex records; those from `made` on were made by clipping.
+    /// @notice Finds the open edges of the triangles of a list.
+    /// @param end The end of the list, where the address of the edges is written.
+    /// @param records The address of the vertex records; those that clipping made are behind the list.
+    /// @param edges The first address that is free, where the end of the edges is written, or behind it, and the edges.
     /// @return The first free address.
-    function find(uint256 list, uint256 end, uint256 records, uint256 made, uint256 edges) internal pure returns (uint256) {
+    function find(uint256 list, uint256 end, uint256 records, uint256 edges) internal pure returns (uint256) {
+        uint256 made = list;
         assembly ("memory-safe") {
             function enter(vertex, next) {
                 vertex := add(vertex, VERTEX_STATE)
@@ -53,6 +56,7 @@ library OpenEdges {
                     enter(c, shr(SMOOTH_RECORD_BITS, sub(a, records)))
                 }
             }
+            edges := add(edges, 32)
             let place := add(edges, 32)
             for {} lt(list, end) { list := add(list, 32) } {
                 let c := mload(list)
@@ -63,6 +67,7 @@ library OpenEdges {
                 place := check(place, b, c, records)
                 place := check(place, c, a, records)
             }
+            mstore(end, edges)
             mstore(edges, place)
             edges := place
         }
@@ -70,7 +75,7 @@ library OpenEdges {
     }
 
     /// @notice Marks the pixels of the band whose samples the edges may separate.
-    /// @param edges As for `find`.
+    /// @param edges The end of the list: see `find`.
     function mark(uint256 edges) internal pure {
         assembly ("memory-safe") {
             // The pixels that a line touches, where u is the axis along which it is longer, columns if it `isFlat`, else rows: in each row
@@ -143,6 +148,7 @@ library OpenEdges {
                 mstore(INNER_END, most)
                 let above := shl(SCREEN_PIXEL_ROW_AT, least) // in the format of screen words; a pixel more than needed
                 let below := shl(SCREEN_PIXEL_ROW_AT, add(most, 1))
+                edges := mload(edges) // the address of the edges
                 let end := mload(edges)
                 for { edges := add(edges, 32) } lt(edges, end) { edges := add(edges, 32) } {
                     let a := mload(edges)

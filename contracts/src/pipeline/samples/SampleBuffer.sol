@@ -34,7 +34,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
         }
     }
 
-    function openPicture(Rectangle memory tile, uint256 image, uint256, uint256[4][] memory lists)
+    function openPicture(Rectangle memory tile, uint256 image, uint256, uint256[3][] memory lists)
         internal
         pure
         override
@@ -141,7 +141,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
     }
 
     /// @dev Sets the columns and rows of the tile that the vertices reach; all of them if any vertex is clipped.
-    function setBorders(Rectangle memory tile, uint256[4][] memory lists) private pure {
+    function setBorders(Rectangle memory tile, uint256[3][] memory lists) private pure {
         unchecked {
             // of rows and of columns: the minimum, and the maximum minus it, for a single test of most vertices
             uint256 least = type(uint256).max;

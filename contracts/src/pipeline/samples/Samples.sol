@@ -19,10 +19,6 @@ library Samples {
         assembly ("memory-safe") {
             lanes := mul(p, ADDRESS_64) // the address in each lane, Q37
             lanes := and(and(add(left, lanes), sub(right, lanes)), TOPS_64) // p >= left side, p < right side
-            if mload(HAS_EDGES) {
-                // all of them or none, as the first
-                if iszero(and(mload(p), IS_EDGE)) { lanes := mul(and(lanes, TOP_64), ONES_64) }
-            }
         }
     }
 
@@ -77,7 +73,7 @@ library Samples {
     /// @param z The new samples, of one colour.
     function paint(uint256 p, uint256 z) internal pure {
         assembly ("memory-safe") {
-            mstore(p, or(z, and(mload(p), IS_EDGE)))
+            mstore(p, z)
             mstore(0, shl(PIXEL_AT, z)) // the colour of the lowest lane
             mcopy(add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p))), 0, 3)
         }
@@ -89,7 +85,6 @@ library Samples {
     function write(uint256 p, uint256 z, uint256 seen) internal pure {
         assembly ("memory-safe") {
             let old := mload(p) // what is there
-            z := or(z, and(old, IS_EDGE))
             z := or(xor(old, and(xor(old, z), sub(shl(1, seen), shr(TOP_64_AT, seen)))), IS_LISTED) // z where seen, else old
             if iszero(and(old, IS_LISTED)) { // once
                 let pixel := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p)))
