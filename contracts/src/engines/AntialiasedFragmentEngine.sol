@@ -2,15 +2,15 @@
 pragma solidity 0.8.37;
 
 import {BlendedSamples} from "../pipeline/samples/BlendedSamples.sol";
+import {LinearWires} from "../pipeline/samples/LinearWires.sol";
 import {BLENDED, EXACT} from "../pipeline/samples/SampleRasterizer.sol";
 import {SampleBuffer} from "../pipeline/samples/SampleBuffer.sol";
-import {SampleWires} from "../pipeline/samples/SampleWires.sol";
 import {SmoothSamples} from "../pipeline/samples/SmoothSamples.sol";
 import "../words/SampleRegisters.sol";
 
 /// @title AntialiasedFragmentEngine: does the work of the FragmentEngine with four samples per pixel.
 /// @notice Called by the Renderer: see FragmentEngine.
-contract AntialiasedFragmentEngine is SampleBuffer, SampleWires, BlendedSamples {
+contract AntialiasedFragmentEngine is SampleBuffer, LinearWires, BlendedSamples {
     function prepare(uint256 a, uint256 b, uint256 c) internal pure override {
         setGradients(a, b, c, 0);
         setQuadraticRow(a);
