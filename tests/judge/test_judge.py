@@ -135,18 +135,20 @@ def tilted_wire(slope: float, size: int, shininess: int, antialias: bool) -> Sce
     return Scene([thing], camera, [light], BLACK, width=size, height=size, antialias=antialias)
 
 
-#: Pixels, shininess, and by how many levels highlights on wires are off, plain and antialiased: docs/antialiasing.md.
-ERRORS = [(128, 20, 23, 15), (128, 128, 103, 57), (512, 20, 6, 4), (512, 128, 35, 25)]
+#: Pixels, shininess, and by how many levels highlights on wires are off without anti-aliasing: docs/antialiasing.md.
+ERRORS = [(128, 20, 23), (128, 128, 103), (512, 20, 6), (512, 128, 35)]
 
 
-@pytest.mark.parametrize(("size", "shininess", "plain", "antialiased"), ERRORS)
-def test_highlight_of_wires(size: int, shininess: int, plain: int, antialiased: int) -> None:
-    """Steep wires are off by what is documented, and are as the rule of wires says."""
-    for antialias, most in ((False, plain), (True, antialiased)):
-        scene = fit(tilted_wire(4, size, shininess, antialias))
-        drawn, right = draw(scene), render(call_data("render", scene))
-        assert round(outside(drawn, right.low, right.high).max()) == most
-        assert outside(drawn, *right.explained["wires"]).max() < 0.5
+@pytest.mark.parametrize(("size", "shininess", "most"), ERRORS)
+def test_highlight_of_wires(size: int, shininess: int, most: int) -> None:
+    """Steep wires are off by what is documented, and are as the rule of wires says; antialiased ones are right."""
+    scene = fit(tilted_wire(4, size, shininess, False))
+    drawn, right = draw(scene), render(call_data("render", scene))
+    assert round(outside(drawn, right.low, right.high).max()) == most
+    assert outside(drawn, *right.explained["wires"]).max() < 0.5
+    smoothed = fit(tilted_wire(4, size, shininess, True))
+    right = render(call_data("render", smoothed))
+    assert outside(draw(smoothed), right.low, right.high).max() < 2
 
 
 # ---- many scenes ----

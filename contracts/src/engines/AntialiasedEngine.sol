@@ -26,6 +26,10 @@ contract AntialiasedEngine is SampleBuffer, PatchSamples, ExactSamples, FlatShad
         drawEach(left, right, column, end, row, EXACT);
     }
 
+    function dropShared(uint256, uint256 end, uint256, uint256) internal pure override returns (uint256) {
+        return end;
+    }
+
     /// @dev The AntialiasedFragmentEngine draws wires and translucent objects, the EffectsEngine shadows.
     function drawEdges(uint256, uint256, uint256, uint256) internal pure override {}
 

@@ -2,9 +2,9 @@
 pragma solidity 0.8.37;
 
 import {BlendedSamples} from "../pipeline/samples/BlendedSamples.sol";
+import {LinearWires} from "../pipeline/samples/LinearWires.sol";
 import {BLENDED, EXACT} from "../pipeline/samples/SampleRasterizer.sol";
 import {SampleBuffer} from "../pipeline/samples/SampleBuffer.sol";
-import {SampleWires} from "../pipeline/samples/SampleWires.sol";
 import {Rasterizer} from "../pipeline/geometry/Rasterizer.sol";
 import {SmoothShading} from "../pipeline/shading/SmoothShading.sol";
 import "../words/SampleRegisters.sol";
@@ -12,7 +12,7 @@ import "../words/SampleRegisters.sol";
 /// @title AntialiasedFragmentEngine: draws wires, translucent and spot-lit objects with four samples per pixel.
 /// @notice Called by the Renderer: see Engine. Draws what no other engine draws with four samples per pixel, and shades every fragment
 /// individually.
-contract AntialiasedFragmentEngine is SampleBuffer, SampleWires, BlendedSamples {
+contract AntialiasedFragmentEngine is SampleBuffer, LinearWires, BlendedSamples {
     function prepare(uint256 a, uint256 b, uint256 c, uint256) internal pure override {
         setGradients(a, b, c, 0);
     }

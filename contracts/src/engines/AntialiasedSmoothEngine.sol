@@ -59,6 +59,10 @@ contract AntialiasedSmoothEngine is SampleBuffer, ExactSamples, SmoothSamples {
     }
 
     /// @dev The AntialiasedFragmentEngine draws wires and translucent objects, the EffectsEngine shadows.
+    function dropShared(uint256, uint256 end, uint256, uint256) internal pure override returns (uint256) {
+        return end;
+    }
+
     function drawEdges(uint256, uint256, uint256, uint256) internal pure override {}
 
     function drawBlended(uint256, uint256, uint256, uint256, uint256) internal pure override {}

@@ -24,6 +24,10 @@ contract Engine is DepthBuffer, FlatShading {
         else PatchSpans.fill(edges, slopes, start, row, end);
     }
 
+    function dropShared(uint256, uint256 end, uint256, uint256) internal pure override returns (uint256) {
+        return end;
+    }
+
     /// @dev The FragmentEngine draws wires.
     function drawEdges(uint256, uint256, uint256, uint256) internal pure override {}
 }

@@ -204,7 +204,9 @@ abstract contract Pipeline is PrimitiveAssembly {
             list = records + (mesh.vertexCount << shift);
             end = list;
             bool cull = load(OBJECT_FLAGS) & CULL_BACKFACES != 0;
-            if (!atOnce || load(OBJECT_FLAGS) & WIREFRAME != 0 || isListed()) (end, drawn) = assemble(mesh, records, shift, list, cull);
+            bool isWireframe = load(OBJECT_FLAGS) & WIREFRAME != 0;
+            if (!atOnce || isWireframe || isListed()) (end, drawn) = assemble(mesh, records, shift, list, cull);
+            if (isWireframe) end = dropShared(list, end, records, shift);
             uint256 free = end;
             if (load(HAS_CLIPPED) != 0) {
                 uint256 cut;

@@ -44,6 +44,11 @@ abstract contract Rasterizer {
     /// @param a, b, c As for `drawTriangle`.
     function coversNothing(uint256 a, uint256 b, uint256 c) internal pure virtual returns (bool);
 
+    /// @notice Leaves each edge of a list of whole faces to one of them, if this engine draws wires.
+    /// @param records The address of the vertex records, 2^shift bytes each.
+    /// @return The end of the list of those that have edges.
+    function dropShared(uint256 list, uint256 end, uint256 records, uint256 shift) internal pure virtual returns (uint256);
+
     /// @notice Draws the edges of a triangle that belong to its face, if this engine draws wires.
     /// @param a, b, c The screen words of its vertices.
     /// @param triangle The triangle of a list.
