@@ -1,7 +1,7 @@
 from ._exact import KEPT, Limit, counting, floor_gas, limits, margin, measure, needed_for, render_call
 from ._flame_graph import MARGIN, WIDTH, flame_graph
 from ._function_sizes import function_sizes
-from ._profile import Profile, profile
+from ._profile import KINDS, STACK, Profile, profile
 from ._report import GasReport, make_report
 from ._runs import engine_calls
 from ._search import FIRST_LIMIT, SearchStep, search, suffices
@@ -13,7 +13,9 @@ from ._trace import CallFrame, places, trace
 __all__ = [
     "FIRST_LIMIT",
     "KEPT",
+    "KINDS",
     "MARGIN",
+    "STACK",
     "STAGES",
     "WIDTH",
     "CallFrame",
