@@ -51,7 +51,7 @@ def test_one_json_object_says_it_all(capsys: pytest.CaptureFixture[str]) -> None
     output, messages = capsys.readouterr()
     report = json.loads(output)
     image = pixels("a.bmp")
-    keys = "input width height triangles lit_pixels gas intrinsic_gas seconds chain output sha256 scene_bytes"
+    keys = "input width height triangles lit_pixels gas intrinsic_gas seconds chain output sha256 scene_bytes fits"
     assert " ".join(report) == keys
     assert report["scene_bytes"] is None
     assert (report["input"], report["output"]) == ("shape.obj", "a.bmp")

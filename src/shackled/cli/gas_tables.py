@@ -7,7 +7,7 @@ import sys
 from rich.console import Console
 from rich.table import Table
 
-from ..gas import KINDS, STACK, GasReport, Profile, limits
+from ..gas import KINDS, STACK, GasReport, Profile
 from ..values import plural
 
 BAR = 24
@@ -120,8 +120,8 @@ def _fits(report: GasReport) -> Table:
     table = Table("where it fits", "limit", "of it", "", "source", "date", box=None, header_style="bold")
     _right(table, 1, 2)
     table.columns[4].overflow = "fold"
-    for limit in limits():
-        fits = "[green]yes[/]" if report.request_limit <= limit.gas else "[red]no[/]"
+    for fit in report.fits:
+        limit, fits = fit.limit, "[green]yes[/]" if fit.fits else f"[red]no[/]{fit.reason and f', {fit.reason}'}"
         share = f"{100 * report.request_limit / limit.gas:.0f} %"
         table.add_row(limit.name, f"{limit.gas:,}", share, fits, limit.source, limit.date)
     return table

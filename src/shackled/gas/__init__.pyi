@@ -1,4 +1,5 @@
 from ._exact import KEPT, Limit, counting, floor_gas, limits, margin, measure, needed_for, render_call
+from ._fits import Fit, fit_of, fits_of, headline
 from ._flame_graph import MARGIN, WIDTH, flame_graph
 from ._function_sizes import function_sizes
 from ._profile import KINDS, STACK, Profile, profile
@@ -19,15 +20,19 @@ __all__ = [
     "STAGES",
     "WIDTH",
     "CallFrame",
+    "Fit",
     "GasReport",
     "Limit",
     "Profile",
     "SearchStep",
     "counting",
     "engine_calls",
+    "fit_of",
+    "fits_of",
     "flame_graph",
     "floor_gas",
     "function_sizes",
+    "headline",
     "limits",
     "make_report",
     "margin",

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..chain import ContractChain, Drawing, NodeChain, open_chain
 from ..errors import caller
-from ..image import Image, decode_bmp, encode_bmp, total
+from ..image import Image, decode_bmp, encode_bmp, most, total
 from ..scene import Rectangle, Scene
 from ._backends import SAMPLE, Backend, ChainBackend, Part, Verifier
 from ._counter import Counter
@@ -160,6 +160,7 @@ def _assemble(
         seconds=seconds,
         scene=scene,
         calls=len(own),
+        call_gas=most(piece.gas for piece in own.values()),
         counter=Counter(where, max(map(area, own)) if len(own) > 1 else None),
     )
 
