@@ -39,7 +39,8 @@ def render(
     on: where the calls run: the name of an EVM ("revm", "pyrevm", "pyevm"), `Processes`, `Nodes` or `Cluster`; None
         for revm, which is always there. The pixels are the same everywhere.
     gas_limit: gas that a call may use.
-    tile: size of the tiles in pixels, one number or (width, height); None chooses it, if tiles are needed at all.
+    tile: size of the tiles in pixels, one number or (width, height); None chooses it, if tiles are needed at all: for a
+        canvas of 1024 x 1024 pixels or more, strips are cheaper than the whole, whose memory costs the square of its size.
     listener: receives the progress of a picture of several tiles.
     keep: a folder in which finished tiles are stored, so that the same call resumes; the caller removes it.
     transparent: whether to leave out the background and to return `Image.alpha`. The scene is drawn twice, over black
@@ -100,7 +101,7 @@ def draw(
     """Render scenes of one size, by one call each or by several."""
     from .parallel import Counter
 
-    if where.alone:
+    if all(map(where.is_one_call, scenes)):
         chain = open_chain(where.chain) if where.chain is None or isinstance(where.chain, str) else where.chain
         return [render_whole(scene, chain, Counter(where)) for scene in scenes]
     from .parallel import render_frames

@@ -142,7 +142,7 @@ def render(
         rpc = None  # options override the environment
     on = _on(chain, jobs, rpc or (), address, rpc_timeout, cluster, verify)
     sides = None if tile is None else parse_sides(tile, "--tile")
-    in_parts = not one_call and (turntable is not None or not where_of(on, gas_limit, sides).alone)
+    where = where_of(on, gas_limit, sides)
     if chain is not None:
         open_chain(chain)
     if scene and one_call:
@@ -152,6 +152,7 @@ def render(
     loaded = load_with(input, look)
     if scene:
         scene_chunk(loaded).check()
+    in_parts = not one_call and (turntable is not None or not where.is_one_call(loaded))
     started = time.perf_counter()
     listener = JobProgress()
     keep = folder_of(path) if in_parts else None

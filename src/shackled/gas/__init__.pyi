@@ -4,7 +4,7 @@ from ._flame_graph import MARGIN, WIDTH, flame_graph
 from ._function_sizes import function_sizes
 from ._profile import KINDS, STACK, Profile, profile
 from ._report import GasReport, make_report
-from ._runs import engine_calls
+from ._runs import BAND_PIXELS, engine_calls
 from ._search import FIRST_LIMIT, SearchStep, search, suffices
 from ._source_map import source_map
 from ._speedscope import speedscope
@@ -12,6 +12,7 @@ from ._stages import STAGES
 from ._trace import CallFrame, places, trace
 
 __all__ = [
+    "BAND_PIXELS",
     "FIRST_LIMIT",
     "KEPT",
     "KINDS",

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..chain import ContractChain, Drawing, NodeChain, open_chain
 from ..errors import caller
+from ..gas import BAND_PIXELS
 from ..image import Image, decode_bmp, encode_bmp, most, total
 from ..scene import Rectangle, Scene
 from ._backends import SAMPLE, Backend, ChainBackend, Part, Verifier
@@ -117,7 +118,15 @@ def plan(
     if wanted > 1:
         spare = MOST_EXTRA * expected.gas(width * height) / max(1.0, expected.call)
         wanted = max(min(wanted, 1 + int(spare)), -(-slots // frames))
-    return cut(width, height, pixels, wanted)
+    return cut(width, height, pixels, max(wanted, _of_whole_bands(expected.cheapest_strips(), width, height)))
+
+
+def _of_whole_bands(strips: int, width: int, height: int) -> int:
+    """Return so many strips, or a few more: all of whole bands of the contract, where they divide the canvas."""
+    if strips == 1:
+        return 1
+    rows, band = height // strips, BAND_PIXELS // width
+    return -(-height // (rows - rows % band if rows > band else rows))
 
 
 def choose_verifier(
