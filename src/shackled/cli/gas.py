@@ -15,7 +15,7 @@ from ..gas import STAGES, Profile, counting, flame_graph, make_report, render_ca
 from ..whole_file import check_output_file, write_output
 from .gas_progress import Progress
 from .gas_tables import print_opcodes, print_profile, print_report
-from .look_options import load_with, with_look
+from .look_options import FIT, load_with, with_look
 from .option import option
 
 #: The chains that count gas.
@@ -47,6 +47,7 @@ def gas(
     rpc_timeout: Annotated[
         float | None, option("--rpc-timeout", f"Timeout of a call to the node (default: {PATIENCE:g}).", "SECONDS")
     ] = None,
+    fit: Annotated[str | None, FIT] = None,
     as_json: Annotated[bool, option("--json", "Print a JSON object instead of tables.")] = False,
     profile: Annotated[
         str | None,
@@ -86,7 +87,7 @@ def gas(
             raise InputError(f"{name} and --no-stages exclude each other: give one of them")
     place = counting(open_chain(chain))
     node = _open_node(rpc, address, rpc_timeout)
-    scene = load_with(input, look)
+    scene = load_with(input, look, fit)
     with Progress(quiet=as_json) as progress:
         report = make_report(scene, place, lower, upper, stages, progress.step, node)
         counted = None if node is None else node.call("Renderer", render_call(scene))

@@ -28,7 +28,7 @@ from ..palette import MOST_COLORS, Pixels, colors
 from ..parallel import folder_of, remove_parts
 from ..scene import PICTURE, Scene, scene_chunk
 from ..values import plural
-from .look_options import load_with, with_look
+from .look_options import FIT, load_with, with_look
 from .option import option, parse_sides
 from .progress import JobProgress, LateBar
 
@@ -58,6 +58,7 @@ def render(
     transparent: Annotated[
         bool, option("--transparent", "Make the background transparent: .png or .svg, at twice the gas.")
     ] = False,
+    fit: Annotated[str | None, FIT] = None,
     as_json: Annotated[bool, option("--json", "Print a JSON object instead of text.")] = False,
     turntable: Annotated[
         int | None,
@@ -143,13 +144,16 @@ def render(
     on = _on(chain, jobs, rpc or (), address, rpc_timeout, cluster, verify)
     sides = None if tile is None else parse_sides(tile, "--tile")
     where = where_of(on, gas_limit, sides)
+    for name, given in (("--tile", tile), ("--gas-limit", gas_limit), ("--turntable", turntable)):
+        if fit is not None and given is not None:
+            raise InputError(f"--fit and {name} exclude each other: give one of them")
     if chain is not None:
         open_chain(chain)
     if scene and one_call:
         raise InputError("--scene and --one-call exclude each other: the contract's file has no scene")
     if scene and path.suffix.lower() not in (PICTURE, ""):
         raise InputError(f"--scene needs a {PICTURE} file, not {path}")
-    loaded = load_with(input, look)
+    loaded = load_with(input, look, fit)
     if scene:
         scene_chunk(loaded).check()
     in_parts = not one_call and (turntable is not None or not where.is_one_call(loaded))

@@ -1,5 +1,6 @@
 from ._exact import KEPT, Limit, counting, floor_gas, limits, margin, measure, needed_for, render_call
 from ._fits import Fit, fit_of, fits_of, headline
+from ._fitting import FITS, Fitted, fit_scene
 from ._flame_graph import MARGIN, WIDTH, flame_graph
 from ._function_sizes import function_sizes
 from ._profile import KINDS, STACK, Profile, profile
@@ -14,6 +15,7 @@ from ._trace import CallFrame, places, trace
 __all__ = [
     "BAND_PIXELS",
     "FIRST_LIMIT",
+    "FITS",
     "KEPT",
     "KINDS",
     "MARGIN",
@@ -22,6 +24,7 @@ __all__ = [
     "WIDTH",
     "CallFrame",
     "Fit",
+    "Fitted",
     "GasReport",
     "Limit",
     "Profile",
@@ -29,6 +32,7 @@ __all__ = [
     "counting",
     "engine_calls",
     "fit_of",
+    "fit_scene",
     "fits_of",
     "flame_graph",
     "floor_gas",

@@ -52,8 +52,8 @@ class Estimate:
     def cheapest_strips(self) -> int:
         """Return the number of strips in which the picture costs least; 1 for a picture that is not `LARGE`.
 
-        Memory costs the square of its size: q / n for n strips in place of q for the whole. Each strip costs c more, for
-        what it repeats and to send the scene, so that the least is at n = sqrt(q / c).
+        Memory costs the square of its size: q / n for n strips in place of q for the whole. Each strip costs c more,
+        for what it repeats and to send the scene, so that the least is at n = sqrt(q / c).
         """
         if self.area < LARGE:
             return 1
