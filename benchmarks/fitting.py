@@ -91,7 +91,7 @@ def enlarged(image: Image, side: int) -> np.ndarray:
 
 
 def judge(path: Path, rows: tuple[Lowered, ...]) -> list[tuple[float, float, float]]:
-    """Return, for each row, share of the gas, FLIP, and mean error in levels, against the picture that was asked for."""
+    """Return for each row its share of gas, FLIP, and mean error in levels, beside the picture that was asked for."""
     from flip_evaluator import evaluate
 
     scene = load(path, size=SIDE)
@@ -112,7 +112,7 @@ def table(rows: tuple[Lowered, ...], results: Iterable[list[tuple[float, float, 
     lines = ["| | gas | FLIP | mean error, levels |", "|---|---:|---:|---:|"]
     means = [[fmean(values) for values in zip(*row, strict=True)] for row in zip(*results, strict=True)]
     for (gas, flip, error), row in sorted(zip(means, rows, strict=True), key=lambda each: -each[0][0]):
-        lines.append(f"| {row.title} | {gas:.0%} | {flip:.4f} | {error:.2f} |".replace("%", " %"))
+        lines.append(f"| {row.title} | {100 * gas:.0f} % | {flip:.4f} | {error:.2f} |")
     return "\n".join(lines)
 
 
