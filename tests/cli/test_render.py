@@ -77,25 +77,25 @@ def test_where_it_fits(capsys: pytest.CaptureFixture[str]) -> None:
     everywhere, by_limit = fits("--size", "16")
     assert everywhere == "one transaction, and any node's read call"
     assert all(by_limit)
-    large, by_limit = fits("--size", "512")
-    assert large == "any node's read call, but no transaction"
+    large, by_limit = fits("--size", "600")
+    assert large == "any node's read call; no transaction"
     assert by_limit == [False] + [True] * 6
     # of several calls, that of each
-    assert run(["render", "shape.obj", "--size", "512", "--tile", "512x64"]) == 0
-    assert "fits     each of its 8 calls: one transaction, and any node's read call" in capsys.readouterr().out
+    assert run(["render", "shape.obj", "--size", "600", "--tile", "600x60"]) == 0
+    assert "fits     each of its 10 calls: one transaction, and any node's read call" in capsys.readouterr().out
 
 
 def test_a_picture_is_made_to_fit(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["render", "shape.obj", "--size", "512", "--fit", "transaction"]) == 0
+    assert run(["render", "shape.obj", "--size", "700", "--fit", "transaction"]) == 0
     output, messages = capsys.readouterr()
     width = len(pixels("shape.png"))
-    assert 128 < width < 512
+    assert 128 < width < 700
     assert "fits     one transaction, and any node's read call" in output
-    size = f"at {width} x {width} instead of 512 x 512 pixels"
+    size = f"at {width} x {width} instead of 700 x 700 pixels"
     note = f"shackled: note: to fit one transaction, the picture is drawn without antialiasing and {size}: "
     assert messages.startswith(note)
     assert messages.count("\n") == 1
-    assert run(["gas", "shape.obj", "--size", "512", "--fit", "transaction", "--no-stages", "--json"]) == 0
+    assert run(["gas", "shape.obj", "--size", "700", "--fit", "transaction", "--no-stages", "--json"]) == 0
     output, messages = capsys.readouterr()
     assert messages.startswith(note)
     assert json.loads(output)["width"] == width

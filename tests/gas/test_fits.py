@@ -15,11 +15,11 @@ def test_a_small_picture_fits_everywhere() -> None:
     assert headline(found) == "fits one transaction, and any node's read call"
 
 
-def test_a_large_one_fits_fewer_fits_of() -> None:
+def test_a_large_one_fits_fewer_places() -> None:
     found = fits_of(60_000_000, 100_000, bytes(10_000))
     assert 0 < sum(fit.fits for fit in found) < len(found)
-    assert headline(found) == "fits read calls of Nethermind, Besu and Alchemy, but no transaction"
-    assert headline(fits_of(200_000_000, 0, b"")) == "fits read calls of Alchemy, but no transaction"
+    assert headline(found) == "fits calls of Nethermind, Besu and Alchemy; no transaction"
+    assert headline(fits_of(200_000_000, 0, b"")) == "fits calls of Alchemy; no transaction"
     assert all(fit.fits == (fit.share <= 1) for fit in found)
 
 
@@ -33,7 +33,7 @@ def test_too_many_bytes_for_a_transaction() -> None:
     assert not transaction.fits
     assert "140,000 bytes" in transaction.reason
     assert all(fit.fits for fit in found if fit.limit.kind == "call")
-    assert headline(found) == "fits any node's read call, but no transaction"
+    assert headline(found) == "fits any node's read call; no transaction"
 
 
 def test_between_the_bounds_the_call_is_tried() -> None:

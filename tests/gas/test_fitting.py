@@ -36,9 +36,9 @@ def gas(scene: Scene) -> int:
 
 
 def dear(scene: Scene, gas_of_all: float) -> Scene:
-    """Return the scene with so many equal meshes, one behind the other, that it takes about this gas."""
+    """Return the scene with so many equal meshes, one behind the other, that it takes nearly this gas."""
     (o,) = scene.objects
-    count = max(1, round(gas_of_all / gas(scene)))
+    count = max(1, int(gas_of_all / gas(scene)))
     return evolve(scene, objects=[evolve(o, position=(0, 0, -0.01 * n)) for n in range(count)])
 
 
@@ -52,8 +52,8 @@ def test_what_fits_is_left_as_it_is() -> None:
 
 
 def test_antialiasing_goes_first(default: Scene) -> None:
-    plain = evolve(default, antialias=False)
-    scene = dear(plain, 0.9 * LIMITS["call"].gas)
+    plain = resize(evolve(default, antialias=False), 128)
+    scene = dear(plain, 0.97 * LIMITS["call"].gas)
     assert fits(scene, "call")
     assert not fits(evolve(scene, antialias=True), "call")
     found = fit_scene(evolve(scene, antialias=True), "call")
@@ -84,14 +84,14 @@ def test_the_largest_size_that_fits_comes_next(default: Scene) -> None:
 
 def test_triangles_of_fine_meshes_go_before_the_smallest_sizes(default: Scene) -> None:
     pytest.importorskip("fast_simplification")
-    fine = load(teapot(10), cull=True, antialias=False)
+    fine = load(teapot(12), cull=True, antialias=False)
     assert fine.triangles > 5_000
     found = fit_scene(fine, "transaction")
     assert found.scene.width == found.scene.height == 128
     assert 128**2 // 8 <= found.scene.triangles < fine.triangles
     assert fits(found.scene, "transaction")
     assert f"with {found.scene.triangles:,} of {fine.triangles:,} triangles" in found.sentence
-    assert found.tries <= 8
+    assert found.tries <= 9
 
 
 def test_coarse_meshes_keep_their_triangles_until_the_end(default: Scene) -> None:

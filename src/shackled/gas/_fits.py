@@ -81,5 +81,5 @@ def headline(fits: Sequence[Fit]) -> str:
     nodes = [fit.limit.node for fit in calls if fit.fits]
     if not nodes:
         return "fits no usual node: take fewer pixels or triangles"
-    where = "any node's read call" if len(nodes) == len(calls) else f"read calls of {listed(nodes)}"
-    return f"fits one transaction, and {where}" if in_transaction else f"fits {where}, but no transaction"
+    where = "any node's read call" if len(nodes) == len(calls) else f"calls of {listed(nodes)}"
+    return f"fits one transaction, and {where}" if in_transaction else f"fits {where}; no transaction"
