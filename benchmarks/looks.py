@@ -1,4 +1,4 @@
-"""Measure what people render: default looks, anti-aliasing, several lights, large canvases.
+"""Measure what people render: default looks, anti-aliasing, several lights, large canvases, and kinds of opcodes.
 
     python -m benchmarks.looks
 
@@ -20,6 +20,8 @@ from tools.pages import ROOT, update
 
 from shackled import Scene, load, render
 from shackled.bench import gas
+from shackled.gas import KINDS, profile
+from shackled.scene import Shading
 
 from . import antialiasing, collection_cost, cost, shared
 from .scenes import SECOND_LIGHT, staged_teapot
@@ -40,6 +42,12 @@ RATIOS = {
 }
 SMOOTH = "the same, smooth"
 
+#: Pictures of the teapot whose opcodes are counted: side, shading, anti-aliasing.
+TEAPOTS: dict[str, tuple[int, Shading, bool]] = {
+    "flat, 128 x 128": (128, "flat", False),
+    "smooth, 128 x 128": (128, "smooth", False),
+    "smooth, antialiased, 256 x 256": (256, "smooth", True),
+}
 #: The end of the name of a ratio.
 RATIO = ", x"
 
@@ -85,7 +93,7 @@ ROWS = (
 def take() -> Figures:
     """Measure all figures for which there are meshes and scenes."""
     figures = mesh_figures({path.stem: path for path in shared.meshes() if path.stem in MODELS})
-    figures |= ratios(antialiasing.groups())
+    figures |= opcode_figures() | ratios(antialiasing.groups())
     figures["wires"] = gas(staged_teapot("unlit", 128, wireframe=True, antialias=True))
     if shared.is_there():
         figures |= table_figures()
@@ -104,6 +112,15 @@ def mesh_figures(paths: dict[str, Path]) -> Figures:
             image = render(large)
             assert image.gas is not None
             figures |= {f"strips, {side}": image.gas, f"calls, {side}": image.calls, f"whole, {side}": gas(large)}
+    return figures
+
+
+def opcode_figures() -> Figures:
+    """Measure the gas of each kind of opcode in pictures of the teapot."""
+    figures: Figures = {}
+    for title, (side, shading, antialias) in TEAPOTS.items():
+        found = profile(load("teapot", size=side, shading=shading, antialias=antialias)).opcodes()
+        figures |= {f"{title}, {kind}": gas_of_kind for kind, gas_of_kind in found.items()}
     return figures
 
 
@@ -154,6 +171,16 @@ def _cell(names: Iterable[str], values: Iterable[float]) -> str:
     return ", ".join(texts)
 
 
+def opcodes(figures: Figures) -> str:
+    """Return the shares of kinds of opcodes as a table in Markdown."""
+    lines = [f"| `shackled gas teapot --opcodes` | {' | '.join(TEAPOTS)} |", "|---|" + len(TEAPOTS) * "---:|"]
+    sums = {title: sum(figures[f"{title}, {kind}"] for kind in KINDS) for title in TEAPOTS}
+    for kind in KINDS:
+        shares = (f"{100 * figures[f'{title}, {kind}'] / whole:.1f} %" for title, whole in sums.items())
+        lines.append(f"| {kind} | {' | '.join(shares)} |")
+    return "\n".join(lines)
+
+
 def strips(figures: Figures) -> str:
     """Return what large canvases cost in one call and in strips as a table in Markdown."""
     lines = ["| `spot`, flat, plain | one call | strips | gas of all |", "|---|---:|---:|---:|"]
@@ -173,7 +200,7 @@ def main() -> int:
     if not shared.is_there() or not shared.meshes():
         print(f"{shared.SKIPPED}; their figures are kept")
     FILE.write_text(json.dumps(new, indent=1, sort_keys=True) + "\n", "utf-8")
-    made = {"looks": table, "strips": strips}
+    made = {"looks": table, "opcodes": opcodes, "strips": strips}
     return update(
         {page: lambda name: made[name](new) if name in made else None for page in PAGES}, "python -m benchmarks.looks"
     )

@@ -21,6 +21,7 @@ def recorded() -> looks.Figures:
 def test_pages_have_the_last_run(recorded: looks.Figures) -> None:
     gas_page, parallel = (page.read_text("utf-8") for page in looks.PAGES)
     assert looks.table(recorded) in gas_page, "run python -m benchmarks.looks"
+    assert looks.opcodes(recorded) in gas_page, "run python -m benchmarks.looks"
     assert looks.strips(recorded) in parallel, "run python -m benchmarks.looks"
 
 
