@@ -104,8 +104,10 @@ gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens
 golden: $(DEV) ## write tests/golden.json: digests of pixels, and gas, of 300 small scenes
 	$(BIN)/python tests/golden.py --write
 
-bench: $(DEV) opengl ## measure: the tables of benchmarks/, those of the README, of docs/antialiasing.md and docs/library.md
+bench: $(DEV) opengl ## measure: the tables of benchmarks/, those of the README, of docs/antialiasing.md, gas.md and library.md
 	$(BIN)/python -m benchmarks
+	$(BIN)/python -m benchmarks.looks
+	$(BIN)/python -m benchmarks.fitting
 	$(BIN)/python -m benchmarks.parallel
 	$(BIN)/python -m benchmarks.antialiasing
 	$(BIN)/python -m benchmarks.quality

@@ -13,6 +13,8 @@ from shackled.scene import LookOptions, Shading, from_euler, stage
 TEAPOT = teapot(4)
 
 LAMP = Light("point", (500, 800, 0))
+#: Beside the light of a scene.
+SECOND_LIGHT = Light("directional", (1, 0, 0))
 
 
 def cubes(size: int) -> Scene:

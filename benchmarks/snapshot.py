@@ -24,7 +24,7 @@ from shackled.datasets.genesis import seed_of
 from shackled.deploy import STANDARD
 from shackled.scene import Rectangle
 
-from . import shared
+from . import shared, unit_costs
 from .scenes import LAMP, cubes, empty, room, staged_teapot
 
 FILE = Path(__file__).with_name("gas.json")
@@ -132,7 +132,7 @@ def contract_figures() -> Figures:
 
 def take() -> Snapshot:
     """Measure all figures."""
-    snapshot = {"contracts": contract_figures(), "scenes": own_figures()}
+    snapshot = {"contracts": contract_figures(), "scenes": own_figures(), "unit costs": unit_costs.figures()}
     if shared.is_there():
         snapshot["scenes of the cost table"] = shared_figures()
     return snapshot

@@ -15,7 +15,7 @@ from tools import comment_lines
 from tools.compiled_once import compile_once
 
 from compiler import needs_compiler
-from shackled.artifacts import artifact, contracts, source, standard_input
+from shackled.artifacts import RENDERER, artifact, contracts, source, standard_input
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -120,6 +120,25 @@ ROOM = 512
 def test_every_contract_has_room(name: str) -> None:
     room = tool.MAX_RUNTIME_SIZE - len(artifact(name).runtime)
     assert room >= ROOM, f"see tools/build_contracts.py --functions {name}"
+
+
+#: A constant that is not pushed but read from behind the code, at 27 gas in place of 3: PUSH0 MLOAD (what the scratch
+#: word held), PUSH1 32, PUSH2 where, PUSH0 CODECOPY.
+READ_BY_CODECOPY = re.compile(rb"\x5f\x51\x60\x20\x61..\x5f\x39", re.DOTALL)
+
+
+@pytest.mark.parametrize("name", RENDERER)
+def test_no_constant_is_read_by_codecopy(name: str) -> None:
+    """Below some number of runs, the compiler does that with large constants that are used often, in loops, too."""
+    found = READ_BY_CODECOPY.search(artifact(name).runtime)
+    assert found is None, f"at {found.start()}: see tools/gas_blocks.py; fewer uses, or more runs in groups.toml"
+
+
+def test_constants_read_by_codecopy_are_found() -> None:
+    code = bytes.fromhex("5b5f5160206112345f395f51905f525b")
+    found = READ_BY_CODECOPY.search(code)
+    assert found is not None
+    assert found.start() == 1
 
 
 def test_lines_of_documentation_stand_before_declarations_that_have_none() -> None:

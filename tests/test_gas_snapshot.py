@@ -14,7 +14,7 @@ def measured() -> snapshot.Snapshot:
 
 
 @pytest.mark.filterwarnings("default")
-@pytest.mark.parametrize("group", ["contracts", "scenes", "scenes of the cost table"])
+@pytest.mark.parametrize("group", ["contracts", "scenes", "unit costs", "scenes of the cost table"])
 def test_no_figure_rises(group: str, measured: snapshot.Snapshot) -> None:
     if group not in measured:
         pytest.skip(shared.SKIPPED)

@@ -13,7 +13,7 @@ from ._load import Thing, load
 from ._on import On, where_of
 from .animation import DURATION, Animation
 from .chain import Chain, open_chain
-from .errors import InputError
+from .errors import InputError, warn
 from .image import Image, decode_bmp, uncovered
 from .scene import Background, LookOptions, Scene, full_turn, size_of
 
@@ -31,6 +31,7 @@ def render(
     listener: Listener | None = None,
     keep: Path | None = None,
     transparent: bool = False,
+    fit: str | None = None,
     **look: Unpack[LookOptions],
 ) -> Image:
     """Render a picture.
@@ -39,15 +40,24 @@ def render(
     on: where the calls run: the name of an EVM ("revm", "pyrevm", "pyevm"), `Processes`, `Nodes` or `Cluster`; None
         for revm, which is always there. The pixels are the same everywhere.
     gas_limit: gas that a call may use.
-    tile: size of the tiles in pixels, one number or (width, height); None chooses it, if tiles are needed at all.
+    tile: size of the tiles in pixels, one number or (width, height); None chooses it, if tiles are needed at all: for a
+        canvas of 1024 x 1024 pixels or more, strips are cheaper, since the memory of the whole costs its square.
     listener: receives the progress of a picture of several tiles.
     keep: a folder in which finished tiles are stored, so that the same call resumes; the caller removes it.
     transparent: whether to leave out the background and to return `Image.alpha`. The scene is drawn twice, over black
         and over white, so the gas is that of two pictures.
+    fit: "transaction" or "call": lower antialiasing, size and triangles as far as needed for one transaction, intrinsic
+        gas included, or for a read call of a node with geth's default settings; an InputWarning says what was done. It
+        excludes `tile` and `gas_limit`. InputError if nothing fits.
 
     Raises InputError for an invalid scene, ChainError if a call fails.
     """
     scene, where = load(thing, size, **look), _where(on, gas_limit, tile)
+    if fit is not None:
+        for name, given in (("tile", tile), ("gas_limit", gas_limit)):
+            if given is not None:
+                raise InputError(f"`fit` and `{name}` exclude each other: give one of them")
+        scene = _fitted(scene, fit, look)
     if not transparent:
         return draw([scene], where, listener, keep)[0]
     backgrounds = ("white", "black") if scene.invert else ("black", "white")
@@ -100,7 +110,7 @@ def draw(
     """Render scenes of one size, by one call each or by several."""
     from .parallel import Counter
 
-    if where.alone:
+    if all(map(where.is_one_call, scenes)):
         chain = open_chain(where.chain) if where.chain is None or isinstance(where.chain, str) else where.chain
         return [render_whole(scene, chain, Counter(where)) for scene in scenes]
     from .parallel import render_frames
@@ -123,6 +133,15 @@ def render_whole(scene: Scene, chain: Chain, counter: Counter) -> Image:
         scene=scene,
         counter=counter,
     )
+
+
+def _fitted(scene: Scene, fit: str, look: LookOptions) -> Scene:
+    from .gas import fit_scene
+
+    found = fit_scene(scene, fit, look.get("crease"))
+    if found.scene != scene:
+        warn(found.sentence)
+    return found.scene
 
 
 def _where(on: On | None, gas_limit: int | None, tile: int | tuple[int, int] | None) -> Where:

@@ -28,7 +28,7 @@ class InputError(ShackledError, ValueError):
 
 
 class InputWarning(UserWarning):
-    """A part of a file cannot be used and is ignored."""
+    """What was asked for is not what is drawn: a part of a file is ignored, or a picture is made to fit."""
 
 
 def caller() -> Place:

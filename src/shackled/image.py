@@ -51,7 +51,8 @@ class Image(Value):
     pixels: (H, W, 3) uint8, rows from the top. bmp: the file that the contract returned; by default of the pixels.
     gas, intrinsic_gas: of the execution, and of a transaction before it; None where gas is not counted.
     made_by: the EVM, node or cluster. seconds: the duration of the call, which == ignores.
-    scene: None if it is not known. calls: the number of calls that made it.
+    scene: None if it is not known. calls: the number of calls that made it. call_gas: the gas of the most expensive of
+    them.
     counter: counts triangles and covered pixels of the scene where the picture was made; None for the embedded EVM.
     alpha: (H, W) uint8, from 0 where there is nothing to 255; None for a picture with a background.
     """
@@ -66,9 +67,12 @@ class Image(Value):
     calls: int = 1
     alpha: Pixels | None = field(default=None, converter=_alpha, eq=array_key)
     counter: Callable[[Scene], tuple[int, int]] | None = field(default=None, eq=False)
+    call_gas: int | None = None
 
     def __attrs_post_init__(self) -> None:
         """Check alpha; encode the pixels where the file is not given."""
+        if self.calls == 1 and self.call_gas is None:
+            object.__setattr__(self, "call_gas", self.gas)
         if self.alpha is not None and self.alpha.shape != self.pixels.shape[:2]:
             raise InputError(
                 f"alpha must have the shape {self.pixels.shape[:2]} of the picture, not {self.alpha.shape}"
@@ -277,6 +281,7 @@ def uncovered(black: Image, white: Image, scene: Scene | None = None) -> Image:
         seconds=black.seconds + white.seconds,
         scene=scene,
         calls=black.calls + white.calls,
+        call_gas=most(image.call_gas for image in both),
         alpha=alpha,
         counter=black.counter,
     )
@@ -290,6 +295,12 @@ def total(numbers: Iterable[int | None]) -> int | None:
             return None
         found += number
     return found
+
+
+def most(numbers: Iterable[int | None]) -> int | None:
+    """Return the largest gas; None if it was not counted everywhere."""
+    found = [*numbers]
+    return None if None in found else max(each for each in found if each is not None)
 
 
 def data_uri(media_type: str, data: bytes) -> str:

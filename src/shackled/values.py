@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -55,6 +55,12 @@ def array_key(array: np.ndarray | None) -> object:
         return None
     # + 0.0: -0.0 equals 0.0
     return array.shape, (array + 0.0 if array.dtype.kind == "f" else array).tobytes()
+
+
+def listed(names: Sequence[str]) -> str:
+    """Return names in words, such as "geth, reth and Erigon"."""
+    *others, last = names
+    return f"{', '.join(others)} and {last}" if others else last
 
 
 def plural(count: int, one: str, many: str = "") -> str:

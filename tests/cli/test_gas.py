@@ -16,7 +16,7 @@ from shackled import load, render
 from shackled.cli.app import app, run
 from shackled.cli.look_options import option_of
 from shackled.datasets import Piece
-from shackled.gas import STAGES
+from shackled.gas import KINDS, STAGES
 from shackled.scene import SETTINGS
 
 
@@ -136,6 +136,22 @@ def test_flame_graphs(capsys: pytest.CaptureFixture[str]) -> None:
     gas = render(load("shape.obj"), size=16).gas
     assert json.loads(Path("flame.json").read_text("utf-8"))["profiles"][0]["endValue"] == gas
     assert report(capsys, "--profile", "other.svg")["profile"] == "other.svg"
+
+
+def test_opcodes(capsys: pytest.CaptureFixture[str]) -> None:
+    found = report(capsys, "--opcodes")
+    assert list(found["opcodes"]) == list(KINDS)
+    assert sum(found["opcodes"].values()) == found["gas"]
+    assert {stage: sum(each.values()) for stage, each in found["opcodes_of_stages"].items()} == found["stages"]
+    assert "opcodes" not in report(capsys)
+    assert run(["gas", "shape.obj", "--size", "20x12", "--opcodes", "--profile", "flame.svg"]) == 0
+    output = capsys.readouterr().out
+    for kind, gas in found["opcodes"].items():
+        assert re.search(rf"{kind} +{gas:,} +{100 * gas / found['gas']:.2f} %", output)
+    # the shares of a stage, and of a function
+    assert re.search(r"fragment shader( +\d+\.\d\d %){5}", output)
+    assert re.search(r"Renderer\.\w+ +[\d,]+ +\d+\.\d\d % +[\d,]+ +\d+\.\d\d %", output)
+    assert "--opcodes and --no-stages exclude" in error(capsys, 2, "--opcodes", "--no-stages")
 
 
 def test_mistakes_are_told_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:

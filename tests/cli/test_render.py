@@ -51,7 +51,7 @@ def test_one_json_object_says_it_all(capsys: pytest.CaptureFixture[str]) -> None
     output, messages = capsys.readouterr()
     report = json.loads(output)
     image = pixels("a.bmp")
-    keys = "input width height triangles lit_pixels gas intrinsic_gas seconds chain output sha256 scene_bytes"
+    keys = "input width height triangles lit_pixels gas intrinsic_gas seconds chain output sha256 scene_bytes fits"
     assert " ".join(report) == keys
     assert report["scene_bytes"] is None
     assert (report["input"], report["output"]) == ("shape.obj", "a.bmp")
@@ -62,6 +62,48 @@ def test_one_json_object_says_it_all(capsys: pytest.CaptureFixture[str]) -> None
     assert 0 < report["lit_pixels"] <= 600
     assert 0 < report["seconds"] < 60
     assert messages == ""
+
+
+def test_where_it_fits(capsys: pytest.CaptureFixture[str]) -> None:
+    def fits(*options: str) -> tuple[str, list[bool]]:
+        assert run(["render", "shape.obj", *options]) == 0
+        (line,) = (each for each in capsys.readouterr().out.splitlines() if each.startswith("fits "))
+        assert run(["render", "shape.obj", "--json", *options]) == 0
+        found = json.loads(capsys.readouterr().out)["fits"]
+        assert run(["gas", "shape.obj", "--json", "--no-stages", *options]) == 0
+        assert found == json.loads(capsys.readouterr().out)["fits"]
+        return line[9:], [each["fits"] for each in found]
+
+    everywhere, by_limit = fits("--size", "16")
+    assert everywhere == "one transaction, and any node's read call"
+    assert all(by_limit)
+    large, by_limit = fits("--size", "600")
+    assert large == "any node's read call; no transaction"
+    assert by_limit == [False] + [True] * 6
+    # of several calls, that of each
+    assert run(["render", "shape.obj", "--size", "600", "--tile", "600x60"]) == 0
+    assert "fits     each of its 10 calls: one transaction, and any node's read call" in capsys.readouterr().out
+
+
+def test_a_picture_is_made_to_fit(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["render", "shape.obj", "--size", "700", "--fit", "transaction"]) == 0
+    output, messages = capsys.readouterr()
+    width = len(pixels("shape.png"))
+    assert 128 < width < 700
+    assert "fits     one transaction, and any node's read call" in output
+    size = f"at {width} x {width} instead of 700 x 700 pixels"
+    note = f"shackled: note: to fit one transaction, the picture is drawn without antialiasing and {size}: "
+    assert messages.startswith(note)
+    assert messages.count("\n") == 1
+    assert run(["gas", "shape.obj", "--size", "700", "--fit", "transaction", "--no-stages", "--json"]) == 0
+    output, messages = capsys.readouterr()
+    assert messages.startswith(note)
+    assert json.loads(output)["width"] == width
+    for option, value in (("--tile", "64"), ("--gas-limit", "1000000"), ("--turntable", "4")):
+        assert run(["render", "shape.obj", "--fit", "call", option, value]) == 2
+        assert capsys.readouterr().err == f"shackled: --fit and {option} exclude each other: give one of them\n"
+    assert run(["render", "shape.obj", "--fit", "block"]) == 2
+    assert capsys.readouterr().err == "shackled: --fit must be one of transaction, call, not 'block'\n"
 
 
 def test_every_chain_makes_the_same_picture(capsys: pytest.CaptureFixture[str]) -> None:

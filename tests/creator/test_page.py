@@ -865,9 +865,9 @@ def test_the_picture_keeps_its_size_whatever_is_said_below(visit: NewPage) -> No
     sizes = set()
     for words in (
         "",
-        "Fits any node's read call",
+        "Fits any node's read call; no transaction",
         "Fits one transaction, and any node's read call",
-        "Fits one transaction, and calls of 3 of 4 kinds of nodes",
+        "Fits calls of Nethermind, Besu and Alchemy; no transaction",
         "Fits no usual node: take fewer pixels or triangles",
     ):
         page.evaluate("words => { document.querySelector('.figures [data-text=fits]').textContent = words }", words)

@@ -13,6 +13,7 @@ def test_every_limit_has_a_source_and_a_date() -> None:
     assert len({limit.name for limit in found}) == len(found) >= 6
     for limit in found:
         assert limit.kind in ("transaction", "call")
+        assert limit.name.startswith(f"eth_call, {limit.node}") if limit.kind == "call" else limit.node == ""
         assert limit.source.startswith("https://")
         assert date(2015, 7, 30) < date.fromisoformat(limit.date)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import xml.etree.ElementTree as ElementTree
 
 import pytest
@@ -12,6 +13,7 @@ from shackled.artifacts import artifact, source
 from shackled.chain import ContractChain, open_chain
 from shackled.deploy import STANDARD
 from shackled.gas import (
+    KINDS,
     MARGIN,
     STAGES,
     WIDTH,
@@ -52,6 +54,40 @@ def test_all_add_up_to_the_gas(name: str, profiles: dict[str, Profile], scenes: 
     # measured by calls of their own
     assert totals.get("Engine", 0) + totals.get("FragmentEngine", 0) == exact.engine_gas
     assert all(cost.gas > 0 for cost in found.costs)
+
+
+#: A mnemonic of each kind of opcode, in the order of `KINDS`.
+MNEMONICS = (
+    r"PUSH\d+|DUP\d+|SWAP\d+|POP",
+    "JUMP|JUMPI|JUMPDEST|PC",
+    "MUL|S?DIV|S?MOD|ADDMOD|MULMOD|EXP",
+    "MLOAD|MSTORE8?|MSIZE|MCOPY|CALLDATALOAD|(CALLDATA|(EXT)?CODE|RETURNDATA)COPY",
+)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_opcodes_are_of_the_kind_of_their_name(
+    name: str, profiles: dict[str, Profile], scenes: dict[str, Scene]
+) -> None:
+    from eth.vm.forks.cancun.opcodes import CANCUN_OPCODES
+
+    gas = dict.fromkeys(KINDS, 0)
+    root, result = trace("Renderer", render_call(scenes[name]))
+    for frame in root.frames():
+        code = artifact(frame.contract).runtime
+        for costs in frame.costs.values():
+            for at, each in costs.items():
+                mnemonic = CANCUN_OPCODES[code[at]].mnemonic
+                number = next((n for n, names in enumerate(MNEMONICS) if re.fullmatch(names, mnemonic)), -1)
+                gas[KINDS[number]] += each
+    found = profiles[name]
+    assert found.opcodes() == gas
+    assert sum(gas.values()) == result.gas
+    assert min(gas.values()) > 0
+    for stage, whole in found.stages().items():
+        assert sum(found.opcodes(stage).values()) == whole
+    for function in found.functions():
+        assert sum(found.opcodes(function=function.name).values()) == function.own
 
 
 def test_stages_are_where_their_work_is(profiles: dict[str, Profile]) -> None:

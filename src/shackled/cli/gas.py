@@ -11,11 +11,11 @@ import typer
 
 from ..chain import CHAINS, PATIENCE, NodeChain, open_chain, open_node
 from ..errors import InputError
-from ..gas import Profile, counting, flame_graph, make_report, render_call, speedscope
+from ..gas import STAGES, Profile, counting, flame_graph, make_report, render_call, speedscope
 from ..whole_file import check_output_file, write_output
 from .gas_progress import Progress
-from .gas_tables import print_profile, print_report
-from .look_options import load_with, with_look
+from .gas_tables import print_opcodes, print_profile, print_report
+from .look_options import FIT, load_with, with_look
 from .option import option
 
 #: The chains that count gas.
@@ -47,6 +47,7 @@ def gas(
     rpc_timeout: Annotated[
         float | None, option("--rpc-timeout", f"Timeout of a call to the node (default: {PATIENCE:g}).", "SECONDS")
     ] = None,
+    fit: Annotated[str | None, FIT] = None,
     as_json: Annotated[bool, option("--json", "Print a JSON object instead of tables.")] = False,
     profile: Annotated[
         str | None,
@@ -56,6 +57,13 @@ def gas(
             "FILE",
         ),
     ] = None,
+    opcodes: Annotated[
+        bool,
+        option(
+            "--opcodes",
+            "Also show gas by kind of opcode, by stage, and with --profile by function: stack, jumps, memory.",
+        ),
+    ] = False,
     stages: Annotated[bool, option("--stages/--no-stages", "Show gas by stage.")] = True,
     gas_price: Annotated[float, option("--gas-price", "Gas price in gwei.", "GWEI")] = 1.0,
     eth_price: Annotated[float | None, option("--eth-price", "Price of one ether in US dollars.", "USD")] = None,
@@ -74,11 +82,12 @@ def gas(
     _check_price(gas_price, "--gas-price", "gwei per gas")
     if eth_price is not None:
         _check_price(eth_price, "--eth-price", "US dollars per ether")
-    if path is not None and not stages:
-        raise InputError("--profile and --no-stages exclude each other: give one of them")
+    for name, given in (("--profile", path is not None), ("--opcodes", opcodes)):
+        if given and not stages:
+            raise InputError(f"{name} and --no-stages exclude each other: give one of them")
     place = counting(open_chain(chain))
     node = _open_node(rpc, address, rpc_timeout)
-    scene = load_with(input, look)
+    scene = load_with(input, look, fit)
     with Progress(quiet=as_json) as progress:
         report = make_report(scene, place, lower, upper, stages, progress.step, node)
         counted = None if node is None else node.call("Renderer", render_call(scene))
@@ -88,14 +97,19 @@ def gas(
         more: dict[str, Any] = {} if path is None else {"profile": str(path)}
         if node is not None and counted is not None:
             more["node"] = {"name": node.name, "gas": counted.gas}
+        if opcodes and report.profile is not None:
+            more["opcodes"] = report.profile.opcodes()
+            more["opcodes_of_stages"] = {stage: report.profile.opcodes(stage) for stage in STAGES}
         print(json.dumps({"input": input} | report.to_json(gas_price, eth_price) | more))
         return
     print_report(report, gas_price, eth_price)
     if node is not None and counted is not None:
         words = "reports no gas" if counted.gas is None else f"counts {counted.gas:,} gas"
         print(f"the {node.name}, on which the search was made, {words}")
+    if opcodes and report.profile is not None:
+        print_opcodes(report.profile)
     if path is not None and report.profile is not None:
-        print_profile(report.profile)
+        print_profile(report.profile, opcodes)
         print(f"flame graph: {path}")
 
 

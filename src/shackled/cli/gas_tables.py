@@ -7,7 +7,7 @@ import sys
 from rich.console import Console
 from rich.table import Table
 
-from ..gas import GasReport, Profile, limits
+from ..gas import KINDS, STACK, GasReport, Profile
 from ..values import plural
 
 BAR = 24
@@ -33,13 +33,32 @@ def print_report(report: GasReport, gas_price: float, eth_price: float | None) -
     )
 
 
-def print_profile(profile: Profile) -> None:
-    """Print gas by function, and by line."""
+def print_opcodes(profile: Profile) -> None:
+    """Print gas by kind of opcode, and their shares in each stage."""
     console = _console()
-    functions = Table("function", "self", "", "with calls", box=None, header_style="bold")
-    _right(functions, 1, 2, 3)
+    kinds = Table("opcodes", "gas", "", box=None, header_style="bold")
+    _right(kinds, 1, 2)
+    for kind, gas in profile.opcodes().items():
+        kinds.add_row(kind, f"{gas:,}", _share(gas, profile.gas))
+    stages = Table("stage", *KINDS, box=None, header_style="bold")
+    _right(stages, *range(1, 1 + len(KINDS)))
+    for stage, whole in profile.stages().items():
+        if whole:
+            stages.add_row(stage, *(_share(gas, whole) for gas in profile.opcodes(stage).values()))
+    for table in (kinds, stages):
+        console.print()
+        console.print(table)
+
+
+def print_profile(profile: Profile, opcodes: bool) -> None:
+    """Print gas by function, and by line. opcodes: also the share of `STACK` in the own gas of a function."""
+    console = _console()
+    more = [STACK] if opcodes else []
+    functions = Table("function", "self", "", "with calls", *more, box=None, header_style="bold")
+    _right(functions, *range(1, 4 + opcodes))
     for each in profile.functions()[:ROWS]:
-        functions.add_row(each.name, f"{each.own:,}", _share(each.own, profile.gas), f"{each.total:,}")
+        shares = [_share(profile.opcodes(function=each.name)[STACK], each.own)] if opcodes else []
+        functions.add_row(each.name, f"{each.own:,}", _share(each.own, profile.gas), f"{each.total:,}", *shares)
     lines = Table("line", "function", "gas", "", box=None, header_style="bold")
     _right(lines, 2, 3)
     for place, function, gas in profile.lines()[:ROWS]:
@@ -101,8 +120,8 @@ def _fits(report: GasReport) -> Table:
     table = Table("where it fits", "limit", "of it", "", "source", "date", box=None, header_style="bold")
     _right(table, 1, 2)
     table.columns[4].overflow = "fold"
-    for limit in limits():
-        fits = "[green]yes[/]" if report.request_limit <= limit.gas else "[red]no[/]"
+    for fit in report.fits:
+        limit, fits = fit.limit, "[green]yes[/]" if fit.fits else f"[red]no[/]{fit.reason and f', {fit.reason}'}"
         share = f"{100 * report.request_limit / limit.gas:.0f} %"
         table.add_row(limit.name, f"{limit.gas:,}", share, fits, limit.source, limit.date)
     return table

@@ -12,6 +12,7 @@ from .._load import load, locate
 from ..datasets import Piece
 from ..scene import SETTINGS, Kind, Scene, Setting, checked_look
 from .option import OPTIONS, option, parse_color_and, parse_colors, parse_light, parse_size, parse_vector
+from .progress import LateBar
 
 #: The type of a value for typer, its metavar, and its converter.
 _KINDS: dict[Kind, tuple[Any, str | None, Callable[[Any, str], Any]]] = {
@@ -61,13 +62,32 @@ def with_look(command: Callable[..., None]) -> Callable[..., None]:
     return whole
 
 
-def load_with(input: str, look: dict[str, Any]) -> Scene:
-    """Return the scene of a file or piece, with a look. Print the credit and terms of a piece on stderr."""
+#: The option of commands that can make a picture fit.
+FIT = option(
+    "--fit",
+    "Lower antialiasing, size and triangles until the picture fits: transaction, or call, a node's read call.",
+    "LIMIT",
+    "Canvas",
+)
+
+
+def load_with(input: str, look: dict[str, Any], fit: str | None = None) -> Scene:
+    """Return the scene of a file or piece, with a look. Print the credit and terms of a piece on stderr.
+
+    fit: a limit that the picture is to fit; what was done for that is printed, too.
+    """
     source = locate(input)
     scene = load(source, **look)
     if isinstance(source, Piece) and source.notice:
         print(source.notice, file=sys.stderr)
-    return scene
+    if fit is None:
+        return scene
+    from ..gas import fit_scene
+
+    with LateBar("fitting"):
+        fitted = fit_scene(scene, fit, look.get("crease"))
+    print(f"shackled: note: {fitted.sentence}", file=sys.stderr)
+    return fitted.scene
 
 
 def option_of(setting: Setting) -> str:

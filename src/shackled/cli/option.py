@@ -20,6 +20,7 @@ OPTIONS = {
     "contract": "--contract",
     "contracts": "--contracts",
     "evm": "--chain",
+    "fit": "--fit",
     "gas_limit": "--gas-limit",
     "host": "--host",
     "jobs": "--jobs",

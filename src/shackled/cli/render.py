@@ -19,15 +19,16 @@ from .._render import render as draw
 from .._render import turntable as turn
 from ..animation import DURATION, Animation, check_animation, check_duration
 from ..animation import FORMATS as FILMS
-from ..chain import CHAINS, PATIENCE, open_chain
+from ..chain import CHAINS, PATIENCE, ContractChain, open_chain
 from ..datasets import Piece
 from ..errors import ChainError, InputError
-from ..image import FORMATS, Image, check_alpha, check_output, one_of
+from ..gas import Fit, fits_of, headline, render_call, suffices
+from ..image import FORMATS, Image, check_alpha, check_output, most, one_of
 from ..palette import MOST_COLORS, Pixels, colors
 from ..parallel import folder_of, remove_parts
-from ..scene import PICTURE, scene_chunk
+from ..scene import PICTURE, Scene, scene_chunk
 from ..values import plural
-from .look_options import load_with, with_look
+from .look_options import FIT, load_with, with_look
 from .option import option, parse_sides
 from .progress import JobProgress, LateBar
 
@@ -57,6 +58,7 @@ def render(
     transparent: Annotated[
         bool, option("--transparent", "Make the background transparent: .png or .svg, at twice the gas.")
     ] = False,
+    fit: Annotated[str | None, FIT] = None,
     as_json: Annotated[bool, option("--json", "Print a JSON object instead of text.")] = False,
     turntable: Annotated[
         int | None,
@@ -141,16 +143,20 @@ def render(
         rpc = None  # options override the environment
     on = _on(chain, jobs, rpc or (), address, rpc_timeout, cluster, verify)
     sides = None if tile is None else parse_sides(tile, "--tile")
-    in_parts = not one_call and (turntable is not None or not where_of(on, gas_limit, sides).alone)
+    where = where_of(on, gas_limit, sides)
+    for name, given in (("--tile", tile), ("--gas-limit", gas_limit), ("--turntable", turntable)):
+        if fit is not None and given is not None:
+            raise InputError(f"--fit and {name} exclude each other: give one of them")
     if chain is not None:
         open_chain(chain)
     if scene and one_call:
         raise InputError("--scene and --one-call exclude each other: the contract's file has no scene")
     if scene and path.suffix.lower() not in (PICTURE, ""):
         raise InputError(f"--scene needs a {PICTURE} file, not {path}")
-    loaded = load_with(input, look)
+    loaded = load_with(input, look, fit)
     if scene:
         scene_chunk(loaded).check()
+    in_parts = not one_call and (turntable is not None or not where.is_one_call(loaded))
     started = time.perf_counter()
     listener = JobProgress()
     keep = folder_of(path) if in_parts else None
@@ -175,13 +181,14 @@ def render(
     written = len(chunk.data) if chunk is not None and (scene or chunk.is_small) else None
     with LateBar("counting"):
         counts, shows_something = _counted(made)
+        fits = _fits(made, loaded)
     several = in_parts or transparent or turntable is not None
-    report = _report(made, input, path, time.perf_counter() - started, counts, written, several)
+    report = _report(made, input, path, time.perf_counter() - started, counts, written, fits, several)
     if not shows_something:
         print("nothing is visible; the picture shows only the background", file=sys.stderr)
     if path.suffix.lower() == ".gif":
         _warn_of_palette([frame.pixels for frame in frames])
-    print(json.dumps(report) if as_json else _words(report, None if chunk is None else len(chunk.data)))
+    print(json.dumps(report) if as_json else _words(report, None if chunk is None else len(chunk.data), fits))
 
 
 def _on(
@@ -233,6 +240,23 @@ def _counted(made: Image | Animation) -> tuple[tuple[int | None, int | None], bo
         return (None, None), True
 
 
+def _fits(made: Image | Animation, scene: Scene) -> tuple[Fit, ...] | None:
+    """Return how each call that made a picture fits into the known limits; None where no gas is counted."""
+    if isinstance(made, Image):
+        gas = made.call_gas
+    else:
+        gas = most(frame.call_gas for frame in made.frames) if made.file is None else made.gas
+    if gas is None or made.intrinsic_gas is None:
+        return None
+    data, enough = render_call(scene), None
+    if made.calls == 1 and isinstance(made, Image):
+        # gas is the same everywhere
+        chain = open_chain()
+        assert isinstance(chain, ContractChain)
+        enough = suffices(chain, "Renderer", data)
+    return fits_of(gas, -(-made.intrinsic_gas // made.calls), data, enough)
+
+
 def _report(
     made: Image | Animation,
     input: str,
@@ -240,6 +264,7 @@ def _report(
     seconds: float,
     counts: tuple[int | None, int | None],
     scene_bytes: int | None,
+    fits: tuple[Fit, ...] | None,
     several: bool,
 ) -> dict[str, Any]:
     """Return the object of --json; with the number of frames and calls for pictures in parts and turntables."""
@@ -260,11 +285,12 @@ def _report(
         "output": str(path),
         "sha256": digest.hexdigest(),
         "scene_bytes": scene_bytes,
+        "fits": None if fits is None else [fit.to_json() for fit in fits],
     }
     return report | {"frames": len(frames), "calls": made.calls} if several else report
 
 
-def _words(report: dict[str, Any], scene: int | None) -> str:
+def _words(report: dict[str, Any], scene: int | None, fits: tuple[Fit, ...] | None) -> str:
     """Return the report as text. scene: the bytes of the scene in the file, or that it would have; None for no line."""
     frames, calls = report.get("frames", 1), report.get("calls", 1)
     several = f"{frames} frames of " if frames > 1 else ""
@@ -275,6 +301,9 @@ def _words(report: dict[str, Any], scene: int | None) -> str:
     if report["gas"] is not None and report["intrinsic_gas"] is not None:
         sent = "the scene" if calls == 1 else f"the scene {calls} times"
         rows["gas"] = f"{report['gas']:,} (and {report['intrinsic_gas']:,} to send {sent})"
+    if fits is not None:
+        each = f"each of its {calls} calls: " if calls > 1 else ""
+        rows["fits"] = each + headline(fits).removeprefix("fits ")
     if scene is not None:
         size = f"{scene / 1024:.1f} KB"
         left_out = f"not in the file, as it takes {size}: --scene writes it"

@@ -13,7 +13,7 @@ from ._history import (
 )
 from ._link import LINK_DICTIONARY, MAX_LINK, from_link, to_link
 from ._orbit import drag, fit, front, lamp_camera, lamp_from_disc, lamp_on_disc, pan, zoom
-from ._picture import File, Frame, Upload, by_trying, headline, places
+from ._picture import File, Frame, Upload
 from ._pool import Pool
 from ._presets import PRESETS, apply_look, preset
 from ._programs import Subject
@@ -113,7 +113,6 @@ __all__ = [
     "add_lamp",
     "apply_look",
     "bounds_of",
-    "by_trying",
     "camera_axes",
     "camera_of",
     "clean_name",
@@ -131,7 +130,6 @@ __all__ = [
     "from_link",
     "front",
     "get_value",
-    "headline",
     "is_changed",
     "lamp_camera",
     "lamp_controls",
@@ -147,7 +145,6 @@ __all__ = [
     "pan",
     "parse_collection",
     "parse_terms",
-    "places",
     "preset",
     "remove_lamp",
     "reset_state",

@@ -14,7 +14,7 @@ import numpy as np
 from ..artifacts import artifact
 from ..chain import CallResult, EmbeddedChain
 from ..errors import InputError
-from ..gas import KEPT, floor_gas, render_call
+from ..gas import floor_gas, needed_for, render_call
 from ..image import Image
 from ..scene import Fog, Hemisphere, Light, Rim, Scene, Tone, look_at
 from ._link import LOCAL, is_local
@@ -237,5 +237,5 @@ def _gas_limit(result: CallResult, data: bytes) -> int:
 
     A quarter is added for nodes that count by the rules of another fork.
     """
-    needed = max(result.intrinsic_gas + result.gas + result.gas // (KEPT - 1) + 1, floor_gas(data))
+    needed = max(result.intrinsic_gas + needed_for(result.gas), floor_gas(data))
     return needed + needed // 4

@@ -12,13 +12,13 @@ from ..artifacts import artifact
 from ..chain import EmbeddedChain, open_chain, returned_bytes, returned_counts
 from ..datasets import require
 from ..errors import RenderError
-from ..gas import render_call
+from ..gas import fits_of, render_call, suffices
 from ..image import decode_bmp
 from ..scene import Scene, fit_factor, full_turn, resize, simplify_scene
 from ..tokens import EditionTerms
 from ..workers import report_progress
 from ._edition import EditionCalls, edition_calls
-from ._picture import Comparison, File, Frame, StagePicture, by_trying, gif, places, png
+from ._picture import Comparison, File, Frame, StagePicture, gif, png
 from ._programs import Subject
 from ._scene import Facts, arranged, describe
 from ._state import Source, State
@@ -95,11 +95,11 @@ class Tasks:
         started = time.perf_counter()
         result = chain.call("Renderer", data)
         seconds = time.perf_counter() - started
-        triangles = lit_pixels = suffices = None
+        triangles = lit_pixels = enough = None
         if count:
             counted = chain.call("Renderer", artifact("Renderer").selectors["renderCounted"] + data[4:])
             triangles, lit_pixels = returned_counts(counted.output)
-            suffices = by_trying(lambda gas: chain.call("Renderer", data, gas))
+            enough = suffices(chain, "Renderer", data)
         return Frame(
             bmp=returned_bytes(result.output, 0),
             width=scene.width,
@@ -110,7 +110,7 @@ class Tasks:
             lit_pixels=lit_pixels,
             calldata_bytes=len(data),
             seconds=seconds,
-            fits=places(result.gas, result.intrinsic_gas, data, suffices),
+            fits=fits_of(result.gas, result.intrinsic_gas, data, enough),
         )
 
     def call(self, state: State) -> tuple[bytes, float]:

@@ -94,7 +94,7 @@ def margin(exact: ExactGas, searched: int) -> Margin:
 class Limit:
     """The gas that one request may use.
 
-    kind: "transaction" or "call". date: of the source.
+    kind: "transaction" or "call". node: the client or service that has it; "" for a transaction. date: of the source.
     """
 
     name: str
@@ -102,6 +102,7 @@ class Limit:
     kind: str
     source: str
     date: str
+    node: str = ""
     remark: str = ""
 
 

@@ -1,4 +1,4 @@
-"""The gas of a picture by stage, by function of the contracts, and by line of their sources."""
+"""The gas of a picture by stage, by function of the contracts, by line of their sources, and by kind of opcode."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TypeVar
 
+from ..artifacts import artifact
 from ..scene import Scene
 from ._exact import render_call
 from ._source_map import SourceLocation, SourceMap, source_map
@@ -14,6 +15,29 @@ from ._stages import STAGES
 from ._trace import CallFrame, trace
 
 _Key = TypeVar("_Key")
+
+#: Kinds of opcodes: what moves values on the stack, jumps with their targets, multiplication and division, access to
+#: memory and calldata with copies and the growth of memory, and all others, such as ADD, AND, SHR and LT.
+STACK, JUMPS, MULTIPLY, MEMORY, OTHERS = KINDS = (
+    "PUSH, DUP, SWAP, POP",
+    "jumps",
+    "MUL, DIV families",
+    "memory, copies",
+    "the rest",
+)
+_OPCODES = {
+    STACK: (0x50, *range(0x5F, 0xA0)),
+    # JUMP, JUMPI, PC, JUMPDEST
+    JUMPS: (0x56, 0x57, 0x58, 0x5B),
+    # MUL, DIV, SDIV, MOD, SMOD, ADDMOD, MULMOD, EXP
+    MULTIPLY: (0x02, *range(0x04, 0x0B)),
+    # CALLDATALOAD, CALLDATACOPY, CODECOPY, EXTCODECOPY, RETURNDATACOPY, MLOAD, MSTORE, MSTORE8, MSIZE, MCOPY
+    MEMORY: (0x35, 0x37, 0x39, 0x3C, 0x3E, 0x51, 0x52, 0x53, 0x59, 0x5E),
+}
+#: stage, calls, file and line of a `LineCost`.
+_Line = tuple[str, tuple[str, ...], str, int]
+
+_KINDS = {opcode: kind for kind, opcodes in _OPCODES.items() for opcode in opcodes}
 
 
 @dataclass(frozen=True)
@@ -51,10 +75,21 @@ class FunctionCost:
 
 
 @dataclass(frozen=True)
+class OpcodeCost:
+    """The gas of the opcodes of one kind of `KINDS` in one function, for one stage."""
+
+    stage: str
+    function: str
+    kind: str
+    gas: int
+
+
+@dataclass(frozen=True)
 class Profile:
-    """The costs of a call; they sum to its gas."""
+    """The costs of a call; they sum to its gas, and so do those of the opcodes."""
 
     costs: tuple[LineCost, ...]
+    opcode_costs: tuple[OpcodeCost, ...]
 
     @property
     def gas(self) -> int:
@@ -65,6 +100,15 @@ class Profile:
         """Return the gas by stage, in the order in which a picture is made; stages without gas are there with 0."""
         gas = _sums((cost.stage, cost.gas) for cost in self.costs)
         return {stage: gas[stage] for stage in STAGES}
+
+    def opcodes(self, stage: str | None = None, function: str | None = None) -> dict[str, int]:
+        """Return the gas by kind of opcode, in the order of `KINDS`: of all, of a stage, or of a function alone."""
+        gas = _sums(
+            (cost.kind, cost.gas)
+            for cost in self.opcode_costs
+            if stage in (None, cost.stage) and function in (None, cost.function)
+        )
+        return {kind: gas[kind] for kind in KINDS}
 
     def functions(self) -> list[FunctionCost]:
         """Return the gas by function, those first that use most themselves."""
@@ -82,15 +126,21 @@ class Profile:
 def profile(scene: Scene) -> Profile:
     """Profile a render in the embedded EVM."""
     root, result = trace("Renderer", render_call(scene))
-    gas: Counter[tuple[str, tuple[str, ...], str, int]] = Counter()
-    _collect(root, (), gas)
-    found = Profile(tuple(LineCost(*key, each) for key, each in gas.items() if each))
+    gas: Counter[_Line] = Counter()
+    kinds: Counter[tuple[str, str, str]] = Counter()
+    _collect(root, (), gas, kinds)
+    found = Profile(
+        tuple(LineCost(*key, each) for key, each in gas.items() if each),
+        tuple(OpcodeCost(*key, each) for key, each in kinds.items() if each),
+    )
     assert found.gas == result.gas
     return found
 
 
-def _collect(frame: CallFrame, callers: tuple[str, ...], gas: Counter[tuple[str, tuple[str, ...], str, int]]) -> None:
-    mapped = source_map(frame.contract)
+def _collect(
+    frame: CallFrame, callers: tuple[str, ...], gas: Counter[_Line], kinds: Counter[tuple[str, str, str]]
+) -> None:
+    mapped, code = source_map(frame.contract), artifact(frame.contract).runtime
     name = _name(frame, mapped)
     calls = callers if callers and callers[-1] == name else (*callers, name)
     for stage, costs in frame.costs.items():
@@ -101,8 +151,9 @@ def _collect(frame: CallFrame, callers: tuple[str, ...], gas: Counter[tuple[str,
             inlined = place.function if place is not None and not _is_own(frame, mapped, place) else None
             key = stage, (*calls, inlined) if inlined and inlined != name else calls, line[0], line[1]
             gas[key] += each
+            kinds[stage, key[1][-1], _KINDS.get(code[at], OTHERS)] += each
     for called in frame.calls:
-        _collect(called, calls, gas)
+        _collect(called, calls, gas, kinds)
 
 
 def _name(frame: CallFrame, mapped: SourceMap) -> str:

@@ -8,7 +8,8 @@ from typing import Any
 
 from ..chain import ContractChain
 from ..scene import Scene
-from ._exact import ExactGas, Margin, limits, margin, measure, render_call
+from ._exact import ExactGas, Margin, margin, measure, render_call
+from ._fits import Fit, fits_of
 from ._profile import Profile, profile
 from ._search import Caller, Search, SearchStep, search, suffices
 
@@ -40,6 +41,12 @@ class GasReport:
     def request_limit(self) -> int:
         """Return the gas limit that a transaction or an eth_call needs, intrinsic gas included."""
         return self.exact.limit(self.search.gas)
+
+    @property
+    def fits(self) -> tuple[Fit, ...]:
+        """Return how the picture fits into each known limit, the smallest first."""
+        data = render_call(self.scene)
+        return fits_of(self.exact.gas, self.exact.intrinsic_gas, data, lambda gas: gas >= self.search.gas)
 
     def per(self, count: int) -> float | None:
         """Return the gas for each of so many; None for none."""
@@ -77,17 +84,7 @@ class GasReport:
                 "ether": ether,
                 "usd": None if eth_price is None else ether * eth_price,
             },
-            "fits": [
-                {
-                    "name": limit.name,
-                    "limit": limit.gas,
-                    "fits": self.request_limit <= limit.gas,
-                    "source": limit.source,
-                    "date": limit.date,
-                    "remark": limit.remark,
-                }
-                for limit in limits()
-            ],
+            "fits": [fit.to_json() for fit in self.fits],
             "chain": self.chain,
         }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,14 @@ Pixels = NDArray[np.uint8]
 SIDES = (128, 256)
 #: The part of a gas limit that plans use.
 USED = 0.9
+#: From so many pixels on, pictures are cut into strips to save gas: a fifth of that of plain flat models at 1024 x 1024
+#: pixels, half at 2048 x 2048, but less than a tenth at 768 x 768, where a picture of one call is worth more.
+LARGE = 1024 * 1024
+#: The most strips of a picture that is cut only to save gas: each is a call, on a node a request.
+MOST_STRIPS = 32
+#: The cost of one more strip over `Estimate.call`, by measurement 1.3 to 1.9: triangles across its border are set up
+#: twice.
+STRIP = 2
 
 
 @dataclass(frozen=True)
@@ -39,6 +48,17 @@ class Estimate:
     def gas(self, pixels: int, calls: int = 1) -> int:
         """Return the execution gas of a picture that is rendered in so many calls of equal size."""
         return round(self.fixed + (calls - 1) * self.call + calls * memory_gas(pixels // calls) + self.pixel * pixels)
+
+    def cheapest_strips(self) -> int:
+        """Return the number of strips in which the picture costs least; 1 for a picture that is not `LARGE`.
+
+        Memory costs the square of its size: q / n for n strips in place of q for the whole. Each strip costs c more,
+        for what it repeats and to send the scene, so that the least is at n = sqrt(q / c).
+        """
+        if self.area < LARGE:
+            return 1
+        each = STRIP * self.call + self.intrinsic
+        return max(1, min(MOST_STRIPS, round(math.sqrt(_memory_gas(self.area)[1] / max(1.0, each)))))
 
     def pixels_within(self, gas: int) -> int:
         """Return the most pixels of a strip that fits into a gas limit anywhere in the picture, intrinsic gas included;
@@ -81,8 +101,18 @@ def _density(drawn: Pixels, empty: Pixels) -> float:
 
 def memory_gas(pixels: int) -> int:
     """Return the gas of the memory that engine and renderer each need for so many pixels of 3 bytes."""
+    return sum(_memory_gas(pixels))
+
+
+def _memory_gas(pixels: int) -> tuple[int, int]:
+    """Return the linear and the quadratic part of `memory_gas`."""
     words = 3 * pixels // 32
-    return 2 * (3 * words + words * words // 512)
+    return 6 * words, 2 * (words * words // 512)
+
+
+def is_large(scene: Scene) -> bool:
+    """Return whether a picture is cut into strips because that is cheaper."""
+    return scene.width * scene.height >= LARGE
 
 
 def _sizes(scene: Scene) -> list[tuple[int, int]]:

@@ -12,7 +12,8 @@ import numpy as np
 
 from ..chain import ContractChain, Drawing, NodeChain, open_chain
 from ..errors import caller
-from ..image import Image, decode_bmp, encode_bmp, total
+from ..gas import BAND_PIXELS
+from ..image import Image, decode_bmp, encode_bmp, most, total
 from ..scene import Rectangle, Scene
 from ._backends import SAMPLE, Backend, ChainBackend, Part, Verifier
 from ._counter import Counter
@@ -117,7 +118,15 @@ def plan(
     if wanted > 1:
         spare = MOST_EXTRA * expected.gas(width * height) / max(1.0, expected.call)
         wanted = max(min(wanted, 1 + int(spare)), -(-slots // frames))
-    return cut(width, height, pixels, wanted)
+    return cut(width, height, pixels, max(wanted, _of_whole_bands(expected.cheapest_strips(), width, height)))
+
+
+def _of_whole_bands(strips: int, width: int, height: int) -> int:
+    """Return so many strips, or a few more: all of whole bands of the contract, where they divide the canvas."""
+    if strips == 1:
+        return 1
+    rows, band = height // strips, BAND_PIXELS // width
+    return -(-height // (rows - rows % band if rows > band else rows))
 
 
 def choose_verifier(
@@ -160,6 +169,7 @@ def _assemble(
         seconds=seconds,
         scene=scene,
         calls=len(own),
+        call_gas=most(piece.gas for piece in own.values()),
         counter=Counter(where, max(map(area, own)) if len(own) > 1 else None),
     )
 

@@ -9,7 +9,9 @@ from dataclasses import dataclass
 from ..chain import DEFAULT_GAS_LIMIT, Chain, open_node
 from ..checks import integer
 from ..errors import ChainError, InputError, NodeError, OutOfGasError
+from ..scene import Scene
 from ._backends import Backend, ChainBackend, ProcessBackend, limited
+from ._estimate import is_large
 from ._scheduler import Listener
 
 #: Attempts of a request to a node that is busy, before the job begins.
@@ -58,10 +60,9 @@ class Where:
         """Return the number of jobs."""
         return self.jobs or (os.cpu_count() or 1 if self.cluster == "" else 1)
 
-    @property
-    def alone(self) -> bool:
+    def is_one_call(self, scene: Scene) -> bool:
         """Return whether a picture is one call in this process."""
-        several = self.count > 1 or self.rpc or self.cluster is not None
+        several = self.count > 1 or self.rpc or self.cluster is not None or is_large(scene)
         return not (several or self.gas_limit is not None or self.tile is not None)
 
     def open(self, listener: Listener) -> list[Backend]:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+from ...gas import headline
 from ...scene import MAX_LIGHTS
 from .._controls import CONTROLS, MAX_OPACITIES, Control, lamp_controls
 from .._history import History, at, differs
 from .._orbit import lamp_camera, lamp_on_disc
-from .._picture import Frame, headline
+from .._picture import Frame
 from .._presets import PRESETS
 from .._scene import Facts, filled
 from .._state import Orbit, State
@@ -114,8 +115,8 @@ def figures(frame: Frame, facts: Facts, draft: bool) -> dict[str, Any]:
 
 def place(frame: Frame) -> str:
     """Return the most demanding place where the picture fits: "transaction", "call" or "none"."""
-    kinds = {fit.kind for fit in frame.fits if fit.fits}
-    transactions = [fit for fit in frame.fits if fit.kind == "transaction"]
+    kinds = {fit.limit.kind for fit in frame.fits if fit.fits}
+    transactions = [fit for fit in frame.fits if fit.limit.kind == "transaction"]
     if transactions and all(fit.fits for fit in transactions):
         return "transaction"
     return "call" if "call" in kinds else "none"

@@ -1,0 +1,205 @@
+"""Lower antialiasing, size and triangles of a picture until one request can draw it.
+
+The order is the one that costs the eye least for the gas that it saves, by FLIP and by the mean error against the
+picture as it was asked for, at its size: see docs/gas.md and benchmarks/fitting.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from attrs import evolve
+
+from ..chain import ContractChain, open_chain
+from ..checks import choice
+from ..errors import InputError, OutOfGasError
+from ..ethereum import intrinsic_gas
+from ..scene import SIMPLIFIED_CREASE, Scene, simplify_scene
+from ..values import listed
+from ._exact import Limit, floor_gas, limits, render_call
+from ._fits import ENVELOPE, MAX_TRANSACTION
+
+#: What a picture is to fit: one transaction, or a read call of a node with the default settings of geth.
+FITS = ("transaction", "call")
+CALL_NODE = "geth"
+
+#: Longer sides of the canvas, in pixels, down to which the size is lowered: before triangles, and after them.
+SMALL, SMALLEST = 128, 64
+#: Sides are multiples of this.
+SIDE_STEP = 8
+#: Pixels of the canvas for each triangle: triangles are lowered to that before the size goes below `SMALL`.
+PIXELS = 8
+#: The fewest triangles to which a mesh is lowered, the most that a contract takes, and the difference of two tries.
+FEWEST, MOST, TRIANGLE_STEP = 200, 65_535, 0.02
+#: The share of the limit that is near enough.
+NEAR = 0.97
+
+_Name = Literal["antialias", "side", "triangles"]
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A scene that fits, a sentence that says what was done, and the number of calls that found it."""
+
+    scene: Scene
+    sentence: str
+    tries: int
+
+
+@dataclass(frozen=True)
+class _Settings:
+    """antialias: 0 or 1. side: the longer one of the canvas. triangles: of a mesh at most."""
+
+    antialias: int
+    side: int
+    triangles: int
+
+
+def fit_scene(scene: Scene, what: str, crease: float | None = None) -> Fitted:
+    """Return the scene with less antialiasing, size and triangles, as far as it takes to fit one request.
+
+    what: "transaction" or "call". crease: as in `simplify_scene`; None for its default.
+    Each try is a call with no more gas than the request may use, so that it never takes longer than a picture that
+    fits. InputError if nothing fits.
+    """
+    kind = choice(what, "`fit`", FITS)
+    limit = next(each for each in limits() if each.kind == kind and each.node in ("", CALL_NODE))
+    return _Fitting(scene, limit, SIMPLIFIED_CREASE if crease is None else crease).run()
+
+
+class _Fitting:
+    def __init__(self, scene: Scene, limit: Limit, crease: float) -> None:
+        chain = open_chain()
+        assert isinstance(chain, ContractChain)
+        self._scene, self._limit, self._crease, self._chain = scene, limit, crease, chain
+        self._place = "one transaction" if limit.kind == "transaction" else f"a read call of {limit.node}"
+        triangles = max((each.mesh.triangles for each in scene.objects), default=0)
+        self._asked = _Settings(int(scene.antialias), max(scene.width, scene.height), triangles)
+        self._tries = 0
+        self._simpler = {triangles: scene}
+
+    def run(self) -> Fitted:
+        """Find the first settings that fit, in the order of the steps."""
+        now = self._sendable()
+        if (gas := self._gas(now)) is not None:
+            return self._fitted(now, gas)
+        remark = ""
+        for name, lowest in self._steps():
+            high = getattr(now, name)
+            low = min(high, lowest(now))
+            if low == high:
+                continue
+            least = replace(now, **{name: low})
+            try:
+                gas = self._gas(least)
+            except InputError as error:
+                # the mesh cannot be simplified so far, or not at all here
+                remark = f"; {error}"
+                continue
+            if gas is not None:
+                found = (least, gas) if name == "antialias" else self._highest(name, least, gas, high)
+                return self._fitted(*found)
+            now = least
+        raise InputError(f"nothing that is left of the picture fits {self._place}, even {self._words(now)}{remark}")
+
+    @staticmethod
+    def _steps() -> tuple[tuple[_Name, Callable[[_Settings], int]], ...]:
+        """Return what is lowered, in this order, and how far."""
+        return (
+            ("antialias", lambda _: 0),
+            ("side", lambda _: SMALL),
+            ("triangles", lambda now: max(FEWEST, now.side**2 // PIXELS)),
+            ("side", lambda _: SMALLEST),
+            ("triangles", lambda _: FEWEST),
+        )
+
+    def _highest(self, name: _Name, best: _Settings, gas: int, high: int) -> tuple[_Settings, int]:
+        """Return the highest setting below `high`, which does not fit, that fits; and its gas. best: one that does.
+
+        Gas is nearly linear in pixels and in triangles, so that few tries come near the limit.
+        """
+        power = 2 if name == "side" else 1
+        step = SIDE_STEP if name == "side" else max(1, round(TRIANGLE_STEP * high))
+        # at first as if all gas were that of pixels or triangles: too low
+        x, y = 0.0, 0.0
+        while gas < NEAR * self._limit.gas:
+            low: int = getattr(best, name)
+            here = float(low**power)
+            slope = (gas - y) / (here - x)
+            guess = int((here + (self._limit.gas - gas) / slope) ** (1 / power)) if slope > 0 else high
+            value = guess if guess < high else (low + high) // 2
+            value = max(value // step * step, (low // step + 1) * step)
+            if value >= high:
+                break
+            tried = replace(best, **{name: value})
+            try:
+                found = self._gas(tried)
+            except InputError:
+                found = None
+            if found is None:
+                high = value
+            else:
+                x, y = here, float(gas)
+                best, gas = tried, found
+        return best, gas
+
+    def _sendable(self) -> _Settings:
+        """Return the settings that were asked for, with no more triangles than a request can hold."""
+        now = self._asked
+        while (excess := self._excess(now)) > 1:
+            now = replace(now, triangles=min(MOST, int(0.98 * now.triangles / excess)))
+            if now.triangles < FEWEST:
+                raise InputError(f"the scene is larger than what {self._place} can hold, whatever its triangles")
+        return now
+
+    def _excess(self, settings: _Settings) -> float:
+        """Return by what factor a request has too many bytes, or a mesh too many triangles for a contract; or 1."""
+        if settings.triangles > MOST:
+            return settings.triangles / MOST
+        size = len(render_call(self._scene_of(settings)))
+        return (size + ENVELOPE) / MAX_TRANSACTION if self._limit.kind == "transaction" else 1
+
+    def _gas(self, settings: _Settings) -> int | None:
+        """Return the gas of a request with intrinsic gas; None if it does not fit."""
+        data = render_call(self._scene_of(settings))
+        intrinsic = intrinsic_gas(data)
+        if max(intrinsic, floor_gas(data)) > self._limit.gas:
+            return None
+        self._tries += 1
+        try:
+            return intrinsic + self._chain.call("Renderer", data, self._limit.gas - intrinsic).gas
+        except OutOfGasError:
+            return None
+
+    def _scene_of(self, settings: _Settings) -> Scene:
+        if settings.triangles not in self._simpler:
+            self._simpler[settings.triangles] = simplify_scene(self._scene, settings.triangles, self._crease)
+        width, height = self._size(settings)
+        return evolve(self._simpler[settings.triangles], antialias=bool(settings.antialias), width=width, height=height)
+
+    def _size(self, settings: _Settings) -> tuple[int, int]:
+        share = settings.side / self._asked.side
+        return max(1, round(share * self._scene.width)), max(1, round(share * self._scene.height))
+
+    def _fitted(self, settings: _Settings, gas: int) -> Fitted:
+        words = self._words(settings)
+        used = f"{gas:,} of {self._limit.gas:,} gas"
+        how = f"to fit {self._place}, the picture is drawn {words}" if words else f"the picture fits {self._place}"
+        return Fitted(self._scene_of(settings), f"{how}: {used}", self._tries)
+
+    def _words(self, settings: _Settings) -> str:
+        """Return how a picture is drawn, where that is not as it was asked for."""
+        width, height = self._size(settings)
+        now, was = (
+            sum(each.mesh.triangles for each in scene.objects) for scene in (self._scene_of(settings), self._scene)
+        )
+        words = {
+            "without antialiasing": settings.antialias != self._asked.antialias,
+            f"at {width} x {height} instead of {self._scene.width} x {self._scene.height} pixels": settings.side
+            != self._asked.side,
+            f"with {now:,} of {was:,} triangles": now != was,
+        }
+        said = [each for each, is_so in words.items() if is_so]
+        return listed(said) if said else ""

@@ -1,0 +1,152 @@
+"""Pictures that are lowered until they fit a request."""
+
+from __future__ import annotations
+
+import pytest
+from attrs import evolve
+
+from shackled import InputError, Scene, load, render
+from shackled.chain import ContractChain, open_chain
+from shackled.datasets import teapot
+from shackled.errors import InputWarning
+from shackled.gas import FITS, Fitted, fit_of, fit_scene, limits, render_call, suffices
+from shackled.scene import resize
+
+LIMITS = {limit.kind: limit for limit in limits() if limit.node in ("", "geth")}
+
+
+@pytest.fixture(scope="module")
+def default() -> Scene:
+    """The teapot in the default look of mesh files, which is too much for a transaction."""
+    return load(load("teapot").objects[0].mesh, size=256)
+
+
+def fits(scene: Scene, what: str) -> bool:
+    chain = open_chain()
+    assert isinstance(chain, ContractChain)
+    data, drawing = render_call(scene), chain.draw(scene)
+    assert drawing.gas is not None
+    assert drawing.intrinsic_gas is not None
+    return fit_of(LIMITS[what], drawing.gas, drawing.intrinsic_gas, data, suffices(chain, "Renderer", data)).fits
+
+
+def gas(scene: Scene) -> int:
+    image = render(scene)
+    return (image.gas or 0) + (image.intrinsic_gas or 0)
+
+
+def dear(scene: Scene, gas_of_all: float) -> Scene:
+    """Return the scene with so many equal meshes, one behind the other, that it takes nearly this gas."""
+    (o,) = scene.objects
+    count = max(1, int(gas_of_all / gas(scene)))
+    return evolve(scene, objects=[evolve(o, position=(0, 0, -0.01 * n)) for n in range(count)])
+
+
+def test_what_fits_is_left_as_it_is() -> None:
+    scene = load("cube")
+    for what in FITS:
+        found = fit_scene(scene, what)
+        assert found.scene == scene
+        assert found.tries == 1
+        assert found.sentence.startswith("the picture fits ")
+
+
+def test_antialiasing_goes_first(default: Scene) -> None:
+    plain = resize(evolve(default, antialias=False), 128)
+    scene = dear(plain, 0.97 * LIMITS["call"].gas)
+    assert fits(scene, "call")
+    assert not fits(evolve(scene, antialias=True), "call")
+    found = fit_scene(evolve(scene, antialias=True), "call")
+    assert found == Fitted(
+        scene,
+        f"to fit a read call of geth, the picture is drawn without antialiasing: {gas(scene):,} of 50,000,000 gas",
+        2,
+    )
+
+
+def test_the_largest_size_that_fits_comes_next(default: Scene) -> None:
+    scene = resize(evolve(default, antialias=True), (512, 384))
+    found = fit_scene(scene, "transaction")
+    assert not found.scene.antialias
+    assert found.scene.objects == scene.objects
+    assert 128 < found.scene.width < 512
+    # the shape stays
+    assert found.scene.height == round(found.scene.width * 384 / 512)
+    assert fits(found.scene, "transaction")
+    larger = found.scene.width + 8
+    near = gas(found.scene) > 0.97 * LIMITS["transaction"].gas
+    assert near or not fits(resize(found.scene, (larger, round(larger * 384 / 512))), "transaction")
+    assert f"without antialiasing and at {found.scene.width} x {found.scene.height} instead of 512 x 384" in (
+        found.sentence
+    )
+    assert found.tries <= 8
+
+
+def test_triangles_of_fine_meshes_go_before_the_smallest_sizes(default: Scene) -> None:
+    pytest.importorskip("fast_simplification")
+    fine = load(teapot(12), cull=True, antialias=False)
+    assert fine.triangles > 5_000
+    found = fit_scene(fine, "transaction")
+    assert found.scene.width == found.scene.height == 128
+    assert 128**2 // 8 <= found.scene.triangles < fine.triangles
+    assert fits(found.scene, "transaction")
+    assert f"with {found.scene.triangles:,} of {fine.triangles:,} triangles" in found.sentence
+    assert found.tries <= 9
+
+
+def test_coarse_meshes_keep_their_triangles_until_the_end(default: Scene) -> None:
+    pytest.importorskip("fast_simplification")
+    small = resize(evolve(default, antialias=False), 64)
+    some = dear(small, 0.8 * LIMITS["transaction"].gas)
+    found = fit_scene(resize(some, 256), "transaction")
+    assert found.scene.objects == some.objects
+    assert 64 <= found.scene.width < 256
+    many = dear(small, 1.5 * LIMITS["transaction"].gas)
+    found = fit_scene(resize(many, 256), "transaction")
+    assert found.scene.width == 64
+    (mesh,) = {each.mesh for each in found.scene.objects}
+    assert 200 <= mesh.triangles < 992
+    assert fits(found.scene, "transaction")
+
+
+def test_too_many_triangles_for_a_request_at_all() -> None:
+    pytest.importorskip("fast_simplification")
+    scene = load(teapot(20), size=32, shading="flat", cull=True, antialias=False)
+    assert len(render_call(scene)) > 128 * 1024
+    found = fit_scene(scene, "transaction")
+    # the data of a transaction is limited, too
+    assert len(render_call(found.scene)) < 128 * 1024
+    assert (found.scene.width, found.scene.height) == (32, 32)
+    assert fits(found.scene, "transaction")
+
+
+def test_what_fits_nowhere_is_told(default: Scene) -> None:
+    pytest.importorskip("fast_simplification")
+    scene = dear(resize(default, 80), 20 * LIMITS["call"].gas)
+    with pytest.raises(InputError, match="larger than what one transaction can hold"):
+        fit_scene(evolve(scene, objects=2 * scene.objects), "transaction")
+    small = r"without antialiasing, at 64 x 64 instead of 80 x 80 pixels and with [\d,]+ of [\d,]+ triangles$"
+    with pytest.raises(InputError, match=f"fits a read call of geth, even {small}"):
+        fit_scene(scene, "call")
+    with pytest.raises(InputError, match="`fit` must be one of transaction, call"):
+        fit_scene(scene, "block")
+
+
+def test_without_the_package_that_simplifies(default: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shackled.scene._simplify.find_spec", lambda name: None)
+    many = dear(resize(evolve(default, antialias=False), 64), 1.5 * LIMITS["transaction"].gas)
+    with pytest.raises(InputError, match=r"at 64 x 64 instead of 256 x 256 pixels; .*shackled\[simplify\]"):
+        fit_scene(resize(many, 256), "transaction")
+
+
+def test_render_draws_what_fits(default: Scene) -> None:
+    with pytest.warns(InputWarning, match="to fit one transaction, the picture is drawn without antialiasing"):
+        image = render(default, fit="transaction", antialias=True)
+    assert image == render(fit_scene(evolve(default, antialias=True), "transaction").scene)
+    assert image.calls == 1
+    cube = load("cube")
+    assert render(cube, fit="call") == render(cube)
+    with pytest.raises(InputError, match="`fit` and `tile` exclude each other"):
+        render(cube, fit="call", tile=64)
+    with pytest.raises(InputError, match="`fit` and `gas_limit` exclude each other"):
+        render(cube, fit="call", gas_limit=10**7)
