@@ -20,9 +20,8 @@ import "../../words/SampleRegisters.sol";
 uint256 constant SHORT_AREA = 2048;
 /// @dev The square of a pixel in sub-pixels.
 uint256 constant SQUARE_PIXEL = 0x10000;
-/// @dev Added to lanes of 85 bits to make them positive; a part of such a lane; the maximum of a colour, 512 levels, Q10.
+/// @dev Added to lanes of 85 bits to make them positive; the maximum of a colour, 512 levels, Q10.
 uint256 constant POSITIVE_85 = 0x400000000000000000000200000000000000000000100000000000;
-uint256 constant LANE_64 = 0xffffffffffffffff;
 uint256 constant MOST_Q10 = 0x7ffff;
 
 abstract contract LinearWires is SampleWires {

@@ -115,7 +115,7 @@ library Patches {
             uint256 ab = between(a, b, (za + zb) << SUM_OF_DEPTHS_FRACTION, half, none);
             uint256 ac = between(a, c, (za + zc) << SUM_OF_DEPTHS_FRACTION, none, half);
             Quadratic.fromNodes(fa, fb, fc, ab, ac, between(b, c, (zb + zc) << SUM_OF_DEPTHS_FRACTION, half, half));
-            Quadratic.setDifferences(a, b, c, top, none, none);
+            Quadratic.setDifferences(a, b, c, top);
             store(QUADRATIC_START, load(QUADRATIC_START) + bias());
         }
     }

@@ -33,7 +33,13 @@ library Quadratic {
     /// @notice Computes the value at column 0 of row `top` (QUADRATIC_START) and its differences from the coefficients. The change from
     /// column x of row y to column x + 1 is QUADRATIC_DX + x * QUADRATIC_DXX + y * QUADRATIC_DXY; rows likewise.
     /// @param a, b, c The screen words of the vertices, as for the triangle.
-    /// @param column The column that is meant by column 0 in row `top`, which is `further` columns to the right in each row below.
+    function setDifferences(uint256 a, uint256 b, uint256 c, uint256 top) internal pure {
+        // literals, for which the compiler makes a function
+        setDifferences(a, b, c, top, 0, 0);
+    }
+
+    /// @notice The same if column 0 means another column.
+    /// @param column That column in row `top`; it is `further` columns to the right in each row below.
     function setDifferences(uint256 a, uint256 b, uint256 c, uint256 top, uint256 column, uint256 further) internal pure {
         assembly ("memory-safe") {
             let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)

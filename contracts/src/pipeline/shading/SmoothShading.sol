@@ -25,8 +25,7 @@ abstract contract SmoothShading is Rasterizer {
             }
             if (kind == UNBOUNDED_LIGHT) return shadeExact(a, b, c, crossing);
             (uint256 attributesA, uint256 attributesB, uint256 attributesC) = Shading.attributesOf(a, b, c);
-            uint256 none = load(ZERO_SLOT); // not a literal: see there
-            Quadratic.setDifferences(a, b, c, max(firstRowOf(a), load(BAND_TOP)), none, none);
+            Quadratic.setDifferences(a, b, c, max(firstRowOf(a), load(BAND_TOP)));
             if (kind == STEEP_LIGHT && !Shading.isAffine(attributesA, attributesB, attributesC, a, b, c)) {
                 mode |= IS_STEEP;
                 uint256 nearest = max(attributesA, max(attributesB, attributesC)) >> ATTRIBUTE_DEPTH_AT;
