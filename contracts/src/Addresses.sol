@@ -6,21 +6,22 @@ pragma solidity ^0.8.25;
 /// @title Addresses: the contract addresses of `shackled deploy`, the same on every chain.
 /// @notice Derived from the bytecode: another version of a contract has another address.
 library Addresses {
-    address internal constant ENGINE = 0x7fcb7B85F9081577DA51E08aD253F1a159E42641;
-    address internal constant FRAGMENT_ENGINE = 0x90e4c5ec9CB7d96dF38Ea0e4aCA965249224e27c;
-    address internal constant ANTIALIASED_ENGINE = 0xdA1e016986D31Db16c694a29518bE97a0E6574d4;
-    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x644Cd7b08C77afBf1e05462Bd1e42754e248eE18;
-    address internal constant EFFECTS_ENGINE = 0xf0A83D4fDe6e34347b57E36A84BB566D07557f1D;
-    address internal constant EFFECTS = 0x5fc076f4157B62C63921508247B018Fe8BE79d05;
-    address internal constant RENDERER = 0xd1FBE3D0244c799aB86a485880934b3d290422D6;
-    address internal constant ORIGINAL = 0x9799a6f4526f90567a33765b5352F38bB23f0b10;
-    address internal constant GENESIS = 0x954bd7DD6FAf2D898814E3f56473D232b6832986;
+    address internal constant ENGINE = 0xdA81BB3ea3fE3a09E67DE8C0061D2BbcE9b776F3;
+    address internal constant FRAGMENT_ENGINE = 0x7b7F4972fe2CA2Dc63eDa5FB6582c3695E54E99F;
+    address internal constant ANTIALIASED_ENGINE = 0x0Fe684f2cd8B864bBc9C18cA744EBe1Aa69201E5;
+    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0xBC78F7B39c2304281641f0806d3431d10e7F26e2;
+    address internal constant ANTIALIASED_SMOOTH_ENGINE = 0x97a24364478c691Fb4Faa80F40366Ce61E7BA6b2;
+    address internal constant EFFECTS_ENGINE = 0x50CB8927d2ECb94Ce4e3B10225AC522D42f8f436;
+    address internal constant EFFECTS = 0x36d2C6e3C455B2560c13712Bc180DeDcBad4c61E;
+    address internal constant RENDERER = 0x75706724d90CDa6DFA81c26E646a77659EE7992C;
+    address internal constant ORIGINAL = 0x25707cb34DD93aC9F66b59b88F1F05db0d24Dc46;
+    address internal constant GENESIS = 0x661EB2BCf2AB62D21E2d58e7f7BEfDD304da624f;
     address internal constant PNG_ENCODER = 0x72A25989288b6193eDe481BA7ad20EddECBa08BD;
-    address internal constant TURNTABLE = 0x7cdd016BeBd3E68e02935D2956778Ede55b85f63;
+    address internal constant TURNTABLE = 0x109543BfD00D8AfbDAf489A3C510922e0031AB3e;
     address internal constant GLB_ENCODER = 0xBcf77312a660eE0Aa6F8d88f37aB56356EF2452f;
-    address internal constant STUDIO = 0x1FA922045f7e9e0eb4FB0062A44d912C7B45688f;
-    address internal constant LIBRARY = 0x734Ec3522DD768eb75577d961a2f508BBa74005a;
-    address internal constant WEB = 0x69b04c6Ad14BAed93DDE559b31243feC31f5007c;
-    address internal constant EDITIONS = 0x3935fA47aED7A68E594DC479d827769BFbAc0969;
-    address internal constant GENESIS_METADATA = 0xA3E2f20e541BF79687CEc948caF6fB7f006F2aE9;
+    address internal constant STUDIO = 0x52C24136082E7CD630Fe5C4f4B2B9282907F494E;
+    address internal constant LIBRARY = 0x1DC47C05d6108950E165A9862660e9872Bff356D;
+    address internal constant WEB = 0x1313487FAe013d498eb57Df4E11182b92a7f5a59;
+    address internal constant EDITIONS = 0x8849758Ca1056b667e1dfEBC89Eb46eaAd6D300a;
+    address internal constant GENESIS_METADATA = 0x9f8E0393c621440675c2E5bD9e80671a5b652C27;
 }

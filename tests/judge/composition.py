@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .calldata import Array, Booleans, Integers, World, read
-from .fragments import RULES, Fragments, fragments
+from .calldata import FLAT, Array, Booleans, Integers, World, read
+from .fragments import RULES, WHOLES, Fragments, fragments
 from .pieces import Pieces, joined, pieces_of
 from .shadows import Shadows
 from .visibility import AROUND, CENTER, SAME_DEPTH, SAMPLES, Seen, seen
@@ -151,12 +151,27 @@ class Composition:
         found = fragments(world, self.shadows, pieces, rows, reached, self.places)
         for there, color in zip(canvas.colors, found.colors, strict=True):
             _blend(there, color, found.opacity, samples, sure, likely)
+        if world.antialias and not world.exact:
+            self._widen(pieces, rows, sure)
         flat = canvas.nearness.reshape(-1)
         flat[samples[likely]] = rows.nearness[likely]
         canvas.triangle.reshape(-1)[samples[likely]] = pieces.face[rows.piece[likely]]
         np.maximum.at(canvas.ceiling.reshape(-1), samples, rows.most)
         np.maximum(canvas.floor, floor, out=canvas.floor)
         self.only.append(self._only(pieces.face[rows.piece], rows, sure, found))
+
+    def _widen(self, pieces: Pieces, rows: Seen, sure: Booleans) -> None:
+        """Let pixels that show one smooth surface, and only that, have the colour of any of their samples."""
+        surfaces = self.world.surfaces
+        smooth = np.array([s.shading > FLAT and s.is_opaque and not s.is_wire for s in surfaces], bool)
+        surface = np.searchsorted([s.first for s in surfaces], pieces.face[rows.piece], side="right") - 1
+        least, most = np.full(len(sure), len(surfaces)), np.full(len(sure), -1)
+        np.minimum.at(least, rows.pixel, np.where(smooth[surface], surface, -1))
+        np.maximum.at(most, rows.pixel, surface)
+        whole = np.flatnonzero((least == most) & sure.all(axis=1))
+        there = self.canvas.colors[1 + WHOLES]
+        there[0, whole] = there[0, whole].min(axis=1, keepdims=True)
+        there[2, whole] = there[2, whole].max(axis=1, keepdims=True)
 
     def _visible(self, pieces: Pieces) -> tuple[Seen, Seen]:
         """All that pieces reach, and of this what others of them do not hide."""

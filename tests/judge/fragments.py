@@ -19,8 +19,11 @@ from .visibility import AROUND, TOLERANCE, Seen
 
 #: What is documented beside the formulas: the colour of slivers; that a face is not in shadow if it is seen from the
 #: side that is turned away from the light; that a face which is clipped is drawn as several triangles, so that pixels
-#: between them have several fragments; the lines of sight of wires.
-RULES = ("slivers", "backs", "fans", "wires")
+#: between them have several fragments; the lines of sight of wires; that pixels within a smooth surface have the colour
+#: of one of its triangles, which covers their first sample.
+RULES = ("slivers", "backs", "fans", "wires", "wholes")
+#: The number of the last one.
+WHOLES = RULES.index("wholes")
 #: The guard band, in pixels: faces that leave it are clipped.
 GUARD_BAND = (-1536, 2560)
 #: Antialiased triangles of less height, in pixels, have the colour of their first vertex if they are not smooth and the
@@ -101,7 +104,7 @@ def fragments(
     may_be_lit, may_be_dark = _reached(world, shadows, pieces, rows, places, surface)
     unseen = may_be_lit if shadows is None else may_be_lit | shadows.backs[pieces.face[rows.piece]]
     colors = []
-    for rule, chosen in enumerate((formulas, slivers, formulas, fans, wires)):
+    for rule, chosen in enumerate((formulas, slivers, formulas, fans, wires, formulas)):
         reach = unseen if rule == 2 else may_be_lit
         both = [_extent(values[:, chosen], to[chosen], count)[:, key] for values in (lit, dark)]
         colors.append(_either(both[0], both[1], reach, may_be_dark))

@@ -25,7 +25,7 @@ MEAN = 0.35
 #: The same in a scene, and one in so many pixels of any kind that may be off by more than MANY levels there.
 MEAN_OF_SCENE, SHARE = 0.6, 1_000
 #: One in so many pixels may have a colour that only a rule explains.
-RARE = {"slivers": 1_000, "backs": 100, "fans": 10_000, "wires": 1_000}
+RARE = {"slivers": 1_000, "backs": 100, "fans": 10_000, "wires": 1_000, "wholes": 500}
 #: Interior pixels of a run for which these shares hold.
 LEAST_RUN = 100_000
 #: Faults of a scene that are described.
