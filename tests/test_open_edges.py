@@ -46,7 +46,7 @@ def ball(steps: int) -> Mesh:
 def views(mesh: Mesh, material: Material, count: int) -> list[Scene]:
     """Views from all sides, every third so near that faces are clipped."""
     rng = np.random.default_rng(len(mesh.faces))
-    reach = float(np.linalg.norm(mesh.vertices, axis=1).max())
+    reach = float(np.linalg.norm(mesh.positions, axis=1).max())
     found = []
     for i in range(count):
         direction = rng.normal(size=3)
@@ -59,7 +59,7 @@ def views(mesh: Mesh, material: Material, count: int) -> list[Scene]:
 
 def with_normals(mesh: Mesh) -> Mesh:
     """Normals toward the outside of a torus about the z axis, near enough."""
-    return evolve(mesh, normals=mesh.vertices)
+    return evolve(mesh, normals=mesh.positions)
 
 
 CLOSED = [ball(1), ball(2), ball(3), with_normals(torus(14, 9))]

@@ -6,6 +6,7 @@ import {OpenEdges} from "../pipeline/samples/OpenEdges.sol";
 import {QuadraticSamples} from "../pipeline/samples/QuadraticSamples.sol";
 import {EXACT, SampleRasterizer} from "../pipeline/samples/SampleRasterizer.sol";
 import {SampleBuffer} from "../pipeline/samples/SampleBuffer.sol";
+import {Samples} from "../pipeline/samples/Samples.sol";
 import {SmoothSamples} from "../pipeline/samples/SmoothSamples.sol";
 import "../words/SampleRegisters.sol";
 
@@ -49,13 +50,17 @@ contract AntialiasedSmoothEngine is SampleBuffer, ExactSamples, SmoothSamples {
         pure
         override(ExactSamples, SampleRasterizer)
     {
-        uint256 edge = load(p) & IS_EDGE;
-        if (edge == 0) {
-            if (covered & TOP_64 == 0) return;
-            covered = TOPS_64;
+        unchecked {
+            uint256 edge = load(p) & IS_EDGE;
+            if (edge == 0 && covered & TOP_64 == 0) return;
+            uint256 z = Samples.depthsOf(attribute);
+            uint256 seen = (edge == 0 ? TOPS_64 : covered) & (z + BELOW_TOPS_64 - load(p));
+            if (seen == 0) return;
+            // within the triangle, although all samples may get the colour
+            z |= edge | colorAt(attribute, covered, column, row) * ONES_64;
+            if (seen == TOPS_64) Samples.paint(p, z);
+            else Samples.write(p, z, seen);
         }
-        super.drawExact(p, attribute, covered, column, row);
-        store(p, load(p) | edge);
     }
 
     /// @dev The AntialiasedFragmentEngine draws wires and translucent objects, the EffectsEngine shadows.
