@@ -161,17 +161,26 @@ class Composition:
         self.only.append(self._only(pieces.face[rows.piece], rows, sure, found))
 
     def _widen(self, pieces: Pieces, rows: Seen, sure: Booleans) -> None:
-        """Let pixels that show one smooth surface, and only that, have the colour of any of their samples."""
+        """Let pixels that show one smooth surface, and only that, have the colour of any sample there or in the pixels
+        around that show it, too: where a surface is steep, a part of it that is hidden a little further may be seen.
+        """
         surfaces = self.world.surfaces
         smooth = np.array([s.shading > FLAT and s.is_opaque and not s.is_wire for s in surfaces], bool)
         surface = np.searchsorted([s.first for s in surfaces], pieces.face[rows.piece], side="right") - 1
         least, most = np.full(len(sure), len(surfaces)), np.full(len(sure), -1)
         np.minimum.at(least, rows.pixel, np.where(smooth[surface], surface, -1))
         np.maximum.at(most, rows.pixel, surface)
-        whole = np.flatnonzero((least == most) & sure.all(axis=1))
-        there = self.canvas.colors[1 + WHOLES]
-        there[0, whole] = there[0, whole].min(axis=1, keepdims=True)
-        there[2, whole] = there[2, whole].max(axis=1, keepdims=True)
+        number = np.where((least == most) & sure.all(axis=1), most, -1)
+        there, shape = self.canvas.colors[1 + WHOLES], (self.frame.height, self.frame.width)
+        for bound, extreme in ((0, np.minimum), (2, np.maximum)):
+            colors = getattr(there[bound], extreme.__name__[:3])(axis=1).reshape(*shape, 3)
+            found = colors.copy()
+            around = np.pad(colors, [(1, 1), (1, 1), (0, 0)], mode="edge")
+            same = np.pad(number.reshape(shape), 1, constant_values=-2)
+            for dy, dx in np.ndindex(3, 3):
+                part = (slice(dy, dy + shape[0]), slice(dx, dx + shape[1]))
+                found = np.where((same[part] == number.reshape(shape))[..., None], extreme(found, around[part]), found)
+            there[bound, number >= 0] = found.reshape(-1, 1, 3)[number >= 0]
 
     def _visible(self, pieces: Pieces) -> tuple[Seen, Seen]:
         """All that pieces reach, and of this what others of them do not hide."""

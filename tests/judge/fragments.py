@@ -20,7 +20,7 @@ from .visibility import AROUND, TOLERANCE, Seen
 #: What is documented beside the formulas: the colour of slivers; that a face is not in shadow if it is seen from the
 #: side that is turned away from the light; that a face which is clipped is drawn as several triangles, so that pixels
 #: between them have several fragments; the lines of sight of wires; that pixels within a smooth surface have the colour
-#: of one of its triangles, which covers their first sample.
+#: of one of its triangles, which covers their first sample, whole; and may be from a part of it that is hidden beside.
 RULES = ("slivers", "backs", "fans", "wires", "wholes")
 #: The number of the last one.
 WHOLES = RULES.index("wholes")

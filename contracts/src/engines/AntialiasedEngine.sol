@@ -12,7 +12,7 @@ import "../words/Registers.sol";
 /// @title AntialiasedEngine: does the work of the Engine with four samples per pixel.
 /// @notice Called by the Renderer: see Engine.
 contract AntialiasedEngine is SampleBuffer, PatchSamples, ExactSamples, FlatShading {
-    function prepare(uint256 a, uint256 b, uint256 c, uint256) internal pure override {
+    function prepare(uint256 a, uint256 b, uint256 c) internal pure override {
         setGradients(a, b, c, 0);
         setQuadratic(a, b, c);
     }

@@ -13,7 +13,7 @@ import "../words/SampleRegisters.sol";
 /// @notice Called by the Renderer: see Engine. Draws what no other engine draws with four samples per pixel, and shades every fragment
 /// individually.
 contract AntialiasedFragmentEngine is SampleBuffer, LinearWires, BlendedSamples {
-    function prepare(uint256 a, uint256 b, uint256 c, uint256) internal pure override {
+    function prepare(uint256 a, uint256 b, uint256 c) internal pure override {
         setGradients(a, b, c, 0);
     }
 

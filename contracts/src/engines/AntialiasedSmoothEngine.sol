@@ -30,8 +30,8 @@ contract AntialiasedSmoothEngine is SampleBuffer, ExactSamples, SmoothSamples {
         OpenEdges.mark(end);
     }
 
-    function prepare(uint256 a, uint256 b, uint256 c, uint256 row) internal pure override {
-        setRows(a, b, c, row);
+    function prepare(uint256 a, uint256 b, uint256 c) internal pure override {
+        setRows(a, b, c);
         setGradients(a, b, c, 0);
     }
 

@@ -90,7 +90,7 @@ contract EffectsEngine is SampleBuffer, SampleWires, EffectSamples {
         }
     }
 
-    function prepare(uint256 a, uint256 b, uint256 c, uint256) internal pure override {
+    function prepare(uint256 a, uint256 b, uint256 c) internal pure override {
         setGradients(a, b, c, FINE_BITS);
     }
 

@@ -86,19 +86,21 @@ uint256 constant INNER_END = 0x35e0;
 uint256 constant ROW_START = 0x3600;
 /// @dev The columns of a row of samples.
 uint256 constant ROW_COLUMNS = 0x3620;
+/// @dev DEPTH_OFFSETS for whole pixels: in steep triangles those of the first sample for all.
+uint256 constant WHOLE_OFFSETS = 0x3640;
 /// @dev The bounds of the row: of the left one, plus the lowest lane of the side, of the right one, minus that; they are the same for all
 /// rows of an edge.
-uint256 constant OUTER_LEFT = 0x3640;
-uint256 constant OUTER_RIGHT = 0x3660;
+uint256 constant OUTER_LEFT = 0x3660;
+uint256 constant OUTER_RIGHT = 0x3680;
 /// @dev The bound of the lower edge in the row below that of the kink.
-uint256 constant KINK_OUTER = 0x3680;
+uint256 constant KINK_OUTER = 0x36a0;
 /// @dev The colour of all vertices to which these refer, plus one bit; its part that all light reaches, Q58 with half a level, and what the
 /// lamps add per unit of N * L, Q34: lanes of 85 bits. See SmoothSamples.
-uint256 constant SAME_COLOR = 0x36a0;
-uint256 constant SAME_AMBIENT = 0x36c0;
-uint256 constant SAME_DIFFUSE = 0x36e0;
-/// @dev The table of the highlight times the colour of the first lamp: lanes of 85 bits, Q42; the last entry twice.
-uint256 constant SHINE_TABLE = 0x3700;
+uint256 constant SAME_COLOR = 0x36c0;
+uint256 constant SAME_AMBIENT = 0x36e0;
+uint256 constant SAME_DIFFUSE = 0x3700;
+/// @dev The table of the highlight times the colour of the lamp: lanes of 85 bits, Q42.
+uint256 constant SHINE_TABLE = 0x3720;
 /// @dev The sides of the row that is drawn, and the address of the pixel after its last one.
 uint256 constant ROW_LEFT = 0x3f40;
 uint256 constant ROW_RIGHT = 0x3f60;

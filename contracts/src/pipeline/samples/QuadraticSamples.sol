@@ -10,7 +10,7 @@ import "../../words/SampleRegisters.sol";
 uint256 constant MORE_BITS = 7;
 
 /// @dev Steep triangles are those whose depth changes by more than 2 to minus this power of it from pixel to pixel.
-uint256 constant STEEP_BITS = 6;
+uint256 constant STEEP_BITS = 8;
 
 library QuadraticSamples {
     /// @notice Draws the rows from `row`, for which the sides are given, to `last` (exclusive). Changes the steps of the sides.
@@ -56,17 +56,15 @@ library QuadraticSamples {
                 let t := sar(N_DOT_L_Q72_AT, f) // N.L, Q24
                 let square := sar(SHINE_AT, shl(LOWER_85_TO_TOP, f)) // (N.H)^2, Q24
                 if iszero(and(mload(MODE), IS_NORMALISED)) { t, square := lightOf(f) }
-                color := mload(SAME_AMBIENT)
-                f := mload(SAME_DIFFUSE) // f: what the lamp adds per unit of N.L
-                if and(mload(MODE), IS_VARIED) {
-                    let albedo := and(shr(ACCUMULATOR_FRACTION, attribute), LANES_24) // Q10
-                    color := add(HALF_85, shl(Q26_TO_Q58, times(albedo, mload(AMBIENT))))
-                    f := shl(Q26_TO_Q34, times(albedo, mload(add(LIGHTS, LIGHT_DIFFUSE))))
+                t := mul(t, sgt(t, 0)) // max(N.L, 0)
+                switch and(mload(MODE), IS_VARIED)
+                case 0 { color := add(mload(SAME_AMBIENT), mul(mload(SAME_DIFFUSE), t)) }
+                default {
+                    // light, lanes of Q16, times the colour of the accumulator, Q10
+                    f := shr(Q40_TO_Q16, add(shl(Q40_TO_Q16, mload(AMBIENT)), mul(mload(add(LIGHTS, LIGHT_DIFFUSE)), t)))
+                    color := add(HALF_85, shl(Q26_TO_Q58, times(and(shr(ACCUMULATOR_FRACTION, attribute), LANES_24), f)))
                 }
-                if sgt(t, 0) {
-                    color := add(color, mul(f, t))
-                    if sgt(square, mload(SPECULAR_BEGIN)) { color := add(color, shine(square)) }
-                }
+                if and(gt(t, 0), sgt(square, mload(SPECULAR_BEGIN))) { color := add(color, shine(square)) }
             }
 
             // the lanes at the centroid of some samples; g is their change to the next column

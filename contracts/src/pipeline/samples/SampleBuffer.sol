@@ -228,10 +228,10 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
             uint256 p = load(DEPTHS);
             uint256 bottom = min(load(BAND_BOTTOM), load(SAMPLE_BOTTOM));
             uint256 top = max(load(BAND_TOP), load(SAMPLE_TOP));
-            if (bottom <= top) return 0;
             uint256 end = p + (bottom - top) * load(SAMPLE_STRIDE);
             assembly ("memory-safe") {
-                for {} lt(p, end) { p := add(p, SAMPLE_SIZE) } { count := add(count, iszero(iszero(and(mload(p), SAMPLE_DEPTHS)))) }
+                // signed: none if there are no such rows
+                for {} slt(p, end) { p := add(p, SAMPLE_SIZE) } { count := add(count, iszero(iszero(and(mload(p), SAMPLE_DEPTHS)))) }
             }
         }
     }

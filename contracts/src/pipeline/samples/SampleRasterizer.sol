@@ -44,9 +44,8 @@ abstract contract SampleRasterizer is Rasterizer {
     function drawPartlyDark(uint256 p, uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure virtual;
 
     /// @notice Calls setGradients, and sets further registers that shading requires.
-    /// @param a, b, c As for `drawTriangle`.
-    /// @param row The first row to draw.
-    function prepare(uint256 a, uint256 b, uint256 c, uint256 row) internal pure virtual;
+    /// @param a, b, c As for `drawTriangle`. The first row to draw is SIDE_ROW.
+    function prepare(uint256 a, uint256 b, uint256 c) internal pure virtual;
 
     /// @notice Draws the rows from `row` (inclusive) to `last` (exclusive) of the current triangle, as its mode selects.
     function drawFragments(uint256 row, uint256 last) internal pure virtual;
@@ -62,8 +61,8 @@ abstract contract SampleRasterizer is Rasterizer {
             uint256 row = max((a + ((SUBPIXEL_MASK - OUTERMOST_SAMPLE) << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT, load(BAND_TOP));
             uint256 last = min(lowest >> SCREEN_PIXEL_ROW_AT, load(BAND_BOTTOM));
             if (row >= last) return;
-            prepare(a, b, c, row);
             setSides(a, b, c, row);
+            prepare(a, b, c);
             if (load(MODE) & IS_TURNED_AWAY != 0) {
                 (int256 dx, int256 dy) = (loadSigned(DX) >> PIXEL_64_BITS, loadSigned(DY) >> PIXEL_64_BITS);
                 uint256 depth = setBack(uint256(dx), uint256(dy), load(SAMPLE_BASE));

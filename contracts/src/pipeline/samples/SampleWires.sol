@@ -42,7 +42,7 @@ abstract contract SampleWires is SampleRasterizer, Wires {
             // beside p, with its attributes; clamped, since that is far from the picture
             uint256 x = Clipper.inGuardBand(columnOf(p) + loadSigned(LINE_ASIDE_X));
             uint256 y = Clipper.inGuardBand(rowOf(p) + loadSigned(LINE_ASIDE_Y));
-            prepare(p, (y << SCREEN_ROW_AT) | (x << SCREEN_COLUMN_AT), q, zero);
+            prepare(p, (y << SCREEN_ROW_AT) | (x << SCREEN_COLUMN_AT), q);
             setProducts(p, zero, zero + 1);
             drawRows();
         }

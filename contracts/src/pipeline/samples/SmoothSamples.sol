@@ -36,7 +36,6 @@ abstract contract SmoothSamples is SampleRasterizer {
                 for { let i := 0 } lt(i, SPECULAR_SIZE) { i := add(i, 32) } {
                     mstore(add(SHINE_TABLE, i), shl(Q16_TO_Q42, mul(color, shr(SPECULAR_VALUE_AT, mload(add(SPECULAR_TABLE, i))))))
                 }
-                mstore(add(SHINE_TABLE, SPECULAR_SIZE), mload(sub(add(SHINE_TABLE, SPECULAR_SIZE), 32)))
             }
         }
     }
@@ -88,9 +87,10 @@ abstract contract SmoothSamples is SampleRasterizer {
     }
 
     /// @dev Sets the differences of the light relative to address 0, as QuadraticSamples needs them.
-    function setRows(uint256 a, uint256 b, uint256 c, uint256 row) internal pure {
+    function setRows(uint256 a, uint256 b, uint256 c) internal pure {
         unchecked {
             if (load(MODE) & IS_QUADRATIC == 0) return;
+            uint256 row = load(SIDE_ROW);
             uint256 column = load(SAMPLE_ORIGIN) - row * load(SAMPLE_STRIDE);
             column = 0 - uint256(int256(column) >> SAMPLE_SIZE_BITS);
             Quadratic.setDifferences(a, b, c, row, column, load(SAMPLE_STRIDE) >> SAMPLE_SIZE_BITS);
