@@ -50,8 +50,8 @@ abstract contract Pipeline is PrimitiveAssembly {
         return false;
     }
 
-    /// @notice Called when all triangles of an object are listed, if `isListed`: with the beginning and end of the list, before which are the
-    /// vertex records, from the third address on, except for those that clipping made.
+    /// @notice Called when all triangles of an object are listed, if `isListed`: with the beginning and end of the list, before which
+    /// are the vertex records, from the third address on, except for those that clipping made.
     /// @param free An address from which on memory is free, not before the end of the list. The word at that end is free, too.
     /// @return The first free address.
     function closeList(uint256, uint256, uint256, uint256 free) internal pure virtual returns (uint256) {

@@ -7,7 +7,7 @@ import "./Registers.sol";
 
 // --------------------------------------------------------------------------------------------------------------------------------- bounds
 
-uint256 constant SAMPLE_REGISTERS_END = 0x4300;
+uint256 constant SAMPLE_REGISTERS_END = 0x42e0;
 
 // -------------------------------------------------------------------------------------------------------------------------------- samples
 // For the engines that take four samples per pixel: see Samples and SampleRasterizer.
@@ -105,44 +105,42 @@ uint256 constant SHINE_TABLE = 0x3720;
 uint256 constant ROW_LEFT = 0x3f40;
 uint256 constant ROW_RIGHT = 0x3f60;
 uint256 constant ROW_END = 0x3f80;
-/// @dev The change of a quadratic function at column 0 to the next row.
-uint256 constant QUADRATIC_DOWN = 0x3fa0;
 /// @dev The row to which the quadratic functions refer.
-uint256 constant QUADRATIC_ROW = 0x3fc0;
+uint256 constant QUADRATIC_ROW = 0x3fa0;
 /// @dev The least depth of the vertices, with 8 more bits than in a vertex.
-uint256 constant FARTHEST = 0x3fe0;
+uint256 constant FARTHEST = 0x3fc0;
 /// @dev A line: from its upper end to its lower one, and from it to the right side of its rectangle, in sub-pixels.
-uint256 constant LINE_DX = 0x4000;
-uint256 constant LINE_DY = 0x4020;
-uint256 constant LINE_ASIDE_X = 0x4040;
-uint256 constant LINE_ASIDE_Y = 0x4060;
+uint256 constant LINE_DX = 0x3fe0;
+uint256 constant LINE_DY = 0x4000;
+uint256 constant LINE_ASIDE_X = 0x4020;
+uint256 constant LINE_ASIDE_Y = 0x4040;
 /// @dev Half the magnitude of the last square of a length.
-uint256 constant LINE_HINT = 0x4080;
+uint256 constant LINE_HINT = 0x4060;
 /// @dev The area between the line and that side: see SampleWires.
-uint256 constant LINE_AREA = 0x40a0;
+uint256 constant LINE_AREA = 0x4080;
 /// @dev The square of the distance, in sub-pixels, over which light is linear: see LinearWires.
-uint256 constant LINE_REACH = 0x40c0;
+uint256 constant LINE_REACH = 0x40a0;
 /// @dev The screen word of the upper end of a line that is lit; the accumulator there, without its bias; the change of the attribute word
 /// to the lower end.
-uint256 constant LINE_UPPER = 0x40e0;
-uint256 constant LINE_ATTRIBUTE = 0x4100;
-uint256 constant LINE_CHANGE = 0x4120;
+uint256 constant LINE_UPPER = 0x40c0;
+uint256 constant LINE_ATTRIBUTE = 0x40e0;
+uint256 constant LINE_CHANGE = 0x4100;
 /// @dev The rows and columns of the part of the line that is drawn: the first, the one after the last.
-uint256 constant LINE_TOP = 0x4140;
-uint256 constant LINE_BOTTOM = 0x4160;
-uint256 constant LINE_LEFT = 0x4180;
-uint256 constant LINE_RIGHT = 0x41a0;
+uint256 constant LINE_TOP = 0x4120;
+uint256 constant LINE_BOTTOM = 0x4140;
+uint256 constant LINE_LEFT = 0x4160;
+uint256 constant LINE_RIGHT = 0x4180;
 /// @dev The products of the four samples of the first column in the current row; their changes per column and row.
-uint256 constant LINE_ACROSS = 0x41c0;
-uint256 constant LINE_ALONG = 0x41e0;
-uint256 constant LINE_ACROSS_RIGHT = 0x4200;
-uint256 constant LINE_ALONG_RIGHT = 0x4220;
-uint256 constant LINE_ACROSS_DOWN = 0x4240;
-uint256 constant LINE_ALONG_DOWN = 0x4260;
+uint256 constant LINE_ACROSS = 0x41a0;
+uint256 constant LINE_ALONG = 0x41c0;
+uint256 constant LINE_ACROSS_RIGHT = 0x41e0;
+uint256 constant LINE_ALONG_RIGHT = 0x4200;
+uint256 constant LINE_ACROSS_DOWN = 0x4220;
+uint256 constant LINE_ALONG_DOWN = 0x4240;
 /// @dev These minus the products have the highest bits of samples before the end.
-uint256 constant LINE_ACROSS_END = 0x4280;
-uint256 constant LINE_ALONG_END = 0x42a0;
+uint256 constant LINE_ACROSS_END = 0x4260;
+uint256 constant LINE_ALONG_END = 0x4280;
 /// @dev The product at which the line enters the current row, relative to that of the first column; the one at which it leaves the row,
 /// relative to that.
-uint256 constant LINE_ENTER = 0x42c0;
-uint256 constant LINE_STAY = 0x42e0;
+uint256 constant LINE_ENTER = 0x42a0;
+uint256 constant LINE_STAY = 0x42c0;

@@ -142,8 +142,7 @@ uint256 constant NO_HIGHLIGHT = 0x7fffffffffffffffffffffffffffffffffffffffffffff
 uint256 constant SHINE_AT = 219;
 /// @dev That of N * L above it.
 uint256 constant N_DOT_L_Q72_AT = 133;
-/// @dev From a highlight of Q16 to a colour of Q58; from lanes of 56 bits to lanes of 85, the second and the third.
-uint256 constant SHINE_TO_Q58 = 42;
+/// @dev From lanes of 56 bits to lanes of 85, the second and the third.
 uint256 constant MIDDLE_56_TO_85 = 29;
 uint256 constant UPPER_56_TO_85 = 58;
 /// @dev The lanes of light times a highlight, Q16.

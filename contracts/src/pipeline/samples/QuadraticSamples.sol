@@ -79,7 +79,8 @@ library QuadraticSamples {
                 p := shr(SAMPLE_SIZE_BITS, p) // p: c
                 let dy := add(mload(QUADRATIC_DY), mul(p, mload(QUADRATIC_DXY))) // dy' + c dxy'
                 p := sub(mload(QUADRATIC_DXY), across) // p: dxy = dxy' - w dxx
-                dy := sub(dy, add(mul(covered, add(g, p)), mul(shr(1, mul(covered, sub(covered, 1))), dxx))) // - w (g + dxy) - w (w - 1) / 2 dxx
+                // - w (g + dxy) - w (w - 1) / 2 dxx
+                dy := sub(dy, add(mul(covered, add(g, p)), mul(shr(1, mul(covered, sub(covered, 1))), dxx)))
                 across := sub(mload(QUADRATIC_DYY), mul(covered, add(shl(1, p), across))) // across: dyy = dyy' - w (2 dxy + w dxx)
                 // With the forward differences d at the centre, and x and y in eighths of a pixel, the quadratic function is
                 // f + (x dx + y dy) / 8 + (x (x - 8) dxx + 2 x y dxy + y (y - 8) dyy) / 128 there: exact, however thin the triangle
@@ -135,17 +136,16 @@ library QuadraticSamples {
                 for {} 1 {} {
                     if and(mload(p), IS_EDGE) {
                         let c := shr(SAMPLE_SIZE_BITS, p)
-                        let g := add(mload(QUADRATIC_DX), mul(c, mload(QUADRATIC_DXX))) // as in the loop of rows
-                        atEdge(p, attributeAt(c), valueAt(c), g)
+                        atEdge(p, attributeAt(c), valueAt(c), changeAt(c))
                     }
                     p := add(p, SAMPLE_SIZE)
                     if iszero(slt(p, end)) { break }
                 }
             }
 
-            // Fragments of a row whose first samples are covered; f is the function at the first one, g its change to the next. `isPlain` is a
-            // literal, for which the compiler is to make two functions: 1 for normalised light on one colour. `continue` in place of branches,
-            // at whose ends the compiler moves the stack.
+            // Fragments of a row whose first samples are covered; f is the function at the first one, g its change to the next. `isPlain`
+            // is a literal, for which the compiler is to make two functions: 1 for normalised light on one colour. `continue` in place of
+            // branches, at whose ends the compiler moves the stack.
             function span(p, end, attribute, f, g, isPlain) {
                 for {} 1 {
                     attribute := add(attribute, mload(DX)) // the next column
@@ -194,6 +194,8 @@ library QuadraticSamples {
             }
 
             function attributeAt(c) -> attribute { attribute := add(mload(ROW_START), mul(c, mload(DX))) }
+
+            function changeAt(c) -> g { g := add(mload(QUADRATIC_DX), mul(c, mload(QUADRATIC_DXX))) }
 
             function valueAt(c) -> f { // START + c DX + c (c - 1) / 2 DXX
                 f := add(add(mload(QUADRATIC_START), mul(c, mload(QUADRATIC_DX))), mul(shr(1, mul(c, sub(c, 1))), mload(QUADRATIC_DXX)))
@@ -259,8 +261,8 @@ library QuadraticSamples {
                         if slt(p, first) { besides(p, first) }
                         p := shr(SAMPLE_SIZE_BITS, first) // c
                         switch and(mload(MODE), IS_NORMALISED)
-                        case 0 { span(first, behind, attributeAt(p), valueAt(p), add(mload(QUADRATIC_DX), mul(p, mload(QUADRATIC_DXX))), 0) }
-                        default { span(first, behind, attributeAt(p), valueAt(p), add(mload(QUADRATIC_DX), mul(p, mload(QUADRATIC_DXX))), 1) }
+                        case 0 { span(first, behind, attributeAt(p), valueAt(p), changeAt(p), 0) }
+                        default { span(first, behind, attributeAt(p), valueAt(p), changeAt(p), 1) }
                         if slt(behind, end) { besides(behind, end) }
                     }
                     left := add(left, mload(SIDE_LEFT_STEP)) // the next row

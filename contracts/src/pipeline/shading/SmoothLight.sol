@@ -5,9 +5,9 @@ import {Quadratic} from "./Quadratic.sol";
 import "../../words/Registers.sol";
 
 // The light of a lamp on smooth triangles of several pixels. The products of SmoothTriangle need a root and two divisions at each fragment;
-// here these are done at six nodes, and what they yield is interpolated: a word of two lanes, both Q24, has the square of the cosine between
-// normal and half vector in the lower 85 bits, and N * L of unit vectors, which may be negative, above. From nodes to fragments are 48 more
-// bits.
+// here these are done at six nodes, and what they yield is interpolated: a word of two lanes, both Q24, has the square of the cosine
+// between normal and half vector in the lower 85 bits, and N * L of unit vectors, which may be negative, above. From nodes to fragments are
+// 48 more bits.
 //
 // If a normal turns by the angle d along an edge, the third derivatives of both are at most 1 and 4, per d, and that of the highlight, a
 // function of the square, at most 2.4 * sqrt(n) of its strength m where it is steepest. An error of D * d^3 / 125 (see FlatShading) is
@@ -21,8 +21,8 @@ uint256 constant MOST_TURN = 0x80000;
 uint256 constant N_DOT_L_ERROR = 740175;
 uint256 constant SHINE_ERROR = 353235088261144;
 uint256 constant BEFORE_SPECULAR_LAST = 0x3fffffffffff;
-/// @dev From products of Q20 to N * N in the unit of ROOT_SLOPE, Q68; to N * L, divided by the double length, Q34, to Q24; from N * H squared
-/// and divided to Q24.
+/// @dev From products of Q20 to N * N in the unit of ROOT_SLOPE, Q68; to N * L, divided by the double length, Q34, to Q24; from N * H
+/// squared and divided to Q24.
 uint256 constant Q20_TO_Q68 = 48;
 uint256 constant N_DOT_L_SHIFT = 39;
 uint256 constant Q20_TO_Q24 = 4;
@@ -58,7 +58,8 @@ library SmoothLight {
                 c := add(add(a, c), ac)
                 // in the middle, nine times: 3 (a + b + c) - (ab + ac + bc)
                 let middle := sub(mul(3, add(add(a, b), c)), add(add(ab, ac), bc))
-                let exact := add(sdiv(sar(LOWER_85_TO_TOP, shl(LOWER_85_TO_TOP, middle)), 9), shl(UPPER_85_AT, div(sar(UPPER_85_AT, middle), 9)))
+                let exact := shl(UPPER_85_AT, div(sar(UPPER_85_AT, middle), 9))
+                exact := add(exact, sdiv(sar(LOWER_85_TO_TOP, shl(LOWER_85_TO_TOP, middle)), 9))
                 exact := at(add(exact, shl(MIDDLE_85_AT, sdiv(sar(LOWER_85_TO_TOP, shl(MIDDLE_85_TO_TOP, middle)), 9))), 0)
                 ab := at(sub(shl(1, add(a, b)), ab), 2) // four times the products at the midpoint
                 ac := at(sub(shl(1, add(a, c)), ac), 2)
@@ -78,7 +79,8 @@ library SmoothLight {
                 if sgt(exact, mload(SPECULAR_BEGIN)) {
                     exact := mul(sub(exact, mload(SPECULAR_BEGIN)), mload(SPECULAR_SCALE)) // an index into the table, Q40
                     if gt(exact, BEFORE_SPECULAR_LAST) { exact := BEFORE_SPECULAR_LAST }
-                    t := and(mload(add(SPECULAR_TABLE, and(shr(SPECULAR_ENTRY_SHIFT, exact), SPECULAR_ENTRY_MASK))), LANE_32) // the increase
+                    t := mload(add(SPECULAR_TABLE, and(shr(SPECULAR_ENTRY_SHIFT, exact), SPECULAR_ENTRY_MASK)))
+                    t := and(t, LANE_32) // the increase
                     done := and(done, lt(mul(mul(middle, mload(SPECULAR_SCALE)), t), SHINE_ERROR))
                 }
                 if done {
