@@ -26,8 +26,11 @@ contract AntialiasedSmoothEngine is SampleBuffer, ExactSamples, SmoothSamples {
         return OpenEdges.find(list, end, records, free);
     }
 
-    function openList(uint256 end) internal pure override {
-        OpenEdges.mark(end);
+    /// @dev Marks are the same for all objects, so that faces in the same place have the same depths.
+    function openLists(uint256[3][] memory lists) internal pure override {
+        unchecked {
+            for (uint256 i; i != lists.length; ++i) OpenEdges.mark(lists[i][2]);
+        }
     }
 
     function prepare(uint256 a, uint256 b, uint256 c) internal pure override {
@@ -36,6 +39,7 @@ contract AntialiasedSmoothEngine is SampleBuffer, ExactSamples, SmoothSamples {
     }
 
     function drawFragments(uint256 row, uint256 last) internal pure override {
+        setWholeOffsets();
         if (load(MODE) & IS_QUADRATIC != 0) QuadraticSamples.draw(row, last);
         else drawSpans(row, last);
     }
@@ -53,7 +57,8 @@ contract AntialiasedSmoothEngine is SampleBuffer, ExactSamples, SmoothSamples {
         unchecked {
             uint256 edge = load(p) & IS_EDGE;
             if (edge == 0 && covered & TOP_64 == 0) return;
-            uint256 z = Samples.depthsOf(attribute);
+            uint256 z = (attribute >> ACCUMULATOR_DEPTH_AT) * load(SAMPLE_SCALE);
+            z = (z + (edge == 0 ? load(WHOLE_OFFSETS) : load(DEPTH_OFFSETS))) & SAMPLE_DEPTHS;
             uint256 seen = (edge == 0 ? TOPS_64 : covered) & (z + BELOW_TOPS_64 - load(p));
             if (seen == 0) return;
             // within the triangle, although all samples may get the colour

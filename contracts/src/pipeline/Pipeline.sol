@@ -58,8 +58,8 @@ abstract contract Pipeline is PrimitiveAssembly {
         return free;
     }
 
-    /// @notice Called before the triangles of an object are drawn: with the end of its list.
-    function openList(uint256) internal pure virtual {}
+    /// @notice Called for each band before anything is drawn, with what `openPicture` was given.
+    function openLists(uint256[3][] memory) internal pure virtual {}
 
     /// @notice Fills the pixels with the background, or with what was drawn before, and reserves memory for the depths after them.
     /// @param image The address of the pixels.
@@ -133,6 +133,7 @@ abstract contract Pipeline is PrimitiveAssembly {
                 store(BAND_TOP, tile.y + PIXEL_BIAS + top);
                 store(BAND_BOTTOM, tile.y + PIXEL_BIAS + bottom);
                 openBand(tile, image, top, bottom);
+                openLists(lists);
                 uniforms = load(OBJECTS);
                 for (uint256 i; i != lists.length; ++i) {
                     // the uniforms of a single object are still in place
@@ -179,7 +180,6 @@ abstract contract Pipeline is PrimitiveAssembly {
     /// @return drawn The number of faces drawn that were not listed before.
     function drawObject(Mesh memory mesh, uint256[3] memory list, bool atOnce, uint256 shift) private pure returns (uint256 drawn) {
         uint256 flags = load(OBJECT_FLAGS);
-        openList(list[2]);
         // not a literal: see ZERO_SLOT
         if (atOnce && flags & WIREFRAME == 0 && !isListed()) {
             (, drawn) = assemble(mesh, list[0], shift, load(ZERO_SLOT), flags & CULL_BACKFACES != 0);

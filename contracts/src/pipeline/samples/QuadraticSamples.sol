@@ -9,9 +9,6 @@ import "../../words/SampleRegisters.sol";
 /// @dev The additional bits of 128 times a colour.
 uint256 constant MORE_BITS = 7;
 
-/// @dev Steep triangles are those whose depth changes by more than 2 to minus this power of it from pixel to pixel.
-uint256 constant STEEP_BITS = 8;
-
 library QuadraticSamples {
     /// @notice Draws the rows from `row`, for which the sides are given, to `last` (exclusive). Changes the steps of the sides.
     function draw(uint256 row, uint256 last) internal pure {
@@ -216,15 +213,6 @@ library QuadraticSamples {
                     mstore(SPAN_BEGIN, add(base, shl(SAMPLE_SIZE_BITS, mload(SPAN_BEGIN)))) // base + 32 * column
                     mstore(SPAN_END, add(base, shl(SAMPLE_SIZE_BITS, mload(SPAN_END))))
                 }
-            }
-            {
-                // Beyond the edge of a steep triangle, its depth would be far from that of the surface.
-                let offsets := mload(DEPTH_OFFSETS)
-                let dx := sar(ACCUMULATOR_DEPTH_AT, mload(DX))
-                let dy := sar(ACCUMULATOR_DEPTH_AT, mload(DY))
-                dx := add(xor(dx, sar(SIGN_AT, dx)), xor(dy, sar(SIGN_AT, dy))) // |dx| + |dy|
-                if gt(shl(STEEP_BITS, dx), shr(ACCUMULATOR_DEPTH_AT, mload(ATTRIBUTE_0))) { offsets := mul(and(offsets, LANE_64), ONES_64) }
-                mstore(WHOLE_OFFSETS, offsets)
             }
             let left := mload(SIDE_LEFT)
             let right := mload(SIDE_RIGHT) // four columns each: see SampleRasterizer

@@ -22,6 +22,10 @@ uint256 constant COLORS_TO_TOP = 88;
 uint256 constant SPECULAR_SIZE = 0x820;
 uint256 constant Q16_TO_Q42 = 26;
 
+/// @dev Steep triangles are those whose depth changes by this power of 2 from pixel to pixel: by 1/512 of the nearest one of the scene,
+/// which is 2^61 to 2^62, see SampleDepths. It is the same for all triangles in a plane.
+uint256 constant STEEP_AT = 53;
+
 abstract contract SmoothSamples is SampleRasterizer {
     /// @dev Prepares the registers that differ between objects.
     function openSmooth() internal pure {
@@ -94,6 +98,19 @@ abstract contract SmoothSamples is SampleRasterizer {
             uint256 column = load(SAMPLE_ORIGIN) - row * load(SAMPLE_STRIDE);
             column = 0 - uint256(int256(column) >> SAMPLE_SIZE_BITS);
             Quadratic.setDifferences(a, b, c, row, column, load(SAMPLE_STRIDE) >> SAMPLE_SIZE_BITS);
+        }
+    }
+
+    /// @dev Sets the depths of the samples of whole pixels: beyond the edge of a steep triangle, its depth would be far from that of the
+    /// surface.
+    function setWholeOffsets() internal pure {
+        assembly ("memory-safe") {
+            let offsets := mload(DEPTH_OFFSETS)
+            let dx := sar(ACCUMULATOR_DEPTH_AT, mload(DX))
+            let dy := sar(ACCUMULATOR_DEPTH_AT, mload(DY))
+            dx := add(xor(dx, sar(SIGN_AT, dx)), xor(dy, sar(SIGN_AT, dy))) // |dx| + |dy|
+            if shr(STEEP_AT, shl(mload(SAMPLE_SHIFT), dx)) { offsets := mul(and(offsets, LANE_64), ONES_64) }
+            mstore(WHOLE_OFFSETS, offsets)
         }
     }
 }
