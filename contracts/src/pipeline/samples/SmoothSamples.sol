@@ -22,9 +22,10 @@ uint256 constant COLORS_TO_TOP = 88;
 uint256 constant SPECULAR_SIZE = 0x820;
 uint256 constant Q16_TO_Q42 = 26;
 
-/// @dev Steep triangles are those whose depth changes by this power of 2 from pixel to pixel: by 1/512 of the nearest one of the scene,
-/// which is 2^61 to 2^62, see SampleDepths. It is the same for all triangles in a plane.
-uint256 constant STEEP_AT = 53;
+/// @dev Steep triangles are those whose depth changes by this power of 2 from pixel to pixel: by 1/16 to 1/8 of the nearest one of the
+/// scene, which is 2^61 to 2^62, see SampleDepths. Less would cost the samples of intersections in small pictures. It is the same for all
+/// triangles in a plane.
+uint256 constant STEEP_AT = 58;
 
 abstract contract SmoothSamples is SampleRasterizer {
     /// @dev Prepares the registers that differ between objects.
