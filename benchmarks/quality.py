@@ -43,19 +43,23 @@ WITHIN, PICTURES = 8, 4
 CONTRAST = 8
 #: What is judged, by its column in the table.
 JUDGED = ("plain", "antialiased", "OpenGL, 4 samples", "16 samples")
+#: Pixels whose errors are measured: edges, and those of them that show the background, too.
+KINDS = ("edges", "silhouettes")
 
-#: Of a group: numbers of "pictures" and of "edge pixels"; of each column its mean "error" in levels, and its mean FLIP.
+#: Of a group: numbers of "pictures", and of pixels of each of KINDS; of each column the mean error of these in levels,
+#: and the mean FLIP.
 Figures = dict[str, dict[str, float]]
 
 
 @dataclass(frozen=True)
 class Truth:
     """pixels: (H, W, 3) mean colours of the samples, 0..255. edges: (H, W) whether they show several triangles, or a
-    triangle and the background, in different colours.
+    triangle and the background, in different colours. silhouettes: (H, W) whether these are edges with the background.
     """
 
     pixels: Array
     edges: NDArray[np.bool_]
+    silhouettes: NDArray[np.bool_]
 
 
 def groups() -> dict[str, list[Scene]]:
@@ -83,7 +87,7 @@ def true_picture(scene: Scene) -> Truth:
         np.minimum(first, over_pixels(np.minimum, triangles), out=first)
         np.maximum(last, over_pixels(np.maximum, triangles), out=last)
     edges = (first != last) & ((brightest - darkest).max(axis=2) > CONTRAST)
-    return Truth(shown(scene, total / (WITHIN * PICTURES) ** 2), edges)
+    return Truth(shown(scene, total / (WITHIN * PICTURES) ** 2), edges, edges & (first < 0))
 
 
 def samples(
@@ -117,26 +121,26 @@ def shown(scene: Scene, pixels: Array) -> Array:
     return 255 - pixels if scene.invert else pixels
 
 
-def judge(scene: Scene) -> tuple[Array, list[float]]:
-    """Return the errors of the edge pixels, (n, k) for the k pictures of JUDGED, and the FLIP of each picture."""
+def judge(scene: Scene) -> tuple[dict[str, Array], list[float]]:
+    """Return the errors of KINDS, (n, k) each for the k pictures of JUDGED, and the FLIP of each picture."""
     from flip_evaluator import evaluate
 
     truth = true_picture(scene)
     pictures = list(judged_pictures(scene))
-    errors = [np.abs(each - truth.pixels)[truth.edges].mean(axis=1) for each in pictures]
+    errors = np.stack([np.abs(each - truth.pixels).mean(axis=2) for each in pictures], axis=2)
     # of pictures in whole levels, as they are seen
     reference, *tests = ((np.rint(each) / 255).astype(np.float32) for each in (truth.pixels, *pictures))
     flips = [float(evaluate(reference, test, "LDR", applyMagma=False)[1]) for test in tests]
-    return np.stack(errors, axis=1), flips
+    return {"edges": errors[truth.edges], "silhouettes": errors[truth.silhouettes]}, flips
 
 
-def measure(results: list[tuple[Array, list[float]]]) -> Figures:
+def measure(results: list[tuple[dict[str, Array], list[float]]]) -> Figures:
     """Return the means of a group, of which `judge` gave these results."""
-    errors = np.concatenate([each for each, _ in results])
+    errors = {kind: np.concatenate([each[kind] for each, _ in results]) for kind in KINDS}
     flips = np.mean([each for _, each in results], axis=0)
     return {
-        "number": {"pictures": len(results), "edge pixels": len(errors)},
-        "error": dict(zip(JUDGED, errors.mean(axis=0).round(2).tolist(), strict=True)),
+        "number": {"pictures": len(results)} | {kind: len(each) for kind, each in errors.items()},
+        **{kind: dict(zip(JUDGED, each.mean(axis=0).round(2).tolist(), strict=True)) for kind, each in errors.items()},
         "FLIP": dict(zip(JUDGED, flips.round(4).tolist(), strict=True)),
     }
 
@@ -149,11 +153,11 @@ def recorded() -> dict[str, Figures]:
 
 def table(figures: dict[str, Figures]) -> str:
     """Return the figures as a table in Markdown."""
-    lines = [f"| | edge pixels | {' | '.join(JUDGED)} |", "|---|" + 5 * "---:|"]
-    for what, places in (("error", 1), ("FLIP", 4)):
+    lines = [f"| | number | {' | '.join(JUDGED)} |", "|---|" + 5 * "---:|"]
+    for what, counted, places in (*((f"error at {kind}", kind, 1) for kind in KINDS), ("FLIP", "pictures", 4)):
         for group, each in figures.items():
-            values = " | ".join(f"{each[what][name]:.{places}f}" for name in JUDGED)
-            lines.append(f"| {group}, {what} | {each['number']['edge pixels']:,.0f} | {values} |")
+            values = " | ".join(f"{each[what.removeprefix('error at ')][name]:.{places}f}" for name in JUDGED)
+            lines.append(f"| {group}, {what} | {each['number'][counted]:,.0f} | {values} |")
     return "\n".join(lines)
 
 

@@ -57,10 +57,12 @@ def test_errors_and_flip_are_those_of_the_pictures(square: Scene) -> None:
     pytest.importorskip("flip_evaluator")
     errors, flips = quality.judge(square)
     edges = (area() > 0) & (area() < 1)
-    assert errors.shape == (edges.sum(), 4)
+    assert errors["edges"].shape == (edges.sum(), 4)
+    # the square stands alone
+    assert (errors["silhouettes"] == errors["edges"]).all()
     # centres are covered where more than half of the pixel is
-    np.testing.assert_allclose(errors[:, 0], 255 * np.abs(np.rint(area()) - area())[edges], atol=1e-6)
-    assert errors[:, 3].max() < 1
+    np.testing.assert_allclose(errors["edges"][:, 0], 255 * np.abs(np.rint(area()) - area())[edges], atol=1e-6)
+    assert errors["edges"][:, 3].max() < 1
     assert flips[0] > flips[1] > flips[3] >= 0
 
 
@@ -70,7 +72,7 @@ def test_the_documentation_has_the_last_run() -> None:
 
 @pytest.mark.parametrize("group", quality.recorded())
 def test_edges_are_as_good_as_those_of_opengl(group: str) -> None:
-    for what in ("error", "FLIP"):
+    for what in (*quality.KINDS, "FLIP"):
         plain, antialiased, multisampled, sixteen = quality.recorded()[group][what].values()
         assert sixteen < antialiased < 0.6 * plain
         assert antialiased < 1.1 * multisampled

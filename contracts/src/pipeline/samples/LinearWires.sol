@@ -75,7 +75,7 @@ abstract contract LinearWires is SampleWires {
                     slope = last - first;
                 }
                 // as if the whole line were like this part
-                drawLinear(p, part, parts, attribute + ((first - part * slope) << ACCUMULATOR_FRACTION), change + parts * slope);
+                drawPart(p, part, parts, attribute + ((first - part * slope) << ACCUMULATOR_FRACTION), change + parts * slope);
             }
         }
     }
@@ -110,7 +110,7 @@ abstract contract LinearWires is SampleWires {
 
     /// @dev Draws a part of a line. The place along it, from 0 to 1, changes by -W.y / area in a row and by W.x / area in a column.
     /// @param p The screen word of the upper end, to which `attribute` belongs.
-    function drawLinear(uint256 p, uint256 part, uint256 parts, uint256 attribute, uint256 change) private pure {
+    function drawPart(uint256 p, uint256 part, uint256 parts, uint256 attribute, uint256 change) private pure {
         assembly ("memory-safe") {
             let x := and(shr(SCREEN_COLUMN_AT, p), SCREEN_COLUMN_MASK)
             let y := shr(SCREEN_ROW_AT, p)
@@ -134,69 +134,27 @@ abstract contract LinearWires is SampleWires {
             mstore(DEPTH_OFFSETS, sub(shl(mload(SAMPLE_SHIFT), add(along, down)), mload(DEPTH_BASE)))
         }
         setProducts(p, part, parts);
-        drawLinearRows();
+        drawRows(true);
     }
 
-    function drawLinearRows() private pure {
-        uint256 row = load(LINE_TOP);
-        uint256 p = Samples.openRow(row);
-        assembly ("memory-safe") {
-            // from here on START is that of the current row, in the first column, and p the address of the samples there
-            let column := mload(LINE_LEFT)
-            mstore(START, add(add(mload(START), mul(sub(row, mload(START_ROW)), mload(DY))), mul(column, mload(DX))))
-            p := add(p, shl(SAMPLE_SIZE_BITS, column))
-            row := sub(mload(LINE_BOTTOM), row) // row: the number of rows
+    function drawLinear(uint256 p, uint256 attribute, uint256 covered) internal pure override {
+        unchecked {
+            uint256 z = Samples.depthsOf(attribute);
+            uint256 seen = covered & (z + BELOW_TOPS_64 - load(p));
+            if (seen != 0) Samples.write(p, z | (bytesOf(attribute) * ONES_64), seen);
         }
-        for (; row != 0;) {
-            (uint256 begin, uint256 end) = nextRow();
-            assembly ("memory-safe") {
-                if lt(begin, end) {
-                    let attribute := add(mload(START), mul(begin, mload(DX)))
-                    let across := add(mload(LINE_ACROSS), mul(begin, mload(LINE_ACROSS_RIGHT)))
-                    let along := add(mload(LINE_ALONG), mul(begin, mload(LINE_ALONG_RIGHT)))
-                    begin := add(p, shl(SAMPLE_SIZE_BITS, begin)) // begin, end: addresses of samples
-                    end := add(p, shl(SAMPLE_SIZE_BITS, end))
-                    for {} 1 {} {
-                        let seen := and(across, sub(mload(LINE_ACROSS_END), across))
-                        seen := and(and(seen, and(along, sub(mload(LINE_ALONG_END), along))), TOPS_64)
-                        if seen {
-                            let old := mload(begin) // what is there
-                            let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE)) // of the pixel centre
-                            z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS) // the depths of four samples
-                            seen := and(seen, sub(add(z, BELOW_TOPS_64), old)) // nearer than what is there
-                            if seen {
-                                // as in LinearSamples
-                                let color := attribute
-                                if and(color, ABOVE_BYTES) {
-                                    color := and(add(and(attribute, ABOVE_BYTES), ABOVE_BYTES), NEXT_LANES) // 1 above each lane > 255
-                                    color := or(attribute, shr(NEXT_LANE_TO_BYTE, mul(color, 0xff))) // 255 there
-                                    color := and(color, not(shr(SIGN_TO_BYTE, mul(and(attribute, BELOW_NEXT_LANES), 0xff)))) // 0 below 0
-                                }
-                                color := shr(PIXEL_AT, mul(and(color, BYTES_OF_LANES), LANES_TO_BYTES)) // 0xBBGGRR
-                                z := or(z, mul(color, ONES_64)) // the colour in each sample
-                                if iszero(and(old, IS_LISTED)) {
-                                    color := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, begin))) // color: the address of the pixel
-                                    mstore(mload(MIXED_END), or(shl(MIXED_AT, begin), shl(MIXED_PIXEL_AT, color))) // append both addresses
-                                    mstore(MIXED_END, add(mload(MIXED_END), MIXED_SIZE))
-                                }
-                                // z where seen, else old
-                                mstore(begin, or(xor(old, and(xor(old, z), sub(shl(1, seen), shr(TOP_64_AT, seen)))), IS_LISTED))
-                            }
-                        }
-                        begin := add(begin, SAMPLE_SIZE)
-                        if eq(begin, end) { break }
-                        attribute := add(attribute, mload(DX))
-                        across := add(across, mload(LINE_ACROSS_RIGHT))
-                        along := add(along, mload(LINE_ALONG_RIGHT))
-                    }
-                }
-                row := sub(row, 1)
-                p := sub(p, mload(SAMPLE_STRIDE)) // rows go up in memory
-                mstore(START, add(mload(START), mload(DY)))
-                mstore(LINE_ACROSS, add(mload(LINE_ACROSS), mload(LINE_ACROSS_DOWN)))
-                mstore(LINE_ALONG, add(mload(LINE_ALONG), mload(LINE_ALONG_DOWN)))
-                mstore(ROW_IMAGE, sub(mload(ROW_IMAGE), mload(ROW_IMAGE_STEP)))
+    }
+
+    /// @dev Returns the colour of an accumulator, as LinearSamples: three bytes, blue uppermost.
+    function bytesOf(uint256 attribute) private pure returns (uint256 color) {
+        assembly ("memory-safe") {
+            color := attribute
+            if and(color, ABOVE_BYTES) {
+                color := and(add(and(attribute, ABOVE_BYTES), ABOVE_BYTES), NEXT_LANES) // 1 above each lane > 255
+                color := or(attribute, shr(NEXT_LANE_TO_BYTE, mul(color, 0xff))) // 255 there
+                color := and(color, not(shr(SIGN_TO_BYTE, mul(and(attribute, BELOW_NEXT_LANES), 0xff)))) // 0 below 0
             }
+            color := shr(PIXEL_AT, mul(and(color, BYTES_OF_LANES), LANES_TO_BYTES))
         }
     }
 }

@@ -23,9 +23,8 @@ import "../../words/SampleRegisters.sol";
 
 /// @dev Sub-pixels beyond the centre of a pixel in which the ends of parts, which are rounded, may have samples.
 uint256 constant PART_REACH = 97;
-/// @dev An eighth of a pixel in sub-pixels, as a power of two; the highest bit of a lane.
+/// @dev An eighth of a pixel in sub-pixels, as a power of two.
 uint256 constant EIGHTH_TO_SUBPIXELS = 5;
-uint256 constant TOP_63 = 0x8000000000000000;
 
 abstract contract SampleWires is SampleRasterizer, Wires {
     /// @notice Draws a line whose products are set, with fragments that are shaded individually.
@@ -44,7 +43,7 @@ abstract contract SampleWires is SampleRasterizer, Wires {
             uint256 y = Clipper.inGuardBand(rowOf(p) + loadSigned(LINE_ASIDE_Y));
             prepare(p, (y << SCREEN_ROW_AT) | (x << SCREEN_COLUMN_AT), q);
             setProducts(p, zero, zero + 1);
-            drawRows();
+            drawRows(false);
         }
     }
 
@@ -119,7 +118,7 @@ abstract contract SampleWires is SampleRasterizer, Wires {
             // across + area, and one less if the upper side is the one at +area
             let product := add(sub(mul(dy, x), mul(dx, y)), sub(area, iszero(dy)))
             let lanes := shl(EIGHTH_TO_SUBPIXELS, sub(mul(dy, SAMPLE_X_8), mul(dx, SAMPLE_Y_8))) // of the samples, relative to the centre
-            mstore(LINE_ACROSS, add(mul(add(product, TOP_63), ONES_64), lanes))
+            mstore(LINE_ACROSS, add(mul(add(product, TOP_64), ONES_64), lanes))
             mstore(LINE_ACROSS_RIGHT, mul(shl(SUBPIXEL_BITS, dy), ONES_64))
             mstore(LINE_ACROSS_DOWN, mul(shl(SUBPIXEL_BITS, sub(0, dx)), ONES_64))
             mstore(LINE_ACROSS_END, sub(mul(shl(1, area), ONES_64), 1)) // 2^64 - 1 + 2 * area in each lane
@@ -139,15 +138,19 @@ abstract contract SampleWires is SampleRasterizer, Wires {
             area := sub(div(mul(area, add(part, 1)), parts), product) // area: of the part
             product := sub(sub(mul(dx, y), mul(dy, x)), add(product, sgt(dy, 0))) // one less if the right side is the one at +area
             lanes := shl(EIGHTH_TO_SUBPIXELS, sub(mul(dx, SAMPLE_Y_8), mul(dy, SAMPLE_X_8)))
-            mstore(LINE_ALONG, add(mul(add(product, TOP_63), ONES_64), lanes))
+            mstore(LINE_ALONG, add(mul(add(product, TOP_64), ONES_64), lanes))
             mstore(LINE_ALONG_RIGHT, mul(shl(SUBPIXEL_BITS, sub(0, dy)), ONES_64))
             mstore(LINE_ALONG_DOWN, mul(shl(SUBPIXEL_BITS, dx), ONES_64))
             mstore(LINE_ALONG_END, sub(mul(area, ONES_64), 1))
         }
     }
 
-    /// @dev Draws the fragments of all rows of the part.
-    function drawRows() private pure {
+    /// @notice Draws a fragment whose colour is in the accumulator, if this engine has such lines.
+    function drawLinear(uint256 p, uint256 attribute, uint256 covered) internal pure virtual {}
+
+    /// @notice Draws the fragments of all rows of the part.
+    /// @param isLinear Whether by drawLinear. If it is a literal, the compiler makes a loop for it alone.
+    function drawRows(bool isLinear) internal pure {
         unchecked {
             bool isBlended = load(MODE) & (IS_BLENDED | IS_DEPTH_PASS) != 0;
             uint256 last = load(LINE_BOTTOM);
@@ -161,7 +164,8 @@ abstract contract SampleWires is SampleRasterizer, Wires {
                 for (; begin < end; ++begin) {
                     uint256 covered = across & (load(LINE_ACROSS_END) - across) & along & (load(LINE_ALONG_END) - along) & TOPS_64;
                     if (covered != 0) {
-                        if (isBlended) drawBlended(p, attribute, covered, column, row);
+                        if (isLinear) drawLinear(p, attribute, covered);
+                        else if (isBlended) drawBlended(p, attribute, covered, column, row);
                         else drawExact(p, attribute, covered, column, row);
                     }
                     p += SAMPLE_SIZE;
@@ -178,7 +182,7 @@ abstract contract SampleWires is SampleRasterizer, Wires {
 
     /// @dev Returns the columns of the current row with fragments, relative to LINE_LEFT: the first, and the one after the last, if they
     /// are in this order. Brings LINE_ENTER to the next row.
-    function nextRow() internal pure returns (uint256 begin, uint256 end) {
+    function nextRow() private pure returns (uint256 begin, uint256 end) {
         assembly ("memory-safe") {
             let step := shl(SUBPIXEL_BITS, mload(LINE_DY))
             let enter := mload(LINE_ENTER)

@@ -18,6 +18,7 @@ uint256 constant HASH_SHIFT = 48;
 uint256 constant KEY_FIRST_AT = 16;
 uint256 constant KEY_SIZE = 32;
 uint256 constant LAST_KEY_AT = 224;
+
 abstract contract Wires is SmoothShading {
     /// @notice Draws a line, with the mode of the triangle.
     /// @param p, q The screen words of the ends.
