@@ -12,13 +12,12 @@ import "../../words/SampleRegisters.sol";
 // If a normal turns by the angle d along an edge, the third derivatives of both are at most d^3; that of N * H is the sine of its angle
 // times that, so an error of it changes the highlight by as much as an equal change of the angle, by at most 0.6 * sqrt(n) of its strength
 // m. With errors of D / 125 for a third derivative D (see FlatShading), that is 2 * d^3 levels of 255 of the diffuse light, and 1.2 *
-// sqrt(n) * m * d^3 of the highlight: 3.6 for n = 28, m = 0.4 and d = 1.12, the greatest turn that is allowed. Both are measured at (1/2,
+// sqrt(n) * m * d^3 of the highlight: 2.5 for n = 28, m = 0.4 and d = 1, the greatest turn that is allowed. Both are measured at (1/2,
 // 1/4, 1/4), where errors are 27/32 of those in the middle, for each lamp: within 1.75 levels, or the products are kept.
 
-/// @dev The greatest square of a turn, Q20: 5/4; the least N * N at vertices: 3/4, so that it is 7/16 at midpoints. From there to 17/16,
-/// a step of Newton's method from NEAR_ROOT_AT_0 + (N * N) * NEAR_ROOT_SLOPE >> ROOT_SHIFT gives its root to 1/3,500, from 1/2 on to
-/// 1/23,000.
-uint256 constant MOST_TURN = 0x140000;
+/// @dev The greatest square of a turn, Q20: 1; the least N * N at vertices: 3/4, so that it is 1/2 at midpoints. From there to 17/16, a
+/// step of Newton's method from NEAR_ROOT_AT_0 + (N * N) * NEAR_ROOT_SLOPE >> ROOT_SHIFT gives its root to 1/23,000.
+uint256 constant MOST_TURN = 0x100000;
 uint256 constant LEAST_SQUARE_20 = 0xc0000;
 uint256 constant NEAR_ROOT_SLOPE = 594;
 uint256 constant NEAR_ROOT_AT_0 = 7268834047;
