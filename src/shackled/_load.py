@@ -14,6 +14,7 @@ from attrs import evolve, fields
 from .datasets import Piece, find, require
 from .errors import InputError
 from .scene import (
+    GLTF,
     MESH_STAGING,
     PICTURE,
     READERS,
@@ -31,6 +32,7 @@ from .scene import (
     part_of,
     read_model,
     read_scene,
+    settings_of,
 )
 
 #: Input of `load`. `Any`: arrays of vertices and faces, or a mesh or scene of trimesh, an optional package.
@@ -58,7 +60,10 @@ def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
     """
     chosen = checked_look({"size": size, **look})
     found = _located(thing)
-    made = _made(found, chosen)
+    pose = {}
+    if isinstance(found, Path) and found.suffix.lower() in GLTF:
+        pose = {setting.name: chosen.pop(setting.name) for setting in settings_of("file") if setting.name in chosen}
+    made = [_unplaced(part) for part in read_model(found, **pose)] if pose else _made(found, chosen)
     with about(str(found)) if isinstance(found, Path) else nullcontext():
         return look_at(made, chosen)
 

@@ -30,6 +30,7 @@ _KINDS: dict[Kind, tuple[Any, str | None, Callable[[Any, str], Any]]] = {
     "ground": (str, "COLOR", lambda text, name: text),
     "fog": (str, "COLOR[,NEAR,FAR]", lambda text, name: parse_color_and(("near", "far"), text, name)),
     "lights": (list[str], "KIND:X,Y,Z[:COLOR]", lambda texts, name: [parse_light(text) for text in texts] or None),
+    "entry": (str, "NAME|N", lambda text, name: text),
 }
 
 #: Additions to the help, where values are written differently than in Python.

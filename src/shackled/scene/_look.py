@@ -27,8 +27,9 @@ from ._scene import MAX_SIDE, Scene, lights_of
 from ._staging import ELEVATIONS, MARGINS, MESH_STAGING, PLAIN, Staging, Viewpoint, frame, painted_object, placed
 from ._turning import middle, turn
 
-#: What a setting is a field of; "camera" also has settings from which a camera is made.
-Part = Literal["scene", "camera", "object", "material", "tone"]
+#: What a setting is a field of; "camera" also has settings from which a camera is made, "file" those that say what is
+#: read of a glTF file.
+Part = Literal["scene", "camera", "object", "material", "tone", "file"]
 Kind = Literal[
     "size",
     "whole",
@@ -44,6 +45,7 @@ Kind = Literal[
     "rim",
     "fog",
     "ground",
+    "entry",
 ]
 
 
@@ -109,6 +111,7 @@ _WORDS: dict[Kind, str] = {
     "rim": "a colour, with an exponent from 1 to 16 or without, or none",
     "fog": "a colour, with two distances or without, or none",
     "ground": "a colour, or none",
+    "entry": "a name, or a number from 0",
 }
 
 #: The material of mesh files.
@@ -322,6 +325,15 @@ SETTINGS = (
     ),
     Setting("wireframe", "flag", "object", "Surface", "Draw edges only.", option="--wireframe/--filled"),
     Setting("opacity", "number", "object", "Surface", "Opacity of the objects.", *OPACITIES),
+    Setting(
+        "animation",
+        "entry",
+        "file",
+        "glTF files",
+        "Animation that poses the model.",
+        default="the first if `time` is given, else the pose at rest",
+    ),
+    Setting("time", "number", "file", "glTF files", "Time in the animation.", 0, unit="seconds", default="0"),
 )
 
 
@@ -375,6 +387,8 @@ class LookOptions(TypedDict, total=False):
     cull: bool | None
     wireframe: bool | None
     opacity: float | None
+    animation: str | int | None
+    time: float | None
 
 
 #: How alike a name must be, from 0 to 1, to be what was meant.
@@ -448,6 +462,9 @@ def look_at(thing: Mesh | Sequence[Object] | Scene, look: Mapping[str, Any], sta
 
     thing: also the parts of a model, as objects in its own coordinates.
     """
+    for setting in settings_of("file"):
+        if setting.name in look:
+            raise InputError(f"`{setting.name}` is for what is read of one glTF file")
     if isinstance(thing, Scene) and not look:
         return thing
     crease = look.get("crease", SIMPLIFIED_CREASE)
@@ -620,6 +637,13 @@ def _background(value: Any, setting: Setting, name: str) -> Background:
     return background_of(value)
 
 
+def _entry(value: object, setting: Setting, name: str) -> str | int:
+    number = None if isinstance(value, str) else integer(value)
+    if number is None and not isinstance(value, str):
+        raise InputError(f"{name} must be a name, or a number from 0, not {value!r:.60}")
+    return value if isinstance(value, str) else cast(int, number)
+
+
 def _unless_none(made: Callable[[Any, str], Any], value: object, name: str) -> Any:
     """Return an effect of a value, or None for the word that removes it."""
     return None if isinstance(value, str) and value.strip().lower() == NONE else made(value, name)
@@ -640,4 +664,5 @@ _CHECKS: dict[Kind, Callable[[Any, Setting, str], Any]] = {
     "rim": lambda value, setting, name: _unless_none(rim_of, value, name),
     "fog": lambda value, setting, name: _unless_none(fog_or_color, value, name),
     "ground": lambda value, setting, name: _unless_none(ground_of, value, name),
+    "entry": _entry,
 }

@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from ...errors import InputError, InputWarning, warn
 from .._mesh import Mesh
-from .gltf import read_gltf
+from .gltf.read import read_gltf
 from .model import TEXTURED, MeshPart, baked
 from .obj import read_obj
 from .off import read_off
@@ -20,12 +21,14 @@ def _alone(read: Callable[[Path], Mesh]) -> Callable[[Path], list[MeshPart]]:
     return lambda path: [MeshPart(read(path), {})]
 
 
-READERS: dict[str, Callable[[Path], list[MeshPart]]] = {
+#: The extensions of glTF files.
+GLTF = (".glb", ".gltf")
+
+READERS: dict[str, Callable[..., list[MeshPart]]] = {
     ".obj": read_obj,
     ".ply": _alone(read_ply),
     ".stl": _alone(read_stl),
-    ".glb": read_gltf,
-    ".gltf": read_gltf,
+    **dict.fromkeys(GLTF, read_gltf),
     ".off": _alone(read_off),
 }
 
@@ -38,18 +41,19 @@ def read_mesh(path: str | os.PathLike[str]) -> Mesh:
     return mesh
 
 
-def read_model(path: str | os.PathLike[str]) -> list[MeshPart]:
+def read_model(path: str | os.PathLike[str], **pose: Any) -> list[MeshPart]:
     """Return the meshes of a file, by its extension: one for each texture, and one for all that has none.
 
     Vertices that are equal in position, colour, normal and texture coordinates are one. An InputWarning tells what of
-    the file is left out. InputError, one line that begins with the path, for anything that is wrong with the file.
+    the file is left out. pose: `animation` and `time` of `read_gltf`, for glTF files only. InputError, one line that
+    begins with the path, for anything that is wrong with the file.
     """
     path = Path(path)
     extension = path.suffix.lower()
     if extension not in READERS:
         raise InputError(f"{path} is not a mesh file that is known by its extension; known are {', '.join(READERS)}")
     try:
-        return READERS[extension](path)
+        return READERS[extension](path, **pose)
     except InputError as error:
         message = str(error)
         raise InputError(message if message.startswith(str(path)) else f"{path}: {message}") from None

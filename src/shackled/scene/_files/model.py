@@ -38,12 +38,13 @@ _FULL_SIZE = 4
 class MeshPart:
     """A mesh of a file, and fields of a `Material` that the file gives, by their names, such as its texture.
 
-    opacity: of the `Object`.
+    opacity: of the `Object`. two_sided: whether its faces are meant to look the same from behind.
     """
 
     mesh: Mesh
     material: dict[str, Any]
     opacity: float = 1.0
+    two_sided: bool = False
 
 
 @dataclass(frozen=True)
