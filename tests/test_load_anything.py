@@ -227,7 +227,8 @@ def test_the_keywords_are_those_of_the_table() -> None:
         "texture": "`color`, `shading`, ",
         "width": "`size` is the side in pixels, or (width, height)",
         "resolution": "`size` is ",
-        "camera": "`eye`, `target`, `up` and `fov` place the camera, or render a Scene with a Camera",
+        "camera": "`eye`, `target`, `up` and `fov` place the camera, `use_camera` takes that of a glTF "
+        "file; or render a Scene with a Camera",
         "fps": "`duration` of a turntable ",
         "alpha": "`transparent` of render leaves out the background",
         "depth": "depths are not returned",

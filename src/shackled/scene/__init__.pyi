@@ -19,6 +19,7 @@ from ._decode import decode, read_call
 from ._effects import EXPOSURES, POWERS, Fog, Hemisphere, Rim, Tone
 from ._files.colors import sample
 from ._files.content import MAX_BYTES
+from ._files.gltf.view import read_view
 from ._files.mesh_file import GLTF, READERS, read_mesh, read_model
 from ._files.model import TEXTURED, MeshPart
 from ._files.obj import write_obj
@@ -168,6 +169,7 @@ __all__ = [
     "read_mesh",
     "read_model",
     "read_scene",
+    "read_view",
     "render_call",
     "resize",
     "rotate",

@@ -334,6 +334,7 @@ SETTINGS = (
         default="the first if `time` is given, else the pose at rest",
     ),
     Setting("time", "number", "file", "glTF files", "Time in the animation.", 0, unit="seconds", default="0"),
+    Setting("use_camera", "entry", "file", "glTF files", "Camera of the file that is taken, with the lights there."),
 )
 
 
@@ -389,6 +390,7 @@ class LookOptions(TypedDict, total=False):
     opacity: float | None
     animation: str | int | None
     time: float | None
+    use_camera: str | int | None
 
 
 #: How alike a name must be, from 0 to 1, to be what was meant.
@@ -402,7 +404,8 @@ _INSTEAD = {
     "aa": "did you mean antialias?",
     "alpha": "`transparent` of render leaves out the background, `opacity` is that of the objects",
     "bg": "did you mean background?",
-    "camera": "`eye`, `target`, `up` and `fov` place the camera, or render a Scene with a Camera",
+    "camera": "`eye`, `target`, `up` and `fov` place the camera, `use_camera` takes that of a glTF "
+    "file; or render a Scene with a Camera",
     "depth": "depths are not returned",
     "emissive": "did you mean emission?",
     "fps": "`duration` of a turntable is the time of a frame in milliseconds",

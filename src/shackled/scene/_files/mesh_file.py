@@ -45,7 +45,7 @@ def read_model(path: str | os.PathLike[str], **pose: Any) -> list[MeshPart]:
     """Return the meshes of a file, by its extension: one for each texture, and one for all that has none.
 
     Vertices that are equal in position, colour, normal and texture coordinates are one. An InputWarning tells what of
-    the file is left out. pose: `animation` and `time` of `read_gltf`, for glTF files only. InputError, one line that
+    the file is left out. pose: settings of `read_gltf`, for glTF files only. InputError, one line that
     begins with the path, for anything that is wrong with the file.
     """
     path = Path(path)

@@ -107,7 +107,7 @@ class Document:
     def named(self, name: str | int, kind: str, word: str) -> Table:
         """Return the part of this kind with a name, or else a number. InputError, with those there are, if none has."""
         items = [Table(value, where) for where, value in self.keys.rows(kind)]
-        names = [str(item.get("name", "")) for item in items]
+        names = [str(item.get("name") or "") for item in items]
         for keys in (names, [str(number) for number in range(len(items))]):
             if str(name) in keys:
                 return items[keys.index(str(name))]

@@ -28,7 +28,9 @@ _WIDEST = 10
 
 
 @np.errstate(all="ignore")
-def read_gltf(path: Path, animation: str | int | None = None, time: float | None = None) -> list[MeshPart]:
+def read_gltf(
+    path: Path, animation: str | int | None = None, time: float | None = None, use_camera: str | int | None = None
+) -> list[MeshPart]:
     """Return the meshes of a glTF or GLB file: its scene, or else its first one, with all nodes in their places.
 
     There is one for each base colour texture, and one for all that has none. What is not opaque, of materials that are
@@ -36,8 +38,8 @@ def read_gltf(path: Path, animation: str | int | None = None, time: float | None
     product of the base colour of its material and the colour of the vertex, as far as they are given; light grey if
     none is. Both are linear in the file, and encoded as sRGB here. What materials say of roughness becomes the mean of
     the triangles of a mesh. Meshes are in the pose of their skins and morph targets: at rest, or as an animation, by
-    its name or number, the first one by default, puts them at a time in seconds. An InputWarning tells each kind of
-    what is left out.
+    its name or number, the first one by default, puts them at a time in seconds. use_camera: whether cameras and
+    lights are not left out, which `read_view` reads. An InputWarning tells each kind of what is left out.
     """
     gltf = Document(path)
     nodes = nodes_of(gltf, animation, time)
@@ -46,9 +48,9 @@ def read_gltf(path: Path, animation: str | int | None = None, time: float | None
     for node in nodes.values():
         if not node.is_shown:
             continue
-        if "camera" in node.keys:
-            gltf.leave_out("camera", node.keys.where)
-        if "KHR_lights_punctual" in node.keys.table("extensions"):
+        if "camera" in node.keys and use_camera is None:
+            gltf.leave_out("camera", node.keys.where, "{}; `use_camera` takes one, with the lights")
+        if "KHR_lights_punctual" in node.keys.table("extensions") and use_camera is None:
             gltf.leave_out("light", node.keys.where)
         pieces = list(pieces_of(gltf, node, nodes)) if "mesh" in node.keys else []
         for matrix in instances(gltf, node) if pieces else ():
