@@ -12,12 +12,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 from numpy.typing import NDArray
 from PIL import Image
 
 from shackled import load
 from shackled.errors import InputError, InputWarning
-from shackled.scene import MeshPart, read_model
+from shackled.scene import MeshPart, part_of, read_model
 
 Values = NDArray[Any]
 
@@ -366,6 +367,9 @@ def test_what_glows(tmp_path: Path) -> None:
     assert read(file, tmp_path)[0].material == {"emission": (255, 231, 0)}
     thing = load(file.write(tmp_path)).objects[0]
     assert thing.material.emission == (255, 231, 0)
+    scene = tmp_path / "scene.toml"
+    scene.write_text('[[objects]]\nmesh = "model.gltf"\n[[objects]]\nmesh = "model.gltf"\nmaterial.emission = "red"\n')
+    assert [thing.material.emission for thing in load(scene).objects] == [(255, 231, 0), (255, 0, 0)]
     plain = {"attributes": dict(file.primitive["attributes"])}
     file.keys["meshes"][0]["primitives"].append(plain)
     assert len(read(file, tmp_path)) == 2
@@ -398,6 +402,21 @@ def test_alpha_of_textures(tmp_path: Path, mode: str) -> None:
     read(file, tmp_path, *([] if mode == "OPAQUE" else ["the alpha of 1 texture"]))
     info = file.texture([[(255, 0, 0, 255), (0, 0, 255, 255)]] * 2, "RGBA")
     read(file, tmp_path)
+
+
+def test_what_trimesh_knows_of_a_material(tmp_path: Path) -> None:
+    file = File()
+    info = file.texture([[(255, 0, 0, 255), (0, 0, 255, 7)]] * 2, "RGBA")
+    file.material(
+        alphaMode="MASK", doubleSided=True, emissiveFactor=[1, 0.2, 0], pbrMetallicRoughness={"baseColorTexture": info}
+    )
+    mesh: Any = trimesh.load(file.write(tmp_path), force="mesh")
+    with pytest.warns(InputWarning, match=r"^the texture of the mesh has alpha, which is left out$"):
+        part = part_of(mesh)
+    assert part.two_sided
+    assert part.material["emission"] == [255, 124, 0]
+    with pytest.warns(InputWarning):
+        assert load(mesh).objects[0].material.emission == (255, 124, 0)
 
 
 def test_alpha_below_the_cutoff(tmp_path: Path) -> None:

@@ -128,6 +128,11 @@ def _side(count: int) -> int:
     return max(side, 1)
 
 
+def is_transparent(image: Image.Image) -> bool:
+    """Return whether an image is not opaque everywhere."""
+    return image.has_transparency_data and bool(np.asarray(image.convert("RGBA"))[..., 3].min() < 255)
+
+
 def finite_uvs(uvs: ArrayLike, name: str) -> Array:
     """Return texture coordinates, with 0 in place of what is not a finite number, of which an InputWarning tells."""
     found = np.asarray(uvs, dtype=np.float64)

@@ -313,7 +313,8 @@ def _objects(value: object, where: str, folder: Path) -> list[Object]:
         objects = []
         for part in parts:
             own = {name: part.material[name] for name in ("texture", "emission") if name in part.material}
-            material = Material(**{**own, **fields, **({"texture": texture} if texture else {})})
+            given_texture = {} if texture is None else {"texture": texture}
+            material = Material(**(own | fields | given_texture))
             thing = Object(part.mesh, position, rotation, scale, material, **{"opacity": part.opacity, **given})
             thing = shaded(thing, shading)
             objects.append(thing if color is None else painted_object(thing, color))

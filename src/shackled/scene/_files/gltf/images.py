@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import io
+import warnings
 
-import numpy as np
 from PIL import Image
 
 from ....errors import InputError, warn
 from ..._texture import Filter, open_image
-from ..model import FileWrap, Picture
+from ..model import FileWrap, Picture, is_transparent
 from ..table import Table
 from .document import Document
 
@@ -44,16 +44,12 @@ def _image(gltf: Document, texture: Table) -> tuple[Image.Image, bool] | None:
             source = gltf.item(keys, "source", "images")
             data = gltf.view(gltf.item(source, "bufferView", "bufferViews")) if "bufferView" in source else None
             file = io.BytesIO(gltf.resource(source) if data is None else data)
-            image = open_image(file, source.where), _is_transparent(file)
+            opened = open_image(file, source.where)
+            with warnings.catch_warnings(action="ignore", category=Image.DecompressionBombWarning):
+                whole = Image.open(file)
+            with whole:
+                image = opened, is_transparent(whole)
         except InputError as error:
             warn(f"{gltf.path}: a texture is left out: {error}")
         gltf.images[keys.place("source")] = image
     return gltf.images[keys.place("source")]
-
-
-def _is_transparent(file: io.BytesIO) -> bool:
-    file.seek(0)
-    with Image.open(file) as image:
-        if not image.has_transparency_data:
-            return False
-        return bool(np.asarray(image.convert("RGBA"))[..., 3].min() < 255)

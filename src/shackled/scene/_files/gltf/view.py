@@ -24,6 +24,7 @@ from .read import nodes_of
 _LIGHTS = "KHR_lights_punctual"
 
 
+@np.errstate(all="ignore")
 def read_view(
     path: Path, middle: ArrayLike, use_camera: str | int, animation: str | int | None = None, time: float | None = None
 ) -> tuple[Camera, list[Light]]:
