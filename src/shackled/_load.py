@@ -110,7 +110,8 @@ def _posed(path: Path, pose: dict[str, Any]) -> list[Object] | Scene:
     parts = [_unplaced(part) for part in read_model(path, **pose)]
     if "use_camera" not in pose:
         return parts
-    scene = _in_their_places(parts)
+    with about(str(path)):
+        scene = _in_their_places(parts)
     camera, lights = read_view(path, scene.bounds.mean(axis=0), **pose)
     return evolve(scene, camera=camera, lights=lights or scene.lights)
 

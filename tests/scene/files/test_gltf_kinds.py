@@ -521,6 +521,17 @@ def test_the_camera_and_the_lights_of_a_file(tmp_path: Path) -> None:
         assert len(load(file.write(tmp_path), use_camera=0).lights) == 4
 
 
+def test_primitives_that_lack_something(tmp_path: Path) -> None:
+    file = File()
+    info = file.texture([[(255, 0, 0), (0, 0, 255)]] * 2, "RGB")
+    file.material(pbrMetallicRoughness={"baseColorTexture": info})
+    del file.primitive["attributes"]["TEXCOORD_0"]
+    file.keys["meshes"][0]["primitives"].append({"attributes": {}})
+    (part,) = read(file, tmp_path, "the texture of 1 primitive without coordinates", "1 primitive without positions")
+    assert part.mesh.colors.tolist() == [[255, 255, 255]] * 3
+    np.testing.assert_allclose(part.mesh.positions[part.mesh.faces], [POINTS])
+
+
 def test_base64_without_padding(tmp_path: Path) -> None:
     file = File()
     file.keys["bufferViews"][0]["buffer"] = len(file.keys["buffers"])

@@ -32,7 +32,7 @@ def posed(gltf: Document, nodes: Sequence[Table], animation: str | int, time: fl
     for where, value in keys.rows("channels"):
         channel = Table(value, where)
         target, number = channel.table("target"), channel.whole("sampler")
-        path = target.get("path")
+        path = str(target.get("path"))
         if path not in _PATHS or "node" not in target:
             gltf.leave_out("channel", where, "{} of the animation")
             continue

@@ -134,7 +134,7 @@ def colors_of(vertices: Vertices, surface: Surface | None, where: str) -> tuple[
     return np.hstack([to_srgb(linear[:, :3]), alpha]), opacity if surface.is_blended else 1.0
 
 
-def picture_on(vertices: Vertices, surface: Surface | None) -> tuple[Picture | None, Array]:
+def picture_on(vertices: Vertices, surface: Surface | None, where: str) -> tuple[Picture | None, Array]:
     """Return the image of the base colour texture, None if there is none, and where the vertices are on it, (n, 2)."""
     nowhere = np.zeros((len(vertices.used), 2))
     if surface is None or surface.texture is None:
@@ -144,6 +144,8 @@ def picture_on(vertices: Vertices, surface: Surface | None) -> tuple[Picture | N
     number = transform.whole("texCoord", info.whole("texCoord", 0))
     coordinates = vertices.values(f"TEXCOORD_{number}", "VEC2")
     picture = picture_of(vertices.gltf, vertices.gltf.item(info, "index", "textures"))
+    if coordinates is None:
+        vertices.gltf.leave_out("primitive", where, "the texture of {} without coordinates")
     if picture is None or coordinates is None:
         return None, nowhere
     u, v = (coordinates * np.array(transform.numbers("scale", (1, 1)))).T

@@ -66,7 +66,9 @@ def pieces_of(gltf: Document, node: Node, nodes: Mapping[int, Node]) -> Iterator
         mode = keys.whole("mode", _TRIANGLES)
         if mode in _POINTS_OR_LINES:
             gltf.leave_out("primitive", where, "{} of points or lines")
-        if mode in _POINTS_OR_LINES or "POSITION" not in attributes:
+            continue
+        if "POSITION" not in attributes:
+            gltf.leave_out("primitive", where, "{} without positions")
             continue
         if decompress(gltf, keys):
             mode = _TRIANGLES
@@ -90,7 +92,7 @@ def pieces_of(gltf: Document, node: Node, nodes: Mapping[int, Node]) -> Iterator
                 continue
             normals = vertices.values("NORMAL", "VEC3")
             colors, opacity = colors_of(vertices, surface, where)
-            picture, uvs = picture_on(vertices, surface)
+            picture, uvs = picture_on(vertices, surface, where)
             points = morphed(vertices, keys, weights, "POSITION", positions[used].astype(np.float64))
             if normals is not None:
                 normals = morphed(vertices, keys, weights, "NORMAL", normals.astype(np.float64))
