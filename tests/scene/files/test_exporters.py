@@ -124,7 +124,16 @@ CASES = {
         PAIR.format("a", "b"),
         "newmtl a\nKd 1 0 0\nmap_Kd wood.png\nnewmtl b\nKd 0 0 1\n",
         ("wood.png",),
-        notes=("1 triangle without texture coordinates drawn without texture",),
+        notes=("1 triangle without usable texture coordinates drawn without texture",),
+    ),
+    "coordinates far outside": Case(
+        BOARD.replace("vt 1 0\n", "vt 1e5 0\n") + "v 2 0 0\nvt 1e300 0\nf 1/1 5/5 3/3\nf 2/1 5/1 3/3\n",
+        "newmtl a\nKd 1 0 0\nmap_Kd wood.png\n",
+        ("wood.png",),
+        colors=(RED, RED, WHITE, WHITE),
+        opacities=(1.0, 1.0),
+        emissions=((0, 0, 0), (0, 0, 0)),
+        notes=("2 triangles without usable texture coordinates drawn without texture",),
     ),
     "colours of vertices before a texture": Case(
         BOARD.replace("v 0 0 0", "v 0 0 0 1 0 0"),
@@ -152,6 +161,7 @@ CASES = {
         pair("a", "b").obj, "newmtl a\nKd 1 0 0\nd x\nKe nan 0 0\nnewmtl b\nKd 0 0 1\nTr 1.#IND\nd 1",
         notes=tuple(f"1 {each} statement of its materials left out" for each in ("Ke", "d", "Tr")),
     ),
+    "colours far outside": Case(pair("a", "b").obj, "newmtl a\nKd 1e308 -1e308 -7\nnewmtl b\nKd 0 0 1 1"),
     "one number for grey": Case(pair("a", "b").obj, "newmtl a\nKd 0.2\nnewmtl b\nKd 0 0 1", colors=((51,) * 3, BLUE)),
     # bad numbers
     "normals that are none": Case(
@@ -169,8 +179,10 @@ CASES = {
         "newmtl a\nKd 1 0 0\nmap_Kd wood.png\n",
         ("wood.png",),
         colors=(RED, RED),
-        notes=(f"2 {NO_TEXTURE} 11; the face has no texture", "2 triangles without texture coordinates drawn without"
-               " texture"),
+        notes=(
+            f"2 {NO_TEXTURE} 11; the face has no texture",
+            "2 triangles without usable texture coordinates drawn without texture",
+        ),
     ),
     "faces of vertices that are none": Case(
         CORNERS + "v nan 0 0\nv 1.#INF 0 0\nf 1 2 5\nf 1 2 3\nf 4 5 6\nf 1 3 4\n",

@@ -19,7 +19,7 @@ from .._crease import corner_normals, filled
 from .._mesh import DEFAULT_COLOR, Mesh
 from .._texture import open_image
 from .colors import to_bytes
-from .model import MeshPart, Picture, finite_uvs, tinted
+from .model import MeshPart, Picture, tinted
 from .mtl import Map, ObjMaterial, read_beside
 from .obj_lines import ABSENT, Floats, Ints, ObjFaces, ObjLines, drawn_faces, read_lines
 from .polygons import cut
@@ -27,6 +27,8 @@ from .weld import weld
 
 #: A triangle has no area if it is this part of the square of its longest side, as it is by rounding.
 _NO_AREA = 1e-12
+#: So many images fit along a triangle in a contract, and so far away is it drawn, if they repeat.
+_SPAN, _FAR = 100, 1e6
 #: So many materials that are missing are named.
 _MOST_NAMED = 5
 
@@ -111,7 +113,9 @@ class _Surfaces:
 
     def __init__(self, obj: ObjLines, drawn: ObjFaces, corners: Ints, face: Ints) -> None:
         """Take the numbers of the corners of triangles, (m, 3), and those of their faces, (m,)."""
-        self.obj, self.texcoords = obj, drawn.texcoords
+        self.obj = obj
+        # the last row is that of ABSENT
+        self.texcoords = np.append(drawn.texcoords, [[np.nan, np.nan]], axis=0)
         self.texcoord, material = drawn.texcoord[corners], drawn.material[face]
         self.colors = np.full((*corners.shape, 3), DEFAULT_COLOR, dtype=np.float64)
         self.uvs = np.zeros((*corners.shape, 2))
@@ -147,14 +151,18 @@ class _Surfaces:
         picture = self._picture(material.image)
         if picture is None:
             return
-        has_place, has_own = (self.texcoord[own] != ABSENT).all(axis=1), self.has_own[own].any(axis=1)
-        self.notes["triangle", "without texture coordinates drawn without texture"] += int((~has_place).sum())
+        with np.errstate(all="ignore"):
+            uvs = (self.texcoords[self.texcoord[own]] * material.scale + material.offset) * (1, -1) + (0, 1)
+            is_near = np.abs(uvs) <= (_SPAN if picture.wraps[0] == "clamp" else _FAR)
+            has_place = is_near.all(axis=(1, 2)) & (np.ptp(uvs, axis=1) <= _SPAN).all(axis=1)
+        has_own = self.has_own[own].any(axis=1)
+        self.notes["triangle", "without usable texture coordinates drawn without texture"] += int((~has_place).sum())
         self.notes["triangle", "with colours of vertices drawn without texture"] += int((has_place & has_own).sum())
-        textured = own[has_place & ~has_own]
-        if not len(textured):
+        chosen = has_place & ~has_own
+        if not chosen.any():
             return
-        uvs = self.texcoords[self.texcoord[textured]] * material.scale + material.offset
-        uvs = self.uvs[textured] = finite_uvs(uvs * (1, -1) + (0, 1), picture.name)
+        textured, uvs = own[chosen], uvs[chosen]
+        self.uvs[textured] = uvs
         self.colors[textured] = 255
         if not picture.is_varied or picture.is_plain(uvs):
             self.colors[textured] = tinted(self.colors[textured], picture, uvs)
