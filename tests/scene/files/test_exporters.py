@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -37,7 +38,7 @@ class Case:
     mtl_name: str = "m.mtl"
     colors: tuple[tuple[int, int, int], ...] = (RED, BLUE)
     uvs: tuple[tuple[float, float], tuple[float, float]] = ((0, 1), (1, 0))
-    wrap: str = "repeat"
+    wrap: Literal["repeat", "clamp"] = "repeat"
     opacities: tuple[float, ...] = (1.0,)
     emissions: tuple[tuple[int, int, int], ...] = ((0, 0, 0),)
     notes: tuple[str, ...] = ()
@@ -131,6 +132,7 @@ CASES = {
         "newmtl a\nKd 1 0 0\nmap_Kd wood.png\n",
         ("wood.png",),
         colors=(RED, RED, WHITE, WHITE),
+        uvs=((0, 1), (0, 0)),
         opacities=(1.0, 1.0),
         emissions=((0, 0, 0), (0, 0, 0)),
         notes=("2 triangles without usable texture coordinates drawn without texture",),
@@ -245,11 +247,11 @@ def test_what_is_loaded_and_told(name: str, tmp_path: Path, recwarn: pytest.Warn
     assert tuple(part.opacity for part in parts) == case.opacities
     assert tuple(part.material.get("emission", (0, 0, 0)) for part in parts) == case.emissions
     textures = [part.material.get("texture") for part in parts]
-    if case.colors != (WHITE, WHITE):
-        assert textures == [None] * len(parts)
+    wood = Texture(WOOD, wrap=case.wrap)
+    assert textures == [wood if (part.mesh.colors == 255).all() else None for part in parts]
+    mesh = parts[-1].mesh
+    if textures[-1] is None:
         return
-    assert textures == [Texture(WOOD, wrap=case.wrap)]
-    mesh = parts[0].mesh
     assert mesh.uvs is not None
     np.testing.assert_allclose(mesh.uvs[mesh.faces][0, [0, 2]], case.uvs, atol=1e-12)
 
