@@ -43,12 +43,15 @@ def read_bytes(path: Path) -> bytes:
 def read_text(path: Path) -> str:
     """Return the text of a file, with `unix_lines`.
 
-    Bytes that are not UTF-8, as in old comments, are replaced. InputError for binary data.
+    What is not UTF-8, as in old files, is taken as the code page of Windows. InputError for binary data.
     """
     data = read_bytes(path)
     if b"\0" in data:
         raise InputError(f"{path} is not a text file, as a {path.suffix} file should be")
-    return unix_lines(data.decode("utf-8-sig", errors="replace"))
+    try:
+        return unix_lines(data.decode("utf-8-sig"))
+    except UnicodeDecodeError:
+        return unix_lines(data.decode("cp1252", errors="replace"))
 
 
 def unix_lines(text: str) -> str:
