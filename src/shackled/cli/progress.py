@@ -81,6 +81,14 @@ class LateBar:
             self._bar.start()
 
 
+class Notes(Listener):
+    """A listener that prints warnings only."""
+
+    def warned(self, text: str) -> None:
+        """Print a warning."""
+        print(f"shackled: {with_options(text)}", file=sys.stderr, flush=True)
+
+
 class JobProgress(Listener):
     """A listener that prints the estimated cost of a job of several parts, and shows a bar while it runs."""
 
