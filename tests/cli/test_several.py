@@ -162,3 +162,15 @@ def test_a_process_that_ends_is_the_failure_of_one_input() -> None:
     assert dict(each(_end, range(4), 2, lost)) == {0: 0, 1: -1, 2: 2, 3: 3}
     with pytest.raises(RenderError):
         list(each(_end, range(4), 2))
+
+
+def test_results_are_not_printed_through_the_bar(folder: Path) -> None:
+    """Which is on stderr, and breaks lines."""
+    for name in "abcd":
+        Path(f"{name * 60}.obj").write_text(Path("shape.obj").read_text())
+    command = [sys.executable, "-m", "shackled", "render", ".", "-o", "out/", "--size", "500"]
+    environment = os.environ | {"FORCE_COLOR": "1", "COLUMNS": "80"}
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, env=environment)
+    assert done.returncode == 0
+    assert len(done.stdout.splitlines()) == 5
+    assert all(".png: 500 x 500 pixels" in line for line in done.stdout.splitlines())

@@ -19,10 +19,10 @@ from ..datasets import Piece
 from ..errors import InputError, InputWarning, ShackledError
 from ..image import check_output
 from ..scene import PICTURE, READERS
+from ..untrusted import plain
 from ..workers import each
 from .notes import Action, action, noting
 from .option import with_options
-from .output import print_line
 from .picture import Done, Source, Task, render_to
 from .progress import LateBar, Notes
 from .streams import STREAM, is_output, stdin_file
@@ -137,12 +137,12 @@ def render_all(sources: Sequence[Source], paths: Sequence[Path | None], task: Ta
                 bar.print(line)
             if isinstance(result, Done):
                 if report is not None:
-                    print_line(getattr(result, report))
+                    bar.print_result(plain(getattr(result, report)))
             else:
                 text = with_options(str(result))
                 failed.append(ShackledError(text if name in text else f"{name}: {text}"))
                 if report == "json":
-                    print_line(json.dumps({"input": name, "error": text}))
+                    bar.print_result(json.dumps({"input": name, "error": text}))
             bar.set(number, len(work))
     summary = f"{len(work) - len(failed)} rendered, {len(failed)} failed"
     if failed:
