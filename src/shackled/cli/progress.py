@@ -51,10 +51,11 @@ class LateBar:
 
     def print_result(self, line: str) -> None:
         """Print a line on stdout; above the bar if that is on the same terminal."""
-        if sys.stdout.isatty():
-            self.print(line)
-        else:
-            print(line, flush=True)
+        with self._lock:
+            if self._bar is not None and sys.stdout.isatty():
+                self.print(line)
+            else:
+                print(line, flush=True)
 
     def end(self) -> None:
         """Remove the bar; it does not appear again."""
