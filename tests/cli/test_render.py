@@ -217,14 +217,12 @@ def test_a_gif_says_when_colours_are_lost(capsys: pytest.CaptureFixture[str]) ->
 WRONG = [
     (["render"], "INPUT"),
     (["render", "missing.obj"], "missing.obj"),
-    (["render", "."], "directory"),
     (["render", "folder.obj"], "folder.obj"),
     (["render", "empty.obj"], "empty.obj"),
     (["render", "binary.obj"], "binary.obj"),
     (["render", "shape.xyz"], "shape.xyz"),
-    (["render", "shape.obj", "-o", "a.jpg"], "must end in one of .png .bmp .svg .gif"),
+    (["render", "shape.obj", "-o", "a.tiff"], "must end in one of .png .bmp .svg .gif"),
     (["render", "shape.obj", "-o", "missing/a.png"], "the folder missing"),
-    (["render", "shape.obj", "-o", "folder.obj"], "must end in one of"),
     (["render", "shape.obj", "--size", "0"], "from 1 to 2048 pixels a side"),
     (["render", "shape.obj", "--size", "100x0"], "from 1 to 2048 pixels a side"),
     (["render", "shape.obj", "--size", "3000"], "from 1 to 2048 pixels a side"),
@@ -263,7 +261,6 @@ WRONG = [
     (["render", "shape.obj", "--smooth", "--unlit"], "smooth and unlit at once"),
     (["render", "shape.obj", "--max-triangles", "0"], "0"),
     (["render", "shape.obj", "--bogus"], "--bogus"),
-    (["render", "shape.obj", "more.obj"], "more.obj"),
     (["draw", "shape.obj"], "draw"),
     (["--bogus"], "--bogus"),
 ]
