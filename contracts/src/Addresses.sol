@@ -6,22 +6,22 @@ pragma solidity ^0.8.25;
 /// @title Addresses: the contract addresses of `shackled deploy`, the same on every chain.
 /// @notice Derived from the bytecode: another version of a contract has another address.
 library Addresses {
-    address internal constant ENGINE = 0xdA81BB3ea3fE3a09E67DE8C0061D2BbcE9b776F3;
-    address internal constant FRAGMENT_ENGINE = 0x7b7F4972fe2CA2Dc63eDa5FB6582c3695E54E99F;
-    address internal constant ANTIALIASED_ENGINE = 0x4F07262eBC76BFe7c8463497D2c73281462A3BB1;
-    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0xc8Cc51EC8787b4380aa08D3961b5C1BB261fe44f;
-    address internal constant ANTIALIASED_SMOOTH_ENGINE = 0xD791a68e167B4CE78D17CA2e2E8112dc2516920c;
-    address internal constant EFFECTS_ENGINE = 0xdDd0405CD9fcB3fc20D99A3158663514b4a8F63D;
-    address internal constant EFFECTS = 0x6Df4696ef702f070E44064344Af5AAd5131C454b;
-    address internal constant RENDERER = 0xdca7351E6E0dBCFb21f01Ef665404a49896B2045;
-    address internal constant ORIGINAL = 0xB77758dA724e8926b5028293bB90F43b6abCbD8b;
-    address internal constant GENESIS = 0x9A98c6E162034a65E28F1991F7cc9B24d79CB7DE;
+    address internal constant ENGINE = 0x441330019Db071Bde17efbAe59d681a5596C8c22;
+    address internal constant FRAGMENT_ENGINE = 0xa3AeD81965d10e906082DA1288216fAe207a0Ad2;
+    address internal constant ANTIALIASED_ENGINE = 0x54406a6238756E9D907E737643195e8c86fDEAB1;
+    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x9778Ac06a07c23cFD2F3A617607329A6aE9d89C0;
+    address internal constant ANTIALIASED_SMOOTH_ENGINE = 0xfB19A73d59f557a390b9B83F581F2C5a73A512B8;
+    address internal constant EFFECTS_ENGINE = 0x4d4E5Be894C011bccCb3fe480A343C6D8b622BE3;
+    address internal constant EFFECTS = 0xa06A63BbC951002fDf5Cc3a375c42C98De1a7cE9;
+    address internal constant RENDERER = 0x8d00CDeE0Ca20dB97B69583D8e53a57218F99314;
+    address internal constant ORIGINAL = 0x54D5501Bd34c3f06bB9438e14a4F5E11dF2DF434;
+    address internal constant GENESIS = 0x701c60b620B723CC64b52bA53906cBbC25834052;
     address internal constant PNG_ENCODER = 0x72A25989288b6193eDe481BA7ad20EddECBa08BD;
-    address internal constant TURNTABLE = 0x0Bf02306e68483A966Ae664df0538677C6465FEa;
+    address internal constant TURNTABLE = 0x7BF3De3b28cB05ea95E00C11B60208D6E47A4879;
     address internal constant GLB_ENCODER = 0xBcf77312a660eE0Aa6F8d88f37aB56356EF2452f;
-    address internal constant STUDIO = 0x3d1baD91B40588b1657d87B7E7B56f6FCa4a06c7;
-    address internal constant LIBRARY = 0xA60C543F8Cb1BadEcC1E6E734920Bc8FA0C9dd25;
-    address internal constant WEB = 0x8aC5CB520b011Ee343a0d5398D8D6850353666C0;
-    address internal constant EDITIONS = 0x345ef14DcfAaEB8d148b2c3c4d7C452E9daeF2B1;
-    address internal constant GENESIS_METADATA = 0x02693DC4C9A8DE23E055DfC62F5563264FA764F3;
+    address internal constant STUDIO = 0xf910a8139F24ce5f0C1190118E80aD1B7B3C293C;
+    address internal constant LIBRARY = 0x9da6643f02bBDc0BA64c4619547963c246C0032A;
+    address internal constant WEB = 0xA6A278dBDEec9578b2910d888114E52B2d7288E7;
+    address internal constant EDITIONS = 0x40722eFAEbc4aDff264970A3d47650F9CE7A5EeC;
+    address internal constant GENESIS_METADATA = 0x9f72243c2F1aC8d7AEB169678B77530E31866c6e;
 }

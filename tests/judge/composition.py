@@ -163,6 +163,7 @@ class Composition:
     def _widen(self, pieces: Pieces, rows: Seen, sure: Booleans) -> None:
         """Let pixels that show one smooth surface, and only that, have the colour of any sample there or in the pixels
         around that show it, too: where a surface is steep, a part of it that is hidden a little further may be seen.
+        If they show another one, too, any of their samples may show either: depths are those of one triangle.
         """
         surfaces = self.world.surfaces
         smooth = np.array([s.shading > FLAT and s.is_opaque and not s.is_wire for s in surfaces], bool)
@@ -171,6 +172,9 @@ class Composition:
         np.minimum.at(least, rows.pixel, np.where(smooth[surface], surface, -1))
         np.maximum.at(most, rows.pixel, surface)
         number = np.where((least == most) & sure.all(axis=1), most, -1)
+        mixed = np.zeros(len(sure), bool)
+        np.logical_or.at(mixed, rows.pixel, smooth[surface])
+        mixed &= number < 0
         there, shape = self.canvas.colors[1 + WHOLES], (self.frame.height, self.frame.width)
         for bound, extreme in ((0, np.minimum), (2, np.maximum)):
             colors = getattr(there[bound], extreme.__name__[:3])(axis=1).reshape(*shape, 3)
@@ -181,6 +185,7 @@ class Composition:
                 part = (slice(dy, dy + shape[0]), slice(dx, dx + shape[1]))
                 found = np.where((same[part] == number.reshape(shape))[..., None], extreme(found, around[part]), found)
             there[bound, number >= 0] = found.reshape(-1, 1, 3)[number >= 0]
+            there[bound, mixed] = colors.reshape(-1, 1, 3)[mixed]
 
     def _visible(self, pieces: Pieces) -> tuple[Seen, Seen]:
         """All that pieces reach, and of this what others of them do not hide."""

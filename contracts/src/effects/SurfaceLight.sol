@@ -3,7 +3,7 @@ pragma solidity 0.8.37;
 
 import {Gamma, LANES_END, Q8} from "./Gamma.sol";
 import {TONE_FILMIC, TONE_GAMMA} from "../words/Records.sol";
-import {FragmentLight} from "../pipeline/shading/FragmentLight.sol";
+import {FragmentLight, SURFACE} from "../pipeline/shading/FragmentLight.sol";
 import {OPACITY_AT, Texture} from "./Texture.sol";
 import "../words/EffectRegisters.sol";
 
@@ -83,7 +83,7 @@ library SurfaceLight {
         uint256 albedo = albedoAt(s, t);
         if (load(MODE) & IS_LIT != 0) {
             // the highlights only; the light that modulates the albedo stays in FRAGMENT_LIGHT
-            color = FragmentLight.colorAt(attribute, s, t, x, y, true);
+            color = FragmentLight.colorAt(attribute, s, t, x, y, SURFACE);
             addHemisphere();
             color = lit(albedo, color);
         } else {

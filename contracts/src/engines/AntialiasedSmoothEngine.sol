@@ -2,6 +2,7 @@
 pragma solidity 0.8.37;
 
 import {ExactSamples} from "../pipeline/samples/ExactSamples.sol";
+import {FragmentLight} from "../pipeline/shading/FragmentLight.sol";
 import {OpenEdges} from "../pipeline/samples/OpenEdges.sol";
 import {QuadraticSamples} from "../pipeline/samples/QuadraticSamples.sol";
 import {EXACT, SampleRasterizer} from "../pipeline/samples/SampleRasterizer.sol";
@@ -23,7 +24,20 @@ contract AntialiasedSmoothEngine is SampleBuffer, ExactSamples, SmoothSamples {
     }
 
     function closeList(uint256 list, uint256 end, uint256 records, uint256 free) internal pure override returns (uint256) {
-        return OpenEdges.find(list, end, records, free);
+        return OpenEdges.find(list, end, records, recordShift(0), free);
+    }
+
+    /// @dev A vertex has directions to each lamp.
+    function recordShift(uint256) internal pure override returns (uint256) {
+        unchecked {
+            return load(LIGHTS_END) == LIGHTS + LIGHT_SIZE ? SMOOTH_RECORD_BITS : SMOOTH_RECORD_BITS + 1;
+        }
+    }
+
+    function registersEnd() internal pure override returns (uint256) {
+        unchecked {
+            return SHINE_TABLE + 2 * SPECULAR_SIZE;
+        }
     }
 
     /// @dev Marks are the same for all objects, so that faces in the same place have the same depths.
@@ -66,6 +80,11 @@ contract AntialiasedSmoothEngine is SampleBuffer, ExactSamples, SmoothSamples {
             if (seen == TOPS_64) Samples.paint(p, z);
             else Samples.write(p, z, seen);
         }
+    }
+
+    function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure override returns (uint256) {
+        (uint256 there, uint256 x, uint256 y) = Samples.centroid(attribute, covered, column, row);
+        return Samples.bytesOf(FragmentLight.smoothColorOf(there, x, y));
     }
 
     /// @dev The AntialiasedFragmentEngine draws wires and translucent objects, the EffectsEngine shadows.

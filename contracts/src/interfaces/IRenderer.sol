@@ -26,7 +26,7 @@ interface IRenderer is SceneErrors, AngleErrors, RegisterErrors {
     /// @notice Returns the engine that does the work of `fragmentEngine` with four samples per pixel, except most smooth surfaces.
     function antialiasedFragmentEngine() external view returns (address);
 
-    /// @notice Returns the engine for opaque smooth surfaces lit by one lamp, with four samples per pixel.
+    /// @notice Returns the engine for opaque smooth surfaces lit by one or two lamps, with four samples per pixel.
     function antialiasedSmoothEngine() external view returns (address);
 
     /// @notice Returns the engine for scenes with effects.

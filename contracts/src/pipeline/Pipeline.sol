@@ -219,7 +219,7 @@ abstract contract Pipeline is PrimitiveAssembly {
     }
 
     /// @dev Returns the size of a vertex record as a power of two: position, colour, and the data that fragment shading stores there.
-    function recordShift(uint256 mode) internal pure returns (uint256) {
+    function recordShift(uint256 mode) internal pure virtual returns (uint256) {
         unchecked {
             if (mode & IS_SMOOTH != 0) return 8;
             // flat with highlights: two words for each light

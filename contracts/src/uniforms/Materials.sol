@@ -35,11 +35,15 @@ library Materials {
                 store(FACE_LIGHT_40, load(AMBIENT) << (Q40 - Q16));
                 uint256 focal = uint256(view_.focal) >> Q32;
                 bool isPoint = load(LIGHTS + LIGHT_IS_POINT) != 0;
-                uint256 reach = smoothReach(focal, uint256(material.diffuse.raw()), isPoint);
+                if (lights.length > 1 && load(LIGHTS + LIGHT_SIZE + LIGHT_IS_POINT) != 0) isPoint = true;
+                // the errors of two lamps may add up
+                uint256 reach = smoothReach(focal, uint256(material.diffuse.raw()) * lights.length, isPoint);
                 if (view_.orthographic) focal = 0;
-                Specular.setReaches(uint256(material.specular.raw()), material.shininess, reach, focal);
-                // with several lights, most of the work would be repeated for each of them
-                if (lights.length == 1 && mode & IS_SPOT_LIT == 0 && !(view_.orthographic && isPoint) && !Specular.isBroad(material)) {
+                Specular.setReaches(uint256(material.specular.raw()) * lights.length, material.shininess, reach, focal);
+                // more lamps than a word of AntialiasedSmoothEngine has lanes for, or, without anti-aliasing, more than one, whose work
+                // would mostly be done for each, are lit at each fragment
+                bool isFew = lights.length == 1 || (lights.length == 2 && load(FRAME_IS_ANTIALIASED) != 0);
+                if (isFew && mode & IS_SPOT_LIT == 0 && !(view_.orthographic && isPoint) && !Specular.isBroad(material)) {
                     mode |= IS_QUADRATIC;
                 }
                 mode |= IS_SMOOTH | IS_LIT | IS_DIFFUSE;

@@ -10,7 +10,7 @@ import "./Words.sol";
 
 /// @dev The beginning of the registers: the maximum end of the compiler's variables in memory.
 uint256 constant REGISTERS = 0x800;
-uint256 constant REGISTERS_END = 0x3080;
+uint256 constant REGISTERS_END = 0x30a0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- frame
 // The uniforms of the frame, which the Renderer fills. Pixel columns and rows are counted from -PIXEL_BIAS, so that everything inside the
@@ -303,13 +303,15 @@ uint256 constant HALF_SKEW = 0x2fe0;
 uint256 constant QUADRATIC_HALF_DXX = 0x3000;
 /// @dev The greatest depth of the vertices, Q24 relative to bit 192 of an accumulator.
 uint256 constant NEAREST = 0x3020;
+/// @dev The distance of the record of the lamp for which setLight computes the light from LIGHTS.
+uint256 constant LIGHT_OFFSET = 0x3040;
 
 // ---------------------------------------------------------------------------------------------------------------------- answer of Effects
 // For the Renderer and for Effects: in memory, before the engine is called.
 
 /// @dev The memory address of the answer of the contract Effects, and its size: 0 if the scene has no effects.
-uint256 constant EFFECTS_AT = 0x3040;
-uint256 constant EFFECTS_SIZE = 0x3060;
+uint256 constant EFFECTS_AT = 0x3060;
+uint256 constant EFFECTS_SIZE = 0x3080;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- light
 // The properties of a light for the frame, at LIGHTS.
@@ -423,3 +425,5 @@ uint256 constant IS_PARTLY_DARK = 0x40000;
 uint256 constant IS_NORMALISED = 0x80000;
 /// @dev With IS_QUADRATIC: the vertices have several colours.
 uint256 constant IS_VARIED = 0x100000;
+/// @dev With IS_NORMALISED: there are two lamps.
+uint256 constant IS_PAIR = 0x200000;

@@ -14,7 +14,7 @@ uint256 constant VERTEX_LIGHT = 128;
 uint256 constant VERTEX_HALF = 160;
 uint256 constant VERTEX_HALF_REVERSED = 192;
 uint256 constant VERTEX_STATE = 224;
-/// @dev Such a record has 2^8 bytes.
+/// @dev Such a record has 2^8 bytes for each lamp.
 uint256 constant SMOOTH_RECORD_BITS = 8;
 uint256 constant SMOOTH_RECORD_SIZE = 0x100;
 /// @dev In its last word, above the state: the numbers of neighbours, 16 bits each, with 1 and the highest bit in each; the positions of
@@ -127,6 +127,8 @@ uint256 constant BEHIND_DEPTH = 0xffffffffffffffffffffffffffffffffffffffffffffff
 uint256 constant BLUE_Q40_AT = 24;
 uint256 constant GREEN_Q40_AT = 80;
 uint256 constant RED_Q40_AT = 136;
+/// @dev The bytes of the table of the highlight.
+uint256 constant SPECULAR_SIZE = 0x820;
 /// @dev The number of steps in the table of the highlight; the index of its last entry, Q40.
 uint256 constant SPECULAR_ENTRIES = 64;
 uint256 constant SPECULAR_LAST = 0x400000000000;
@@ -138,10 +140,17 @@ uint256 constant SPECULAR_REST_AT = 24;
 uint256 constant SPECULAR_REST_MASK = 0xffff;
 /// @dev SPECULAR_BEGIN of a material without a highlight.
 uint256 constant NO_HIGHLIGHT = 0x7fffffffffffffffffffffffffffffffffffffffffffffffffffffffffffffff;
-/// @dev The position of the square of a cosine of a quadratic function, Q24, with its lane at the top of a word.
-uint256 constant SHINE_AT = 219;
-/// @dev That of N * L above it.
-uint256 constant N_DOT_L_Q72_AT = 133;
+/// @dev The position of the light of a quadratic function, Q24, with its lane of 64 bits at the top of a word: see SmoothLight.
+uint256 constant LIGHT_AT = 221;
+/// @dev That of N * L if there is one lamp.
+uint256 constant N_DOT_L_Q53_AT = 93;
+/// @dev The shifts that move lanes of 64 bits to the top.
+uint256 constant LANE_0_TO_TOP = 192;
+uint256 constant LANE_1_TO_TOP = 128;
+uint256 constant LANE_2_TO_TOP = 64;
+/// @dev The position of the second lane, and of the third.
+uint256 constant LANE_1_AT = 64;
+uint256 constant LANE_2_AT = 128;
 /// @dev From lanes of 56 bits to lanes of 85, the second and the third.
 uint256 constant MIDDLE_56_TO_85 = 29;
 uint256 constant UPPER_56_TO_85 = 58;
@@ -543,6 +552,9 @@ uint256 constant PIXELS_AT_120 = 0x100000100000100000100000000000000000000000000
 // Each lane: | 27..62 depth | 26 IS_LISTED | 25 DRAWN_SAMPLES | 24 FOUND_SAMPLES | 16..23 blue | 8..15 green | 0..7 red
 
 uint256 constant ONES_64 = 0x1000000000000000100000000000000010000000000000001;
+/// @dev For the light of quadratic functions: half the range of each lane; 57 bits of each.
+uint256 constant LANES_BIAS_64 = 0x4000000000000000400000000000000040000000000000004000000000000000;
+uint256 constant LANES_LESS_64 = 0x1ffffffffffffff01ffffffffffffff01ffffffffffffff01ffffffffffffff;
 /// @dev The depths.
 uint256 constant SAMPLE_DEPTHS = 0x7ffffffff80000007ffffffff80000007ffffffff80000007ffffffff8000000;
 /// @dev Their unit.

@@ -44,6 +44,7 @@ GAS_LEFT = bytes.fromhex("5a5f525f5f5f5e60205ff3")
 
 #: Bytes from the beginning of a scene in calldata to its projection, and to the offsets of its lights, objects and
 #: extensions; from the beginning of an object to its shading, specular coefficient, shininess and flags.
+LIGHT_SIZE = 5 * 32
 PROJECTION, LIGHTS, OBJECTS, EXTENSIONS = (place * 32 for place in (11, 18, 19, 20))
 OBJECT_FIELDS = tuple(place * 32 for place in (9, 12, 13, 14))
 
@@ -317,13 +318,14 @@ def engines(data: bytes) -> list[str]:
     if last != ANTIALIAS:
         return ["Engine", "FragmentEngine"]
     lights, objects = (scene + _word(data, scene + offset) for offset in (LIGHTS, OBJECTS))
-    is_point, is_orthographic = _word(data, lights + 32), _word(data, scene + PROJECTION)
-    is_quadratic = _word(data, lights) == 1 and not (is_point and is_orthographic)
+    lamps, is_orthographic = _word(data, lights), _word(data, scene + PROJECTION)
+    is_point = any(_word(data, lights + 32 + LIGHT_SIZE * lamp) for lamp in range(min(lamps, 2)))
+    is_quadratic = lamps <= 2 and not (is_point and is_orthographic)
     needed = set() if alone else {"AntialiasedFragmentEngine"}
     first = objects + 32
     for at in range(first, min(first + 32 * _word(data, objects), len(data)), 32):
         shading, specular, shininess, flags = (_word(data, first + _word(data, at) + each) for each in OBJECT_FIELDS)
-        is_smooth = shading == SHADINGS["smooth"] and _word(data, lights) != 0
+        is_smooth = shading == SHADINGS["smooth"] and lamps != 0
         is_broad = shininess == 1 and specular != 0
         if flags & WIREFRAME or (is_smooth and (is_broad or not is_quadratic)):
             needed.add("AntialiasedFragmentEngine")

@@ -10,7 +10,7 @@ import "../../words/Registers.sol";
 //   +0x20  attribute word: depth and colours
 //   +0x40  smooth shading: normal in camera space, signed lanes of Q20 at bits 0, 85 and 170
 //          flat shading with highlights: half vector in mesh space and its square, for each light: see VertexHighlights
-//   +0x60  smooth shading with one light: the words of SmoothVertex, to +0xff
+//   +0x60  smooth shading with one light: the words of SmoothVertex, to +0xff; with two, another record for the second one follows
 //
 // The words at +0x40 for flat shading, and from +0x60 on for smooth shading, are filled on first use; zero means not yet. Therefore nothing
 // may be written beyond the free memory before a record is made there, and no Solidity object may be allocated between `freeMemory()` and

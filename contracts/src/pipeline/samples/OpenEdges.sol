@@ -18,10 +18,10 @@ uint256 constant ONE_ROW = 1 << 136;
 library OpenEdges {
     /// @notice Finds the open edges of the triangles of a list.
     /// @param end The end of the list, where the address of the edges is written.
-    /// @param records The address of the vertex records; those that clipping made are behind the list.
+    /// @param records The address of the vertex records, 2^shift bytes each; those that clipping made are behind the list.
     /// @param edges The first address that is free, where the end of the edges is written, or behind it, and the edges.
     /// @return The first free address.
-    function find(uint256 list, uint256 end, uint256 records, uint256 edges) internal pure returns (uint256) {
+    function find(uint256 list, uint256 end, uint256 records, uint256 shift, uint256 edges) internal pure returns (uint256) {
         uint256 made = list;
         assembly ("memory-safe") {
             function enter(vertex, next) {
@@ -33,9 +33,9 @@ library OpenEdges {
             }
 
             // writes the edge from u to v if it is open: if no number of v is that of u
-            function check(place, u, v, first) -> next {
+            function check(place, u, v, first, bits) -> next {
                 let numbers := mload(add(v, VERTEX_STATE))
-                next := xor(numbers, mul(shr(SMOOTH_RECORD_BITS, sub(u, first)), NUMBER_ONES)) // a lane is 0 if it is
+                next := xor(numbers, mul(shr(bits, sub(u, first)), NUMBER_ONES)) // a lane is 0 if it is
                 next := and(and(sub(next, NUMBER_ONES), not(next)), NUMBER_TOPS)
                 if iszero(or(next, eq(shr(LAST_NUMBER_AT, numbers), VERTEX_NUMBER_MASK))) {
                     mstore(place, or(shl(TRIANGLE_A_AT, u), v))
@@ -44,16 +44,16 @@ library OpenEdges {
                 next := place
             }
 
-            records := sub(records, SMOOTH_RECORD_SIZE) // numbers are counted from 1
+            records := sub(records, shl(shift, 1)) // numbers are counted from 1
             for { let triangle := list } lt(triangle, end) { triangle := add(triangle, 32) } {
                 let c := mload(triangle)
                 let a := and(shr(TRIANGLE_A_AT, c), TRIANGLE_A_MASK)
                 let b := and(shr(TRIANGLE_B_AT, c), TRIANGLE_B_MASK)
                 c := and(c, TRIANGLE_C_MASK)
                 if and(and(lt(a, made), lt(b, made)), lt(c, made)) {
-                    enter(a, shr(SMOOTH_RECORD_BITS, sub(b, records)))
-                    enter(b, shr(SMOOTH_RECORD_BITS, sub(c, records)))
-                    enter(c, shr(SMOOTH_RECORD_BITS, sub(a, records)))
+                    enter(a, shr(shift, sub(b, records)))
+                    enter(b, shr(shift, sub(c, records)))
+                    enter(c, shr(shift, sub(a, records)))
                 }
             }
             edges := add(edges, 32)
@@ -63,9 +63,9 @@ library OpenEdges {
                 let a := and(shr(TRIANGLE_A_AT, c), TRIANGLE_A_MASK)
                 let b := and(shr(TRIANGLE_B_AT, c), TRIANGLE_B_MASK)
                 c := and(c, TRIANGLE_C_MASK)
-                place := check(place, a, b, records)
-                place := check(place, b, c, records)
-                place := check(place, c, a, records)
+                place := check(place, a, b, records, shift)
+                place := check(place, b, c, records, shift)
+                place := check(place, c, a, records, shift)
             }
             mstore(end, edges)
             mstore(edges, place)

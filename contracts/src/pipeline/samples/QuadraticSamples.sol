@@ -20,25 +20,24 @@ library QuadraticSamples {
                 color := and(color, not(mul(shr(SIGN_85, and(f, SIGNS_85)), BYTE_Q58))) // 0 where negative
             }
 
-            // N * L of unit vectors and the square of the cosine to the half vector, both Q24, from products: see SmoothTriangle
-            function lightOf(f) -> t, square {
-                square := shr(UPPER_85_AT, f) // N.N, Q68
-                t := add(shr(ROOT_SHIFT, mul(ROOT_SLOPE, square)), ROOT_AT_0) // about 2 sqrt(N.N), Q34
-                let length := add(t, div(square, t)) // one step of Newton: 2 |N|
-                t := sar(N_DOT_H_AT, shl(LOWER_85_TO_TOP, f)) // N.H
-                t := mul(t, sgt(t, 0))
-                square := div(mul(t, t), square) // cos^2 = (N.H)^2 / N.N
-                t := sdiv(sar(N_DOT_L_AT, shl(MIDDLE_85_TO_TOP, f)), length) // N.L / |N|
+            // N * L and N * H of unit vectors, Q24, from products: see SmoothTriangle
+            function lightOf(f) -> diffuse, cosine {
+                let square := shr(UPPER_85_AT, f) // N.N, Q68
+                let t := add(shr(ROOT_SHIFT, mul(ROOT_SLOPE, square)), ROOT_AT_0) // about |N|, Q34
+                t := shr(1, add(t, div(square, t))) // a step of Newton
+                t := add(t, div(square, t)) // another one: 2 |N|
+                diffuse := sdiv(sar(N_DOT_L_AT, shl(MIDDLE_85_TO_TOP, f)), t)
+                cosine := sdiv(sar(N_DOT_L_AT, shl(LOWER_85_TO_TOP, f)), t)
             }
 
-            // the highlight at the square of a cosine, Q24, above SPECULAR_BEGIN: lanes of 85 bits, Q58
-            function shine(square) -> color {
-                let t := mul(sub(square, mload(SPECULAR_BEGIN)), mload(SPECULAR_SCALE)) // an index, Q40
+            // the highlight of the lamp with a table at a cosine, Q24, above COSINE_BEGIN: lanes of 85 bits, Q58
+            function shine(t, table) -> color {
+                t := mul(sub(shr(Q24, mul(t, t)), mload(SPECULAR_BEGIN)), mload(SPECULAR_SCALE)) // an index, Q40
                 if gt(t, SPECULAR_LAST) { t := SPECULAR_LAST } // min
-                square := add(SHINE_TABLE, and(shr(SPECULAR_ENTRY_SHIFT, t), SPECULAR_ENTRY_MASK)) // square: the address of the entry
-                color := mload(square)
+                table := add(table, and(shr(SPECULAR_ENTRY_SHIFT, t), SPECULAR_ENTRY_MASK)) // the entry from here on
+                color := mload(table)
                 t := and(shr(SPECULAR_REST_AT, t), SPECULAR_REST_MASK) // the fraction, Q16
-                color := add(shl(Q16, color), mul(sub(mload(add(square, 32)), color), t))
+                color := add(shl(Q16, color), mul(sub(mload(add(table, 32)), color), t))
             }
 
             // a colour, Q10, times light, Q16, both in lanes of 56 bits: in lanes of 85 bits, Q26
@@ -50,43 +49,61 @@ library QuadraticSamples {
 
             // the colour of a fragment, Q58, with an accumulator and the function of the light
             function colorAt(attribute, f) -> color {
-                let t := sar(N_DOT_L_Q72_AT, f) // N.L, Q24
-                let square := sar(SHINE_AT, shl(LOWER_85_TO_TOP, f)) // (N.H)^2, Q24
-                if iszero(and(mload(MODE), IS_NORMALISED)) { t, square := lightOf(f) }
-                t := mul(t, sgt(t, 0)) // max(N.L, 0)
-                switch and(mload(MODE), IS_VARIED)
-                case 0 { color := add(mload(SAME_AMBIENT), mul(mload(SAME_DIFFUSE), t)) }
-                default {
-                    // light, lanes of Q16, times the colour of the accumulator, Q10
-                    f := shr(Q40_TO_Q16, add(shl(Q40_TO_Q16, mload(AMBIENT)), mul(mload(add(LIGHTS, LIGHT_DIFFUSE)), t)))
-                    color := add(HALF_85, shl(Q26_TO_Q58, times(and(shr(ACCUMULATOR_FRACTION, attribute), LANES_24), f)))
+                let t
+                let cosine
+                switch and(mload(MODE), IS_NORMALISED)
+                case 0 {
+                    t, cosine := lightOf(f)
+                    f := 0 // no second lamp
                 }
-                if and(gt(t, 0), sgt(square, mload(SPECULAR_BEGIN))) { color := add(color, shine(square)) }
+                default {
+                    t := sar(LIGHT_AT, shl(LANE_1_TO_TOP, f)) // N.L, Q24
+                    cosine := sar(LIGHT_AT, shl(LANE_0_TO_TOP, f)) // N.H, Q24
+                }
+                color := mload(SAME_AMBIENT)
+                let gleam := 0 // the highlights
+                if sgt(t, 0) {
+                    color := add(color, mul(mload(SAME_DIFFUSE), t))
+                    if sgt(cosine, mload(COSINE_BEGIN)) { gleam := shine(cosine, SHINE_TABLE) }
+                }
+                t := sar(LIGHT_AT, f) // that of the second lamp, or the sign
+                if sgt(t, 0) {
+                    color := add(color, mul(mload(SAME_DIFFUSE_2), t))
+                    cosine := sar(LIGHT_AT, shl(LANE_2_TO_TOP, f))
+                    if sgt(cosine, mload(COSINE_BEGIN)) { gleam := add(gleam, shine(cosine, add(SHINE_TABLE, SPECULAR_SIZE))) }
+                }
+                if and(mload(MODE), IS_VARIED) {
+                    // light, lanes of Q16, times the colour of the accumulator, Q10
+                    color := times(and(shr(ACCUMULATOR_FRACTION, attribute), LANES_24), shr(Q40_TO_Q16, color))
+                    color := add(HALF_85, shl(Q26_TO_Q58, color))
+                }
+                color := add(color, gleam)
             }
 
-            // the lanes at the centroid of some samples; g is their change to the next column
-            function atCentroid(f, g, covered, p) -> there {
-                covered := and(shr(SET_AT, mul(shr(TOP_64_AT, covered), COVERED_TO_SET)), SET_MASK) // 16 * the number of the set
-                let x := signextend(0, shr(add(8, covered), CENTROIDS))
-                let y := signextend(0, shr(covered, CENTROIDS))
+            // the lanes x and y eighths of a pixel beside the centre of the pixel in column c; g is their change to the next column
+            function beside(f, g, c, x, y) -> there {
                 // the differences to the next row at the same column: the next row at this address is w columns to the right
-                covered := mload(ROW_COLUMNS) // covered: w
+                let w := mload(ROW_COLUMNS)
                 let dxx := mload(QUADRATIC_DXX)
-                let across := mul(covered, dxx) // w dxx
-                p := shr(SAMPLE_SIZE_BITS, p) // p: c
-                let dy := add(mload(QUADRATIC_DY), mul(p, mload(QUADRATIC_DXY))) // dy' + c dxy'
-                p := sub(mload(QUADRATIC_DXY), across) // p: dxy = dxy' - w dxx
+                let across := mul(w, dxx) // w dxx
+                let dy := add(mload(QUADRATIC_DY), mul(c, mload(QUADRATIC_DXY))) // dy' + c dxy'
+                c := sub(mload(QUADRATIC_DXY), across) // c: dxy = dxy' - w dxx
                 // - w (g + dxy) - w (w - 1) / 2 dxx
-                dy := sub(dy, add(mul(covered, add(g, p)), mul(shr(1, mul(covered, sub(covered, 1))), dxx)))
-                across := sub(mload(QUADRATIC_DYY), mul(covered, add(shl(1, p), across))) // across: dyy = dyy' - w (2 dxy + w dxx)
-                // With the forward differences d at the centre, and x and y in eighths of a pixel, the quadratic function is
+                dy := sub(dy, add(mul(w, add(g, c)), mul(shr(1, mul(w, sub(w, 1))), dxx)))
+                across := sub(mload(QUADRATIC_DYY), mul(w, add(shl(1, c), across))) // across: dyy = dyy' - w (2 dxy + w dxx)
+                // With the forward differences d at the centre the quadratic function is
                 // f + (x dx + y dy) / 8 + (x (x - 8) dxx + 2 x y dxy + y (y - 8) dyy) / 128 there: exact, however thin the triangle
-                dxx := add(mul(sub(x, 8), dxx), mul(shl(1, y), p)) // dxx: (x - 8) dxx + 2 y dxy
+                dxx := add(mul(sub(x, 8), dxx), mul(shl(1, y), c)) // dxx: (x - 8) dxx + 2 y dxy
                 there := add(shl(MORE_BITS, f), mul(x, add(shl(4, g), dxx))) // 128 f + x (16 dx + (x - 8) dxx + 2 y dxy)
                 there := add(there, mul(y, add(shl(4, dy), mul(sub(y, 8), across)))) // + y (16 dy + (y - 8) dyy)
                 // as before: positive for the shift
-                there := add(there, LANES_BIAS_85)
-                there := sub(and(shr(MORE_BITS, there), LANES_LESS_85), shr(MORE_BITS, LANES_BIAS_85))
+                let bias := LANES_BIAS_85
+                let less := LANES_LESS_85
+                if and(mload(MODE), IS_NORMALISED) {
+                    bias := LANES_BIAS_64
+                    less := LANES_LESS_64
+                }
+                there := sub(and(shr(MORE_BITS, add(there, bias)), less), shr(MORE_BITS, bias))
             }
 
             // writes those samples of a pixel that are seen, and lists it
@@ -99,25 +116,34 @@ library QuadraticSamples {
                 }
             }
 
-            // draws a fragment in a pixel that an open edge touches
-            function atEdge(p, attribute, f, g) {
-                let covered := mul(p, ADDRESS_64) // the address in each lane, Q37
-                covered := and(and(add(mload(ROW_LEFT), covered), sub(mload(ROW_RIGHT), covered)), TOPS_64)
+            // draws a fragment: of those samples that the triangle covers if an open edge touches the pixel
+            function atPixel(p, attribute) {
                 let old := mload(p)
-                let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE)) // of the pixel centre
-                z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
+                let isEdge := and(old, IS_EDGE)
+                let covered := TOPS_64
+                let z := mload(WHOLE_OFFSETS)
+                if isEdge {
+                    covered := mul(p, ADDRESS_64) // the address in each lane, Q37
+                    covered := and(and(add(mload(ROW_LEFT), covered), sub(mload(ROW_RIGHT), covered)), TOPS_64)
+                    z := mload(DEPTH_OFFSETS)
+                }
+                z := and(add(z, mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE))), SAMPLE_DEPTHS) // of the pixel centre
                 let seen := and(sub(add(z, BELOW_TOPS_64), old), covered)
                 if seen {
+                    let c := shr(SAMPLE_SIZE_BITS, p)
+                    let f := valueAt(c)
                     if xor(covered, TOPS_64) {
-                        f := atCentroid(f, g, covered, p)
-                        g := and(shr(SET_AT, mul(shr(TOP_64_AT, covered), COVERED_TO_SET)), SET_MASK) // 16 * the number of the set
-                        attribute := add(attribute, mul(signextend(0, shr(add(8, g), CENTROIDS)), mload(DX_8))) // + x DX / 8 + y DY / 8
-                        attribute := add(attribute, mul(signextend(0, shr(g, CENTROIDS)), mload(DY_8)))
+                        // the centroid of the samples; covered: 16 * the number of the set
+                        covered := and(shr(SET_AT, mul(shr(TOP_64_AT, covered), COVERED_TO_SET)), SET_MASK)
+                        let x := signextend(0, shr(add(8, covered), CENTROIDS))
+                        let y := signextend(0, shr(covered, CENTROIDS))
+                        attribute := add(attribute, add(mul(x, mload(DX_8)), mul(y, mload(DY_8)))) // + x DX / 8 + y DY / 8
+                        f := beside(f, changeAt(c), c, x, y)
                     }
                     f := colorAt(attribute, f)
                     if and(f, ABOVE_Q58) { f := clamped(f) }
                     f := mul(and(f, BYTES_Q58), Q58_TO_TOP)
-                    z := or(or(z, IS_EDGE), mul(shr(PIXEL_AT, f), ONES_64))
+                    z := or(or(z, isEdge), mul(shr(PIXEL_AT, f), ONES_64))
                     switch xor(seen, TOPS_64)
                     case 0 {
                         mstore(p, z)
@@ -128,22 +154,19 @@ library QuadraticSamples {
                 }
             }
 
-            // draws fragments of a row whose first samples are not covered
-            function besides(p, end) {
+            // draws fragments of a row: of those in pixels that open edges touch, or all
+            function pixels(p, end, isAll) {
                 for {} 1 {} {
-                    if and(mload(p), IS_EDGE) {
-                        let c := shr(SAMPLE_SIZE_BITS, p)
-                        atEdge(p, attributeAt(c), valueAt(c), changeAt(c))
-                    }
+                    if or(isAll, and(mload(p), IS_EDGE)) { atPixel(p, attributeAt(shr(SAMPLE_SIZE_BITS, p))) }
                     p := add(p, SAMPLE_SIZE)
                     if iszero(slt(p, end)) { break }
                 }
             }
 
-            // Fragments of a row whose first samples are covered; f is the function at the first one, g its change to the next. `isPlain`
-            // is a literal, for which the compiler is to make two functions: 1 for normalised light on one colour. `continue` in place of
+            // Fragments of a row whose first samples are covered, with normalised light on one colour; f is the function at the first one,
+            // g its change to the next. `isPair` is a literal, for which the compiler is to make two functions. `continue` in place of
             // branches, at whose ends the compiler moves the stack.
-            function span(p, end, attribute, f, g, isPlain) {
+            function span(p, end, attribute, f, g, isPair) {
                 for {} 1 {
                     attribute := add(attribute, mload(DX)) // the next column
                     f := add(f, g)
@@ -152,7 +175,7 @@ library QuadraticSamples {
                     let old := mload(p) // what is there
                     p := add(p, SAMPLE_SIZE) // the next pixel from here on
                     if and(old, IS_EDGE) {
-                        atEdge(sub(p, SAMPLE_SIZE), attribute, f, g)
+                        atPixel(sub(p, SAMPLE_SIZE), attribute)
                         if eq(p, end) { break }
                         continue
                     }
@@ -163,16 +186,24 @@ library QuadraticSamples {
                         if eq(p, end) { break }
                         continue
                     }
-                    let color
-                    switch isPlain
-                    case 0 { color := colorAt(attribute, f) }
-                    default {
-                        color := mload(SAME_AMBIENT)
-                        let t := sar(N_DOT_L_Q72_AT, f) // N.L, Q24
+                    let color := mload(SAME_AMBIENT)
+                    let t
+                    switch isPair
+                    case 0 { t := sar(N_DOT_L_Q53_AT, f) } // N.L, Q24
+                    default { t := sar(LIGHT_AT, shl(LANE_1_TO_TOP, f)) }
+                    if sgt(t, 0) {
+                        color := add(color, mul(mload(SAME_DIFFUSE), t))
+                        t := sar(LIGHT_AT, shl(LANE_0_TO_TOP, f)) // N.H, Q24
+                        if sgt(t, mload(COSINE_BEGIN)) { color := add(color, shine(t, SHINE_TABLE)) }
+                    }
+                    if isPair {
+                        t := sar(LIGHT_AT, f)
                         if sgt(t, 0) {
-                            color := add(color, mul(mload(SAME_DIFFUSE), t))
-                            t := sar(SHINE_AT, shl(LOWER_85_TO_TOP, f)) // (N.H)^2, Q24
-                            if sgt(t, mload(SPECULAR_BEGIN)) { color := add(color, shine(t)) }
+                            color := add(color, mul(mload(SAME_DIFFUSE_2), t))
+                            t := sar(LIGHT_AT, shl(LANE_2_TO_TOP, f))
+                            if sgt(t, mload(COSINE_BEGIN)) {
+                                color := add(color, shine(t, add(SHINE_TABLE, SPECULAR_SIZE)))
+                            }
                         }
                     }
                     if and(color, ABOVE_Q58) { color := clamped(color) }
@@ -244,14 +275,19 @@ library QuadraticSamples {
                     mstore(ROW_LEFT, left)
                     mstore(ROW_RIGHT, right)
                     switch slt(first, behind)
-                    case 0 { if slt(p, end) { besides(p, end) } }
+                    case 0 { if slt(p, end) { pixels(p, end, 0) } }
                     default {
-                        if slt(p, first) { besides(p, first) }
+                        if slt(p, first) { pixels(p, first, 0) }
                         p := shr(SAMPLE_SIZE_BITS, first) // c
-                        switch and(mload(MODE), IS_NORMALISED)
-                        case 0 { span(first, behind, attributeAt(p), valueAt(p), changeAt(p), 0) }
-                        default { span(first, behind, attributeAt(p), valueAt(p), changeAt(p), 1) }
-                        if slt(behind, end) { besides(behind, end) }
+                        let mode := mload(MODE)
+                        switch eq(and(mode, or(IS_NORMALISED, IS_VARIED)), IS_NORMALISED)
+                        case 0 { pixels(first, behind, 1) }
+                        default {
+                            switch and(mode, IS_PAIR)
+                            case 0 { span(first, behind, attributeAt(p), valueAt(p), changeAt(p), 0) }
+                            default { span(first, behind, attributeAt(p), valueAt(p), changeAt(p), 1) }
+                        }
+                        if slt(behind, end) { pixels(behind, end, 0) }
                     }
                     left := add(left, mload(SIDE_LEFT_STEP)) // the next row
                     right := add(right, mload(SIDE_RIGHT_STEP))
@@ -288,9 +324,12 @@ library QuadraticSamples {
                         mstore(KINK_OUTER, add(edge, signextend(LANE_128_LAST_BYTE, mload(KINK_BOUND_STEPS)))) // in the next row
                     }
                     default {
+                        let bound := sar(UPPER_BOUND_AT, mload(KINK_BOUND))
+                        // no edge below a horizontal one: that of the upper edge
+                        if iszero(not(mload(KINK_KEPT))) { bound := add(mload(OUTER_RIGHT), and(right, LANE_64)) }
                         right := or(and(right, not(mask)), and(edge, mask))
                         mstore(SIDE_RIGHT_STEP, sub(add(edge, mload(KINK_STEP)), right))
-                        edge := sar(UPPER_BOUND_AT, mload(KINK_BOUND))
+                        edge := bound
                         mstore(OUTER_RIGHT, sub(edge, and(right, LANE_64)))
                         mstore(KINK_OUTER, add(edge, sar(UPPER_BOUND_AT, mload(KINK_BOUND_STEPS))))
                     }

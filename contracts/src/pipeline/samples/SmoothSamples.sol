@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {sqrt} from "../../math/Roots.sol";
 import {Quadratic} from "../shading/Quadratic.sol";
 import {doubleAreaOf} from "../geometry/Screen.sol";
 import {Shading} from "../shading/Shading.sol";
-import {SmoothLight} from "../shading/SmoothLight.sol";
+import {LESS_BITS, SmoothLight} from "../shading/SmoothLight.sol";
 import {SMOOTH_BIAS} from "../shading/SmoothShading.sol";
 import {SmoothTriangle, STEEP_LIGHT, UNBOUNDED_LIGHT} from "../shading/SmoothTriangle.sol";
 import {OpenEdges} from "./OpenEdges.sol";
@@ -14,13 +15,19 @@ import "../../words/SampleRegisters.sol";
 
 // Smooth surfaces lit by lamps, with four samples per pixel where open edges are: see OpenEdges.
 
-/// @dev Twice the area, in sub-pixels, of 12 pixels: below, six nodes cost more than they save at fragments.
-int256 constant LEAST_NORMALISED = 24 << 16;
-/// @dev The shift that leaves the colours of an attribute word; the bytes of the table of the highlight; from its format to that of
-/// SHINE_TABLE.
+/// @dev Twice the area, in sub-pixels, of 6 pixels, and of 20: below, six nodes cost more than they save at fragments.
+uint256 constant LEAST_NORMALISED = 12 << 16;
+uint256 constant LEAST_VARIED = 40 << 16;
+/// @dev The square of twice the area of a triangle whose heights are at least half a pixel is 2^15 times that of two edges: fragments
+/// outside of narrower ones would have light beyond its lanes.
+uint256 constant NARROW_BITS = 15;
+/// @dev The shift that leaves the colours of an attribute word, for SAME_COLOR; its values for several colours, and before any; from the
+/// table of the highlight to SHINE_TABLE; the bytes of the coefficients of a quadratic function.
 uint256 constant COLORS_TO_TOP = 88;
-uint256 constant SPECULAR_SIZE = 0x820;
+uint256 constant VARIED_COLORS = 0;
+uint256 constant NO_COLORS = 2;
 uint256 constant Q16_TO_Q42 = 26;
+uint256 constant COEFFICIENTS = 0xc0;
 
 /// @dev Steep triangles are those whose depth changes by this power of 2 from pixel to pixel: by 1/16 to 1/8 of the nearest one of the
 /// scene, which is 2^61 to 2^62, see SampleDepths. Less would cost the samples of intersections in small pictures. It is the same for all
@@ -31,15 +38,21 @@ abstract contract SmoothSamples is SampleRasterizer {
     /// @dev Prepares the registers that differ between objects.
     function openSmooth() internal pure {
         unchecked {
-            store(SAME_COLOR, 0);
-            if (load(OBJECT_MODE) & IS_QUADRATIC == 0 || load(SPECULAR_BEGIN) == NO_HIGHLIGHT) return;
-            uint256 color = load(LIGHTS + LIGHT_COLOR);
+            store(SAME_COLOR, NO_COLORS);
+            store(COSINE_BEGIN, NO_HIGHLIGHT);
+            if (load(SPECULAR_BEGIN) == NO_HIGHLIGHT) return;
+            store(COSINE_BEGIN, sqrt(load(SPECULAR_BEGIN) << Q24));
             assembly ("memory-safe") {
-                // lanes of 85 bits
-                let upper := or(shl(MIDDLE_56_TO_85, and(color, MIDDLE_LANE_24)), shl(UPPER_56_TO_85, and(color, UPPER_LANE_24)))
-                color := or(and(color, LANE_24), upper)
-                for { let i := 0 } lt(i, SPECULAR_SIZE) { i := add(i, 32) } {
-                    mstore(add(SHINE_TABLE, i), shl(Q16_TO_Q42, mul(color, shr(SPECULAR_VALUE_AT, mload(add(SPECULAR_TABLE, i))))))
+                let place := SHINE_TABLE
+                for { let light := LIGHTS } lt(light, mload(LIGHTS_END)) { light := add(light, LIGHT_SIZE) } {
+                    // lanes of 85 bits
+                    let color := mload(add(light, LIGHT_COLOR))
+                    let upper := or(shl(MIDDLE_56_TO_85, and(color, MIDDLE_LANE_24)), shl(UPPER_56_TO_85, and(color, UPPER_LANE_24)))
+                    color := or(and(color, LANE_24), upper)
+                    for { let entry := SPECULAR_TABLE } lt(entry, SPECULAR_TABLE_END) { entry := add(entry, 32) } {
+                        mstore(place, shl(Q16_TO_Q42, mul(color, shr(SPECULAR_VALUE_AT, mload(entry)))))
+                        place := add(place, 32)
+                    }
                 }
             }
         }
@@ -47,38 +60,90 @@ abstract contract SmoothSamples is SampleRasterizer {
 
     function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
         unchecked {
-            uint256 kind = UNBOUNDED_LIGHT;
-            uint256 size = Shading.squareSize(a, b, c);
-            // skip triangles that are too large
-            if (size < load(SMOOTH_REACH_3)) kind = SmoothTriangle.setLight(a, b, c, size, false);
             (uint256 p, uint256 q, uint256 r) = Shading.attributesOf(a, b, c);
             uint256 mode = (load(OBJECT_MODE) & ~IS_QUADRATIC) | crossing;
-            bool varies = ((p ^ q) | (p ^ r)) << COLORS_TO_TOP != 0;
-            if (kind == UNBOUNDED_LIGHT || (varies && kind == STEEP_LIGHT)) {
+            uint256 light = lightOf(a, b, c, ((p ^ q) | (p ^ r)) << COLORS_TO_TOP == 0 ? 0 : IS_VARIED);
+            if (light == UNBOUNDED_LIGHT) {
                 Shading.setNormals(a, b, c);
                 return Shading.setExact(a, b, c, p, q, r, mode);
             }
-            mode |= IS_QUADRATIC;
-            if (varies) {
-                mode |= IS_VARIED;
-            } else {
-                if ((p << COLORS_TO_TOP) + 1 != load(SAME_COLOR)) setSame(p);
-                if (doubleAreaOf(a, b, c) > LEAST_NORMALISED && SmoothLight.normalise()) mode |= IS_NORMALISED;
-            }
-            store(MODE, mode);
+            uint256 color = light & IS_VARIED == 0 ? (p << COLORS_TO_TOP) + 1 : VARIED_COLORS;
+            if (color != load(SAME_COLOR)) setColor(color, p);
+            store(MODE, mode | light);
             store(ATTRIBUTE_0, (p << ACCUMULATOR_FRACTION) + SMOOTH_BIAS);
             store(DELTA_1, q - p);
             store(DELTA_2, r - p);
         }
     }
 
-    /// @dev Sets the registers of a colour that all vertices have.
-    /// @param word An attribute word.
-    function setSame(uint256 word) private pure {
+    /// @dev Computes the coefficients of the light.
+    /// @param varied IS_VARIED if the vertices have several colours, otherwise 0.
+    /// @return mode The bits of MODE; UNBOUNDED_LIGHT if the error may be too large.
+    function lightOf(uint256 a, uint256 b, uint256 c, uint256 varied) private pure returns (uint256 mode) {
         unchecked {
-            store(SAME_COLOR, (word << COLORS_TO_TOP) + 1);
-            store(SAME_AMBIENT, (product(word, load(AMBIENT)) << Q26_TO_Q58) + HALF_85);
-            store(SAME_DIFFUSE, product(word, load(LIGHTS + LIGHT_DIFFUSE)) << Q26_TO_Q34);
+            uint256 size = Shading.squareSize(a, b, c);
+            // skip triangles that are too large
+            if (size >= load(SMOOTH_REACH_3)) return UNBOUNDED_LIGHT;
+            uint256 kind = SmoothTriangle.setLight(a, b, c, size, false);
+            if (kind == UNBOUNDED_LIGHT || (varied != 0 && kind == STEEP_LIGHT)) return UNBOUNDED_LIGHT;
+            mode = varied | IS_QUADRATIC;
+            uint256 area = uint256(doubleAreaOf(a, b, c));
+            bool isWide = area * area > size << NARROW_BITS;
+            if (load(LIGHTS_END) == LIGHTS + LIGHT_SIZE) {
+                if (isWide && area > (varied == 0 ? LEAST_NORMALISED : LEAST_VARIED) && SmoothLight.normalise()) mode |= IS_NORMALISED;
+                return mode;
+            }
+            if (!isWide || !SmoothLight.normalise()) return UNBOUNDED_LIGHT;
+            assembly ("memory-safe") {
+                mcopy(FIRST_LIGHT, QUADRATIC_1, COEFFICIENTS)
+            }
+            store(LIGHT_OFFSET, LIGHT_SIZE);
+            kind = SmoothTriangle.setLight(second(a), second(b), second(c), size, false);
+            store(LIGHT_OFFSET, 0);
+            if (kind == UNBOUNDED_LIGHT || !SmoothLight.normalise()) return UNBOUNDED_LIGHT;
+            assembly ("memory-safe") {
+                function join(place) {
+                    let first := add(place, sub(FIRST_LIGHT, QUADRATIC_1))
+                    mstore(place, add(mload(first), shl(LANE_2_AT, mload(place))))
+                }
+                join(QUADRATIC_1)
+                join(QUADRATIC_S)
+                join(QUADRATIC_T)
+                join(QUADRATIC_SS)
+                join(QUADRATIC_ST)
+                join(QUADRATIC_TT)
+            }
+            return mode | IS_NORMALISED | IS_PAIR;
+        }
+    }
+
+    /// @dev Returns the address of the record of a vertex for the second lamp.
+    function second(uint256 vertex) private pure returns (uint256 record) {
+        unchecked {
+            vertex &= SCREEN_RECORD_MASK;
+            record = vertex + SMOOTH_RECORD_SIZE;
+            if (load(record + VERTEX_STATE) == 0) {
+                assembly ("memory-safe") {
+                    mcopy(record, vertex, VERTEX_REVERSED)
+                }
+            }
+        }
+    }
+
+    /// @dev Sets the registers of the light on a colour that all vertices have, or of the light alone.
+    /// @param color For SAME_COLOR.
+    /// @param word An attribute word.
+    function setColor(uint256 color, uint256 word) private pure {
+        unchecked {
+            store(SAME_COLOR, color);
+            uint256 source = AMBIENT;
+            for (uint256 place = SAME_AMBIENT; place != SAME_DIFFUSE_2 + 32; place += 32) {
+                uint256 light = load(source);
+                store(place, color == VARIED_COLORS ? light : product(word, light) << Q26_TO_Q34);
+                source = source == AMBIENT ? LIGHTS + LIGHT_DIFFUSE : source + LIGHT_SIZE;
+            }
+            store(SAME_AMBIENT, load(SAME_AMBIENT) << Q24);
+            if (color != VARIED_COLORS) store(SAME_AMBIENT, load(SAME_AMBIENT) + HALF_85);
         }
     }
 
@@ -98,7 +163,8 @@ abstract contract SmoothSamples is SampleRasterizer {
             uint256 row = load(SIDE_ROW);
             uint256 column = load(SAMPLE_ORIGIN) - row * load(SAMPLE_STRIDE);
             column = 0 - uint256(int256(column) >> SAMPLE_SIZE_BITS);
-            Quadratic.setDifferences(a, b, c, row, column, load(SAMPLE_STRIDE) >> SAMPLE_SIZE_BITS);
+            uint256 less = load(MODE) & IS_NORMALISED == 0 ? 0 : LESS_BITS;
+            Quadratic.setDifferences(a, b, c, row, column, load(SAMPLE_STRIDE) >> SAMPLE_SIZE_BITS, less);
         }
     }
 

@@ -26,6 +26,12 @@ uint256 constant BIAS_85 = 0x4000000000000000000002000000000000000000001000000;
 /// @dev From FACE_N_DOT_RAY_SLOPE times a depth with DEPTH_FRACTION bits to Q48.
 uint256 constant Q142_TO_Q48 = 94;
 
+/// @dev What is lit: anything; a smooth surface without spot lights; a surface whose colour is not known yet. Literals, for which the
+/// compiler is to make functions of their own.
+uint256 constant ANY = 0;
+uint256 constant SMOOTH_ONLY = 1;
+uint256 constant SURFACE = 2;
+
 library FragmentLight {
     /// @notice Returns the colour for an accumulator with barycentric coordinates, and a ray: see colorAt.
     function colorOf(uint256 attribute, uint256 x, uint256 y) internal pure returns (uint256 color) {
@@ -35,7 +41,18 @@ library FragmentLight {
             s := sar(ACCUMULATOR_S_AT, signextend(ACCUMULATOR_S_LAST_BYTE, attribute)) // Q24
             t := sar(ACCUMULATOR_T_AT, signextend(ACCUMULATOR_T_LAST_BYTE, attribute))
         }
-        return colorAt(attribute >> ACCUMULATOR_DEPTH_AT, s, t, x, y, false);
+        return colorAt(attribute >> ACCUMULATOR_DEPTH_AT, s, t, x, y, ANY);
+    }
+
+    /// @notice The same for SMOOTH_ONLY.
+    function smoothColorOf(uint256 attribute, uint256 x, uint256 y) internal pure returns (uint256 color) {
+        uint256 s;
+        uint256 t;
+        assembly ("memory-safe") {
+            s := sar(ACCUMULATOR_S_AT, signextend(ACCUMULATOR_S_LAST_BYTE, attribute)) // Q24
+            t := sar(ACCUMULATOR_T_AT, signextend(ACCUMULATOR_T_LAST_BYTE, attribute))
+        }
+        return colorAt(attribute >> ACCUMULATOR_DEPTH_AT, s, t, x, y, SMOOTH_ONLY);
     }
 
     /// @notice Returns a colour, Q10 in signed lanes of 85 bits to which half a level was added, with the bytes of 0 or 255 in lanes
@@ -52,10 +69,10 @@ library FragmentLight {
     /// @param depth, s, t The depth (with 8 more bits than in a vertex) and the screen-space barycentric coordinates, Q24; outside the
     /// triangle these can be negative or above 1.
     /// @param x, y The ray through the point, Q24; for an orthographic camera the point itself, Q32.
-    /// @param isSurface Whether s and t are already perspective-correct, and only highlights are returned; the diffuse light is then left
-    /// in FRAGMENT_LIGHT, and the length of the ray in FRAGMENT_RAY_LENGTH. A literal, of which the compiler is to make two functions.
-    /// @return color Signed lanes of 85 bits, Q10, not clamped to 0..255; lanes of 56 bits if `isSurface`.
-    function colorAt(uint256 depth, uint256 s, uint256 t, uint256 x, uint256 y, bool isSurface) internal pure returns (uint256 color) {
+    /// @param kind ANY, SMOOTH_ONLY or SURFACE: s and t are already perspective-correct, and only highlights are returned; the diffuse
+    /// light is then left in FRAGMENT_LIGHT, and the length of the ray in FRAGMENT_RAY_LENGTH.
+    /// @return color Signed lanes of 85 bits, Q10, not clamped to 0..255; lanes of 56 bits for SURFACE.
+    function colorAt(uint256 depth, uint256 s, uint256 t, uint256 x, uint256 y, uint256 kind) internal pure returns (uint256 color) {
         unchecked {
             uint256 mode = load(MODE);
             if (mode & IS_ORTHOGRAPHIC != 0) {
@@ -65,7 +82,7 @@ library FragmentLight {
                     x := 0
                     y := 0
                 }
-            } else if (!isSurface) {
+            } else if (kind != SURFACE) {
                 assembly ("memory-safe") {
                     // perspective-correct: s * vertex depth / depth of the point, Q24
                     s := sdiv(mul(s, mload(DEPTH_1)), depth)
@@ -78,16 +95,16 @@ library FragmentLight {
                 }
             }
             // without `return`, so that the compiler can put the function where it is called
-            if (isSurface) {
+            if (kind == SURFACE) {
                 setNormal(depth, s, t, x, y);
                 // colours of lights are Q10 with effects
-                color = (light(depth, x, y) >> Q16) & LANES_24;
+                color = (light(depth, x, y, kind) >> Q16) & LANES_24;
             } else {
                 assembly ("memory-safe") {
                     // each lane has a bias of 2^24, so that it is positive
                     color := shr(Q24, add(add(mload(COLOR_0), mul(mload(COLOR_1), s)), mul(mload(COLOR_2), t)))
                 }
-                if (mode & IS_DIFFUSE == 0) {
+                if (kind == ANY && mode & IS_DIFFUSE == 0) {
                     if (mode & IS_LIT != 0) color += (highlights(faceRayAt(depth), x, y) >> Q16_TO_Q10) & LANES_24;
                     assembly ("memory-safe") {
                         color := add( // to lanes of 85 bits
@@ -97,8 +114,9 @@ library FragmentLight {
                         color := sub(color, BIAS_85)
                     }
                 } else {
-                    setNormal(depth, s, t, x, y);
-                    color = modulated(color, light(depth, x, y));
+                    if (kind == SMOOTH_ONLY) interpolateNormal(s, t, x, y);
+                    else setNormal(depth, s, t, x, y);
+                    color = modulated(color, light(depth, x, y, kind));
                 }
             }
         }
@@ -198,7 +216,7 @@ library FragmentLight {
     }
 
     /// @dev Returns the highlights of all kinds of lights; leaves the diffuse light in FRAGMENT_LIGHT.
-    function light(uint256 depth, uint256 x, uint256 y) private pure returns (uint256 sum) {
+    function light(uint256 depth, uint256 x, uint256 y, uint256 kind) private pure returns (uint256 sum) {
         unchecked {
             uint256 length = rayLength(x, y);
             assembly ("memory-safe") {
@@ -231,11 +249,11 @@ library FragmentLight {
                     }
                     distance = sqrtNear(distance, record + LIGHT_HINT);
                 }
-                setCone(record, lx, ly, lz, distance);
+                if (kind != SMOOTH_ONLY) setCone(record, lx, ly, lz, distance);
                 // N.L: Q48 for a directional light, Q40 for a point light
                 uint256 nDotL;
                 assembly ("memory-safe") {
-                    switch and(mload(MODE), IS_SMOOTH)
+                    switch or(eq(kind, SMOOTH_ONLY), and(mload(MODE), IS_SMOOTH))
                     case 0 { nDotL := shl(Q24, mload(add(record, LIGHT_N_DOT_L))) }
                     default {
                         nDotL := add(mul(mload(FRAGMENT_NORMAL_X), lx), mul(mload(FRAGMENT_NORMAL_Y), ly)) // N.x L.x + N.y L.y + N.z L.z
@@ -246,7 +264,7 @@ library FragmentLight {
                     assembly ("memory-safe") {
                         // N.L of unit vectors, Q24; then multiplied by the cone, Q24
                         let lambert := div(shl(Q24, nDotL), mul(distance, mload(FRAGMENT_NORMAL_LENGTH)))
-                        lambert := shr(Q16, mul(lambert, mload(FRAGMENT_CONE))) // * cone
+                        if iszero(eq(kind, SMOOTH_ONLY)) { lambert := shr(Q16, mul(lambert, mload(FRAGMENT_CONE))) } // * cone
                         mstore(FRAGMENT_LIGHT, add(mload(FRAGMENT_LIGHT), mul(mload(add(record, LIGHT_DIFFUSE)), lambert))) // Q40
                         // nDotL from here on: the numerator of N.H in the formula above, N.L |r| - N.r d
                         nDotL := sub(mul(nDotL, length), mul(distance, mload(FRAGMENT_NORMAL_RAY)))
@@ -260,7 +278,8 @@ library FragmentLight {
                         }
                         nDotL = specular(nDotL); // nDotL from here on: the highlight
                         assembly ("memory-safe") {
-                            sum := add(sum, mul(mload(add(record, LIGHT_COLOR)), shr(Q16, mul(nDotL, mload(FRAGMENT_CONE)))))
+                            if iszero(eq(kind, SMOOTH_ONLY)) { nDotL := shr(Q16, mul(nDotL, mload(FRAGMENT_CONE))) }
+                            sum := add(sum, mul(mload(add(record, LIGHT_COLOR)), nDotL))
                         }
                     }
                 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {FragmentLight} from "./FragmentLight.sol";
+import {ANY, FragmentLight} from "./FragmentLight.sol";
 import {Quadratic} from "./Quadratic.sol";
 import "../../words/Registers.sol";
 
@@ -130,6 +130,6 @@ library Patches {
             y := add(shr(SCREEN_ROW_AT, a), shr(SCREEN_ROW_AT, b))
             y := add(mload(RAY_TOP), sar(SUM_OF_SUBPIXEL_BITS, mul(y, mload(RAY_STEP))))
         }
-        return weighted(FragmentLight.colorAt(depth, s, t, x, y, false), depth);
+        return weighted(FragmentLight.colorAt(depth, s, t, x, y, ANY), depth);
     }
 }

@@ -35,12 +35,13 @@ library Quadratic {
     /// @param a, b, c The screen words of the vertices, as for the triangle.
     function setDifferences(uint256 a, uint256 b, uint256 c, uint256 top) internal pure {
         // literals, for which the compiler makes a function
-        setDifferences(a, b, c, top, 0, 0);
+        setDifferences(a, b, c, top, 0, 0, 0);
     }
 
     /// @notice The same if column 0 means another column.
     /// @param column That column in row `top`; it is `further` columns to the right in each row below.
-    function setDifferences(uint256 a, uint256 b, uint256 c, uint256 top, uint256 column, uint256 further) internal pure {
+    /// @param less The number of bits by which coordinates are shorter than Q24, for narrower lanes.
+    function setDifferences(uint256 a, uint256 b, uint256 c, uint256 top, uint256 column, uint256 further, uint256 less) internal pure {
         assembly ("memory-safe") {
             let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
             let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
@@ -52,7 +53,7 @@ library Quadratic {
             a := sub(shl(SUBPIXEL_BITS, top), a) // a from here on: y
             x := sub(x, shl(SUBPIXEL_BITS, column)) // from that column
             // change of s and t per pixel, Q24: (ds/dx, dt/dx) = (-c, b) / area, (ds/dy, dt/dy) = (xc, -xb) / area, in sub-pixels
-            top := sub(mul(xc, b), mul(xb, c)) // top from here on: twice the area
+            top := shl(less, sub(mul(xc, b), mul(xb, c))) // top from here on: twice the area
             let dsdx := sub(0, sdiv(shl(SUBPIXEL_TO_Q24, c), top))
             let dtdx := sdiv(shl(SUBPIXEL_TO_Q24, b), top)
             xc := sdiv(shl(SUBPIXEL_TO_Q24, xc), top) // xc from here on: ds/dy
@@ -66,9 +67,10 @@ library Quadratic {
                 // the value, and its derivatives with respect to s and t, Qn+24
                 a := mul(b, mload(QUADRATIC_SS)) // a and x from here on: s * SS and t * TT
                 x := mul(c, mload(QUADRATIC_TT))
-                let ds := add(add(shl(Q24, mload(QUADRATIC_S)), a), mul(c, mload(QUADRATIC_ST))) // S + s * SS + t * ST
-                let dt := add(shl(Q24, mload(QUADRATIC_T)), x) // T + t * TT
-                mstore(QUADRATIC_START, add(shl(Q48, mload(QUADRATIC_1)), add(mul(b, ds), mul(c, dt)))) // 1 + s * ds + t * dt
+                let ds := add(add(shl(sub(Q24, less), mload(QUADRATIC_S)), a), mul(c, mload(QUADRATIC_ST))) // S + s * SS + t * ST
+                let dt := add(shl(sub(Q24, less), mload(QUADRATIC_T)), x) // T + t * TT
+                // 1 + s * ds + t * dt
+                mstore(QUADRATIC_START, add(shl(sub(Q48, shl(1, less)), mload(QUADRATIC_1)), add(mul(b, ds), mul(c, dt))))
                 ds := add(ds, a) // S + 2 s * SS + t * ST
                 dt := add(add(dt, x), mul(b, mload(QUADRATIC_ST))) // T + 2 t * TT + s * ST
                 // half the second difference along the row: dsdx * (SS * dsdx) + dtdx * (ST * dsdx + TT * dtdx)

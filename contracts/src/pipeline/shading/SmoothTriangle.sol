@@ -103,7 +103,7 @@ library SmoothTriangle {
                     r := div(shl(Q10, r), depth)
                     // colours of up to 255 may differ by any amount if depths differ by at most 12 / 255: see Shading.isAffine
                     kind := add(AFFINE_LIGHT, or(or(lt(p, NEAR_ONE), lt(q, NEAR_ONE)), lt(r, NEAR_ONE))) // any < NEAR_ONE ? STEEP : AFFINE
-                    if and(mload(add(LIGHTS, LIGHT_IS_POINT)), shr(1, kind)) { // a lamp, and STEEP_LIGHT
+                    if and(mload(add(add(LIGHTS, LIGHT_IS_POINT), mload(LIGHT_OFFSET))), shr(1, kind)) { // a lamp, and STEEP_LIGHT
                         depth := p // the least weight from here on
                         if lt(q, depth) { depth := q }
                         if lt(r, depth) { depth := r } // min(p, q, r)

@@ -4,7 +4,7 @@ pragma solidity 0.8.37;
 import {sqrtNear} from "../../math/Roots.sol";
 import "../../words/Registers.sol";
 
-// The part of a vertex record of a smooth surface with one light that is common to all adjacent triangles: see SmoothTriangle.
+// The part of a vertex record of a smooth surface that is common to all adjacent triangles, for the light of one lamp: see SmoothTriangle.
 
 /// @dev VERTEX_STATE: LIT if the words of the record are present and bounded, UNBOUNDED if they cannot be used, otherwise 0; and OPEN if
 /// |L + V|^2 is at least 3. The bits of the first two; above them NUMBERS: see OpenEdges.
@@ -83,10 +83,11 @@ library SmoothVertex {
                 y := add(mload(RAY_TOP), sar(SUBPIXEL_BITS, mul(shr(SCREEN_ROW_AT, y), mload(RAY_STEP))))
             }
             uint256 length = ONE_24;
-            uint256 lx = load(LIGHTS + LIGHT_X);
-            uint256 ly = load(LIGHTS + LIGHT_Y);
-            uint256 lz = load(LIGHTS + LIGHT_Z);
-            if (load(LIGHTS + LIGHT_IS_POINT) != 0) {
+            uint256 light = LIGHTS + load(LIGHT_OFFSET);
+            uint256 lx = load(light + LIGHT_X);
+            uint256 ly = load(light + LIGHT_Y);
+            uint256 lz = load(light + LIGHT_Z);
+            if (load(light + LIGHT_IS_POINT) != 0) {
                 assembly ("memory-safe") {
                     // from the vertex to the light, Q16
                     let z := div(mload(DEPTH_SCALE), shr(ATTRIBUTE_DEPTH_AT, mload(add(vertex, VERTEX_ATTRIBUTES)))) // distance, Q32
@@ -103,8 +104,7 @@ library SmoothVertex {
                     // the light must not be nearer than the eye by more than a factor of the root of 5/4
                     bounded := and(bounded, iszero(gt(shl(2, square), mul(5, length)))) // 4 * square <= 5 * |L|^2
                 }
-                // hints are not literals here: see ZERO_SLOT
-                length = sqrtNear(length, load(ZERO_SLOT) + (LIGHTS + LIGHT_HINT));
+                length = sqrtNear(length, light + LIGHT_HINT);
             }
             assembly ("memory-safe") {
                 lx := sdiv(shl(Q20, lx), length) // L / |L|, Q20
@@ -117,7 +117,7 @@ library SmoothVertex {
                 }
                 length := add(add(mul(x, x), mul(y, y)), ONE_48) // x^2 + y^2 + 1, Q48
             }
-            // H = L + V, where V is the reversed ray
+            // H = L + V, where V is the reversed ray; hints are not literals here: see ZERO_SLOT
             length = sqrtNear(length, load(ZERO_SLOT) + RAY_HINT);
             assembly ("memory-safe") {
                 lx := sub(lx, sdiv(shl(Q20, x), length)) // Q20; H from here on
