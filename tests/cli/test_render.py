@@ -291,7 +291,6 @@ def test_wrong_usage_is_one_line(
     "arguments",
     [
         ["shape.obj", "--near", "1e30"],
-        ["point.obj"],
         ["empty.json", "--json"],
         ["shape.obj", "--near", "1e30", "--tile", "8"],
         ["shape.obj", "--near", "1e30", "--turntable", "2", "-o", "a.gif"],
@@ -299,7 +298,6 @@ def test_wrong_usage_is_one_line(
     ids=" ".join,
 )
 def test_an_empty_picture_is_told(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
-    Path("point.obj").write_text("v 1 1 1\nf 1 1 1\n", "utf-8")
     Path("empty.json").write_text("{}", "utf-8")
     assert run(["render", *arguments, "--size", "16"]) == 0
     output, messages = capsys.readouterr()
