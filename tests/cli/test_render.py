@@ -436,6 +436,7 @@ def test_the_scene_is_left_out(capsys: pytest.CaptureFixture[str]) -> None:
     assert capsys.readouterr().err == "shackled: --scene needs a .png file, not a.bmp\n"
 
 
+@pytest.mark.filterwarnings("ignore:.* no area")
 def test_a_large_scene_is_left_out_unless_asked_for(capsys: pytest.CaptureFixture[str]) -> None:
     rng = np.random.default_rng(1)
     corners = "".join(f"v {x} {y} {z}\n" for x, y, z in rng.integers(-30_000, 30_000, (6000, 3)))
