@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -247,6 +247,17 @@ def test_the_page_lists_all_settings() -> None:
     assert all(f"| `{setting.name}` |" in page for setting in SETTINGS)
 
 
+@pytest.mark.parametrize(("axis", "up"), [("x", (1, 0, 0)), ("y", (0, 1, 0)), ("z", (0, 0, 1))])
+def test_an_axis_of_the_file_points_up(axis: Literal["x", "y", "z"], up: tuple[int, int, int]) -> None:
+    """And the scene keeps its hand; `rotate` comes after."""
+    (o,) = load(MESH, up_axis=axis).objects
+    assert rotate(o.rotation, up) == pytest.approx((0, 1, 0), abs=1e-12)
+    (turned,) = load(MESH, up_axis=axis, rotate=(0, 0, 90)).objects
+    assert rotate(turned.rotation, up) == pytest.approx((-1, 0, 0), abs=1e-12)
+    with pytest.raises(InputError, match=r"^`up_axis` must be one of x, y, z, not 'w'"):
+        load(MESH, up_axis="w")  # type: ignore[arg-type]
+
+
 #: A value for each setting with which the picture of a ball is another.
 VALUES: dict[str, Any] = {
     "size": 40,
@@ -254,6 +265,7 @@ VALUES: dict[str, Any] = {
     "background": ("navy", "white"),
     "invert": True,
     "rotate": (10, 20, 30),
+    "up_axis": "z",
     "eye": (1, 1, 4),
     "target": (0.5, 0, 0),
     "up": (1, 1, 0),

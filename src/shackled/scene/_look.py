@@ -22,7 +22,7 @@ from ._light import Light
 from ._material import COEFFICIENTS, EXPONENTS, SHADINGS, Material, Shading
 from ._mesh import Mesh
 from ._object import OPACITIES, Object
-from ._rotation import IDENTITY, rotate, rotation_of
+from ._rotation import IDENTITY, from_euler, multiply, rotate, rotation_of
 from ._scene import MAX_SIDE, Scene, lights_of
 from ._staging import ELEVATIONS, MARGINS, MESH_STAGING, PLAIN, Staging, Viewpoint, frame, painted_object, placed
 from ._turning import middle, turn
@@ -114,6 +114,9 @@ _WORDS: dict[Kind, str] = {
     "entry": "a name, or a number from 0",
 }
 
+#: The rotations, as in `from_euler`, that turn an axis to +y.
+UPRIGHT = {"x": (0, 0, 90), "y": (0, 0, 0), "z": (-90, 0, 0)}
+
 #: The material of mesh files.
 _SURFACE = MESH_STAGING.material
 
@@ -148,6 +151,15 @@ SETTINGS = (
         "Camera",
         "Rotate the scene about x, then y, then z, through its middle.",
         unit="degrees",
+    ),
+    Setting(
+        "up_axis",
+        "choice",
+        None,
+        "Camera",
+        "Axis of the file that points up in the scene, before `rotate`.",
+        default="y",
+        choices=tuple(UPRIGHT),
     ),
     Setting("eye", "vector", "camera", "Camera", "Position of the camera."),
     Setting("target", "vector", "camera", "Camera", "Point at which the camera looks."),
@@ -355,6 +367,7 @@ class LookOptions(TypedDict, total=False):
     invert: bool | None
     antialias: bool | None
     rotate: ArrayLike | None
+    up_axis: Literal["x", "y", "z"] | None
     eye: ArrayLike | None
     target: ArrayLike | None
     up: ArrayLike | None
@@ -432,6 +445,9 @@ def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
         raise InputError(f"the shading cannot be {' and '.join(sorted(shadings))} at once")
     if shadings:
         look["shading"] = shadings.pop()
+    if "up_axis" in look:
+        upright = from_euler(UPRIGHT[look.pop("up_axis")])
+        look["rotate"] = multiply(look.get("rotate", IDENTITY), upright)
     if "crease" in look and look.get("shading", "smooth") != "smooth":
         raise InputError(f"`crease` is for smooth shading, and excludes {look['shading']}")
     exclude(look, "`{}`".format)

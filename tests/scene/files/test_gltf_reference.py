@@ -177,6 +177,7 @@ def srgb(color: gltf_reader.Vector) -> list[float]:
     return [255 * (12.92 * c if c <= 0.0031308 else 1.055 * c ** (1 / 2.4) - 0.055) for c in color]
 
 
+@pytest.mark.filterwarnings("ignore:.* no area")
 @pytest.mark.parametrize("seed", range(60))
 def test_both_readers_see_the_same(tmp_path: Path, seed: int) -> None:
     writer = Writer(seed)
