@@ -177,7 +177,6 @@ def srgb(color: gltf_reader.Vector) -> list[float]:
     return [255 * (12.92 * c if c <= 0.0031308 else 1.055 * c ** (1 / 2.4) - 0.055) for c in color]
 
 
-@pytest.mark.filterwarnings("ignore:.* no area")
 @pytest.mark.parametrize("seed", range(60))
 def test_both_readers_see_the_same(tmp_path: Path, seed: int) -> None:
     writer = Writer(seed)
@@ -185,7 +184,8 @@ def test_both_readers_see_the_same(tmp_path: Path, seed: int) -> None:
     wanted = gltf_reader.read(path.read_bytes())
     with pytest.warns(InputWarning) as told:
         mesh = read_mesh(path)
-    other, *points = [str(warning.message) for warning in told]
+    # faces at random: some have no area
+    other, *points = [text for each in told if "no area" not in (text := str(each.message))]
     assert other == f"{path}: left out: 1 other scene"
     assert all(re.fullmatch(r".*: left out: \d primitives? of points or lines", each) for each in points)
     assert len(points) <= 1
