@@ -14,10 +14,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
+from PIL import ImageSequence
 from tools.ledger import call_data
 
 from pictures import chain, dynamic
 from shackled import (
+    Animation,
     Background,
     Fog,
     Ground,
@@ -32,11 +34,12 @@ from shackled import (
     Tone,
     load,
     render,
+    turntable,
 )
 from shackled.artifacts import artifact
 from shackled.cli.app import run
 from shackled.image import encode_bmp, uncovered
-from shackled.scene import Hemisphere, encode
+from shackled.scene import Hemisphere, encode, full_turn
 
 Pixels = NDArray[np.uint8]
 GRADIENT = Background("#2060c0", "#f0c080")
@@ -151,9 +154,10 @@ def test_files() -> None:
     assert (opened(image.encode(".png")) == image.channels).all()
     assert np.asarray(image).shape == (SIDE, SIDE, 4)
     assert image.to_pil().mode == "RGBA"
+    assert (opened(image.encode(".webp")) == image.channels).all()
     assert b"data:image/png" in image.encode(".svg")
-    for extension in (".bmp", ".gif"):
-        with pytest.raises(InputError, match=rf"needs a \.png or \.svg file: {extension} has no alpha channel"):
+    for extension in (".bmp", ".gif", ".jpg"):
+        with pytest.raises(InputError, match=rf"needs a \.png \.svg or \.webp file: {extension} has no alpha channel"):
             image.encode(extension)
     with pytest.raises(InputError, match=r"alpha must have the shape \(48, 48\) of the picture, not \(2, 2\)"):
         Image(image.pixels, alpha=np.zeros((2, 2)))
@@ -175,15 +179,50 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["-o", "a.bmp"], "a transparent picture needs a .png or .svg file: .bmp has no alpha channel"),
-        (["-o", "a.GIF"], "a transparent picture needs a .png or .svg file: .gif has no alpha channel"),
-        (["-o", "a.webp"], "must end in one of .png .bmp .svg .gif"),
-        (["--turntable", "3"], "--transparent and --turntable exclude each other"),
+        (["-o", "a.bmp"], "a transparent picture needs a .png .svg or .webp file: .bmp has no alpha channel"),
+        (["-o", "a.GIF"], "a transparent picture needs a .png .svg or .webp file: .gif has no alpha channel"),
+        (["-o", "a.jpeg"], "a transparent picture needs a .png .svg or .webp file: .jpeg has no alpha channel"),
+        (["-o", "a.tiff"], "must end in one of .png .bmp .svg .gif"),
+        (["--turntable", "3"], "a transparent picture needs a .png or .webp file: .gif has no alpha channel"),
+        (["--turntable", "3", "--one-call", "-o", "a.png"], "--transparent and --one-call exclude each other"),
     ],
 )
 def test_what_is_refused(options: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["render", "cube", "--transparent", *options]) == 2
     assert message in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("invert", [[], ["--invert"]])
+def test_a_turntable(
+    invert: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    expected = turntable("cube", 3, 24, transparent=True, invert=bool(invert))
+    # as a picture of the first frame is
+    first = render(full_turn(load("cube", 24, invert=bool(invert)), 3)[0], transparent=True)
+    assert (expected.frames[0].channels == first.channels).all()
+    assert first.channels[:, :, 3].min() == 0
+    for name in ("a.png", "a.webp", "frames"):
+        options = ["--size", "24", "--turntable", "3", "--background", "none", *invert, "-o", name]
+        assert run(["render", "cube", "--json", *options]) == 0
+        report = json.loads(capsys.readouterr().out)
+        assert (report["frames"], report["calls"], report["gas"]) == (3, 6, expected.gas)
+        if name == "frames":
+            found = [opened(path.read_bytes()) for path in sorted(Path(name).iterdir())]
+        else:
+            with PillowImage.open(name) as film:
+                found = [np.array(frame.convert("RGBA")) for frame in ImageSequence.Iterator(film)]
+        assert len(found) == 3
+        for shown, frame in zip(found, expected.frames, strict=True):
+            # what nothing is seen of may have any colour
+            assert ((shown == frame.channels) | (frame.channels[:, :, 3:] == 0)).all()
+            assert (shown[:, :, 3] == frame.alpha).all()
+    with pytest.raises(InputError, match=r"needs a \.png or \.webp file: \.gif has no alpha"):
+        expected.encode(".gif")
+    with pytest.raises(InputError, match="must all have alpha, or none"):
+        Animation([expected.frames[0], Image(expected.frames[1].pixels)])
+    with pytest.raises(InputError, match="`one_call` and `transparent` exclude each other"):
+        turntable("cube", 3, 24, transparent=True, one_call=True)
 
 
 # ---- by the contracts ----

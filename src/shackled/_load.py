@@ -14,6 +14,7 @@ from attrs import evolve, fields
 from .datasets import Piece, find, require
 from .errors import InputError
 from .scene import (
+    GLTF,
     MESH_STAGING,
     PICTURE,
     READERS,
@@ -31,6 +32,8 @@ from .scene import (
     part_of,
     read_model,
     read_scene,
+    read_view,
+    settings_of,
 )
 
 #: Input of `load`. `Any`: arrays of vertices and faces, or a mesh or scene of trimesh, an optional package.
@@ -58,7 +61,10 @@ def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
     """
     chosen = checked_look({"size": size, **look})
     found = _located(thing)
-    made = _made(found, chosen)
+    pose = {}
+    if isinstance(found, Path) and found.suffix.lower() in GLTF:
+        pose = {setting.name: chosen.pop(setting.name) for setting in settings_of("file") if setting.name in chosen}
+    made = _posed(found, pose) if pose else _made(found, chosen)
     with about(str(found)) if isinstance(found, Path) else nullcontext():
         return look_at(made, chosen)
 
@@ -89,6 +95,25 @@ def locate(input: str | os.PathLike[str]) -> Path | Piece:
 def _unplaced(part: MeshPart) -> Object:
     """Return a part of a model as an object, which `look_at` is to place."""
     return Object(part.mesh, material=evolve(MESH_STAGING.material, **part.material), opacity=part.opacity)
+
+
+def _in_their_places(parts: list[Object]) -> Scene:
+    """Return parts of a model, shaded as when they are staged, but in their own places."""
+    staged = look_at(parts, {})
+    return evolve(
+        staged, objects=[evolve(each, position=(0, 0, 0), rotation=(0, 0, 0, 1), scale=1) for each in staged.objects]
+    )
+
+
+def _posed(path: Path, pose: dict[str, Any]) -> list[Object] | Scene:
+    """Return what a glTF file holds, with the settings of what is read of it."""
+    parts = [_unplaced(part) for part in read_model(path, **pose)]
+    if "use_camera" not in pose:
+        return parts
+    with about(str(path)):
+        scene = _in_their_places(parts)
+    camera, lights = read_view(path, scene.bounds.mean(axis=0), **pose)
+    return evolve(scene, camera=camera, lights=lights or scene.lights)
 
 
 def _made(thing: Any, look: dict[str, Any]) -> Mesh | list[Object] | Scene:
@@ -164,9 +189,7 @@ def _combined(things: Sequence[Any], look: Mapping[str, Any]) -> list[Object] | 
                     scenes.append(made)
             else:
                 model, models = [*model, *made], models + 1
-                # shaded as when it is staged, but in its own place
-                staged = look_at(made, {}).objects
-                parts = [evolve(each, position=(0, 0, 0), rotation=(0, 0, 0, 1), scale=1) for each in staged]
+                parts = list(_in_their_places(made).objects)
         objects += parts
     if models == len(things):
         return model

@@ -60,8 +60,7 @@ def render(
         scene = _fitted(scene, fit, look)
     if not transparent:
         return draw([scene], where, listener, keep)[0]
-    backgrounds = ("white", "black") if scene.invert else ("black", "white")
-    black, white = draw([evolve(scene, background=Background(each)) for each in backgrounds], where, listener, keep)
+    black, white = draw(_twice(scene), where, listener, keep)
     return uncovered(black, white, scene)
 
 
@@ -77,6 +76,7 @@ def turntable(
     listener: Listener | None = None,
     keep: Path | None = None,
     one_call: bool = False,
+    transparent: bool = False,
     **look: Unpack[LookOptions],
 ) -> Animation:
     """Render a full turn about the vertical axis through the middle of the scene.
@@ -89,10 +89,13 @@ def turntable(
     on, gas_limit, tile, listener, keep: as in `render`.
     one_call: whether the contract Turntable makes the whole animated PNG file in one call, as for a token. At most 360
         frames, no tiles, and `on` as in `shackled.studio.make_apng`.
+    transparent: as in `render`.
     """
     if one_call:
         from .studio import make_apng
 
+        if transparent:
+            raise InputError("`one_call` and `transparent` exclude each other: the contract's file has a background")
         if tile is not None:
             raise InputError("a turntable of one call has no tiles: leave out `tile` or `one_call`")
         return Animation.of(
@@ -101,7 +104,17 @@ def turntable(
     from .parallel import render_frames
 
     turned = full_turn(load(thing, size, **look), frames)
-    return Animation(render_frames(turned, _where(on, gas_limit, tile), listener, keep).images, duration)
+    drawn = [each for scene in turned for each in _twice(scene)] if transparent else turned
+    images = render_frames(drawn, _where(on, gas_limit, tile), listener, keep).images
+    if transparent:
+        images = [uncovered(*both) for both in zip(images[::2], images[1::2], turned, strict=True)]
+    return Animation(images, duration)
+
+
+def _twice(scene: Scene) -> list[Scene]:
+    """Return a scene over black and over white, as it is drawn for `uncovered`."""
+    backgrounds = ("white", "black") if scene.invert else ("black", "white")
+    return [evolve(scene, background=Background(each)) for each in backgrounds]
 
 
 def draw(

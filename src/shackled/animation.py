@@ -1,4 +1,4 @@
-"""Animations: GIF, APNG, or a folder of PNG files."""
+"""Animations: GIF, APNG, WebP, or a folder of PNG files."""
 
 from __future__ import annotations
 
@@ -19,9 +19,11 @@ from PIL import ImageSequence
 from .checks import number
 from .errors import InputError
 from .image import (
+    WEBP,
     Format,
     Image,
     as_array,
+    check_alpha,
     check_extension,
     check_scene,
     data_uri,
@@ -70,6 +72,8 @@ class Animation:
         sizes = {frame.pixels.shape for frame in self.frames}
         if len(sizes) != 1:
             raise InputError(f"an animation needs at least one frame, and all of one size, not {len(sizes)} sizes")
+        if len({frame.alpha is None for frame in self.frames}) > 1:
+            raise InputError("the frames of an animation must all have alpha, or none of them")
 
     @classmethod
     def of(cls, file: ContractFile, duration: int) -> Animation:
@@ -106,12 +110,15 @@ class Animation:
         return np.stack([frame.pixels for frame in self.frames])
 
     def encode(self, extension: str, scene: bool | None = None) -> bytes:
-        """Return the bytes of a file: ".gif", or ".png" for an APNG. InputError for any other.
+        """Return the bytes of a file: ".gif", ".webp", or ".png" for an APNG. InputError for any other.
 
-        A GIF has at most 256 colours for all frames, the nearest where there are more; an APNG is exact.
+        A GIF has at most 256 colours for all frames, the nearest where there are more; the others are exact. Frames
+        with alpha need ".png" or ".webp".
         scene: whether an APNG carries the scene of its first frame, as in `Image.encode`; that of a contract does not.
         """
         extension = check_extension(extension, FORMATS)
+        if self.frames[0].alpha is not None:
+            check_alpha(extension, FORMATS)
         if extension == PICTURE:
             return _encode_apng(self, scene)
         check_scene(scene, extension)
@@ -179,7 +186,8 @@ def _encode_apng(animation: Animation, scene: bool | None = None) -> bytes:
 #: The formats of `Animation.save`, by extension; a name without one is a folder.
 FORMATS: dict[str, Format[Animation]] = {
     ".gif": Format("image/gif", _encode_gif),
-    PICTURE: Format("image/png", _encode_apng),
+    PICTURE: Format("image/png", _encode_apng, has_alpha=True),
+    ".webp": Format("image/webp", lambda film: _encode(film, film.to_pil(), "WEBP", **WEBP), has_alpha=True),
 }
 
 
@@ -189,10 +197,10 @@ def frame_names(count: int) -> list[str]:
     return [f"{frame:0{digits}}.png" for frame in range(count)]
 
 
-def check_animation(path: str | os.PathLike[str]) -> Path:
-    """Return the path, if an animation can be saved there."""
+def check_animation(path: str | os.PathLike[str], in_new_folder: bool = False) -> Path:
+    """Return the path, if an animation can be saved there. in_new_folder: as in `check_output_file`."""
     path = Path(path)
     if path.suffix and path.suffix.lower() not in FORMATS:
         raise InputError(f"the turntable {path} must end in {one_of(FORMATS)}, or be a folder")
     is_file = path.suffix or not os.path.lexists(path)
-    return check_output_file(path, "turntable") if is_file else check_output_folder(path)
+    return check_output_file(path, "turntable", in_new_folder) if is_file else check_output_folder(path)

@@ -132,13 +132,13 @@ class Image(Value):
     def encode(self, extension: str, scene: bool | None = None) -> bytes:
         """Return the bytes of a file in a format of `FORMATS`, such as ".png". InputError for any other.
 
-        A GIF has at most 256 colours, the nearest where there are more; other formats are exact. A picture with alpha
-        needs ".png" or ".svg".
+        A GIF has at most 256 colours, the nearest where there are more; a JPEG is near; other formats are exact. A
+        picture with alpha needs ".png", ".svg" or ".webp".
         scene: whether a PNG file carries the scene, from which `load` restores it; None if it takes at most 64 KB.
         """
         extension = check_extension(extension, FORMATS)
         if self.alpha is not None:
-            check_alpha(extension)
+            check_alpha(extension, FORMATS)
         if extension == PICTURE:
             return _encode_png(self, scene)
         check_scene(scene, extension)
@@ -210,12 +210,23 @@ def _encode_gif(image: Image) -> bytes:
     return pillow_bytes(indexed([image.pixels])[0], "GIF")
 
 
+def _encode_jpeg(image: Image) -> bytes:
+    # colours of full resolution: edges of one pixel stay sharp
+    return pillow_bytes(image.to_pil(), "JPEG", quality=95, subsampling=0)
+
+
+#: Pillow's options for a WebP file that keeps every byte.
+WEBP = {"lossless": True, "exact": True}
+
 #: The formats of `Image.save`, by extension.
 FORMATS: dict[str, Format[Image]] = {
     PICTURE: Format("image/png", _encode_png, has_alpha=True),
     ".bmp": Format("image/bmp", lambda image: image.bmp),
     ".svg": Format("image/svg+xml", _encode_svg, has_alpha=True),
     ".gif": Format("image/gif", _encode_gif),
+    ".jpg": Format("image/jpeg", _encode_jpeg),
+    ".jpeg": Format("image/jpeg", _encode_jpeg),
+    ".webp": Format("image/webp", lambda image: pillow_bytes(image.to_pil(), "WEBP", **WEBP), has_alpha=True),
 }
 
 
@@ -255,10 +266,10 @@ def check_scene(scene: bool | None, extension: str) -> None:
         raise InputError(f"only a {PICTURE} file carries its scene, not {extension}")
 
 
-def check_alpha(extension: str) -> None:
-    """Refuse a format of `FORMATS` that does not keep alpha."""
-    if not FORMATS[extension].has_alpha:
-        known = one_of(name for name, each in FORMATS.items() if each.has_alpha)
+def check_alpha(extension: str, formats: Mapping[str, Format[Any]]) -> None:
+    """Refuse one of the formats if it does not keep alpha."""
+    if not formats[extension].has_alpha:
+        known = one_of(name for name, each in formats.items() if each.has_alpha)
         raise InputError(f"a transparent picture needs a {known} file: {extension} has no alpha channel")
 
 
@@ -326,12 +337,12 @@ def write_open(
     file.write(encode(extension or check_extension(Path(name if isinstance(name, str) else "").suffix, formats)))
 
 
-def check_output(path: str | os.PathLike[str]) -> Path:
-    """Return the path, if a picture can be saved there. InputError if not."""
+def check_output(path: str | os.PathLike[str], in_new_folder: bool = False) -> Path:
+    """Return the path, if a picture can be saved there. InputError if not. in_new_folder: as in `check_output_file`."""
     path = Path(path)
     if path.suffix.lower() not in FORMATS:
         raise InputError(f"the picture {path} must end in one of {' '.join(FORMATS)}")
-    return check_output_file(path, "picture")
+    return check_output_file(path, "picture", in_new_folder)
 
 
 def check_extension(extension: object, formats: Iterable[str]) -> str:

@@ -55,13 +55,18 @@ def check_output_folder(path: Path) -> Path:
     return path
 
 
-def check_output_file(path: Path, what: str) -> Path:
-    """Return the path, if a file can be written there, otherwise InputError. what: the word for it in messages."""
+def check_output_file(path: Path, what: str, in_new_folder: bool = False) -> Path:
+    """Return the path, if a file can be written there, otherwise InputError.
+
+    what: the word for it in messages. in_new_folder: whether its folder will be made if it does not exist.
+    """
     try:
         if path.is_dir():
             raise InputError(f"{path} is a folder, not the file of a {what}")
         is_special = path.exists() and not path.is_file()
         folder = path.parent if not path.is_symlink() else Path(os.path.realpath(path)).parent
+        if in_new_folder and not folder.exists():
+            return path
         if not folder.is_dir():
             raise InputError(f"the folder {folder} of the {what} {path.name} does not exist")
     except OSError as error:

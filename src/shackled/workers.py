@@ -200,8 +200,16 @@ def _hand_over(process: subprocess.Popen[bytes], function: Callable[..., object]
     pickle.load(process.stdout)
 
 
-def each(function: Callable[[Item], Result], items: Iterable[Item], processes: int) -> Iterator[tuple[int, Result]]:
-    """Call a function for each item in several processes; yield (index of the item, result) as they are done."""
+def each(
+    function: Callable[[Item], Result],
+    items: Iterable[Item],
+    processes: int,
+    lost: Callable[[WorkerEndedError], Result] | None = None,
+) -> Iterator[tuple[int, Result]]:
+    """Call a function for each item in several processes; yield (index of the item, result) as they are done.
+
+    lost: returns the result of an item whose process ended; None raises the error.
+    """
     items = list(items)
     workers = [Worker() for _ in range(min(processes, len(items)))]
     idle: queue.SimpleQueue[Worker] = queue.SimpleQueue()
@@ -212,6 +220,10 @@ def each(function: Callable[[Item], Result], items: Iterable[Item], processes: i
         worker = idle.get()
         try:
             return worker.call(function, item)
+        except WorkerEndedError as error:
+            if lost is None:
+                raise
+            return lost(error)
         finally:
             idle.put(worker)
 

@@ -74,7 +74,7 @@ def test_sheet(capsys: pytest.CaptureFixture[str]) -> None:
             "a seed must be 64 hexadecimal digits, with or without 0x, or a number from 0 to 1023, not 'xyz'",
         ),
         (["3", "4", "-o", "a.png"], "--output needs exactly one SEED, not 2"),
-        (["3", "-o", "a.txt"], "the picture a.txt must end in one of .png .bmp .svg .gif"),
+        (["3", "-o", "a.txt"], "the picture a.txt must end in one of .png .bmp .svg .gif .jpg .jpeg .webp"),
         (["3", "--count", "4"], "--count, --size and --jobs need --sheet FILE"),
         (["3", "--sheet", "a.png"], "--sheet excludes SEED, --json and --output"),
         (["--sheet", "a.gif"], "the sheet a.gif must end in .png"),

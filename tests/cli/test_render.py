@@ -217,14 +217,12 @@ def test_a_gif_says_when_colours_are_lost(capsys: pytest.CaptureFixture[str]) ->
 WRONG = [
     (["render"], "INPUT"),
     (["render", "missing.obj"], "missing.obj"),
-    (["render", "."], "directory"),
     (["render", "folder.obj"], "folder.obj"),
     (["render", "empty.obj"], "empty.obj"),
     (["render", "binary.obj"], "binary.obj"),
     (["render", "shape.xyz"], "shape.xyz"),
-    (["render", "shape.obj", "-o", "a.jpg"], "must end in one of .png .bmp .svg .gif"),
+    (["render", "shape.obj", "-o", "a.tiff"], "must end in one of .png .bmp .svg .gif"),
     (["render", "shape.obj", "-o", "missing/a.png"], "the folder missing"),
-    (["render", "shape.obj", "-o", "folder.obj"], "must end in one of"),
     (["render", "shape.obj", "--size", "0"], "from 1 to 2048 pixels a side"),
     (["render", "shape.obj", "--size", "100x0"], "from 1 to 2048 pixels a side"),
     (["render", "shape.obj", "--size", "3000"], "from 1 to 2048 pixels a side"),
@@ -263,7 +261,6 @@ WRONG = [
     (["render", "shape.obj", "--smooth", "--unlit"], "smooth and unlit at once"),
     (["render", "shape.obj", "--max-triangles", "0"], "0"),
     (["render", "shape.obj", "--bogus"], "--bogus"),
-    (["render", "shape.obj", "more.obj"], "more.obj"),
     (["draw", "shape.obj"], "draw"),
     (["--bogus"], "--bogus"),
 ]
@@ -291,7 +288,6 @@ def test_wrong_usage_is_one_line(
     "arguments",
     [
         ["shape.obj", "--near", "1e30"],
-        ["point.obj"],
         ["empty.json", "--json"],
         ["shape.obj", "--near", "1e30", "--tile", "8"],
         ["shape.obj", "--near", "1e30", "--turntable", "2", "-o", "a.gif"],
@@ -299,7 +295,6 @@ def test_wrong_usage_is_one_line(
     ids=" ".join,
 )
 def test_an_empty_picture_is_told(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
-    Path("point.obj").write_text("v 1 1 1\nf 1 1 1\n", "utf-8")
     Path("empty.json").write_text("{}", "utf-8")
     assert run(["render", *arguments, "--size", "16"]) == 0
     output, messages = capsys.readouterr()
@@ -438,6 +433,7 @@ def test_the_scene_is_left_out(capsys: pytest.CaptureFixture[str]) -> None:
     assert capsys.readouterr().err == "shackled: --scene needs a .png file, not a.bmp\n"
 
 
+@pytest.mark.filterwarnings("ignore:.* no area")
 def test_a_large_scene_is_left_out_unless_asked_for(capsys: pytest.CaptureFixture[str]) -> None:
     rng = np.random.default_rng(1)
     corners = "".join(f"v {x} {y} {z}\n" for x, y, z in rng.integers(-30_000, 30_000, (6000, 3)))

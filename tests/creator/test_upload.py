@@ -461,7 +461,7 @@ def test_files_of_the_server_are_out_of_reach(visitor: Visitor, tmp_path: Path) 
     """A material file and a texture that are there, named by an upload, leave no trace in the picture."""
     PillowImage.new("RGB", (2, 2), (255, 0, 0)).save(tmp_path / "red.png")
     (tmp_path / "red.mtl").write_text(f"newmtl m\nKd 1 0 0\nmap_Kd {tmp_path}/red.png\n")
-    obj = f"mtllib {tmp_path}/red.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n".encode()
+    obj = f"mtllib {tmp_path}/red.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n".encode()
     (tmp_path / "there.obj").write_bytes(obj)
     there = render(load(tmp_path / "there.obj")).pixels.astype(int)
     assert (there[..., 0] - there[..., 1]).max() > 100

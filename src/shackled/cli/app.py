@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import os
 import sys
-import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -21,8 +20,10 @@ from .deploy import deploy
 from .export import export
 from .gas import gas
 from .genesis import genesis
+from .info import info
 from .library import library
 from .mint import mint
+from .notes import noting, with_strict
 from .option import with_options
 from .preview import preview
 from .render import render
@@ -33,20 +34,20 @@ from .token import token
 INTERRUPTED = 130
 
 app = typer.Typer(
-    add_completion=False,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-app.command()(render)
-app.command()(export)
-app.command()(gas)
+app.command()(with_strict(render))
+app.command()(with_strict(export))
+app.command()(with_strict(info))
+app.command()(with_strict(gas))
 app.command()(bench)
 app.command()(genesis)
-app.command()(stages)
+app.command()(with_strict(stages))
 app.command()(deploy)
-app.command()(mint)
+app.command()(with_strict(mint))
 app.command()(creator)
-app.command()(preview)
+app.command()(with_strict(preview))
 app.add_typer(datasets, name="datasets")
 app.add_typer(library, name="library")
 app.add_typer(token, name="token")
@@ -66,9 +67,7 @@ def shackled(
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run the command and return its exit code. Errors and warnings are printed on stderr, one line each."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("always", InputWarning)
-        warnings.showwarning = _note(warnings.showwarning)
+    with noting("always"):
         return _run(arguments)
 
 
@@ -78,7 +77,12 @@ def _run(arguments: Sequence[str] | None) -> int:
         # at the end of the interpreter, a failure to write could not be reported
         sys.stdout.flush()
         return _fail("stopped", 1) if code == INTERRUPTED else int(code or 0)
-    except InputError as error:
+    except ExceptionGroup as group:
+        # of several inputs; the others were rendered
+        for error in group.exceptions:
+            _fail(error, 1)
+        return _fail(group.message, 1)
+    except (InputError, InputWarning) as error:
         return _fail(error, 2)
     except ShackledError as error:
         return _fail(error, 1)
@@ -96,20 +100,6 @@ def _run(arguments: Sequence[str] | None) -> int:
         message, code = error.format_message(), getattr(error, "exit_code", 2)
         # a group without a command has printed its help, and has no message
         return _fail(message, code) if message else int(code)
-
-
-def _note(show: Callable[..., object]) -> Callable[..., None]:
-    """Return a function that prints each InputWarning once, in one line, and shows other warnings as before."""
-    printed = set[str]()
-
-    def showwarning(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
-        if not issubclass(category, InputWarning):
-            show(message, category, *place, **more)
-        elif str(message) not in printed:
-            printed.add(str(message))
-            print(f"shackled: note: {plain(with_options(str(message)))}", file=sys.stderr)
-
-    return showwarning
 
 
 def _drop_output() -> None:

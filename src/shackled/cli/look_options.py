@@ -30,6 +30,7 @@ _KINDS: dict[Kind, tuple[Any, str | None, Callable[[Any, str], Any]]] = {
     "ground": (str, "COLOR", lambda text, name: text),
     "fog": (str, "COLOR[,NEAR,FAR]", lambda text, name: parse_color_and(("near", "far"), text, name)),
     "lights": (list[str], "KIND:X,Y,Z[:COLOR]", lambda texts, name: [parse_light(text) for text in texts] or None),
+    "entry": (str, "NAME|N", lambda text, name: text),
 }
 
 #: Additions to the help, where values are written differently than in Python.
@@ -44,15 +45,25 @@ _MORE = {
 }
 
 
+#: Inputs, and the options that are needed most, which help lists first; those of a look without the title of a group.
+COMMON = (
+    *("input", "inputs", "output"),
+    *("size", "background", "color", "azimuth", "elevation", "max_triangles", "turntable"),
+)
+
+
 def with_look(command: Callable[..., None]) -> Callable[..., None]:
     """Return the command with the options of a look in place of its parameter `look`."""
     given = signature(command, eval_str=True).parameters.values()
     parameters: list[Parameter] = []
     for each in given:
         parameters += map(_parameter, SETTINGS) if each.name == "look" else [each.replace(kind=Parameter.KEYWORD_ONLY)]
+    parameters.sort(key=lambda each: COMMON.index(each.name) if each.name in COMMON else len(COMMON))
 
     @wraps(command)
     def whole(**values: Any) -> None:
+        if "transparent" in values and values["background"] == "none":
+            values |= {"background": None, "transparent": True}
         look = _look({setting.name: values.pop(setting.name) for setting in SETTINGS})
         command(**values, look=look)
 
@@ -114,5 +125,6 @@ def _parameter(setting: Setting) -> Parameter:
     if setting.kind == "number" and setting.unit:
         metavar = setting.unit.upper()
     text = f"{setting.help}{_MORE.get(setting.name, '')}"
-    declared = option(option_of(setting), text, metavar, setting.group)
+    panel = None if setting.name in COMMON else setting.group
+    declared = option(option_of(setting), text, metavar, panel)
     return Parameter(setting.name, Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[kind | None, declared])

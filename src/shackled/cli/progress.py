@@ -49,6 +49,14 @@ class LateBar:
             else:
                 print(line, file=sys.stderr, flush=True)
 
+    def print_result(self, line: str) -> None:
+        """Print a line on stdout; above the bar if that is on the same terminal."""
+        with self._lock:
+            if self._bar is not None and sys.stdout.isatty():
+                self.print(line)
+            else:
+                print(line, flush=True)
+
     def end(self) -> None:
         """Remove the bar; it does not appear again."""
         with self._lock:
@@ -76,9 +84,19 @@ class LateBar:
                 TimeRemainingColumn(),
                 console=self._console,
                 transient=True,
+                # results would be wrapped, and go to stderr
+                redirect_stdout=False,
             )
             self._bar.add_task(self._what, total=self._total or None, completed=self._done)
             self._bar.start()
+
+
+class Notes(Listener):
+    """A listener that prints warnings only."""
+
+    def warned(self, text: str) -> None:
+        """Print a warning."""
+        print(f"shackled: {with_options(text)}", file=sys.stderr, flush=True)
 
 
 class JobProgress(Listener):

@@ -27,7 +27,7 @@ _allowed: list[str] = []
 _inside: str | None = None
 
 #: Modules that readers import late, if they are installed.
-_NEEDED = ("fast_simplification",)
+_NEEDED = ("DracoPy", "fast_simplification")
 
 #: Audit events that reading a file does not need.
 _FORBIDDEN = (

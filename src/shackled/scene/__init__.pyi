@@ -19,7 +19,8 @@ from ._decode import decode, read_call
 from ._effects import EXPOSURES, POWERS, Fog, Hemisphere, Rim, Tone
 from ._files.colors import sample
 from ._files.content import MAX_BYTES
-from ._files.mesh_file import READERS, read_mesh, read_model
+from ._files.gltf.view import read_view
+from ._files.mesh_file import GLTF, READERS, read_mesh, read_model
 from ._files.model import TEXTURED, MeshPart
 from ._files.obj import write_obj
 from ._files.original import original_scene
@@ -32,7 +33,7 @@ from ._fit import EXACT_SIZES, MAX_COORDINATE, fit, fit_factor, near_plane
 from ._from_trimesh import is_trimesh, mesh_of, objects_of, part_of
 from ._ground import Ground
 from ._light import INNER_ANGLE, LIGHT_KINDS, OUTER_ANGLE, WHITE, Light, LightKind
-from ._look import SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, size_of, stage
+from ._look import SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, settings_of, size_of, stage
 from ._material import Material, Shading
 from ._mesh import DEFAULT_COLOR, MAX_VERTICES, Mesh, components, vertex_normals, without_slivers
 from ._object import Object
@@ -71,6 +72,7 @@ __all__ = [
     "FOG",
     "FORCEFUL",
     "GENTLE",
+    "GLTF",
     "HEMISPHERE",
     "INNER_ANGLE",
     "LIGHTS",
@@ -167,11 +169,13 @@ __all__ = [
     "read_mesh",
     "read_model",
     "read_scene",
+    "read_view",
     "render_call",
     "resize",
     "rotate",
     "sample",
     "scene_chunk",
+    "settings_of",
     "shaded",
     "signed_volume",
     "simplify",

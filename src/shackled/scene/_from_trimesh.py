@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError, warn
 from ._files.colors import to_srgb
-from ._files.model import MeshPart, Picture, finite_uvs
+from ._files.model import MeshPart, Picture, finite_uvs, is_transparent
 from ._files.weld import weld
 from ._material import Material
 from ._mesh import Mesh
@@ -46,8 +46,9 @@ def mesh_of(value: Any) -> Mesh:
 
 
 def part_of(value: Any) -> MeshPart:
-    """Return the mesh of a trimesh.Trimesh, the texture of its material as a field of a `Material`, if it has one, and
-    its opacity, if it is blended. Errors as in `mesh_of`.
+    """Return the mesh of a trimesh.Trimesh, texture and emission of its material as fields of a `Material`, if it has
+    any, its opacity, if it is blended, and whether it has two sides. An InputWarning tells of alpha in the texture that
+    is left out. Errors as in `mesh_of`.
     """
     visual: Any = getattr(value, "visual", None)
     uvs = getattr(visual, "uv", None)
@@ -57,18 +58,26 @@ def part_of(value: Any) -> MeshPart:
     factor = getattr(material, "baseColorFactor", None)
     # trimesh keeps the linear factor as bytes
     *color, alpha = np.ones(4) if factor is None else np.asarray(factor, dtype=np.float64) / 255
-    opacity = float(alpha) if getattr(material, "alphaMode", None) == "BLEND" else 1.0
+    mode = getattr(material, "alphaMode", None)
+    opacity = float(alpha) if mode == "BLEND" else 1.0
+    two_sided = bool(getattr(material, "doubleSided", False))
+    emitted, fields = getattr(material, "emissiveFactor", None), dict[str, Any]()
+    if emitted is not None and np.any(emitted) and getattr(material, "emissiveTexture", None) is None:
+        fields["emission"] = to_srgb(emitted).astype(int).tolist()
     image = getattr(material, "baseColorTexture", None)
     if image is None:
         image, color = getattr(material, "image", None), [1.0, 1.0, 1.0]
     faces = np.asarray(value.faces)
     if image is None or uvs is None or len(uvs) != len(value.vertices):
-        return MeshPart(mesh_of(value), {}, opacity)
+        return MeshPart(mesh_of(value), fields, opacity, two_sided)
+    if mode in ("MASK", "BLEND") and is_transparent(image):
+        warn("the texture of the mesh has alpha, which is left out")
     picture = Picture(image.convert("RGB"), "the texture of the mesh")
     corners = finite_uvs(uvs, picture.name)[faces] * (1, -1) + (0, 1)
     texture, coordinates = picture.texture(corners, 1)
     colors = np.broadcast_to(to_srgb(color), (*faces.shape, 3))
-    return MeshPart(weld(value.vertices, faces, colors, uvs=coordinates), {"texture": texture}, opacity)
+    mesh = weld(value.vertices, faces, colors, uvs=coordinates)
+    return MeshPart(mesh, fields | {"texture": texture}, opacity, two_sided)
 
 
 def objects_of(scene: Any) -> list[Object]:

@@ -22,13 +22,14 @@ from ._light import Light
 from ._material import COEFFICIENTS, EXPONENTS, SHADINGS, Material, Shading
 from ._mesh import Mesh
 from ._object import OPACITIES, Object
-from ._rotation import IDENTITY, rotate, rotation_of
+from ._rotation import IDENTITY, from_euler, multiply, rotate, rotation_of
 from ._scene import MAX_SIDE, Scene, lights_of
 from ._staging import ELEVATIONS, MARGINS, MESH_STAGING, PLAIN, Staging, Viewpoint, frame, painted_object, placed
 from ._turning import middle, turn
 
-#: What a setting is a field of; "camera" also has settings from which a camera is made.
-Part = Literal["scene", "camera", "object", "material", "tone"]
+#: What a setting is a field of; "camera" also has settings from which a camera is made, "file" those that say what is
+#: read of a glTF file.
+Part = Literal["scene", "camera", "object", "material", "tone", "file"]
 Kind = Literal[
     "size",
     "whole",
@@ -44,6 +45,7 @@ Kind = Literal[
     "rim",
     "fog",
     "ground",
+    "entry",
 ]
 
 
@@ -109,7 +111,11 @@ _WORDS: dict[Kind, str] = {
     "rim": "a colour, with an exponent from 1 to 16 or without, or none",
     "fog": "a colour, with two distances or without, or none",
     "ground": "a colour, or none",
+    "entry": "a name, or a number from 0",
 }
+
+#: The rotations, as in `from_euler`, that turn an axis to +y.
+UPRIGHT = {"x": (0, 0, 90), "y": (0, 0, 0), "z": (-90, 0, 0)}
 
 #: The material of mesh files.
 _SURFACE = MESH_STAGING.material
@@ -145,6 +151,15 @@ SETTINGS = (
         "Camera",
         "Rotate the scene about x, then y, then z, through its middle.",
         unit="degrees",
+    ),
+    Setting(
+        "up_axis",
+        "choice",
+        None,
+        "Camera",
+        "Axis of the file that points up in the scene, before `rotate`.",
+        default="y",
+        choices=tuple(UPRIGHT),
     ),
     Setting("eye", "vector", "camera", "Camera", "Position of the camera."),
     Setting("target", "vector", "camera", "Camera", "Point at which the camera looks."),
@@ -322,6 +337,16 @@ SETTINGS = (
     ),
     Setting("wireframe", "flag", "object", "Surface", "Draw edges only.", option="--wireframe/--filled"),
     Setting("opacity", "number", "object", "Surface", "Opacity of the objects.", *OPACITIES),
+    Setting(
+        "animation",
+        "entry",
+        "file",
+        "glTF files",
+        "Animation that poses the model.",
+        default="the first if `time` is given, else the pose at rest",
+    ),
+    Setting("time", "number", "file", "glTF files", "Time in the animation.", 0, unit="seconds", default="0"),
+    Setting("use_camera", "entry", "file", "glTF files", "Camera of the file that is taken, with the lights there."),
 )
 
 
@@ -342,6 +367,7 @@ class LookOptions(TypedDict, total=False):
     invert: bool | None
     antialias: bool | None
     rotate: ArrayLike | None
+    up_axis: Literal["x", "y", "z"] | None
     eye: ArrayLike | None
     target: ArrayLike | None
     up: ArrayLike | None
@@ -375,6 +401,9 @@ class LookOptions(TypedDict, total=False):
     cull: bool | None
     wireframe: bool | None
     opacity: float | None
+    animation: str | int | None
+    time: float | None
+    use_camera: str | int | None
 
 
 #: How alike a name must be, from 0 to 1, to be what was meant.
@@ -388,7 +417,8 @@ _INSTEAD = {
     "aa": "did you mean antialias?",
     "alpha": "`transparent` of render leaves out the background, `opacity` is that of the objects",
     "bg": "did you mean background?",
-    "camera": "`eye`, `target`, `up` and `fov` place the camera, or render a Scene with a Camera",
+    "camera": "`eye`, `target`, `up` and `fov` place the camera, `use_camera` takes that of a glTF "
+    "file; or render a Scene with a Camera",
     "depth": "depths are not returned",
     "emissive": "did you mean emission?",
     "fps": "`duration` of a turntable is the time of a frame in milliseconds",
@@ -415,6 +445,9 @@ def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
         raise InputError(f"the shading cannot be {' and '.join(sorted(shadings))} at once")
     if shadings:
         look["shading"] = shadings.pop()
+    if "up_axis" in look:
+        upright = from_euler(UPRIGHT[look.pop("up_axis")])
+        look["rotate"] = multiply(look.get("rotate", IDENTITY), upright)
     if "crease" in look and look.get("shading", "smooth") != "smooth":
         raise InputError(f"`crease` is for smooth shading, and excludes {look['shading']}")
     exclude(look, "`{}`".format)
@@ -448,6 +481,9 @@ def look_at(thing: Mesh | Sequence[Object] | Scene, look: Mapping[str, Any], sta
 
     thing: also the parts of a model, as objects in its own coordinates.
     """
+    for setting in settings_of("file"):
+        if setting.name in look:
+            raise InputError(f"`{setting.name}` is for what is read of one glTF file")
     if isinstance(thing, Scene) and not look:
         return thing
     crease = look.get("crease", SIMPLIFIED_CREASE)
@@ -620,6 +656,13 @@ def _background(value: Any, setting: Setting, name: str) -> Background:
     return background_of(value)
 
 
+def _entry(value: object, setting: Setting, name: str) -> str | int:
+    number = None if isinstance(value, str) else integer(value)
+    if number is None and not isinstance(value, str):
+        raise InputError(f"{name} must be a name, or a number from 0, not {value!r:.60}")
+    return value if isinstance(value, str) else cast(int, number)
+
+
 def _unless_none(made: Callable[[Any, str], Any], value: object, name: str) -> Any:
     """Return an effect of a value, or None for the word that removes it."""
     return None if isinstance(value, str) and value.strip().lower() == NONE else made(value, name)
@@ -640,4 +683,5 @@ _CHECKS: dict[Kind, Callable[[Any, Setting, str], Any]] = {
     "rim": lambda value, setting, name: _unless_none(rim_of, value, name),
     "fog": lambda value, setting, name: _unless_none(fog_or_color, value, name),
     "ground": lambda value, setting, name: _unless_none(ground_of, value, name),
+    "entry": _entry,
 }

@@ -83,7 +83,7 @@ class Texture(Value):
         """
         if isinstance(image, str | os.PathLike):
             image = open_image(Path(image), str(image))
-        return cls(np.asarray(reduced(image.convert("RGB"), side)), filter, wrap)
+        return cls(np.asarray(reduced(as_rgb(image), side)), filter, wrap)
 
     @property
     def width(self) -> int:
@@ -111,13 +111,29 @@ def open_image(source: Path | IO[bytes], name: str) -> Image.Image:
         ):
             if image.width * image.height > MAX_PIXELS:
                 raise InputError(f"{name} has {image.width} x {image.height} pixels; up to {MAX_PIXELS:,} are read")
-            return image.convert("RGB")
+            return as_rgb(image)
     except FileNotFoundError:
         raise InputError(f"{name} does not exist") from None
     except InputError:
         raise
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
         raise InputError(f"{name} is not an image that can be read") from None
+
+
+def as_rgb(image: Image.Image) -> Image.Image:
+    """Return an image of any mode of Pillow as RGB, without its alpha."""
+    if image.mode[0] not in "IF":
+        return image.convert("RGB")
+    # Pillow cuts the levels of these off at 255
+    from PIL.Image import fromarray
+
+    grey = np.nan_to_num(np.asarray(image, dtype=np.float64))
+    largest = 65535
+    if image.mode == "F":
+        largest = next((each for each in (1, 255) if grey.max() <= each), largest)
+        grey *= 65535 / largest
+    # the upper byte, as of 16-bit colours
+    return fromarray((np.clip(grey, 0, 65535) // 256).astype(np.uint8)).convert("RGB")
 
 
 def reduced(image: Image.Image, side: int = MAX_TEXTURE_SIDE) -> Image.Image:

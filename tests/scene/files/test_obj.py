@@ -207,14 +207,14 @@ def test_written_files_read_back(tmp_path: Path) -> None:
         (TRIANGLE + "f 0 1 2\n", "the face in line 4 names a vertex that does not exist; there are v lines 1 to 3"),
         (TRIANGLE + "f -4 1 2\n", "the face in line 4 names a vertex that does not exist; there are v lines 1 to 3"),
         (
-            TRIANGLE + "vn 0 0 1\nf 1 2 3\nf 1//1 2//1 3//2\n",
-            "the face in line 6 names a normal that does not exist; there are vn lines 1 to 1",
+            TRIANGLE + "f 1 2\np 1 2\np 3\nl 1 2 3\n",
+            "it has no faces, only 3 points, 1 line, 1 face of fewer than 3 corners; only faces are drawn, such as "
+            "those of thin tubes in place of lines and of small balls in place of points",
         ),
         (
-            "v 0 0 0\nv 1 0 0 1 nan 0\nv 0 1 0\nf 1 2 3\n",
-            "colour 1 must be finite numbers, not [1.0, nan, 0.0]",
+            "v 0.1 0 0\nv 0.3 0.6 0\nv 0.7 1.8 0\nf 1 2 3\nf 1 1 2\n",
+            "nothing is visible: 2 faces without an area, and no other",
         ),
-        (TRIANGLE + "f 1 2\n", "line 4 is not one of an OBJ file: 'f 1 2'"),
         (TRIANGLE + "f 1 two 3\n", "line 4 is not one of an OBJ file: 'f 1 two 3'"),
         ("v 0 0\n" + TRIANGLE + "f 1 2 3\n", "line 1 is not one of an OBJ file: 'v 0 0'"),
         (

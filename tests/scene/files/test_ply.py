@@ -1,11 +1,13 @@
 import struct
+import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from shackled.errors import InputError, InputWarning
-from shackled.scene import DEFAULT_COLOR, Mesh, read_mesh
+from shackled.scene import DEFAULT_COLOR, Mesh, read_mesh, read_model
 
 SQUARE = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0))
 
@@ -24,6 +26,21 @@ def read(folder: Path, content: str | bytes) -> Mesh:
     return read_mesh(path)
 
 
+def read_with_notes(folder: Path, content: str | bytes) -> tuple[Mesh, list[str]]:
+    """The mesh, and the notes without the path that each begins with."""
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        mesh = read(folder, content)
+    path = f"{folder / 'model.ply'}: "
+    notes = [str(each.message) for each in told]
+    assert all(note.startswith(path) and "\n" not in note for note in notes)
+    return mesh, [note.removeprefix(path) for note in notes]
+
+
+#: The note of a file whose faces and vertices have colours.
+OF_FACES = "the colours of its vertices are left out, for its faces have colours"
+
+
 def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
     colors: list[list[list[int]]] = mesh.colors[mesh.faces].tolist()
     return colors
@@ -31,6 +48,12 @@ def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
 
 VERTICES = "".join(f"{x} {y} {z}\n" for x, y, z in SQUARE)
 HEADER_LINES = "known are format, element and its count, then property and its type, and comment, obj_info, end_header"
+NEEDS = (
+    "a mesh needs an element vertex with x, y and z, and an element face with a list vertex_indices; this file has the "
+    "elements"
+)
+#: The left half red, the right one blue.
+HALVES = Image.fromarray(np.repeat([[[255, 0, 0]] * 4 + [[0, 0, 255]] * 4], 8, axis=0).astype(np.uint8))
 COLOR = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
 
 
@@ -57,7 +80,7 @@ def test_windows_line_ends_before_binary_data(tmp_path: Path) -> None:
 def test_letters_that_are_not_of_ascii(tmp_path: Path) -> None:
     text = (header("ascii", "", 1).replace("by hand", "by händ") + VERTICES + "3 0 1 2\n").encode("latin-1")
     assert read(tmp_path, text).triangles == 1
-    with pytest.raises(InputError, match=r"line 15 should hold an element face .*, not '3 0 1 \ufffd'"):
+    with pytest.raises(InputError, match=r"line 15 should hold an element face .*, not '3 0 1 é'"):
         read(tmp_path, text.replace(b"3 0 1 2\n", b"3 0 1 \xe9\n"))
 
 
@@ -90,16 +113,17 @@ def test_colors_of_vertices_come_first_if_all_faces_have_the_same(tmp_path: Path
     text = header("ascii", COLOR, 2, COLOR) + rows
     assert corner_colors(read(tmp_path, text + "".join(faces))) == [[[1, 2, 3]] * 3] * 2
     faces[1] = faces[1].replace("255", "9")
-    assert corner_colors(read(tmp_path, text + "".join(faces))) == [[[255, 255, 255]] * 3, [[9, 9, 9]] * 3]
+    mesh, notes = read_with_notes(tmp_path, text + "".join(faces))
+    assert corner_colors(mesh) == [[[255, 255, 255]] * 3, [[9, 9, 9]] * 3]
+    assert notes == [OF_FACES]
 
 
-def test_a_texture_is_told(tmp_path: Path) -> None:
+def test_a_texture_that_cannot_be_shown_is_told(tmp_path: Path) -> None:
     text = header("ascii", "", 1).replace("made by hand", "TextureFile my wood.png") + VERTICES + "3 0 1 2\n"
-    with pytest.warns(InputWarning) as told:
-        read(tmp_path, text)
-    assert [str(warning.message) for warning in told] == [
-        f"{tmp_path / 'model.ply'}: its texture my wood.png is left out; of PLY files only colours are read"
-    ]
+    missing = f"a texture is left out: {tmp_path / 'my wood.png'} does not exist"
+    assert read_with_notes(tmp_path, text)[1] == [missing]
+    HALVES.save(tmp_path / "my wood.png")
+    assert read_with_notes(tmp_path, text)[1] == ["its texture is left out, for it has no texture coordinates"]
 
 
 @pytest.mark.parametrize(("encoding", "order"), [("binary_little_endian", "<"), ("binary_big_endian", ">")])
@@ -120,7 +144,9 @@ def test_face_colors(tmp_path: Path) -> None:
 def test_vertex_colors_beside_texture_coordinates(tmp_path: Path) -> None:
     more = COLOR + "property float s\nproperty float t\n"
     rows = "".join(f"{x} {y} {z} 1 2 3 0.5 0.5\n" for x, y, z in SQUARE)
-    assert corner_colors(read(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")) == [[[1, 2, 3]] * 3]
+    mesh, notes = read_with_notes(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")
+    assert corner_colors(mesh) == [[[1, 2, 3]] * 3]
+    assert notes == ["of its elements are left out: s of vertex, t of vertex"]
 
 
 def test_colors_as_fractions(tmp_path: Path) -> None:
@@ -165,7 +191,7 @@ def test_normals_are_kept(tmp_path: Path) -> None:
          + VERTICES.replace("\n", " 0 nan 1\n") + "3 0 1 2\n",
          "colour 0 must be finite numbers, not [0.0, nan, 1.0]"),
         ("ply\nformat ascii 1.0\nelement vertex 0\nend_header\n",
-         "a mesh needs the elements vertex and face; this file has vertex"),
+         "{NEEDS} vertex"),
         (header("ascii", "", 1) + "0 0 0\n1 0 0\n", "it ends before its 4 elements vertex are complete"),
         (header("ascii", "", 2) + VERTICES + "3 0 1 2\n", "it ends before its 2 elements face are complete"),
         (header("binary_little_endian", "", 1) + "short", "it ends before its 4 elements vertex are complete"),
@@ -175,13 +201,14 @@ def test_normals_are_kept(tmp_path: Path) -> None:
          "vertex 2 has a coordinate that is not a finite number: [1.0, nan, 0.0]"),
         (header("ascii", "", 1) + VERTICES + "3 0 1 4\n",
          "face 0 names the vertices [0, 1, 4], but they are numbered 0 to 3"),
-        (header("ascii", "", 0) + VERTICES, "a mesh needs vertices and faces; this one has 4 and 0"),
+        (header("ascii", "", 0) + VERTICES,
+         "it has 4 points and no faces, so there is no surface to draw; a program such as MeshLab makes one of points"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_told_in_one_line(tmp_path: Path, content: str, message: str) -> None:
     with pytest.raises(InputError) as error:
         read(tmp_path, content)
-    told = message.replace("{HEADER_LINES}", HEADER_LINES)
+    told = message.replace("{HEADER_LINES}", HEADER_LINES).replace("{NEEDS}", NEEDS)
     assert str(error.value) == f"{tmp_path / 'model.ply'}: {told}"
 
 
@@ -254,7 +281,9 @@ def test_names_of_colors(tmp_path: Path, names: tuple[str, str, str]) -> None:
     assert corner_colors(read(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")) == [[[10, 20, 30]] * 3]
     # a colour that is not whole is none
     text = header("ascii", more.replace(names[2], "other"), 1) + rows + "3 0 1 2\n"
-    assert corner_colors(read(tmp_path, text)) == [[list(DEFAULT_COLOR)] * 3]
+    mesh, notes = read_with_notes(tmp_path, text)
+    assert corner_colors(mesh) == [[list(DEFAULT_COLOR)] * 3]
+    assert notes == [f"of its elements are left out: {names[0]} of vertex, {names[1]} of vertex, other of vertex"]
 
 
 @pytest.mark.parametrize(("red", "other", "expected"), [("float", "uchar", 255), ("uchar", "float", 1)])
@@ -267,7 +296,9 @@ def test_the_type_of_red_tells(tmp_path: Path, red: str, other: str, expected: i
 def test_the_first_name_of_a_color_counts(tmp_path: Path) -> None:
     more = "property uchar r\nproperty uchar g\nproperty uchar b\n" + COLOR
     rows = "".join(f"{x} {y} {z} 1 2 3 4 5 6\n" for x, y, z in SQUARE)
-    assert corner_colors(read(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")) == [[[4, 5, 6]] * 3]
+    mesh, notes = read_with_notes(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")
+    assert corner_colors(mesh) == [[[4, 5, 6]] * 3]
+    assert notes == ["of its elements are left out: r of vertex, g of vertex, b of vertex"]
 
 
 def test_faces_have_colors_if_any_two_differ(tmp_path: Path) -> None:
@@ -275,7 +306,8 @@ def test_faces_have_colors_if_any_two_differ(tmp_path: Path) -> None:
     rows = "".join(f"{x} {y} {z} 9 9 9\n" for x, y, z in SQUARE)
     for colors in (["1 2 3", "1 2 3", "1 2 4"], ["1 2 4", "1 2 3", "1 2 3"]):
         faces = "".join(f"3 0 1 {2 + (k > 1)} {color}\n" for k, color in enumerate(colors))
-        mesh = read(tmp_path, header("ascii", COLOR, 3, COLOR) + rows + faces)
+        mesh, notes = read_with_notes(tmp_path, header("ascii", COLOR, 3, COLOR) + rows + faces)
+        assert notes == [OF_FACES]
         assert corner_colors(mesh) == [[list(map(int, color.split()))] * 3 for color in colors]
 
 
@@ -292,9 +324,11 @@ def test_both_names_of_the_list_of_a_face(tmp_path: Path) -> None:
     # beside other lists, and the first name counts
     other = "property list uchar int vertex_index\nproperty list uchar float weights\n"
     text = header("ascii", "", 1, other) + VERTICES + "3 0 1 2 4 0 1 2 3 1 0.5\n"
-    assert read(tmp_path, text) == whole
+    left = "of its elements are left out: "
+    assert read_with_notes(tmp_path, text) == (whole, [left + "vertex_index of face, weights of face"])
     text = header("ascii", "", 1).replace("element face 1\n", "element face 1\nproperty list uchar float weights\n")
-    assert read(tmp_path, text + VERTICES + "2 0.5 0.25 3 0 1 2\n") == whole
+    text += VERTICES + "2 0.5 0.25 3 0 1 2\n"
+    assert read_with_notes(tmp_path, text) == (whole, [left + "weights of face"])
 
 
 @pytest.mark.parametrize(
@@ -308,9 +342,7 @@ def test_both_names_of_the_list_of_a_face(tmp_path: Path) -> None:
 )
 def test_what_a_mesh_needs(tmp_path: Path, old: str, new: str, face: str) -> None:
     rows = VERTICES if "list uchar float" not in new else "".join(f"1 {x} {y} {z}\n" for x, y, z in SQUARE)
-    with pytest.raises(
-        InputError, match=r"the element vertex needs x, y and z, the element face a list vertex_indices$"
-    ):
+    with pytest.raises(InputError, match=f"{NEEDS} vertex, face$"):
         read(tmp_path, header("ascii", "", 1).replace(old, new) + rows + face + "\n")
 
 
@@ -327,12 +359,14 @@ def test_other_elements_are_passed_over(tmp_path: Path) -> None:
         else:
             content = head.encode() + struct.pack("<iBhiBhh", 7, 1, 5, 8, 2, 5, 6) + np.array(SQUARE, "<f4").tobytes()
             content += struct.pack("<Biii", 3, 0, 1, 2)
-        assert read(tmp_path, content).triangles == 1
-    with pytest.raises(InputError, match=r"needs the elements vertex and face; this file has edge, point$"):
+        mesh, notes = read_with_notes(tmp_path, content)
+        assert mesh.triangles == 1
+        assert notes == ["of its elements are left out: edge (2), empty (3)"]
+    with pytest.raises(InputError, match=f"{NEEDS} edge, point$"):
         read(tmp_path, "ply\nformat ascii 1.0\nelement edge 0\nelement point 0\nend_header\n")
-    with pytest.raises(InputError, match=r"needs the elements vertex and face; this file has none$"):
+    with pytest.raises(InputError, match=f"{NEEDS} none$"):
         read(tmp_path, "ply\nformat ascii 1.0\nend_header\n")
-    with pytest.raises(InputError, match=r"needs the elements vertex and face; this file has face$"):
+    with pytest.raises(InputError, match=f"{NEEDS} face$"):
         read(tmp_path, "ply\nformat ascii 1.0\nelement face 0\nend_header\n")
 
 
@@ -374,13 +408,6 @@ def test_notes_in_a_header_are_passed_over(tmp_path: Path) -> None:
     notes = "comment\ncomment TextureFiles are none\nobj_info 3 of 7\n\n  \ncomment property half x\n"
     text = header("ascii", "", 1).replace("comment made by hand\n", notes) + VERTICES + "3 0 1 2\n"
     assert read(tmp_path, text).triangles == 1
-
-
-def test_all_textures_are_told(tmp_path: Path) -> None:
-    notes = "comment TextureFile a.png\ncomment TextureFile b  c.png"
-    text = header("ascii", "", 1).replace("comment made by hand", notes) + VERTICES + "3 0 1 2\n"
-    with pytest.warns(InputWarning, match=r"its texture a\.png, b c\.png is left out"):
-        read(tmp_path, text)
 
 
 def test_blank_lines_are_passed_over(tmp_path: Path) -> None:
@@ -425,7 +452,10 @@ def test_lists_may_be_empty(tmp_path: Path) -> None:
     text = header("ascii", "", 2, more) + VERTICES + "3 0 1 2 0\n3 0 2 3 1 7\n"
     content = header("binary_little_endian", "", 2, more).encode() + np.array(SQUARE, "<f4").tobytes()
     content += struct.pack("<BiiiB", 3, 0, 1, 2, 0) + struct.pack("<BiiiBh", 3, 0, 2, 3, 1, 7)
-    assert read(tmp_path, text).triangles == read(tmp_path, content).triangles == 2
+    for each in (text, content):
+        mesh, notes = read_with_notes(tmp_path, each)
+        assert mesh.triangles == 2
+        assert notes == ["of its elements are left out: more of face"]
 
 
 def test_a_list_of_less_than_nothing(tmp_path: Path) -> None:
@@ -433,3 +463,114 @@ def test_a_list_of_less_than_nothing(tmp_path: Path) -> None:
     content += np.array(SQUARE, "<f4").tobytes() + struct.pack("<b", -1) + bytes(40)
     with pytest.raises(InputError, match=r"it ends before its 1 elements face are complete$"):
         read(tmp_path, content)
+
+
+# ---- what is not as it should be ----
+
+
+@pytest.mark.parametrize("number", ["nan", "inf", "-1.#IND", "-nan(ind)"])
+def test_normals_that_are_no_numbers_are_computed(tmp_path: Path, number: str) -> None:
+    more = "property float nx\nproperty float ny\nproperty float nz\n"
+    rows = [f"{x} {y} {z} 0 1 0\n" for x, y, z in SQUARE]
+    text = header("ascii", more, 1)
+    note = "normals that are not finite numbers are computed: "
+    rows[1] = f"1 0 0 0 {number} 0\n"
+    mesh, notes = read_with_notes(tmp_path, text + "".join(rows) + "3 0 1 2\n")
+    assert notes == [note + "1"]
+    assert np.asarray(mesh.normals)[mesh.faces].tolist() == [[[0, 1, 0], [0, 0, 1], [0, 1, 0]]]
+    rows = [f"{x} {y} {z} {number} 0 0\n" for x, y, z in SQUARE]
+    mesh, notes = read_with_notes(tmp_path, text + "".join(rows) + "3 0 1 2\n")
+    assert (mesh.normals, notes) == (None, [note + "4"])
+
+
+def test_points_without_faces(tmp_path: Path) -> None:
+    text = header("ascii", "", 0) + VERTICES
+    without = text.replace("element face 0\nproperty list uchar int vertex_indices\n", "")
+    for each in (text, without):
+        with pytest.raises(InputError, match="it has 4 points and no faces, so there is no surface to draw; a program"):
+            read(tmp_path, each)
+
+
+def strips(numbers: str, count: int = 1) -> str:
+    return header("ascii", "", count).replace("element face", "element tristrips") + VERTICES + numbers
+
+
+def test_strips_of_triangles(tmp_path: Path) -> None:
+    """Every other triangle of a strip is wound the other way; -1 ends a strip, as the end of the list does."""
+    square = [[list(SQUARE[k]) for k in face] for face in ((0, 1, 3), (3, 1, 2))]
+    mesh = read(tmp_path, strips("4 0 1 3 2\n"))
+    assert [sorted(face) for face in mesh.positions[mesh.faces].tolist()] == [sorted(face) for face in square]
+    a, b, c = np.moveaxis(mesh.positions[mesh.faces], 1, 0)
+    assert (np.cross(b - a, c - a)[:, 2] > 0).all()
+    for same in ("5 0 1 3 2 -1\n", "9 0 1 3 -1 3 1 2 -1 0\n", "6 0 1 3 3 1 2\n"):
+        other = read(tmp_path, strips(same))
+        assert sorted(map(sorted, other.faces.tolist())) == sorted(map(sorted, mesh.faces.tolist()))
+    assert read(tmp_path, strips("3 0 1 3\n3 3 1 2\n", 2)).triangles == 2
+    with pytest.raises(InputError, match=r"face 1 names the vertices \[3, 1, 7\]"):
+        read(tmp_path, strips("4 0 1 3 7\n"))
+
+
+# ---- textures ----
+
+
+def textured(vertex: str, face: str = "", count: int = 1, names: tuple[str, ...] = ("t.png",)) -> str:
+    comments = "".join(f"comment TextureFile {name}\n" for name in names)
+    return header("ascii", vertex, count, face).replace("comment made by hand\n", comments)
+
+
+@pytest.mark.parametrize("names", [("s", "t"), ("u", "v"), ("texture_u", "texture_v")])
+def test_texture_coordinates_of_vertices(tmp_path: Path, names: tuple[str, str]) -> None:
+    HALVES.save(tmp_path / "t.png")
+    more = "".join(f"property float {name}\n" for name in names)
+    rows = "".join(f"{x} {y} {z} {x} {y}\n" for x, y, z in SQUARE)
+    (tmp_path / "model.ply").write_text(textured(more) + rows + "4 0 1 2 3\n")
+    (part,) = read_model(tmp_path / "model.ply")
+    assert part.material["texture"].pixels.tolist() == np.asarray(HALVES).tolist()
+    assert part.mesh.colors.tolist() == [[255, 255, 255]] * 4
+    # the rows of textures begin at the top
+    assert np.asarray(part.mesh.uvs).tolist() == [[x, 1 - y] for x, y, _ in part.mesh.positions.tolist()]
+
+
+def test_texture_coordinates_of_corners(tmp_path: Path) -> None:
+    """A face with a list of another length has none, and keeps its colour."""
+    HALVES.save(tmp_path / "t.png")
+    text = textured("", "property list uchar float texcoord\n", 2) + VERTICES
+    (tmp_path / "model.ply").write_text(text + "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 0\n")
+    plain, shown = read_model(tmp_path / "model.ply")
+    assert plain.material == {}
+    assert plain.mesh.colors.tolist() == [list(DEFAULT_COLOR)] * 3
+    assert np.asarray(shown.mesh.uvs).tolist() == [[0, 1], [1, 1], [1, 0]]
+
+
+def test_textures_by_number(tmp_path: Path) -> None:
+    """Faces of a number without a texture, and those that show one colour of theirs, need none."""
+    HALVES.save(tmp_path / "a.png")
+    HALVES.rotate(90).save(tmp_path / "b.png")
+    HALVES.save(tmp_path / "c.png")
+    face = "property list uchar float texcoord\nproperty int texnumber\n"
+    text = textured("", face, 4, ("a.png", "b.png", "c.png")) + VERTICES
+    uvs = "6 0 0 1 0 1 1"
+    faces = f"3 0 1 2 {uvs} 1\n3 0 2 3 {uvs} 0\n3 0 1 3 {uvs} 3\n3 1 2 3 6 0.9 0.1 0.9 0.2 0.8 0.1 2\n"
+    (tmp_path / "model.ply").write_text(text + faces)
+    plain, a, b = read_model(tmp_path / "model.ply")
+    assert corner_colors(plain.mesh) == [[list(DEFAULT_COLOR)] * 3, [[0, 0, 255]] * 3]
+    assert a.material["texture"].pixels.tolist() == np.asarray(HALVES).tolist()
+    assert b.material["texture"].pixels.tolist() == np.asarray(HALVES.rotate(90)).tolist()
+
+
+def test_a_texture_comes_before_colors(tmp_path: Path) -> None:
+    HALVES.save(tmp_path / "t.png")
+    more = COLOR + "property uchar alpha\nproperty float s\nproperty float t\n"
+    rows = "".join(f"{x} {y} {z} 1 2 3 51 {x} {y}\n" for x, y, z in SQUARE)
+    (tmp_path / "model.ply").write_text(textured(more) + rows + "4 0 1 2 3\n")
+    with pytest.warns(InputWarning, match="the colours of its vertices or faces are left out where it has a texture$"):
+        (part,) = read_model(tmp_path / "model.ply")
+    assert part.mesh.rgba.tolist() == [[255, 255, 255, 51]] * 4
+
+
+def test_texture_coordinates_that_are_no_numbers(tmp_path: Path) -> None:
+    HALVES.save(tmp_path / "t.png")
+    rows = "".join(f"{x} {y} {z} nan {y}\n" for x, y, z in SQUARE)
+    (tmp_path / "model.ply").write_text(textured("property float s\nproperty float t\n") + rows + "4 0 1 2 3\n")
+    with pytest.warns(InputWarning, match="texture coordinates that are not finite numbers; they are taken as 0$"):
+        read_model(tmp_path / "model.ply")

@@ -1,6 +1,8 @@
 import struct
+import warnings
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from shackled.errors import InputError
@@ -8,6 +10,25 @@ from shackled.scene import DEFAULT_COLOR, Mesh, read_mesh
 
 POINTS = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
 ASCII_STL = "solid s\nfacet normal 0 0 1\nouter loop\n{}endloop\nendfacet\nendsolid s\n"
+
+
+def binary(declared: int, attributes: tuple[int, ...] = (0,), header: bytes = b"") -> bytes:
+    """A triangle for each attribute, and what the header says of their number."""
+    content = header.ljust(80, b"\0") + struct.pack("<I", declared)
+    for number, attribute in enumerate(attributes):
+        content += struct.pack("<12fH", 0, 0, 1, 0, 0, number, 1, 0, number, 0, 1, number, attribute)
+    return content
+
+
+def read_with_notes(folder: Path, content: bytes) -> tuple[Mesh, list[str]]:
+    """The mesh, and the notes without the path that each begins with."""
+    path = folder / "model.stl"
+    path.write_bytes(content)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        mesh = read_mesh(path)
+    assert all(str(each.message).startswith(f"{path}: ") for each in told)
+    return mesh, [str(each.message).removeprefix(f"{path}: ") for each in told]
 
 
 def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
@@ -51,8 +72,8 @@ def test_line_ends_of_an_old_mac_and_names_of_any_words(tmp_path: Path) -> None:
     ("content", "message"),
     [
         (
-            b"\x00\x01garbage" * 20,
-            ": it is neither text nor as long as a binary STL file of so many triangles would be",
+            b"\x00\x01garbage!" * 10,
+            ": it is not text, and with 100 bytes too short for a triangle of a binary STL file",
         ),
         (
             ASCII_STL.format("vertex 0 0 0\nvertex 1 zero 0\nvertex 0 1 0\n").encode(),
@@ -60,9 +81,12 @@ def test_line_ends_of_an_old_mac_and_names_of_any_words(tmp_path: Path) -> None:
         ),
         (ASCII_STL.format("vertex 0 0 0\nvertex 1 0 0\n").encode(), ": facet 1 has 2 vertices, not 3"),
         (b"solid of nothing\nendsolid\n", ": it has no triangles"),
-        (bytes(84), ": it has no triangles"),
-        (bytes(80) + struct.pack("<I", 9) + bytes(50), ": it is neither text nor as long as a binary STL"),
-        (ASCII_STL.format("vertex 0 0 0\nvertex 1 nan 0\nvertex 0 1 0\n").encode(), "not a finite number"),
+        (b"\0x" * 42, ": it is not text, and with 84 bytes too short for a triangle"),
+        (binary(9)[:-3], ": it is not text, and with 131 bytes too short for a triangle"),
+        (
+            ASCII_STL.format("vertex 0 0 0\nvertex 1 nan 0\nvertex 0 1 0\n").encode(),
+            ": none of its facets has finite coordinates",
+        ),
     ],
 )
 def test_broken_stl_is_told_in_one_line(tmp_path: Path, content: bytes, message: str) -> None:
@@ -73,3 +97,85 @@ def test_broken_stl_is_told_in_one_line(tmp_path: Path, content: bytes, message:
     assert str(error.value).startswith(str(path))
     assert message in str(error.value)
     assert "\n" not in str(error.value)
+
+
+SAYS = "its header says {}; there are 2, which are read"
+TWO = (0, 0)
+
+
+@pytest.mark.parametrize(
+    ("content", "notes"),
+    [
+        (binary(2, TWO), []),
+        (binary(2, TWO, b"solid made by a program"), []),
+        (binary(0, TWO), [SAYS.format("0 facets")]),
+        (binary(1, TWO), [SAYS.format("1 facet")]),
+        (binary(2**32 - 1, TWO), [SAYS.format("4,294,967,295 facets")]),
+        (binary(2, TWO)[:-2], []),
+        (binary(2, TWO)[:-1], []),
+        (binary(3, (0, 0, 0))[:-3], [SAYS.format("3 facets"), "what is behind its facets is left out: 47 bytes"]),
+        (binary(2, TWO) + b"\r\n", ["what is behind its facets is left out: 2 bytes"]),
+        (binary(2, TWO) + b"x", ["what is behind its facets is left out: 1 byte"]),
+        (binary(2, TWO) + b"a thumbnail" * 9, ["what is behind its facets is left out: 99 bytes"]),
+    ],
+)
+def test_wrong_lengths_of_binary_files(tmp_path: Path, content: bytes, notes: list[str]) -> None:
+    """A count that is wrong, or other bytes behind the facets, is told; an attribute that is cut off is no loss."""
+    mesh, told = read_with_notes(tmp_path, content)
+    assert mesh.positions[mesh.faces].tolist() == [[[x, y, z] for x, y, _ in POINTS] for z in (0, 1)]
+    assert told == notes
+
+
+@pytest.mark.parametrize("end", ["\0", "\0" * 500, "\r\n", "\n\0\0"])
+def test_what_may_be_behind_a_text(tmp_path: Path, end: str) -> None:
+    text = ASCII_STL.format("".join(f"vertex {x} {y} {z}\n" for x, y, z in POINTS)).replace("\n", "\r\n") + end
+    mesh, told = read_with_notes(tmp_path, text.encode())
+    assert (corner_positions(mesh), told) == ([[list(p) for p in POINTS]], [])
+
+
+@pytest.mark.parametrize("number", ["nan", "-inf", "-1.#IND", "1.#QNAN0", "-nan(ind)"])
+def test_facets_that_are_not_finite_are_left_out(tmp_path: Path, number: str) -> None:
+    note = "facets with coordinates that are not finite numbers are left out: 1"
+    one = ASCII_STL.format("".join(f"vertex {x} {y} {z}\n" for x, y, z in POINTS))
+    mesh, told = read_with_notes(tmp_path, (one.replace("vertex 1 0 0", f"vertex 1 {number} 0") + one).encode())
+    assert (corner_positions(mesh), told) == ([[list(p) for p in POINTS]], [note])
+    content = bytearray(binary(2, (31 | 1 << 15, 31 << 10 | 1 << 15)))
+    content[84 + 12 : 84 + 16] = struct.pack("<f", np.nan)
+    mesh, told = read_with_notes(tmp_path, bytes(content))
+    assert (corner_colors(mesh), told) == ([[[255, 0, 0]] * 3], [note])
+
+
+# ---- colours ----
+
+#: Five bits of each, from the lowest: 31, 16 and 1; the colours of the conventions are these, and the reverse.
+BITS = 31 | 16 << 5 | 1 << 10
+LOW, HIGH = [255, 132, 8], [8, 132, 255]
+OWN = 1 << 15
+
+
+def test_colors_of_viscam_and_solidview(tmp_path: Path) -> None:
+    """Red is above; a facet whose highest bit is not set has no colour."""
+    mesh, told = read_with_notes(tmp_path, binary(2, (BITS | OWN, 0)))
+    assert (corner_colors(mesh), told) == ([[HIGH] * 3, [list(DEFAULT_COLOR)] * 3], [])
+    assert mesh.opacities is None
+    mesh, told = read_with_notes(tmp_path, binary(3, (BITS | OWN, 0, BITS)))
+    assert corner_colors(mesh) == [[HIGH] * 3, *[[list(DEFAULT_COLOR)] * 3] * 2]
+    assert told == ["attributes of facets that are no colours are left out: 1"]
+
+
+@pytest.mark.parametrize(("alpha", "opacity"), [(255, 255), (102, 102), (0, 255)])
+def test_colors_of_magics(tmp_path: Path, alpha: int, opacity: int) -> None:
+    """Red is below; a facet whose highest bit is set has the colour of the header, with its alpha unless that is 0."""
+    header = b"made by hand COLOR=" + bytes([1, 2, 3, alpha])
+    mesh, told = read_with_notes(tmp_path, binary(2, (BITS, BITS | OWN), header))
+    assert mesh.rgba[mesh.faces].tolist() == [[[*LOW, 255]] * 3, [[1, 2, 3, opacity]] * 3]
+    assert told == []
+    mesh, told = read_with_notes(tmp_path, binary(2, (OWN, OWN), header + b",MATERIAL=" + bytes(12)))
+    assert (corner_colors(mesh), told) == ([[[1, 2, 3]] * 3] * 2, [])
+    _, told = read_with_notes(tmp_path, binary(2, (OWN, OWN), header + b",MATERIAL=" + bytes([9] * 12)))
+    assert told == ["the material of its header is left out; of STL files only colours are read"]
+
+
+def test_a_header_that_is_cut_off_behind_the_word(tmp_path: Path) -> None:
+    mesh, _ = read_with_notes(tmp_path, binary(1, (BITS | OWN,), b"COLOR=".rjust(77)))
+    assert corner_colors(mesh) == [[HIGH] * 3]

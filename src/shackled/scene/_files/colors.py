@@ -22,7 +22,7 @@ def to_bytes(colors: ArrayLike, largest: float | None = None) -> NDArray[np.floa
         raise InputError(f"colour{number} must be finite numbers, not {channels[place].tolist()}")
     if largest is None:
         largest = 1 if channels.size == 0 or channels.max() <= 1 else 255
-    return np.clip(np.rint(channels * (255 / largest)), 0, 255)
+    return np.rint(np.clip(channels, 0, largest) * (255 / largest))
 
 
 def to_srgb(linear: ArrayLike) -> NDArray[np.float64]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import stat
 from collections.abc import Mapping
 from pathlib import Path
@@ -13,6 +14,9 @@ from ...untrusted import read_json, read_toml
 
 #: No mesh for a contract is nearly as large; a larger file would only fill the memory.
 MAX_BYTES = 256 * 2**20
+
+#: Numbers that are none, as programs of Windows write them.
+_NAN = re.compile(r"(?<!\S)-?(1\.#(IND|INF|QNAN|SNAN)\d*|nan\(\w*\))(?!\S)", re.IGNORECASE)
 
 _AT_ONCE = getattr(os, "O_NONBLOCK", 0)
 
@@ -41,19 +45,28 @@ def read_bytes(path: Path) -> bytes:
 
 
 def read_text(path: Path) -> str:
-    """Return the text of a file, with `unix_lines`.
+    """Return the text of a file as `plain_text` does. InputError for binary data."""
+    return checked_text(path, read_bytes(path))
 
-    Bytes that are not UTF-8, as in old comments, are replaced. InputError for binary data.
-    """
-    data = read_bytes(path)
+
+def checked_text(path: Path, data: bytes) -> str:
+    """Return the text of bytes, with `plain_text`. InputError for binary data; `path` is for its message."""
     if b"\0" in data:
         raise InputError(f"{path} is not a text file, as a {path.suffix} file should be")
-    return unix_lines(data.decode("utf-8-sig", errors="replace"))
+    return plain_text(data)
 
 
-def unix_lines(text: str) -> str:
-    """Return the text with line ends of Unix."""
-    return text.replace("\r\n", "\n").replace("\r", "\n")
+def plain_text(data: bytes) -> str:
+    """Return the text in bytes, with line ends of Unix, and with nan for what Windows writes for it, such as -1.#IND.
+
+    What is not UTF-8, as in old files, is taken as the code page of Windows.
+    """
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("cp1252", errors="replace")
+    text = text.replace("\r\n", "\n").replace("\r", "\n")
+    return _NAN.sub("nan", text) if "#" in text or "(" in text else text
 
 
 def parse(path: Path, text: str, kind: str) -> Mapping[str, Any]:

@@ -5,27 +5,37 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ...errors import InputError, InputWarning, warn
+from ...values import plural
 from .._mesh import Mesh
-from .gltf import read_gltf
+from .gltf.read import read_gltf
 from .model import TEXTURED, MeshPart, baked
 from .obj import read_obj
 from .off import read_off
 from .ply import read_ply
 from .stl import read_stl
 
+#: A triangle that is thinner than this part of its length has no area but by rounding.
+_THIN = 1e-6
+
 
 def _alone(read: Callable[[Path], Mesh]) -> Callable[[Path], list[MeshPart]]:
     return lambda path: [MeshPart(read(path), {})]
 
 
-READERS: dict[str, Callable[[Path], list[MeshPart]]] = {
+#: The extensions of glTF files.
+GLTF = (".glb", ".gltf")
+
+READERS: dict[str, Callable[..., list[MeshPart]]] = {
     ".obj": read_obj,
-    ".ply": _alone(read_ply),
+    ".ply": read_ply,
     ".stl": _alone(read_stl),
-    ".glb": read_gltf,
-    ".gltf": read_gltf,
+    **dict.fromkeys(GLTF, read_gltf),
     ".off": _alone(read_off),
 }
 
@@ -38,18 +48,21 @@ def read_mesh(path: str | os.PathLike[str]) -> Mesh:
     return mesh
 
 
-def read_model(path: str | os.PathLike[str]) -> list[MeshPart]:
+def read_model(path: str | os.PathLike[str], **pose: Any) -> list[MeshPart]:
     """Return the meshes of a file, by its extension: one for each texture, and one for all that has none.
 
     Vertices that are equal in position, colour, normal and texture coordinates are one. An InputWarning tells what of
-    the file is left out. InputError, one line that begins with the path, for anything that is wrong with the file.
+    the file is left out. pose: settings of `read_gltf`, for glTF files only. InputError, one line that
+    begins with the path, for anything that is wrong with the file.
     """
     path = Path(path)
     extension = path.suffix.lower()
     if extension not in READERS:
         raise InputError(f"{path} is not a mesh file that is known by its extension; known are {', '.join(READERS)}")
     try:
-        return READERS[extension](path)
+        parts = READERS[extension](path, **pose)
+        _check_areas(path, [part.mesh for part in parts])
+        return parts
     except InputError as error:
         message = str(error)
         raise InputError(message if message.startswith(str(path)) else f"{path}: {message}") from None
@@ -58,3 +71,23 @@ def read_model(path: str | os.PathLike[str]) -> list[MeshPart]:
     except Exception as error:  # what a library makes of a broken file may be of any class
         reason = " ".join(str(error).split())[:120] or type(error).__name__
         raise InputError(f"{path} is not a {extension[1:].upper()} file that can be read: {reason}") from None
+
+
+def _check_areas(path: Path, meshes: list[Mesh]) -> None:
+    """Refuse a file of which no triangle has an area, and warn of single ones."""
+    count = sum(mesh.triangles for mesh in meshes)
+    thin = sum(int(_is_thin(mesh).sum()) for mesh in meshes)
+    if thin == count:
+        raise InputError(f"there is nothing to see: its {plural(count, 'triangle has', 'triangles have')} no area")
+    if thin:
+        warn(f"{path}: of its {count:,} triangles {plural(thin, 'has', 'have')} no area")
+
+
+@np.errstate(all="ignore")
+def _is_thin(mesh: Mesh) -> NDArray[np.bool_]:
+    # halved, for the difference of two numbers may be beyond the largest
+    a, b, c = (mesh.positions / 2)[mesh.faces].transpose(1, 0, 2)
+    edges = np.stack([b - a, c - b, a - c])
+    edges /= np.abs(edges).max(axis=(0, 2))[None, :, None]
+    # a triangle whose corners are one point has none, which is not above the bound
+    return np.asarray(~(np.linalg.norm(np.cross(edges[0], edges[1]), axis=1) > _THIN))

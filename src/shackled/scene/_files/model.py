@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
 from ...errors import warn
+from .._crease import filled
 from .._mesh import Mesh
 from .._texture import MAX_TEXTURE_SIDE, Filter, Texture, Wrap, reduced
 from .colors import sample
@@ -38,12 +39,13 @@ _FULL_SIZE = 4
 class MeshPart:
     """A mesh of a file, and fields of a `Material` that the file gives, by their names, such as its texture.
 
-    opacity: of the `Object`.
+    opacity: of the `Object`. two_sided: whether its faces are meant to look the same from behind.
     """
 
     mesh: Mesh
     material: dict[str, Any]
     opacity: float = 1.0
+    two_sided: bool = False
 
 
 @dataclass(frozen=True)
@@ -127,6 +129,11 @@ def _side(count: int) -> int:
     return max(side, 1)
 
 
+def is_transparent(image: Image.Image) -> bool:
+    """Return whether an image is not opaque everywhere."""
+    return image.has_transparency_data and bool(np.asarray(image.convert("RGBA"))[..., 3].min() < 255)
+
+
 def finite_uvs(uvs: ArrayLike, name: str) -> Array:
     """Return texture coordinates, with 0 in place of what is not a finite number, of which an InputWarning tells."""
     found = np.asarray(uvs, dtype=np.float64)
@@ -134,6 +141,20 @@ def finite_uvs(uvs: ArrayLike, name: str) -> Array:
         return found
     warn(f"{name} has texture coordinates that are not finite numbers; they are taken as 0")
     return np.nan_to_num(found, nan=0.0, posinf=0.0, neginf=0.0)
+
+
+def given_normals(normals: Array | None, positions: Array, corners: NDArray[np.int64], name: str) -> Array | None:
+    """Return the normals of corners, (m, 3, 3), from those of vertices, (n, 3); None if there are none.
+
+    Zeros, and normals that are not finite, of which an InputWarning tells, are replaced by computed ones.
+    """
+    if normals is None:
+        return None
+    bad = np.asarray(~np.isfinite(normals).all(axis=1))
+    if bad.any():
+        warn(f"{name}: normals that are not finite numbers are computed: {bad.sum():,}")
+        normals = np.where(bad[:, None], 0.0, normals)
+    return filled(positions, corners, normals[corners]) if normals.any() else None
 
 
 def tinted(colors: Array, picture: Picture, uvs: Array) -> Array:

@@ -6,58 +6,70 @@ vertex has.
 
 from __future__ import annotations
 
-import io
-from array import array
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections import Counter
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import InputError, warn
+from ...values import plural
 from .._crease import corner_normals, filled
 from .._mesh import DEFAULT_COLOR, Mesh
 from .._texture import open_image
 from .colors import to_bytes
-from .content import read_text
-from .model import FileWrap, MeshPart, Picture, finite_uvs, tinted
+from .model import MeshPart, Picture, tinted
+from .mtl import Map, ObjMaterial, read_beside
+from .obj_lines import ABSENT, Floats, Ints, ObjFaces, ObjLines, drawn_faces, read_lines
 from .polygons import cut
 from .weld import weld
 
-ABSENT = -1
+#: A triangle has no area if it is this part of the square of its longest side, as it is by rounding.
+_NO_AREA = 1e-12
+#: So many images fit along a triangle in a contract, and so far away is it drawn, if they repeat.
+_SPAN, _FAR = 100, 1e6
+#: So many materials that are missing are named.
+_MOST_NAMED = 5
+
+#: What parts of a model differ in: the image of their texture, opacity and emission.
+_Look = tuple[Map | None, float, tuple[int, ...]]
+_PLAIN: _Look = (None, 1.0, (0, 0, 0))
 
 
 def read_obj(path: Path) -> list[MeshPart]:
-    """Return the meshes of an OBJ file, all its groups and objects: one for each texture, and one for what has none.
+    """Return the meshes of an OBJ file, all its groups and objects: one for each texture, opacity and emission.
 
-    The colour of a corner is that of its vertex (`v x y z r g b`), else white where it has a texture (`map_Kd`), else
-    the diffuse colour (`Kd`) of its material, else light grey. Its normal is that of the file (`vn`), else that of its
-    smoothing group (`s`), if the file has any. Materials and textures that cannot be read are left out, of which an
-    InputWarning tells.
+    The colour of a corner is that of its vertex (`v x y z r g b`, or ZBrush's `#MRGB`), else white where it has a
+    texture (`map_Kd`, or else `map_Ka`), else the diffuse colour (`Kd`) of its material, else light grey. Its normal is
+    that of the file (`vn`), else that of its smoothing group (`s`), if the file has any. InputWarnings tell what is
+    left out, such as materials and textures that cannot be read.
     """
-    obj = _parse(path)
-    vertex, texcoord, normal = (np.array(column, dtype=np.int64) for column in (obj.vertex, obj.texcoord, obj.normal))
-    positions, normals = _table(obj.positions, 3), _table(obj.normals, 3)
-    triangles = cut(positions, obj.sizes, vertex)
+    obj = read_lines(path)
+    drawn = drawn_faces(obj)
+    triangles = cut(drawn.positions, drawn.sizes, drawn.vertex)
     corners, face = triangles[:, :3], triangles[:, 3]
-    faces = vertex[corners]
-    material, group = (np.array(column, dtype=np.int64)[face] for column in (obj.face_materials, obj.face_groups))
-    colors, uvs, pictures, picture = _surfaces(obj, vertex, texcoord, corners, material)
-    found = None
+    faces = drawn.vertex[corners]
+    _check_areas(path, drawn.positions[faces], face, len(drawn.sizes))
+    surfaces = _Surfaces(obj, drawn, corners, face)
+    normal, group, found = drawn.normal[corners], drawn.group[face], None
     if (normal != ABSENT).any():
-        given = normal[corners]
-        found = filled(positions, faces, np.where((given == ABSENT)[:, :, None], 0, normals[given]))
+        found = filled(drawn.positions, faces, np.where((normal == ABSENT)[:, :, None], 0, drawn.normals[normal]))
     elif group.any():
-        found = corner_normals(positions, faces, groups=group)
+        found = corner_normals(drawn.positions, faces, groups=group)
+    textures = len({image for image, _, _ in surfaces.looks if image})
     parts = []
-    for number in np.unique(picture).tolist():
-        own = np.flatnonzero(picture == number)
-        own_normals = None if found is None else found[own]
-        fields, own_uvs = {}, None
-        if number != ABSENT:
-            fields["texture"], own_uvs = pictures[number].texture(uvs[own], len(pictures))
-        parts.append(MeshPart(weld(positions, faces[own], colors[own], own_normals, own_uvs), fields))
+    for (image, opacity, emission), number in surfaces.looks.items():
+        own = np.flatnonzero(surfaces.look == number)
+        if not len(own):
+            continue
+        fields: dict[str, Any] = {"emission": emission} if any(emission) else {}
+        own_normals, own_uvs = None if found is None else found[own], None
+        picture = surfaces.pictures[image] if image else None
+        if picture:
+            fields["texture"], own_uvs = picture.texture(surfaces.uvs[own], textures)
+        mesh = weld(drawn.positions, faces[own], surfaces.colors[own], own_normals, own_uvs)
+        parts.append(MeshPart(mesh, fields, opacity))
     return parts
 
 
@@ -76,220 +88,115 @@ def write_obj(mesh: Mesh, path: str | Path) -> None:
     Path(path).write_text("\n".join(lines) + "\n", encoding="ascii")
 
 
-@dataclass(frozen=True)
-class _Material:
-    color: tuple[float, float, float]
-    texture: Path | None = None
-    wrap: FileWrap = "repeat"
+def _check_areas(path: Path, points: Floats, face: Ints, count: int) -> None:
+    """Warn of faces without an area. InputError if all are.
+
+    points: of triangles, (m, 3, 3). face: that of each triangle, (m,), of so many.
+    """
+    with np.errstate(all="ignore"):
+        edges = points - np.roll(points, 1, axis=1)
+        longest = np.abs(edges).max(axis=(1, 2))
+        edges /= np.where(longest > 0, longest, 1)[:, None, None]
+        has_area = ~(np.abs(np.cross(edges[:, 0], edges[:, 1])).max(axis=1) <= _NO_AREA)
+    flat = count - len(np.unique(face[has_area]))
+    if flat == count:
+        raise InputError(f"nothing is visible: {plural(flat, 'face')} without an area, and no other")
+    if flat:
+        warn(f"{path}: {plural(flat, 'face')} of {count:,} without an area, of which nothing is visible")
 
 
-class _Obj:
-    """What the lines of a file say, in flat arrays, for there may be millions.
+class _Surfaces:
+    """Colours and texture coordinates of the corners of triangles, (m, 3, 3) and (m, 3, 2); and their looks.
 
-    The corners of all faces are numbered one after the other; vertex, texcoord and normal have an entry for each.
+    looks: with their numbers. look: that of each triangle, (m,).
     """
 
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self.positions = array("d")
-        self.vertex_colors: dict[int, list[float]] = {}
-        self.texcoords = array("d")
-        self.normals = array("d")
-        self.vertex = array("q")
-        self.texcoord = array("q")
-        self.normal = array("q")
-        self.sizes = array("q")
-        self.face_lines = array("q")
-        self.face_materials = array("q")
-        self.face_groups = array("q")
-        self.material_numbers: dict[str, int] = {"": 0}
-        self.materials: dict[str, _Material] = {}
+    def __init__(self, obj: ObjLines, drawn: ObjFaces, corners: Ints, face: Ints) -> None:
+        """Take the numbers of the corners of triangles, (m, 3), and those of their faces, (m,)."""
+        self.obj = obj
+        # the last row is that of ABSENT
+        self.texcoords = np.append(drawn.texcoords, [[np.nan, np.nan]], axis=0)
+        self.texcoord, material = drawn.texcoord[corners], drawn.material[face]
+        self.colors = np.full((*corners.shape, 3), DEFAULT_COLOR, dtype=np.float64)
+        self.uvs = np.zeros((*corners.shape, 2))
+        self.pictures: dict[Map, Picture | None] = {}
+        self.looks: dict[_Look, int] = {_PLAIN: 0}
+        self.look = np.zeros(len(corners), dtype=np.int64)
+        #: how many of a thing there are, and what of it is left out
+        self.notes: Counter[tuple[str, str]] = Counter()
+        painted, own_colors = _vertex_colors(obj, len(drawn.positions))
+        self.has_own = painted[drawn.vertex[corners]]
+        lost = []
+        for name, number in obj.material_numbers.items():
+            triangles = np.flatnonzero(material == number)
+            if len(triangles) and name in obj.materials:
+                self._take(obj.materials[name], triangles)
+            elif len(triangles) and name:
+                lost.append(name)
+        self.colors[self.has_own] = own_colors[drawn.vertex[corners]][self.has_own]
+        if obj.materials:  # otherwise a warning tells that there are none
+            named = ", ".join(repr(name[:40]) for name in lost[:_MOST_NAMED])
+            self.notes["material", f"that no material file has, drawn in light grey: {named}"] = len(lost)
+        for (thing, note), count in self.notes.items():
+            if count:
+                warn(f"{obj.path}: {plural(count, thing)} {note}")
 
+    def _take(self, material: ObjMaterial, own: Ints) -> None:
+        """Give triangles their material."""
+        self.notes.update((f"{each[:20]} statement", "of its materials left out") for each in sorted(material.left_out))
+        self.notes["material", "with an opacity of 0, of which nothing is visible"] += material.opacity == 0
+        self.colors[own] = to_bytes(material.color, largest=1)
+        emission = tuple(int(level) for level in to_bytes(material.emission, largest=1))
+        self.look[own] = self._number((None, material.opacity, emission))
+        picture = self._picture(material.image)
+        if picture is None:
+            return
+        with np.errstate(all="ignore"):
+            uvs = (self.texcoords[self.texcoord[own]] * material.scale + material.offset) * (1, -1) + (0, 1)
+            is_near = np.abs(uvs) <= (_SPAN if picture.wraps[0] == "clamp" else _FAR)
+            has_place = is_near.all(axis=(1, 2)) & (np.ptp(uvs, axis=1) <= _SPAN).all(axis=1)
+        has_own = self.has_own[own].any(axis=1)
+        self.notes["triangle", "without usable texture coordinates drawn without texture"] += int((~has_place).sum())
+        self.notes["triangle", "with colours of vertices drawn without texture"] += int((has_place & has_own).sum())
+        chosen = has_place & ~has_own
+        if not chosen.any():
+            return
+        textured, uvs = own[chosen], uvs[chosen]
+        self.uvs[textured] = uvs
+        self.colors[textured] = 255
+        if not picture.is_varied or picture.is_plain(uvs):
+            self.colors[textured] = tinted(self.colors[textured], picture, uvs)
+        else:
+            self.look[textured] = self._number((material.image, material.opacity, emission))
 
-def _table(values: array[float], width: int) -> NDArray[np.float64]:
-    return np.array(values, dtype=np.float64).reshape(-1, width)
+    def _number(self, look: _Look) -> int:
+        return self.looks.setdefault(look, len(self.looks))
 
-
-def _parse(path: Path) -> _Obj:
-    obj = _Obj(path)
-    material, group = 0, 0
-    text = read_text(path).replace("\\\n", " ")
-    for number, line in enumerate(io.StringIO(text), 1):
-        words = line.partition("#")[0].split()
-        if not words:
-            continue
-        keyword = words[0]
-        try:
-            if keyword == "v":
-                values = _at_least(3, [float(word) for word in words[1:]])
-                if len(values) >= 6:
-                    obj.vertex_colors[len(obj.positions) // 3] = values[3:6]
-                obj.positions.extend(values[:3])
-            elif keyword == "vt":
-                values = _at_least(1, [float(word) for word in words[1:]])
-                obj.texcoords.extend([*values, 0.0][:2])
-            elif keyword == "vn":
-                obj.normals.extend(_at_least(3, [float(word) for word in words[1:]])[:3])
-            elif keyword == "f":
-                _add_face(obj, words[1:])
-                obj.face_lines.append(number)
-                obj.face_materials.append(material)
-                obj.face_groups.append(group)
-            elif keyword == "usemtl":
-                material = obj.material_numbers.setdefault(" ".join(words[1:]), len(obj.material_numbers))
-            elif keyword == "s":
-                group = int(words[1]) if words[1:] and words[1].isdecimal() else 0
-            elif keyword == "mtllib":
-                obj.materials.update(_read_materials(path, line.split(None, 1)[1].strip()))
-        except (ValueError, IndexError):
-            raise InputError(f"line {number} is not one of an OBJ file: {line.strip()[:60]!r}") from None
-    _check_numbers(obj)
-    return obj
-
-
-def _at_least(count: int, values: list[float]) -> list[float]:
-    if len(values) < count:
-        raise ValueError
-    return values
-
-
-def _add_face(obj: _Obj, corners: list[str]) -> None:
-    if len(corners) < 3:
-        raise ValueError
-    vertices, texcoords, normals = len(obj.positions) // 3, len(obj.texcoords) // 2, len(obj.normals) // 3
-    for corner in corners:
-        vertex, _, rest = corner.partition("/")
-        texcoord, _, normal = rest.partition("/")
-        obj.vertex.append(_number(vertex, vertices))
-        obj.texcoord.append(_number(texcoord, texcoords) if texcoord else ABSENT)
-        obj.normal.append(_number(normal, normals) if normal else ABSENT)
-    obj.sizes.append(len(corners))
-
-
-def _number(word: str, count: int) -> int:
-    """Return the number of a vertex from 0; files count from 1, or back from the latest with -1.
-
-    A number out of range becomes `count` or more.
-    """
-    number = int(word)
-    if number > 0:
-        return number - 1
-    return count + number if -count <= number < 0 else 1 << 40
-
-
-def _check_numbers(obj: _Obj) -> None:
-    if not obj.sizes:
-        raise InputError(f"it has no faces ({len(obj.positions) // 3} vertices)")
-    for what, keyword, column, count in (
-        ("vertex", "v", obj.vertex, len(obj.positions) // 3),
-        ("texture coordinate", "vt", obj.texcoord, len(obj.texcoords) // 2),
-        ("normal", "vn", obj.normal, len(obj.normals) // 3),
-    ):
-        bad = np.flatnonzero(np.array(column) >= count)
-        if not len(bad):
-            continue
-        if keyword != "v" and not count:  # some exporters number coordinates and normals that they leave out
-            column[:] = array("q", [ABSENT]) * len(column)
-            continue
-        line = obj.face_lines[int(np.searchsorted(np.cumsum(obj.sizes), bad[0], side="right"))]
-        raise InputError(
-            f"the face in line {line} names a {what} that does not exist; "
-            + (f"there are {keyword} lines 1 to {count}" if count else f"there are no {keyword} lines")
-        )
-
-
-def _surfaces(
-    obj: _Obj,
-    vertex: NDArray[np.int64],
-    texcoord: NDArray[np.int64],
-    corners: NDArray[np.int64],
-    material: NDArray[np.int64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64], list[Picture], NDArray[np.int64]]:
-    """Return a colour and texture coordinates for each corner of each triangle, (m, 3, 3) and (m, 3, 2); the images of
-    textures, and the number of that of each triangle, (m,), or ABSENT.
-    """
-    colors = np.empty((len(corners), 3, 3))
-    colors[:] = DEFAULT_COLOR
-    uvs = np.zeros((len(corners), 3, 2))
-    pictures: dict[tuple[Path, FileWrap], tuple[int, Picture]] = {}
-    picture = np.full(len(corners), ABSENT)
-    has_own = np.zeros(corners.shape, dtype=bool)
-    if obj.vertex_colors:
-        colored = np.zeros(len(obj.positions) // 3, dtype=bool)
-        colored[list(obj.vertex_colors)] = True
-        has_own = colored[vertex[corners]]
-    for name, number in obj.material_numbers.items():
-        if name not in obj.materials:
-            continue
-        found = obj.materials[name]
-        faces = np.flatnonzero(material == number)
-        colors[faces] = to_bytes(found.color, largest=1)
-        opened = None if found.texture is None or not len(faces) else _open_texture(obj.path, found)
-        if opened is not None and found.texture is not None:
-            faces = faces[(texcoord[corners[faces]] != ABSENT).all(axis=1) & ~has_own[faces].any(axis=1)]
-            uvs[faces] = _table(obj.texcoords, 2)[texcoord[corners[faces]]] * (1, -1) + (0, 1)
-            uvs[faces] = finite_uvs(uvs[faces], opened.name)
-            colors[faces] = 255
-            if not opened.is_varied or opened.is_plain(uvs[faces]):
-                colors[faces] = tinted(colors[faces], opened, uvs[faces])
-            elif len(faces):
-                picture[faces] = pictures.setdefault((found.texture, found.wrap), (len(pictures), opened))[0]
-    if obj.vertex_colors:
-        vertex_colors = np.zeros((len(obj.positions) // 3, 3))
-        vertex_colors[list(obj.vertex_colors)] = list(obj.vertex_colors.values())
-        vertex_colors = to_bytes(vertex_colors)
-        colors[has_own] = vertex_colors[vertex[corners]][has_own]
-    return colors, uvs, [each for _, each in pictures.values()], picture
-
-
-def _read_materials(path: Path, names: str) -> dict[str, _Material]:
-    """Return the materials of the files named in a `mtllib` line: one name, which may have spaces in it, or several."""
-    found: dict[str, str] = {}
-    missing: dict[str, InputError] = {}
-    for name in (names, *names.split()):
-        if name not in found and names not in found:
+    def _picture(self, image: Map | None) -> Picture | None:
+        """Return the picture of an image; None, with a warning, if it cannot be read."""
+        if image is None:
+            return None
+        if image not in self.pictures:
+            self.pictures[image] = None
             try:
-                found[name] = read_text(path.parent / name.replace("\\", "/"))
+                place, pixels = read_beside(image.folders, image.name, lambda each: (each, open_image(each, str(each))))
+                self.pictures[image] = Picture(pixels, f"{self.obj.path}: {place.name}", wraps=(image.wrap, image.wrap))
             except InputError as error:
-                missing[name] = error
-    if found:
-        missing.pop(names, None)
-    for reason in [missing[names]] if names in missing else missing.values():
-        warn(f"{path}: its materials are left out: {reason}")
-    materials: dict[str, _Material] = {}
-    for text in found.values():
-        materials.update(_parse_materials(path.parent, text.split("\n")))
-    return materials
+                warn(f"{self.obj.path}: a texture is left out: {error}")
+        return self.pictures[image]
 
 
-def _parse_materials(folder: Path, lines: Iterable[str]) -> dict[str, _Material]:
-    materials: dict[str, _Material] = {}
-    name = ""
-    for line in lines:
-        keyword, _, rest = line.partition("#")[0].strip().replace("\t", " ").partition(" ")
-        rest = rest.strip()
-        if keyword == "newmtl":
-            name = " ".join(rest.split())
-            materials[name] = _Material((1.0, 1.0, 1.0))
-        elif keyword == "Kd" and name in materials:
-            try:
-                red, green, blue = (float(word) for word in rest.split())
-            except ValueError:
-                continue
-            materials[name] = replace(materials[name], color=(red, green, blue))
-        elif keyword.lower() == "map_kd" and rest and name in materials:
-            # options stand before the name: -s 1 1 1 wood.png
-            image = rest.split()[-1] if rest.startswith("-") else rest
-            wrap: FileWrap = "clamp" if "-clamp on" in " ".join(rest.split()[:-1]) else "repeat"
-            materials[name] = replace(materials[name], texture=folder / image.replace("\\", "/"), wrap=wrap)
-    return materials
-
-
-def _open_texture(path: Path, material: _Material) -> Picture | None:
-    assert material.texture is not None
-    try:
-        image = open_image(material.texture, str(material.texture))
-    except InputError as error:
-        warn(f"{path}: a texture is left out: {error}")
-        return None
-    return Picture(image, f"{path}: {material.texture.name}", wraps=(material.wrap, material.wrap))
+def _vertex_colors(obj: ObjLines, count: int) -> tuple[NDArray[np.bool_], Floats]:
+    """Return which of so many vertices have a colour, (n,), and the colours, (n, 3), 0..255."""
+    painted, colors = np.zeros(count, dtype=bool), np.zeros((count, 3))
+    levels = np.frombuffer(bytes(obj.polypaint), dtype=np.uint8).reshape(-1, 4)[:count]
+    painted[: len(levels)], colors[: len(levels)] = True, levels[:, 1:]
+    if obj.vertex_colors:
+        numbers = np.array(list(obj.vertex_colors))
+        values = np.array(list(obj.vertex_colors.values()))
+        finite = np.isfinite(values).all(axis=1)
+        painted[numbers[finite]] = True
+        colors[numbers[finite]] = to_bytes(values[finite])
+        if not finite.all():
+            warn(f"{obj.path}: {plural(int((~finite).sum()), 'colour')} of vertices left out, not finite numbers")
+    return painted, colors

@@ -1,316 +1,173 @@
-"""PLY, the Stanford polygon format, as text or binary.
-
-An own reader: trimesh refuses binary files that mix triangles with other polygons, and drops colours beside texture
-coordinates.
-"""
+"""PLY, the Stanford polygon format."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from itertools import chain
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import InputError, warn
-from .._crease import filled
-from .._mesh import Mesh
-from .colors import to_bytes
-from .content import read_bytes, unix_lines
+from ...values import plural
+from .._mesh import DEFAULT_COLOR
+from .._texture import open_image
+from .content import read_bytes
+from .model import MeshPart, Picture, finite_uvs, given_normals, tinted
+from .ply_elements import Element, read_elements
 from .polygons import cut
 from .weld import weld
 
-_TYPES = {
-    "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1",
-    "short": "i2", "int16": "i2", "ushort": "u2", "uint16": "u2",
-    "int": "i4", "int32": "i4", "uint": "u4", "uint32": "u4",
-    "float": "f4", "float32": "f4", "double": "f8", "float64": "f8",
-}  # fmt: skip
+#: The names of texture coordinates, which go to the right and up.
+_COORDINATES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"))
+#: What ends a strip of triangles.
+_END = -1
+#: The number of a texture that there is not.
+_NONE = -1
 
-#: How many bits of a larger integer a colour has: 0..65535 becomes 0..255.
-_LARGEST = {"u1": 255, "i1": 255, "u2": 65535, "i2": 255, "u4": 255, "i4": 255}
-
-#: The names of red, green, blue and alpha.
-_COLORS = (
-    ("red", "green", "blue", "alpha"),
-    ("diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"),
-    ("r", "g", "b", "a"),
-)
+Array = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 
-def read_ply(path: Path) -> Mesh:
-    """Return the mesh of a PLY file.
+def read_ply(path: Path) -> list[MeshPart]:
+    """Return the meshes of a PLY file: one for each texture, and one for what has none.
 
-    A corner has the colour of its face if faces have colours, else that of its vertex, else light grey. Where all faces
-    have the same colour, those of vertices come first. An InputWarning tells of textures, which are left out.
+    A corner has the colour of its texture, else that of its face if faces have colours, else that of its vertex, else
+    light grey. Where all faces have the same colour, those of vertices come first. An InputWarning tells what is left
+    out.
     """
-    header, source = _open(read_bytes(path))
-    for element in header.elements:
-        _read_element(element, source)
-    if isinstance(source, _Text):
-        source.finish()
-    elements = {element.name: element for element in header.elements}
-    if "vertex" not in elements or "face" not in elements:
-        raise InputError("a mesh needs the elements vertex and face; this file has " + (", ".join(elements) or "none"))
-    vertex, face = elements["vertex"], elements["face"]
+    elements, textures = read_elements(read_bytes(path))
+    vertex = elements.get("vertex", Element("vertex", 0))
+    face = next((elements[name] for name in ("face", "tristrips") if name in elements and elements[name].count), None)
     positions = vertex.table("x", "y", "z")
-    polygons = face.lists("vertex_indices", "vertex_index")
-    if positions is None or polygons is None:
-        raise InputError("the element vertex needs x, y and z, the element face a list vertex_indices")
-    sizes, numbers = polygons
+    if face is None and positions is not None:
+        raise InputError(
+            f"it has {plural(vertex.count, 'point')} and no faces, so there is no surface to draw; a program such as"
+            " MeshLab makes one of points"
+        )
+    polygons = None if face is None else face.lists("vertex_indices", "vertex_index")
+    if face is None or positions is None or polygons is None:
+        raise InputError(
+            "a mesh needs an element vertex with x, y and z, and an element face with a list vertex_indices; this file"
+            f" has the elements {', '.join(elements) or 'none'}"
+        )
+    sizes, numbers = polygons[0], _whole(polygons[1])
+    is_strips = face.name == "tristrips"
+    if is_strips:
+        numbers = _strips(sizes, numbers)
+        sizes = np.full(len(numbers) // 3, 3)
     triangles = cut(positions, sizes, numbers)
-    corners = numbers[triangles[:, :3]]
-    face_colors, vertex_colors = face.colors(), vertex.colors()
-    colors = None
-    if face_colors is not None and (vertex_colors is None or (face_colors != face_colors[0]).any()):
-        colors = np.repeat(face_colors[triangles[:, 3]][:, None, :], 3, axis=1)
-    elif vertex_colors is not None:
-        colors = vertex_colors[corners]
-    if header.textures:
-        warn(f"{path}: its texture {', '.join(header.textures)} is left out; of PLY files only colours are read")
-    normals = vertex.table("nx", "ny", "nz")
-    return weld(positions, corners, colors, None if normals is None else filled(positions, corners, normals[corners]))
+    corners, polygon = numbers[triangles[:, :3]], triangles[:, 3]
+    colors = _colors(path, vertex, Element("face", 0) if is_strips else face, corners, polygon)
+    normals = given_normals(vertex.table("nx", "ny", "nz"), positions, corners, str(path))
+    pictures = _pictures(path, textures)
+    picture, uvs = np.full(len(corners), _NONE), np.zeros((len(corners), 3, 2))
+    if pictures:
+        picture, uvs = _textured(path, vertex, face, sizes, triangles, corners)
+        _paint(path, pictures, picture, uvs, colors)
+    _tell_what_is_left(path, elements, face)
+    parts = []
+    for number in np.unique(picture).tolist():
+        own = np.flatnonzero(picture == number)
+        fields, own_uvs = {}, None
+        if number != _NONE:
+            fields["texture"], own_uvs = pictures[number].texture(uvs[own], len(pictures))
+        own_normals = None if normals is None else normals[own]
+        parts.append(MeshPart(weld(positions, corners[own], colors[own], own_normals, own_uvs), fields))
+    return parts
 
 
-@dataclass
-class _Property:
-    name: str
-    type: str
-    #: the type of the length if this is a list
-    length: str | None = None
+def _whole(numbers: Array) -> Ints:
+    bad = np.flatnonzero(numbers % 1 != 0)
+    if len(bad):
+        raise InputError(f"the numbers of vertices must be whole, not {numbers[bad[0]]}")
+    return numbers.astype(np.int64)
 
 
-@dataclass
-class _Element:
-    name: str
-    count: int
-    properties: list[_Property] = field(default_factory=list)
-    #: by property: (count,) numbers; of lists (count, length), or a list of lists if their lengths differ
-    values: dict[str, Any] = field(default_factory=dict)
-
-    def table(self, *names: str) -> NDArray[np.float64] | None:
-        """Return the scalar properties of these names side by side, or None if one is missing."""
-        scalars = {p.name for p in self.properties if p.length is None}
-        if not scalars.issuperset(names):
-            return None
-        return np.stack([np.asarray(self.values[name], dtype=np.float64) for name in names], axis=1)
-
-    def lists(self, *names: str) -> tuple[NDArray[np.int64], NDArray[np.int64]] | None:
-        """Return the first list property of one of these names, as lengths of its lists and all numbers; or None."""
-        for name in names:
-            if any(p.name == name and p.length is not None for p in self.properties):
-                rows = self.values[name]
-                if isinstance(rows, np.ndarray):
-                    sizes, numbers = np.full(len(rows), rows.shape[1]), rows.reshape(-1)
-                else:
-                    sizes = np.array([len(row) for row in rows], dtype=np.int64)
-                    numbers = np.fromiter(chain.from_iterable(rows), dtype=np.float64)
-                bad = np.flatnonzero(numbers % 1 != 0)
-                if len(bad):
-                    raise InputError(f"the numbers of vertices must be whole, not {numbers[bad[0]]}")
-                return sizes, numbers.astype(np.int64)
-        return None
-
-    def colors(self) -> NDArray[np.float64] | None:
-        """Return (n, 3) colours, or (n, 4) with alpha, 0..255; None if there are none."""
-        for *names, alpha in _COLORS:
-            if (colors := self._levels(*names)) is not None:
-                opacities = self._levels(alpha)
-                return colors if opacities is None else np.hstack([colors, opacities])
-        return None
-
-    def _levels(self, *names: str) -> NDArray[np.float64] | None:
-        table = self.table(*names)
-        if table is None or not len(table):
-            return None
-        kind = next(p.type for p in self.properties if p.name == names[0])
-        return to_bytes(table, _LARGEST.get(kind))
+def _strips(sizes: Ints, numbers: Ints) -> Ints:
+    """Return the corners of the triangles of strips, three for each, without those of no area that join strips."""
+    numbers = np.insert(numbers, np.cumsum(sizes), _END)
+    place = np.arange(len(numbers))
+    start = np.maximum.accumulate(np.where(numbers == _END, place, -1)) + 1
+    triangles = np.stack([numbers[:-2], numbers[1:-1], numbers[2:]], axis=1)
+    odd = (place - start)[:-2] % 2 == 1
+    triangles[odd] = triangles[odd][:, [1, 0, 2]]
+    a, b, c = triangles.T
+    kept: Ints = triangles[(triangles != _END).all(axis=1) & (a != b) & (b != c) & (c != a)]
+    return kept.reshape(-1)
 
 
-@dataclass
-class _Header:
-    encoding: str = ""
-    elements: list[_Element] = field(default_factory=list)
-    textures: list[str] = field(default_factory=list)
+def _colors(path: Path, vertex: Element, face: Element, corners: Ints, polygon: Ints) -> Array:
+    """Return the colours of corners with alpha, (m, 3, 4). polygon: (m,) the row of `face` for each triangle."""
+    of_faces, of_vertices = face.colors(), vertex.colors()
+    if of_faces is not None and (of_vertices is None or (of_faces != of_faces[0]).any()):
+        if of_vertices is not None:
+            warn(f"{path}: the colours of its vertices are left out, for its faces have colours")
+        return np.repeat(of_faces[polygon][:, None], 3, axis=1)
+    if of_vertices is not None:
+        return of_vertices[corners]
+    return np.full((*corners.shape, 4), (*DEFAULT_COLOR, 255.0))
 
 
-def _open(data: bytes) -> tuple[_Header, _Text | _Binary]:
-    """Return the header, with elements that have no values yet, and where these are."""
-    header, start, number = _Header(), 0, 0
-    if not data.startswith(b"ply"):
-        raise InputError("a PLY file begins with the line ply")
-    line_end = b"\r" if data[3:4] == b"\r" and data[4:5] != b"\n" else b"\n"
-    line = ""
-    while line != "end_header":
-        end = data.find(line_end, start)
-        if end < 0:
-            raise InputError("its header has no line end_header")
-        line = data[start:end].decode("ascii", errors="replace").strip()
-        start, number = end + 1, number + 1
+def _pictures(path: Path, names: list[str]) -> dict[int, Picture]:
+    pictures = {}
+    for number, name in enumerate(names):
+        file = path.parent / name.replace("\\", "/")
         try:
-            _read_header_line(header, line)
-        except (ValueError, KeyError, IndexError):
-            raise InputError(
-                f"line {number} of its header is {line[:60]!r}; known are format, element and its count, then property "
-                "and its type, and comment, obj_info, end_header"
-            ) from None
-    if not header.encoding:
-        raise InputError("its header has no line format")
-    if header.encoding == "ascii":
-        return header, _Text(data[start:], number)
-    return header, _Binary(data[start:], "<" if "little" in header.encoding else ">")
+            pictures[number] = Picture(open_image(file, str(file)), f"{path}: {file.name}")
+        except InputError as error:
+            warn(f"{path}: a texture is left out: {error}")
+    return pictures
 
 
-def _read_header_line(header: _Header, line: str) -> None:
-    match line.split():
-        case ["format", name, _] if name in ("ascii", "binary_little_endian", "binary_big_endian"):
-            header.encoding = name
-        case ["element", name, count] if int(count) >= 0:
-            header.elements.append(_Element(name, int(count)))
-        case ["property", "list", length, kind, name]:
-            header.elements[-1].properties.append(_Property(name, _TYPES[kind], _TYPES[length]))
-        case ["property", kind, name]:
-            header.elements[-1].properties.append(_Property(name, _TYPES[kind]))
-        case ["comment", "TextureFile", *words]:
-            header.textures.append(" ".join(words))
-        case ["ply"] | ["end_header"] | ["comment" | "obj_info", *_] | []:
-            pass
-        case _:
-            raise ValueError
+def _textured(
+    path: Path, vertex: Element, face: Element, sizes: Ints, triangles: Ints, corners: Ints
+) -> tuple[Ints, Array]:
+    """Return the number of the texture of each triangle, (m,), and the coordinates of its corners, (m, 3, 2).
+
+    The coordinates of corners, a list texcoord of faces, come before those of vertices.
+    """
+    polygon = triangles[:, 3]
+    numbers = face.table("texnumber")
+    picture = np.zeros(len(triangles), np.int64) if numbers is None else numbers[polygon, 0].astype(np.int64)
+    uvs = np.zeros((*corners.shape, 2))
+    of_corners = face.lists("texcoord")
+    of_vertices = next((found for names in _COORDINATES if (found := vertex.table(*names)) is not None), None)
+    if of_corners is not None:
+        whole = of_corners[0] == 2 * sizes
+        flat = np.zeros((sizes.sum(), 2))
+        flat[np.repeat(whole, sizes)] = of_corners[1][np.repeat(whole, of_corners[0])].reshape(-1, 2)
+        uvs = flat[triangles[:, :3]]
+        picture[~whole[polygon]] = _NONE
+    elif of_vertices is not None:
+        uvs = of_vertices[corners]
+    else:
+        warn(f"{path}: its texture is left out, for it has no texture coordinates")
+        picture[:] = _NONE
+    return picture, finite_uvs(uvs, str(path)) * (1, -1) + (0, 1)
 
 
-_Field = tuple[str, str, int]
+def _paint(path: Path, pictures: dict[int, Picture], picture: Ints, uvs: Array, colors: Array) -> None:
+    """Make white what shows a texture, and give what shows one colour of it that colour, and no texture."""
+    picture[~np.isin(picture, list(pictures))] = _NONE
+    hidden = colors[picture != _NONE, :, :3]
+    if not any((hidden == plain).all() for plain in (255, DEFAULT_COLOR)):
+        warn(f"{path}: the colours of its vertices or faces are left out where it has a texture")
+    colors[picture != _NONE, :, :3] = 255
+    for number, opened in pictures.items():
+        faces = np.flatnonzero(picture == number)
+        if len(faces) and (not opened.is_varied or opened.is_plain(uvs[faces])):
+            colors[faces] = tinted(colors[faces], opened, uvs[faces])
+            picture[faces] = _NONE
 
 
-class _Text:
-    """Lines of numbers, a line for each row of an element."""
-
-    def __init__(self, data: bytes, before: int) -> None:
-        """Take the lines after the header. before: the number of lines of the header."""
-        self.lines = unix_lines(data.decode("ascii", errors="replace")).split("\n")
-        self.before = before
-        self.at = 0
-
-    def table(self, fields: list[_Field], count: int) -> dict[str, NDArray[Any]] | None:
-        """Return `count` rows of these fields (name, type, count of numbers), or None if the data has another form."""
-        self._skip_blank()
-        try:
-            table = np.loadtxt(self.lines[self.at : self.at + count], ndmin=2, comments=None)
-        except ValueError:
-            return None
-        if table.shape != (count, sum(size for _, _, size in fields)):
-            return None
-        self.at += count
-        starts = np.cumsum([0, *(size for _, _, size in fields)]).tolist()
-        return {name: table[:, at : at + size] for (name, _, size), at in zip(fields, starts, strict=False)}
-
-    def row(self, element: _Element) -> dict[str, list[float]]:
-        """Return the values of a line, by property."""
-        self._skip_blank()
-        if self.at == len(self.lines):
-            raise _ended(element)
-        line, place = self.lines[self.at], f"line {self.before + self.at + 1}"
-        self.at += 1
-        words = line.split()
-        row, used = {}, 0
-        try:
-            for p in element.properties:
-                size = 1
-                if p.length is not None:
-                    size, used = int(words[used]), used + 1
-                row[p.name] = [float(word) for word in words[used : used + size]]
-                if len(row[p.name]) != size:
-                    raise ValueError
-                used += size
-            if used < len(words):
-                raise ValueError
-        except (ValueError, IndexError):
-            form = ", ".join(f"a list {p.name} after its length" if p.length else p.name for p in element.properties)
-            raise InputError(
-                f"{place} should hold an element {element.name} ({form}) and nothing else, not {line.strip()[:60]!r}"
-            ) from None
-        return row
-
-    def _skip_blank(self) -> None:
-        while self.at < len(self.lines) and not self.lines[self.at].strip():
-            self.at += 1
-
-    def finish(self) -> None:
-        """Refuse what is left over."""
-        for number, line in enumerate(self.lines[self.at :], self.before + self.at + 1):
-            if line.strip():
-                raise InputError(f"line {number} is left over behind the elements of its header: {line.strip()[:60]!r}")
-
-
-class _Binary:
-    """Numbers one after the other, each in the bytes of its type."""
-
-    def __init__(self, data: bytes, order: str) -> None:
-        self.data = data
-        self.order = order
-        self.at = 0
-
-    def table(self, fields: list[_Field], count: int) -> dict[str, NDArray[Any]] | None:
-        """Return `count` rows of these fields (name, type, count of numbers), or None if the data is too short."""
-        row = np.dtype([(name, self.order + kind, (size,)) for name, kind, size in fields])
-        if self.at + row.itemsize * count > len(self.data):
-            return None
-        table = np.frombuffer(self.data, row, count, self.at)
-        self.at += row.itemsize * count
-        return {name: table[name] for name, _, _ in fields}
-
-    def row(self, element: _Element) -> dict[str, list[float]]:
-        """Return the values of a row, by property."""
-        row = {}
-        for p in element.properties:
-            size = 1 if p.length is None else int(self._numbers(element, p.length, 1)[0])
-            row[p.name] = self._numbers(element, p.type, size)
-        return row
-
-    def _numbers(self, element: _Element, kind: str, size: int) -> list[float]:
-        found = self.table([("numbers", kind, size)], 1) if size >= 0 else None
-        if found is None:
-            raise _ended(element)
-        numbers: list[float] = found["numbers"][0].tolist()
-        return numbers
-
-
-def _ended(element: _Element) -> InputError:
-    return InputError(f"it ends before its {element.count} elements {element.name} are complete")
-
-
-def _read_element(element: _Element, source: _Text | _Binary) -> None:
-    lists = [p for p in element.properties if p.length is not None]
-    if not element.count or not element.properties:
-        element.values = {p.name: [] for p in element.properties}
-        return
-    start = source.at
-    first = source.row(element)
-    source.at = start
-    # nearly always all lists of an element are of one length: then it is read as one table
-    table = source.table(
-        [
-            part
-            for p in element.properties
-            for part in (
-                [(p.name, p.type, 1)]
-                if p.length is None
-                else [(f"length of {p.name}", p.length, 1), (p.name, p.type, len(first[p.name]))]
-            )
-        ],
-        element.count,
-    )
-    if table is not None and all((table[f"length of {p.name}"] == len(first[p.name])).all() for p in lists):
-        element.values = {
-            p.name: table[p.name][:, 0] if p.length is None else table[p.name] for p in element.properties
-        }
-        return
-    if not lists and isinstance(source, _Binary):
-        raise _ended(element)
-    source.at = start
-    rows = [source.row(element) for _ in range(element.count)]
-    element.values = {
-        p.name: [row[p.name][0] if p.length is None else row[p.name] for row in rows] for p in element.properties
-    }
+def _tell_what_is_left(path: Path, elements: dict[str, Element], face: Element) -> None:
+    left = [f"{each.name} ({each.count:,})" for each in elements.values() if each.count and not each.used]
+    left += [
+        f"{p.name} of {each.name}"
+        for each in elements.values()
+        if each.used
+        for p in each.properties
+        if p.name not in each.used
+    ]
+    if left:
+        warn(f"{path}: of its elements are left out: {', '.join(left)}")

@@ -1,4 +1,4 @@
-"""STL, as text or binary."""
+"""STL, as text or binary, with the colours that VisCAM, SolidView and Materialise Magics keep in binary files."""
 
 from __future__ import annotations
 
@@ -6,33 +6,98 @@ import re
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ...errors import InputError
-from .._mesh import Mesh
-from .content import read_bytes, unix_lines
+from ...errors import InputError, warn
+from ...values import plural
+from .._mesh import DEFAULT_COLOR, Mesh
+from .content import plain_text, read_bytes
 from .weld import weld
 
-_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-_HEADER = 80 + 4
+_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+_HEADER, _COUNT = 80, 4
+
+#: What stands before red, green, blue and alpha of the whole model in a header of Magics, and of its material.
+_COLOR, _MATERIAL = b"COLOR=", b"MATERIAL="
+_MATERIAL_SIZE = 12
+
+#: Bytes at random make coordinates that are mostly beyond this, or no numbers.
+_PLAUSIBLE = 1e15
+
+Array = NDArray[np.float64]
 
 
 def read_stl(path: Path) -> Mesh:
-    """Return the mesh of an STL file in light grey. The normals of its faces follow from their vertices."""
+    """Return the mesh of an STL file, in light grey unless its facets have colours.
+
+    The normals of its faces follow from their vertices. An InputWarning tells of facets that are left out because they
+    are not complete or not finite, of a wrong count, and of what is not a facet.
+    """
     data = read_bytes(path)
-    count = int.from_bytes(data[80:_HEADER], "little")
-    if len(data) >= _HEADER and len(data) == _HEADER + count * _TRIANGLE.itemsize:
-        corners = np.frombuffer(data, _TRIANGLE, count, _HEADER)["corners"].reshape(-1, 3)
-    elif b"\0" in data:
-        raise InputError("it is neither text nor as long as a binary STL file of so many triangles would be")
+    text = data.rstrip(b"\0")
+    if b"\0" in text:
+        corners, colors = _binary(path, data)
     else:
-        corners = _vertices(unix_lines(data.decode("utf-8", errors="replace")))
-    if not len(corners):
-        raise InputError("it has no triangles")
-    return weld(corners, np.arange(len(corners)).reshape(-1, 3))
+        corners, colors = _text(plain_text(text)), None
+    finite = np.isfinite(corners).all(axis=(1, 2))
+    if not finite.any():
+        raise InputError("it has no triangles" if not len(corners) else "none of its facets has finite coordinates")
+    if not finite.all():
+        warn(f"{path}: facets with coordinates that are not finite numbers are left out: {(~finite).sum()}")
+    faces = np.arange(3 * int(finite.sum())).reshape(-1, 3)
+    return weld(corners[finite].reshape(-1, 3), faces, None if colors is None else colors[finite].repeat(3, axis=1))
 
 
-def _vertices(text: str) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
-    """Return the vertices of all solids of a text, (n, 3), three for each facet."""
+def _binary(path: Path, data: bytes) -> tuple[Array, Array | None]:
+    """Return the corners of facets, (n, 3, 3), and their colours with alpha, (n, 1, 4), or None."""
+    header, body = data[:_HEADER], data[_HEADER + _COUNT :]
+    declared = int.from_bytes(data[_HEADER : _HEADER + _COUNT], "little")
+    # many a writer leaves out the count, or the attribute of the last facet, which is rarely of use
+    count = (len(body) + 2) // _FACET.itemsize
+    if not count:
+        raise InputError(f"it is not text, and with {len(data)} bytes too short for a triangle of a binary STL file")
+    if 0 < declared < count and (len(body) - declared * _FACET.itemsize) % _FACET.itemsize:
+        count = declared  # what follows is something else
+    facets = np.frombuffer(body + b"\0\0", _FACET, count)
+    corners = facets["corners"].astype(np.float64)
+    if declared != count:
+        if (np.abs(corners) < _PLAUSIBLE).all(axis=(1, 2)).mean() < 0.5:
+            raise InputError("it is neither text nor binary STL")
+        warn(f"{path}: its header says {plural(declared, 'facet')}; there are {count:,}, which are read")
+    behind = len(body) - count * _FACET.itemsize
+    if behind > 0:
+        warn(f"{path}: what is behind its facets is left out: {plural(behind, 'byte')}")
+    return corners, _colors(path, header, facets["attribute"].astype(np.int64))
+
+
+def _colors(path: Path, header: bytes, attributes: NDArray[np.int64]) -> Array | None:
+    """Return the colours of facets, 0..255 with alpha, (n, 1, 4); None if there are none.
+
+    An attribute has five bits for each of red, green and blue. Its highest bit says in Magics that the facet has the
+    colour of the header, in the other programs that it has one of its own.
+    """
+    own = attributes >= 1 << 15
+    default = np.array([*DEFAULT_COLOR, 255])
+    shifts = [10, 5, 0]
+    _, is_magics, behind = header.partition(_COLOR)
+    if is_magics and len(behind) >= 4:
+        own = ~own
+        shifts.reverse()
+        default = np.frombuffer(behind, np.uint8, 4).astype(np.int64)
+        default[3] = default[3] or 255  # writers without transparency leave 0
+        if behind.partition(_MATERIAL)[2][:_MATERIAL_SIZE].strip(b"\0"):
+            warn(f"{path}: the material of its header is left out; of STL files only colours are read")
+    elif unknown := int(np.count_nonzero(attributes[~own])):
+        warn(f"{path}: attributes of facets that are no colours are left out: {unknown}")
+    if not is_magics and not own.any():
+        return None
+    levels = np.rint((attributes[:, None] >> shifts & 31) * (255 / 31))
+    colors = np.where(own[:, None], np.column_stack([levels, np.full(len(own), 255)]), default)
+    return np.asarray(colors[:, None], dtype=np.float64)
+
+
+def _text(text: str) -> Array:
+    """Return the corners of the facets of all solids of a text, (n, 3, 3)."""
     # names may be of any words
     text = re.sub(r"(?im)^[ \t]*(end)?solid\b.*", "", text)
     rows = []
@@ -44,4 +109,4 @@ def _vertices(text: str) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
             rows += [[float(x), float(y), float(z)] for x, y, z in vertices]
         except ValueError:
             raise InputError(f"facet {number} has a vertex that is not three numbers: {vertices}") from None
-    return np.array(rows).reshape(-1, 3)
+    return np.array(rows).reshape(-1, 3, 3)

@@ -1,0 +1,124 @@
+"""What a mesh or scene file holds, in its own coordinates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from attrs import evolve
+from numpy.typing import NDArray
+
+from .._load import load
+from ..datasets import Piece
+from ..errors import InputError
+from ..scene import READERS, Material, Mesh, Object, is_closed, read_model
+
+#: The share of the ground under a model that must be a flat base for the model to stand on it.
+BASE = 0.1
+#: How flat a base is, as a share of the height, and as the cosine of the angle of its faces.
+FLAT, LEVEL = 0.01, 0.99
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Figures of all objects, taken together.
+
+    low, high: the bounds. parts: how many objects. open_edges: edges of one face; crowded_edges: of three or more;
+    disagreeing_edges: of two faces that are wound differently. closed: as `is_closed`, from outside. inside_out:
+    whether faces of a closed surface are seen from inside. up: "y" or "z", the axis along which the model stands on a
+    flat base; None if that does not tell it. textures: width and height of each. colors: different ones of vertices.
+    opaque: whether nothing is transparent. normals: how many parts have them.
+    """
+
+    low: list[float]
+    high: list[float]
+    vertices: int
+    triangles: int
+    parts: int
+    closed: bool
+    inside_out: bool
+    open_edges: int
+    crowded_edges: int
+    disagreeing_edges: int
+    up: str | None
+    materials: int
+    textures: list[list[int]]
+    colors: int
+    opaque: bool
+    normals: int
+
+
+def facts_of(place: Path | Piece) -> Facts:
+    """Return the facts of a file or a piece."""
+    objects = _objects(place)
+    if not objects:
+        raise InputError(f"{place} has no objects")
+    positions = np.concatenate([each.world_positions() for each in objects])
+    starts = np.cumsum([0, *(len(each.mesh.positions) for each in objects)])
+    faces = np.concatenate([each.mesh.faces + start for each, start in zip(objects, starts, strict=False)])
+    low, high = positions.min(axis=0), positions.max(axis=0)
+    single, crowded, disagreeing = _edges(positions, faces)
+    textures = [each.material.texture for each in objects if each.material.texture is not None]
+    is_tight = not (single or crowded or disagreeing)
+    from_outside = is_closed(Mesh(positions, faces))
+    return Facts(
+        low=low.tolist(),
+        high=high.tolist(),
+        vertices=len(positions),
+        triangles=len(faces),
+        parts=len(objects),
+        closed=is_tight,
+        inside_out=is_tight and not from_outside,
+        open_edges=single,
+        crowded_edges=crowded,
+        disagreeing_edges=disagreeing,
+        up=_up(positions, faces),
+        materials=len({(each.material, each.opacity) for each in objects}),
+        textures=[[*each.pixels.shape[1::-1]] for each in textures],
+        colors=len(np.unique(np.concatenate([each.mesh.rgba[:, :3] for each in objects]), axis=0)),
+        opaque=all(each.opacity == 1 and each.mesh.opacities is None for each in objects),
+        normals=sum(each.mesh.normals is not None for each in objects),
+    )
+
+
+def _objects(place: Path | Piece) -> list[Object]:
+    if isinstance(place, Path) and place.suffix.lower() in READERS:
+        return [
+            Object(part.mesh, material=evolve(Material(), **part.material), opacity=part.opacity)
+            for part in read_model(place)
+        ]
+    return [*load(place).objects]
+
+
+def _edges(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> tuple[int, int, int]:
+    """Return the numbers of edges of one face, of three or more, and of two that are wound differently.
+
+    Corners at one place are one; edges without length are none.
+    """
+    places = np.unique(positions, axis=0, return_inverse=True)[1].reshape(-1)
+    edges = places[faces][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    edges = edges[edges[:, 0] != edges[:, 1]]
+    forward = edges[:, 0] < edges[:, 1]
+    _, number = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True)
+    number = number.reshape(-1)
+    count = np.bincount(number)
+    ahead = np.bincount(number, forward, len(count))
+    return int((count == 1).sum()), int((count > 2).sum()), int(((count == 2) & (ahead != 1)).sum())
+
+
+def _up(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> str | None:
+    """Return the axis along which a model stands on a flat base, if it does so along one of y and z only."""
+    a, b, c = (positions[faces[:, corner]] for corner in range(3))
+    normals = np.cross(b - a, c - a)
+    areas = np.linalg.norm(normals, axis=1)
+    sizes = np.ptp(positions, axis=0)
+    stands = []
+    for axis, name in ((1, "y"), (2, "z")):
+        height = positions[faces][:, :, axis].max(axis=1) - positions[:, axis].min()
+        # either side may be the outer one
+        is_base = (np.abs(normals[:, axis]) >= LEVEL * areas) & (height <= FLAT * sizes[axis]) & (areas > 0)
+        ground = np.delete(sizes, axis).prod()
+        if sizes[axis] > 0 and areas[is_base].sum() / 2 > BASE * ground:
+            stands.append(name)
+    return stands[0] if len(stands) == 1 else None

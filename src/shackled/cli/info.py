@@ -1,0 +1,166 @@
+"""shackled info"""
+
+from __future__ import annotations
+
+import json
+import warnings
+from collections.abc import Sequence
+from contextlib import ExitStack, nullcontext
+from dataclasses import asdict, dataclass
+from typing import Annotated, Any
+
+import typer
+from attrs import evolve
+
+from .._load import load, locate
+from .._render import render
+from ..errors import ChainError, InputWarning, ShackledError
+from ..gas import headline
+from ..scene import Scene
+from ..values import listed, plural
+from .facts import Facts, facts_of
+from .option import option, with_options
+from .output import print_line
+from .picture import Source, fits_of_made
+from .progress import LateBar
+from .several import inputs_of
+from .streams import FORMATS, STREAM, as_stdin
+
+#: The sides of the pictures whose gas is told, in pixels.
+SIDES = (128, 256, 512)
+
+
+def info(
+    inputs: Annotated[
+        list[str],
+        typer.Argument(
+            help="Mesh or scene files, names of pieces, folders of mesh files, or - for standard input.",
+            metavar="INPUT",
+            show_default=False,
+        ),
+    ],
+    gas: Annotated[bool, option("--gas/--no-gas", "Draw it, to count the gas of pictures and where they fit.")] = True,
+    kind: Annotated[
+        str | None,
+        option("--format", f"Format of standard input: {', '.join(FORMATS)}; default: by its content.", "FORMAT"),
+    ] = None,
+    as_json: Annotated[bool, option("--json", "Print a JSON object instead of text, for each input.")] = False,
+) -> None:
+    """Tell what a file holds, what of it is left out, and what its pictures cost."""
+    failed: list[Exception] = []
+    with ExitStack() as stack:
+        sources = inputs_of(inputs, kind, stack)
+        for number, source in enumerate(sources):
+            try:
+                told = _told(source, gas)
+            except (ShackledError, InputWarning) as error:
+                if len(sources) == 1:
+                    raise
+                failed.append(error)
+                if as_json:
+                    print_line(json.dumps({"input": source.name, "error": with_options(str(error))}))
+                continue
+            if as_json:
+                print_line(json.dumps(told.to_json()))
+            else:
+                for line in [*([""] if number else []), *told.lines()]:
+                    print_line(line)
+    if failed:
+        raise ExceptionGroup(f"{len(sources) - len(failed)} read, {len(failed)} failed", failed)
+
+
+@dataclass(frozen=True)
+class Told:
+    """What is told of an input. pictures: size, gas and limits of each; None if they were not drawn."""
+
+    name: str
+    facts: Facts
+    notes: list[str]
+    pictures: list[dict[str, Any]] | None
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the object of --json."""
+        drawn = {} if self.pictures is None else {"pictures": self.pictures}
+        return {"input": self.name, **asdict(self.facts), "notes": self.notes, **drawn}
+
+    def lines(self) -> list[str]:
+        """Return the lines of text."""
+        rows = [("input", self.name), *_words(self.facts).items(), *(("note", note) for note in self.notes)]
+        for each in self.pictures or ():
+            cost = each["fits"] if each["gas"] is None else f"{each['gas']:,} gas, {each['fits']}"
+            rows.append((f"{each['size']} px", cost))
+        return [f"{name:9} {text}" for name, text in rows]
+
+
+def _told(source: Source, gas: bool) -> Told:
+    named = as_stdin(source.place) if source.name == STREAM else nullcontext()
+    with warnings.catch_warnings(record=True) as caught, LateBar("reading"), named:
+        place = locate(source.place)
+        scene, facts = load(place), facts_of(place)
+    notes = [str(each.message) for each in caught if issubclass(each.category, InputWarning)]
+    pictures = [_picture(scene, side) for side in SIDES] if gas else None
+    return Told(source.name, facts, list(dict.fromkeys(notes)), pictures)
+
+
+def _picture(scene: Scene, side: int) -> dict[str, Any]:
+    scene = evolve(scene, width=side, height=side)
+    try:
+        with LateBar(f"drawing {side} x {side} pixels"):
+            made = render(scene)
+            fits = fits_of_made(made, scene)
+    except ChainError as error:
+        return {"size": side, "gas": None, "fits": with_options(str(error))}
+    return {"size": side, "gas": made.gas, "fits": None if fits is None else headline(fits)}
+
+
+def _words(facts: Facts) -> dict[str, str]:
+    """Return facts as text, by the names of the lines."""
+    sizes = [high - low for low, high in zip(facts.low, facts.high, strict=True)]
+    return {
+        "mesh": ", ".join(
+            [
+                plural(facts.vertices, "vertex", "vertices"),
+                plural(facts.triangles, "triangle"),
+                plural(facts.parts, "part"),
+            ]
+        ),
+        "bounds": f"{_numbers(facts.low)} to {_numbers(facts.high)}, size {_numbers(sizes)}",
+        "up": {
+            None: "y is taken as up; no flat base tells it",
+            "y": "y: it stands on a flat base",
+            "z": "z by its flat base, but y is taken as up: --rotate -90,0,0 turns it",
+        }[facts.up],
+        "surface": _surface(facts),
+        "material": ", ".join(
+            [
+                plural(facts.materials, "material"),
+                f"textures of {listed([f'{width} x {height}' for width, height in facts.textures])} texels"
+                if facts.textures
+                else "no textures",
+                plural(facts.colors, "colour"),
+                "opaque" if facts.opaque else "not opaque",
+            ]
+        ),
+        "normals": "none, they are computed"
+        if not facts.normals
+        else f"of {facts.normals} of {plural(facts.parts, 'part')}",
+    }
+
+
+def _surface(facts: Facts) -> str:
+    wrong = [
+        f"{plural(count, 'edge')} {words}"
+        for count, words in (
+            (facts.open_edges, "of one face"),
+            (facts.crowded_edges, "of three faces or more"),
+            (facts.disagreeing_edges, "between faces that are wound differently"),
+        )
+        if count
+    ]
+    if wrong:
+        return f"not closed: {listed(wrong)}" if facts.open_edges or facts.crowded_edges else listed(wrong)
+    return f"closed{', but its faces are seen from inside' if facts.inside_out else ''}"
+
+
+def _numbers(values: Sequence[float]) -> str:
+    return ", ".join(f"{value:.6g}" for value in values)

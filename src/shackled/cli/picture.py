@@ -1,0 +1,230 @@
+"""Render one input to a file, and say what was done."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import sys
+import time
+from collections.abc import Sequence
+from contextlib import nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from .._on import On, where_of
+from .._render import render as draw
+from .._render import turntable as turn
+from ..animation import Animation
+from ..chain import ContractChain, open_chain
+from ..errors import ChainError
+from ..gas import Fit, fits_of, headline, render_call, suffices
+from ..image import Image, most
+from ..palette import MOST_COLORS, Pixels, colors
+from ..parallel import Listener, folder_of, remove_parts
+from ..scene import PICTURE, Scene, scene_chunk
+from ..values import plural
+from ..whole_file import make_output_folder
+from .look_options import load_with
+from .progress import LateBar
+from .streams import OUTPUT, STREAM, as_stdin, write_stdout
+
+
+@dataclass(frozen=True)
+class Source:
+    """An input of a command.
+
+    name: as it was given. place: a path, or the name of a piece. stem: of the name of its picture.
+    """
+
+    name: str
+    place: str
+    stem: str
+
+
+@dataclass(frozen=True)
+class Task:
+    """What is to be done with each input: the options of `shackled render`."""
+
+    look: dict[str, Any]
+    fit: str | None
+    turntable: int | None
+    duration: int
+    one_call: bool
+    transparent: bool
+    scene: bool | None
+    on: On | None
+    gas_limit: int | None
+    tile: tuple[int, int] | None
+
+
+@dataclass(frozen=True)
+class Done:
+    """What was done.
+
+    report: the object of --json. scene: the bytes of the scene in the file, or that it would have; None for no line.
+    """
+
+    report: dict[str, Any]
+    scene: int | None
+    fits: tuple[Fit, ...] | None
+
+    @property
+    def json(self) -> str:
+        """The report in one line, for programs."""
+        return json.dumps(self.report)
+
+    @property
+    def words(self) -> str:
+        """The report in several lines."""
+        report, scene, fits = self.report, self.scene, self.fits
+        frames, calls = report.get("frames", 1), report.get("calls", 1)
+        several = f"{frames} frames of " if frames > 1 else ""
+        output = OUTPUT if report["output"] == STREAM else report["output"]
+        rows = {"picture": f"{output}, {several}{report['width']} x {report['height']} pixels"}
+        if report["triangles"] is not None and report["lit_pixels"] is not None:
+            rows["drawn"] = f"{plural(report['triangles'], 'triangle')}, {plural(report['lit_pixels'], 'lit pixel')}"
+        rows["gas"] = "not counted"
+        if report["gas"] is not None and report["intrinsic_gas"] is not None:
+            sent = "the scene" if calls == 1 else f"the scene {calls} times"
+            rows["gas"] = f"{report['gas']:,} (and {report['intrinsic_gas']:,} to send {sent})"
+        if fits is not None:
+            each = f"each of its {calls} calls: " if calls > 1 else ""
+            rows["fits"] = each + headline(fits).removeprefix("fits ")
+        if scene is not None:
+            size = f"{scene / 1024:.1f} KB"
+            left_out = f"not in the file, as it takes {size}: --scene writes it"
+            rows["scene"] = left_out if report["scene_bytes"] is None else f"in the file, {size}"
+        rows |= {"chain": report["chain"], "time": f"{report['seconds']:.3f} s"}
+        return "\n".join(f"{name:8} {value}" for name, value in rows.items())
+
+    @property
+    def line(self) -> str:
+        """The report in one line."""
+        report = self.report
+        gas = "" if report["gas"] is None else f", {report['gas']:,} gas"
+        fits = "" if self.fits is None else f"; {headline(self.fits)}"
+        size = f"{report['width']} x {report['height']} pixels"
+        frames = f", {report['frames']} frames" if report.get("frames", 1) > 1 else ""
+        return f"{report['input']} -> {report['output']}: {size}{frames}{gas}{fits}"
+
+
+def render_to(source: Source, path: Path | None, task: Task, listener: Listener) -> Done:
+    """Render an input to a file, or for None to standard output."""
+    with as_stdin(source.place) if source.name == STREAM else nullcontext():
+        loaded = load_with(source.place, task.look, task.fit)
+    if task.scene:
+        scene_chunk(loaded).check()
+    extension = PICTURE if path is None else path.suffix.lower()
+    if path is not None:
+        make_output_folder(path.parent)
+    where = where_of(task.on, task.gas_limit, task.tile)
+    in_parts = not task.one_call and (task.turntable is not None or not where.is_one_call(loaded))
+    started = time.perf_counter()
+    keep = folder_of(path) if in_parts and path is not None else None
+    told: dict[str, Any] = {"gas_limit": task.gas_limit, "tile": task.tile, "listener": listener, "keep": keep}
+    told |= {"on": task.on, "transparent": task.transparent}
+    with nullcontext() if in_parts else LateBar("rendering"):
+        made: Image | Animation
+        if task.turntable is None:
+            made = draw(loaded, **told)
+        else:
+            made = turn(loaded, task.turntable, duration=task.duration, one_call=task.one_call, **told)
+    try:
+        with LateBar("writing"):
+            if path is None:
+                write_stdout(made.encode(PICTURE, task.scene))
+            else:
+                made.save(path, scene=task.scene)
+    except BaseException:
+        if keep is not None and keep.is_dir():
+            listener.warned(f"finished parts are kept in {keep}: run the same command to resume")
+        raise
+    if keep is not None:
+        remove_parts(keep)
+    frames = [made] if isinstance(made, Image) else made.frames
+    chunk = frames[0].scene_chunk if extension in (PICTURE, "") and task.scene is not False else None
+    written = len(chunk.data) if chunk is not None and (task.scene or chunk.is_small) else None
+    with LateBar("counting"):
+        counts, shows_something = _counted(made)
+        fits = fits_of_made(made, loaded)
+    several = in_parts or task.transparent or task.turntable is not None
+    seconds = time.perf_counter() - started
+    report = _report(made, source.name, path, seconds, counts, written, fits, several)
+    if not shows_something:
+        print("nothing is visible; the picture shows only the background", file=sys.stderr)
+    if extension == ".gif":
+        _warn_of_palette([frame.pixels for frame in frames])
+    return Done(report, None if chunk is None else len(chunk.data), fits)
+
+
+def _counted(made: Image | Animation) -> tuple[tuple[int | None, int | None], bool]:
+    """Return the triangles and covered pixels of a picture, None where they are not known, and whether anything shows.
+
+    The picture is already written: what fails here is only told.
+    """
+    try:
+        if isinstance(made, Image):
+            return (made.triangles, made.covered_pixels), made.covered_pixels != 0
+        return (None, None), any(frame.covered_pixels != 0 for frame in made.frames)
+    except ChainError as error:
+        print(f"shackled: triangles and lit pixels were not counted: {error}", file=sys.stderr)
+        return (None, None), True
+
+
+def fits_of_made(made: Image | Animation, scene: Scene) -> tuple[Fit, ...] | None:
+    """Return how each call that made a picture fits into the known limits; None where no gas is counted."""
+    if isinstance(made, Image):
+        gas = made.call_gas
+    else:
+        gas = most(frame.call_gas for frame in made.frames) if made.file is None else made.gas
+    if gas is None or made.intrinsic_gas is None:
+        return None
+    data, enough = render_call(scene), None
+    if made.calls == 1 and isinstance(made, Image):
+        # gas is the same everywhere
+        chain = open_chain()
+        assert isinstance(chain, ContractChain)
+        enough = suffices(chain, "Renderer", data)
+    return fits_of(gas, -(-made.intrinsic_gas // made.calls), data, enough)
+
+
+def _report(
+    made: Image | Animation,
+    input: str,
+    path: Path | None,
+    seconds: float,
+    counts: tuple[int | None, int | None],
+    scene_bytes: int | None,
+    fits: tuple[Fit, ...] | None,
+    several: bool,
+) -> dict[str, Any]:
+    """Return the object of --json; with the number of frames and calls for pictures in parts and turntables."""
+    frames = [made] if isinstance(made, Image) else made.frames
+    digest = hashlib.sha256()
+    for frame in frames:
+        digest.update(frame.channels.tobytes())
+    report = {
+        "input": input,
+        "width": frames[0].width,
+        "height": frames[0].height,
+        "triangles": counts[0],
+        "lit_pixels": counts[1],
+        "gas": made.gas,
+        "intrinsic_gas": made.intrinsic_gas,
+        "seconds": round(seconds, 6),
+        "chain": frames[0].made_by,
+        "output": STREAM if path is None else str(path),
+        "sha256": digest.hexdigest(),
+        "scene_bytes": scene_bytes,
+        "fits": None if fits is None else [fit.to_json() for fit in fits],
+    }
+    return report | {"frames": len(frames), "calls": made.calls} if several else report
+
+
+def _warn_of_palette(frames: Sequence[Pixels]) -> None:
+    found = colors(frames)
+    if found > MOST_COLORS:
+        whose = "picture" if len(frames) == 1 else "frames"
+        text = f"a GIF has at most {MOST_COLORS} colours; the {found:,} of the {whose} were mapped to the nearest"
+        print(text, file=sys.stderr)

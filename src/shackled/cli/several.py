@@ -1,0 +1,171 @@
+"""Several inputs of one command: which they are, the names of their pictures, and what becomes of each."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, redirect_stderr
+from dataclasses import replace
+from pathlib import Path
+from typing import Literal
+
+from .._load import locate
+from .._on import Processes
+from ..animation import check_animation
+from ..datasets import Piece
+from ..errors import InputError, InputWarning, ShackledError
+from ..image import check_output
+from ..scene import PICTURE, READERS
+from ..untrusted import plain
+from ..workers import each
+from .notes import Action, action, noting
+from .option import with_options
+from .picture import Done, Source, Task, render_to
+from .progress import LateBar, Notes
+from .streams import STREAM, is_output, stdin_file
+
+#: What stands for the name of an input, without folder and extension, in a pattern of outputs.
+STEM = "{stem}"
+#: The name of the picture of standard input.
+UNNAMED = "picture"
+
+#: How pictures are reported: by which property of `Done`.
+Report = Literal["json", "line"] | None
+
+#: An input, the file of its picture, what to do, and what becomes of notes.
+Work = tuple[Source, Path | None, Task, Action]
+
+#: A picture that was rendered, or why not; and what was said meanwhile.
+Outcome = tuple[Done | ShackledError, str]
+
+
+def inputs_of(names: Sequence[str], kind: str | None, stack: ExitStack) -> list[Source]:
+    """Return the inputs with these names; of a folder, all mesh files in it.
+
+    kind: the format of standard input. stack: removes the file in which that is stored.
+    """
+    if STREAM not in names and kind is not None:
+        raise InputError(f"--format is for {STREAM}, standard input: other inputs have an extension")
+    sources: list[Source] = []
+    for name in names:
+        if name == STREAM:
+            sources.append(Source(name, str(stack.enter_context(stdin_file(kind))), UNNAMED))
+            continue
+        try:
+            found = locate(name)
+        except InputError:
+            if len(names) == 1:
+                raise
+            found = Path(name)  # which fails when it is read, without stopping the others
+        if isinstance(found, Piece):
+            sources.append(Source(name, name, found.file_stem))
+        else:
+            members = _meshes(found) or [name]
+            sources += [Source(each, each, Path(each).stem or UNNAMED) for each in members]
+    return sources
+
+
+def _meshes(folder: Path) -> list[str]:
+    try:
+        return sorted(str(path) for path in folder.iterdir() if path.suffix.lower() in READERS and path.is_file())
+    except OSError:  # not a folder, or reading it reports what is wrong
+        return []
+
+
+def is_pattern(output: str | None) -> bool:
+    """Return whether --output names a folder for pictures, or a pattern; both are made if they do not exist."""
+    return output is not None and (STEM in output or output.endswith(("/", os.sep)))
+
+
+def outputs_of(sources: Sequence[Source], output: str | None, are_films: bool) -> list[Path | None]:
+    """Return the files to write, None for standard output. InputError if two are one, or one cannot be written."""
+    if is_output(output):
+        if len(sources) > 1:
+            raise InputError(f"standard output takes one picture, not {len(sources)}: give -o a folder or {STEM}.png")
+        return [None]
+    ending = ".gif" if are_films else PICTURE
+    if output is None:
+        # not over a picture whose scene is drawn
+        names = [each.stem + ("-rendered" if _is_picture(each) else "") + ending for each in sources]
+    elif STEM in output:
+        names = [output.replace(STEM, each.stem) for each in sources]
+    elif not are_films and (is_pattern(output) or os.path.isdir(output)):
+        names = [os.path.join(output, each.stem + ending) for each in sources]
+    elif len(sources) == 1:
+        names = [output]
+    else:
+        right = f"a pattern, such as out/{STEM}.gif" if are_films else f"a folder, such as out/, or out/{STEM}.png"
+        raise InputError(f"{len(sources)} inputs need more than one file: give -o {right}, not {output}")
+    check = check_animation if are_films else check_output
+    paths = [check(name, is_pattern(output)) for name in names]
+    if len(sources) > 1:
+        _check_overwriting(sources, paths)
+    return [*paths]
+
+
+def _is_picture(source: Source) -> bool:
+    return source.name != STREAM and source.place.lower().endswith(PICTURE)
+
+
+def _check_overwriting(sources: Sequence[Source], paths: Sequence[Path]) -> None:
+    taken: dict[str, str] = {}
+    for source in sources:
+        if os.path.isfile(source.place):
+            taken[os.path.normcase(os.path.realpath(source.place))] = f"the input {source.name}"
+    for source, path in zip(sources, paths, strict=True):
+        where = os.path.normcase(os.path.realpath(path))
+        if where in taken:
+            raise InputError(f"the picture of {source.name} would overwrite {taken[where]}: {path}; nothing was drawn")
+        taken[where] = f"that of {source.name}"
+
+
+def render_all(sources: Sequence[Source], paths: Sequence[Path | None], task: Task, report: Report) -> None:
+    """Render each input, and print a report on it. ExceptionGroup of the errors of those that failed."""
+    jobs = 1
+    if isinstance(task.on, Processes):
+        # a process for each input, instead of several for the parts of one
+        jobs, task = task.on.jobs or os.cpu_count() or 1, replace(task, on=task.on.evm)
+    failed: list[ShackledError] = []
+    work = [(source, path, task, action()) for source, path in zip(sources, paths, strict=True)]
+    with LateBar("rendering") as bar:
+        for number, (place, (result, said)) in enumerate(_outcomes(work, jobs), 1):
+            name = sources[place].name
+            for line in said.splitlines():
+                bar.print(line)
+            if isinstance(result, Done):
+                if report is not None:
+                    bar.print_result(plain(getattr(result, report)))
+            else:
+                text = with_options(str(result))
+                failed.append(ShackledError(text if name in text else f"{name}: {text}"))
+                if report == "json":
+                    bar.print_result(json.dumps({"input": name, "error": text}))
+            bar.set(number, len(work))
+    summary = f"{len(work) - len(failed)} rendered, {len(failed)} failed"
+    if failed:
+        raise ExceptionGroup(summary, failed)
+    print(summary, file=sys.stderr)
+
+
+def _outcomes(work: Sequence[Work], jobs: int) -> Iterator[tuple[int, Outcome]]:
+    if jobs > 1:
+        yield from each(_render, work, jobs, lambda error: (error, ""))
+    else:
+        for place, item in enumerate(work):
+            yield place, _render(item)
+
+
+def _render(work: Work) -> Outcome:
+    """Render one input, in this process or in one of several."""
+    source, path, task, notes = work
+    said = io.StringIO()
+    with redirect_stderr(said), noting(notes):
+        try:
+            return render_to(source, path, task, Notes()), said.getvalue()
+        except InputWarning as note:
+            return InputError(str(note)), said.getvalue()
+        except ShackledError as error:
+            return error, said.getvalue()

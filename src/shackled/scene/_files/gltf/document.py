@@ -1,0 +1,177 @@
+"""A glTF document: its tables, the bytes that they refer to, and notes of what is left out."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import struct
+from pathlib import Path, PurePosixPath
+from typing import Any
+from urllib.parse import unquote, unquote_to_bytes
+
+from numpy.typing import NDArray
+from PIL import Image
+
+from ....errors import InputError
+from ....values import plural
+from ..content import parse, read_bytes
+from ..table import Table, about
+
+_JSON, _BIN = b"JSON", b"BIN\0"
+_MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
+#: What is read, has notes of its own, or is without effect on what is drawn.
+_KNOWN = {
+    "EXT_mesh_gpu_instancing",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_transform",
+}
+#: Changes of the surface only, without which the shape is right.
+_SURFACES = "KHR_materials_"
+
+
+class Document:
+    """A document, and what its parts refer to.
+
+    decoded: the elements of accessors that are compressed, by their places. images: likewise, each with whether it has
+    alpha; None for those that cannot be read.
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Read a file. InputError for what asks for another reader."""
+        self.path = path
+        data = read_bytes(path)
+        self.binary: bytes | None = None
+        if data.startswith(b"glTF"):
+            data, self.binary = _chunks(data)
+        self.keys = Table(parse(path, data.decode("utf-8-sig", errors="replace"), ".json"), "")
+        self.decoded: dict[str, NDArray[Any]] = {}
+        self.images: dict[str, tuple[Image.Image, bool] | None] = {}
+        self._buffers: dict[str, bytes] = {}
+        self._extensions: set[str] = set()
+        self._left_out: dict[tuple[str, str], set[str]] = {}
+        self._check()
+
+    def _check(self) -> None:
+        if "asset" not in self.keys:
+            raise InputError("it is no glTF file: asset, with the version of glTF, is missing")
+        asset = self.keys.table("asset")
+        for key, most in (("version", "2."), ("minVersion", "2.0")):
+            version = asset.get(key)
+            if (key == "version" or version is not None) and not f"{version}".startswith(most):
+                raise InputError(f"asset.{key} is {version!r:.20}; glTF 2.0 is read")
+        for name in (str(name) for _, name in self.keys.rows("extensionsRequired")):
+            if name in _MESHOPT:
+                raise _compressed("it", name)
+            if name not in _KNOWN and not name.startswith(_SURFACES):
+                raise InputError(f"it requires the extension {name:.60}, which is not read; export it without")
+        self.uses(str(name) for _, name in self.keys.rows("extensionsUsed") if str(name) not in _MESHOPT)
+
+    def uses(self, extensions: Any) -> None:
+        """Keep the names of extensions, for a note of those that are not known."""
+        self._extensions |= set(extensions) - _KNOWN
+
+    def leave_out(self, what: str, where: str, sentence: str = "{}") -> None:
+        """Keep, for a note, that something at a place in the document is left out.
+
+        what: a noun, which gets its count. sentence: around it.
+        """
+        self._left_out.setdefault((what, sentence), set()).add(where)
+
+    def left_out(self) -> list[str]:
+        """Return a sentence for each kind of what is left out."""
+        found = [sentence.format(plural(len(places), what)) for (what, sentence), places in self._left_out.items()]
+        if self._extensions:
+            names = ", ".join(f"{name:.60}" for name in sorted(self._extensions))
+            found.append(f"what {'extension' if len(self._extensions) == 1 else 'extensions'} {names} would change")
+        return [f"left out: {each}" for each in found]
+
+    def item(self, keys: Table, key: str, kind: str) -> Table:
+        """Return the part of the document that a key names by its number."""
+        return self.numbered(keys.whole(key), kind, keys.place(key))
+
+    def numbered(self, number: int, kind: str, place: str) -> Table:
+        """Return the part of this kind and number, which stands at a place in the document."""
+        items = self.keys.get(kind)
+        count = len(items) if isinstance(items, list) else 0
+        if number >= count:
+            raise InputError(f"{place} is {number}, but there are {count} {kind}, numbered from 0")
+        return Table(items[number], f"{kind}[{number}]")
+
+    def named(self, name: str | int, kind: str, word: str) -> Table:
+        """Return the part of this kind with a name, or else a number. InputError, with those there are, if none has."""
+        items = [Table(value, where) for where, value in self.keys.rows(kind)]
+        names = [str(item.get("name") or "") for item in items]
+        for keys in (names, [str(number) for number in range(len(items))]):
+            if str(name) in keys:
+                return items[keys.index(str(name))]
+        known = ", ".join(f"{number} {each:.40}".strip() for number, each in enumerate(names))
+        raise InputError(f"it has no {word} {name!r:.60}; it has {known or 'none'}")
+
+    def view(self, view: Table) -> memoryview:
+        """Return the bytes of a buffer view."""
+        buffer = self.item(view, "buffer", "buffers")
+        if buffer.where not in self._buffers:
+            inside = self.binary if buffer.where == "buffers[0]" and "uri" not in buffer else None
+            packed = [name for name in _MESHOPT if name in view.table("extensions")]
+            if inside is None and "uri" not in buffer and packed:
+                raise _compressed(view.where, packed[0])
+            self._buffers[buffer.where] = self.resource(buffer) if inside is None else inside
+        data = self._buffers[buffer.where]
+        start, length = view.whole("byteOffset", 0), view.whole("byteLength")
+        if start + length > len(data):
+            raise InputError(f"{view.where} needs {start + length:,} bytes of {buffer.where}, which has {len(data):,}")
+        return memoryview(data)[start : start + length]
+
+    def resource(self, keys: Table) -> bytes:
+        """Return what the `uri` of a buffer or image holds."""
+        uri, place = keys.get("uri"), keys.place("uri")
+        if not isinstance(uri, str):
+            raise InputError(f"{place} must name a file or hold data, not {uri!r:.60}")
+        if uri.startswith("data:"):
+            head, _, payload = uri.partition(",")
+            if not head.endswith(";base64"):
+                return unquote_to_bytes(payload)
+            try:
+                # its padding is often left away
+                return base64.b64decode(payload.rstrip("=") + "==")
+            except (binascii.Error, ValueError):
+                raise InputError(f"{place} does not hold valid base64") from None
+        name = PurePosixPath(unquote(uri).replace("\\", "/"))
+        if name.is_absolute() or ".." in name.parts or ":" in uri:
+            raise InputError(f"{place} is {uri!r:.60}; only files in the folder of the glTF file are read")
+        with about(place):
+            return read_bytes(self.path.parent.joinpath(*name.parts))
+
+
+def _compressed(what: str, extension: str) -> InputError:
+    return InputError(f"{what} is compressed with {extension}, which is not read; export it without compression")
+
+
+def _chunks(data: bytes) -> tuple[bytes, bytes | None]:
+    """Return the JSON and the binary chunk of a GLB file."""
+    if len(data) < 12:
+        raise InputError("it ends within its header")
+    version, length = struct.unpack("<II", data[4:12])
+    if version != 2:
+        raise InputError(f"it is of version {version} of GLB; version 2 is read")
+    if length > len(data):
+        raise InputError(f"it ends after {len(data):,} of its {length:,} bytes")
+    found: dict[bytes, bytes] = {}
+    at = 12
+    while at + 8 <= length:
+        size, kind = struct.unpack("<I4s", data[at : at + 8])
+        if at + 8 + size > length:
+            raise InputError(f"its chunk at byte {at:,} reaches beyond the end of the file")
+        found.setdefault(kind, data[at + 8 : at + 8 + size])
+        at += 8 + size
+    if _JSON not in found:
+        raise InputError("it has no JSON chunk")
+    # padded by spaces, or wrongly by zeros
+    return found[_JSON].rstrip(b"\0"), found.get(_BIN)

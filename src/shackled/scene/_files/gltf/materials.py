@@ -1,0 +1,155 @@
+"""Materials of a glTF document, as far as they are drawn."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....checks import Color
+from ....errors import InputError
+from ..._mesh import DEFAULT_COLOR
+from ..colors import to_srgb
+from ..model import Picture, finite_uvs
+from ..table import Table
+from .document import Document
+from .images import has_alpha, picture_of
+from .vertices import Vertices
+
+Array = NDArray[np.float64]
+
+_GLOSSINESS = "KHR_materials_pbrSpecularGlossiness"
+_ALPHA_MODES = ("OPAQUE", "MASK", "BLEND")
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A material.
+
+    factor: linear red, green, blue and alpha. texture: where the base colour texture is told. gloss: roughness and
+    metalness, 0..1; None if the file does not say. cutoff: alpha below it is not seen; None if it all is.
+    """
+
+    factor: tuple[float, ...] = (1.0, 1.0, 1.0, 1.0)
+    texture: Table | None = None
+    gloss: tuple[float, float] | None = None
+    emission: Color = (0, 0, 0)
+    is_unlit: bool = False
+    is_blended: bool = False
+    is_two_sided: bool = False
+    cutoff: float | None = None
+
+    @property
+    def is_hidden(self) -> bool:
+        """Whether nothing of it is seen: textures and colours of vertices only lower the alpha."""
+        return self.cutoff is not None and self.factor[3] < self.cutoff
+
+
+def surface_of(gltf: Document, primitive: Table) -> Surface | None:
+    """Return the material of a primitive; None if it has none."""
+    if "material" not in primitive:
+        return None
+    material = gltf.item(primitive, "material", "materials")
+    extensions = material.table("extensions")
+    gltf.uses(extensions.values)
+    keys, factor, texture = material.table("pbrMetallicRoughness"), "baseColorFactor", "baseColorTexture"
+    if _GLOSSINESS in extensions:
+        keys, factor, texture = extensions.table(_GLOSSINESS), "diffuseFactor", "diffuseTexture"
+    color = tuple(np.clip(keys.numbers(factor, (1, 1, 1, 1)), 0, 1).tolist())
+    shown = keys.table(texture) if texture in keys else None
+    strength = extensions.table("KHR_materials_emissive_strength").number("emissiveStrength", 1)
+    emitted = np.clip(np.multiply(material.numbers("emissiveFactor", (0, 0, 0)), strength), 0, 1)
+    is_unlit = "KHR_materials_unlit" in extensions
+    if "emissiveTexture" in material and not is_unlit:
+        if emitted.any() and not any(color[:3]):
+            # all that is seen of a black surface is what it emits
+            color, shown, is_unlit = (*emitted.tolist(), color[3]), material.table("emissiveTexture"), True
+        elif emitted.any():
+            gltf.leave_out("emissive texture", material.where)
+        emitted = np.zeros(3)
+    _tell_of_textures(gltf, material, keys)
+    mode = material.choice("alphaMode", _ALPHA_MODES, "OPAQUE")
+    if mode != "OPAQUE" and shown is not None:
+        of = gltf.item(shown, "index", "textures")
+        if has_alpha(gltf, of):
+            gltf.leave_out("texture", of.where, "the alpha of {}")
+    return Surface(
+        color,
+        shown,
+        None if is_unlit else _gloss(keys, _GLOSSINESS in extensions),
+        (0, 0, 0) if is_unlit else cast(Color, tuple(to_srgb(emitted).astype(int).tolist())),
+        is_unlit,
+        mode == "BLEND",
+        material.flag("doubleSided", False),
+        material.number("alphaCutoff", 0.5) if mode == "MASK" else None,
+    )
+
+
+def _tell_of_textures(gltf: Document, material: Table, keys: Table) -> None:
+    for key, name in (("normalTexture", "normal texture"), ("occlusionTexture", "occlusion texture")):
+        if key in material:
+            gltf.leave_out(name, material.where)
+    if "metallicRoughnessTexture" in keys or "specularGlossinessTexture" in keys:
+        gltf.leave_out("texture", material.where, "{} of roughness")
+
+
+def _gloss(keys: Table, is_older: bool) -> tuple[float, float] | None:
+    """Return roughness and metalness.
+
+    A roughness by texture is not read, and one that is left out, of 1 by the specification, is often not meant.
+    """
+    if is_older:
+        return None if "specularGlossinessTexture" in keys else (1 - keys.number("glossinessFactor", 1), 0.0)
+    if "roughnessFactor" not in keys or "metallicRoughnessTexture" in keys:
+        return None
+    return keys.number("roughnessFactor"), keys.number("metallicFactor", 1)
+
+
+def colors_of(vertices: Vertices, surface: Surface | None, where: str) -> tuple[Array, float]:
+    """Return the colours of vertices with alpha, (n, 4), 0..255, without those of a texture; and the opacity of the
+    material.
+
+    Only materials that are blended have either.
+    """
+    vertex_colors = vertices.values("COLOR_0", "VEC3", "VEC4")
+    if surface is None and vertex_colors is None:
+        return np.full((len(vertices.used), 4), (*DEFAULT_COLOR, 255), dtype=np.float64), 1.0
+    surface = surface or Surface()
+    *factor, opacity = surface.factor
+    linear = np.ones((len(vertices.used), 4))
+    linear[:, :3] *= factor
+    if vertex_colors is not None:
+        most = np.iinfo(vertex_colors.dtype).max if vertex_colors.dtype.kind in "iu" else 1
+        own = vertex_colors.astype(np.float64) / most
+        bad = np.flatnonzero(~np.isfinite(own).all(axis=1))
+        if len(bad):
+            raise InputError(f"colour {bad[0]} must be finite numbers, not {own[bad[0]].tolist()}")
+        linear[:, : own.shape[1]] *= np.clip(own, 0, 1)
+    if surface.cutoff is not None and (linear[:, 3] * opacity < surface.cutoff).any():
+        vertices.gltf.leave_out("primitive", where, "the alpha of vertices of {}")
+    alpha = np.rint(255 * linear[:, 3:]) if surface.is_blended else np.full((len(linear), 1), 255.0)
+    return np.hstack([to_srgb(linear[:, :3]), alpha]), opacity if surface.is_blended else 1.0
+
+
+def picture_on(vertices: Vertices, surface: Surface | None, where: str) -> tuple[Picture | None, Array]:
+    """Return the image of the base colour texture, None if there is none, and where the vertices are on it, (n, 2)."""
+    nowhere = np.zeros((len(vertices.used), 2))
+    if surface is None or surface.texture is None:
+        return None, nowhere
+    info = surface.texture
+    transform = info.table("extensions").table("KHR_texture_transform")
+    number = transform.whole("texCoord", info.whole("texCoord", 0))
+    coordinates = vertices.values(f"TEXCOORD_{number}", "VEC2")
+    picture = picture_of(vertices.gltf, vertices.gltf.item(info, "index", "textures"))
+    if coordinates is None:
+        vertices.gltf.leave_out("primitive", where, "the texture of {} without coordinates")
+    if picture is None or coordinates is None:
+        return None, nowhere
+    u, v = (coordinates * np.array(transform.numbers("scale", (1, 1)))).T
+    angle, (right, down) = transform.number("rotation", 0), transform.numbers("offset", (0, 0))
+    sine, cosine = math.sin(angle), math.cos(angle)
+    u, v = right + cosine * u + sine * v, down - sine * u + cosine * v
+    return picture, finite_uvs(np.stack([u, v], axis=1), picture.name)

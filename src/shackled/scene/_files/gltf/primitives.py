@@ -1,0 +1,151 @@
+"""Primitives of meshes: their triangles, posed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....errors import InputError
+from ..model import Picture, tinted
+from ..table import Table, about
+from .accessors import numbers
+from .document import Document
+from .draco import decompress
+from .materials import Surface, colors_of, picture_on, surface_of
+from .nodes import Node
+from .pose import morphed, skinned, weights_of
+from .vertices import Vertices
+
+Array = NDArray[np.float64]
+
+_POINTS_OR_LINES, _TRIANGLES, _STRIP, _FAN = range(4), 4, 5, 6
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A primitive with triangles.
+
+    colors: (n, 4), with alpha. normals: zeros if there are none. picture, uvs: of its texture, or None. opacity: of its
+    material. matrices: (n, 4, 4), that put skinned vertices into the world.
+    """
+
+    positions: Array
+    faces: NDArray[np.int64]
+    colors: Array
+    normals: Array
+    surface: Surface | None
+    picture: Picture | None
+    uvs: Array
+    opacity: float
+    matrices: Array | None
+
+    @property
+    def group(self) -> tuple[object, ...]:
+        """What pieces of one object have in common: the texture, light, and how they hide what is behind them."""
+        surface = self.surface or Surface()
+        return (
+            self.picture.name if self.picture else "",
+            self.opacity,
+            bool((self.colors[:, 3] < 255).any()),
+            surface.emission,
+            surface.is_unlit,
+            surface.is_two_sided,
+        )
+
+
+def pieces_of(gltf: Document, node: Node, nodes: Mapping[int, Node]) -> Iterator[Piece]:
+    """Return the primitives of the mesh of a node that have triangles, in its coordinates."""
+    mesh = gltf.item(node.keys, "mesh", "meshes")
+    weights = weights_of(node.keys, mesh)
+    for where, value in mesh.rows("primitives"):
+        keys = Table(value, where)
+        attributes = keys.table("attributes")
+        mode = keys.whole("mode", _TRIANGLES)
+        if mode in _POINTS_OR_LINES:
+            gltf.leave_out("primitive", where, "{} of points or lines")
+            continue
+        if "POSITION" not in attributes:
+            gltf.leave_out("primitive", where, "{} without positions")
+            continue
+        if decompress(gltf, keys):
+            mode = _TRIANGLES
+        positions = numbers(gltf, attributes, "POSITION", "VEC3")
+        order = np.arange(len(positions))
+        if "indices" in keys:
+            order = numbers(gltf, keys, "indices", "SCALAR")[:, 0]
+            if order.dtype.kind != "u":
+                raise InputError(f"{keys.place('indices')} must be of whole numbers without a sign")
+        used, corners = np.unique(order[_corners(mode, len(order), keys.place("mode"))], return_inverse=True)
+        if not len(used):
+            continue
+        if used[-1] >= len(positions):
+            raise InputError(
+                f"{keys.place('indices')} name vertex {used[-1]}, but they are numbered 0 to {len(positions) - 1}"
+            )
+        vertices = Vertices(gltf, attributes, used, len(positions))
+        with about(where):
+            surface = surface_of(gltf, keys)
+            if surface is not None and surface.is_hidden:
+                continue
+            normals = vertices.values("NORMAL", "VEC3")
+            colors, opacity = colors_of(vertices, surface, where)
+            picture, uvs = picture_on(vertices, surface, where)
+            points = morphed(vertices, keys, weights, "POSITION", positions[used].astype(np.float64))
+            if normals is not None:
+                normals = morphed(vertices, keys, weights, "NORMAL", normals.astype(np.float64))
+            matrices = skinned(vertices, node.keys, nodes)
+        if picture is not None and not picture.is_varied:
+            colors, picture = tinted(colors, picture, uvs), None
+        yield Piece(
+            points,
+            corners.reshape(-1, 3),
+            colors,
+            np.zeros((len(used), 3)) if normals is None else normals,
+            surface,
+            picture,
+            uvs,
+            opacity,
+            matrices,
+        )
+
+
+def _corners(mode: int, count: int, place: str) -> NDArray[np.int64]:
+    """Return the triangles of a mode, (m, 3), as numbers of so many corners."""
+    if mode == _TRIANGLES:
+        if count % 3:
+            raise InputError(f"{place} is that of separate triangles, but there are {count} corners, no multiple of 3")
+        return np.arange(count).reshape(-1, 3)
+    first = np.arange(max(count - 2, 0))
+    if mode == _STRIP:
+        return np.stack([first, first + 1 + first % 2, first + 2 - first % 2], axis=1)
+    if mode == _FAN:
+        return np.stack([first + 1, first + 2, np.zeros_like(first)], axis=1)
+    raise InputError(f"{place} must be from 0 to 6, not {mode}")
+
+
+def in_place(piece: Piece, matrix: Array) -> Piece:
+    """Return a piece where a node puts it; or its joints, if it is skinned."""
+    if piece.matrices is not None:
+        matrix = piece.matrices
+    linear = matrix[..., :3, :3]
+    rows = [linear[..., row, :] for row in range(3)]
+    # the matrix of the cofactors turns normals right under any scale; its sign follows that of a mirror
+    cofactors = np.stack([np.cross(rows[1], rows[2]), np.cross(rows[2], rows[0]), np.cross(rows[0], rows[1])], axis=-2)
+    signs = np.where(np.linalg.det(linear) < 0, -1.0, 1.0)
+    mirrored = np.broadcast_to(signs, len(piece.positions))[piece.faces].sum(axis=1) < 0
+    faces = np.where(mirrored[:, None], piece.faces[:, ::-1], piece.faces)
+    normals = _times(cofactors * signs[..., None, None], piece.normals)
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    normals = np.asarray(np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0))
+    positions = _times(linear, piece.positions) + matrix[..., :3, 3]
+    return replace(piece, positions=positions, faces=faces, normals=normals)
+
+
+def _times(matrix: Array, vectors: Array) -> Array:
+    """Return vectors, (n, 3), times one matrix for all, or one for each."""
+    if matrix.ndim == 2:
+        return np.asarray(vectors @ matrix.T)
+    return np.asarray(np.einsum("nij,nj->ni", matrix, vectors))

@@ -1,0 +1,115 @@
+"""Meshes of glTF files."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ....errors import InputError, warn
+from ..._crease import filled
+from ..._material import EXPONENTS
+from ..model import MeshPart, tinted
+from ..table import Table
+from ..weld import weld
+from .animation import posed
+from .document import Document
+from .nodes import Node, instances, placed
+from .primitives import Piece, in_place, pieces_of
+
+#: How many triangles are read, each mesh as often as it is shown.
+MAX_TRIANGLES = 1 << 24
+
+#: The exponent of the widest highlights; even wider ones only fade the colours.
+_WIDEST = 10
+
+
+@np.errstate(all="ignore")
+def read_gltf(
+    path: Path, animation: str | int | None = None, time: float | None = None, use_camera: str | int | None = None
+) -> list[MeshPart]:
+    """Return the meshes of a glTF or GLB file: its scene, or else its first one, with all nodes in their places.
+
+    There is one for each base colour texture, and one for all that has none. What is not opaque, of materials that are
+    blended, is apart from what is; so is what emits light, is unlit, or has two sides. The colour of a vertex is the
+    product of the base colour of its material and the colour of the vertex, as far as they are given; light grey if
+    none is. Both are linear in the file, and encoded as sRGB here. What materials say of roughness becomes the mean of
+    the triangles of a mesh. Meshes are in the pose of their skins and morph targets: at rest, or as an animation, by
+    its name or number, the first one by default, puts them at a time in seconds. use_camera: whether cameras and
+    lights are not left out, which `read_view` reads. An InputWarning tells each kind of what is left out.
+    """
+    gltf = Document(path)
+    nodes = nodes_of(gltf, animation, time)
+    groups: dict[tuple[object, ...], list[Piece]] = {}
+    triangles = 0
+    for node in nodes.values():
+        if not node.is_shown:
+            continue
+        if "camera" in node.keys and use_camera is None:
+            gltf.leave_out("camera", node.keys.where, "{}; `use_camera` takes one, with the lights")
+        if "KHR_lights_punctual" in node.keys.table("extensions") and use_camera is None:
+            gltf.leave_out("light", node.keys.where)
+        pieces = list(pieces_of(gltf, node, nodes)) if "mesh" in node.keys else []
+        for matrix in instances(gltf, node) if pieces else ():
+            for piece in pieces:
+                triangles += len(piece.faces)
+                if triangles > MAX_TRIANGLES:
+                    raise InputError(f"it shows more than {MAX_TRIANGLES:,} triangles, the most that are read")
+                groups.setdefault(piece.group, []).append(in_place(piece, matrix))
+    if not groups:
+        raise InputError("; ".join(["it has no triangles that are shown", *gltf.left_out()]))
+    for each in gltf.left_out():
+        warn(f"{path}: {each}")
+    textures = {pieces[0].picture.name for pieces in groups.values() if pieces[0].picture is not None}
+    return [_join(pieces, len(textures)) for pieces in groups.values()]
+
+
+def nodes_of(gltf: Document, animation: str | int | None, time: float | None) -> dict[int, Node]:
+    """Return the nodes in their places, at rest or moved by an animation."""
+    nodes = [Table(value, where) for where, value in gltf.keys.rows("nodes")]
+    if animation is not None or time is not None:
+        nodes = posed(gltf, nodes, 0 if animation is None else animation, time or 0.0)
+    return placed(gltf, nodes)
+
+
+def _material(pieces: Sequence[Piece]) -> dict[str, Any]:
+    """Return the fields of a Material; highlights are the mean of all pieces that tell of them, by area."""
+    first = pieces[0].surface
+    if first is not None and first.is_unlit:
+        return {"shading": "unlit"}
+    fields: dict[str, Any] = {"emission": first.emission} if first is not None and any(first.emission) else {}
+    known = [(piece, each.gloss) for piece in pieces if (each := piece.surface) is not None and each.gloss is not None]
+    areas = []
+    for piece, _ in known:
+        a, b, c = piece.positions[piece.faces].transpose(1, 0, 2)
+        areas.append(float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()))
+    if not 0 < sum(areas) < math.inf:
+        return fields
+    roughness, metalness = np.clip(np.average([gloss for _, gloss in known], 0, areas), 0, 1).tolist()
+    # Beckmann's roughness of a Blinn-Phong exponent; the strength of highlights is a matter of taste
+    return fields | {
+        "specular": round((0.8 + 0.3 * metalness) * (1 - roughness), 3),
+        "shininess": round(min(max(2 / max(roughness, 0.1) ** 4 - 2, _WIDEST), EXPONENTS[1])),
+    }
+
+
+def _join(pieces: Sequence[Piece], count: int) -> MeshPart:
+    """Return pieces with one texture, or with none, as one. count: how many textures the file has."""
+    starts = np.cumsum([0, *(len(piece.positions) for piece in pieces)])
+    corners = np.concatenate([piece.faces + start for piece, start in zip(pieces, starts, strict=False)])
+    positions, colors, normals, uvs = (
+        np.concatenate([getattr(piece, name) for piece in pieces]) for name in ("positions", "colors", "normals", "uvs")
+    )
+    material = _material(pieces)
+    corner_colors, corner_uvs = colors[corners], None
+    picture, surface = pieces[0].picture, pieces[0].surface
+    if picture is not None and picture.is_plain(uvs[corners]):
+        corner_colors = tinted(corner_colors, picture, uvs[corners])
+    elif picture is not None:
+        material["texture"], corner_uvs = picture.texture(uvs[corners], count)
+    found = filled(positions, corners, normals[corners]) if normals.any() else None
+    mesh = weld(positions, corners, corner_colors, found, corner_uvs)
+    return MeshPart(mesh, material, pieces[0].opacity, surface is not None and surface.is_two_sided)

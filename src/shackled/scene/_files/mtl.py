@@ -1,0 +1,198 @@
+"""The materials of Wavefront OBJ files: MTL, as exporters write it rather than as it is specified."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+from typing import TypeVar
+
+import numpy as np
+
+from ...errors import InputError, warn
+from .content import read_text
+from .model import FileWrap
+
+T = TypeVar("T")
+Triple = tuple[float, float, float]
+
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?!\S)"
+#: Options of a map and their values; they stand before the name of the image, or behind it.
+_OPTION = re.compile(
+    rf"(?<!\S)-(?:(s|o|t|mm)((?:\s+{_NUMBER}){{1,3}})|(clamp|blend[uv]|cc)\s+(on|off)"
+    r"|(bm|boost|texres|imfchan|type)\s+(\S+))(?!\S)",
+    re.IGNORECASE,
+)
+#: An option that is in no specification, before the name.
+_OTHER_OPTION = re.compile(rf"-[A-Za-z_]+(?:\s+(?:on|off|{_NUMBER}))*\s+", re.IGNORECASE)
+#: The values without effect of options that are not drawn. Of the others, any: there are neither mipmaps nor bumps.
+_DEFAULTS = {"t": (0.0, 0.0, 0.0), "mm": (0.0, 1.0)}
+
+#: Names of files, which may have spaces in them.
+_FILES = re.compile(r'"[^"]*"|\S.*?\.mtl(?!\S)|\S.*', re.IGNORECASE)
+#: A comment within a name begins where # stands alone: "Material #1" and "wood#2.png" are names.
+_COMMENT = re.compile(r"(?:^|(?<=\s))#(?=\s|$).*")
+
+
+@dataclass(frozen=True)
+class Map:
+    """An image that a material names. folders: where it may be."""
+
+    name: str
+    folders: tuple[Path, ...]
+    wrap: FileWrap
+
+
+@dataclass
+class ObjMaterial:
+    """What a material file says of a material. Colours are 0..1.
+
+    left_out: statements, and options of its image, that are not drawn. scale, offset: of texture coordinates.
+    """
+
+    color: Triple = (1.0, 1.0, 1.0)
+    emission: Triple = (0.0, 0.0, 0.0)
+    opacity: float = 1.0
+    image: Map | None = None
+    scale: tuple[float, float] = (1.0, 1.0)
+    offset: tuple[float, float] = (0.0, 0.0)
+    left_out: set[str] = field(default_factory=set)
+
+
+def name_of(line: str) -> str:
+    """Return what follows the keyword of a line, without a comment."""
+    return "".join(_COMMENT.sub("", line).split(maxsplit=1)[1:]).strip()
+
+
+def material_name(line: str) -> str:
+    """Return the material that a line names, without quotes, with single spaces."""
+    return " ".join(unquoted(name_of(line)).split())
+
+
+def unquoted(name: str) -> str:
+    """Return a name without the quotes around it."""
+    inner = name[1:-1]
+    return inner if inner and name[0] == name[-1] and name[0] in "\"'" and name[0] not in inner else name
+
+
+def read_materials(path: Path, line: str) -> dict[str, ObjMaterial]:
+    """Return the materials of the files that a `mtllib` line names; an InputWarning tells of those that are not read.
+
+    path: of the OBJ file, beside which they are.
+    """
+    materials: dict[str, ObjMaterial] = {}
+    for name in _FILES.findall(name_of(line)):
+        try:
+            file, text = read_beside((path.parent,), unquoted(name), lambda each: (each, read_text(each)))
+        except InputError as error:
+            warn(f"{path}: its materials are left out: {error}")
+        else:
+            materials.update(_parse(tuple(dict.fromkeys((file.parent, path.parent))), text))
+    return materials
+
+
+def read_beside(folders: Sequence[Path], name: str, read: Callable[[Path], T]) -> T:
+    """Read a file by the name that another file in the first of the folders gives it.
+
+    It may be that of the machine of the author: then the file is in one of the folders, in any letter case. InputError
+    of the first attempt if none of them succeeds.
+    """
+    first = None
+    for place in dict.fromkeys(_places(folders, name)):
+        try:  # not asked first whether it exists: what is told must not depend on files that may not be read
+            return read(place)
+        except InputError as error:
+            first = first or error
+    raise first or InputError("it has no name")
+
+
+def _places(folders: Sequence[Path], name: str) -> Iterator[Path]:
+    parts = PurePosixPath(name.replace("\\", "/"))
+    for folder in folders:
+        yield folder / parts
+    for folder in folders:
+        if not parts.is_absolute() and ".." not in parts.parts:
+            yield from _in_any_case(folder, parts.parts)
+        yield folder / parts.name
+        yield from _in_any_case(folder, parts.parts[-1:])
+
+
+def _in_any_case(folder: Path, parts: Sequence[str]) -> Iterator[Path]:
+    if not parts:
+        yield folder
+        return
+    try:
+        names = sorted(os.listdir(folder))
+    except (OSError, ValueError):
+        return
+    for each in names:
+        if each.casefold() == parts[0].casefold():
+            yield from _in_any_case(folder / each, parts[1:])
+
+
+def _parse(folders: tuple[Path, ...], text: str) -> dict[str, ObjMaterial]:
+    materials: dict[str, ObjMaterial] = {}
+    material, given = ObjMaterial(), set[str]()
+    for line in text.split("\n"):
+        keyword, *words = _COMMENT.sub("", line).split() or [""]
+        key = keyword.lower()
+        if key == "newmtl":
+            material, given = ObjMaterial(), set()
+            materials[material_name(line)] = material
+        elif key in ("kd", "ke", "d", "tr"):
+            values = _numbers(words[words[:1] == ["-halo"] :])
+            if len(values) not in (1, 3, 4) or not np.isfinite(values).all():
+                material.left_out.add(keyword)
+            elif key == "kd":
+                material.color = _triple(values)
+            elif key == "ke" and "map_ke" not in given:
+                material.emission = _triple(values)
+            elif key == "d" or (key == "tr" and "d" not in given):  # some exporters write the same number to both
+                material.opacity = min(max(values[0] if key == "d" else 1 - values[0], 0.0), 1.0)
+            given.add(key)
+        elif key == "map_kd" or (key == "map_ka" and "map_kd" not in given):
+            _add_map(material, folders, name_of(line))
+            given.add(key)
+        elif key.startswith(("map_", "bump", "norm", "disp", "decal", "refl")) and key != "map_ka":
+            material.left_out.add(keyword)
+            if key == "map_ke":  # without it, all of the surface would emit light
+                material.emission = (0.0, 0.0, 0.0)
+                given.add(key)
+    return materials
+
+
+def _numbers(words: Sequence[str]) -> list[float]:
+    """Return numbers; none if one of the words is something else."""
+    try:
+        return [float(word) for word in words]
+    except ValueError:
+        return []
+
+
+def _triple(values: list[float]) -> Triple:
+    """Return red, green and blue; one number is all of them."""
+    red, green, blue = (3 * values)[:3]
+    return red, green, blue
+
+
+def _add_map(material: ObjMaterial, folders: tuple[Path, ...], text: str) -> None:
+    wrap: FileWrap = "repeat"
+    material.scale, material.offset = (1.0, 1.0), (0.0, 0.0)
+    for several, numbers, switch, state, *_ in _OPTION.findall(text):
+        option, values = (several or switch).lower(), tuple(_numbers(numbers.split()))
+        if option == "s":
+            material.scale = (values[0], values[1] if len(values) > 1 else 1.0)
+        elif option == "o":
+            material.offset = (values[0], values[1] if len(values) > 1 else 0.0)
+        elif option == "clamp" and state.lower() == "on":
+            wrap = "clamp"
+        elif option in _DEFAULTS and values != _DEFAULTS[option][: len(values)]:
+            material.left_out.add(f"-{option}")
+    name = _OPTION.sub(" ", text).strip()
+    while other := _OTHER_OPTION.match(name):
+        material.left_out.add(other[0].split()[0])
+        name = name[other.end() :]
+    if name:
+        material.image = Map(unquoted(name), folders, wrap)

@@ -1,0 +1,174 @@
+"""The command `shackled info`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image as PillowImage
+
+from shackled import load, render
+from shackled.cli.app import run
+
+BOX = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+SIDES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+#: A roof over a square in the plane z = 0, and over one in y = 0.
+TENT = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0), (2, 2, 3)]
+TENT_FACES = [(0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)]
+
+
+def write(name: str, corners: list[Any], faces: list[Any], more: str = "") -> None:
+    lines = [more, *("v {} {} {}".format(*corner) for corner in corners)]
+    lines += ["f " + " ".join(str(corner + 1) for corner in face) for face in faces]
+    Path(name).write_text("\n".join(lines) + "\n")
+
+
+def told(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, Any]:
+    capsys.readouterr()
+    assert run(["info", *arguments, "--json"]) == 0
+    output, messages = capsys.readouterr()
+    assert messages == ""
+    found: dict[str, Any] = json.loads(output)
+    return found
+
+
+@pytest.mark.parametrize(
+    ("faces", "closed", "inside_out", "edges", "words"),
+    [
+        (SIDES, True, False, (0, 0, 0), "closed"),
+        ([side[::-1] for side in SIDES], True, True, (0, 0, 0), "closed, but its faces are seen from inside"),
+        (SIDES[1:], False, False, (4, 0, 0), "not closed: 4 edges of one face"),
+        ([SIDES[0][::-1], *SIDES[1:]], False, False, (0, 0, 4), "4 edges between faces that are wound differently"),
+        ([*SIDES, (0, 1, 7)], False, False, (1, 2, 0), "not closed: 1 edge of one face and 2 edges of three faces"),
+    ],
+    ids=["closed", "inside out", "open", "turned", "crowded"],
+)
+def test_surfaces(
+    faces: list[Any],
+    closed: bool,
+    inside_out: bool,
+    edges: tuple[int, int, int],
+    words: str,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    write("box.obj", BOX, faces)
+    facts = told(capsys, "box.obj", "--no-gas")
+    assert (facts["closed"], facts["inside_out"]) == (closed, inside_out)
+    assert (facts["open_edges"], facts["crowded_edges"], facts["disagreeing_edges"]) == edges
+    assert (facts["low"], facts["high"], facts["vertices"]) == ([0, 0, 0], [1, 1, 1], 8)
+    assert facts["triangles"] == sum(len(face) - 2 for face in faces)
+    assert "pictures" not in facts
+    # what is drawn without back faces
+    assert load("box.obj").objects[0].cull == (closed and not inside_out)
+    assert run(["info", "box.obj", "--no-gas"]) == 0
+    assert f"surface   {words}" in capsys.readouterr().out
+
+
+def test_what_looks_up(capsys: pytest.CaptureFixture[str]) -> None:
+    write("z.obj", TENT, TENT_FACES)
+    write("y.obj", [(x, z, -y) for x, y, z in TENT], TENT_FACES)
+    # a square alone stands on nothing
+    write("flat.obj", [(x, z, -y) for x, y, z in TENT], TENT_FACES[:1])
+    assert [told(capsys, f"{name}.obj", "--no-gas")["up"] for name in ("z", "y", "flat")] == ["z", "y", None]
+    assert run(["info", "z.obj", "--no-gas"]) == 0
+    assert "--rotate -90,0,0 turns it" in capsys.readouterr().out
+
+
+def test_materials(capsys: pytest.CaptureFixture[str]) -> None:
+    PillowImage.fromarray(np.arange(4 * 6 * 3, dtype=np.uint8).reshape(4, 6, 3)).save("map.png")
+    Path("a.mtl").write_text("newmtl a\nmap_Kd map.png\nnewmtl b\nKd 1 0 0\n")
+    Path("a.obj").write_text(
+        "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\n"
+        "usemtl a\nf 1/1/1 2/2/1 3/3/1\nusemtl b\nf 3//1 2//1 1//1\n"
+    )
+    facts = told(capsys, "a.obj", "--no-gas")
+    assert (facts["parts"], facts["materials"], facts["textures"], facts["normals"]) == (2, 2, [[6, 4]], 2)
+    assert facts["opaque"]
+    assert run(["info", "a.obj", "--no-gas"]) == 0
+    output = capsys.readouterr().out
+    assert "textures of 6 x 4 texels" in output
+    assert "normals   of 2 of 2 parts" in output
+
+
+def test_the_gas_is_that_of_render(capsys: pytest.CaptureFixture[str]) -> None:
+    pictures = told(capsys, "shape.obj")["pictures"]
+    assert [each["size"] for each in pictures] == [128, 256, 512]
+    assert pictures[1]["gas"] == render("shape.obj", 256).gas
+    assert run(["render", "shape.obj", "--size", "512"]) == 0
+    assert f"fits     {pictures[2]['fits'].removeprefix('fits ')}\n" in capsys.readouterr().out
+    assert run(["info", "shape.obj"]) == 0
+    assert f"256 px    {pictures[1]['gas']:,} gas, {pictures[1]['fits']}\n" in capsys.readouterr().out
+
+
+def test_notes_are_told_once(capsys: pytest.CaptureFixture[str]) -> None:
+    write("a.obj", BOX, SIDES, "mtllib no.mtl")
+    note = "a.obj: its materials are left out: no.mtl does not exist"
+    assert told(capsys, "a.obj", "--no-gas")["notes"] == [note]
+    assert run(["info", "a.obj", "--no-gas"]) == 0
+    output, messages = capsys.readouterr()
+    assert output.count(f"note      {note}\n") == 1
+    assert messages == ""
+    assert run(["info", "a.obj", "--strict"]) == 2
+    assert capsys.readouterr() == ("", f"shackled: {note}\n")
+
+
+def test_several_inputs(capsys: pytest.CaptureFixture[str]) -> None:
+    Path("empty.json").write_text("{}")
+    render("shape.obj", 8).save("scene.png")
+    assert run(["info", "shape.obj", "gone.ply", "cube", "scene.png", "empty.json", "--no-gas"]) == 1
+    output, messages = capsys.readouterr()
+    names = [line.split()[1] for line in output.splitlines() if line.startswith("input")]
+    assert names == ["shape.obj", "cube", "scene.png"]
+    assert messages.splitlines() == [
+        "shackled: gone.ply does not exist",
+        "shackled: empty.json has no objects",
+        "shackled: 3 read, 2 failed",
+    ]
+    assert run(["info", "gone.ply"]) == 2
+
+
+@pytest.mark.parametrize(
+    ("command", "more"),
+    [
+        ("render", ["-o", "a.png"]),
+        ("export", ["-o", "a.html"]),
+        ("export", ["-o", "a.glb"]),
+        ("gas", ["--profile", "a.svg"]),
+        ("stages", ["-o", "stages"]),
+        ("mint", ["--calldata", "a.json", "--licence", "my own work", "--rpc", "http://127.0.0.1:9"]),
+    ],
+    ids=lambda value: value if isinstance(value, str) else value[-1],
+)
+def test_strict_writes_nothing(command: str, more: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    write("a.obj", BOX, SIDES, "mtllib no.mtl")
+    before = sorted(Path().iterdir())
+    assert run([command, "a.obj", *more, "--strict"]) == 2
+    output, messages = capsys.readouterr()
+    assert (output, messages) == ("", "shackled: a.obj: its materials are left out: no.mtl does not exist\n")
+    assert sorted(Path().iterdir()) == before
+
+
+def test_completion(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """As a shell asks for it."""
+    for words, expected in (("shackled inf", ["info"]), ("shackled render --turnt", ["--turntable"])):
+        monkeypatch.setenv("_SHACKLED_COMPLETE", "complete_bash")
+        monkeypatch.setenv("COMP_WORDS", words)
+        monkeypatch.setenv("COMP_CWORD", str(words.count(" ")))
+        with pytest.raises(SystemExit) as end:
+            run([])
+        assert end.value.code == 0
+        assert capsys.readouterr().out.split() == expected
+
+
+def test_the_most_used_options_come_first(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "200")
+    assert run(["render", "--help"]) == 0
+    panels = capsys.readouterr().out.split("╭─ ")
+    names = [panel.split(" ─")[0] for panel in panels[1:]]
+    assert names[:4] == ["Arguments", "Options", "Files", "Canvas"]
+    options = [line.split()[1] for line in panels[2].splitlines() if line.startswith("│ --")]
+    used = "output size background color azimuth elevation max-triangles turntable help"
+    assert options == [f"--{name}" for name in used.split()]

@@ -1,0 +1,598 @@
+"""One small file of each kind of glTF that people have: what is drawn of it, and what is told."""
+
+import base64
+import copy
+import io
+import json
+import math
+import re
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+from numpy.typing import NDArray
+from PIL import Image
+
+from shackled import load
+from shackled.errors import InputError, InputWarning
+from shackled.scene import MeshPart, part_of, read_model
+
+Values = NDArray[Any]
+
+#: A triangle whose corners all differ, and its normals.
+POINTS = np.array([[0, 0, 0], [2, 0, 0], [0, 1, 0.5]], dtype="f4")
+NORMAL = np.array([[0, 0, 1]] * 3, dtype="f4")
+CODES = {"i1": 5120, "u1": 5121, "i2": 5122, "u2": 5123, "u4": 5125, "f4": 5126}
+TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
+
+
+class File:
+    """A document with one triangle on one node, and all data in URIs."""
+
+    def __init__(self) -> None:
+        self.keys: dict[str, Any] = {
+            "asset": {"version": "2.0"},
+            "buffers": [],
+            "bufferViews": [],
+            "accessors": [],
+            "nodes": [{"mesh": 0}],
+            "scenes": [{"nodes": [0]}],
+        }
+        self.primitive: dict[str, Any] = {"attributes": {"POSITION": self.accessor(POINTS)}}
+        self.keys["meshes"] = [{"primitives": [self.primitive]}]
+
+    @property
+    def node(self) -> dict[str, Any]:
+        node: dict[str, Any] = self.keys["nodes"][0]
+        return node
+
+    def view(self, data: bytes, padding: bool = True) -> int:
+        text = base64.b64encode(data).decode()
+        uri = "data:application/octet-stream;base64," + (text if padding else text.rstrip("="))
+        self.keys["buffers"].append({"byteLength": len(data), "uri": uri})
+        self.keys["bufferViews"].append({"buffer": len(self.keys["buffers"]) - 1, "byteLength": len(data)})
+        return len(self.keys["bufferViews"]) - 1
+
+    def accessor(self, values: Any, kind: str = "f4", **more: Any) -> int:
+        array: Values = np.asarray(values, dtype=kind)
+        array = array[:, None] if array.ndim == 1 else array.reshape(len(array), math.prod(array.shape[1:]))
+        self.keys["accessors"].append(
+            {
+                "bufferView": self.view(array.tobytes()),
+                "componentType": CODES[kind],
+                "count": len(array),
+                "type": TYPES[array.shape[1]],
+                **more,
+            }
+        )
+        return len(self.keys["accessors"]) - 1
+
+    def material(self, **values: Any) -> None:
+        self.keys["materials"] = [values]
+        self.primitive["material"] = 0
+
+    def texture(self, pixels: Any, mode: str) -> dict[str, int]:
+        file = io.BytesIO()
+        Image.fromarray(np.asarray(pixels, dtype=np.uint8), mode).save(file, "PNG")
+        self.keys["images"] = [{"bufferView": self.view(file.getvalue()), "mimeType": "image/png"}]
+        self.keys["textures"] = [{"source": 0}]
+        self.primitive["attributes"]["TEXCOORD_0"] = self.accessor([[0, 0], [1, 0], [0, 1]])
+        return {"index": 0}
+
+    def skin(self, joints: list[dict[str, Any]], bindings: Any = None, used: Any = None, weights: Any = None) -> None:
+        """Joints of the document, in the scene, on which the vertices hang: by default each on the first one."""
+        numbers = [len(self.keys["nodes"]) + number for number in range(len(joints))]
+        self.keys["nodes"] += joints
+        self.keys["scenes"][0]["nodes"] += numbers
+        self.node["skin"] = 0
+        self.keys["skins"] = [{"joints": numbers}]
+        if bindings is not None:
+            columns = np.asarray(bindings).transpose(0, 2, 1)
+            self.keys["skins"][0]["inverseBindMatrices"] = self.accessor(columns)
+        self.primitive["attributes"] |= {
+            "JOINTS_0": self.accessor([[0, 0, 0, 0]] * 3 if used is None else used, "u1"),
+            "WEIGHTS_0": self.accessor([[1, 0, 0, 0]] * 3 if weights is None else weights),
+        }
+
+    def animation(self, path: str, times: Any, values: Any, node: int = 0, name: str = "Move", **sampler: Any) -> None:
+        part = {"input": self.accessor(times), "output": self.accessor(values), **sampler}
+        channel = {"sampler": 0, "target": {"node": node, "path": path}}
+        animation = {"name": name, "samplers": [part], "channels": [channel]}
+        self.keys.setdefault("animations", []).append(animation)
+
+    def write(self, folder: Path) -> Path:
+        path = folder / "model.gltf"
+        path.write_text(json.dumps(self.keys))
+        return path
+
+
+def read(file: File, folder: Path, *notes: str, **pose: Any) -> list[MeshPart]:
+    """The parts of a file, of which exactly these notes are told."""
+    path = file.write(folder)
+    if not notes:
+        return read_model(path, **pose)
+    with pytest.warns(InputWarning) as told:
+        parts = read_model(path, **pose)
+    assert [str(warning.message) for warning in told] == [f"{path}: left out: {note}" for note in notes]
+    return parts
+
+
+def corners(file: File, folder: Path, *notes: str, **pose: Any) -> Values:
+    (part,) = read(file, folder, *notes, **pose)
+    return part.mesh.positions[part.mesh.faces]
+
+
+def refusal(file: File, folder: Path, **pose: Any) -> str:
+    path = file.write(folder)
+    with pytest.raises(InputError) as error:
+        read_model(path, **pose)
+    assert "\n" not in str(error.value)
+    return str(error.value).removeprefix(f"{path}: ")
+
+
+def about_z(degrees: float) -> list[float]:
+    half = math.radians(degrees) / 2
+    return [0, 0, math.sin(half), math.cos(half)]
+
+
+def matrix_about_z(degrees: float) -> Values:
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+
+
+def times(matrix: Values, points: Any) -> Values:
+    return np.array([(matrix @ [*point, 1])[:3] for point in points])
+
+
+# ---- skins ----
+
+
+def test_a_skin_takes_the_place_of_its_joints_only(tmp_path: Path) -> None:
+    file = File()
+    file.node.update(translation=[50, 60, 70], scale=[9, 9, 9])
+    file.skin([{"translation": [1, 2, 3]}])
+    np.testing.assert_allclose(corners(file, tmp_path), [np.add(POINTS, (1, 2, 3))], atol=1e-6)
+    # without joints at the vertices it is a mesh like any
+    del file.primitive["attributes"]["JOINTS_0"]
+    np.testing.assert_allclose(corners(file, tmp_path), [np.add(9 * POINTS, (50, 60, 70))], atol=1e-4)
+
+
+def test_joints_are_where_all_nodes_above_them_put_them(tmp_path: Path) -> None:
+    file = File()
+    bindings = [np.linalg.inv(matrix_about_z(20)), np.eye(4)]
+    file.skin([{}, {"rotation": about_z(70)}], bindings, [[0, 1, 0, 0]] * 3, [[0, 1, 0, 0], [1, 0, 0, 0], [3, 1, 0, 0]])
+    # an arm that is in no scene
+    file.keys["nodes"].append({"translation": [0, 0, 5], "children": [1]})
+    file.keys["scenes"][0]["nodes"] = [0, 2]
+    up = np.eye(4)
+    up[2, 3] = 5
+    first, second = up @ bindings[0], matrix_about_z(70)
+    # weights add up to 1
+    blends = [second, first, 0.75 * first + 0.25 * second]
+    wanted = [times(blend, [point])[0] for blend, point in zip(blends, POINTS, strict=True)]
+    np.testing.assert_allclose(corners(file, tmp_path), [wanted], atol=1e-6)
+
+
+def test_more_than_four_joints_and_normals(tmp_path: Path) -> None:
+    file = File()
+    file.primitive["attributes"]["NORMAL"] = file.accessor([[1, 0, 0]] * 3)
+    joints = [{"translation": [number, 0, 0], "rotation": about_z(90)} for number in range(5)]
+    file.skin(joints, None, [[0, 1, 2, 3]] * 3, [[0.2, 0, 0, 0]] * 3)
+    file.primitive["attributes"] |= {
+        "JOINTS_1": file.accessor([[4, 0, 0, 0]] * 3, "u1"),
+        "WEIGHTS_1": file.accessor([[0.8, 0, 0, 0]] * 3),
+    }
+    (part,) = read(file, tmp_path)
+    wanted = np.add(times(matrix_about_z(90), POINTS), (0.2 * 0 + 0.8 * 4, 0, 0))
+    np.testing.assert_allclose(part.mesh.positions[part.mesh.faces], [wanted], atol=1e-6)
+    np.testing.assert_allclose(np.asarray(part.mesh.normals), [[0, 1, 0]] * len(part.mesh.positions), atol=1e-6)
+
+
+def test_joints_that_mirror_leave_the_outside_outside(tmp_path: Path) -> None:
+    file = File()
+    file.primitive["attributes"]["NORMAL"] = file.accessor(NORMAL)
+    file.skin([{"scale": [-1, 1, 1]}])
+    a, b, c = corners(file, tmp_path)[0]
+    assert np.cross(b - a, c - a)[2] > 0
+
+
+def test_broken_skins(tmp_path: Path) -> None:
+    file = File()
+    file.skin([{}], None, [[0, 3, 0, 0]] * 3, [[1, 0, 0, 0]] * 3)
+    # a joint without weight may be any
+    np.testing.assert_allclose(corners(file, tmp_path), [POINTS])
+    changes: list[tuple[dict[str, Any], str]] = [
+        ({"joints": []}, "meshes[0].primitives[0]: a vertex hangs on joint 0, but skins[0] has 0"),
+        ({"joints": [8]}, "meshes[0].primitives[0]: skins[0].joints[0] is 8, which is no node"),
+        (
+            {"inverseBindMatrices": file.accessor(np.zeros((0, 16)))},
+            "meshes[0].primitives[0]: skins[0] has 1 joints, but 0 inverseBindMatrices",
+        ),
+    ]
+    for change, message in changes:
+        other = copy.deepcopy(file)
+        other.keys["skins"][0] |= change
+        if "inverseBindMatrices" in change:
+            other.keys["accessors"][-1]["bufferView"] = 0
+        assert refusal(other, tmp_path).startswith(message)
+
+
+# ---- morph targets ----
+
+
+def test_weights_of_the_node_come_before_those_of_the_mesh(tmp_path: Path) -> None:
+    file = File()
+    file.primitive["attributes"]["NORMAL"] = file.accessor(NORMAL)
+    moves = np.array([[0, 0, 1], [0, 2, 0], [3, 0, 0]], dtype="f4")
+    # one vertex only, in a sparse accessor without any other data
+    sparse = {
+        "count": 1,
+        "indices": {"bufferView": file.view(b"\2"), "componentType": 5121},
+        "values": {"bufferView": file.view(np.array([[0, 0, 8]], dtype="f4").tobytes())},
+    }
+    file.keys["accessors"].append({"componentType": 5126, "count": 3, "type": "VEC3", "sparse": sparse})
+    file.primitive["targets"] = [
+        {"POSITION": file.accessor(moves), "NORMAL": file.accessor([[0, 1, -1]] * 3)},
+        {"POSITION": len(file.keys["accessors"]) - 3},
+    ]
+    np.testing.assert_allclose(corners(file, tmp_path), [POINTS])
+    file.keys["meshes"][0]["weights"] = [0.5, 0]
+    np.testing.assert_allclose(corners(file, tmp_path), [POINTS + 0.5 * moves])
+    (part,) = read(file, tmp_path)
+    half = math.sqrt(0.5)
+    np.testing.assert_allclose(np.asarray(part.mesh.normals), [[0, half, half]] * 3, atol=1e-6)
+    file.node["weights"] = [0, 1]
+    np.testing.assert_allclose(corners(file, tmp_path), [np.add(POINTS, ((0, 0, 0), (0, 0, 0), (0, 0, 8)))])
+    file.primitive["targets"][1]["COLOR_0"] = file.primitive["targets"][0]["POSITION"]
+    corners(file, tmp_path, "what 1 morph target would change besides positions and normals")
+
+
+# ---- animations ----
+
+
+@pytest.mark.parametrize(("time", "x"), [(0, 1), (1, 1), (1.5, 3), (2, 5), (3, 2), (9, -1)])
+def test_a_straight_way(tmp_path: Path, time: float, x: float) -> None:
+    file = File()
+    file.node["matrix"] = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 7, 7, 1]
+    file.animation("translation", [1, 2, 4], [[1, 0, 0], [5, 0, 0], [-1, 0, 0]])
+    np.testing.assert_allclose(
+        corners(file, tmp_path, animation="Move", time=time), [np.add(POINTS, (x, 0, 0))], atol=1e-6
+    )
+    # at rest without it
+    np.testing.assert_allclose(corners(file, tmp_path), [POINTS + 7])
+
+
+@pytest.mark.parametrize(("time", "scale"), [(0, 2), (0.99, 2), (1, 4), (5, 4)])
+def test_steps(tmp_path: Path, time: float, scale: float) -> None:
+    file = File()
+    file.animation("scale", [0, 1], [[2, 2, 2], [4, 4, 4]], interpolation="STEP")
+    np.testing.assert_allclose(corners(file, tmp_path, time=time), [scale * POINTS], atol=1e-6)
+
+
+def test_a_spline_is_a_cubic_with_its_values_and_tangents(tmp_path: Path) -> None:
+    cubic = np.polynomial.Polynomial([3, -2, 5, -1])
+    slope = cubic.deriv()
+    rows = [[each(t), 0, 0] for t in (1, 3) for each in (slope, cubic, slope)]
+    file = File()
+    file.animation("translation", [1, 3], rows, interpolation="CUBICSPLINE")
+    for time in (1, 1.3, 2, 2.9, 3):
+        found = corners(file, tmp_path, animation=0, time=time)
+        np.testing.assert_allclose(found, [np.add(POINTS, (cubic(time), 0, 0))], atol=1e-5)
+
+
+def test_rotations_turn_evenly_on_the_shorter_way(tmp_path: Path) -> None:
+    file = File()
+    there = about_z(150)
+    for end in (there, [-each for each in there]):
+        file.animation("rotation", [0, 1], [about_z(0), end])
+        for share in (0.1, 0.5, 0.75):
+            found = corners(file, tmp_path, animation=len(file.keys["animations"]) - 1, time=share)
+            np.testing.assert_allclose(found, [times(matrix_about_z(150 * share), POINTS)], atol=1e-6)
+
+
+def test_weights_and_joints_are_animated(tmp_path: Path) -> None:
+    file = File()
+    file.primitive["targets"] = [{"POSITION": file.accessor([[0, 0, each]] * 3)} for each in (1, 10)]
+    file.animation("weights", [0, 1], [0, 0, 1, 0.5])
+    np.testing.assert_allclose(corners(file, tmp_path, time=0.5), [np.add(POINTS, (0, 0, 0.5 + 2.5))], atol=1e-6)
+    file.skin([{}])
+    file.animation("translation", [0, 1], [[0, 0, 0], [4, 0, 0]], node=1, name="1")
+    np.testing.assert_allclose(
+        corners(file, tmp_path, animation="1", time=0.25), [np.add(POINTS, (1, 0, 0))], atol=1e-6
+    )
+    path = file.write(tmp_path)
+    still, moved = (load(path, animation=1, time=time).objects[0] for time in (0.0, 1.0))
+    assert still.position[0] != moved.position[0]
+
+
+def test_animations_that_are_not_there(tmp_path: Path) -> None:
+    file = File()
+    assert refusal(file, tmp_path, time=1) == "it has no animation 0; it has none"
+    file.animation("translation", [0, 1], [[0, 0, 0], [4, 0, 0]], name="Walk")
+    file.animation("translation", [0, 1], [[0, 0, 0], [4, 0, 0]], name="")
+    assert refusal(file, tmp_path, animation="Run") == "it has no animation 'Run'; it has 0 Walk, 1"
+    assert refusal(file, tmp_path, animation=2) == "it has no animation 2; it has 0 Walk, 1"
+    file.keys["animations"][1]["channels"].append({"sampler": 0, "target": {"path": "pointer"}})
+    corners(file, tmp_path, "1 channel of the animation", animation="1")
+    file.keys["animations"][0]["samplers"][0]["interpolation"] = "CUBICSPLINE"
+    assert refusal(file, tmp_path, animation=0) == (
+        "animations[0].samplers[0] has 2 values for 2 keyframes of CUBICSPLINE"
+    )
+    file.animation("translation", [1, 0], [[0, 0, 0], [4, 0, 0]])
+    assert refusal(file, tmp_path, animation=2) == "animations[2].samplers[0].input must be times in ascending order"
+
+
+# ---- nodes ----
+
+
+def test_instances(tmp_path: Path) -> None:
+    file = File()
+    file.node["translation"] = [0, 0, 1]
+    attributes = {
+        "TRANSLATION": file.accessor([[1, 0, 0], [0, 2, 0]]),
+        "SCALE": file.accessor([[1, 1, 1], [3, 3, 3]]),
+        "ROTATION": file.accessor(np.rint(32767 * np.array([about_z(0), about_z(90)])), "i2", normalized=True),
+    }
+    file.node["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": attributes}}
+    file.keys["extensionsUsed"] = file.keys["extensionsRequired"] = ["EXT_mesh_gpu_instancing"]
+    wanted = [np.add(POINTS, (1, 0, 1)), np.add(3 * times(matrix_about_z(90), POINTS), (0, 2, 1))]
+    np.testing.assert_allclose(corners(file, tmp_path), wanted, atol=1e-3)
+    attributes["SCALE"] = file.accessor([[1, 1, 1]])
+    assert "must have as many elements in each, not [1, 2]" in refusal(file, tmp_path)
+
+
+def test_what_is_hidden_is_not_drawn(tmp_path: Path) -> None:
+    file = File()
+    hidden = {"extensions": {"KHR_node_visibility": {"visible": False}}, "children": [2]}
+    file.keys["nodes"] += [hidden, {"mesh": 0}]
+    file.keys["scenes"][0]["nodes"] = [0, 1]
+    file.keys["extensionsUsed"] = ["KHR_node_visibility"]
+    assert len(corners(file, tmp_path)) == 1
+    hidden["extensions"] = {"KHR_node_visibility": {"visible": True}}
+    assert len(corners(file, tmp_path)) == 2
+
+
+# ---- materials ----
+
+
+def test_what_glows(tmp_path: Path) -> None:
+    file = File()
+    file.material(emissiveFactor=[1, 0.2, 0])
+    assert read(file, tmp_path)[0].material == {"emission": (255, 124, 0)}
+    file.keys["materials"][0]["extensions"] = {"KHR_materials_emissive_strength": {"emissiveStrength": 4}}
+    file.keys["extensionsUsed"] = ["KHR_materials_emissive_strength"]
+    assert read(file, tmp_path)[0].material == {"emission": (255, 231, 0)}
+    thing = load(file.write(tmp_path)).objects[0]
+    assert thing.material.emission == (255, 231, 0)
+    scene = tmp_path / "scene.toml"
+    scene.write_text('[[objects]]\nmesh = "model.gltf"\n[[objects]]\nmesh = "model.gltf"\nmaterial.emission = "red"\n')
+    assert [thing.material.emission for thing in load(scene).objects] == [(255, 231, 0), (255, 0, 0)]
+    plain = {"attributes": dict(file.primitive["attributes"])}
+    file.keys["meshes"][0]["primitives"].append(plain)
+    assert len(read(file, tmp_path)) == 2
+
+
+def test_a_texture_that_glows(tmp_path: Path) -> None:
+    file = File()
+    info = file.texture([[(255, 0, 0), (0, 0, 255)]] * 2, "RGB")
+    file.material(emissiveFactor=[1, 1, 1], emissiveTexture=info)
+    assert read(file, tmp_path, "1 emissive texture")[0].material == {}
+    # nothing else is seen of what is black
+    file.keys["materials"][0]["pbrMetallicRoughness"] = {"baseColorFactor": [0, 0, 0, 1]}
+    (part,) = read(file, tmp_path)
+    assert part.material["shading"] == "unlit"
+    assert part.material["texture"].pixels[0].tolist() == [[255, 0, 0], [0, 0, 255]]
+
+
+def test_two_sides(tmp_path: Path) -> None:
+    file = File()
+    file.material(doubleSided=True)
+    file.keys["meshes"][0]["primitives"].append({"attributes": dict(file.primitive["attributes"])})
+    assert [part.two_sided for part in read(file, tmp_path)] == [True, False]
+
+
+@pytest.mark.parametrize("mode", ["OPAQUE", "MASK", "BLEND"])
+def test_alpha_of_textures(tmp_path: Path, mode: str) -> None:
+    file = File()
+    info = file.texture([[(255, 0, 0, 255), (0, 0, 255, 7)]] * 2, "RGBA")
+    file.material(alphaMode=mode, pbrMetallicRoughness={"baseColorTexture": info})
+    read(file, tmp_path, *([] if mode == "OPAQUE" else ["the alpha of 1 texture"]))
+    info = file.texture([[(255, 0, 0, 255), (0, 0, 255, 255)]] * 2, "RGBA")
+    read(file, tmp_path)
+
+
+def test_what_trimesh_knows_of_a_material(tmp_path: Path) -> None:
+    file = File()
+    info = file.texture([[(255, 0, 0, 255), (0, 0, 255, 7)]] * 2, "RGBA")
+    file.material(
+        alphaMode="MASK", doubleSided=True, emissiveFactor=[1, 0.2, 0], pbrMetallicRoughness={"baseColorTexture": info}
+    )
+    mesh: Any = trimesh.load(file.write(tmp_path), force="mesh")
+    with pytest.warns(InputWarning, match=r"^the texture of the mesh has alpha, which is left out$"):
+        part = part_of(mesh)
+    assert part.two_sided
+    assert part.material["emission"] == [255, 124, 0]
+    with pytest.warns(InputWarning):
+        assert load(mesh).objects[0].material.emission == (255, 124, 0)
+
+
+def test_alpha_below_the_cutoff(tmp_path: Path) -> None:
+    file = File()
+    file.material(alphaMode="MASK", pbrMetallicRoughness={"baseColorFactor": [1, 1, 1, 0.3]})
+    assert refusal(file, tmp_path) == "it has no triangles that are shown"
+    file.keys["materials"][0]["alphaCutoff"] = 0.2
+    read(file, tmp_path)
+    file.primitive["attributes"]["COLOR_0"] = file.accessor([[1, 1, 1, 1], [1, 1, 1, 1], [1, 1, 1, 0.5]])
+    read(file, tmp_path, "the alpha of vertices of 1 primitive")
+
+
+def test_surfaces_that_are_not_drawn(tmp_path: Path) -> None:
+    file = File()
+    info = file.texture([[(255, 0, 0), (0, 0, 255)]] * 2, "RGB")
+    file.material(
+        normalTexture=info,
+        occlusionTexture=info,
+        pbrMetallicRoughness={"metallicRoughnessTexture": info},
+        extensions={"KHR_materials_transmission": {"transmissionFactor": 1}},
+    )
+    file.keys["extensionsUsed"] = ["KHR_materials_transmission", "KHR_materials_clearcoat", "ODD_thing"]
+    read(
+        file,
+        tmp_path,
+        "1 normal texture",
+        "1 occlusion texture",
+        "1 texture of roughness",
+        "what extensions KHR_materials_clearcoat, KHR_materials_transmission, ODD_thing would change",
+    )
+
+
+# ---- other parts ----
+
+
+def test_what_else_is_left_out(tmp_path: Path) -> None:
+    file = File()
+    light = {"extensions": {"KHR_lights_punctual": {"light": 0}}}
+    file.keys["nodes"] += [{"camera": 0}, light, light]
+    file.keys["scenes"] = [{"nodes": [0, 1, 2, 3]}, {"nodes": [0]}]
+    file.keys["meshes"][0]["primitives"] += [{**file.primitive, "mode": mode} for mode in (0, 1, 3)]
+    file.keys["extensionsUsed"] = ["KHR_lights_punctual"]
+    read(
+        file,
+        tmp_path,
+        "1 other scene",
+        "3 primitives of points or lines",
+        "1 camera; `use_camera` takes one, with the lights",
+        "2 lights",
+    )
+    del file.keys["meshes"][0]["primitives"][0]
+    assert refusal(file, tmp_path).startswith("it has no triangles that are shown; left out: ")
+    assert "left out: 3 primitives of points or lines" in refusal(file, tmp_path)
+
+
+def test_the_camera_and_the_lights_of_a_file(tmp_path: Path) -> None:
+    file = File()
+    lights: list[dict[str, Any]] = [
+        {"type": "directional", "intensity": 0.5, "color": [1, 0, 0]},
+        {"type": "point", "intensity": 36},
+        {"type": "spot", "spot": {"outerConeAngle": math.radians(30)}, "intensity": 9},
+    ]
+    file.keys["extensions"] = {"KHR_lights_punctual": {"lights": lights}}
+    file.keys["cameras"] = [
+        {"type": "perspective", "perspective": {"yfov": math.radians(40), "znear": 0.25}},
+        {"type": "orthographic", "name": "Front", "orthographic": {"xmag": 9, "ymag": 3, "znear": 0, "zfar": 9}},
+    ]
+    # 6 before the middle of the triangle, turned by a quarter
+    place = {"translation": [1, 0.5, 6.25], "rotation": about_z(90)}
+    file.keys["nodes"] += [
+        {"camera": 1, **place},
+        {"camera": 0, **place},
+        *({**place, "extensions": {"KHR_lights_punctual": {"light": number}}} for number in range(3)),
+    ]
+    file.keys["scenes"][0]["nodes"] += [1, 2, 3, 4, 5]
+    path = file.write(tmp_path)
+    scene = load(path, use_camera=0)
+    np.testing.assert_allclose(scene.objects[0].world_positions()[scene.objects[0].mesh.faces], [POINTS])
+    camera = scene.camera
+    np.testing.assert_allclose(camera.eye, (1, 0.5, 6.25))
+    np.testing.assert_allclose(camera.target - camera.eye, (0, 0, -1), atol=1e-9)
+    np.testing.assert_allclose(camera.up, (-1, 0, 0), atol=1e-9)
+    assert camera.projection == "perspective"
+    assert camera.half_height == pytest.approx(math.tan(math.radians(20)))
+    assert camera.near == 0.25
+    # 36 / 6^2 = 1 is the brightest; 0.5 and 9 / 36 are 188 and 137 in sRGB
+    assert [(light.kind, light.color) for light in scene.lights] == [
+        ("point", (255, 255, 255)),
+        ("directional", (188, 0, 0)),
+        ("spot", (137, 137, 137)),
+    ]
+    np.testing.assert_allclose(scene.lights[1].vector, (0, 0, 1), atol=1e-9)
+    np.testing.assert_allclose(np.asarray(scene.lights[2].direction), (0, 0, -1), atol=1e-9)
+    assert scene.lights[2].outer_angle == pytest.approx(30)
+    front = load(path, 32, use_camera="Front", color="red")
+    assert (front.camera.projection, front.camera.half_height, front.width) == ("orthographic", 3, 32)
+    with pytest.raises(InputError, match=r"model\.gltf: it has no camera 'Back'; it has 0, 1 Front$"):
+        load(path, use_camera="Back")
+    file.keys["nodes"] += [file.keys["nodes"][5]] * 3
+    file.keys["scenes"][0]["nodes"] += [6, 7, 8]
+    with pytest.warns(InputWarning, match=r"left out: 2 lights, the weakest: 4 are drawn$"):
+        assert len(load(file.write(tmp_path), use_camera=0).lights) == 4
+
+
+def test_primitives_that_lack_something(tmp_path: Path) -> None:
+    file = File()
+    info = file.texture([[(255, 0, 0), (0, 0, 255)]] * 2, "RGB")
+    file.material(pbrMetallicRoughness={"baseColorTexture": info})
+    del file.primitive["attributes"]["TEXCOORD_0"]
+    file.keys["meshes"][0]["primitives"].append({"attributes": {}})
+    (part,) = read(file, tmp_path, "the texture of 1 primitive without coordinates", "1 primitive without positions")
+    assert part.mesh.colors.tolist() == [[255, 255, 255]] * 3
+    np.testing.assert_allclose(part.mesh.positions[part.mesh.faces], [POINTS])
+
+
+def test_base64_without_padding(tmp_path: Path) -> None:
+    file = File()
+    file.keys["bufferViews"][0]["buffer"] = len(file.keys["buffers"])
+    file.view(POINTS.tobytes() + b"\0" * 2, padding=False)
+    assert not file.keys["buffers"][-1]["uri"].endswith("=")
+    np.testing.assert_allclose(corners(file, tmp_path), [POINTS])
+
+
+@pytest.mark.parametrize("name", ["EXT_meshopt_compression", "KHR_draco_mesh_compression"])
+def test_compression_that_is_not_needed(tmp_path: Path, name: str) -> None:
+    file = File()
+    file.keys["extensionsUsed"] = [name]
+    file.keys["bufferViews"][0]["extensions"] = {"EXT_meshopt_compression": {"buffer": 9}}
+    file.primitive["extensions"] = {"KHR_draco_mesh_compression": {"bufferView": 9, "attributes": {"POSITION": 0}}}
+    np.testing.assert_allclose(corners(file, tmp_path), [POINTS])
+
+
+def test_compression_by_meshopt_is_refused(tmp_path: Path) -> None:
+    file = File()
+    file.keys["bufferViews"][0]["extensions"] = {"EXT_meshopt_compression": {"buffer": 1}}
+    del file.keys["buffers"][0]["uri"]
+    assert refusal(file, tmp_path).startswith("bufferViews[0] is compressed with EXT_meshopt_compression, which")
+
+
+def draco_file(data: bytes) -> File:
+    file = File()
+    file.keys["accessors"] = [
+        {"componentType": 5126, "count": 4, "type": "VEC3"},
+        {"componentType": 5123, "count": 6, "type": "SCALAR"},
+        {"componentType": 5121, "count": 4, "type": "VEC3", "normalized": True},
+    ]
+    file.primitive |= {
+        "attributes": {"POSITION": 0, "COLOR_0": 2},
+        "indices": 1,
+        "extensions": {
+            "KHR_draco_mesh_compression": {
+                "bufferView": file.view(data),
+                "attributes": {"POSITION": 1, "COLOR_0": 0},
+            }
+        },
+    }
+    file.keys["extensionsUsed"] = file.keys["extensionsRequired"] = ["KHR_draco_mesh_compression"]
+    return file
+
+
+def test_draco_needs_a_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "DracoPy", None)
+    told = refusal(draco_file(b"anything"), tmp_path)
+    assert re.fullmatch(r".*compressed with Draco, .* not installed: pip install 'shackled\[draco\]'", told)
+
+
+def test_compression_by_draco(tmp_path: Path) -> None:
+    draco = pytest.importorskip("DracoPy")
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.5]], dtype="f4")
+    faces = np.array([[0, 1, 2], [2, 1, 3]], dtype="u4")
+    colors = np.array([[255, 0, 0]] * 4, dtype="u1")
+    data = draco.encode(points, faces, quantization_bits=20, colors=colors)
+    (part,) = read(draco_file(data), tmp_path)
+    found = {tuple(map(tuple, np.round(each, 4).tolist())) for each in part.mesh.positions[part.mesh.faces]}
+    turns = [{tuple(map(tuple, np.roll(points[f], k, 0).tolist())) for k in range(3)} for f in faces]
+    assert len(found) == 2
+    assert all(found & each for each in turns)
+    assert part.mesh.colors.tolist() == [[255, 0, 0]] * len(part.mesh.positions)
+    assert "holds no data of Draco that can be read" in refusal(draco_file(data[:30]), tmp_path)
