@@ -38,6 +38,7 @@ EXTRA_OF = {
     "chain/_embedded.py": "pyevm pyrevm",
     "creator": "creator",
     "parallel/_cluster.py": "cluster",
+    "scene/_files/gltf/draco.py": "draco",
     "scene/_simplify.py": "simplify",
     "preview/_server.py": "creator",
     "serving/": "creator",

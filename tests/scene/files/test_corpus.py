@@ -158,16 +158,16 @@ OTHER = {"obj": "f 1 2 4\n", "ply": "3 0 1 3\n", "off": "3 0 1 3\n"}
 
 @pytest.mark.parametrize("extension", FLAT)
 def test_triangles_without_area(tmp_path: Path, extension: str) -> None:
-    """All of them are an error, in the same words for all formats; some are told."""
+    """A file of nothing else is an error, in the same words for all formats; single ones are no loss."""
     path = tmp_path / f"flat.{extension}"
     path.write_text(FLAT[extension].format("", count=2))
     with pytest.raises(InputError) as error:
         read_mesh(path)
     assert str(error.value) == f"{path}: there is nothing to see: its 2 triangles have no area"
     path.write_text(FLAT[extension].format(OTHER[extension], count=3))
-    with pytest.warns() as told:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
         assert read_mesh(path).triangles == 3
-    assert [str(each.message) for each in told] == [f"{path}: of its 3 triangles 2 have no area"]
 
 
 @pytest.mark.parametrize("size", [1e-300, 1e-9, 1, 1e9, 1.5e308])

@@ -211,7 +211,6 @@ CASES = {
     "some faces without an area": Case(
         CORNERS + "v 0.5 0 0\nf 1 2 3\nf 1 5 2\nf 1 5 2 1\nf 1 3 4\n",
         colors=(GREY, GREY),
-        notes=("2 faces of 4 without an area, of which nothing is visible",),
     ),
     "a corner along an edge": Case(CORNERS + "v 0.5 0 0\nf 1 5 2 3 4\n", colors=(GREY, GREY)),
 }  # fmt: skip

@@ -213,7 +213,7 @@ def test_written_files_read_back(tmp_path: Path) -> None:
         ),
         (
             "v 0.1 0 0\nv 0.3 0.6 0\nv 0.7 1.8 0\nf 1 2 3\nf 1 1 2\n",
-            "nothing is visible: 2 faces without an area, and no other",
+            "there is nothing to see: its 2 triangles have no area",
         ),
         (TRIANGLE + "f 1 two 3\n", "line 4 is not one of an OBJ file: 'f 1 two 3'"),
         ("v 0 0\n" + TRIANGLE + "f 1 2 3\n", "line 1 is not one of an OBJ file: 'v 0 0'"),

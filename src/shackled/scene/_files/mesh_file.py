@@ -61,7 +61,7 @@ def read_model(path: str | os.PathLike[str], **pose: Any) -> list[MeshPart]:
         raise InputError(f"{path} is not a mesh file that is known by its extension; known are {', '.join(READERS)}")
     try:
         parts = READERS[extension](path, **pose)
-        _check_areas(path, [part.mesh for part in parts])
+        _check_areas([part.mesh for part in parts])
         return parts
     except InputError as error:
         message = str(error)
@@ -73,14 +73,11 @@ def read_model(path: str | os.PathLike[str], **pose: Any) -> list[MeshPart]:
         raise InputError(f"{path} is not a {extension[1:].upper()} file that can be read: {reason}") from None
 
 
-def _check_areas(path: Path, meshes: list[Mesh]) -> None:
-    """Refuse a file of which no triangle has an area, and warn of single ones."""
-    count = sum(mesh.triangles for mesh in meshes)
-    thin = sum(int(_is_thin(mesh).sum()) for mesh in meshes)
-    if thin == count:
+def _check_areas(meshes: list[Mesh]) -> None:
+    """Refuse a file of which no triangle has an area."""
+    if all(_is_thin(mesh).all() for mesh in meshes):
+        count = sum(mesh.triangles for mesh in meshes)
         raise InputError(f"there is nothing to see: its {plural(count, 'triangle has', 'triangles have')} no area")
-    if thin:
-        warn(f"{path}: of its {count:,} triangles {plural(thin, 'has', 'have')} no area")
 
 
 @np.errstate(all="ignore")

@@ -25,8 +25,6 @@ from .obj_lines import ABSENT, Floats, Ints, ObjFaces, ObjLines, drawn_faces, re
 from .polygons import cut
 from .weld import weld
 
-#: A triangle has no area if it is this part of the square of its longest side, as it is by rounding.
-_NO_AREA = 1e-12
 #: So many images fit along a triangle in a contract, and so far away is it drawn, if they repeat.
 _SPAN, _FAR = 100, 1e6
 #: So many materials that are missing are named.
@@ -50,7 +48,6 @@ def read_obj(path: Path) -> list[MeshPart]:
     triangles = cut(drawn.positions, drawn.sizes, drawn.vertex)
     corners, face = triangles[:, :3], triangles[:, 3]
     faces = drawn.vertex[corners]
-    _check_areas(path, drawn.positions[faces], face, len(drawn.sizes))
     surfaces = _Surfaces(obj, drawn, corners, face)
     normal, group, found = drawn.normal[corners], drawn.group[face], None
     if (normal != ABSENT).any():
@@ -86,23 +83,6 @@ def write_obj(mesh: Mesh, path: str | Path) -> None:
     for face in (mesh.faces + 1).tolist():
         lines.append("f " + " ".join(corner.format(number) for number in face))
     Path(path).write_text("\n".join(lines) + "\n", encoding="ascii")
-
-
-def _check_areas(path: Path, points: Floats, face: Ints, count: int) -> None:
-    """Warn of faces without an area. InputError if all are.
-
-    points: of triangles, (m, 3, 3). face: that of each triangle, (m,), of so many.
-    """
-    with np.errstate(all="ignore"):
-        edges = points - np.roll(points, 1, axis=1)
-        longest = np.abs(edges).max(axis=(1, 2))
-        edges /= np.where(longest > 0, longest, 1)[:, None, None]
-        has_area = ~(np.abs(np.cross(edges[:, 0], edges[:, 1])).max(axis=1) <= _NO_AREA)
-    flat = count - len(np.unique(face[has_area]))
-    if flat == count:
-        raise InputError(f"nothing is visible: {plural(flat, 'face')} without an area, and no other")
-    if flat:
-        warn(f"{path}: {plural(flat, 'face')} of {count:,} without an area, of which nothing is visible")
 
 
 class _Surfaces:
