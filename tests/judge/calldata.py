@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
@@ -18,9 +18,9 @@ Booleans = NDArray[np.bool_]
 
 UNLIT, FLAT, SMOOTH = 0, 1, 2
 POINT = 1
-CULL_BACKFACES, WIREFRAME = 1, 2
+CULL_BACKFACES, WIREFRAME, TWO_SIDED = 1, 2, 4
 #: Kinds of records.
-SPOT, OPACITY, ANTIALIAS, HEMISPHERE, RIM, FOG, TONE, TEXTURE, OPACITIES, SHADOW, GROUND, EMISSION = range(1, 13)
+SPOT, OPACITY, ANTIALIAS, HEMISPHERE, RIM, FOG, TONE, TEXTURE, OPACITIES, SHADOW, GROUND, EMISSION, ALPHA = range(1, 14)
 #: Rules of a shadow: which faces of culled objects cast it.
 ALL_FACES, TURNED_AWAY, TURNED_TOWARD = 1, 2, 3
 
@@ -67,11 +67,13 @@ class Frame:
 
 @dataclass(frozen=True)
 class Texture:
-    """texels: (height, width, 3), 0..255."""
+    """texels: (height, width, 3), 0..255. alpha: (height, width, 1), or None. cutoff: see docs/textures.md."""
 
     texels: Array
     bilinear: bool
     clamps: bool
+    alpha: Array | None = None
+    cutoff: int = 0
 
 
 @dataclass(frozen=True)
@@ -93,6 +95,7 @@ class Surface:
     shininess: int
     cull: bool
     is_wire: bool
+    two_sided: bool
     opacities: Array
     is_opaque: bool
     uvs: Array | None
@@ -241,6 +244,9 @@ def _surface(each: Any, first: int, records: dict[int, bytes]) -> Surface:
         inner, outer = _q32(np.frombuffer(records[GROUND][:16], ">i8")).tolist()
         fade = inner, outer
     texture, uvs = _texture(records[TEXTURE], len(points)) if TEXTURE in records else (None, None)
+    if texture is not None and ALPHA in records:
+        image = _texture(records[ALPHA][1:], 0)[0]
+        texture = replace(texture, alpha=image.texels[..., 2:], cutoff=records[ALPHA][0])
     return Surface(
         first,
         center + float(_q32(scale)) * points @ turn.T,
@@ -254,8 +260,9 @@ def _surface(each: Any, first: int, records: dict[int, bytes]) -> Surface:
         shininess,
         bool(flags & CULL_BACKFACES),
         bool(flags & WIREFRAME),
+        bool(flags & TWO_SIDED),
         opacities,
-        not {OPACITY, OPACITIES, GROUND} & set(records),
+        not {OPACITY, OPACITIES, GROUND, ALPHA} & set(records),
         uvs,
         texture,
         center,

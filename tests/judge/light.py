@@ -3,10 +3,11 @@
     radiance = surface * (ambient * A + sum_i diffuse * max(0, N.L_i) * C_i)
              + sum_i specular * max(0, N.H_i)^shininess * C_i + emission
 
-C_i is the colour of a light, times what its cone lets through; highlights are where N.L_i > 0. A hemisphere adds
-ground + (sky - ground) * (1 + N.y) / 2 to A, a rim its colour * (1 - max(0, N.V))^power to the sum. With gamma,
-surface, A, C_i, emission, hemisphere and rim are decoded from sRGB. The sum times the exposure, clamped or compressed
-by the filmic curve, and encoded with gamma, is the colour. Fog covers it by the distance along the line of sight.
+C_i is the colour of a light, times what its cone lets through; highlights are where N.L_i > 0. Of objects with two
+sides, N is turned where the face is seen from behind. A hemisphere adds ground + (sky - ground) * (1 + N.y) / 2 to A, a
+rim its colour * (1 - max(0, N.V))^power to the sum. With gamma, surface, A, C_i, emission, hemisphere and rim are
+decoded from sRGB. The sum times the exposure, clamped or compressed by the filmic curve, and encoded with gamma, is the
+colour. Fog covers it by the distance along the line of sight.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .calldata import FLAT, UNLIT, Array, Effects, Integers, Surface, World, unit
-from .textures import color_at
+from .textures import alpha_at, color_at
 
 #: A highlight ends where N.L is zero: it may or may not be there where N.L is this near to zero.
 GRAZING = 0.004
@@ -52,6 +53,8 @@ def colors(world: World, surface: Surface, face: Integers, weights: Array, place
     emission = _light(effects, surface.emission)
     lit, dark = (_fogged(effects, _toned(effects, each + emission), distance) for each in radiance)
     opacity = np.clip(mix(surface.opacities[corners][..., None], weights)[:, 0], 0, 1)
+    if surface.texture is not None and surface.uvs is not None:
+        opacity = opacity * alpha_at(surface.texture, mix(surface.uvs[corners], weights))[:, 0]
     if surface.fade is not None:
         inner, outer = surface.fade
         away = ((point - surface.center) ** 2).sum(axis=1)
@@ -71,11 +74,12 @@ def _radiance(
     if surface.shading == UNLIT:
         alone = np.broadcast_to(base, (3, *base.shape))
         return alone, alone
-    if surface.shading == FLAT:
-        a, b, c = surface.positions[corners].transpose(1, 0, 2)
-        normal = unit(np.cross(b - a, c - a))
-    else:
-        normal = unit(mix(surface.normals[corners], weights))
+    a, b, c = surface.positions[corners].transpose(1, 0, 2)
+    across = np.cross(b - a, c - a)
+    normal = unit(across if surface.shading == FLAT else mix(surface.normals[corners], weights))
+    if surface.two_sided and not surface.is_wire:
+        toward_eye = frame.eye - a if frame.perspective else np.broadcast_to(-frame.axes[2], a.shape)
+        normal = np.where(_dot(across, toward_eye) < 0, -normal, normal)
     rise = _dot(normal, beside - point) * (surface.shading == FLAT)
     view = unit(frame.eye - beside) if frame.perspective else np.broadcast_to(-frame.axes[2], point.shape)
     seen = _dot(normal, view) + (rise / _length(frame.eye - beside) if frame.perspective else 0)

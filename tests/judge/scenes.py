@@ -40,7 +40,12 @@ def random_scene(kind: str, seed: int) -> Scene:
     """Return the scene of a kind and a seed."""
     if kind in EXTREMES:
         return random_case(seed, (kind,)).scene
-    return KINDS[kind](np.random.default_rng([zlib.crc32(kind.encode()), seed]))
+    scene = KINDS[kind](np.random.default_rng([zlib.crc32(kind.encode()), seed]))
+    # from numbers of its own, so that the scenes of the seeds stay what they are
+    two_sided = np.random.default_rng([zlib.crc32(kind.encode()), seed, 2]).random(len(scene.objects)) < 0.4
+    return evolve(
+        scene, objects=[evolve(o, two_sided=bool(each)) for o, each in zip(scene.objects, two_sided, strict=True)]
+    )
 
 
 # ---- kinds ----
@@ -270,6 +275,32 @@ def _shadows(rng: Rng) -> Scene:
     return _effects(rng, scene) if rng.random() < 0.3 else scene
 
 
+def _cards(rng: Rng) -> Scene:
+    """Textures with an alpha, cut off at some level or blended, on rectangles and boxes, before and behind solids."""
+    objects = []
+    for _ in range(rng.integers(1, 4)):
+        width, height = rng.uniform(0.4, 1.2, 2)
+        card = Mesh(
+            [(-width, -height, 0), (width, -height, 0), (width, height, 0), (-width, height, 0)], [(0, 1, 2), (0, 2, 3)]
+        )
+        mesh, cull = (card, False) if rng.random() < 0.7 else (_box(rng.uniform(0.3, 1, 3)), True)
+        thing = _with_texture(rng, evolve(_painted(rng, mesh, cull), position=0.5 * rng.normal(size=3)))
+        texture = thing.material.texture
+        assert texture is not None
+        alpha = (
+            rng.choice([0, 90, 170, 255], texture.pixels.shape[:2]) if rng.random() < 0.5 else texture.pixels[..., 0]
+        )
+        texture = evolve(texture, alpha=alpha, cutoff=int(rng.choice([0, rng.integers(1, 256)])))
+        thing = evolve(
+            thing, material=evolve(thing.material, texture=texture), rotation=rng.normal(size=4) * (1, 1, 1, 4)
+        )
+        objects.append(thing)
+    objects.sort(key=lambda o: o.material.texture is not None and o.material.texture.cutoff == 0)
+    objects = [_solid(rng, rng.uniform(0.3, 0.8)) for _ in range(rng.integers(0, 3))] + objects
+    scene = evolve(_scene_of(rng, objects), antialias=bool(rng.random() < 0.7))
+    return _effects(rng, scene) if rng.random() < 0.2 else scene
+
+
 def _mixed(rng: Rng) -> Scene:
     """Any of these, with all else that a scene can have."""
     scene = (_plain, _glasses, _contacts, _shadows, _textures, _models)[rng.integers(6)](rng)
@@ -294,6 +325,7 @@ KINDS: dict[str, Callable[[Rng], Scene]] = {
     "contacts": _contacts,
     "shadows": _shadows,
     "models": _models,
+    "cards": _cards,
     "mixed": _mixed,
 }
 #: Kinds of tests/random_scenes.py: materials and numbers up to the bounds of the contracts.

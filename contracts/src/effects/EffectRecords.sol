@@ -5,6 +5,7 @@ import {Extensions} from "../scene/Extensions.sol";
 import {openMesh} from "../scene/Mesh.sol";
 import {loadCalldata} from "../words/Memory.sol";
 import {
+    ALPHA_OF,
     ANTIALIAS,
     EMISSION_OF,
     FOG,
@@ -46,6 +47,9 @@ import {SceneErrors} from "../scene/SceneErrors.sol";
 //                the object's position, at which it begins to fade and at which it vanishes, 8 bytes each, Q32, 0 to 2^58, the second
 //                above the first
 //   EMISSION     of an object: the colour of the light that it emits, a word, 0xRRGGBB
+//   ALPHA        of an object with a TEXTURE: the least opacity of texels that are drawn, 1 byte: these are opaque; if it is 0, they are
+//                blended. Then the image of opacities as flags, sides, bits, palette and texels of a TEXTURE, of whose colours the blue
+//                counts; padded with zeros to words
 //
 // `SurfaceLight`, `Texture` and `Ground` implement them.
 
@@ -57,6 +61,8 @@ uint256 constant MAX_EXPOSURE = 64 << 16;
 /// @dev Bytes before the palette; bits of a texel that contains a colour; bytes of a pair of coordinates; 2^bits for all bits that a texel
 /// can have, ORed.
 uint256 constant TEXTURE_HEADER = 4;
+/// @dev Bytes before the image of an ALPHA.
+uint256 constant ALPHA_HEADER = 1;
 uint256 constant TEXTURE_COLOR_BITS = 24;
 uint256 constant UV_SIZE = 6;
 uint256 constant BITS_ALLOWED = 0x1000116;
@@ -74,7 +80,7 @@ library EffectRecords {
                 (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
                 Extensions.checkHeader(scene, record);
                 uint256 content = loadCalldata(record + RECORD_HEADER);
-                if (kind == TEXTURE_OF || kind == OPACITIES_OF) checkSize(scene, record, kind, index);
+                if (kind == TEXTURE_OF || kind == OPACITIES_OF || kind == ALPHA_OF) checkSize(scene, record, kind, index);
                 if (kind == RIM) checkRim(content);
                 if (kind == FOG) checkFog(content);
                 if (kind == TONE) checkTone(content);
@@ -94,15 +100,21 @@ library EffectRecords {
         unchecked {
             uint256 size = Extensions.sizeOf(record);
             uint256 expected = openMesh(scene.objects[index].mesh).vertexCount;
-            if (kind == TEXTURE_OF) {
+            if (kind != OPACITIES_OF) {
                 if (size == 0) revert SceneErrors.ExtensionSize(kind, index, 32, 0);
-                record += RECORD_HEADER;
+                uint256 begin = record + RECORD_HEADER;
+                record = begin;
+                if (kind == ALPHA_OF) {
+                    if (Extensions.find(scene, TEXTURE_OF, index) == 0) revert SceneErrors.AlphaWithoutTexture(index);
+                    expected = 0;
+                    record += ALPHA_HEADER;
+                }
                 uint256 header = loadCalldata(record) >> 224;
                 (uint256 flags, uint256 bits) = (header >> 24, header & 0xff);
                 if (flags > TEXTURE_BILINEAR | TEXTURE_CLAMP || (BITS_ALLOWED >> bits) & 1 == 0) {
                     revert SceneErrors.TextureFormat(index, flags, bits);
                 }
-                expected = UV_SIZE * expected + uvsOf(record) - record;
+                expected = UV_SIZE * expected + uvsOf(record) - begin;
             }
             expected = expected == 0 ? 32 : (expected + 31) & ~uint256(31);
             if (size != expected) revert SceneErrors.ExtensionSize(kind, index, expected, size);

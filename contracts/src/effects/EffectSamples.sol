@@ -56,6 +56,11 @@ abstract contract EffectSamples is BlendedSamples {
                 z |= color * ONES_64;
                 if (seen == TOPS_64) return Samples.paint(p, z);
             } else {
+                if (load(OPACITY) | load(FADE_RANGE) == 0) {
+                    // a hidden texel
+                    store(OPACITY, load(OBJECT_OPACITY));
+                    return;
+                }
                 // where a ground fades
                 z |= over(color, load(p));
             }
@@ -63,9 +68,16 @@ abstract contract EffectSamples is BlendedSamples {
         }
     }
 
-    /// @dev The opacity of a fragment, which `colorAt` sets if vertices have opacities or a ground fades, is valid until it is blended.
+    /// @dev The opacity of a fragment, which `colorAt` sets if vertices or texels have opacities or a ground fades, is valid until it is blended.
     function over(uint256 color, uint256 behind) internal pure override returns (uint256 mixed) {
         mixed = super.over(color, behind);
+        store(OPACITY, load(OBJECT_OPACITY));
+    }
+
+    function isHidden(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure override returns (bool hidden) {
+        if (load(ALPHA) == 0) return false;
+        colorAt(attribute, covered, column, row);
+        hidden = load(OPACITY) == 0;
         store(OPACITY, load(OBJECT_OPACITY));
     }
 

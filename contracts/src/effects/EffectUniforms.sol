@@ -4,10 +4,10 @@ pragma solidity 0.8.37;
 import {Gamma} from "./Gamma.sol";
 import {Matrix} from "../math/Quaternion.sol";
 import {Vector} from "../math/Vector.sol";
-import {EffectRecords} from "./EffectRecords.sol";
+import {ALPHA_HEADER, EffectRecords} from "./EffectRecords.sol";
 import {Extensions} from "../scene/Extensions.sol";
 import {
-    ANTIALIAS, EMISSION_OF, FOG, GROUND, HEMISPHERE, OPACITIES_OF, RECORD_HEADER, RIM, SHADOW, TEXTURE_OF, TONE, TONE_GAMMA
+    ALPHA_OF, ANTIALIAS, EMISSION_OF, FOG, GROUND, HEMISPHERE, OPACITIES_OF, RECORD_HEADER, RIM, SHADOW, TEXTURE_OF, TONE, TONE_GAMMA
 } from "../words/Records.sol";
 import {Light, Material, Object, Scene, POINT, UNLIT} from "../scene/Scene.sol";
 import {Lights} from "../uniforms/Lights.sol";
@@ -80,6 +80,10 @@ library EffectUniforms {
             uint256 content = Extensions.find(scene, TEXTURE_OF, number);
             store(TEXTURE, content == 0 ? 0 : content + moved);
             store(TEXTURE_UVS, content == 0 ? 0 : EffectRecords.uvsOf(content) + moved);
+            content = Extensions.find(scene, ALPHA_OF, number);
+            store(ALPHA, content == 0 ? 0 : content + ALPHA_HEADER + moved);
+            if (content != 0) content = loadCalldata(content) >> 248;
+            store(ALPHA_LEAST, content == 0 ? 1 : 257 * content);
             content = Extensions.find(scene, OPACITIES_OF, number);
             store(OPACITIES, content == 0 ? 0 : content + moved);
             content = Extensions.find(scene, EMISSION_OF, number);

@@ -35,23 +35,23 @@ uint256 constant OPACITY_BIAS = 1 << (48 + OPACITY_AT);
 
 library Texture {
     /// @notice Sets the texture coordinates of a triangle: at the first vertex (Q40), and the differences to the others (Q16).
-    /// @param a, b, c The screen words of its vertices. Their records have 2^shift bytes.
-    function setTriangle(uint256 a, uint256 b, uint256 c, uint256 shift) internal pure {
+    /// @param a, b, c The screen words of its vertices.
+    function setTriangle(uint256 a, uint256 b, uint256 c) internal pure {
         unchecked {
-            uint256 first = coordinatesOf(a, shift, false);
+            uint256 first = coordinatesOf(a, false);
             store(UV_0, first << Q24);
-            store(UV_1, coordinatesOf(b, shift, false) - first);
-            store(UV_2, coordinatesOf(c, shift, false) - first);
+            store(UV_1, coordinatesOf(b, false) - first);
+            store(UV_2, coordinatesOf(c, false) - first);
         }
     }
 
     /// @notice Adds the opacities of a triangle to its colours, as a fourth lane.
-    function setOpacities(uint256 a, uint256 b, uint256 c, uint256 shift) internal pure {
+    function setOpacities(uint256 a, uint256 b, uint256 c) internal pure {
         unchecked {
-            uint256 first = coordinatesOf(a, shift, true);
+            uint256 first = coordinatesOf(a, true);
             store(COLOR_0, load(COLOR_0) + OPACITY_BIAS + (first << (OPACITY_AT + Q34 - Q16)));
-            store(COLOR_1, load(COLOR_1) + (toQ10(coordinatesOf(b, shift, true) - first) << OPACITY_AT));
-            store(COLOR_2, load(COLOR_2) + (toQ10(coordinatesOf(c, shift, true) - first) << OPACITY_AT));
+            store(COLOR_1, load(COLOR_1) + (toQ10(coordinatesOf(b, true) - first) << OPACITY_AT));
+            store(COLOR_2, load(COLOR_2) + (toQ10(coordinatesOf(c, true) - first) << OPACITY_AT));
         }
     }
 
@@ -59,12 +59,20 @@ library Texture {
         return uint256(int256(change) >> (Q16 - Q10));
     }
 
-    /// @notice Returns the colour at perspective-correct barycentric coordinates, Q24: lanes of Q16, where 255 is one.
+    /// @notice Returns the colour at perspective-correct barycentric coordinates, Q24: lanes of Q16, where 255 is one. Multiplies OPACITY by
+    /// the opacity there; sets it to 0 where nothing is drawn.
     function colorAt(uint256 s, uint256 t) internal pure returns (uint256) {
         assembly ("memory-safe") {
             t := add(add(mload(UV_0), mul(mload(UV_1), s)), mul(mload(UV_2), t)) // from here on, both coordinates, Q40
             s := sar(Q40_TO_Q24, signextend(U_LAST_BYTE, t)) // from here on, u
             t := sar(V_Q24_AT, add(t, HALF_V)) // from here on, v: a negative u has borrowed from its lane
+        }
+        if (load(ALPHA) != 0) {
+            unchecked {
+                uint256 alpha = sample(load(ALPHA), s, t) & LANE_24;
+                if (alpha < load(ALPHA_LEAST)) store(OPACITY, 0);
+                else if (load(ALPHA_LEAST) == 1) store(OPACITY, (load(OPACITY) * alpha) >> Q16);
+            }
         }
         return sample(load(TEXTURE), s, t);
     }
@@ -137,10 +145,11 @@ library Texture {
 
     /// @dev Returns the texture coordinates, or the opacity, of a vertex, Q16: from the record in calldata; for a new vertex of a clipped
     /// face, those of its position on the face.
-    function coordinatesOf(uint256 screen, uint256 shift, bool isOpacity) private pure returns (uint256) {
+    function coordinatesOf(uint256 screen, bool isOpacity) private pure returns (uint256) {
         unchecked {
-            uint256 index = ((screen & SCREEN_RECORD_MASK) - load(RECORDS)) >> shift;
-            return index < load(MESH_VERTEX_COUNT) ? readCoordinates(index, isOpacity) : cutCoordinates(screen, isOpacity);
+            uint256 index = ((screen & SCREEN_RECORD_MASK) - load(RECORDS)) >> load(RECORD_SHIFT);
+            uint256 count = load(MESH_VERTEX_COUNT);
+            return index < count + load(BACK_COUNT) ? readCoordinates(index % count, isOpacity) : cutCoordinates(screen, isOpacity);
         }
     }
 

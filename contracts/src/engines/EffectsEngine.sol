@@ -50,6 +50,8 @@ contract EffectsEngine is SampleBuffer, SampleWires, EffectSamples {
             }
             if (load(SHADOWS) != 0) ShadowRows.setObject(number);
             store(RECORDS, records);
+            // that of the mode in both passes
+            store(RECORD_SHIFT, recordShift(load(OBJECT_MODE)));
         }
     }
 
@@ -63,7 +65,7 @@ contract EffectsEngine is SampleBuffer, SampleWires, EffectSamples {
             if (mode & IS_SMOOTH != 0) {
                 Shading.setNormals(a, b, c);
             } else if (mode & IS_FLAT != 0) {
-                Lighting.setFace();
+                Lighting.setFace(crossing);
                 Lighting.setFacing();
                 setFaceUp();
                 mode |= IS_LIT | IS_DIFFUSE;
@@ -76,9 +78,9 @@ contract EffectsEngine is SampleBuffer, SampleWires, EffectSamples {
             store(IS_UNIFORM, varies ? 0 : 1);
             store(UNIFORM_LIT, 0);
             store(UNIFORM_DARK, 0);
-            if (mode & IS_DEPTH_PASS != 0) return;
-            if (load(TEXTURE) != 0) Texture.setTriangle(a, b, c, recordShift(mode));
-            if (load(OPACITIES) != 0) Texture.setOpacities(a, b, c, recordShift(mode));
+            if (mode & IS_DEPTH_PASS != 0 && load(ALPHA) == 0) return;
+            if (load(TEXTURE) != 0) Texture.setTriangle(a, b, c);
+            if (load(OPACITIES) != 0) Texture.setOpacities(a, b, c);
         }
     }
 

@@ -13,7 +13,7 @@ import "../words/Registers.sol";
 contract FragmentEngine is DepthBuffer, Wireframe {
     /// @dev Triangles whose only varying attribute is a linearly varying colour need no per-fragment light.
     function shadeExact(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
-        (uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode) = surface(a, b, c);
+        (uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode) = surface(a, b, c, crossing);
         if (mode & (IS_LIT | IS_BLENDED | IS_DEPTH_PASS) == 0 && Shading.isAffine(attributesA, attributesB, attributesC, a, b, c)) {
             return Shading.setLinear(attributesA, attributesB, attributesC, IS_LINEAR | crossing);
         }

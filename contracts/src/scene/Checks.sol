@@ -139,7 +139,7 @@ function checkObject(Object calldata object, uint256 index) pure {
         if (material.shininess == 0 || material.shininess > MAX_SHININESS) {
             revert SceneErrors.ShininessOutOfRange(index, material.shininess);
         }
-        if (object.flags > 3) revert SceneErrors.UnknownFlags(index, object.flags);
+        if (object.flags > 7) revert SceneErrors.UnknownFlags(index, object.flags);
         checkScale(object.scale.raw(), bits, index);
         Quaternion calldata q = object.rotation;
         checkRotation(q.x.raw(), q.y.raw(), q.z.raw(), q.w.raw(), index);

@@ -2,7 +2,18 @@
 pragma solidity 0.8.37;
 
 import {
-    ANTIALIAS, ANY_WORDS, LONG_KINDS, OF_LIGHT, OF_OBJECT, OPACITY_OF, RECORD_HEADER, RECORD_OWNERS, RECORD_SIZES, SPOT
+    ALPHA_OF,
+    ANTIALIAS,
+    ANY_WORDS,
+    LONG_KINDS,
+    OF_LIGHT,
+    OF_OBJECT,
+    OPACITIES_OF,
+    OPACITY_OF,
+    RECORD_HEADER,
+    RECORD_OWNERS,
+    RECORD_SIZES,
+    SPOT
 } from "../words/Records.sol";
 import {loadCalldata} from "../words/Memory.sol";
 import {Scene, POINT} from "./Scene.sol";
@@ -120,6 +131,14 @@ library Extensions {
             while (record != end && keyOf(record) < (kind << 16 | index)) record += RECORD_HEADER + sizeOf(record);
             return isOf(record, end, kind, index) ? record + RECORD_HEADER : 0;
         }
+    }
+
+    /// @notice Returns whether fragments of an object may be translucent though it has no OPACITY_OF.
+    function isBlended(Scene calldata scene, uint256 object) internal pure returns (bool) {
+        if (find(scene, OPACITIES_OF, object) != 0) return true;
+        uint256 alpha = find(scene, ALPHA_OF, object);
+        // without a least opacity
+        return alpha != 0 && loadCalldata(alpha) >> 248 == 0;
     }
 
     /// @notice Returns whether any record contains data of vertices or faces.

@@ -74,10 +74,12 @@ struct Material {
 
 uint256 constant CULL_BACKFACES = 1;
 uint256 constant WIREFRAME = 2;
+uint256 constant TWO_SIDED = 4;
 
 /// @notice A mesh placed in the world: p = position + rotation(scale * v).
 /// @param mesh Vertices and faces in the format of `Mesh.sol`.
-/// @param flags The sum of CULL_BACKFACES and WIREFRAME; 0 for neither.
+/// @param flags The sum of CULL_BACKFACES, WIREFRAME and TWO_SIDED, which lights what is seen from behind as from the front (but wires);
+/// 0 for none of them.
 struct Object {
     bytes mesh;
     Vector position;

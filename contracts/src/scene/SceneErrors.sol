@@ -48,7 +48,7 @@ interface SceneErrors {
     error CoefficientOutOfRange(uint256 object, int256 value);
     /// @notice The shininess must be 1 to 128.
     error ShininessOutOfRange(uint256 object, uint256 shininess);
-    /// @notice `flags` has unknown bits; the valid ones are CULL_BACKFACES (1) and WIREFRAME (2).
+    /// @notice `flags` has unknown bits; the valid ones are CULL_BACKFACES (1), WIREFRAME (2) and TWO_SIDED (4).
     error UnknownFlags(uint256 object, uint256 flags);
     /// @notice The scale must be at least 0 and at most 2^59 / 2^(bits - 1) as a Q32 number, for mesh coordinates of 16 or 24 bits.
     error ScaleOutOfRange(uint256 object, int256 scale);
@@ -90,7 +90,9 @@ interface SceneErrors {
     error GroundOutOfRange(uint256 object, uint256 inner, uint256 outer);
     /// @notice The light that an object emits must be 0xRRGGBB.
     error EmissionNotAColor(uint256 object, uint256 value);
-    /// @notice The flags of a texture must be 0 to 3, and its texels must have 1, 2, 4, 8 or 24 bits.
+    /// @notice Texels have opacities, but the object has no texture.
+    error AlphaWithoutTexture(uint256 object);
+    /// @notice The flags of a texture, or of an image of opacities, must be 0 to 3, and its texels must have 1, 2, 4, 8 or 24 bits.
     error TextureFormat(uint256 object, uint256 flags, uint256 bits);
     /// @notice The face has a vertex index that is not below `vertexCount`.
     error IndexOutOfRange(uint256 object, uint256 face, uint256 vertexCount);

@@ -6,7 +6,7 @@ import {Indices} from "../pipeline/geometry/Indices.sol";
 import {Triangles} from "../pipeline/geometry/Triangles.sol";
 import {Extensions} from "../scene/Extensions.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
-import {GROUND, OPACITIES_OF, OPACITY_OF, SHADOWS_ALL, SHADOWS_FRONT_FACES} from "../words/Records.sol";
+import {GROUND, OPACITY_OF, SHADOWS_ALL, SHADOWS_FRONT_FACES} from "../words/Records.sol";
 import {CULL_BACKFACES, Object, Scene, WIREFRAME} from "../scene/Scene.sol";
 import {CASTER_SIZE, FACE_RECORD_SIZE, FACE_SIDE, Faces, PLANES_SIZE, SET_SHIFT, INDEX_IN_SET} from "./Faces.sol";
 import {BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./LightSpace.sol";
@@ -51,7 +51,7 @@ library Casters {
     /// @dev Returns whether an object casts a shadow: not wireframes, translucent objects, or grounds.
     function casts(Scene calldata scene, uint256 index) private pure returns (bool) {
         return scene.objects[index].flags & WIREFRAME == 0 && Extensions.find(scene, OPACITY_OF, index) == 0
-            && Extensions.find(scene, OPACITIES_OF, index) == 0 && Extensions.find(scene, GROUND, index) == 0;
+            && !Extensions.isBlended(scene, index) && Extensions.find(scene, GROUND, index) == 0;
     }
 
     /// @dev Writes all vertices in world space.

@@ -40,6 +40,7 @@ library Materials {
                 uint256 reach = smoothReach(focal, uint256(material.diffuse.raw()) * lights.length, isPoint);
                 if (view_.orthographic) focal = 0;
                 Specular.setReaches(uint256(material.specular.raw()) * lights.length, material.shininess, reach, focal);
+                Specular.setTurn(uint256(material.specular.raw()), material.shininess);
                 // more lamps than a word of AntialiasedSmoothEngine has lanes for, or, without anti-aliasing, more than one, whose work
                 // would mostly be done for each, are lit at each fragment
                 bool isFew = lights.length == 1 || (lights.length == 2 && load(FRAME_IS_ANTIALIASED) != 0);

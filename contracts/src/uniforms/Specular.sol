@@ -7,6 +7,11 @@ import "../words/Registers.sol";
 
 /// @dev A reach, in squares of sub-pixels, above any triangle's.
 uint256 constant UNBOUNDED_REACH = 1 << 60;
+/// @dev 0.19, Q20: by so much the square of a cosine within a triangle may be above that of its nodes, for turns that SmoothLight allows;
+/// 1, Q72, which divided by a coefficient, Q32, is Q40.
+int256 constant FAR_NODES = 199229;
+uint256 constant ONE_72 = 1 << 72;
+uint256 constant Q20_TO_Q38 = 18;
 
 /// @notice Computes the highlight of a material.
 library Specular {
@@ -65,6 +70,19 @@ library Specular {
             store(HALF_SLOPE, (3109 * shininess * coefficient) >> Q32);
             // 2.8 = 2936013 / 2^20
             store(FAR_FROM_HIGHLIGHT, (1 << Q20) - 2936013 / shininess);
+        }
+    }
+
+    /// @notice Sets which smooth triangles may have a highlight, and how far their normals may turn then: see SmoothLight.
+    function setTurn(uint256 coefficient, uint256 shininess) internal pure {
+        unchecked {
+            store(COSINE_FAR, NO_HIGHLIGHT);
+            store(COSINE_BEGIN, NO_HIGHLIGHT);
+            if (load(SPECULAR_BEGIN) == NO_HIGHLIGHT) return;
+            store(COSINE_BEGIN, sqrt(load(SPECULAR_BEGIN) << Q24));
+            int256 far = loadSigned(FAR_FROM_HIGHLIGHT) - FAR_NODES;
+            store(COSINE_FAR, far > 0 ? sqrt(uint256(far) << Q20_TO_Q38) : 0);
+            store(SHINY_TURN, sqrt(ONE_72 / (shininess * coefficient)));
         }
     }
 

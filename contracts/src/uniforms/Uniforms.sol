@@ -2,7 +2,7 @@
 pragma solidity 0.8.37;
 
 import {Matrix} from "../math/Quaternion.sol";
-import {Object, Rectangle, Scene, UNLIT, WIREFRAME} from "../scene/Scene.sol";
+import {Object, Rectangle, Scene, TWO_SIDED, UNLIT, WIREFRAME} from "../scene/Scene.sol";
 import {Extensions, OPAQUE} from "../scene/Extensions.sol";
 import {ANTIALIAS, OPACITIES_OF, OPACITY_OF, RECORD_HEADER} from "../words/Records.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
@@ -25,6 +25,9 @@ import "../words/Registers.sol";
 //                      tile, these contain only the faces that may touch it: see TileCulling. Then a word of any content
 //   for each object:   its registers, OBJECT_BYTES bytes; omitted for objects without faces in a tile
 //                      the pixels and depths drawn by other engines: see DRAWN_BEFORE
+
+/// @dev Vertices of a surface with two sides, for each of which OpenEdges has a number of 16 bits on either side.
+uint256 constant MOST_WITH_BACKS = 32767;
 
 library Uniforms {
     /// @notice Writes the calldata with which the engine draws a part of the canvas.
@@ -161,13 +164,19 @@ library Uniforms {
                 mcopy(MESH_VERTICES, mesh, 0xc0)
             }
             store(OBJECT_FLAGS, object.flags);
+            store(BACK_COUNT, 0);
             uint256 mode = view_.orthographic ? IS_ORTHOGRAPHIC : 0;
             bool hasEffects = load(EFFECTS_SIZE) != 0;
             if (load(OPACITY) != OPAQUE) mode |= IS_BLENDED;
-            else if (hasEffects && Extensions.find(scene, OPACITIES_OF, number) != 0) mode |= IS_BLENDED;
+            else if (hasEffects && Extensions.isBlended(scene, number)) mode |= IS_BLENDED;
             uint256 end = OBJECT_LIT;
             if (object.material.shading != UNLIT) {
                 mode |= Materials.set(view_, scene, object.material);
+                if (mode & IS_SMOOTH != 0 && object.flags & (TWO_SIDED | WIREFRAME) == TWO_SIDED) {
+                    store(BACK_COUNT, mesh.vertexCount);
+                    // OpenEdges numbers all records
+                    if (mesh.vertexCount > MOST_WITH_BACKS) mode &= ~IS_QUADRATIC;
+                }
                 if (mode & IS_SMOOTH != 0) Transform.setNormalMatrix(view_, rotation);
                 else MeshSpace.set(view_, scene, object, rotation);
                 // no square exceeds the beginning of an absent table

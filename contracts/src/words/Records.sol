@@ -28,6 +28,8 @@ uint256 constant SHADOW = 10;
 uint256 constant GROUND = 11;
 /// @dev The object emits light.
 uint256 constant EMISSION_OF = 12;
+/// @dev The opacities of the texels of a texture.
+uint256 constant ALPHA_OF = 13;
 /// @dev Flags of a TONE: the filmic curve; lighting in linear light, with colours decoded from and encoded as sRGB.
 uint256 constant TONE_FILMIC = 1;
 uint256 constant TONE_GAMMA = 2;
@@ -44,10 +46,10 @@ uint256 constant LONG_KINDS = 8;
 /// @dev Bytes of a record before its content.
 uint256 constant RECORD_HEADER = 5;
 /// @dev What a kind belongs to: two bits at twice its number, 0 if it is unknown.
-uint256 constant RECORD_OWNERS = 0x3ef5578;
+uint256 constant RECORD_OWNERS = 0xfef5578;
 uint256 constant OF_SCENE = 1;
 uint256 constant OF_LIGHT = 2;
 uint256 constant OF_OBJECT = 3;
 /// @dev Bytes of the content: a byte at 8 times its number; ANY_WORDS for any words.
-uint256 constant RECORD_SIZES = 0x202020ffff0513040600042800;
+uint256 constant RECORD_SIZES = 0xff202020ffff0513040600042800;
 uint256 constant ANY_WORDS = 255;

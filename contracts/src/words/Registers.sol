@@ -10,7 +10,7 @@ import "./Words.sol";
 
 /// @dev The beginning of the registers: the maximum end of the compiler's variables in memory.
 uint256 constant REGISTERS = 0x800;
-uint256 constant REGISTERS_END = 0x30a0;
+uint256 constant REGISTERS_END = 0x3140;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- frame
 // The uniforms of the frame, which the Renderer fills. Pixel columns and rows are counted from -PIXEL_BIAS, so that everything inside the
@@ -98,220 +98,231 @@ uint256 constant OBJECT_BYTES = 0x1260;
 /// @dev The bits of MODE shared by all faces of the object, and its flags, as in the scene.
 uint256 constant OBJECT_MODE = 0x1280;
 uint256 constant OBJECT_FLAGS = 0x12a0;
+/// @dev The number of vertices if each has a second record with the opposite normal, for faces that are turned away, otherwise 0: see
+/// VertexShader.
+uint256 constant BACK_COUNT = 0x12c0;
 /// @dev The opacity of the object, Q24; 1 if it is opaque.
-uint256 constant OPACITY = 0x12c0;
+uint256 constant OPACITY = 0x12e0;
 /// @dev Columns of the matrix from mesh to screen, three lanes each: see VertexShader.
-uint256 constant MATRIX_X = 0x12e0;
-uint256 constant MATRIX_Y = 0x1300;
-uint256 constant MATRIX_Z = 0x1320;
-uint256 constant MATRIX_T = 0x1340;
+uint256 constant MATRIX_X = 0x1300;
+uint256 constant MATRIX_Y = 0x1320;
+uint256 constant MATRIX_Z = 0x1340;
+uint256 constant MATRIX_T = 0x1360;
 /// @dev A sub-pixel column x is outside the tile if x - TILE_LEFT, as an unsigned number, exceeds TILE_SPAN, and a row y if y - TILE_TOP
 /// exceeds TILE_ROWS.
-uint256 constant TILE_LEFT = 0x1360;
-uint256 constant TILE_SPAN = 0x1380;
-uint256 constant TILE_TOP = 0x13a0;
-uint256 constant TILE_ROWS = 0x13c0;
+uint256 constant TILE_LEFT = 0x1380;
+uint256 constant TILE_SPAN = 0x13a0;
+uint256 constant TILE_TOP = 0x13c0;
+uint256 constant TILE_ROWS = 0x13e0;
 /// @dev Added to screen words to round rows up, or, for lines, to the nearest: see PrimitiveAssembly.
-uint256 constant ROUND_TOP = 0x13e0;
-uint256 constant ROUND_BOTTOM = 0x1400;
+uint256 constant ROUND_TOP = 0x1400;
+uint256 constant ROUND_BOTTOM = 0x1420;
 /// @dev The mesh, in the order of the struct Mesh: offsets in the engine's calldata, counts, format.
-uint256 constant MESH_VERTICES = 0x1420;
-uint256 constant MESH_VERTEX_COUNT = 0x1440;
-uint256 constant MESH_FACES = 0x1460;
-uint256 constant MESH_FACE_COUNT = 0x1480;
-uint256 constant MESH_BITS = 0x14a0;
-uint256 constant MESH_STRIDE = 0x14c0;
+uint256 constant MESH_VERTICES = 0x1440;
+uint256 constant MESH_VERTEX_COUNT = 0x1460;
+uint256 constant MESH_FACES = 0x1480;
+uint256 constant MESH_FACE_COUNT = 0x14a0;
+uint256 constant MESH_BITS = 0x14c0;
+uint256 constant MESH_STRIDE = 0x14e0;
 /// @dev The following uniforms are for lit objects.
-uint256 constant OBJECT_LIT = 0x14e0;
+uint256 constant OBJECT_LIT = 0x1500;
 /// @dev Columns of the matrix that rotates normals into camera space, three lanes each. For a flat object: of the matrix that transforms
 /// rays to mesh space, Q24, signed lanes of 86 bits, z lowest.
-uint256 constant NORMAL_X = 0x14e0;
-uint256 constant NORMAL_Y = 0x1500;
-uint256 constant NORMAL_Z = 0x1520;
+uint256 constant NORMAL_X = 0x1500;
+uint256 constant NORMAL_Y = 0x1520;
+uint256 constant NORMAL_Z = 0x1540;
 /// @dev The eye in mesh space, Q32; for an orthographic camera, the line of sight in mesh space, Q24.
-uint256 constant EYE_X = 0x1540;
-uint256 constant EYE_Y = 0x1560;
-uint256 constant EYE_Z = 0x1580;
+uint256 constant EYE_X = 0x1560;
+uint256 constant EYE_Y = 0x1580;
+uint256 constant EYE_Z = 0x15a0;
 /// @dev Scale of the mesh, Q32, and scale / near, Q64.
-uint256 constant SCALE = 0x15a0;
-uint256 constant SCALE_PER_NEAR = 0x15c0;
+uint256 constant SCALE = 0x15c0;
+uint256 constant SCALE_PER_NEAR = 0x15e0;
 /// @dev Ambient light times the ambient coefficient, lanes of Q16.
-uint256 constant AMBIENT = 0x15e0;
+uint256 constant AMBIENT = 0x1600;
 /// @dev The square of the distance, in sub-pixels, over which light is approximately linear.
-uint256 constant REACH = 0x1600;
+uint256 constant REACH = 0x1620;
 /// @dev The maximum sums of the squares of two edges for which directions can be interpolated in smooth triangles: linearly, and with
 /// errors of third order.
-uint256 constant SMOOTH_REACH = 0x1620;
-uint256 constant SMOOTH_REACH_3 = 0x1640;
+uint256 constant SMOOTH_REACH = 0x1640;
+uint256 constant SMOOTH_REACH_3 = 0x1660;
 /// @dev The slope of the highlight at its maximum, in 84ths of a level of 255, Q10; and a cos^2, Q20, below which it is at most half of
 /// that.
-uint256 constant HALF_SLOPE = 0x1660;
-uint256 constant FAR_FROM_HIGHLIGHT = 0x1680;
+uint256 constant HALF_SLOPE = 0x1680;
+uint256 constant FAR_FROM_HIGHLIGHT = 0x16a0;
+/// @dev The root of SPECULAR_BEGIN, Q24.
+uint256 constant COSINE_BEGIN = 0x16c0;
+/// @dev A cosine, Q19: smooth triangles with a node above it may have a highlight; the greatest square of a turn of their normals along an
+/// edge, Q20: see SmoothLight.
+uint256 constant COSINE_FAR = 0x16e0;
+uint256 constant SHINY_TURN = 0x1700;
 /// @dev The light of a smooth object that does not depend on the fragment, lanes of Q40.
-uint256 constant FACE_LIGHT_40 = 0x16a0;
+uint256 constant FACE_LIGHT_40 = 0x1720;
 /// @dev The square and the length of a fragment's normal, Q48 and Q24: one, unless normals are interpolated.
-uint256 constant FRAGMENT_SQUARE = 0x16c0;
-uint256 constant FRAGMENT_NORMAL_LENGTH = 0x16e0;
+uint256 constant FRAGMENT_SQUARE = 0x1740;
+uint256 constant FRAGMENT_NORMAL_LENGTH = 0x1760;
 /// @dev The beginning of the highlight's table, as cos^2 in Q24; its entries per unit, Q16; their product, Q24.
-uint256 constant SPECULAR_BEGIN = 0x1700;
-uint256 constant SPECULAR_SCALE = 0x1720;
-uint256 constant SPECULAR_OFFSET = 0x1740;
+uint256 constant SPECULAR_BEGIN = 0x1780;
+uint256 constant SPECULAR_SCALE = 0x17a0;
+uint256 constant SPECULAR_OFFSET = 0x17c0;
 /// @dev The specular coefficient, Q16, if the shininess is 1, otherwise 0.
-uint256 constant SPECULAR_ROOT = 0x1760;
+uint256 constant SPECULAR_ROOT = 0x17e0;
 /// @dev The other halves of the records at LIGHTS.
-uint256 constant OBJECT_LIGHTS = 0x1780;
+uint256 constant OBJECT_LIGHTS = 0x1800;
 /// @dev 65 entries: the value of the highlight in the upper half, the increase to the next entry in the lower half, both Q16.
-uint256 constant SPECULAR_TABLE = 0x1d00;
+uint256 constant SPECULAR_TABLE = 0x1d80;
 /// @dev The following uniform is for scenes with effects.
-uint256 constant SPECULAR_TABLE_END = 0x2520;
+uint256 constant SPECULAR_TABLE_END = 0x25a0;
 /// @dev The number of the object in the scene.
-uint256 constant OBJECT_NUMBER = 0x2520;
-uint256 constant OBJECT_END = 0x2540;
+uint256 constant OBJECT_NUMBER = 0x25a0;
+uint256 constant OBJECT_END = 0x25c0;
 
 // ------------------------------------------------------------------------------------------------------------------------------- triangle
 
 /// @dev The shading of fragments: see the mode.
-uint256 constant MODE = 0x2540;
+uint256 constant MODE = 0x25c0;
 /// @dev The accumulator at the first vertex, with the bias of its lanes; and the differences of the other attribute words to the first.
-uint256 constant ATTRIBUTE_0 = 0x2560;
-uint256 constant DELTA_1 = 0x2580;
-uint256 constant DELTA_2 = 0x25a0;
+uint256 constant ATTRIBUTE_0 = 0x25e0;
+uint256 constant DELTA_1 = 0x2600;
+uint256 constant DELTA_2 = 0x2620;
 /// @dev The calldata offset of the face.
-uint256 constant FACE = 0x25c0;
+uint256 constant FACE = 0x2640;
 /// @dev The accumulator at column 0 of the first row, and its change per pixel and per row.
-uint256 constant START = 0x25e0;
-uint256 constant DX = 0x2600;
-uint256 constant DY = 0x2620;
+uint256 constant START = 0x2660;
+uint256 constant DX = 0x2680;
+uint256 constant DY = 0x26a0;
 /// @dev Colour at the first vertex, and its differences to the others.
-uint256 constant COLOR_0 = 0x2640;
-uint256 constant COLOR_1 = 0x2660;
-uint256 constant COLOR_2 = 0x2680;
+uint256 constant COLOR_0 = 0x26c0;
+uint256 constant COLOR_1 = 0x26e0;
+uint256 constant COLOR_2 = 0x2700;
 /// @dev Depths at the second and third vertex.
-uint256 constant DEPTH_1 = 0x26a0;
-uint256 constant DEPTH_2 = 0x26c0;
+uint256 constant DEPTH_1 = 0x2720;
+uint256 constant DEPTH_2 = 0x2740;
 /// @dev The side in pixels of the cells over which colours are quadratic; 0 if they are quadratic over the whole triangle, 1 if each is
 /// exact.
-uint256 constant PATCH_SIZE = 0x26e0;
+uint256 constant PATCH_SIZE = 0x2760;
 /// @dev The normal of a flat face, with a length of twice its area, in units of the mesh: signed lanes of 86 bits.
-uint256 constant FACE_NORMAL = 0x2700;
+uint256 constant FACE_NORMAL = 0x2780;
 /// @dev The square of its length, and its length, Q16.
-uint256 constant FACE_SQUARE = 0x2720;
-uint256 constant FACE_LENGTH = 0x2740;
+uint256 constant FACE_SQUARE = 0x27a0;
+uint256 constant FACE_LENGTH = 0x27c0;
 /// @dev Unit normal times ray, Q48: FACE_N_DOT_RAY + FACE_N_DOT_RAY_SLOPE * depth >> 94.
-uint256 constant FACE_N_DOT_RAY = 0x2760;
-uint256 constant FACE_N_DOT_RAY_SLOPE = 0x2780;
+uint256 constant FACE_N_DOT_RAY = 0x27e0;
+uint256 constant FACE_N_DOT_RAY_SLOPE = 0x2800;
 /// @dev Normals of a smooth triangle whose fragments are shaded individually: the normal at the first vertex (Q36), and the differences to
 /// the others (Q20).
-uint256 constant NORMALS_0 = 0x27a0;
-uint256 constant NORMALS_1 = 0x27c0;
-uint256 constant NORMALS_2 = 0x27e0;
+uint256 constant NORMALS_0 = 0x2820;
+uint256 constant NORMALS_1 = 0x2840;
+uint256 constant NORMALS_2 = 0x2860;
 
 // ------------------------------------------------------------------------------------------------------------------------------- fragment
 
 /// @dev The position of the fragment beside the line of sight of an orthographic camera, Q16.
-uint256 constant FRAGMENT_PLACE_X = 0x2800;
-uint256 constant FRAGMENT_PLACE_Y = 0x2820;
+uint256 constant FRAGMENT_PLACE_X = 0x2880;
+uint256 constant FRAGMENT_PLACE_Y = 0x28a0;
 /// @dev The normal of the fragment, Q24, and its product with the ray.
-uint256 constant FRAGMENT_NORMAL_X = 0x2840;
-uint256 constant FRAGMENT_NORMAL_Y = 0x2860;
-uint256 constant FRAGMENT_NORMAL_Z = 0x2880;
-uint256 constant FRAGMENT_NORMAL_RAY = 0x28a0;
+uint256 constant FRAGMENT_NORMAL_X = 0x28c0;
+uint256 constant FRAGMENT_NORMAL_Y = 0x28e0;
+uint256 constant FRAGMENT_NORMAL_Z = 0x2900;
+uint256 constant FRAGMENT_NORMAL_RAY = 0x2920;
 /// @dev Half the magnitude of the last square of a normal; of that of a face, a multiple of 3.
-uint256 constant NORMAL_HINT = 0x28c0;
-uint256 constant FACE_HINT = 0x28e0;
+uint256 constant NORMAL_HINT = 0x2940;
+uint256 constant FACE_HINT = 0x2960;
 /// @dev The fraction of a light's intensity that its cone lets through, Q16.
-uint256 constant FRAGMENT_CONE = 0x2900;
+uint256 constant FRAGMENT_CONE = 0x2980;
 /// @dev The light that modulates the fragment's colour, lanes of Q40.
-uint256 constant FRAGMENT_LIGHT = 0x2920;
+uint256 constant FRAGMENT_LIGHT = 0x29a0;
 /// @dev The length of the fragment's ray, Q24.
-uint256 constant FRAGMENT_RAY_LENGTH = 0x2940;
+uint256 constant FRAGMENT_RAY_LENGTH = 0x29c0;
 /// @dev If colours are multiplied by their depths, the nearest depth of the triangle, with 8 more bits than in a vertex; otherwise 0.
-uint256 constant PATCH_WEIGHT = 0x2960;
+uint256 constant PATCH_WEIGHT = 0x29e0;
 /// @dev The colour at the next fragment of PatchSpans.wide, if colours are multiplied by their depths.
-uint256 constant PATCH_COLOR = 0x2980;
+uint256 constant PATCH_COLOR = 0x2a00;
 /// @dev The first column of the cell that is drawn, and the one after its last.
-uint256 constant PATCH_BEGIN = 0x29a0;
-uint256 constant PATCH_END = 0x29c0;
+uint256 constant PATCH_BEGIN = 0x2a20;
+uint256 constant PATCH_END = 0x2a40;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- edges
 
 /// @dev Not zero if a vertex of the object lies outside the guard band or nearer than the near plane.
-uint256 constant HAS_CLIPPED = 0x29e0;
+uint256 constant HAS_CLIPPED = 0x2a60;
 /// @dev DEPTH_STRIDE in both lanes of edges: see PixelRasterizer.
-uint256 constant STRIDE_LANES = 0x2a00;
+uint256 constant STRIDE_LANES = 0x2a80;
 /// @dev The change of the accumulator per byte of depths, an eighth of DX; and the change of START per row, if it refers to address 0.
-uint256 constant DX_8 = 0x2a20;
-uint256 constant ROW_STEP = 0x2a40;
+uint256 constant DX_8 = 0x2aa0;
+uint256 constant ROW_STEP = 0x2ac0;
 /// @dev The lower part of a triangle, in which the edge from the second to the third vertex replaces the one that has ended: the number of
 /// its rows; its edges = the edges of the upper part & LOWER_KEPT | LOWER_EDGE; their changes per row.
-uint256 constant LOWER_ROWS = 0x2a60;
-uint256 constant LOWER_KEPT = 0x2a80;
-uint256 constant LOWER_EDGE = 0x2aa0;
-uint256 constant LOWER_SLOPES = 0x2ac0;
+uint256 constant LOWER_ROWS = 0x2ae0;
+uint256 constant LOWER_KEPT = 0x2b00;
+uint256 constant LOWER_EDGE = 0x2b20;
+uint256 constant LOWER_SLOPES = 0x2b40;
 /// @dev Depths of a triangle that is IS_DEEP: an addend of START; changes of the depth for DX and DY, Q32.
-uint256 constant DEEP_START = 0x2ae0;
-uint256 constant DEEP_DX = 0x2b00;
-uint256 constant DEEP_DY = 0x2b20;
+uint256 constant DEEP_START = 0x2b60;
+uint256 constant DEEP_DX = 0x2b80;
+uint256 constant DEEP_DY = 0x2ba0;
 /// @dev The address for the next triangle of the list; 0 if faces are drawn immediately.
-uint256 constant LIST = 0x2b40;
+uint256 constant LIST = 0x2bc0;
 /// @dev The number of the object's faces that were drawn or listed.
-uint256 constant DRAWN = 0x2b60;
+uint256 constant DRAWN = 0x2be0;
+/// @dev The offset from a vertex record to the second one: see BACK_COUNT.
+uint256 constant BACK_OFFSET = 0x2c00;
 /// @dev Faces with twice an area, Q192, not above this are not drawn: they are back faces.
-uint256 constant LEAST_AREA = 0x2b80;
+uint256 constant LEAST_AREA = 0x2c20;
 /// @dev The changes of edges per row.
-uint256 constant SLOPES = 0x2ba0;
+uint256 constant SLOPES = 0x2c40;
 /// @dev The end of the faces in calldata.
-uint256 constant FACES_END = 0x2bc0;
+uint256 constant FACES_END = 0x2c60;
 
 // -------------------------------------------------------------------------------------------------------------------- quadratic functions
 
 /// @dev The coefficients of quadratic functions over a triangle, signed lanes of 85 bits: see Quadratic.
-uint256 constant QUADRATIC_1 = 0x2be0;
-uint256 constant QUADRATIC_S = 0x2c00;
-uint256 constant QUADRATIC_T = 0x2c20;
-uint256 constant QUADRATIC_SS = 0x2c40;
-uint256 constant QUADRATIC_ST = 0x2c60;
-uint256 constant QUADRATIC_TT = 0x2c80;
+uint256 constant QUADRATIC_1 = 0x2c80;
+uint256 constant QUADRATIC_S = 0x2ca0;
+uint256 constant QUADRATIC_T = 0x2cc0;
+uint256 constant QUADRATIC_SS = 0x2ce0;
+uint256 constant QUADRATIC_ST = 0x2d00;
+uint256 constant QUADRATIC_TT = 0x2d20;
 /// @dev The values at column 0 of the first row, and their first and second differences to the next column and row.
-uint256 constant QUADRATIC_START = 0x2ca0;
-uint256 constant QUADRATIC_DX = 0x2cc0;
-uint256 constant QUADRATIC_DY = 0x2ce0;
-uint256 constant QUADRATIC_DXX = 0x2d00;
-uint256 constant QUADRATIC_DXY = 0x2d20;
-uint256 constant QUADRATIC_DYY = 0x2d40;
+uint256 constant QUADRATIC_START = 0x2d40;
+uint256 constant QUADRATIC_DX = 0x2d60;
+uint256 constant QUADRATIC_DY = 0x2d80;
+uint256 constant QUADRATIC_DXX = 0x2da0;
+uint256 constant QUADRATIC_DXY = 0x2dc0;
+uint256 constant QUADRATIC_DYY = 0x2de0;
 /// @dev Changes over a word of eight colours: the quadratic part of each channel.
-uint256 constant BEND_BLUE = 0x2d60;
-uint256 constant BEND_GREEN = 0x2d80;
-uint256 constant BEND_RED = 0x2da0;
+uint256 constant BEND_BLUE = 0x2e00;
+uint256 constant BEND_GREEN = 0x2e20;
+uint256 constant BEND_RED = 0x2e40;
 
 // ----------------------------------------------------------------------------------------------------------------------- smooth triangles
 
 /// @dev The normals at the vertices, times their weights, Q30; each followed by the same with reversed lanes.
-uint256 constant NORMAL_0 = 0x2dc0;
-uint256 constant NORMAL_1 = 0x2e00;
-uint256 constant NORMAL_2 = 0x2e40;
+uint256 constant NORMAL_0 = 0x2e60;
+uint256 constant NORMAL_1 = 0x2ea0;
+uint256 constant NORMAL_2 = 0x2ee0;
 /// @dev The largest square of the changes of the half vector from vertex to vertex, Q40.
-uint256 constant HALF_CHANGE = 0x2e80;
+uint256 constant HALF_CHANGE = 0x2f20;
 /// @dev Half the magnitudes of the last squares of a ray, and of a half vector.
-uint256 constant RAY_HINT = 0x2ea0;
-uint256 constant HALF_HINT = 0x2ec0;
+uint256 constant RAY_HINT = 0x2f40;
+uint256 constant HALF_HINT = 0x2f60;
 /// @dev The record of a vertex at the midpoint of an edge.
-uint256 constant MIDDLE = 0x2ee0;
+uint256 constant MIDDLE = 0x2f80;
 /// @dev Twice the largest skew of a product N * H along an edge, Q20: see SmoothTriangle.correction.
-uint256 constant HALF_SKEW = 0x2fe0;
+uint256 constant HALF_SKEW = 0x3080;
 /// @dev Half of QUADRATIC_DXX, by which QUADRATIC_DX is reduced while rows are drawn.
-uint256 constant QUADRATIC_HALF_DXX = 0x3000;
+uint256 constant QUADRATIC_HALF_DXX = 0x30a0;
 /// @dev The greatest depth of the vertices, Q24 relative to bit 192 of an accumulator.
-uint256 constant NEAREST = 0x3020;
+uint256 constant NEAREST = 0x30c0;
 /// @dev The distance of the record of the lamp for which setLight computes the light from LIGHTS.
-uint256 constant LIGHT_OFFSET = 0x3040;
+uint256 constant LIGHT_OFFSET = 0x30e0;
 
 // ---------------------------------------------------------------------------------------------------------------------- answer of Effects
 // For the Renderer and for Effects: in memory, before the engine is called.
 
 /// @dev The memory address of the answer of the contract Effects, and its size: 0 if the scene has no effects.
-uint256 constant EFFECTS_AT = 0x3060;
-uint256 constant EFFECTS_SIZE = 0x3080;
+uint256 constant EFFECTS_AT = 0x3100;
+uint256 constant EFFECTS_SIZE = 0x3120;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- light
 // The properties of a light for the frame, at LIGHTS.
@@ -339,13 +350,13 @@ uint256 constant LIGHT_SIZE = 0x160;
 // The properties of a light for the object, at OBJECT_LIGHTS, in records of the same size: offsets from the record at LIGHTS.
 
 /// @dev The position in mesh space, Q32; or the direction in MESH_X, Q24, signed lanes of 86 bits, z lowest.
-uint256 constant LIGHT_MESH_X = 0xb40;
-uint256 constant LIGHT_MESH_Y = 0xb60;
-uint256 constant LIGHT_MESH_Z = 0xb80;
+uint256 constant LIGHT_MESH_X = 0xbc0;
+uint256 constant LIGHT_MESH_Y = 0xbe0;
+uint256 constant LIGHT_MESH_Z = 0xc00;
 /// @dev Colour times the diffuse coefficient, lanes of Q16.
-uint256 constant LIGHT_DIFFUSE = 0xba0;
+uint256 constant LIGHT_DIFFUSE = 0xc20;
 /// @dev Normal of the face times the vector to the light: Q24 for a direction, Q16 for a position.
-uint256 constant LIGHT_N_DOT_L = 0xbc0;
+uint256 constant LIGHT_N_DOT_L = 0xc40;
 
 // --------------------------------------------------------------------------------------------------------------------------------- vertex
 // The beginning of every vertex record; for the rest see VertexShader and SmoothVertex.

@@ -11,7 +11,19 @@ from typing import Any
 import numpy as np
 
 from ..image import Image
-from ..scene import CULL_BACKFACES, LIGHTS, ONE, PROJECTIONS, SHADINGS, WIREFRAME, Scene, extensions, fit, pack
+from ..scene import (
+    CULL_BACKFACES,
+    LIGHTS,
+    ONE,
+    PROJECTIONS,
+    SHADINGS,
+    TWO_SIDED,
+    WIREFRAME,
+    Scene,
+    extensions,
+    fit,
+    pack,
+)
 from ._programs import Subject
 
 #: Bytes of meshes and extensions that fit into a contract (EIP-170 allows 24,576 with its code), and overhead of each
@@ -184,7 +196,7 @@ def _body(scene: Scene, meshes: Sequence[bytes] | None, more: bytes, notices: Se
             f"        specular: {_fixed(material.specular)},",
             f"        shininess: {material.shininess}",
             "    }),",
-            f"    flags: {CULL_BACKFACES * o.cull + WIREFRAME * o.wireframe}",
+            f"    flags: {CULL_BACKFACES * o.cull + WIREFRAME * o.wireframe + TWO_SIDED * o.two_sided}",
             "});",
         ]
     if more:

@@ -21,8 +21,9 @@ from ._fit import fit
 from ._light import Light
 from ._object import Object
 from ._packed_mesh import pack
-from ._packed_texture import pack_texture
+from ._packed_texture import pack_alpha, pack_texture
 from ._records import (
+    ALPHA_OF,
     ANTIALIAS,
     EMISSION_OF,
     FOG,
@@ -58,6 +59,7 @@ EXPOSURE_STEP = 2.0**-16
 
 CULL_BACKFACES = 1
 WIREFRAME = 2
+TWO_SIDED = 4
 
 #: The largest outer and inner radius of a ground, Q32; both are floats.
 MAX_FADE, MAX_INNER_FADE = 1 << 58, (1 << 58) - 64
@@ -162,6 +164,9 @@ def extensions(scene: Scene) -> bytes:
     for index, thing in enumerate(scene.objects):
         if any(thing.material.emission):
             records.append(_record(EMISSION_OF, index, _words([_rgb(thing.material.emission)])))
+    for index, thing in enumerate(scene.objects):
+        if thing.material.texture is not None and thing.material.texture.alpha is not None:
+            records.append(_record(ALPHA_OF, index, pack_alpha(thing.material.texture)))
     return b"".join(records)
 
 
@@ -203,7 +208,7 @@ def encode_object(o: Object) -> bytes:
         SHADINGS[material.shading],
         *_q32([material.ambient, material.diffuse, material.specular]),
         material.shininess,
-        CULL_BACKFACES * o.cull + WIREFRAME * o.wireframe,
+        CULL_BACKFACES * o.cull + WIREFRAME * o.wireframe + TWO_SIDED * o.two_sided,
     ]
     mesh = pack(o.mesh, smooth=material.shading == "smooth")
     return _words([32 * (1 + len(fields)), *fields]) + _bytes(mesh)

@@ -21,6 +21,7 @@ from ._codec import (
     OPACITY_STEP,
     PROJECTIONS,
     SHADINGS,
+    TWO_SIDED,
     WIREFRAME,
     WORD,
     encode_object,
@@ -36,8 +37,9 @@ from ._material import COEFFICIENTS, EXPONENTS, Material
 from ._mesh import Mesh
 from ._object import Object
 from ._packed_mesh import WIDE, unpack
-from ._packed_texture import unpack_texture
+from ._packed_texture import unpack_alpha, unpack_texture
 from ._records import (
+    ALPHA_OF,
     ANTIALIAS,
     EMISSION_OF,
     FOG,
@@ -244,7 +246,7 @@ def _object(words: _Words, where: str) -> Object:
         words.number(f"the {name} coefficient of {where}", *COEFFICIENTS) for name in ("ambient", "diffuse", "specular")
     )
     shininess = words.whole(f"the shininess of {where}", *EXPONENTS)
-    flags = words.whole(f"the flags of {where}", 0, CULL_BACKFACES + WIREFRAME)
+    flags = words.whole(f"the flags of {where}", 0, CULL_BACKFACES + WIREFRAME + TWO_SIDED)
     packed = words.bytes(f"the mesh of {where}")
     with about(where):
         mesh = unpack(packed)
@@ -253,8 +255,8 @@ def _object(words: _Words, where: str) -> Object:
         if shading == "smooth" and mesh.normals is None:
             raise InputError("smooth shading needs a mesh with normals")
         material = Material(shading, ambient, diffuse, specular, shininess)
-        cull, wireframe = bool(flags & CULL_BACKFACES), bool(flags & WIREFRAME)
-        return Object(mesh, position, rotation, scale, material, cull, wireframe)
+        sides = bool(flags & CULL_BACKFACES), bool(flags & WIREFRAME), bool(flags & TWO_SIDED)
+        return Object(mesh, position, rotation, scale, material, *sides)
 
 
 def _records(data: bytes, counts: Mapping[str, int]) -> Records:
@@ -304,7 +306,11 @@ def _with_records(thing: Object, records: Records, index: int) -> Object:
     if (TEXTURE_OF, index) in records:
         with about(f"the texture of objects[{index}]"):
             texture, uvs = unpack_texture(records[TEXTURE_OF, index], len(thing.mesh.positions))
+            if (ALPHA_OF, index) in records:
+                texture = unpack_alpha(records[ALPHA_OF, index], texture)
         thing = evolve(thing, mesh=evolve(thing.mesh, uvs=uvs), material=evolve(thing.material, texture=texture))
+    elif (ALPHA_OF, index) in records:
+        raise InputError(f"objects[{index}] has an alpha of texels, but no texture")
     if (record := records.get((OPACITIES_OF, index))) is not None:
         thing = evolve(thing, mesh=_with_opacities(thing.mesh, record, f"objects[{index}]"))
     if (record := records.get((GROUND, index))) is not None:

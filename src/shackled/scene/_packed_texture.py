@@ -1,8 +1,9 @@
-"""Packed textures, in the format of the record TEXTURE of contracts/src/effects/EffectRecords.sol."""
+"""Packed textures, in the format of the records TEXTURE and ALPHA of contracts/src/effects/EffectRecords.sol."""
 
 from __future__ import annotations
 
 import numpy as np
+from attrs import evolve
 from numpy.typing import NDArray
 
 from ..checks import Floats
@@ -28,13 +29,26 @@ def pack_texture(texture: Texture, uvs: Floats) -> bytes:
     An image of up to 256 colours has a palette. InputError for coordinates out of range.
     """
     flags = TEXTURE_BILINEAR * (texture.filter == "bilinear") + TEXTURE_CLAMP * (texture.wrap == "clamp")
-    texels = texture.pixels.reshape(-1, 3)
+    content = _pack_image(texture.pixels, flags) + _pack_uvs(uvs)
+    return content + bytes(-len(content) % 32)
+
+
+def pack_alpha(texture: Texture) -> bytes:
+    """Return the bytes of the record ALPHA of a texture that has an alpha, in whole words of 32 bytes."""
+    assert texture.alpha is not None
+    flags = TEXTURE_BILINEAR * (texture.filter == "bilinear") + TEXTURE_CLAMP * (texture.wrap == "clamp")
+    content = bytes([texture.cutoff]) + _pack_image(np.repeat(texture.alpha[..., None], 3, axis=2), flags)
+    return content + bytes(-len(content) % 32)
+
+
+def _pack_image(pixels: NDArray[np.uint8], flags: int) -> bytes:
+    """Return header, palette and texels of an image, (h, w, 3)."""
+    height, width = pixels.shape[:2]
+    texels = pixels.reshape(-1, 3)
     colors, numbers = np.unique(texels, axis=0, return_inverse=True)
     bits = next((each for each in INDEX_BITS if len(colors) <= 1 << each), COLOR_BITS)
-    header = bytes([flags, texture.width - 1, texture.height - 1, bits])
-    content = header + (texels.tobytes() if bits == COLOR_BITS else _indexed(colors, numbers.reshape(-1), bits))
-    content += _pack_uvs(uvs)
-    return content + bytes(-len(content) % 32)
+    content = texels.tobytes() if bits == COLOR_BITS else _indexed(colors, numbers.reshape(-1), bits)
+    return bytes([flags, width - 1, height - 1, bits]) + content
 
 
 def _indexed(colors: NDArray[np.uint8], numbers: NDArray[np.int64], bits: int) -> bytes:
@@ -60,6 +74,37 @@ def unpack_texture(packed: bytes, vertices: int) -> tuple[Texture, Floats]:
 
     InputError for any others.
     """
+    texture, begin = _unpack_image(packed, 2 * UV_SIZE * vertices)
+    octets = np.zeros((2 * vertices, 4), np.uint8)
+    octets[:, :UV_SIZE] = np.frombuffer(packed, np.uint8)[begin:][: 2 * UV_SIZE * vertices].reshape(-1, UV_SIZE)
+    uvs = (octets.view(">i4")[:, 0] >> 8).astype(np.float64).reshape(-1, 2) * UV_STEP
+    if pack_texture(texture, uvs) != packed:
+        raise InputError(_OTHER)
+    return texture, uvs
+
+
+def unpack_alpha(packed: bytes, texture: Texture) -> Texture:
+    """Return the texture with the alpha of a record ALPHA, such that `pack_alpha` makes the same again.
+
+    InputError for any others.
+    """
+    image, _ = _unpack_image(packed[1:], 0, before=1)
+    if image.pixels.shape != texture.pixels.shape:
+        raise InputError("the alpha of a texture must have the size of its colours")
+    whole = evolve(texture, alpha=image.pixels[..., 2], cutoff=packed[0])
+    if pack_alpha(whole) != packed:
+        raise InputError(_OTHER)
+    return whole
+
+
+_OTHER = "a packed texture must have the palette and the bits that its colours need, in ascending order"
+
+
+def _unpack_image(packed: bytes, more: int, before: int = 0) -> tuple[Texture, int]:
+    """Return the texture of header, palette and texels, and where they end; `more` bytes and zeros to words follow.
+
+    before: the bytes of the record before them.
+    """
     if (
         len(packed) < HEADER
         or packed[0] > TEXTURE_BILINEAR + TEXTURE_CLAMP
@@ -70,12 +115,12 @@ def unpack_texture(packed: bytes, vertices: int) -> tuple[Texture, Floats]:
     palette = 0 if bits == COLOR_BITS else 3 << bits
     texels = (width * height * bits + 7) // 8
     begin = HEADER + palette
-    expected = begin + texels + 2 * UV_SIZE * vertices
-    expected += -expected % 32
+    expected = begin + texels + more
+    expected += -(expected + before) % 32
     if len(packed) != expected:
         raise InputError(
-            f"a packed texture of {width} x {height} texels of {bits} bits with {vertices:,} coordinates has"
-            f" {expected:,} bytes, not {len(packed):,}"
+            f"a packed texture of {width} x {height} texels of {bits} bits with {more // (2 * UV_SIZE):,} coordinates"
+            f" has {expected:,} bytes, not {len(packed):,}"
         )
     data = np.frombuffer(packed, np.uint8)
     if palette:
@@ -84,17 +129,9 @@ def unpack_texture(packed: bytes, vertices: int) -> tuple[Texture, Floats]:
         colors = data[HEADER:begin].reshape(-1, 3)[numbers]
     else:
         colors = data[begin : begin + texels]
-    octets = np.zeros((2 * vertices, 4), np.uint8)
-    octets[:, :UV_SIZE] = data[begin + texels :][: 2 * UV_SIZE * vertices].reshape(-1, UV_SIZE)
-    uvs = (octets.view(">i4")[:, 0] >> 8).astype(np.float64).reshape(-1, 2) * UV_STEP
-    flags = packed[0]
     texture = Texture(
         colors.reshape(height, width, 3),
-        "bilinear" if flags & TEXTURE_BILINEAR else "nearest",
-        "clamp" if flags & TEXTURE_CLAMP else "repeat",
+        "bilinear" if packed[0] & TEXTURE_BILINEAR else "nearest",
+        "clamp" if packed[0] & TEXTURE_CLAMP else "repeat",
     )
-    if pack_texture(texture, uvs) != packed:
-        raise InputError(
-            "a packed texture must have the palette and the bits that its colours need, in ascending order"
-        )
-    return texture, uvs
+    return texture, begin + texels

@@ -12,6 +12,7 @@ OPACITIES_OF = 9
 SHADOW = 10
 GROUND = 11
 EMISSION_OF = 12
+ALPHA_OF = 13
 
 TONE_FILMIC = 1
 TONE_GAMMA = 2
@@ -39,6 +40,7 @@ OWNERS = {
     SHADOW: "light",
     GROUND: "object",
     EMISSION_OF: "object",
+    ALPHA_OF: "object",
 }
 #: Bytes of its content; None for any number of words.
 SIZES: dict[int, int | None] = {
@@ -54,4 +56,5 @@ SIZES: dict[int, int | None] = {
     SHADOW: 32,
     GROUND: 32,
     EMISSION_OF: 32,
+    ALPHA_OF: None,
 }

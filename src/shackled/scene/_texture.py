@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Literal, cast
 
@@ -11,7 +12,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from ..checks import choice, fixed
+from ..checks import choice, fixed, integer
 from ..errors import InputError
 from ..values import Value, array_key, with_names
 
@@ -48,6 +49,23 @@ def _pixels(values: ArrayLike) -> NDArray[np.uint8]:
     return fixed(levels, np.uint8)
 
 
+def _alpha(values: ArrayLike | None) -> NDArray[np.uint8] | None:
+    if values is None:
+        return None
+    levels = np.asarray(values)
+    is_image = levels.ndim == 2 and levels.dtype.kind in "iu" and levels.size > 0
+    if not is_image or levels.min() < 0 or levels.max() > 255:
+        raise InputError("the alpha of a texture must be whole numbers from 0 to 255, of shape (height, width)")
+    return fixed(levels, np.uint8)
+
+
+def _cutoff(value: int) -> int:
+    level = integer(value)
+    if level is None or not 0 <= level <= 255:
+        raise InputError(f"the cutoff of a texture must be a whole number from 0 to 255, not {value!r:.60}")
+    return level
+
+
 def _filter(value: str) -> Filter:
     return cast(Filter, choice(value, "the filter of a texture", FILTERS))
 
@@ -63,11 +81,22 @@ class Texture(Value):
     pixels: (h, w, 3), rows from the top, 0..255; up to 256 x 256.
     filter: "nearest" takes the colour of a texel, "bilinear" interpolates between four, as OpenGL does.
     wrap: outside of 0..1 the image repeats, or the colours of its border go on ("clamp").
+    alpha: (h, w), 0..255, what each texel hides of what is behind it; None if all are opaque.
+    cutoff: the least alpha of what is drawn, 1..255, which is opaque then (a mask); 0 if the surface is blended with
+        what is behind it.
     """
 
     pixels: NDArray[np.uint8] = field(converter=_pixels, eq=array_key)
     filter: Filter = field(default="bilinear", converter=_filter)
     wrap: Wrap = field(default="repeat", converter=_wrap)
+    alpha: NDArray[np.uint8] | None = field(default=None, converter=_alpha, eq=array_key)
+    cutoff: int = field(default=0, converter=_cutoff)
+
+    def __attrs_post_init__(self) -> None:
+        """Check that there is an alpha for each texel."""
+        if self.alpha is not None and self.alpha.shape != self.pixels.shape[:2]:
+            shapes = f"{self.pixels.shape[:2]}, as its pixels, not {self.alpha.shape}"
+            raise InputError(f"the alpha of a texture must be of shape {shapes}")
 
     @classmethod
     def open(
@@ -76,14 +105,25 @@ class Texture(Value):
         filter: Filter = "bilinear",
         wrap: Wrap = "repeat",
         side: int = MAX_TEXTURE_SIDE,
+        alpha: bool = False,
+        cutoff: int = 0,
     ) -> Texture:
         """Return the texture of an image, or of the file of one, reduced to at most `side` texels along each side.
 
-        InputError if the file does not exist or is not an image.
+        alpha: whether it has the alpha of the image, if that is transparent anywhere; hidden texels get the colours of
+        the nearest visible ones. cutoff: see `Texture`. InputError if the file does not exist or is not an image.
         """
         if isinstance(image, str | os.PathLike):
-            image = open_image(Path(image), str(image))
-        return cls(np.asarray(reduced(as_rgb(image), side)), filter, wrap)
+            image = open_image(Path(image), str(image), as_rgba if alpha else as_rgb)
+        return cls.of_image(reduced((as_rgba if alpha else as_rgb)(image), side), filter, wrap, cutoff)
+
+    @classmethod
+    def of_image(cls, image: Image.Image, filter: Filter, wrap: Wrap, cutoff: int = 0) -> Texture:
+        """Return the texture of an image of at most 256 x 256 texels, RGB, or RGBA with the alpha that is meant."""
+        pixels = np.asarray(image)
+        if pixels.shape[2] == 3 or pixels[..., 3].min() == 255:
+            return cls(pixels[..., :3], filter, wrap)
+        return cls(_unhidden(pixels, wrap), filter, wrap, pixels[..., 3], cutoff)
 
     @property
     def width(self) -> int:
@@ -100,8 +140,30 @@ class Texture(Value):
         return f"<Texture {self.width}x{self.height}, {self.filter}, {self.wrap}>"
 
 
-def open_image(source: Path | IO[bytes], name: str) -> Image.Image:
-    """Return the image, as RGB. InputError, with its name, if there is none, or it is too large."""
+def _unhidden(pixels: NDArray[np.uint8], wrap: Wrap) -> NDArray[np.uint8]:
+    """Return the colours of RGBA pixels, (h, w, 3), those of hidden texels from neighbours that are not.
+
+    Colours are interpolated between texels, so those of hidden ones would be seen at the borders of visible ones.
+    """
+    sums, known = pixels[..., :3].astype(np.float64), pixels[..., 3] > 0
+    sums[~known] = 0
+    while known.any() and not known.all():
+        padded = np.pad(
+            np.dstack([sums, known]), ((1, 1), (1, 1), (0, 0)), mode="wrap" if wrap == "repeat" else "constant"
+        )
+        around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3), axis=(0, 1)).sum(axis=(3, 4))
+        found = ~known & (around[..., 3] > 0)
+        sums[found] = around[found][:, :3] / around[found][:, 3:]
+        known |= found
+    return np.rint(sums).astype(np.uint8)
+
+
+def open_image(
+    source: Path | IO[bytes], name: str, convert: Callable[[Image.Image], Image.Image] | None = None
+) -> Image.Image:
+    """Return the image, as RGB or as `convert` returns it. InputError, with its name, if there is none, or it is too
+    large.
+    """
     from PIL import Image
 
     try:
@@ -111,7 +173,7 @@ def open_image(source: Path | IO[bytes], name: str) -> Image.Image:
         ):
             if image.width * image.height > MAX_PIXELS:
                 raise InputError(f"{name} has {image.width} x {image.height} pixels; up to {MAX_PIXELS:,} are read")
-            return as_rgb(image)
+            return (convert or as_rgb)(image)
     except FileNotFoundError:
         raise InputError(f"{name} does not exist") from None
     except InputError:
@@ -134,6 +196,13 @@ def as_rgb(image: Image.Image) -> Image.Image:
         grey *= 65535 / largest
     # the upper byte, as of 16-bit colours
     return fromarray((np.clip(grey, 0, 65535) // 256).astype(np.uint8)).convert("RGB")
+
+
+def as_rgba(image: Image.Image) -> Image.Image:
+    """Return an image of any mode of Pillow as RGBA."""
+    if image.has_transparency_data:
+        return image.convert("RGBA")
+    return as_rgb(image).convert("RGBA")
 
 
 def reduced(image: Image.Image, side: int = MAX_TEXTURE_SIDE) -> Image.Image:

@@ -79,10 +79,10 @@ CASES = {
         colors=(WHITE, WHITE),
     ),
     "two files of the folder of the author": Case(
-        PAIR.format("a", "b").replace("m.mtl", "/home/an other/lost.mtl '/home/an other/My One.mtl'"),
+        PAIR.format("a", "b").replace("m.mtl", "/some place/lost.mtl '/some place/My One.mtl'"),
         pair("a", "b").mtl,
         mtl_name="my one.mtl",
-        notes=("its materials are left out: /home/an other/lost.mtl does not exist",),
+        notes=("its materials are left out: /some place/lost.mtl does not exist",),
     ),
     "a material that is in no file": Case(
         PAIR.format("a", "lost"),
@@ -94,7 +94,7 @@ CASES = {
     "a number sign": board("map_Kd wood#2.png", "wood#2.png"),
     "an image with quotes": board('map_Kd "my wood.png"', "my wood.png"),
     "another letter case": board("map_Kd Textures\\WOOD.PNG", "textures/wood.png"),
-    "an absolute path": board("map_Kd /home/someone/else/wood.png"),
+    "an absolute path": board("map_Kd /somewhere/else/wood.png"),
     "an absolute path of Windows": board("map_Kd D:\\work\\Wood.png"),
     "a tab in a path": board("map_Kd tex\\t.png", "tex/t.png"),
     "the folder of the OBJ": Case(

@@ -48,10 +48,21 @@ const LIGHTS = {
     point: ["kind", "position", "color", "shadow"],
     spot: ["kind", "position", "direction", "color", "innerAngle", "outerAngle", "shadow"],
 } as const;
-const OBJECT = ["mesh", "position", "rotation", "scale", "material", "cull", "wireframe", "opacity", "fade"] as const;
+const OBJECT = [
+    "mesh",
+    "position",
+    "rotation",
+    "scale",
+    "material",
+    "cull",
+    "wireframe",
+    "twoSided",
+    "opacity",
+    "fade",
+] as const;
 const MATERIAL = ["shading", "ambient", "diffuse", "specular", "shininess", "texture", "emission"] as const;
 const MESH = ["positions", "faces", "colors", "normals", "uvs", "opacities"] as const;
-const TEXTURE = ["width", "height", "pixels", "filter", "wrap"] as const;
+const TEXTURE = ["width", "height", "pixels", "filter", "wrap", "alpha", "cutoff"] as const;
 export const FILTERS = ["nearest", "bilinear"] as const;
 export const WRAPS = ["repeat", "clamp"] as const;
 const MAX_TEXTURE_SIDE = 256;
@@ -69,13 +80,15 @@ export interface Mesh {
     opacities: Uint8Array | undefined;
 }
 
-/** `pixels` has three bytes for each texel. */
+/** `pixels` has three bytes for each texel, `alpha` one. */
 export interface Texture {
     width: number;
     height: number;
     pixels: Uint8Array;
     filter: (typeof FILTERS)[number];
     wrap: (typeof WRAPS)[number];
+    alpha: Uint8Array | undefined;
+    cutoff: number;
 }
 
 export interface Material {
@@ -96,6 +109,7 @@ export interface SceneObject {
     material: Material;
     cull: boolean;
     wireframe: boolean;
+    twoSided: boolean;
     opacity: number;
     fade: readonly [number, number] | undefined;
 }
@@ -211,6 +225,7 @@ export function checkedObject(object: given.SceneObject, where: string): SceneOb
         material,
         cull: check.flag(object.cull ?? true, `${where}.cull`),
         wireframe: check.flag(object.wireframe ?? false, `${where}.wireframe`),
+        twoSided: check.flag(object.twoSided ?? false, `${where}.twoSided`),
         opacity: check.number(object.opacity ?? 1, `${where}.opacity`, 0, 1),
         fade: object.fade && checkedFade(object.fade, `${where}.fade`),
     };
@@ -250,9 +265,13 @@ function checkedTexture(texture: given.Texture, where: string): Texture {
     if (channels !== 3 && channels !== 4) {
         throw new InputError(`${where}.pixels must be three or four bytes for each of ${count} texels`);
     }
-    const bad = Array.prototype.findIndex.call(pixels, (level: unknown) => !check.isLevel(level as number));
-    if (bad >= 0) {
-        throw new InputError(`${where}.pixels[${bad}] must be a whole number from 0 to 255, not ${show(pixels[bad])}`);
+    checkLevels(pixels, `${where}.pixels`);
+    const { alpha } = texture;
+    if (alpha !== undefined) {
+        if (!check.isList(alpha) || alpha.length !== count) {
+            throw new InputError(`${where}.alpha must be a byte for each of ${count} texels`);
+        }
+        checkLevels(alpha, `${where}.alpha`);
     }
     return {
         width,
@@ -263,7 +282,15 @@ function checkedTexture(texture: given.Texture, where: string): Texture {
         ),
         filter: check.choice(texture.filter ?? "bilinear", `${where}.filter`, FILTERS),
         wrap: check.choice(texture.wrap ?? "repeat", `${where}.wrap`, WRAPS),
+        alpha: alpha && Uint8Array.from(alpha),
+        cutoff: check.whole(texture.cutoff ?? 0, `${where}.cutoff`, 0, 255),
     };
+}
+
+function checkLevels(levels: ArrayLike<number>, where: string): void {
+    const bad = Array.prototype.findIndex.call(levels, (level: unknown) => !check.isLevel(level as number));
+    if (bad >= 0)
+        throw new InputError(`${where}[${bad}] must be a whole number from 0 to 255, not ${show(levels[bad])}`);
 }
 
 function checkedMesh(mesh: given.Mesh, where: string): Mesh {

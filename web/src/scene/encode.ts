@@ -11,7 +11,7 @@ import { fit, type FittedScene } from "./fit.js";
 import { OPAQUE, isOpaque, shadowRule } from "./ground.js";
 import { pack } from "./mesh.js";
 import * as records from "./records.js";
-import { packTexture } from "./texture.js";
+import { packAlpha, packTexture } from "./texture.js";
 import type { Rectangle, Scene } from "./types.js";
 
 /** The functions of the Renderer that draw a scene, and their selectors. Those of a tile take a Rectangle too. */
@@ -37,6 +37,7 @@ const LIGHT_NUMBERS = { directional: 0, point: 1, spot: 1 } as const;
 const SHADING_NUMBERS = { unlit: 0, flat: 1, smooth: 2 } as const;
 const CULL_BACKFACES = 1;
 const WIREFRAME = 2;
+const TWO_SIDED = 4;
 
 /**
  * Return the bytes of the call that draws a scene: the calldata for `eth_call`.
@@ -139,6 +140,10 @@ function extensions(scene: CheckedScene): Uint8Array {
         if (!emission.some(Boolean)) return;
         made.push(record(records.EMISSION_OF, index, new DataView(words([rgb(emission)]).buffer)));
     });
+    scene.objects.forEach(({ material: { texture } }, index) => {
+        if (!texture?.alpha) return;
+        made.push(record(records.ALPHA_OF, index, new DataView(packAlpha(texture, texture.alpha).buffer)));
+    });
     return joined(made);
 }
 
@@ -192,7 +197,7 @@ function encodeObject(object: SceneObject): Uint8Array {
         SHADING_NUMBERS[material.shading],
         ...[material.ambient, material.diffuse, material.specular].map(q32),
         material.shininess,
-        (object.cull ? CULL_BACKFACES : 0) | (object.wireframe ? WIREFRAME : 0),
+        (object.cull ? CULL_BACKFACES : 0) | (object.wireframe ? WIREFRAME : 0) | (object.twoSided ? TWO_SIDED : 0),
     ];
     const mesh = pack(object.mesh, material.shading === "smooth");
     return joined([words([WORD * (1 + fields.length), ...fields]), dynamicBytes(mesh)]);

@@ -39,10 +39,22 @@ const PLACES = ["eye", "target", "up"] as const;
 const ANGLES = ["azimuth", "elevation", "margin"] as const;
 const CAMERA = [...PLACES, ...ANGLES, "fov", "half_height", "near", "projection"];
 const LIGHT = ["kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow"];
-const OBJECT = ["color", "cull", "wireframe", "opacity", "fade", "mesh", "position", "rotation", "scale", "material"];
+const OBJECT = [
+    "color",
+    "cull",
+    "wireframe",
+    "two_sided",
+    "opacity",
+    "fade",
+    "mesh",
+    "position",
+    "rotation",
+    "scale",
+    "material",
+];
 const MATERIAL = ["texture", "shading", "ambient", "diffuse", "specular", "shininess", "emission"];
 const GROUND = ["color", "height", "radius", "center", "inner"];
-const TEXTURE = ["image", "width", "height", "pixels", "filter", "wrap"];
+const TEXTURE = ["image", "width", "height", "pixels", "filter", "wrap", "alpha", "cutoff"];
 
 /**
  * Return the scene of a scene file: its JSON as text, or as `JSON.parse` returns it.
@@ -236,6 +248,7 @@ function objectOf(value: unknown, where: string): given.SceneObject {
         material: color ? { ...material, texture: undefined } : material,
         cull: keys.read("cull", check.flag),
         wireframe: keys.read("wireframe", check.flag),
+        twoSided: keys.read("two_sided", check.flag),
         opacity: keys.number("opacity", 0, 1),
         fade: keys.get("fade") as [number, number] | undefined,
     };
@@ -260,19 +273,23 @@ function textureOf(material: Table): given.Texture {
     if (keys === undefined || typeof pixels !== "string") {
         throw new InputError(`${place} must have width, height and pixels, in base64: no files are read here`);
     }
-    let bytes: string;
-    try {
-        bytes = atob(pixels);
-    } catch {
-        throw new InputError(`${place}.pixels must be red, green and blue bytes in base64`);
-    }
     return {
         width: check.whole(keys.get("width"), keys.place("width"), 1, 256),
         height: check.whole(keys.get("height"), keys.place("height"), 1, 256),
-        pixels: Uint8Array.from(bytes, (character) => character.charCodeAt(0)),
+        pixels: levelsOf(pixels, `${place}.pixels must be red, green and blue bytes in base64`),
         filter: keys.read("filter", (value, where) => check.choice(value, where, FILTERS)),
         wrap: keys.read("wrap", (value, where) => check.choice(value, where, WRAPS)),
+        alpha: keys.read("alpha", (value, where) => levelsOf(String(value), `${where} must be bytes in base64`)),
+        cutoff: keys.read("cutoff", (value, where) => check.whole(value, where, 0, 255)),
     };
+}
+
+function levelsOf(base64: string, error: string): Uint8Array {
+    try {
+        return Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+    } catch {
+        throw new InputError(error);
+    }
 }
 
 function meshOf(keys: Table): given.Mesh {

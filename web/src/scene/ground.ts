@@ -58,6 +58,7 @@ function groundUnder({ color, height, radius, center, inner }: Ground, points: V
         },
         cull: true,
         wireframe: false,
+        twoSided: false,
         opacity: 1,
         fade: [start, scale],
     };
@@ -69,7 +70,7 @@ function groundUnder({ color, height, radius, center, inner }: Ground, points: V
  */
 export function shadowRule({ objects }: Scene): number {
     const casters = objects.filter(
-        (each) => each.cull && !each.wireframe && isOpaque(each) && !each.mesh.opacities && !each.fade,
+        (each) => each.cull && !each.wireframe && isOpaque(each) && !isBlended(each) && !each.fade,
     );
     return areClosed(casters.map(asSent)) ? SHADOWS_BACK_FACES : SHADOWS_ALL;
 }
@@ -78,6 +79,11 @@ export function shadowRule({ objects }: Scene): number {
 function asSent({ position, rotation, scale, ...rest }: SceneObject): SceneObject {
     const sent = <V extends readonly number[]>(v: V): V => v.map((x) => rint(x * 2 ** 32) / 2 ** 32) as unknown as V;
     return { ...rest, position: sent(position), rotation: sent(rotation), scale: sent([scale] as const)[0] };
+}
+
+/** Return whether vertices or texels may be translucent. */
+function isBlended({ mesh, material: { texture } }: SceneObject): boolean {
+    return mesh.opacities !== undefined || (texture?.alpha !== undefined && texture.cutoff === 0);
 }
 
 /** Return whether the opacity of an object is 1 for the contracts, which have it in steps of 2^-24. */

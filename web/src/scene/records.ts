@@ -12,6 +12,7 @@ export const OPACITIES_OF = 9;
 export const SHADOW = 10;
 export const GROUND = 11;
 export const EMISSION_OF = 12;
+export const ALPHA_OF = 13;
 
 export const TONE_FILMIC = 1;
 export const TONE_GAMMA = 2;

@@ -48,6 +48,13 @@ export interface Texture {
     filter?: "nearest" | "bilinear" | undefined;
     /** Whether the image repeats outside of 0..1, or its border goes on; "repeat" by default. */
     wrap?: "repeat" | "clamp" | undefined;
+    /** What each texel hides of what is behind it, 0..255; all are opaque by default, whatever alpha pixels have. */
+    alpha?: ArrayLike<number> | undefined;
+    /**
+     * The least alpha of what is drawn, 1..255, which is opaque then; 0, the default, if the surface is blended with what
+     * is behind it.
+     */
+    cutoff?: number | undefined;
 }
 
 export type Shading = "unlit" | "flat" | "smooth";
@@ -76,6 +83,11 @@ export interface SceneObject {
     cull?: boolean | undefined;
     /** Whether only the edges are drawn. */
     wireframe?: boolean | undefined;
+    /**
+     * Whether faces that turn away from the viewer, if they are not left out, are lit as from their front. Wires always
+     * have the light of the front.
+     */
+    twoSided?: boolean | undefined;
     /** 0..1. Objects below 1, and those of which vertices are, are drawn after the others, in their order. */
     opacity?: number | undefined;
     /**

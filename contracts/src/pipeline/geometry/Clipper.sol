@@ -2,6 +2,7 @@
 pragma solidity 0.8.37;
 
 import {Mesh} from "../../scene/Mesh.sol";
+import {doubleAreaOf} from "./Screen.sol";
 import {Triangles} from "./Triangles.sol";
 import {VertexShader} from "./VertexShader.sol";
 import "../../words/Registers.sol";
@@ -27,10 +28,11 @@ uint256 constant NORMAL_LANES = 0xfffffffffffffc00000003ffffffffffffe00000001fff
 
 library Clipper {
     /// @notice Clips the faces that primitive assembly left, and appends the resulting triangles to its list.
+    /// @param isSmooth Whether vertices have normals.
     /// @return end The end of the list.
     /// @return free The first address after the list and the new vertices.
     /// @return drawn The number of faces with a visible part: see PrimitiveAssembly.
-    function run(Mesh memory mesh, uint256 records, uint256 shift, uint256 list, bool cull)
+    function run(Mesh memory mesh, uint256 records, uint256 shift, uint256 list, bool cull, bool isSmooth)
         internal
         pure
         returns (uint256 end, uint256 free, uint256 drawn)
@@ -48,6 +50,7 @@ library Clipper {
                 (uint256 start, uint256 corners) = cut(polygon);
                 if (corners < 3) continue;
                 for (uint256 i; i != corners; ++i) project(start + i * CORNER_SIZE, free + (i << shift));
+                if (isSmooth && load(BACK_COUNT) != 0) turnBack(free, corners, shift);
                 store(FACE, mesh.faces + FACE_SIZE * face);
                 bool isDrawn;
                 (end, isDrawn) = fan(start, corners, free, shift, end, cull);
@@ -186,6 +189,18 @@ library Clipper {
             store(record, VertexShader.screenWord(x, y, record));
             store(record + VERTEX_ATTRIBUTES, (depth << ATTRIBUTE_DEPTH_AT) | load(corner + CORNER_COLOR));
             store(record + VERTEX_NORMAL, load(corner + CORNER_NORMAL));
+        }
+    }
+
+    /// @dev Turns the normals of a polygon's vertices if it is seen from behind.
+    function turnBack(uint256 first, uint256 corners, uint256 shift) private pure {
+        unchecked {
+            uint256 end = first + (corners << shift);
+            uint256 size = 1 << shift;
+            int256 area;
+            for (uint256 p = first + 2 * size; p != end; p += size) area += doubleAreaOf(load(first), load(p - size), load(p));
+            if (area >= 0) return;
+            for (; first != end; first += size) store(first + VERTEX_NORMAL, 0 - load(first + VERTEX_NORMAL));
         }
     }
 

@@ -31,6 +31,7 @@ abstract contract PrimitiveAssembly is Rasterizer {
         unchecked {
             store(LIST, list);
             store(DRAWN, 0);
+            store(BACK_OFFSET, load(BACK_COUNT) << shift);
             storeSigned(LEAST_AREA, cull ? HALF_AREA : type(int256).min);
             store(FACES_END, mesh.faces + FACE_SIZE * mesh.faceCount);
             loop(mesh.faces, records, FACE_AT - shift, FACE_INDEX_MASK << shift);
@@ -61,7 +62,7 @@ abstract contract PrimitiveAssembly is Rasterizer {
                 if (area <= loadSigned(LEAST_AREA)) continue;
                 if (area < HALF_AREA) {
                     if (area > -HALF_AREA) continue;
-                    (b, c) = (c, b);
+                    (a, b, c) = (a + load(BACK_OFFSET), c + load(BACK_OFFSET), b + load(BACK_OFFSET));
                     area = -area;
                     crossing = IS_TURNED_AWAY;
                 }

@@ -16,6 +16,8 @@ import "../../words/Registers.sol";
 // may be written beyond the free memory before a record is made there, and no Solidity object may be allocated between `freeMemory()` and
 // `setFreeMemory()` in Pipeline.assembleObject. Pipeline.recordShift returns the size.
 //
+// If both sides of a smooth surface are lit, records with the opposite normals follow: faces that are turned away have these vertices.
+//
 // Words.sol defines the layout of the words. Comparing screen words as numbers compares rows. The attribute word of a vertex that must be
 // clipped contains its outcode instead.
 
@@ -25,6 +27,20 @@ library VertexShader {
         unchecked {
             project(mesh.vertices, record, record + mesh.vertexCount * recordSize, mesh.bits, mesh.stride, recordSize);
             if (smooth) turnNormals(mesh, record, recordSize);
+        }
+    }
+
+    /// @notice Adds a record with the opposite normal for each vertex, in the same order, from `end` on: of smooth surfaces with two sides.
+    /// @return The end of these.
+    function addBacks(uint256 records, uint256 end, uint256 recordSize) internal pure returns (uint256) {
+        unchecked {
+            uint256 offset = end - records;
+            for (; records != end; records += recordSize) {
+                store(records + offset, load(records) + offset);
+                store(records + offset + VERTEX_ATTRIBUTES, load(records + VERTEX_ATTRIBUTES));
+                store(records + offset + VERTEX_NORMAL, 0 - load(records + VERTEX_NORMAL));
+            }
+            return end + offset;
         }
     }
 

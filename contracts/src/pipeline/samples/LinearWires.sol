@@ -27,7 +27,7 @@ uint256 constant MOST_Q10 = 0x7ffff;
 abstract contract LinearWires is SampleWires {
     /// @dev Sets LINE_REACH.
     function shadeExact(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
-        (uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode) = surface(a, b, c);
+        (uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode) = surface(a, b, c, crossing);
         store(LINE_REACH, 0);
         if (
             load(OBJECT_FLAGS) & WIREFRAME != 0 && mode & (IS_BLENDED | IS_DEPTH_PASS | IS_SMOOTH | IS_SPOT_LIT) == 0

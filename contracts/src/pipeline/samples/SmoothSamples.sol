@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {sqrt} from "../../math/Roots.sol";
 import {Quadratic} from "../shading/Quadratic.sol";
 import {doubleAreaOf} from "../geometry/Screen.sol";
 import {Shading} from "../shading/Shading.sol";
@@ -39,9 +38,7 @@ abstract contract SmoothSamples is SampleRasterizer {
     function openSmooth() internal pure {
         unchecked {
             store(SAME_COLOR, NO_COLORS);
-            store(COSINE_BEGIN, NO_HIGHLIGHT);
             if (load(SPECULAR_BEGIN) == NO_HIGHLIGHT) return;
-            store(COSINE_BEGIN, sqrt(load(SPECULAR_BEGIN) << Q24));
             assembly ("memory-safe") {
                 let place := SHINE_TABLE
                 for { let light := LIGHTS } lt(light, mload(LIGHTS_END)) { light := add(light, LIGHT_SIZE) } {
@@ -56,6 +53,10 @@ abstract contract SmoothSamples is SampleRasterizer {
                 }
             }
         }
+    }
+
+    function isSmooth() internal pure override returns (bool) {
+        return true;
     }
 
     function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {

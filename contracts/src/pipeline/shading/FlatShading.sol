@@ -20,6 +20,10 @@ uint256 constant NO_LIMIT = 1 << 60;
 uint256 constant SMALL = 20 << 16;
 
 abstract contract FlatShading is Rasterizer {
+    function isSmooth() internal pure override returns (bool) {
+        return false;
+    }
+
     function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
         if (load(OBJECT_MODE) & IS_FLAT != 0) return shadeFlat(a, b, c, crossing);
         uint256 p;
@@ -46,7 +50,7 @@ abstract contract FlatShading is Rasterizer {
 
     /// @dev Shades a flat triangle.
     function shadeFlat(uint256 a, uint256 b, uint256 c, uint256 crossing) private pure {
-        (uint256 mode, uint256 light) = Lighting.setFace();
+        (uint256 mode, uint256 light) = Lighting.setFace(crossing);
         uint256 p;
         uint256 q;
         uint256 r;
@@ -57,9 +61,10 @@ abstract contract FlatShading is Rasterizer {
         }
         if (mode & IS_DIFFUSE == 0) {
             bool linear;
-            if (mode & IS_GREY == 0) (p, q, r) = (Shading.lit(p, light), Shading.lit(q, light), Shading.lit(r, light));
-            assembly ("memory-safe") {
-                if and(mode, IS_GREY) {
+            if (mode & IS_GREY == 0) {
+                (p, q, r) = (Shading.lit(p, light), Shading.lit(q, light), Shading.lit(r, light));
+            } else {
+                assembly ("memory-safe") {
                     // all channels at once: color * light, Q16, and the depth as it is
                     light := and(light, LANE_32)
                     let color := and(p, LANES_24)
@@ -69,6 +74,8 @@ abstract contract FlatShading is Rasterizer {
                     color := and(r, LANES_24)
                     r := or(and(shr(LIGHT_FRACTION, mul(color, light)), LANES_24), xor(r, color))
                 }
+            }
+            assembly ("memory-safe") {
                 // as in `shade`
                 let second := mul(24, sub(q, p)) // 24 (q - p)
                 let third := mul(24, sub(r, p)) // 24 (r - p)

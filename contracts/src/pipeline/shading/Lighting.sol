@@ -12,12 +12,16 @@ uint256 constant SQUARE_FRACTION = 32;
 /// @dev From FACE_N_DOT_RAY_SLOPE times DEPTH_SCALE, without DEPTH_FRACTION, to Q16.
 uint256 constant Q166_TO_Q16 = 150;
 
+/// @dev From IS_TURNED_AWAY to the flag TWO_SIDED.
+uint256 constant TURNED_TO_TWO_SIDED = 15;
+
 library Lighting {
     /// @notice Computes the normal and light of a flat face from its corners in the mesh.
+    /// @param crossing The bits of the triangle's mode, of which IS_TURNED_AWAY turns the normal of a face with two sides.
     /// @return mode How its fragments are lit: the mode of the object, IS_LIT if any light has a highlight there, IS_DIFFUSE if a point
     /// light shines on it; in the latter case, fragments sum the diffuse light of all lights.
     /// @return light The light that does not depend on the fragment, lanes of Q16; undefined if IS_DIFFUSE.
-    function setFace() internal pure returns (uint256 mode, uint256 light) {
+    function setFace(uint256 crossing) internal pure returns (uint256 mode, uint256 light) {
         // the length of the normal, which is twice the area of the face; first its square
         uint256 length;
         assembly ("memory-safe") {
@@ -29,6 +33,13 @@ library Lighting {
                 let p := calldataload(add(rest, mul(x, shr(FACE_FIRST_IN_WORD, bits))))
                 let a := calldataload(add(rest, mul(x, and(shr(FACE_SECOND_IN_WORD, bits), FACE_INDEX_MASK))))
                 let b := calldataload(add(rest, mul(x, and(shr(FACE_AT, bits), FACE_INDEX_MASK))))
+                if crossing {
+                    if and(shr(TURNED_TO_TWO_SIDED, crossing), mload(OBJECT_FLAGS)) {
+                        x := a // swaps two corners
+                        a := b
+                        b := x
+                    }
+                }
                 bits := mload(MESH_BITS)
                 rest := sub(256, bits)
                 x := sar(rest, p) // from here on a coordinate of the first corner
@@ -56,9 +67,9 @@ library Lighting {
                 // The square root. With h, a multiple of 3, such that the square is m * 4^h and 1 <= m < 64, the line 0.1367 * (m + 8)
                 // approximates the root of m with a relative error of 0.231; three steps of Newton's method reduce it to less than 2^-22.
                 // If the normal is zero, all products are zero for any divisor.
-                length := or(length, iszero(length))
                 let h := mload(FACE_HINT)
                 if gt(sub(shr(shl(1, h), length), 1), 62) {
+                    length := or(length, iszero(length))
                     // neighbouring faces have similar magnitudes
                     for {} iszero(shr(shl(1, h), length)) {} { h := sub(h, 3) }
                     for {} gt(shr(shl(1, h), length), 63) {} { h := add(h, 3) }

@@ -38,15 +38,16 @@ library Shading {
     }
 
     /// @notice Sets the normal and the light of a flat face.
+    /// @param crossing See Lighting.setFace.
     /// @return mode How its fragments are lit. If only by highlights, the colours of the attribute words include the other light.
-    function setFace(uint256 attributesA, uint256 attributesB, uint256 attributesC)
+    function setFace(uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 crossing)
         internal
         pure
         returns (uint256 mode, uint256, uint256, uint256)
     {
         unchecked {
             uint256 light;
-            (mode, light) = Lighting.setFace();
+            (mode, light) = Lighting.setFace(crossing);
             Lighting.setFacing();
             if (mode & IS_DIFFUSE == 0) return (mode, lit(attributesA, light), lit(attributesB, light), lit(attributesC, light));
             return (mode, attributesA, attributesB, attributesC);

@@ -14,6 +14,10 @@ import "../../words/Registers.sol";
 uint256 constant SMOOTH_BIAS = 0x100000000000020000000000000200000000000002000000000;
 
 abstract contract SmoothShading is Rasterizer {
+    function isSmooth() internal pure override returns (bool) {
+        return load(OBJECT_MODE) & IS_SMOOTH != 0;
+    }
+
     function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure virtual override {
         unchecked {
             uint256 mode = load(OBJECT_MODE);
@@ -43,12 +47,12 @@ abstract contract SmoothShading is Rasterizer {
 
     /// @notice Selects the shading of every fragment individually.
     function shadeExact(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure virtual {
-        (uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode) = surface(a, b, c);
+        (uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode) = surface(a, b, c, crossing);
         Shading.setExact(a, b, c, attributesA, attributesB, attributesC, mode | crossing);
     }
 
     /// @dev Returns the attribute words of a triangle and its mode, and sets its normal or normals.
-    function surface(uint256 a, uint256 b, uint256 c)
+    function surface(uint256 a, uint256 b, uint256 c, uint256 crossing)
         internal
         pure
         returns (uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode)
@@ -57,7 +61,7 @@ abstract contract SmoothShading is Rasterizer {
         mode = load(OBJECT_MODE) & ~IS_QUADRATIC;
         if (mode & IS_SMOOTH != 0) Shading.setNormals(a, b, c);
         else if (mode & IS_FLAT != 0) {
-            (mode, attributesA, attributesB, attributesC) = Shading.setFace(attributesA, attributesB, attributesC);
+            (mode, attributesA, attributesB, attributesC) = Shading.setFace(attributesA, attributesB, attributesC, crossing);
         }
     }
 

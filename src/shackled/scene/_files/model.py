@@ -52,24 +52,27 @@ class MeshPart:
 class Picture:
     """An image of a file, and how it is to be sampled. name: for messages, with the path of the file.
 
-    wraps: along u and v.
+    image: RGB, or RGBA if its alpha counts. wraps: along u and v. cutoff: of a `Texture`.
     """
 
     image: Image.Image
     name: str
     filter: Filter = "bilinear"
     wraps: tuple[FileWrap, FileWrap] = ("repeat", "repeat")
+    cutoff: int = 0
 
     @property
     def is_varied(self) -> bool:
-        """Whether it has more than one colour."""
-        return any(np.ptp(np.asarray(self.image), axis=(0, 1)))
+        """Whether it has more than one colour, or an alpha."""
+        return self.image.mode == "RGBA" or any(np.ptp(np.asarray(self.image), axis=(0, 1)))
 
     def is_plain(self, uvs: Array) -> bool:
         """Return whether every triangle shows one colour only, as where colours are kept in a palette image.
 
         uvs: of corners, (m, 3, 2). Triangles that reach beyond the image do not count as plain.
         """
+        if self.image.mode == "RGBA":
+            return False
         pixels = np.asarray(self.image).astype(np.int64)
         height, width = pixels.shape[:2]
         # the texels that are seen: those between whose centres, or in which, the corners lie
@@ -113,7 +116,7 @@ class Picture:
         if smaller.size != image.size:
             (width, height), (old_width, old_height) = smaller.size, image.size
             warn(f"{self.name} is reduced from {old_width} x {old_height} to {width} x {height} texels")
-        return Texture(np.asarray(smaller), self.filter, wrap), uvs
+        return Texture.of_image(smaller, self.filter, wrap, self.cutoff), uvs
 
 
 def _mirrored(image: Image.Image, axis: int) -> Image.Image:

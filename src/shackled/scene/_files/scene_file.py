@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import base64
 import json
+import math
 import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -56,7 +57,7 @@ _FOG = ("color", "near", "far")
 _GROUND = ("color", "height", "radius", "center", "inner")
 _LIGHT = ("kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow")
 _MESH = ("positions", "faces", "colors", "normals", "uvs", "opacities")
-_TEXTURE = ("image", "width", "height", "pixels", "filter", "wrap")
+_TEXTURE = ("image", "width", "height", "pixels", "filter", "wrap", "alpha", "cutoff")
 _ROTATION = ("quaternion", "axis", "angle")
 
 
@@ -143,7 +144,10 @@ def _texture_keys(texture: Texture | None) -> dict[str, Any]:
         return {}
     pixels = base64.b64encode(texture.pixels.tobytes()).decode("ascii")
     sides = {"width": texture.width, "height": texture.height}
-    return {"texture": {**sides, "filter": texture.filter, "wrap": texture.wrap, "pixels": pixels}}
+    keys = {**sides, "filter": texture.filter, "wrap": texture.wrap, "pixels": pixels}
+    if texture.alpha is not None:
+        keys |= {"alpha": base64.b64encode(texture.alpha.tobytes()).decode("ascii"), "cutoff": texture.cutoff}
+    return {"texture": keys}
 
 
 def _plain(value: Any) -> Any:
@@ -352,21 +356,28 @@ def _texture(surface: Table, folder: Path) -> Texture:
     keys = Table({"image": value}, "") if isinstance(value := surface.get("texture"), str) else None
     keys = keys or surface.table("texture", _TEXTURE)
     filter, wrap = keys.choice("filter", FILTERS, FILTERS[1]), keys.choice("wrap", WRAPS, WRAPS[0])
+    cutoff = keys.whole("cutoff", 0)
     keys.only_one_of("image", "pixels")
     with about(surface.place("texture")):
         if "pixels" not in keys:
             image = keys.get("image")
             if not isinstance(image, str) or not image:
                 raise InputError("a texture needs an image: the path of a file, relative to the scene file")
-            return Texture.open(folder / image, filter, wrap)
+            return Texture.open(folder / image, filter, wrap, alpha=keys.flag("alpha", False), cutoff=cutoff)
         width, height = keys.whole("width"), keys.whole("height")
-        try:
-            data = base64.b64decode(keys.get("pixels"), validate=True)
-        except (TypeError, ValueError):
-            raise InputError("pixels must be red, green and blue bytes in base64") from None
-        if len(data) != 3 * width * height:
-            raise InputError(f"{width} x {height} pixels need {3 * width * height:,} bytes, not {len(data):,}")
-        return Texture(np.frombuffer(data, np.uint8).reshape(height, width, 3), filter, wrap)
+        alpha = _levels(keys, "alpha", (height, width), "bytes") if "alpha" in keys else None
+        pixels = _levels(keys, "pixels", (height, width, 3), "red, green and blue bytes")
+        return Texture(pixels, filter, wrap, alpha, cutoff)
+
+
+def _levels(keys: Table, name: str, shape: tuple[int, ...], what: str) -> NDArray[np.uint8]:
+    try:
+        data = base64.b64decode(keys.get(name), validate=True)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} must be {what} in base64") from None
+    if len(data) != math.prod(shape):
+        raise InputError(f"{shape[1]} x {shape[0]} {name} need {math.prod(shape):,} bytes, not {len(data):,}")
+    return np.frombuffer(data, np.uint8).reshape(shape)
 
 
 def _rotation(keys: Table) -> ArrayLike:

@@ -39,8 +39,8 @@ _SURFACES = "KHR_materials_"
 class Document:
     """A document, and what its parts refer to.
 
-    decoded: the elements of accessors that are compressed, by their places. images: likewise, each with whether it has
-    alpha; None for those that cannot be read.
+    decoded: the elements of accessors that are compressed, by their places. images: likewise, RGBA; None for those that
+    cannot be read.
     """
 
     def __init__(self, path: Path) -> None:
@@ -52,7 +52,7 @@ class Document:
             data, self.binary = _chunks(data)
         self.keys = Table(parse(path, data.decode("utf-8-sig", errors="replace"), ".json"), "")
         self.decoded: dict[str, NDArray[Any]] = {}
-        self.images: dict[str, tuple[Image.Image, bool] | None] = {}
+        self.images: dict[str, Image.Image | None] = {}
         self._buffers: dict[str, bytes] = {}
         self._extensions: set[str] = set()
         self._left_out: dict[tuple[str, str], set[str]] = {}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import cast
 
 import numpy as np
@@ -16,7 +16,7 @@ from ..colors import to_srgb
 from ..model import Picture, finite_uvs
 from ..table import Table
 from .document import Document
-from .images import has_alpha, picture_of
+from .images import picture_of
 from .vertices import Vertices
 
 Array = NDArray[np.float64]
@@ -30,7 +30,8 @@ class Surface:
     """A material.
 
     factor: linear red, green, blue and alpha. texture: where the base colour texture is told. gloss: roughness and
-    metalness, 0..1; None if the file does not say. cutoff: alpha below it is not seen; None if it all is.
+    metalness, 0..1; None if the file does not say. cutoff: alpha below it is not seen; None if it all is. has_alpha:
+    whether the alpha of the texture counts.
     """
 
     factor: tuple[float, ...] = (1.0, 1.0, 1.0, 1.0)
@@ -41,6 +42,7 @@ class Surface:
     is_blended: bool = False
     is_two_sided: bool = False
     cutoff: float | None = None
+    has_alpha: bool = False
 
     @property
     def is_hidden(self) -> bool:
@@ -72,10 +74,7 @@ def surface_of(gltf: Document, primitive: Table) -> Surface | None:
         emitted = np.zeros(3)
     _tell_of_textures(gltf, material, keys)
     mode = material.choice("alphaMode", _ALPHA_MODES, "OPAQUE")
-    if mode != "OPAQUE" and shown is not None:
-        of = gltf.item(shown, "index", "textures")
-        if has_alpha(gltf, of):
-            gltf.leave_out("texture", of.where, "the alpha of {}")
+    cutoff = material.number("alphaCutoff", 0.5) if mode == "MASK" else None
     return Surface(
         color,
         shown,
@@ -84,7 +83,8 @@ def surface_of(gltf: Document, primitive: Table) -> Surface | None:
         is_unlit,
         mode == "BLEND",
         material.flag("doubleSided", False),
-        material.number("alphaCutoff", 0.5) if mode == "MASK" else None,
+        cutoff,
+        mode == "BLEND" or (cutoff is not None and cutoff > 0),
     )
 
 
@@ -143,7 +143,11 @@ def picture_on(vertices: Vertices, surface: Surface | None, where: str) -> tuple
     transform = info.table("extensions").table("KHR_texture_transform")
     number = transform.whole("texCoord", info.whole("texCoord", 0))
     coordinates = vertices.values(f"TEXCOORD_{number}", "VEC2")
-    picture = picture_of(vertices.gltf, vertices.gltf.item(info, "index", "textures"))
+    picture = picture_of(vertices.gltf, vertices.gltf.item(info, "index", "textures"), surface.has_alpha)
+    if picture is not None and surface.cutoff is not None and surface.has_alpha:
+        # of the texture times the factor
+        cutoff = math.ceil(255 * surface.cutoff / max(surface.factor[3], 1e-9) - 1e-6)
+        picture = replace(picture, cutoff=min(max(cutoff, 1), 255))
     if coordinates is None:
         vertices.gltf.leave_out("primitive", where, "the texture of {} without coordinates")
     if picture is None or coordinates is None:
