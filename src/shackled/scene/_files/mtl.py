@@ -34,6 +34,8 @@ _DEFAULTS = {"t": (0.0, 0.0, 0.0), "mm": (0.0, 1.0)}
 _FILES = re.compile(r'"[^"]*"|\S.*?\.mtl(?!\S)|\S.*', re.IGNORECASE)
 #: A comment within a name begins where # stands alone: "Material #1" and "wood#2.png" are names.
 _COMMENT = re.compile(r"(?:^|(?<=\s))#(?=\s|$).*")
+#: The comment of the program that writes an opacity, not a transparency, as Tr.
+_MESHLAB = re.compile(r"^#.*\bmeshlab\b", re.IGNORECASE | re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -135,6 +137,7 @@ def _in_any_case(folder: Path, parts: Sequence[str]) -> Iterator[Path]:
 def _parse(folders: tuple[Path, ...], text: str) -> dict[str, ObjMaterial]:
     materials: dict[str, ObjMaterial] = {}
     material, given = ObjMaterial(), set[str]()
+    opacities = ("d", "tr") if _MESHLAB.search(text) else ("d",)
     for line in text.split("\n"):
         keyword, *words = _COMMENT.sub("", line).split() or [""]
         key = keyword.lower()
@@ -150,7 +153,7 @@ def _parse(folders: tuple[Path, ...], text: str) -> dict[str, ObjMaterial]:
             elif key == "ke" and "map_ke" not in given:
                 material.emission = _triple(values)
             elif key == "d" or (key == "tr" and "d" not in given):  # some exporters write the same number to both
-                material.opacity = min(max(values[0] if key == "d" else 1 - values[0], 0.0), 1.0)
+                material.opacity = min(max(values[0] if key in opacities else 1 - values[0], 0.0), 1.0)
             given.add(key)
         elif key == "map_kd" or (key == "map_ka" and "map_kd" not in given):
             _add_map(material, folders, name_of(line))

@@ -38,6 +38,8 @@ _SHAPES = {
     "p": ("point", "points"),
     "l": ("line", "lines"),
     "f": ("face of fewer than 3 corners", "faces of fewer than 3 corners"),
+    "curv": ("curve", "curves"),
+    "surf": ("curved surface", "curved surfaces"),
 }
 #: So many kinds of other statements are named.
 _MOST_NAMED = 8

@@ -110,7 +110,7 @@ class _Header:
 def _open(data: bytes) -> tuple[_Header, _Text | _Binary]:
     """Return the header, with elements that have no values yet, and where these are."""
     header, start, number = _Header(), 0, 0
-    if not data.startswith(b"ply"):
+    if not data.startswith((b"ply", b"PLY")):
         raise InputError("a PLY file begins with the line ply")
     line_end = b"\r" if data[3:4] == b"\r" and data[4:5] != b"\n" else b"\n"
     line = ""
@@ -146,7 +146,7 @@ def _read_header_line(header: _Header, line: str) -> None:
             header.elements[-1].properties.append(_Property(name, _TYPES[kind]))
         case ["comment", "TextureFile", *words]:
             header.textures.append(" ".join(words))
-        case ["ply"] | ["end_header"] | ["comment" | "obj_info", *_] | []:
+        case ["ply" | "PLY"] | ["end_header"] | ["comment" | "obj_info", *_] | []:
             pass
         case _:
             raise ValueError

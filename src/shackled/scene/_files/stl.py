@@ -74,17 +74,19 @@ def _colors(path: Path, header: bytes, attributes: NDArray[np.int64]) -> Array |
     """Return the colours of facets, 0..255 with alpha, (n, 1, 4); None if there are none.
 
     An attribute has five bits for each of red, green and blue. Its highest bit says in Magics that the facet has the
-    colour of the header, in the other programs that it has one of its own.
+    colour of the header, in the other programs that it has one of its own. Many programs write the colour of the header
+    only, and 0 as all attributes.
     """
     own = attributes >= 1 << 15
     default = np.array([*DEFAULT_COLOR, 255])
     shifts = [10, 5, 0]
     _, is_magics, behind = header.partition(_COLOR)
     if is_magics and len(behind) >= 4:
-        own = ~own
+        own = ~own & attributes.any()
         shifts.reverse()
         default = np.frombuffer(behind, np.uint8, 4).astype(np.int64)
-        default[3] = default[3] or 255  # writers without transparency leave 0
+        if default[3] in (0, ord(" ")):  # of writers without transparency
+            default[3] = 255
         if behind.partition(_MATERIAL)[2][:_MATERIAL_SIZE].strip(b"\0"):
             warn(f"{path}: the material of its header is left out; of STL files only colours are read")
     elif unknown := int(np.count_nonzero(attributes[~own])):
