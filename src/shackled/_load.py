@@ -60,7 +60,7 @@ def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
     found = _located(thing)
     made = _made(found, chosen)
     with about(str(found)) if isinstance(found, Path) else nullcontext():
-        return look_at(made, chosen)
+        return look_at(made, chosen, name=str(found) if isinstance(found, Path) else "the mesh")
 
 
 def _located(thing: Any) -> Any:
@@ -165,7 +165,7 @@ def _combined(things: Sequence[Any], look: Mapping[str, Any]) -> list[Object] | 
             else:
                 model, models = [*model, *made], models + 1
                 # shaded as when it is staged, but in its own place
-                staged = look_at(made, {}).objects
+                staged = look_at(made, {}, name=str(found) if isinstance(found, Path) else "the mesh").objects
                 parts = [evolve(each, position=(0, 0, 0), rotation=(0, 0, 0, 1), scale=1) for each in staged]
         objects += parts
     if models == len(things):
