@@ -112,3 +112,10 @@ def test_closed_parts_are_culled_and_open_ones_are_not() -> None:
         joined(Mesh(trimesh.creation.box().vertices, trimesh.creation.box().faces), Mesh(SHEET, [(0, 1, 2)]))
     ).objects
     assert not small.cull
+
+
+def test_a_face_that_is_there_twice_is_not_turned() -> None:
+    for second in ((0, 1, 2), (0, 2, 1)):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            assert load(Mesh(SHEET, [(0, 1, 2), second])).objects[0].mesh.faces.tolist() == [[0, 1, 2], list(second)]

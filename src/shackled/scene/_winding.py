@@ -74,6 +74,8 @@ def _sides(points: Floats, corners: Ints) -> tuple[Flags, Flags, int, int]:
     first, edge, around = np.unique(keys[order], return_index=True, return_inverse=True, return_counts=True)[1:]
     # each face and its other side are two vertices of a graph: those that belong together have one label
     one = first[around == 2]
+    # two faces of the same corners are the sides of a sheet, or one of them twice
+    one = one[(np.sort(corners[face[one]], axis=1) != np.sort(corners[face[one + 1]], axis=1)).any(axis=1)]
     f, g, odd = face[one], face[one + 1], is_up[one] == is_up[one + 1]
     links = np.concatenate([np.stack([2 * f, 2 * g + odd], axis=1), np.stack([2 * f + 1, 2 * g + 1 - odd], axis=1)])
     label = components(links, 2 * count).reshape(-1, 2)
