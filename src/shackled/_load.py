@@ -66,7 +66,7 @@ def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
         pose = {setting.name: chosen.pop(setting.name) for setting in settings_of("file") if setting.name in chosen}
     made = _posed(found, pose) if pose else _made(found, chosen)
     with about(str(found)) if isinstance(found, Path) else nullcontext():
-        return look_at(made, chosen)
+        return look_at(made, chosen, name=str(found) if isinstance(found, Path) else "the mesh")
 
 
 def _located(thing: Any) -> Any:
@@ -97,9 +97,9 @@ def _unplaced(part: MeshPart) -> Object:
     return Object(part.mesh, material=evolve(MESH_STAGING.material, **part.material), opacity=part.opacity)
 
 
-def _in_their_places(parts: list[Object]) -> Scene:
-    """Return parts of a model, shaded as when they are staged, but in their own places."""
-    staged = look_at(parts, {})
+def _in_their_places(parts: list[Object], name: str) -> Scene:
+    """Return parts of a model, shaded as when they are staged, but in their own places. name: for notes."""
+    staged = look_at(parts, {}, name=name)
     return evolve(
         staged, objects=[evolve(each, position=(0, 0, 0), rotation=(0, 0, 0, 1), scale=1) for each in staged.objects]
     )
@@ -111,7 +111,7 @@ def _posed(path: Path, pose: dict[str, Any]) -> list[Object] | Scene:
     if "use_camera" not in pose:
         return parts
     with about(str(path)):
-        scene = _in_their_places(parts)
+        scene = _in_their_places(parts, str(path))
     camera, lights = read_view(path, scene.bounds.mean(axis=0), **pose)
     return evolve(scene, camera=camera, lights=lights or scene.lights)
 
@@ -189,7 +189,8 @@ def _combined(things: Sequence[Any], look: Mapping[str, Any]) -> list[Object] | 
                     scenes.append(made)
             else:
                 model, models = [*model, *made], models + 1
-                parts = list(_in_their_places(made).objects)
+                name = str(found) if isinstance(found, Path) else "the mesh"
+                parts = list(_in_their_places(made, name).objects)
         objects += parts
     if models == len(things):
         return model

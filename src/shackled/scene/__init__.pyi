@@ -14,7 +14,7 @@ from ._codec import (
     extensions,
     render_call,
 )
-from ._crease import CREASE, SIMPLIFIED_CREASE, creased, shaded
+from ._crease import creased, shaded
 from ._decode import decode, read_call
 from ._effects import EXPOSURES, POWERS, Fog, Hemisphere, Rim, Tone
 from ._files.colors import sample
@@ -61,7 +61,6 @@ __all__ = [
     "ANTIALIAS",
     "BACKGROUND",
     "CHUNK",
-    "CREASE",
     "CULL_BACKFACES",
     "DEFAULT_COLOR",
     "DEFAULT_HALF_HEIGHT",
@@ -100,7 +99,6 @@ __all__ = [
     "SCENES",
     "SETTINGS",
     "SHADINGS",
-    "SIMPLIFIED_CREASE",
     "SPOT",
     "TEXTURED",
     "TONE",
