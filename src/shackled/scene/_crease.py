@@ -15,6 +15,7 @@ from ._files.weld import weld
 from ._material import Shading
 from ._mesh import MAX_FACES, MAX_VERTICES, Mesh, components
 from ._object import Object
+from ._winding import against
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -97,13 +98,17 @@ def corner_uvs(mesh: Mesh) -> Floats | None:
 def corner_normals(positions: Floats, faces: Ints, degrees: float | None = None, groups: Ints | None = None) -> Floats:
     """Return a unit normal for each corner of each face, (m, 3, 3).
 
-    It is the mean of the faces around the corner, up to the next creases, weighted by area and angle.
+    It is the mean of the faces around the corner, up to the next creases, weighted by area and angle, and points to the
+    front of its face, also where its neighbours are wound the other way.
     degrees: as in `creased`.
     groups: (m,) the smoothing group of each face, in place of `degrees`: edges within a group are smooth; none are in
     group 0.
     """
     unique, number = np.unique(positions + 0.0, axis=0, return_inverse=True)
     corners = number.reshape(-1)[faces]
+    # as if all faces were wound alike
+    is_against = against(corners)
+    corners = np.where(is_against[:, None], corners[:, ::-1], corners)
     areas, angles = _areas_and_angles(unique, corners)
     sizes = length(areas)[:, None]
     units = np.divide(areas, sizes, out=np.zeros_like(areas), where=sizes > 0)
@@ -132,7 +137,9 @@ def corner_normals(positions: Floats, faces: Ints, degrees: float | None = None,
     np.add.at(sums, patch.ravel(), weighted.reshape(-1, 3))
     lengths = length(sums)[:, None]
     normals = np.divide(sums, lengths, out=np.zeros_like(sums), where=lengths > 0)[patch]
-    return np.asarray(np.round(np.where(normals.any(axis=2, keepdims=True), normals, units[:, None]), _DIGITS) + 0.0)
+    normals = np.where(normals.any(axis=2, keepdims=True), normals, units[:, None])
+    normals[is_against] = -normals[is_against, ::-1]
+    return np.asarray(np.round(normals, _DIGITS) + 0.0)
 
 
 def filled(positions: Floats, faces: Ints, normals: Floats) -> Floats:

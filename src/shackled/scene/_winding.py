@@ -1,4 +1,4 @@
-"""Which side of each face is the front: faces that are wound wrongly are turned, and closed parts are culled."""
+"""Which side of faces is the front: closed parts that are wound inside out are turned, and closed parts are culled."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from ..errors import warn
 from ..values import plural
-from ._arithmetic import dot, length
-from ._files.weld import weld
+from ._arithmetic import dot
 from ._mesh import Mesh, components
 from ._object import Object
 
@@ -19,18 +18,20 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
-#: An object is divided into its closed parts and its open ones if there are so many faces of the former at least: what
+#: An object is divided into its closed parts and the others if there are so many faces of the former at least: what
 #: culling saves, up to half of the gas, is then more than another object costs.
 SPLIT_FACES = 32
-#: Parts whose volume is a smaller share of that of the pyramids of their faces bound none.
+#: Parts whose volume is a smaller share of that of the pyramids of their faces have no inside: doubled sheets.
 _NO_VOLUME = 1e-6
 
 
 def wound(objects: Sequence[Object], name: str, split: bool) -> list[Object]:
-    """Return the objects of a model with faces that are wound alike, outward where they are closed, and culled there.
+    """Return the objects of a model with closed parts wound outward, and with `cull` for those of closed parts only.
 
-    split: whether objects that are partly closed may become two. An InputWarning, which begins with the name, tells
-    what is turned. What cannot be wound alike, such as a Moebius strip, stays as it is.
+    A connected part is closed if each edge is as often in one direction as in the other: there is no border, and its
+    faces do not disagree about the front. All others may be seen from behind.
+    split: whether objects that are partly closed may become two. An InputWarning, which begins with the name, counts
+    the parts that are turned.
     """
     meshes = [each.mesh for each in objects]
     positions = np.concatenate([mesh.positions for mesh in meshes])
@@ -39,91 +40,93 @@ def wound(objects: Sequence[Object], name: str, split: bool) -> list[Object]:
     faces = np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts, strict=False)])
     with np.errstate(over="ignore", invalid="ignore"):
         points = (positions - positions[0]) / (np.abs(positions - positions[0]).max() or 1.0)
-        turned, is_closed, against, inside_out = _sides(points[faces], number[faces])
-    if against:
-        warn(f"{name}: {plural(against, 'face')} wound against the neighbours, now turned")
-    if inside_out:
-        warn(f"{name}: {plural(inside_out, 'closed part')} wound inside out, now turned")
-    ends = np.cumsum([len(mesh.faces) for mesh in meshes])[:-1]
+        part, are_closed, are_inverted = _parts(points[faces], number[faces])
+    if are_inverted.any():
+        warn(f"{name}: {plural(int(are_inverted.sum()), 'closed part')} wound inside out, now turned")
     made = []
-    for each, is_turned, closed in zip(objects, np.split(turned, ends), np.split(is_closed, ends), strict=True):
-        mesh = _turned(each.mesh, is_turned) if is_turned.any() else each.mesh
-        count = int(closed.sum())
-        if split and each.is_opaque and SPLIT_FACES <= count < len(closed):
-            made += [
-                evolve(each, mesh=_part(mesh, kept), cull=cull) for kept, cull in ((closed, True), (~closed, False))
-            ]
+    for each, own in zip(objects, np.split(part, np.cumsum([len(mesh.faces) for mesh in meshes])[:-1]), strict=True):
+        closed, mesh = are_closed[own], _turned(each.mesh, are_inverted[own])
+        if split and each.is_opaque and SPLIT_FACES <= closed.sum() < len(closed):
+            halves = [(_part(mesh, kept), cull) for kept, cull in ((closed, True), (~closed, False))]
         else:
-            made.append(evolve(each, mesh=mesh, cull=bool(closed.all())))
+            halves = [(mesh, bool(closed.all()))]
+        made += [evolve(each, mesh=half, cull=cull) for half, cull in halves]
     return made
 
 
-def _sides(points: Floats, corners: Ints) -> tuple[Flags, Flags, int, int]:
-    """Return which faces are to be turned, which are then of closed parts, and how many faces are turned because others
-    of their part are wound otherwise, and how many parts because they are inside out.
+def _parts(points: Floats, corners: Ints) -> tuple[Ints, Flags, Flags]:
+    """Return the number of the part of each face, (m,), which parts are closed, and which are wound inside out.
 
-    points: (m, 3, 3). corners: (m, 3), numbers of points.
+    points: (m, 3, 3). corners: (m, 3), numbers of points. Parts are connected by edges.
+    """
+    face, edge, direction = _edges(corners)
+    along = np.flatnonzero(edge[1:] == edge[:-1])
+    labels = components(np.stack([face[along], face[along + 1]], axis=1), len(corners))
+    first, part = np.unique(labels, return_index=True, return_inverse=True)[1:]
+    is_uneven = np.bincount(edge, direction)[edge] != 0
+    is_closed = np.bincount(part, np.bincount(face, is_uneven, len(corners))) == 0
+    # from a point of the part: volumes of far ones are exact, too
+    local = points - points[first[part], :1]
+    pyramids = dot(local[:, 0], np.cross(local[:, 1], local[:, 2]))
+    volume, most = np.bincount(part, pyramids), np.bincount(part, np.abs(pyramids))
+    is_inverted = is_closed & (volume < -_NO_VOLUME * most)
+    if is_inverted.any():
+        is_inverted[is_inverted] = ~_are_within(points, part, is_inverted, is_closed & (volume > _NO_VOLUME * most))
+    return part, is_closed, is_inverted
+
+
+def against(corners: Ints) -> Flags:
+    """Return which faces, (m,), are wound against the first of their part; none where that has no answer, as in a
+    Moebius strip. corners: (m, 3), numbers of points.
     """
     count = len(corners)
-    face, begin, end = np.repeat(np.arange(count), 3), corners.ravel(), np.roll(corners, -1, axis=1).ravel()
-    is_edge = begin != end
-    face, begin, end = face[is_edge], begin[is_edge], end[is_edge]
-    keys = np.minimum(begin, end) * (int(corners.max()) + 1) + np.maximum(begin, end)
-    order = np.argsort(keys, kind="stable")
-    face, is_up = face[order], (begin < end)[order]
-    first, edge, around = np.unique(keys[order], return_index=True, return_inverse=True, return_counts=True)[1:]
-    # each face and its other side are two vertices of a graph: those that belong together have one label
-    one = first[around == 2]
-    # two faces of the same corners are the sides of a sheet, or one of them twice
-    one = one[(np.sort(corners[face[one]], axis=1) != np.sort(corners[face[one + 1]], axis=1)).any(axis=1)]
-    f, g, odd = face[one], face[one + 1], is_up[one] == is_up[one + 1]
-    links = np.concatenate([np.stack([2 * f, 2 * g + odd], axis=1), np.stack([2 * f + 1, 2 * g + 1 - odd], axis=1)])
-    label = components(links, 2 * count).reshape(-1, 2)
-    turned = label[:, 0] > label[:, 1]
-    sheet = label.min(axis=1) // 2
-    areas = length(np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]))
-    # of both ways, the one that turns less of it
-    turned ^= np.bincount(sheet, areas * turned, count)[sheet] > np.bincount(sheet, areas * ~turned, count)[sheet]
-    against = int(turned.sum())
-    # parts that are connected by edges
-    along = np.flatnonzero(edge[1:] == edge[:-1])
-    part = components(np.stack([face[along], face[along + 1]], axis=1), count)
-    balance = np.bincount(edge, np.where(is_up ^ turned[face], 1, -1))
-    is_open = np.bincount(part[face], balance[edge] != 0, count) > 0
-    local = points - points[part, :1]
-    pyramids = dot(local[:, 0], np.cross(local[:, 1], local[:, 2])) * np.where(turned, -1, 1)
-    volume, whole = np.bincount(part, pyramids, count), np.bincount(part, np.abs(pyramids), count)
-    is_closed = ~is_open & (np.abs(volume) > _NO_VOLUME * whole)
-    is_inverted = is_closed & (volume < 0) & ~_is_within(points, part, is_closed & (volume > 0))
-    turned ^= is_inverted[part]
-    return turned, is_closed[part], against, int(is_inverted.sum())
+    face, edge, direction = _edges(corners)
+    around = np.bincount(edge)
+    one = (np.cumsum(around) - around)[around == 2]
+    here, there, odd = face[one], face[one + 1], direction[one] == direction[one + 1]
+    if not odd.any():
+        return np.zeros(count, dtype=bool)
+    # both sides of a face are two vertices of a graph: those that belong together have one label
+    links = [np.stack([2 * here + side, 2 * there + (odd ^ side)], axis=1) for side in (False, True)]
+    front, back = components(np.concatenate(links), 2 * count).reshape(-1, 2).T
+    return np.asarray(front > back)
 
 
-def _is_within(points: Floats, part: Ints, outer: Flags) -> Flags:
-    """Return which parts are in the box about another, of those that are outer, and so may be hollows: these are wound
-    the other way.
+def _edges(corners: Ints) -> tuple[Ints, Ints, Ints]:
+    """Return the face, the number and the direction, 1 or -1, of each side of the faces, (m, 3), sorted by the number:
+    sides of one edge have the same.
     """
+    face, begin, end = np.repeat(np.arange(len(corners)), 3), corners.ravel(), np.roll(corners, -1, axis=1).ravel()
+    keys = np.minimum(begin, end) * (int(corners.max()) + 1) + np.maximum(begin, end)
+    order = np.flatnonzero(begin != end)
+    order = order[np.argsort(keys[order], kind="stable")]
+    edge = np.unique(keys[order], return_inverse=True)[1].reshape(-1)
+    return face[order], edge, np.sign(end - begin)[order]
+
+
+def _are_within(points: Floats, part: Ints, inner: Flags, outer: Flags) -> Flags:
+    """Return which of the inner parts are in the box about an outer one, so that they may be the walls of hollows."""
     low, high = np.full((len(outer), 3), np.inf), np.full((len(outer), 3), -np.inf)
     np.minimum.at(low, part, points.min(axis=1))
     np.maximum.at(high, part, points.max(axis=1))
-    within = np.zeros(len(outer), dtype=bool)
-    for number in np.flatnonzero(outer):
-        within |= ((low >= low[number]) & (high <= high[number])).all(axis=1)
+    within = np.zeros(int(inner.sum()), dtype=bool)
+    for bottom, top in zip(low[outer], high[outer], strict=True):
+        within |= ((low[inner] >= bottom) & (high[inner] <= top)).all(axis=1)
     return within
 
 
 def _turned(mesh: Mesh, turned: Flags) -> Mesh:
-    """Return the mesh with some faces, (m,), wound the other way, and normals of these that point to their front."""
-    faces = np.where(turned[:, None], mesh.faces[:, [0, 2, 1]], mesh.faces)
-    normals = None
-    if mesh.normals is not None:
-        a, b, c = (mesh.positions[faces[:, corner]] for corner in range(3))
-        normals = mesh.normals[faces]
-        is_behind = dot(normals, np.cross(b - a, c - a)[:, None]) < 0
-        normals = np.where((turned[:, None] & is_behind)[:, :, None], -normals, normals)
-    if normals is None:
+    """Return the mesh with some faces, (m,), wound the other way, and normals that point to their front."""
+    if not turned.any():
+        return mesh
+    faces = np.where(turned[:, None], mesh.faces[:, ::-1], mesh.faces)
+    if mesh.normals is None:
         return evolve(mesh, faces=faces)
-    return weld(mesh.positions, faces, mesh.rgba[faces], normals, None if mesh.uvs is None else mesh.uvs[faces])
+    a, b, c = mesh.positions[faces[turned]].transpose(1, 0, 2)
+    normals = mesh.normals.copy()
+    if dot(normals[faces[turned]].sum(axis=1), np.cross(b - a, c - a)).sum() < 0:
+        normals[np.unique(faces[turned])] *= -1
+    return evolve(mesh, faces=faces, normals=normals)
 
 
 def _part(mesh: Mesh, kept: Flags) -> Mesh:
