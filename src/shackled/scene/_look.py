@@ -145,7 +145,7 @@ SETTINGS = (
         1,
         MAX_SIDE,
         "pixels",
-        f"the scene's, or {MESH_STAGING.side} for mesh files",
+        f"the scene's, or {MESH_STAGING.side} for mesh files and pieces of datasets",
     ),
     Setting("max_triangles", "whole", None, "Canvas", "Number of triangles to which larger meshes are simplified.", 1),
     Setting(
