@@ -23,6 +23,8 @@ Flags = NDArray[np.bool_]
 SPLIT_FACES = 32
 #: Parts whose volume is a smaller share of that of the pyramids of their faces have no inside: doubled sheets.
 _NO_VOLUME = 1e-6
+#: Hollows are looked for in so many parts, the largest ones. Elsewhere their walls are turned, which is not seen.
+_MOST_OUTER = 1000
 
 
 def wound(objects: Sequence[Object], name: str, split: bool) -> list[Object]:
@@ -71,7 +73,8 @@ def _parts(points: Floats, corners: Ints) -> tuple[Ints, Flags, Flags]:
     volume, most = np.bincount(part, pyramids), np.bincount(part, np.abs(pyramids))
     is_inverted = is_closed & (volume < -_NO_VOLUME * most)
     if is_inverted.any():
-        is_inverted[is_inverted] = ~_are_within(points, part, is_inverted, is_closed & (volume > _NO_VOLUME * most))
+        outer = np.argsort(np.where(is_closed, -volume, 0))[:_MOST_OUTER]
+        is_inverted[is_inverted] = ~_are_within(points, part, is_inverted, outer[volume[outer] > 0])
     return part, is_closed, is_inverted
 
 
@@ -104,14 +107,15 @@ def _edges(corners: Ints) -> tuple[Ints, Ints, Ints]:
     return face[order], edge, np.sign(end - begin)[order]
 
 
-def _are_within(points: Floats, part: Ints, inner: Flags, outer: Flags) -> Flags:
+def _are_within(points: Floats, part: Ints, inner: Flags, outer: Ints) -> Flags:
     """Return which of the inner parts are in the box about an outer one, so that they may be the walls of hollows."""
-    low, high = np.full((len(outer), 3), np.inf), np.full((len(outer), 3), -np.inf)
+    low, high = np.full((len(inner), 3), np.inf), np.full((len(inner), 3), -np.inf)
     np.minimum.at(low, part, points.min(axis=1))
     np.maximum.at(high, part, points.max(axis=1))
-    within = np.zeros(int(inner.sum()), dtype=bool)
+    lowest, highest = low[inner], high[inner]
+    within = np.zeros(len(lowest), dtype=bool)
     for bottom, top in zip(low[outer], high[outer], strict=True):
-        within |= ((low[inner] >= bottom) & (high[inner] <= top)).all(axis=1)
+        within |= ((lowest >= bottom) & (highest <= top)).all(axis=1)
     return within
 
 
