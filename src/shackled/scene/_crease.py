@@ -185,8 +185,8 @@ def _by_shape(
     sharp = mean(turns > _GAP[1], all_edges)
     middling = mean((turns > _GAP[0]) & (turns <= _GAP[1]), all_edges)
     is_solid = is_flat_faced | ((sharp >= _GAP_TIMES * middling) & (sharp >= _GAP_SHARE))
-    shape = np.where(is_solid, 0, 1)
-    shape = np.where(is_all_corners & (is_all_corners | (shape == 0)).all(), 2, shape)
+    is_figure = ~is_solid & ~is_all_corners
+    shape = np.where(is_all_corners & ~is_figure.any(), 2, np.where(is_solid, 0, 1))
     sides = _lengths(places[corners[:, [[0, 1], [1, 2], [2, 0]]]])
     longest = sides.max(axis=1)
     areas = length(_areas_and_angles(points, corners)[0])
