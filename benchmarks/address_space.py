@@ -27,7 +27,7 @@ def main() -> None:
         chains.insert(0, RevmChain())
         chains[0].draw(shackled.load("teapot", size=16))
     for size in (128, 512):
-        call = render_call(shackled.load("teapot", size=size))
+        call = render_call(shackled.load("teapot", size=size, antialias=False))
         shortest = [float("inf")] * 2
         for _ in range(ROUNDS):
             for index, chain in enumerate(chains):

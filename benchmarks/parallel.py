@@ -17,9 +17,10 @@ from statistics import fmean
 from attrs import evolve
 from tools.anvil import Anvil, AnvilChain, find_anvil
 
-from shackled import Scene, load
+from shackled import Scene
 from shackled.bench import gas, millions, table
 from shackled.chain import open_chain
+from shackled.datasets import require
 from shackled.parallel import Backend, Listener, Part, ProcessBackend, Scheduler, Where, grid
 from shackled.scene import Rectangle, full_turn
 
@@ -38,7 +39,7 @@ def tiles() -> Section:
     """Measure the gas of a picture in tiles against that of the whole."""
     rows, data = [], {}
     for side in SIDES:
-        scene = evolve(load("teapot"), width=side, height=side)
+        scene = evolve(require("teapot").make(), width=side, height=side)
         whole = gas(scene)
         sums = {}
         for across, down in GRIDS:
@@ -66,7 +67,7 @@ def many_tiles() -> Section:
     """Measure the tiles of many scenes at 512 x 512 pixels."""
     if not shared.is_there():
         return Section("Tiles of 512 x 512 pixels", shared.SKIPPED, {})
-    scenes = {"teapot": load("teapot"), "cube": shared.scene(shared.LARGE_CUBE)}
+    scenes = {"teapot": require("teapot").make(), "cube": shared.scene(shared.LARGE_CUBE)}
     scenes |= {name: shared.scene(name) for name in shared.objects()}
     ratios: dict[str, list[float]] = {}
     for name, each in scenes.items():
@@ -87,7 +88,7 @@ def many_tiles() -> Section:
 
 def throughput() -> Section:
     """Measure the frames per second of a turntable on several backends."""
-    frames = full_turn(evolve(load("teapot"), width=SIDE, height=SIDE), FRAMES)
+    frames = full_turn(evolve(require("teapot").make(), width=SIDE, height=SIDE), FRAMES)
     with ExitStack() as stack:
         places = opened(stack)
         best = dict.fromkeys(places, float("inf"))

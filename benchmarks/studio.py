@@ -19,7 +19,7 @@ from tools.pages import ROOT, update
 from shackled import Object, load, render
 from shackled.artifacts import artifact
 from shackled.chain import EmbeddedChain, open_chain
-from shackled.datasets import teapot
+from shackled.datasets import require, teapot
 from shackled.datasets.genesis import generate_on_chain, picture_on_chain, seed_of
 from shackled.image import encode_bmp
 from shackled.scene import fit, pack, stage
@@ -69,22 +69,22 @@ class Keeper:
 
 def mesh_figures(keeper: Keeper) -> Figures:
     """Measure 1,000 triangles: 992 of a teapot, without loss and with."""
-    smooth = load("teapot")
+    smooth = require("teapot").make()
     flat = stage(teapot(4))
     figures: Figures = {}
     for name, scene, bits, normal_bits in (
         ("992 triangles, faces of one shade", flat, None, 10),
         ("992 triangles, smooth", smooth, None, 10),
         (SMALLEST, smooth, 11, 6),
-        ("icons/crown", load("icons/crown"), None, 10),
-        ("icons/heart", load("icons/heart"), None, 10),
+        ("icons/crown", require("icons/crown").make(), None, 10),
+        ("icons/heart", require("icons/heart").make(), None, 10),
     ):
         if bits is not None:
             scene = evolve(scene, objects=[quantize(o, bits) for o in scene.objects])
         (o,) = fit(scene).objects
         size, storing, reading = keeper.kept_mesh(o, normal_bits)
         figures |= {f"{name}: bytes": size, f"{name}: store": storing, f"{name}: decode": reading}
-    figures[SCENE] = store_scene(load("icons/crown"), keeper.studio)[-1].gas
+    figures[SCENE] = store_scene(require("icons/crown").make(), keeper.studio)[-1].gas
     return figures
 
 
@@ -107,13 +107,15 @@ def png_figures(keeper: Keeper) -> Figures:
         figures |= {f"{name}: gas": sum(gas) // PIECES, f"{name}: bytes": sum(size) // PIECES}
     others = {
         "one colour": np.full((128, 128, 3), 200, np.uint8),
-        "teapot": render(load("teapot"), size=128).pixels,
+        "teapot": render(require("teapot").make(), size=128).pixels,
         "noise": np.random.default_rng(1).integers(0, 256, (128, 128, 3), np.uint8),
     }
     for picture, pixels in others.items():
         gas_, size_ = encoding(4, pixels)
         figures |= {f"PNG, {picture}, x 4: gas": gas_, f"PNG, {picture}, x 4: bytes": size_}
-    black, white = (render(load("teapot", size=128, background=each)).pixels for each in ("black", "white"))
+    black, white = (
+        render(load(require("teapot").make(), size=128, background=each)).pixels for each in ("black", "white")
+    )
     for scale in (1, 4):
         name, (gas_, size_) = f"PNG, teapot, transparent, x {scale}", encoding(scale, black, white)
         figures |= {f"{name}: gas": gas_, f"{name}: bytes": size_}

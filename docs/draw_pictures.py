@@ -25,7 +25,7 @@ from shackled.datasets.common import builtin, shapes
 from shackled.datasets.genesis import generate, picture_on_chain, seed_of
 from shackled.datasets.icons import pieces as icons
 from shackled.datasets.showcase import draw_showcase
-from shackled.scene import LookOptions, painted, resize, stage
+from shackled.scene import LookOptions, painted, stage
 from shackled.stages import draw_stages
 from shackled.stages import strip as stages_strip
 from shackled.studio import make_apng
@@ -227,7 +227,7 @@ def main() -> None:
         # in the site, pictures with a scene can be turned
         image.save(IMAGES / f"{name}.png", scene=True)
         figures[name] = {key: getattr(image, key) for key in ("width", "height", "triangles", "gas")}
-    stages_strip(draw_stages(resize(load("teapot"), 256))).save(IMAGES / "stages.png", optimize=True)
+    stages_strip(draw_stages(load("teapot", 256, antialias=False))).save(IMAGES / "stages.png", optimize=True)
     smoothed().save(IMAGES / "antialiasing.png", optimize=True)
     both, gas = transparent()
     both.save(IMAGES / "transparent.png", optimize=True)
@@ -235,7 +235,7 @@ def main() -> None:
     turning = spin()
     turning.save(IMAGES / "turntable.gif")
     figures["turntable"] = {"frames": len(turning.frames), "gas": turning.gas}
-    film = make_apng(load("icons/rocket", 64), frames=12, duration=100, scale=4)
+    film = make_apng(load("icons/rocket", 64, antialias=False), frames=12, duration=100, scale=4)
     film.save(IMAGES / "motion.png")
     figures["motion"] = {"frames": 12, "gas": film.gas}
     for name, row in effects().items():

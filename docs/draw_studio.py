@@ -14,7 +14,7 @@ from PIL import Image as PillowImage
 from tools.examples import compile_example, picture, token_uri
 from tools.ledger import World
 
-from shackled import load
+from shackled.datasets import require
 from shackled.studio import store_scene
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -24,7 +24,7 @@ def main() -> None:
     """Draw the picture."""
     world = World()
     studio = world.address("Studio")
-    for storing in store_scene(load("icons/diamond"), studio, chain=world.chain):
+    for storing in store_scene(require("icons/diamond").make(), studio, chain=world.chain):
         world.run(studio, storing.data, created=True)
     arguments = [address.rjust(32, b"\0") for address in (studio, storing.pointer)]
     kept = world.deploy(compile_example("examples/tokens/PictureToken.sol")[0], b"".join(arguments))

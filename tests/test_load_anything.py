@@ -13,6 +13,7 @@ from typing import Any, Literal
 import numpy as np
 import pytest
 import trimesh
+from attrs import evolve
 
 import shackled
 from shackled import (
@@ -77,7 +78,12 @@ def test_objects_and_pieces() -> None:
     assert load([MESH, MESH]) == Scene([Object(MESH), Object(MESH)])
     assert load(pair[0]) == Scene(pair[0])
     assert load(pair, (64, 32)) == Scene(pair, width=64, height=32)
-    assert load(require("cube")) == load("cube") == require("cube").make()
+    # pieces as large and as smooth as meshes; else they are scenes of their own
+    cube = require("cube").make()
+    assert load(require("cube")) == load("cube") == evolve(cube, width=256, height=256, antialias=True)
+    assert load("cube", 128, antialias=False) == cube
+    assert load("icons/coin").antialias
+    assert load("showcase/glass") == require("showcase/glass").make()
     scene = load("cube")
     assert load(scene) is scene
 

@@ -11,7 +11,7 @@ from typing import Any, Unpack
 import numpy as np
 from attrs import evolve, fields
 
-from .datasets import Piece, find, require
+from .datasets import DATASETS, Piece, find, require
 from .errors import InputError
 from .scene import (
     GLTF,
@@ -52,9 +52,9 @@ def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
     these, which is one scene of all their objects. Meshes, objects and models stay where they are; several pieces stand
     in a row along x. Of a piece only the objects are taken, of a Scene also camera, lights and all else, in which
     several must agree. A list of mesh files or of trimesh.Trimesh is one model, staged like one mesh.
-    A mesh is staged: it fills the picture, antialiased, in smooth shading except across creases. A scene keeps its look
-    except for the given settings.
-    size: side of a square picture, or (width, height), in pixels; None for the scene's, or 256 for a mesh.
+    A mesh is staged: it fills the picture, antialiased, in smooth shading except across creases. A piece is antialiased
+    as well. A scene keeps its look except for the given settings.
+    size: side of a square picture, or (width, height), in pixels; None for the scene's, or 256 for a mesh or a piece.
     look: settings by the keywords of `LookOptions`, such as color="tomato", smooth=True, rotate=(0, 30, 0),
     background="white", fov=40.
     InputError, one line, if the input does not exist or is not valid.
@@ -66,7 +66,7 @@ def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
         pose = {setting.name: chosen.pop(setting.name) for setting in settings_of("file") if setting.name in chosen}
     made = _posed(found, pose) if pose else _made(found, chosen)
     with about(str(found)) if isinstance(found, Path) else nullcontext():
-        return look_at(made, chosen)
+        return look_at(made, chosen, name=str(found) if isinstance(found, Path) else "the mesh")
 
 
 def _located(thing: Any) -> Any:
@@ -97,9 +97,9 @@ def _unplaced(part: MeshPart) -> Object:
     return Object(part.mesh, material=evolve(MESH_STAGING.material, **part.material), opacity=part.opacity)
 
 
-def _in_their_places(parts: list[Object]) -> Scene:
-    """Return parts of a model, shaded as when they are staged, but in their own places."""
-    staged = look_at(parts, {})
+def _in_their_places(parts: list[Object], name: str) -> Scene:
+    """Return parts of a model, shaded as when they are staged, but in their own places. name: for notes."""
+    staged = look_at(parts, {}, name=name)
     return evolve(
         staged, objects=[evolve(each, position=(0, 0, 0), rotation=(0, 0, 0, 1), scale=1) for each in staged.objects]
     )
@@ -111,7 +111,7 @@ def _posed(path: Path, pose: dict[str, Any]) -> list[Object] | Scene:
     if "use_camera" not in pose:
         return parts
     with about(str(path)):
-        scene = _in_their_places(parts)
+        scene = _in_their_places(parts, str(path))
     camera, lights = read_view(path, scene.bounds.mean(axis=0), **pose)
     return evolve(scene, camera=camera, lights=lights or scene.lights)
 
@@ -124,7 +124,7 @@ def _made(thing: Any, look: dict[str, Any]) -> Mesh | list[Object] | Scene:
         is_model = thing.suffix.lower() in READERS
         return [_unplaced(part) for part in read_model(thing)] if is_model else read_scene(thing)
     if isinstance(thing, Piece):
-        return thing.make()
+        return _in_default_look(thing)
     if isinstance(thing, Object) or _is_trimesh_scene(thing):
         return _staged(_placed(thing), look)
     if is_trimesh(thing):
@@ -139,6 +139,13 @@ def _made(thing: Any, look: dict[str, Any]) -> Mesh | list[Object] | Scene:
     if 2 <= len(thing) <= 4:
         return Mesh(*thing)
     raise InputError(f"vertices and faces are needed, not {len(thing)} parts: {thing!r:.60}")
+
+
+def _in_default_look(piece: Piece) -> Scene:
+    """Return the scene of a piece with the size and the antialiasing of mesh files."""
+    side, scene = MESH_STAGING.side, piece.make()
+    # each scene of the showcase has its own
+    return evolve(scene, width=side, height=side, antialias=True) if piece.dataset in DATASETS else scene
 
 
 def _is_trimesh_scene(thing: object) -> bool:
@@ -189,7 +196,8 @@ def _combined(things: Sequence[Any], look: Mapping[str, Any]) -> list[Object] | 
                     scenes.append(made)
             else:
                 model, models = [*model, *made], models + 1
-                parts = list(_in_their_places(made).objects)
+                name = str(found) if isinstance(found, Path) else "the mesh"
+                parts = list(_in_their_places(made, name).objects)
         objects += parts
     if models == len(things):
         return model

@@ -104,7 +104,7 @@ def test_the_cornell_box_has_the_published_measures() -> None:
 
 
 def test_the_cornell_box_looks_as_it_should() -> None:
-    pixels = shackled.render("cornell-box").pixels.astype(int)
+    pixels = shackled.render("cornell-box", size=128).pixels.astype(int)
     assert (pixels[64, 10] - pixels[64, 10].min() > [80, -1, -1]).all()  # the red wall is at the left
     assert pixels[64, 118, 1] > pixels[64, 118, 0] + 40  # the green one at the right
     assert (pixels[18, 64] > 220).all()  # the lamp

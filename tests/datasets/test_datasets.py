@@ -150,7 +150,7 @@ def test_mistakes_are_one_line(arguments: list[str], message: str, capsys: pytes
 
 @pytest.mark.parametrize("name", ["teapot", "icons/diamond", "genesis/12"])
 def test_pieces_are_rendered_by_name(name: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["render", name, "--json"]) == 0
+    assert run(["render", name, "--json", "--size", "128", "--no-antialias"]) == 0
     output, messages = capsys.readouterr()
     report = json.loads(output)
     assert messages == ""
@@ -158,7 +158,7 @@ def test_pieces_are_rendered_by_name(name: str, folder: Path, capsys: pytest.Cap
     assert report["output"] == f"{name.replace('/', '-')}.png"
     assert report["gas"] == table()[name].gas
     with PillowImage.open(folder / report["output"]) as picture:
-        assert (np.array(picture) == shackled.render(name).pixels).all()
+        assert (np.array(picture) == shackled.render(require(name).make()).pixels).all()
 
 
 def test_the_look_of_a_piece_can_be_changed() -> None:
@@ -248,7 +248,7 @@ def test_a_drawing_is_made_once(folder: Path, monkeypatch: pytest.MonkeyPatch) -
 
 
 def test_a_drawing_is_what_the_contracts_make() -> None:
-    drawing, image = draw(require("torus")), shackled.render("torus")
+    drawing, image = draw(require("torus")), shackled.render(require("torus").make())
     with PillowImage.open(io.BytesIO(drawing.png)) as picture:
         assert (np.array(picture) == image.pixels).all()
     assert drawing.gas == image.gas

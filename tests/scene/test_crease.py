@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from pathlib import Path
 
@@ -211,3 +212,94 @@ def test_all_of_a_mesh_is_smooth_if_asked_for() -> None:
     # and if an object says so by itself
     smooth = Object(CUBE, material=Material("smooth"))
     assert load(Scene([smooth]), smooth=True, size=9).objects == (smooth,)
+
+
+def of_hull(points: NDArray[np.float64]) -> Mesh:
+    """The faces of the convex hull of a few points in general position."""
+    faces = []
+    for each in itertools.combinations(range(len(points)), 3):
+        a, b, c = points[list(each)]
+        heights = (points - a) @ np.cross(b - a, c - a)
+        if (heights < 1e-12).all():
+            faces.append(each)
+        elif (heights > -1e-12).all():
+            faces.append(each[::-1])
+    return Mesh(points, faces)
+
+
+def random_ball(count: int) -> NDArray[np.float64]:
+    points = np.random.default_rng(3).normal(size=(count, 3))
+    return np.asarray(points / np.linalg.norm(points, axis=1, keepdims=True))
+
+
+def lumps(bumps: float = 0.2) -> Mesh:
+    """A coarse figure: a ball of 320 faces whose vertices are nearer or farther."""
+    ball = trimesh.creation.icosphere(subdivisions=2)
+    return Mesh(
+        ball.vertices * np.random.default_rng(5).uniform(1 - bumps, 1 + bumps, (len(ball.vertices), 1)), ball.faces
+    )
+
+
+@pytest.mark.parametrize("count", [10, 20, 40])
+def test_hulls_of_few_faces_are_flat(count: int) -> None:
+    hull = of_hull(random_ball(count))
+    assert hull.triangles <= 100
+    assert creased(hull).normals is None
+    assert creased(hull, 40).normals is not None
+
+
+@pytest.mark.parametrize("subdivisions", [1, 2])
+def test_balls_of_few_faces_are_smooth(subdivisions: int) -> None:
+    ball = made(trimesh.creation.icosphere(subdivisions=subdivisions))
+    assert len(creased(ball).positions) == len(ball.positions)
+
+
+def test_single_sharp_edges_of_a_figure_are_smooth() -> None:
+    figure = lumps()
+    count = len(figure.positions)
+    assert len(creased(figure, 40).positions) > 1.2 * count
+    assert count <= len(creased(figure).positions) < 1.05 * count
+
+
+def test_a_figure_has_no_parts_of_facets_but_solids_keep_their_edges() -> None:
+    hull, figure = of_hull(random_ball(20) + np.array([5, 0, 0])), lumps()
+    solid = Mesh(CYLINDER.positions + np.array([0, 5, 0]), CYLINDER.faces)
+    both = Mesh(
+        np.concatenate([figure.positions, hull.positions, solid.positions]),
+        np.concatenate([figure.faces, hull.faces + 162, solid.faces + 162 + len(hull.positions)]),
+    )
+    mesh = creased(both)
+    assert mesh.normals is not None
+    x, y, _ = mesh.positions.T
+    assert ((x > 3).sum(), (y > 3).sum()) < (40, len(creased(CYLINDER).positions) + 1)
+    assert (y > 3).sum() == len(creased(CYLINDER).positions)
+
+
+def test_solids_of_rounded_coordinates_keep_their_edges() -> None:
+    """Though no two of their triangles are in one plane."""
+    box = trimesh.creation.box().subdivide().subdivide()
+    noisy = Mesh(box.vertices + np.random.default_rng(2).uniform(-0.002, 0.002, box.vertices.shape), box.faces)
+    found = corners(creased(noisy))
+    assert len(found) > 100
+    assert np.abs(found).max(axis=2).min() > 0.98
+
+
+def test_a_needle_has_no_direction_of_its_own() -> None:
+    ball = trimesh.creation.icosphere(subdivisions=3)
+    a, b, c = ball.faces[100]
+    # a narrow face that stands on an edge
+    middle = ball.vertices[[a, b]].mean(axis=0)
+    foot = 0.5 * (ball.vertices[a] + ball.vertices[b])
+    tip = foot + 0.04 * np.linalg.norm(ball.vertices[a] - ball.vertices[b]) * middle / np.linalg.norm(middle)
+    new = len(ball.vertices)
+    (other,) = [i for i, face in enumerate(ball.faces.tolist()) if i != 100 and {a, b} <= set(face)]
+    assert a in ball.faces[other]
+    d = next(each for each in ball.faces[other].tolist() if each not in (a, b))
+    rest = np.delete(ball.faces, [100, other], axis=0)
+    faces = np.concatenate([rest, [(a, new, c), (new, b, c), (b, a, d), (a, b, new)]])
+    mesh = Mesh(np.concatenate([ball.vertices, [tip]]), faces)
+    found = corners(creased(mesh))
+    outward = mesh.positions[mesh.faces] / np.linalg.norm(mesh.positions[mesh.faces], axis=2, keepdims=True)
+    assert len(creased(mesh, 40).positions) > len(mesh.positions)
+    assert len(creased(mesh).positions) == len(mesh.positions)
+    assert (found * outward).sum(axis=2).min() > 0.9

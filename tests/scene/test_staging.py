@@ -177,3 +177,44 @@ def test_what_cannot_be() -> None:
         stage(BOX, (8, 0))
     with pytest.raises(InputError, match=r"^`color` must be red, green and blue from 0 to 255"):
         stage(BOX, color="crimsonish")
+
+
+def test_the_background_is_light_unless_most_of_the_surface_is() -> None:
+    def top(own: str, **look: object) -> int:
+        return load(painted(BOX, own), **look).background.top[0]  # type: ignore[arg-type]
+
+    light, dark = top("#202020"), top("white")
+    assert light > 100 > 50 > dark
+    assert [top(color) for color in ("black", "#888", "tomato", "#c8c8c8")] == [light] * 4
+    assert top("black", color="white") == dark
+    assert top("white", color="black") == light
+    # without light, colours stay as they are
+    assert (top("#c8c8c8", unlit=True), top("#303030", unlit=True)) == (dark, light)
+    assert load(painted(BOX, "white"), background="red").background.top == (255, 0, 0)
+    # most of the surface: of the box, two sides are larger than the four others
+    flat = Mesh(CORNERS * (1, 0.1, 1), FACES, [(255, 255, 255) if y > 0 else (100, 100, 100) for _, y, _ in CORNERS])
+    assert load(flat).background.top[0] == light
+    assert load(painted(flat, "white")).background.top[0] == dark
+
+
+def test_the_shadow_on_a_ground_is_in_the_picture() -> None:
+    light = Light("directional", (-3, 1, 0))
+    alone = load(BOX, lights=light, ground="grey", azimuth=0)
+    scene = load(BOX, lights=light, ground="grey", shadow=True, azimuth=0)
+    assert np.abs(picture(alone)).max() == pytest.approx(0.85)
+    # the shadow falls to the right
+    assert picture(scene)[:, 0].max() < picture(alone)[:, 0].max() - 0.1
+    assert np.linalg.norm(scene.camera.eye - scene.camera.target) > np.linalg.norm(
+        alone.camera.eye - alone.camera.target
+    )
+    assert load(BOX, lights=light, shadow=True, azimuth=0).camera == load(BOX, lights=light, azimuth=0).camera
+    # the part of it that is on what is left of the ground, however low the light is, also from a lamp
+    for lamp in (Light("directional", (-1, 1e-9, 0)), Light("point", (-3, 0, 0))):
+        far = load(BOX, lights=lamp, ground="grey", shadow=True, azimuth=0).camera
+        assert np.linalg.norm(far.eye) < 3 * np.linalg.norm(alone.camera.eye)
+    # and of a scene whose camera is placed anew
+    placed = load(
+        Scene(scene.objects, lights=(Light("directional", (-3, 1, 0), shadow=True),), ground="grey"), margin=0.1
+    )
+    bare = load(Scene(scene.objects, lights=(light,), ground="grey"), margin=0.1)
+    assert placed.camera != bare.camera

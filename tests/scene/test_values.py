@@ -412,6 +412,6 @@ def test_wrong_kinds_are_one_clear_error(make: Any, message: str) -> None:
 
 def test_meshes_and_scenes_show_themselves_in_a_line() -> None:
     assert repr(MESH) == "<Mesh 3 vertices, 1 triangle>"
-    assert repr(load("cube")) == "<Scene 128x128, 1 object, 12 triangles, 1 light>"
+    assert repr(load("cube")) == "<Scene 256x256, 1 object, 12 triangles, 1 light>"
     assert len(repr(load("teapot").objects[0])) < 400
     assert issubclass(shackled.OutputError, OSError)

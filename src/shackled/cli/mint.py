@@ -71,7 +71,7 @@ def mint(
     node.check()
     # a token is drawn by nodes of all kinds, of which many allow a call too little gas for antialiased meshes
     is_mesh = not isinstance(source, Piece) and source.suffix.lower() in READERS
-    thing = token_scene(source) if isinstance(source, Piece) and pixels is None else source
+    thing = (token_scene(source) if pixels is None else source.make()) if isinstance(source, Piece) else source
     scene = load(thing, pixels, max_triangles=max_triangles, antialias=False if is_mesh else None)
     wanted = SceneToStore(input, scene, position_bits)
     connection = node.connect()

@@ -20,7 +20,8 @@ class Piece:
     dataset: "common", "icons" or "genesis".
     title: for display. licence: of the model, as its source states it.
     commercial: whether the licence is known to allow commercial use; otherwise a piece cannot be minted.
-    make: makes the scene. It may be slow, and raises InputError if a file has not been fetched.
+    make: makes the scene as it is measured, in general 128 x 128 pixels without antialiasing, which `load` changes. It
+    may be slow, and raises InputError if a file has not been fetched.
     credit: the author to name with the picture, or "".
     ready: whether all files that `make` needs have been fetched.
     """

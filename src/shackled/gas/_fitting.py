@@ -16,7 +16,7 @@ from ..chain import ContractChain, open_chain
 from ..checks import choice
 from ..errors import InputError, OutOfGasError
 from ..ethereum import intrinsic_gas
-from ..scene import SIMPLIFIED_CREASE, Scene, simplify_scene
+from ..scene import Scene, simplify_scene
 from ..values import listed
 from ._exact import Limit, floor_gas, limits, render_call
 from ._fits import ENVELOPE, MAX_TRANSACTION
@@ -60,17 +60,17 @@ class _Settings:
 def fit_scene(scene: Scene, what: str, crease: float | None = None) -> Fitted:
     """Return the scene with less antialiasing, size and triangles, as far as it takes to fit one request.
 
-    what: "transaction" or "call". crease: as in `simplify_scene`; None for its default.
+    what: "transaction" or "call". crease: as in `simplify_scene`.
     Each try is a call with no more gas than the request may use, so that it never takes longer than a picture that
     fits. InputError if nothing fits.
     """
     kind = choice(what, "`fit`", FITS)
     limit = next(each for each in limits() if each.kind == kind and each.node in ("", CALL_NODE))
-    return _Fitting(scene, limit, SIMPLIFIED_CREASE if crease is None else crease).run()
+    return _Fitting(scene, limit, crease).run()
 
 
 class _Fitting:
-    def __init__(self, scene: Scene, limit: Limit, crease: float) -> None:
+    def __init__(self, scene: Scene, limit: Limit, crease: float | None) -> None:
         chain = open_chain()
         assert isinstance(chain, ContractChain)
         self._scene, self._limit, self._crease, self._chain = scene, limit, crease, chain

@@ -15,7 +15,7 @@ from ._codec import (
     extensions,
     render_call,
 )
-from ._crease import CREASE, SIMPLIFIED_CREASE, creased, shaded
+from ._crease import creased, shaded
 from ._decode import decode, read_call
 from ._effects import EXPOSURES, POWERS, Fog, Hemisphere, Rim, Tone
 from ._files.colors import sample
@@ -48,6 +48,7 @@ from ._staging import (
     BACKGROUND,
     MESH_STAGING,
     Viewpoint,
+    contrasting,
     frame,
     is_closed,
     painted,
@@ -62,7 +63,6 @@ __all__ = [
     "ANTIALIAS",
     "BACKGROUND",
     "CHUNK",
-    "CREASE",
     "CULL_BACKFACES",
     "DEFAULT_COLOR",
     "DEFAULT_HALF_HEIGHT",
@@ -101,7 +101,6 @@ __all__ = [
     "SCENES",
     "SETTINGS",
     "SHADINGS",
-    "SIMPLIFIED_CREASE",
     "SPOT",
     "TEXTURED",
     "TONE",
@@ -136,6 +135,7 @@ __all__ = [
     "about",
     "checked_look",
     "components",
+    "contrasting",
     "cosine",
     "creased",
     "cut",

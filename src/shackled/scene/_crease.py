@@ -1,4 +1,8 @@
-"""Normals for meshes that have none: smooth, except across creases."""
+"""Normals for meshes that have none: smooth, except across creases.
+
+At which angle between faces an edge is a crease depends on the shape of the connected part that it belongs to, since no
+angle suits all: the edge of a chamfer is a trait of the shape, one of the same angle in a coarse scan is not.
+"""
 
 from __future__ import annotations
 
@@ -11,17 +15,34 @@ from ._files.weld import weld
 from ._material import Shading
 from ._mesh import MAX_FACES, MAX_VERTICES, Mesh, components
 from ._object import Object
+from ._winding import against
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
-#: The largest angle between faces, in degrees, at which the edge between them is smooth. Chamfers and octagons, 45
-#: degrees, stay hard; coarse round shapes, such as a cylinder of 9 sides, do not.
-CREASE = 40.0
-#: That of meshes that were simplified, whose faces are large for the shape.
-SIMPLIFIED_CREASE = 60.0
 CREASES = (0, 180)
+#: The largest angle between faces, in degrees, at which the edge between them is smooth, and that up to which a crease
+#: that ends within a surface is smooth. In solids of flat faces, chamfers and octagons, 45 degrees, stay hard; coarse
+#: round shapes, such as a cylinder of 9 sides, do not.
+_SOLID = (40.0, 60.0)
+#: In other shapes, such as figures and scans.
+_FIGURE = (75.0, 75.0)
+#: In parts of few faces that are all corners, such as hulls, unless they belong to a figure.
+_FACETS = (1.0, 1.0)
+_ANGLES = (_SOLID, _FIGURE, _FACETS)
+#: A part is a solid of flat faces if edges within these, of at most so many degrees, are this share of the length of
+#: all its edges. It is 0.2 to 0.8 for constructed parts, at most 0.04 for figures.
+_FLAT, _FLAT_SHARE = 0.25, 0.12
+#: So is one with rounded coordinates, whose angles have a gap: edges above the second angle are so many times as long
+#: as those between both, and at least this share of all.
+_GAP, _GAP_TIMES, _GAP_SHARE = (35.0, 65.0), 3.0, 0.05
+#: Others of at most so many faces are all corners if they turn by more than these degrees at their edges on the
+#: average, or by more than the lower ones, unevenly: the standard deviation of the angles is this part of the mean.
+_FEW_FACES, _COARSE, _UNEVEN = 100, (15.0, 30.0), 0.4
+#: Faces of figures that are lower than this part of their longest edge, and less than half as large as the face on its
+#: other side, are left by simplification: they have the direction of that face.
+_NEEDLE = 0.1
 #: An edge of exactly the crease angle is smooth, however its cosine is rounded.
 _ROUNDING = 1e-6
 #: Normals are rounded to so many digits, so that they are the same on all machines.
@@ -32,8 +53,9 @@ _STRAIGHT = 0.99985
 _MOST_PAIRS = 16
 
 
-def creased(mesh: Mesh, degrees: float = CREASE) -> Mesh:
-    """Return the mesh with smooth normals, except across edges at which faces differ by more than `degrees`.
+def creased(mesh: Mesh, degrees: float | None = None) -> Mesh:
+    """Return the mesh with smooth normals, except across edges at which faces differ by more than `degrees`, or, if
+    None, by more than suits the shape.
 
     Normals that the mesh has are replaced. Vertices are split at creases only. The mesh is returned without normals,
     for flat shading, where that looks the same, or where only the splits are more than a contract takes.
@@ -44,7 +66,7 @@ def creased(mesh: Mesh, degrees: float = CREASE) -> Mesh:
     return without_normals(mesh) if too_many or is_flat(mesh.positions, mesh.faces, normals) else split
 
 
-def shaded(o: Object, shading: Shading, degrees: float = CREASE, anew: bool = False) -> Object:
+def shaded(o: Object, shading: Shading, degrees: float | None = None, anew: bool = False) -> Object:
     """Return the object in another shading. One that becomes smooth, and has no normals, gets those of `smoothed`.
 
     anew: whether smooth shading replaces normals, too.
@@ -55,7 +77,7 @@ def shaded(o: Object, shading: Shading, degrees: float = CREASE, anew: bool = Fa
     return evolve(o, material=evolve(o.material, shading=shading))
 
 
-def smoothed(o: Object, degrees: float) -> Object:
+def smoothed(o: Object, degrees: float | None) -> Object:
     """Return the object with the normals of `creased`, in flat shading if there are none."""
     mesh = creased(o.mesh, degrees)
     return evolve(o, mesh=mesh, material=evolve(o.material, shading="flat" if mesh.normals is None else "smooth"))
@@ -73,24 +95,35 @@ def corner_uvs(mesh: Mesh) -> Floats | None:
     return None if mesh.uvs is None else mesh.uvs[mesh.faces]
 
 
-def corner_normals(positions: Floats, faces: Ints, degrees: float = CREASE, groups: Ints | None = None) -> Floats:
+def corner_normals(positions: Floats, faces: Ints, degrees: float | None = None, groups: Ints | None = None) -> Floats:
     """Return a unit normal for each corner of each face, (m, 3, 3).
 
-    It is the mean of the faces around the corner, up to the next creases, weighted by area and angle.
+    It is the mean of the faces around the corner, up to the next creases, weighted by area and angle, and points to the
+    front of its face, also where its neighbours are wound the other way.
+    degrees: as in `creased`.
     groups: (m,) the smoothing group of each face, in place of `degrees`: edges within a group are smooth; none are in
     group 0.
     """
     unique, number = np.unique(positions + 0.0, axis=0, return_inverse=True)
     corners = number.reshape(-1)[faces]
+    # as if all faces were wound alike
+    is_against = against(corners)
+    corners = np.where(is_against[:, None], corners[:, ::-1], corners)
     areas, angles = _areas_and_angles(unique, corners)
     sizes = length(areas)[:, None]
     units = np.divide(areas, sizes, out=np.zeros_like(areas), where=sizes > 0)
     proper = np.flatnonzero(sizes[:, 0] > 0)
     here, there, links = _neighbours(corners, proper, len(unique))
     if groups is None:
-        turns = dot(units[here], units[there])
-        hard = turns < cosine(degrees) - _ROUNDING
-        hard = _without_dead_ends(hard, turns > cosine(SIMPLIFIED_CREASE), corners, proper, links)
+        angles_of: tuple[tuple[float, float], ...] = _ANGLES
+        if degrees is None:
+            shape, directions = _by_shape(unique, corners, units, here, there, links)
+        else:
+            shape, directions, angles_of = np.zeros(1, np.int64), units, ((degrees, _SOLID[1]),)
+        limits = np.array([[cosine(each) for each in row] for row in angles_of])[shape]
+        cosines = dot(directions[here], directions[there])
+        hard = cosines < limits[:, 0] - _ROUNDING
+        hard = _without_dead_ends(hard, cosines > limits[:, 1], corners, proper, links)
     else:
         hard = (groups[here] != groups[there]) | (groups[here] == 0)
     patch = components(links[np.repeat(~hard, 2)], corners.size).reshape(-1, 3)
@@ -104,7 +137,9 @@ def corner_normals(positions: Floats, faces: Ints, degrees: float = CREASE, grou
     np.add.at(sums, patch.ravel(), weighted.reshape(-1, 3))
     lengths = length(sums)[:, None]
     normals = np.divide(sums, lengths, out=np.zeros_like(sums), where=lengths > 0)[patch]
-    return np.asarray(np.round(np.where(normals.any(axis=2, keepdims=True), normals, units[:, None]), _DIGITS) + 0.0)
+    normals = np.where(normals.any(axis=2, keepdims=True), normals, units[:, None])
+    normals[is_against] = -normals[is_against, ::-1]
+    return np.asarray(np.round(normals, _DIGITS) + 0.0)
 
 
 def filled(positions: Floats, faces: Ints, normals: Floats) -> Floats:
@@ -118,6 +153,54 @@ def is_flat(positions: Floats, faces: Ints, normals: Floats) -> bool:
     areas, _ = _areas_and_angles(positions, faces)
     along = dot(normals, np.broadcast_to(areas[:, None], normals.shape))
     return bool((along >= _STRAIGHT * length(normals) * length(areas)[:, None]).all())
+
+
+def _by_shape(
+    points: Floats, corners: Ints, units: Floats, here: Ints, there: Ints, links: Ints
+) -> tuple[Ints, Floats]:
+    """Return which of `_ANGLES` decide at each edge, (k,), and the directions of faces, (m, 3).
+
+    here, there, links: of `_neighbours`. units: (m, 3), the normals of faces.
+    """
+    part = np.unique(components(corners, len(points))[corners[:, 0]], return_inverse=True)[1].reshape(-1)
+    places = (points - points[0]) / (np.abs(points - points[0]).max() or 1.0)
+    lengths = _lengths(places[corners.ravel()[links[:, 0].reshape(-1, 2)]])
+    a, b = units[here], units[there]
+    turns = np.degrees(np.arctan2(length(np.cross(a, b)), dot(a, b)))
+    each = part[here]
+
+    def mean(values: Floats | Flags, among: Flags) -> Floats:
+        """Return the mean of values of edges, weighted by length, in each part."""
+        totals, sums = (np.bincount(each, lengths * among * v, part.max() + 1) for v in (np.ones(len(turns)), values))
+        return np.divide(sums, totals, out=np.zeros(len(sums)), where=totals > 0)
+
+    all_edges, seen = turns >= 0, turns > _FACETS[0]
+    is_flat_faced = mean(turns <= _FLAT, all_edges) >= _FLAT_SHARE
+    average = mean(turns, seen)
+    blunt = seen & (turns <= _GAP[1])
+    middle = mean(turns, blunt)
+    is_uneven = np.sqrt(mean((turns - middle[each]) ** 2, blunt)) >= _UNEVEN * middle
+    is_all_corners = ~is_flat_faced & (np.bincount(part) <= _FEW_FACES)
+    is_all_corners &= average > np.where(is_uneven, *_COARSE)
+    sharp = mean(turns > _GAP[1], all_edges)
+    middling = mean((turns > _GAP[0]) & (turns <= _GAP[1]), all_edges)
+    is_solid = is_flat_faced | ((sharp >= _GAP_TIMES * middling) & (sharp >= _GAP_SHARE))
+    is_figure = ~is_solid & ~is_all_corners
+    shape = np.where(is_all_corners & ~is_figure.any(), 2, np.where(is_solid, 0, 1))
+    sides = _lengths(places[corners[:, [[0, 1], [1, 2], [2, 0]]]])
+    longest = sides.max(axis=1)
+    areas = length(_areas_and_angles(points, corners)[0])
+    is_needle = (shape == 1)[part] & (areas < _NEEDLE * longest**2)
+    directions = units.copy()
+    for one, other in ((here, there), (there, here)):
+        found = is_needle[one] & (lengths >= (1 - 1e-9) * longest[one]) & (2 * areas[one] < areas[other])
+        directions[one[found]] = units[other[found]]
+    return shape[each], directions
+
+
+def _lengths(ends: Floats) -> Floats:
+    """Return the lengths of edges, whose ends are (..., 2, 3)."""
+    return length(ends[..., 1, :] - ends[..., 0, :])
 
 
 def _without_dead_ends(hard: Flags, weak: Flags, corners: Ints, proper: Ints, links: Ints) -> Flags:

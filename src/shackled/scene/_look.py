@@ -15,7 +15,7 @@ from ..errors import InputError
 from ._arithmetic import dot, length
 from ._background import Background, background_of
 from ._camera import DEFAULT_HALF_HEIGHT, FIELDS_OF_VIEW, Camera, Projection, half_height_of
-from ._crease import CREASE, CREASES, SIMPLIFIED_CREASE, is_flat, shaded, without_normals
+from ._crease import CREASES, is_flat, shaded, without_normals
 from ._effects import EXPOSURES, NONE, Fog, Hemisphere, Rim, Tone, fog_or_color, hemisphere_of, rim_of
 from ._ground import Ground, ground_of
 from ._light import Light
@@ -24,8 +24,22 @@ from ._mesh import Mesh
 from ._object import OPACITIES, Object
 from ._rotation import IDENTITY, from_euler, multiply, rotate, rotation_of
 from ._scene import MAX_SIDE, Scene, lights_of
-from ._staging import ELEVATIONS, MARGINS, MESH_STAGING, PLAIN, Staging, Viewpoint, frame, painted_object, placed
+from ._staging import (
+    ELEVATIONS,
+    MARGINS,
+    MESH_STAGING,
+    PLAIN,
+    Staging,
+    Viewpoint,
+    contrasting,
+    frame,
+    is_closed,
+    painted_object,
+    placed,
+    to_be_seen,
+)
 from ._turning import middle, turn
+from ._winding import wound
 
 #: What a setting is a field of; "camera" also has settings from which a camera is made, "file" those that say what is
 #: read of a glTF file.
@@ -131,10 +145,17 @@ SETTINGS = (
         1,
         MAX_SIDE,
         "pixels",
-        f"the scene's, or {MESH_STAGING.side} for mesh files",
+        f"the scene's, or {MESH_STAGING.side} for mesh files and pieces of datasets",
     ),
     Setting("max_triangles", "whole", None, "Canvas", "Number of triangles to which larger meshes are simplified.", 1),
-    Setting("background", "background", "scene", "Canvas", "Colour of the background, or those of its top and bottom."),
+    Setting(
+        "background",
+        "background",
+        "scene",
+        "Canvas",
+        "Colour of the background, or those of its top and bottom.",
+        default="light for mesh files, or dark where they are light",
+    ),
     Setting("invert", "flag", "scene", "Canvas", "Replace each value v by 255 - v.", option="--invert/--no-invert"),
     Setting(
         "antialias",
@@ -284,7 +305,7 @@ SETTINGS = (
         "Compute normals for smooth shading, except across edges of more than this angle.",
         *CREASES,
         "degrees",
-        f"the normals of the mesh, or {CREASE:g} where there are none",
+        "the normals of the mesh, or by the shape where there are none",
     ),
     Setting("smooth", "flag", None, "Light", "Same as --shading smooth.", option="--smooth"),
     Setting("unlit", "flag", None, "Light", "Same as --shading unlit.", option="--unlit"),
@@ -332,7 +353,7 @@ SETTINGS = (
         "object",
         "Surface",
         "Cull back faces.",
-        default="true for closed mesh files",
+        default="true for closed parts of mesh files",
         option="--cull/--no-cull",
     ),
     Setting("wireframe", "flag", "object", "Surface", "Draw edges only.", option="--wireframe/--filled"),
@@ -476,18 +497,23 @@ def stage(
     return look_at(mesh, checked_look({"size": size, **look}), evolve(PLAIN, material=material or PLAIN.material))
 
 
-def look_at(thing: Mesh | Sequence[Object] | Scene, look: Mapping[str, Any], staging: Staging = MESH_STAGING) -> Scene:
+def look_at(
+    thing: Mesh | Sequence[Object] | Scene,
+    look: Mapping[str, Any],
+    staging: Staging = MESH_STAGING,
+    name: str = "the mesh",
+) -> Scene:
     """Return the scene with a look, of `checked_look`; a mesh is staged, so that it fills the picture.
 
-    thing: also the parts of a model, as objects in its own coordinates.
+    thing: also the parts of a model, as objects in its own coordinates. name: of the model, in warnings.
     """
     for setting in settings_of("file"):
         if setting.name in look:
             raise InputError(f"`{setting.name}` is for what is read of one glTF file")
     if isinstance(thing, Scene) and not look:
         return thing
-    crease = look.get("crease", SIMPLIFIED_CREASE)
-    is_staged = not isinstance(thing, Scene)
+    crease = look.get("crease")
+    view = None
     if isinstance(thing, Scene):
         scene = turn(thing, look["rotate"]) if "rotate" in look else thing
         width, height = look.get("size", (scene.width, scene.height))
@@ -495,6 +521,10 @@ def look_at(thing: Mesh | Sequence[Object] | Scene, look: Mapping[str, Any], sta
         looks = [look] * len(scene.objects)
     else:
         parts = [Object(thing, material=staging.material)] if isinstance(thing, Mesh) else list(thing)
+        if staging.by_normals:
+            parts = wound(parts, name, split=not {"cull", "max_triangles"} & look.keys())
+        else:
+            parts = [evolve(each, cull=is_closed(each.mesh)) for each in parts]
         width, height = look.get("size", (staging.side, staging.side))
         Scene([], width=width, height=height)  # refuses a wrong size before anything is divided by it
         rotation = look.get("rotate", IDENTITY)
@@ -508,14 +538,16 @@ def look_at(thing: Mesh | Sequence[Object] | Scene, look: Mapping[str, Any], sta
     scene = evolve(
         scene,
         objects=[_object(each, own_look) for each, own_look in zip(scene.objects, looks, strict=True)],
-        camera=_camera(scene, look, is_staged),
         tone=_tone(scene.tone, look),
         **chosen,
     )
-    scene = evolve(scene, fog=_fog_between(scene, fog) if isinstance(fog, tuple) else fog)
+    if view is not None and staging.by_normals and "background" not in look:
+        scene = evolve(scene, background=contrasting(scene.objects))
     if "shadow" in look:
         lights = [evolve(light, shadow=look["shadow"] and number == 0) for number, light in enumerate(scene.lights)]
         scene = evolve(scene, lights=lights)
+    scene = evolve(scene, camera=_camera(scene, look, view))
+    scene = evolve(scene, fog=_fog_between(scene, fog) if isinstance(fog, tuple) else fog)
     if "max_triangles" not in look:
         return scene
     from ._simplify import simplify_scene
@@ -531,7 +563,7 @@ def _shaded(o: Object, look: Mapping[str, Any]) -> tuple[Object, Mapping[str, An
     if o.material.shading == "unlit" or "crease" in look or look.get("shading", "smooth") != "smooth":
         return o, look
     if mesh.normals is None:
-        return o, {**look, "crease": CREASE}
+        return o, {**look, "crease": None}
     if "shading" not in look and is_flat(mesh.positions, mesh.faces, mesh.normals[mesh.faces]):
         return evolve(o, mesh=without_normals(mesh)), {**look, "shading": "flat"}
     return o, {**look, "shading": "smooth"}
@@ -581,7 +613,7 @@ def _object(o: Object, look: Mapping[str, Any]) -> Object:
     material = _given(look, settings_of("material"))
     shading = material.pop("shading", "smooth" if "crease" in look else o.material.shading)
     o = evolve(o, material=evolve(o.material, **material), **changes)
-    return shaded(o, shading, look.get("crease", CREASE), anew="crease" in look)
+    return shaded(o, shading, look.get("crease"), anew="crease" in look)
 
 
 def _tone(tone: Tone | None, look: Mapping[str, Any]) -> Tone | None:
@@ -605,17 +637,20 @@ def _fog_between(scene: Scene, color: Color) -> Fog:
     return Fog(color, near, far if far > near else 2 * near + 1)
 
 
-def _camera(scene: Scene, look: Mapping[str, Any], is_staged: bool) -> Camera:
+def _camera(scene: Scene, look: Mapping[str, Any], view: Viewpoint | None) -> Camera:
+    """Return the camera that a look asks for. view: that of a scene that is staged."""
     camera = scene.camera
     orthographic = look.get("orthographic", camera.projection == "orthographic")
     projection: Projection = "orthographic" if orthographic else "perspective"
     chosen = half_height_in(look, orthographic)
-    if not is_staged and scene.objects and {"azimuth", "elevation", "margin"} & look.keys():
+    if view is not None:
+        camera = frame(to_be_seen(scene), view)
+    elif scene.objects and {"azimuth", "elevation", "margin"} & look.keys():
         view = view_of(look, scene.width, scene.height, orthographic)
         if not orthographic and chosen is None:
             own = camera.half_height if camera.projection == projection else DEFAULT_HALF_HEIGHT
             view = evolve(view, half_height=own)
-        camera = frame(scene.world_positions(), view)
+        camera = frame(to_be_seen(scene), view)
     camera = evolve(camera, **{name: look[name] for name in ("eye", "target", "up") if name in look})
     half_height, near = camera.half_height, camera.near
     if projection != camera.projection:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..checks import integer
 from ..errors import InputError
-from ._crease import SIMPLIFIED_CREASE, smoothed
+from ._crease import smoothed
 from ._files.weld import weld
 from ._mesh import Mesh, components
 from ._object import Object
@@ -57,15 +57,15 @@ def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] 
     return weld(surface.positions, surface.faces, surface.colors[surface.faces], uvs=surface.uvs)
 
 
-def simplify_scene(scene: Scene, max_triangles: int, crease: float = SIMPLIFIED_CREASE) -> Scene:
+def simplify_scene(scene: Scene, max_triangles: int, crease: float | None = None) -> Scene:
     """Return the scene with every mesh of more triangles simplified to `max_triangles`.
 
-    Meshes with normals get new ones, smooth across edges of up to `crease` degrees.
+    Meshes with normals get new ones, smooth across edges of up to `crease` degrees; None for what suits the shape.
     """
     return evolve(scene, objects=[_simplified_object(o, max_triangles, crease) for o in scene.objects])
 
 
-def _simplified_object(o: Object, max_triangles: int, crease: float) -> Object:
+def _simplified_object(o: Object, max_triangles: int, crease: float | None) -> Object:
     simpler = evolve(o, mesh=simplify(o.mesh, max_triangles))
     had_normals = o.material.shading == "smooth" and o.mesh.normals is not None
     return smoothed(simpler, crease) if had_normals and simpler.mesh is not o.mesh else simpler

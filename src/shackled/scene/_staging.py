@@ -39,6 +39,17 @@ ELEVATIONS, MARGINS = (-90, 90), (0, 0.9)
 LARGEST = 1e305
 
 
+#: Behind mesh files: light, or dark where most of the surface is light, so that no outline is lost.
+LIGHT_BACKGROUND = Background((120, 130, 148), (196, 202, 212))
+DARK_BACKGROUND = Background((16, 19, 25), (58, 64, 75))
+#: The brightness, 0..255, from which a colour is light: in the light of a mesh file, and unlit.
+_LIGHT, _LIGHT_UNLIT = 215.0, 115.0
+#: Shares of red, green and blue in brightness.
+_LUMA = np.array([0.2126, 0.7152, 0.0722])
+#: Shadows are in the picture up to where the ground has faded by this part.
+_FADED = 0.5
+
+
 @frozen(field_transformer=with_names)
 class Viewpoint:
     """The side from which a camera sees all objects, and how it projects.
@@ -110,7 +121,6 @@ MESH_STAGING = Staging(
     by_normals=True,
     fields={
         "antialias": True,
-        "background": Background((36, 41, 53), (108, 117, 134)),
         "ambient_light": (232, 240, 255),
     },
 )
@@ -122,8 +132,8 @@ def placed(
     """Return a scene of the parts of a model, scaled to a bounding sphere of radius 1 about the origin, and filling the
     picture.
 
-    objects: meshes with their materials. The meshes keep their coordinates; position and scale of the objects do the
-    rest.
+    objects: meshes with their materials, and whether they are culled. The meshes keep their coordinates; position and
+    scale of the objects do the rest.
     """
     positions = np.concatenate([each.mesh.positions for each in objects])
     with np.errstate(over="ignore"):
@@ -133,12 +143,9 @@ def placed(
     if not np.isfinite(center).all() or not np.isfinite(radius) or not np.isfinite(scale):
         raise InputError("the coordinates of the mesh are too large or too small to be scaled")
     turned = rotate(rotation, (positions - center) * scale)
-    starts = np.cumsum([0, *(len(each.mesh.positions) for each in objects)])
-    faces = [each.mesh.faces + start for each, start in zip(objects, starts, strict=False)]
-    cull = is_closed(Mesh(positions, np.concatenate(faces)))
     position = -rotate(rotation, center * scale)
     return Scene(
-        [evolve(each, position=position, rotation=rotation, scale=scale, cull=cull) for each in objects],
+        [evolve(each, position=position, rotation=rotation, scale=scale) for each in objects],
         frame(turned, view),
         [_light(direction, color, view) for direction, color in staging.lights],
         width=width,
@@ -197,6 +204,47 @@ def frame(points: NDArray[np.float64], view: Viewpoint) -> Camera:
     return Camera(
         target + distance * back, target, (0, 1, 0) if abs(back[1]) < 0.999 else up, view.projection, half_height
     )
+
+
+def contrasting(objects: Sequence[Object]) -> Background:
+    """Return the background before which no outline of the objects is lost: that which suits most of their surface."""
+    light = total = 0.0
+    for each in objects:
+        colors = each.mesh.colors[each.mesh.faces].mean(axis=1)
+        if each.material.texture is not None:
+            colors = colors * each.material.texture.pixels.mean(axis=(0, 1)) / 255
+        a, b, c = ((each.scale * each.mesh.positions)[each.mesh.faces[:, corner]] for corner in range(3))
+        areas = length(np.cross(b - a, c - a))
+        limit = _LIGHT_UNLIT if each.material.shading == "unlit" else _LIGHT
+        light += float(areas[dot(colors, _LUMA) >= limit].sum())
+        total += float(areas.sum())
+    return DARK_BACKGROUND if 2 * light > total else LIGHT_BACKGROUND
+
+
+def to_be_seen(scene: Scene) -> Floats:
+    """Return points, (n, 3), that are in the picture if all of the scene is: its objects, and their shadow on a ground.
+    The ground itself goes on, and fades.
+    """
+    points = scene.world_positions()
+    if scene.ground is None:
+        return points
+    ground = scene.ground.under(points)
+    assert ground.fade is not None
+    inner, outer = ground.fade
+    center, seen = ground.position, [points]
+    reach = inner + _FADED * (outer - inner)
+    for light in scene.lights:
+        if not light.shadow:
+            continue
+        # from each point away from the light, down to the ground
+        away = np.broadcast_to(-light.vector, points.shape) if light.kind == "directional" else points - light.vector
+        drop, height = away[:, 1], points[:, 1] - center[1]
+        falls = (drop < 0) & (height > 0)
+        fallen = points[falls] + away[falls] * (height[falls] / -drop[falls])[:, None]
+        far = fallen - center
+        distances = length(far)
+        seen.append(center + far * (np.minimum(distances, reach) / np.maximum(distances, reach / 2**20))[:, None])
+    return np.concatenate(seen)
 
 
 def key_light(view: Viewpoint) -> Light:

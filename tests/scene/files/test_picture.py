@@ -15,7 +15,7 @@ from PIL import Image as PillowImage
 from PIL.PngImagePlugin import PngInfo
 
 from shackled import Image, InputError, Mesh, Scene, load, render
-from shackled.scene import LONGEST_TEXT, read_scene, render_call, scene_chunk
+from shackled.scene import LONGEST_TEXT, read_scene, render_call, scene_chunk, stage
 
 SCENE = load("icons/coin", 24)
 CALL = b"0x" + render_call(SCENE).hex().encode()
@@ -176,7 +176,7 @@ def test_missing_and_empty(tmp_path: Path) -> None:
 def large_scene(triangles: int) -> Scene:
     rng = np.random.default_rng(5)
     positions = rng.integers(-30_000, 30_000, (triangles, 3))
-    return load(Mesh(positions, rng.integers(0, triangles, (triangles, 3))), 8)
+    return stage(Mesh(positions, rng.integers(0, triangles, (triangles, 3))), 8)
 
 
 def test_a_large_scene_is_written_only_when_asked_for(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import InputError
-from ...scene import Background, Material, Mesh, Scene, painted, stage
+from ...scene import Material, Mesh, Object, Scene, contrasting, painted, stage
 from .. import Piece, cache_folder, keep
 from . import builtin
 from ._clean import creased
@@ -21,7 +21,6 @@ from ._clean import creased
 VERSION = 1
 
 MATERIAL = Material("smooth", 0.3, 0.8, 0.35, 24)
-BACKGROUND = Background((40, 46, 62), (128, 138, 156))
 OWN_LICENCE = "that of your own file"
 
 
@@ -94,7 +93,7 @@ class Model:
         return stage(
             mesh if self.crease is None else creased(mesh, self.crease),
             material=MATERIAL,
-            background=BACKGROUND,
+            background=contrasting([Object(mesh)]),
             azimuth=self.azimuth,
             elevation=self.elevation,
             half_height=0.3,
