@@ -33,6 +33,7 @@ Part = Literal["scene", "camera", "object", "material", "tone", "file"]
 Kind = Literal[
     "size",
     "whole",
+    "count",
     "number",
     "vector",
     "rotation",
@@ -99,6 +100,7 @@ class Setting:
 _WORDS: dict[Kind, str] = {
     "size": "pixels",
     "whole": "a whole number",
+    "count": "a whole number, or all",
     "number": "a number",
     "vector": "x, y, z",
     "rotation": "x, y, z",
@@ -117,6 +119,9 @@ _WORDS: dict[Kind, str] = {
 #: The rotations, as in `from_euler`, that turn an axis to +y.
 UPRIGHT = {"x": (0, 0, 90), "y": (0, 0, 0), "z": (-90, 0, 0)}
 
+#: The value of `max_triangles` that leaves meshes as they are.
+ALL = "all"
+
 #: The material of mesh files.
 _SURFACE = MESH_STAGING.material
 
@@ -133,7 +138,15 @@ SETTINGS = (
         "pixels",
         f"the scene's, or {MESH_STAGING.side} for mesh files",
     ),
-    Setting("max_triangles", "whole", None, "Canvas", "Number of triangles to which larger meshes are simplified.", 1),
+    Setting(
+        "max_triangles",
+        "count",
+        None,
+        "Canvas",
+        "Number of triangles to which larger meshes are simplified, or all.",
+        1,
+        default="as many as the canvas shows for mesh files, else all",
+    ),
     Setting("background", "background", "scene", "Canvas", "Colour of the background, or those of its top and bottom."),
     Setting("invert", "flag", "scene", "Canvas", "Replace each value v by 255 - v.", option="--invert/--no-invert"),
     Setting(
@@ -362,7 +375,7 @@ AnyColor = ArrayLike | str
 class LookOptions(TypedDict, total=False):
     """The keywords of a look, but for `size`; what they mean says the table `SETTINGS`. None leaves what there is."""
 
-    max_triangles: int | None
+    max_triangles: int | Literal["all"] | None
     background: Background | AnyColor | tuple[AnyColor, AnyColor] | None
     invert: bool | None
     antialias: bool | None
@@ -516,7 +529,7 @@ def look_at(thing: Mesh | Sequence[Object] | Scene, look: Mapping[str, Any], sta
     if "shadow" in look:
         lights = [evolve(light, shadow=look["shadow"] and number == 0) for number, light in enumerate(scene.lights)]
         scene = evolve(scene, lights=lights)
-    if "max_triangles" not in look:
+    if look.get("max_triangles", ALL) == ALL:
         return scene
     from ._simplify import simplify_scene
 
@@ -663,6 +676,14 @@ def _entry(value: object, setting: Setting, name: str) -> str | int:
     return value if isinstance(value, str) else cast(int, number)
 
 
+def _count(value: object, setting: Setting, name: str) -> int | str:
+    if isinstance(value, str):
+        if value == ALL:
+            return ALL
+        raise InputError(f"{name} must be a whole number, at least {setting.low:g}, or {ALL}, not {value!r:.60}")
+    return whole(value, name, setting.low, setting.high)
+
+
 def _unless_none(made: Callable[[Any, str], Any], value: object, name: str) -> Any:
     """Return an effect of a value, or None for the word that removes it."""
     return None if isinstance(value, str) and value.strip().lower() == NONE else made(value, name)
@@ -671,6 +692,7 @@ def _unless_none(made: Callable[[Any, str], Any], value: object, name: str) -> A
 _CHECKS: dict[Kind, Callable[[Any, Setting, str], Any]] = {
     "size": lambda value, setting, name: size_of(value, name),
     "whole": lambda value, setting, name: whole(value, name, setting.low, setting.high),
+    "count": _count,
     "number": lambda value, setting, name: number(value, name, setting.low, setting.high),
     "vector": lambda value, setting, name: vector(value, name),
     "rotation": lambda value, setting, name: rotation_of(value, name),
