@@ -36,7 +36,7 @@ from ._ground import Ground
 from ._light import INNER_ANGLE, LIGHT_KINDS, OUTER_ANGLE, WHITE, Light, LightKind
 from ._look import ALL, SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, settings_of, size_of, stage
 from ._material import Material, Shading
-from ._mesh import DEFAULT_COLOR, MAX_VERTICES, Mesh, components, vertex_normals, without_slivers
+from ._mesh import DEFAULT_COLOR, Mesh, components, vertex_normals, without_slivers
 from ._object import Object
 from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack, unpack
 from ._packed_texture import pack_texture, unpack_texture
@@ -86,7 +86,6 @@ __all__ = [
     "MAX_LIGHTS",
     "MAX_SIDE",
     "MAX_TEXTURE_SIDE",
-    "MAX_VERTICES",
     "MESH_STAGING",
     "NORMALS",
     "NORMAL_UNIT",

@@ -18,6 +18,8 @@ Floats = NDArray[np.float64]
 
 #: Scenes of more triangles are simplified: one for so many pixels of the canvas, or this number if that is more.
 PIXELS, FEWEST = 8, 4096
+#: The share of triangles that are left at most, or the scene stays as it is.
+WORTH = 0.9
 #: By how many pixels the surface may move.
 TOLERANCE = 0.375
 #: Collapses end in the library when each of those that are left would move the surface by more than this distance.
@@ -41,8 +43,7 @@ def as_shown(scene: Scene, name: str) -> Scene:
     total = sum(each.mesh.triangles for each in objects)
     pixels = scene.width * scene.height
     most = max(pixels if any(_is_painted(each.mesh) for each in objects) else pixels // PIXELS, FEWEST)
-    scale = _pixels_per_unit(scene)
-    if total <= most or not np.isfinite(scale):
+    if total <= most or not np.isfinite(scale := _pixels_per_unit(scene)):
         return scene
     canvas = f"{scene.width} x {scene.height} pixels"
     if not is_possible():
@@ -50,7 +51,7 @@ def as_shown(scene: Scene, name: str) -> Scene:
         return scene
     reduced = [each if each.wireframe else _reduced(each, scale, most / total) for each in scene.objects]
     shown = evolve(scene, objects=reduced)
-    if shown.triangles == scene.triangles:
+    if shown.triangles > WORTH * scene.triangles:
         return scene
     warn(
         f"{name} is simplified from {scene.triangles:,} to {shown.triangles:,} triangles, as {canvas} show no more; "
@@ -65,12 +66,13 @@ def _is_painted(mesh: Mesh) -> bool:
 
 
 def _pixels_per_unit(scene: Scene) -> float:
-    """Return how many pixels a unit of the world has at the nearest point of the scene; inf if that is at the eye."""
+    """Return how many pixels a unit of the world has at the nearest point; inf if that is not in front of the eye."""
     camera = scene.camera
     pixels = scene.height / (2 * camera.half_height)
-    if camera.projection == "orthographic" or not scene.objects:
+    if camera.projection == "orthographic":
         return pixels
-    nearest = float(dot(scene.world_positions() - camera.eye, unit(camera.target - camera.eye)).min())
+    forward = camera.target - camera.eye
+    nearest = float(dot(scene.world_positions() - camera.eye, unit(forward)).min()) if forward.any() else 0.0
     return pixels / nearest if nearest > 0 else np.inf
 
 

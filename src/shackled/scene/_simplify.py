@@ -162,7 +162,7 @@ def collapsed(
     points, number = np.asarray(points, dtype=np.float64), np.asarray(number, dtype=np.int64)
     # of the vertices that became one, the nearest to it comes last, and so stays
     old = np.flatnonzero(number >= 0)
-    old = old[np.argsort(-np.linalg.norm(positions - points[number], axis=1)[old], kind="stable")]
+    old = old[np.argsort(-np.linalg.norm(positions[old] - points[number[old]], axis=1), kind="stable")]
     nearest = np.zeros(len(points), dtype=np.int64)
     nearest[number[old]] = old
     return points, number, nearest
