@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 import pytest
 from attrs import evolve
+from numpy.typing import NDArray
 
-from shackled import Camera, InputWarning, Mesh, Scene, load, render, turntable
+from shackled import Camera, Mesh, Scene, load, render, turntable
 from shackled.cli.app import run
 from shackled.datasets.common import shapes
+from shackled.errors import InputWarning
 from shackled.scene import as_shown, look_at, write_obj
 
 #: 16,000 triangles.
@@ -64,7 +66,7 @@ def test_what_a_picture_needs_and_what_else_keeps_all() -> None:
     assert load("ball.obj", 128, max_triangles=300).triangles <= 300
     with pytest.warns(InputWarning, match=NOTE):
         assert load("ball.obj", 128).triangles < 5000
-    with pytest.warns(InputWarning, match="from 16,000"):
+    with pytest.warns(InputWarning, match="^the model is simplified from 19,200"):
         assert load(["ball.obj", "small.obj"], 128).triangles < 8000
     with pytest.warns(InputWarning, match="from 16,000 to"):
         turntable("ball.obj", 2, 16)
@@ -99,28 +101,24 @@ def test_what_is_seen_of_edges_stays() -> None:
     flat = look_at(BALL, {"shading": "flat"})
     assert as_shown(flat, "it") is flat
     half = Mesh(BALL.positions, BALL.faces[BALL.positions[BALL.faces][:, :, 1].max(axis=1) < 0.2])
-    for mesh, is_edge in ((half, rim(half)), (striped(BALL), None)):
+    for mesh in (half, striped(BALL)):
         scene = look_at(mesh, {"size": (128, 128)})
         (whole,), (left,) = scene.objects, shown(scene).objects
         assert left.mesh.triangles < 0.7 * whole.mesh.triangles
-        edge = rim(mesh) if is_edge is None else is_edge
+        edge = rim(mesh)
         assert len(edge) >= 100
-        assert edge <= places(left.mesh)
+        gaps = np.linalg.norm(edge[:, None] - left.mesh.positions, axis=2).min(axis=1)
+        assert gaps.max() < 1e-5
 
 
-def places(mesh: Mesh) -> set[tuple[float, ...]]:
-    return {tuple(each) for each in np.round(mesh.positions, 6).tolist()}
-
-
-def rim(mesh: Mesh) -> set[tuple[float, ...]]:
-    """The places of vertices on edges that one face has, or that faces of two colours share."""
+def rim(mesh: Mesh) -> NDArray[np.float64]:
+    """The different places of vertices on edges that one face has, or that faces of two colours share."""
     corner = mesh.faces.reshape(-1)
     keys = np.unique(np.hstack([mesh.positions, mesh.colors]), axis=0, return_inverse=True)[1].reshape(-1)[corner]
     edges = np.sort(keys.reshape(-1, 3)[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    found, first, count = np.unique(edges, axis=0, return_index=True, return_counts=True)
+    _, first, count = np.unique(edges, axis=0, return_index=True, return_counts=True)
     ends = corner.reshape(-1, 3)[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)[first[count == 1]]
-    assert len(found)
-    return {tuple(each) for each in np.round(mesh.positions[ends.ravel()], 6).tolist()}
+    return np.unique(mesh.positions[ends.ravel()], axis=0)
 
 
 def striped(mesh: Mesh) -> Mesh:
@@ -185,9 +183,8 @@ def test_the_command_line(capsys: pytest.CaptureFixture[str]) -> None:
         report("--max-triangles", "all"),
         report("--max-triangles", "500"),
     )
-    assert every["triangles"] == 16_000
     assert none == nothing == ""
-    assert few["triangles"] < 5000
+    assert few["triangles"] < every["triangles"] / 2
     assert note.endswith("as 64 x 64 pixels show no more; --max-triangles all keeps every one\n")
     assert some["triangles"] <= 500
     assert run(["render", "ball.obj", "--strict"]) != 0

@@ -101,10 +101,10 @@ def _reduced(o: Object, scale: float, share: float) -> Object:
     left = left[proper(left)]
     if not len(left):
         return o
-    sizes = np.bincount(became[old], weights[old], len(points))[:, None]
-    colors = np.rint(np.divide(sums[:, :4], sizes, out=values[nearest, :4], where=sizes > 0))
-    sizes = length(sums[:, 4:])[:, None]
-    normals = np.divide(sums[:, 4:], sizes, out=values[nearest, 4:7], where=sizes > 0)
+    areas = np.bincount(became[old], weights[old], len(points))[:, None]
+    colors = np.rint(np.divide(sums[:, :4], areas, out=values[nearest, :4], where=areas > 0))
+    lengths = length(sums[:, 4:])[:, None]
+    normals = np.divide(sums[:, 4:], lengths, out=values[nearest, 4:7], where=lengths > 0)
     return evolve(
         o,
         mesh=weld(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from difflib import get_close_matches
-from typing import Any, Literal, TypedDict, Unpack, cast
+from typing import Any, Final, Literal, TypedDict, Unpack, cast
 
 import numpy as np
 from attrs import evolve, frozen
@@ -120,7 +120,7 @@ _WORDS: dict[Kind, str] = {
 UPRIGHT = {"x": (0, 0, 90), "y": (0, 0, 0), "z": (-90, 0, 0)}
 
 #: The value of `max_triangles` that leaves meshes as they are.
-ALL = "all"
+ALL: Final = "all"
 
 #: The material of mesh files.
 _SURFACE = MESH_STAGING.material
