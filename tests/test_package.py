@@ -39,7 +39,6 @@ EXTRA_OF = {
     "creator": "creator",
     "parallel/_cluster.py": "cluster",
     "scene/_files/gltf/draco.py": "draco",
-    "scene/_simplify.py": "simplify",
     "preview/_server.py": "creator",
     "serving/": "creator",
     "web/_widget.py": "jupyter",
@@ -89,6 +88,20 @@ def test_the_extras_are_those_of_the_tests() -> None:
     ]
 
 
+def test_meshes_are_simplified_where_there_are_wheels() -> None:
+    (marker,) = (each.marker for each in NEEDED if each.name == "fast-simplification")
+    assert marker is not None
+    machines = {
+        "linux": {"x86_64": True, "aarch64": True, "armv7l": False, "riscv64": False},
+        "darwin": {"x86_64": True, "arm64": True},
+        "win32": {"AMD64": True, "ARM64": False, "x86": False},
+        "freebsd14": {"amd64": False},
+    }
+    for system, found in machines.items():
+        for machine, has_wheel in found.items():
+            assert marker.evaluate({"sys_platform": system, "platform_machine": machine}) == has_wheel, machine
+
+
 @cache
 def of_the_package(path: Path) -> list[str]:
     """Return the modules of the package that a file imports, and the names that it takes from them, all absolute."""
@@ -125,12 +138,12 @@ def test_others_import_only_what_a_package_exports(package: Path) -> None:
 
 
 def test_every_platform_needs_the_same() -> None:
-    """No environment markers: the EVM of the package runs wherever wasmtime does, and tools/platforms.py says where."""
-    assert [each.name for each in NEEDED if each.marker is not None] == []
+    """The EVM of the package runs wherever wasmtime does, and tools/platforms.py says where."""
+    assert [each.name for each in NEEDED if each.marker is not None] == ["fast-simplification"]
     names = {each.name for each in NEEDED}
     assert "wasmtime" in names
     # without builds for some platforms, or without a licence
-    assert not names & {"fast-simplification", "py-evm", "pyrevm"}
+    assert not names & {"py-evm", "pyrevm"}
     # nothing else runs where pyrevm has no wheel
     assert {each.name for lines in EXTRAS.values() for each in lines if each.marker is not None} == {"pyrevm"}
 

@@ -30,13 +30,18 @@ PLATFORMS = {
     "Windows, x86-64": "x86_64-pc-windows-msvc",
     "Windows, ARM64": "aarch64-pc-windows-msvc",
 }
+#: Needed only where it has wheels.
+SIMPLIFIER = "fast-simplification"
 VERSIONS = ("3.11", "3.12", "3.13", "3.14")
 
 
 def requirements() -> dict[str, list[str]]:
-    """Return the requirements of the package, and those of the extra that has not all wheels."""
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
-    return {"package": project["dependencies"], "simplify": project["optional-dependencies"]["simplify"]}
+    """Return the requirements of the package but that which has not all wheels, and that one, anywhere."""
+    needed = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["dependencies"]
+    return {
+        "package": [each for each in needed if not each.startswith(SIMPLIFIER)],
+        SIMPLIFIER: [each.partition(";")[0] for each in needed if each.startswith(SIMPLIFIER)],
+    }
 
 
 def resolves(wanted: list[str], platform: str, version: str) -> bool:

@@ -69,7 +69,6 @@ def prepare_package() -> None:
     make_venv()
     say("installing the package")
     install("--editable", ROOT)
-    install_simplify()
     (VENV / ".package").touch()
 
 
@@ -78,7 +77,6 @@ def prepare_creator() -> None:
     make_venv()
     say("installing the package and the page")
     install("--editable", f"{ROOT}[creator]")
-    install_simplify()
     for stamp in (".package", ".creator"):
         (VENV / stamp).touch()
 
@@ -170,14 +168,6 @@ def apt_install(what: str, *packages: str) -> None:
     environment = os.environ | {"DEBIAN_FRONTEND": "noninteractive"}
     run("apt-get", "update", "-qq", env=environment)
     run("apt-get", "install", "-y", "-qq", "--no-install-recommends", *packages, env=environment)
-
-
-def install_simplify() -> None:
-    """Install the extra "simplify", if there is a build of its package for this machine."""
-    try:
-        install("--only-binary", "fast-simplification", f"{ROOT}[simplify]")
-    except subprocess.CalledProcessError:
-        say("meshes cannot be simplified here: there is no build of fast-simplification")
 
 
 def run(*command: object, cwd: Path = ROOT, env: dict[str, str] | None = None) -> None:

@@ -25,6 +25,7 @@ from .scene import (
     Object,
     Scene,
     about,
+    as_shown,
     checked_look,
     is_trimesh,
     look_at,
@@ -57,16 +58,37 @@ def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
     size: side of a square picture, or (width, height), in pixels; None for the scene's, or 256 for a mesh or a piece.
     look: settings by the keywords of `LookOptions`, such as color="tomato", smooth=True, rotate=(0, 30, 0),
     background="white", fov=40.
+    With a size, mesh files are simplified to what the picture can show, as `max_triangles` says; without one, not.
     InputError, one line, if the input does not exist or is not valid.
     """
-    chosen = checked_look({"size": size, **look})
+    return _loaded(thing, {"size": size, **look}, size is not None)
+
+
+def load_picture(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack[LookOptions]) -> Scene:
+    """Return the scene of a picture: as `load` does with a size, or with its default."""
+    return _loaded(thing, {"size": size, **look}, True)
+
+
+def _loaded(thing: Thing, look: Mapping[str, Any], is_picture: bool) -> Scene:
+    chosen = checked_look(look)
     found = _located(thing)
     pose = {}
     if isinstance(found, Path) and found.suffix.lower() in GLTF:
         pose = {setting.name: chosen.pop(setting.name) for setting in settings_of("file") if setting.name in chosen}
     made = _posed(found, pose) if pose else _made(found, chosen)
     with about(str(found)) if isinstance(found, Path) else nullcontext():
-        return look_at(made, chosen, name=str(found) if isinstance(found, Path) else "the mesh")
+        scene = look_at(made, chosen, name=str(found) if isinstance(found, Path) else "the mesh")
+    if is_picture and "max_triangles" not in chosen and is_model(found):
+        return as_shown(scene, str(found) if isinstance(found, Path) else "the model")
+    return scene
+
+
+def is_model(thing: Any) -> bool:
+    """Return whether an input is a mesh file, or a list of mesh files."""
+    if isinstance(thing, list | tuple):
+        return all(map(is_model, thing))
+    found = _located(thing)
+    return isinstance(found, Path) and found.suffix.lower() in READERS
 
 
 def _located(thing: Any) -> Any:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Unpack
 
 from attrs import evolve
 
-from ._load import Thing, load
+from ._load import Thing, load_picture
 from ._on import On, where_of
 from .animation import DURATION, Animation
 from .chain import Chain, open_chain
@@ -52,7 +52,7 @@ def render(
 
     Raises InputError for an invalid scene, ChainError if a call fails.
     """
-    scene, where = load(thing, size, **look), _where(on, gas_limit, tile)
+    scene, where = load_picture(thing, size, **look), _where(on, gas_limit, tile)
     if fit is not None:
         for name, given in (("tile", tile), ("gas_limit", gas_limit)):
             if given is not None:
@@ -99,11 +99,11 @@ def turntable(
         if tile is not None:
             raise InputError("a turntable of one call has no tiles: leave out `tile` or `one_call`")
         return Animation.of(
-            make_apng(load(thing, size, **look), frames, duration, on=on, gas_limit=gas_limit), duration
+            make_apng(load_picture(thing, size, **look), frames, duration, on=on, gas_limit=gas_limit), duration
         )
     from .parallel import render_frames
 
-    turned = full_turn(load(thing, size, **look), frames)
+    turned = full_turn(load_picture(thing, size, **look), frames)
     drawn = [each for scene in turned for each in _twice(scene)] if transparent else turned
     images = render_frames(drawn, _where(on, gas_limit, tile), listener, keep).images
     if transparent:

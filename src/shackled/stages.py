@@ -17,7 +17,7 @@ from PIL import ImageDraw, ImageFont
 
 from .chain import Chain, open_chain
 from .image import decode_bmp
-from .scene import MAX_VERTICES, Background, Camera, Material, Mesh, Object, Scene, fit
+from .scene import Background, Camera, Material, Mesh, Object, Scene, fit
 
 Pixels = NDArray[np.uint8]
 Floats = NDArray[np.float64]
@@ -152,7 +152,7 @@ def edges(o: Object) -> Object:
 def filled(o: Object) -> Object:
     """Return an object in the colours of its vertices, with varied brightness per triangle."""
     faces = o.mesh.faces
-    if o.wireframe or faces.size > MAX_VERTICES:
+    if o.wireframe:
         return evolve(o, material=UNLIT)
     shades = DARKEST + (1 - DARKEST) * (np.arange(len(faces)) * GOLDEN % 1)
     colors = o.mesh.colors[faces] * shades[:, None, None]

@@ -135,7 +135,7 @@ def test_what_fits_nowhere_is_told(default: Scene) -> None:
 def test_without_the_package_that_simplifies(default: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("shackled.scene._simplify.find_spec", lambda name: None)
     many = dear(resize(evolve(default, antialias=False), 64), 1.5 * LIMITS["transaction"].gas)
-    with pytest.raises(InputError, match=r"at 64 x 64 instead of 256 x 256 pixels; .*shackled\[simplify\]"):
+    with pytest.raises(InputError, match=r"at 64 x 64 instead of 256 x 256 pixels; .*fast-simplification"):
         fit_scene(resize(many, 256), "transaction")
 
 

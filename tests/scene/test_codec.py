@@ -153,14 +153,6 @@ def test_unused_vertices_are_dropped_in_order() -> None:
     assert fitted.colors.tolist() == [[3, 4, 5], [9, 10, 11], [12, 13, 14]]
 
 
-@pytest.mark.parametrize(("vertices", "faces"), [(65536, 30000), (3, 65536)])
-def test_too_large_a_mesh_says_its_size_and_the_way_out(vertices: int, faces: int) -> None:
-    indices = np.arange(3 * faces).reshape(faces, 3) % vertices
-    mesh = Mesh(np.arange(3 * vertices).reshape(vertices, 3) % 1000, indices)
-    with pytest.raises(InputError, match=rf"{vertices:,} vertices and {faces:,} triangles; .* with `max_triangles`$"):
-        encode(SELECTOR, scene_of(mesh))
-
-
 def test_the_largest_mesh_is_taken() -> None:
     mesh = Mesh(np.arange(3 * 65535).reshape(-1, 3) % 1000, np.arange(3 * 65535).reshape(-1, 3) % 65535)
     assert len(pack(mesh)) == 5 + 65535 * 15

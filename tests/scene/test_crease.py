@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from shackled import Material, Mesh, Object, Scene, load, render
 from shackled.creator import Source, State, Surface, describe, to_scene
 from shackled.datasets.common import shapes
-from shackled.scene import MAX_VERTICES, creased, simplify_scene, stage
+from shackled.scene import creased, simplify_scene, stage
 
 
 def made(mesh: trimesh.Trimesh) -> Mesh:
@@ -24,14 +24,6 @@ def made(mesh: trimesh.Trimesh) -> Mesh:
 def corners(mesh: Mesh) -> NDArray[np.float64]:
     assert mesh.normals is not None
     return mesh.normals[mesh.faces]
-
-
-def zigzag(ridges: int) -> Mesh:
-    """A strip of quads, each at a right angle to the next."""
-    steps = np.arange(ridges + 1)
-    line = np.stack([(steps + 1) // 2, steps // 2, 0 * steps], axis=1)
-    quads = steps[:-1, None] + np.array([0, 1, ridges + 2, ridges + 1])
-    return Mesh(np.concatenate([line, line + np.array([0, 0, 1])]), np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]]))
 
 
 CUBE = made(trimesh.creation.box())
@@ -112,18 +104,6 @@ def test_triangles_without_an_area_do_not_matter() -> None:
     assert len(creased(extra).positions) == len(creased(CYLINDER).positions)
     flat = creased(Mesh([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]]))
     assert flat.normals is None
-
-
-def test_flat_shading_where_the_splits_are_too_many() -> None:
-    strip = zigzag(20_000)
-    ball = trimesh.creation.icosphere(subdivisions=2)
-    both = Mesh(
-        np.concatenate([strip.positions, ball.vertices]),
-        np.concatenate([strip.faces, ball.faces + len(strip.positions)]),
-    )
-    assert len(both.positions) < MAX_VERTICES
-    assert creased(both) is both
-    assert creased(Mesh(both.positions, both.faces[-10_000:])).normals is not None
 
 
 def test_a_simplified_mesh_keeps_its_creases() -> None:

@@ -58,7 +58,7 @@ def export(
         if title is not None:
             raise InputError("--title is for pages: a model has no title")
         with LateBar("writing"):
-            scene = load_with(input, look)
+            scene = load_with(input, look, is_picture=False)
             made = make_glb(scene)
             made.save(path)
         report = {

@@ -12,11 +12,11 @@ from typing import Annotated, Any
 import typer
 from attrs import evolve
 
-from .._load import load, locate
+from .._load import is_model, load, locate
 from .._render import render
 from ..errors import ChainError, InputWarning, ShackledError
 from ..gas import headline
-from ..scene import Scene
+from ..scene import Scene, as_shown
 from ..values import listed, plural
 from .facts import Facts, facts_of
 from .option import option, with_options
@@ -88,6 +88,8 @@ class Told:
         rows = [("input", self.name), *_words(self.facts).items(), *(("note", note) for note in self.notes)]
         for each in self.pictures or ():
             cost = each["fits"] if each["gas"] is None else f"{each['gas']:,} gas, {each['fits']}"
+            if each["triangles"] < self.facts.triangles:
+                cost = f"simplified to {plural(each['triangles'], 'triangle')}, {cost}"
             rows.append((f"{each['size']} px", cost))
         return [f"{name:9} {text}" for name, text in rows]
 
@@ -98,19 +100,24 @@ def _told(source: Source, gas: bool) -> Told:
         place = locate(source.place)
         scene, facts = load(place), facts_of(place)
     notes = [str(each.message) for each in caught if issubclass(each.category, InputWarning)]
-    pictures = [_picture(scene, side) for side in SIDES] if gas else None
+    pictures = [_picture(scene, side, is_model(place)) for side in SIDES] if gas else None
     return Told(source.name, facts, list(dict.fromkeys(notes)), pictures)
 
 
-def _picture(scene: Scene, side: int) -> dict[str, Any]:
+def _picture(scene: Scene, side: int, is_simplified: bool) -> dict[str, Any]:
     scene = evolve(scene, width=side, height=side)
+    if is_simplified:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", InputWarning)
+            scene = as_shown(scene, "")
+    facts = {"size": side, "triangles": scene.triangles}
     try:
         with LateBar(f"drawing {side} x {side} pixels"):
             made = render(scene)
             fits = fits_of_made(made, scene)
     except ChainError as error:
-        return {"size": side, "gas": None, "fits": with_options(str(error))}
-    return {"size": side, "gas": made.gas, "fits": None if fits is None else headline(fits)}
+        return {**facts, "gas": None, "fits": with_options(str(error))}
+    return {**facts, "gas": made.gas, "fits": None if fits is None else headline(fits)}
 
 
 def _words(facts: Facts) -> dict[str, str]:

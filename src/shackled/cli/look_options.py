@@ -8,9 +8,9 @@ from functools import wraps
 from inspect import Parameter, Signature, signature
 from typing import Annotated, Any
 
-from .._load import load, locate
+from .._load import load, load_picture, locate
 from ..datasets import Piece
-from ..scene import SETTINGS, Kind, Scene, Setting, checked_look
+from ..scene import ALL, SETTINGS, Kind, Scene, Setting, checked_look
 from .option import OPTIONS, option, parse_color_and, parse_colors, parse_light, parse_size, parse_vector
 from .progress import LateBar
 
@@ -18,6 +18,7 @@ from .progress import LateBar
 _KINDS: dict[Kind, tuple[Any, str | None, Callable[[Any, str], Any]]] = {
     "size": (str, "SIZE", parse_size),
     "whole": (int, "N", lambda value, name: value),
+    "count": (str, f"N|{ALL}", lambda text, name: int(text) if text.isdecimal() else text),
     "number": (float, "NUMBER", lambda value, name: value),
     "vector": (str, "X,Y,Z", parse_vector),
     "rotation": (str, "X,Y,Z", parse_vector),
@@ -82,13 +83,14 @@ FIT = option(
 )
 
 
-def load_with(input: str, look: dict[str, Any], fit: str | None = None) -> Scene:
+def load_with(input: str, look: dict[str, Any], fit: str | None = None, is_picture: bool = True) -> Scene:
     """Return the scene of a file or piece, with a look. Print the credit and terms of a piece on stderr.
 
-    fit: a limit that the picture is to fit; what was done for that is printed, too.
+    fit: a limit that the picture is to fit; what was done for that is printed, too. is_picture: whether mesh files have
+    no more triangles than the canvas shows.
     """
     source = locate(input)
-    scene = load(source, **look)
+    scene = load_picture(source, **look) if is_picture else load(source, **{"size": None, **look})
     if isinstance(source, Piece) and source.notice:
         print(source.notice, file=sys.stderr)
     if fit is None:

@@ -56,7 +56,7 @@ def mint(
     from ..datasets import Piece
     from ..deploy import current_fees
     from ..image import check_output
-    from ..scene import READERS
+    from ..scene import ALL, READERS
     from ..tokens import SceneToStore, licence_of, plan_storage, read_back, store, token_scene
 
     if calldata is not None and output is not None:
@@ -72,7 +72,8 @@ def mint(
     # a token is drawn by nodes of all kinds, of which many allow a call too little gas for antialiased meshes
     is_mesh = not isinstance(source, Piece) and source.suffix.lower() in READERS
     thing = (token_scene(source) if pixels is None else source.make()) if isinstance(source, Piece) else source
-    scene = load(thing, pixels, max_triangles=max_triangles, antialias=False if is_mesh else None)
+    # what is stored can be drawn at any size
+    scene = load(thing, pixels, max_triangles=max_triangles or ALL, antialias=False if is_mesh else None)
     wanted = SceneToStore(input, scene, position_bits)
     connection = node.connect()
     with LateBar("reading the chain"):

@@ -82,6 +82,7 @@ _SETTINGS = {setting.name: setting for setting in SETTINGS}
 _KINDS: Mapping[str, ControlKind] = {
     "number": "number",
     "whole": "number",
+    "count": "number",
     "size": "number",
     "flag": "switch",
     "color": "color",
@@ -99,9 +100,9 @@ def _set(path: str, group: str, label: str, setting: str = "", **changes: Any) -
         group,
         label,
         _KINDS[of.kind],
-        step=1 if of.kind in ("whole", "size") or of.unit == "degrees" else 0.01,
+        step=1 if of.kind in ("whole", "count", "size") or of.unit == "degrees" else 0.01,
         unit=_UNITS.get(of.unit, of.unit),
-        whole=of.kind in ("whole", "size"),
+        whole=of.kind in ("whole", "count", "size"),
         choices=tuple((each, each.capitalize()) for each in of.choices),
         help=of.text,
     )

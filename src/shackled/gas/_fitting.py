@@ -31,8 +31,8 @@ SMALL, SMALLEST = 128, 64
 SIDE_STEP = 8
 #: Pixels of the canvas for each triangle: triangles are lowered to that before the size goes below `SMALL`.
 PIXELS = 8
-#: The fewest triangles to which a mesh is lowered, the most that a contract takes, and the difference of two tries.
-FEWEST, MOST, TRIANGLE_STEP = 200, 65_535, 0.02
+#: The fewest triangles to which a mesh is lowered, and the difference of two tries.
+FEWEST, TRIANGLE_STEP = 200, 0.02
 #: The share of the limit that is near enough.
 NEAR = 0.97
 
@@ -149,15 +149,13 @@ class _Fitting:
         """Return the settings that were asked for, with no more triangles than a request can hold."""
         now = self._asked
         while (excess := self._excess(now)) > 1:
-            now = replace(now, triangles=min(MOST, int(0.98 * now.triangles / excess)))
+            now = replace(now, triangles=int(0.98 * now.triangles / excess))
             if now.triangles < FEWEST:
                 raise InputError(f"the scene is larger than what {self._place} can hold, whatever its triangles")
         return now
 
     def _excess(self, settings: _Settings) -> float:
-        """Return by what factor a request has too many bytes, or a mesh too many triangles for a contract; or 1."""
-        if settings.triangles > MOST:
-            return settings.triangles / MOST
+        """Return by what factor a request has too many bytes; or 1."""
         size = len(render_call(self._scene_of(settings)))
         return (size + ENVELOPE) / MAX_TRANSACTION if self._limit.kind == "transaction" else 1
 

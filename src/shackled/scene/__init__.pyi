@@ -1,6 +1,7 @@
 from ._arithmetic import cosine, sine, tangent
 from ._background import Background
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
+from ._canvas import as_shown
 from ._codec import (
     CULL_BACKFACES,
     LIGHTS,
@@ -34,9 +35,9 @@ from ._fit import EXACT_SIZES, MAX_COORDINATE, fit, fit_factor, near_plane
 from ._from_trimesh import is_trimesh, mesh_of, objects_of, part_of
 from ._ground import Ground
 from ._light import INNER_ANGLE, LIGHT_KINDS, OUTER_ANGLE, WHITE, Light, LightKind
-from ._look import SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, settings_of, size_of, stage
+from ._look import ALL, SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, settings_of, size_of, stage
 from ._material import Material, Shading
-from ._mesh import DEFAULT_COLOR, MAX_VERTICES, Mesh, components, vertex_normals, without_slivers
+from ._mesh import DEFAULT_COLOR, Mesh, components, vertex_normals, without_slivers
 from ._object import Object
 from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack, unpack
 from ._packed_texture import pack_texture, unpack_texture
@@ -60,6 +61,7 @@ from ._texture import FILTERS, MAX_TEXTURE_SIDE, WRAPS, Texture
 from ._turning import FILLED, full_turn, middle, turn
 
 __all__ = [
+    "ALL",
     "ANTIALIAS",
     "BACKGROUND",
     "CHUNK",
@@ -85,7 +87,6 @@ __all__ = [
     "MAX_LIGHTS",
     "MAX_SIDE",
     "MAX_TEXTURE_SIDE",
-    "MAX_VERTICES",
     "MESH_STAGING",
     "NORMALS",
     "NORMAL_UNIT",
@@ -133,6 +134,7 @@ __all__ = [
     "Tone",
     "Viewpoint",
     "about",
+    "as_shown",
     "checked_look",
     "components",
     "contrasting",

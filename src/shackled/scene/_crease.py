@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ._arithmetic import cosine, dot, length
 from ._files.weld import weld
 from ._material import Shading
-from ._mesh import MAX_FACES, MAX_VERTICES, Mesh, components
+from ._mesh import Mesh, components
 from ._object import Object
 from ._winding import against
 
@@ -58,12 +58,12 @@ def creased(mesh: Mesh, degrees: float | None = None) -> Mesh:
     None, by more than suits the shape.
 
     Normals that the mesh has are replaced. Vertices are split at creases only. The mesh is returned without normals,
-    for flat shading, where that looks the same, or where only the splits are more than a contract takes.
+    for flat shading, where that looks the same.
     """
     normals = corner_normals(mesh.positions, mesh.faces, degrees)
-    split = weld(mesh.positions, mesh.faces, mesh.rgba[mesh.faces], normals, corner_uvs(mesh))
-    too_many = len(split.positions) > MAX_VERTICES and mesh.triangles <= MAX_FACES
-    return without_normals(mesh) if too_many or is_flat(mesh.positions, mesh.faces, normals) else split
+    if is_flat(mesh.positions, mesh.faces, normals):
+        return without_normals(mesh)
+    return weld(mesh.positions, mesh.faces, mesh.rgba[mesh.faces], normals, corner_uvs(mesh))
 
 
 def shaded(o: Object, shading: Shading, degrees: float | None = None, anew: bool = False) -> Object:

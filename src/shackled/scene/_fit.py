@@ -4,7 +4,8 @@ Lengths are multiples of 2^-32 up to 2^26, and coordinates of vertices are integ
 is not changed; such are also fitted scenes that were encoded and decoded. Any other is translated, so that the eye is
 at the origin, and scaled by a power of two, so that its largest object is about 2^12 units. Its meshes, unless their
 coordinates are integers, are quantized to a grid of 2^16 steps across their largest side, or to a finer one, with three
-more bytes per vertex, where a step would be visible.
+more bytes per vertex, where a step would be visible. Objects with more vertices or triangles than a contract takes are
+divided last, so that their parts have one grid.
 """
 
 from __future__ import annotations
@@ -18,9 +19,10 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from ._arithmetic import dot, length, unit
 from ._camera import Camera
+from ._divide import divided, part_of_faces
 from ._effects import Fog
 from ._light import Light
-from ._mesh import Mesh, vertex_normals
+from ._mesh import vertex_normals
 from ._object import Object
 from ._packed_mesh import MAX_SHORT, MAX_WIDE, fits, is_integral
 from ._rotation import rotate
@@ -52,7 +54,10 @@ DIRECTION_LENGTHS = (2.0**-8, 2.0**20)
 
 @np.errstate(over="ignore", invalid="ignore")
 def fit(scene: Scene) -> Scene:
-    """Return the scene in the number ranges of the contracts, with integer coordinates and a near plane."""
+    """Return the scene in the number ranges of the contracts, with integer coordinates and a near plane.
+
+    A mesh that is too large for a contract becomes several objects.
+    """
     _check_view(scene.camera)
     scene = _prepared(scene)
     objects: list[Object]
@@ -68,7 +73,7 @@ def fit(scene: Scene) -> Scene:
         objects = [_move_object(o, scene, factor, camera.near or 0.0) for o in scene.objects]
         fog = scene.fog and _move_fog(scene.fog, factor)
     camera = evolve(camera, up=_direction(camera.up))
-    objects = [evolve(o, rotation=_direction(o.rotation)) for o in objects]
+    objects = [part for o in objects for part in divided(evolve(o, rotation=_direction(o.rotation)))]
     lights = [_pointed(light) for light in lights]
     return evolve(scene, objects=objects, camera=camera, lights=lights, fog=fog)
 
@@ -111,14 +116,10 @@ def _prepare(o: Object) -> Object:
         # of any size: squares of its lengths stay within floats
         shape = (positions - center) / (radius or 1.0)
         normals = vertex_normals(shape, faces) if mesh.normals is None else mesh.normals
-    used, inverse = np.unique(faces, return_inverse=True)
-    if len(used) < len(positions):
-        positions, faces = positions[used], inverse.reshape(-1, 3)
-        normals = None if normals is None else normals[used]
-        uvs = None if mesh.uvs is None else mesh.uvs[used]
-        mesh = Mesh(positions, faces, mesh.rgba[used], normals, uvs)
-    elif normals is not mesh.normals:
+    if normals is not mesh.normals:
         mesh = evolve(mesh, normals=normals)
+    if len(np.unique(faces)) < len(positions):
+        mesh = part_of_faces(mesh, faces)
     return o if mesh is o.mesh else evolve(o, mesh=mesh)
 
 

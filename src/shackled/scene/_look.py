@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from difflib import get_close_matches
-from typing import Any, Literal, TypedDict, Unpack, cast
+from typing import Any, Final, Literal, TypedDict, Unpack, cast
 
 import numpy as np
 from attrs import evolve, frozen
@@ -47,6 +47,7 @@ Part = Literal["scene", "camera", "object", "material", "tone", "file"]
 Kind = Literal[
     "size",
     "whole",
+    "count",
     "number",
     "vector",
     "rotation",
@@ -113,6 +114,7 @@ class Setting:
 _WORDS: dict[Kind, str] = {
     "size": "pixels",
     "whole": "a whole number",
+    "count": "a whole number, or all",
     "number": "a number",
     "vector": "x, y, z",
     "rotation": "x, y, z",
@@ -131,6 +133,9 @@ _WORDS: dict[Kind, str] = {
 #: The rotations, as in `from_euler`, that turn an axis to +y.
 UPRIGHT = {"x": (0, 0, 90), "y": (0, 0, 0), "z": (-90, 0, 0)}
 
+#: The value of `max_triangles` that leaves meshes as they are.
+ALL: Final = "all"
+
 #: The material of mesh files.
 _SURFACE = MESH_STAGING.material
 
@@ -147,7 +152,15 @@ SETTINGS = (
         "pixels",
         f"the scene's, or {MESH_STAGING.side} for mesh files and pieces of datasets",
     ),
-    Setting("max_triangles", "whole", None, "Canvas", "Number of triangles to which larger meshes are simplified.", 1),
+    Setting(
+        "max_triangles",
+        "count",
+        None,
+        "Canvas",
+        "Number of triangles to which larger meshes are simplified, or all.",
+        1,
+        default="as many as the canvas shows for mesh files, else all",
+    ),
     Setting(
         "background",
         "background",
@@ -383,7 +396,7 @@ AnyColor = ArrayLike | str
 class LookOptions(TypedDict, total=False):
     """The keywords of a look, but for `size`; what they mean says the table `SETTINGS`. None leaves what there is."""
 
-    max_triangles: int | None
+    max_triangles: int | Literal["all"] | None
     background: Background | AnyColor | tuple[AnyColor, AnyColor] | None
     invert: bool | None
     antialias: bool | None
@@ -548,7 +561,7 @@ def look_at(
         scene = evolve(scene, lights=lights)
     scene = evolve(scene, camera=_camera(scene, look, view))
     scene = evolve(scene, fog=_fog_between(scene, fog) if isinstance(fog, tuple) else fog)
-    if "max_triangles" not in look:
+    if look.get("max_triangles", ALL) == ALL:
         return scene
     from ._simplify import simplify_scene
 
@@ -698,6 +711,14 @@ def _entry(value: object, setting: Setting, name: str) -> str | int:
     return value if isinstance(value, str) else cast(int, number)
 
 
+def _count(value: object, setting: Setting, name: str) -> int | str:
+    if isinstance(value, str):
+        if value == ALL:
+            return ALL
+        raise InputError(f"{name} must be a whole number, at least {setting.low:g}, or {ALL}, not {value!r:.60}")
+    return whole(value, name, setting.low, setting.high)
+
+
 def _unless_none(made: Callable[[Any, str], Any], value: object, name: str) -> Any:
     """Return an effect of a value, or None for the word that removes it."""
     return None if isinstance(value, str) and value.strip().lower() == NONE else made(value, name)
@@ -706,6 +727,7 @@ def _unless_none(made: Callable[[Any, str], Any], value: object, name: str) -> A
 _CHECKS: dict[Kind, Callable[[Any, Setting, str], Any]] = {
     "size": lambda value, setting, name: size_of(value, name),
     "whole": lambda value, setting, name: whole(value, name, setting.low, setting.high),
+    "count": _count,
     "number": lambda value, setting, name: number(value, name, setting.low, setting.high),
     "vector": lambda value, setting, name: vector(value, name),
     "rotation": lambda value, setting, name: rotation_of(value, name),

@@ -24,6 +24,14 @@ FORCEFUL = ((7, 1.0), (7, 0.9), (10, 0.8), (14, 0.5))
 #: These keep the shape better, but fail for more meshes.
 GENTLE = ((5, 1.0), (5, 0.9))
 
+#: What is missing where meshes cannot be simplified.
+NEEDED = "needs the package fast-simplification, which is not installed: it has no wheels for some machines"
+
+
+def is_possible() -> bool:
+    """Return whether the package that simplifies meshes is installed."""
+    return find_spec("fast_simplification") is not None
+
 
 def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] = FORCEFUL) -> Mesh:
     """Return a mesh of at most `max_triangles` triangles, by edge collapse.
@@ -40,11 +48,8 @@ def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] 
         )
     if mesh.triangles <= most:
         return mesh
-    if find_spec("fast_simplification") is None:
-        raise InputError(
-            f"simplifying {mesh.triangles} triangles to {most} needs a package that is not installed: "
-            "pip install 'shackled[simplify]'"
-        )
+    if not is_possible():
+        raise InputError(f"simplifying {mesh.triangles} triangles to {most} {NEEDED}")
     surface = _simplified(mesh, most, tries)
     count = len(surface.faces)
     if not 0 < count <= most:
@@ -113,41 +118,54 @@ def _connect(mesh: Mesh) -> _Surface:
         both = np.hstack([mesh.positions, mesh.uvs])
         places = np.unique(both, axis=0, return_inverse=True)[1].reshape(-1)[mesh.faces]
     surface = _Surface(unique, faces, mesh.rgba[first], uvs, places)
-    return surface.part(faces, _proper(faces))
+    return surface.part(faces, proper(faces))
 
 
-def _proper(faces: NDArray[np.int64]) -> NDArray[np.int64]:
+def proper(faces: NDArray[np.int64]) -> NDArray[np.int64]:
     """Return the numbers of the faces that have three different vertices."""
     a, b, c = faces.T
     return np.flatnonzero((a != b) & (b != c) & (c != a))
 
 
 def _collapse(surface: _Surface, target: int, agg: int) -> _Surface:
-    from fast_simplification import replay_simplification
-    from fast_simplification import simplify as collapse_edges
-
     if len(surface.faces) == 0:
         return surface
-    positions, faces = surface.positions, surface.faces.astype(np.int32)
-    _, _, collapses = collapse_edges(
-        positions, faces, target_count=min(target, len(faces)), agg=agg, return_collapses=True
-    )
-    points, _, number = replay_simplification(positions, faces, collapses)
-    points, number = np.asarray(points, dtype=np.float64), np.asarray(number, dtype=np.int64)
+    positions = surface.positions
+    points, number, nearest = collapsed(positions, surface.faces, target, agg)
     # a face remains where no two of its vertices became one
     moved = number[surface.faces]
-    kept = _proper(moved)
+    kept = proper(moved)
     if len(kept) == 0:
         return replace(surface.part(moved, kept), positions=positions[:0], colors=surface.colors[:0])
-    # of the vertices that became one, the nearest to it comes last, and so stays
-    old = np.flatnonzero(number >= 0)
     distance = np.linalg.norm(positions - points[number], axis=1)
-    old = old[np.argsort(-distance[old], kind="stable")]
-    nearest = np.zeros(len(points), dtype=np.int64)
-    nearest[number[old]] = old
     used, compact = np.unique(moved[kept], return_inverse=True)
     part = _on_texture(surface, moved, distance).part(moved, kept)
     return replace(part, positions=points[used], faces=compact.reshape(-1, 3), colors=surface.colors[nearest[used]])
+
+
+def collapsed(
+    positions: NDArray[np.float64], faces: NDArray[np.int64], target: int, agg: int, keep_borders: bool = False
+) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
+    """Return the points, (k, 3), that remain when edges are collapsed until `target` faces are left, or `agg` allows no
+    more; which of them each old vertex became, (n,), -1 for none; and the old vertex that is nearest to each, (k,).
+
+    keep_borders: whether edges that touch a border stay.
+    """
+    from fast_simplification import replay_simplification, simplify
+
+    target = min(target, len(faces))
+    corners = faces.astype(np.int32)
+    _, _, collapses = simplify(
+        positions, corners, target_count=target, agg=agg, return_collapses=True, preserve_border=keep_borders
+    )
+    points, _, number = replay_simplification(positions, corners, collapses)
+    points, number = np.asarray(points, dtype=np.float64), np.asarray(number, dtype=np.int64)
+    # of the vertices that became one, the nearest to it comes last, and so stays
+    old = np.flatnonzero(number >= 0)
+    old = old[np.argsort(-np.linalg.norm(positions[old] - points[number[old]], axis=1), kind="stable")]
+    nearest = np.zeros(len(points), dtype=np.int64)
+    nearest[number[old]] = old
+    return points, number, nearest
 
 
 def _on_texture(surface: _Surface, moved: NDArray[np.int64], distance: NDArray[np.float64]) -> _Surface:

@@ -10,7 +10,7 @@ from html import escape
 from pathlib import Path
 from typing import Unpack
 
-from .._load import Thing, load, locate
+from .._load import Thing, load_picture, locate
 from .._render import render
 from ..datasets import Piece
 from ..errors import InputError
@@ -60,7 +60,7 @@ def export(
     """
     target = check_page(path)
     found = locate(thing) if isinstance(thing, str | os.PathLike) else thing
-    image = render(load(found, size, **look))
+    image = render(load_picture(found, size, **look))
     piece = found if isinstance(found, Piece) else None
     name = title if title is not None else piece.title if piece else target.stem
     write_output(target, make_page(image, name, piece.notice if piece else ""))

@@ -7,7 +7,7 @@ import gzip
 from functools import cache
 from typing import TYPE_CHECKING, Any, Unpack
 
-from .._load import Thing, load
+from .._load import Thing, load_picture
 from .._render import render
 from ..errors import InputError
 from ..image import Image
@@ -46,7 +46,7 @@ def view(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
 
     thing, size, look: as in `load`. InputError for an invalid scene, or if anywidget is not installed.
     """
-    scene = load(thing, size, **look)
+    scene = load_picture(thing, size, **look)
     try:
         widget = _widget_class()
     except ImportError:
