@@ -97,7 +97,7 @@ def _told(source: Source, gas: bool) -> Told:
     with warnings.catch_warnings(record=True) as caught, LateBar("reading"), named:
         place = locate(source.place)
         scene, facts = load(place), facts_of(place)
-    notes = [str(each.message) for each in caught if issubclass(each.category, InputWarning)]
+    notes = [with_options(str(each.message)) for each in caught if issubclass(each.category, InputWarning)]
     pictures = [_picture(scene, side) for side in SIDES] if gas else None
     return Told(source.name, facts, list(dict.fromkeys(notes)), pictures)
 
@@ -125,11 +125,7 @@ def _words(facts: Facts) -> dict[str, str]:
             ]
         ),
         "bounds": f"{_numbers(facts.low)} to {_numbers(facts.high)}, size {_numbers(sizes)}",
-        "up": {
-            None: "y is taken as up; no flat base tells it",
-            "y": "y: it stands on a flat base",
-            "z": "z by its flat base, but y is taken as up: --rotate -90,0,0 turns it",
-        }[facts.up],
+        "up": _up(facts),
         "surface": _surface(facts),
         "material": ", ".join(
             [
@@ -145,6 +141,14 @@ def _words(facts: Facts) -> dict[str, str]:
         if not facts.normals
         else f"of {facts.normals} of {plural(facts.parts, 'part')}",
     }
+
+
+def _up(facts: Facts) -> str:
+    if facts.base is None:
+        return f"{facts.up} is taken; no flat base tells it"
+    if facts.base == facts.up:
+        return f"{facts.up}: it stands on a flat base"
+    return f"{facts.up} is taken, but it stands on a flat base along {facts.base}: --up-axis {facts.base} turns it"
 
 
 def _surface(facts: Facts) -> str:

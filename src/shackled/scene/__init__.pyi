@@ -56,9 +56,11 @@ from ._staging import (
 )
 from ._texture import FILTERS, MAX_TEXTURE_SIDE, WRAPS, Texture
 from ._turning import FILLED, full_turn, middle, turn
+from ._upright import AXES, Axis, axis_of_file, axis_of_format, base_axis, upright
 
 __all__ = [
     "ANTIALIAS",
+    "AXES",
     "BACKGROUND",
     "CHUNK",
     "CREASE",
@@ -108,6 +110,7 @@ __all__ = [
     "WIDE",
     "WIREFRAME",
     "WRAPS",
+    "Axis",
     "Background",
     "Camera",
     "Fog",
@@ -132,6 +135,9 @@ __all__ = [
     "Tone",
     "Viewpoint",
     "about",
+    "axis_of_file",
+    "axis_of_format",
+    "base_axis",
     "checked_look",
     "components",
     "cosine",
@@ -187,6 +193,7 @@ __all__ = [
     "turn",
     "unpack",
     "unpack_texture",
+    "upright",
     "vertex_normals",
     "view_axes",
     "weld",

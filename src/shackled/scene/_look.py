@@ -22,10 +22,11 @@ from ._light import Light
 from ._material import COEFFICIENTS, EXPONENTS, SHADINGS, Material, Shading
 from ._mesh import Mesh
 from ._object import OPACITIES, Object
-from ._rotation import IDENTITY, from_euler, multiply, rotate, rotation_of
+from ._rotation import IDENTITY, multiply, rotate, rotation_of
 from ._scene import MAX_SIDE, Scene, lights_of
 from ._staging import ELEVATIONS, MARGINS, MESH_STAGING, PLAIN, Staging, Viewpoint, frame, painted_object, placed
 from ._turning import middle, turn
+from ._upright import AXES, Axis, turned_up, upright
 
 #: What a setting is a field of; "camera" also has settings from which a camera is made, "file" those that say what is
 #: read of a glTF file.
@@ -114,9 +115,6 @@ _WORDS: dict[Kind, str] = {
     "entry": "a name, or a number from 0",
 }
 
-#: The rotations, as in `from_euler`, that turn an axis to +y.
-UPRIGHT = {"x": (0, 0, 90), "y": (0, 0, 0), "z": (-90, 0, 0)}
-
 #: The material of mesh files.
 _SURFACE = MESH_STAGING.material
 
@@ -158,8 +156,8 @@ SETTINGS = (
         None,
         "Camera",
         "Axis of the file that points up in the scene, before `rotate`.",
-        default="y",
-        choices=tuple(UPRIGHT),
+        default="z for STL files, else y",
+        choices=AXES,
     ),
     Setting("eye", "vector", "camera", "Camera", "Position of the camera."),
     Setting("target", "vector", "camera", "Camera", "Point at which the camera looks."),
@@ -367,7 +365,7 @@ class LookOptions(TypedDict, total=False):
     invert: bool | None
     antialias: bool | None
     rotate: ArrayLike | None
-    up_axis: Literal["x", "y", "z"] | None
+    up_axis: Axis | None
     eye: ArrayLike | None
     target: ArrayLike | None
     up: ArrayLike | None
@@ -446,8 +444,7 @@ def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
     if shadings:
         look["shading"] = shadings.pop()
     if "up_axis" in look:
-        upright = from_euler(UPRIGHT[look.pop("up_axis")])
-        look["rotate"] = multiply(look.get("rotate", IDENTITY), upright)
+        look["rotate"] = multiply(look.get("rotate", IDENTITY), upright(look.pop("up_axis")))
     if "crease" in look and look.get("shading", "smooth") != "smooth":
         raise InputError(f"`crease` is for smooth shading, and excludes {look['shading']}")
     exclude(look, "`{}`".format)
@@ -498,7 +495,11 @@ def look_at(thing: Mesh | Sequence[Object] | Scene, look: Mapping[str, Any], sta
         width, height = look.get("size", (staging.side, staging.side))
         Scene([], width=width, height=height)  # refuses a wrong size before anything is divided by it
         rotation = look.get("rotate", IDENTITY)
-        own = staging.view_of(rotate(rotation, np.concatenate([each.mesh.positions for each in parts])))
+        if "up" in look and not {"eye", "target"} & look.keys():
+            # without a camera that it could tilt, it is a direction of the model
+            rotation = multiply(turned_up(look["up"]), rotation)
+            look = {name: value for name, value in look.items() if name != "up"}
+        own = staging.view_of(rotate(rotation, np.concatenate([each.world_positions() for each in parts])))
         view = view_of(look, width, height, look.get("orthographic", False), own)
         shaded = [_shaded(each, look) if staging.by_normals else (each, look) for each in parts]
         scene = placed([each for each, _ in shaded], rotation, view, staging, width, height)

@@ -21,7 +21,7 @@ from ._light import WHITE, Light
 from ._material import Material
 from ._mesh import Mesh
 from ._object import Object
-from ._rotation import rotate
+from ._rotation import multiply, rotate
 from ._scene import DEFAULT_SIDE, Scene
 
 BACKGROUND = Background((46, 54, 72), (136, 146, 162))
@@ -122,10 +122,10 @@ def placed(
     """Return a scene of the parts of a model, scaled to a bounding sphere of radius 1 about the origin, and filling the
     picture.
 
-    objects: meshes with their materials. The meshes keep their coordinates; position and scale of the objects do the
-    rest.
+    objects: meshes with their materials, turned upright. The meshes keep their coordinates; the places of the objects
+    do the rest.
     """
-    positions = np.concatenate([each.mesh.positions for each in objects])
+    positions = np.concatenate([rotate(each.rotation, each.mesh.positions) for each in objects])
     with np.errstate(over="ignore"):
         center = (positions.min(axis=0) + positions.max(axis=0)) / 2
         radius = float(length(positions - center).max())
@@ -138,7 +138,10 @@ def placed(
     cull = is_closed(Mesh(positions, np.concatenate(faces)))
     position = -rotate(rotation, center * scale)
     return Scene(
-        [evolve(each, position=position, rotation=rotation, scale=scale, cull=cull) for each in objects],
+        [
+            evolve(each, position=position, rotation=multiply(rotation, each.rotation), scale=scale, cull=cull)
+            for each in objects
+        ],
         frame(turned, view),
         [_light(direction, color, view) for direction, color in staging.lights],
         width=width,
