@@ -64,10 +64,8 @@ def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
     """
     chosen = checked_look({"size": size, **look})
     found = _located(thing)
-    pose = {}
-    if isinstance(found, Path) and found.suffix.lower() in GLTF:
-        pose = {setting.name: chosen.pop(setting.name) for setting in settings_of("file") if setting.name in chosen}
-    made = _posed(found, chosen, pose) if pose else _made(found, chosen)
+    is_posed = isinstance(found, Path) and found.suffix.lower() in GLTF
+    made = read_posed(found, chosen, pose_of(chosen)) if is_posed else _made(found, chosen)
     with about(str(found)) if isinstance(found, Path) else nullcontext():
         return look_at(made, chosen)
 
@@ -120,7 +118,12 @@ def _in_their_places(parts: list[Object]) -> Scene:
     )
 
 
-def _posed(path: Path, look: Mapping[str, Any], pose: dict[str, Any]) -> list[Object] | Scene:
+def pose_of(look: dict[str, Any]) -> dict[str, Any]:
+    """Take the settings of what is read of a glTF file out of a look, and return them."""
+    return {setting.name: look.pop(setting.name) for setting in settings_of("file") if setting.name in look}
+
+
+def read_posed(path: Path, look: Mapping[str, Any], pose: dict[str, Any]) -> list[Object] | Scene:
     """Return what a glTF file holds, with the settings of what is read of it."""
     parts = _model(path, look, **pose)
     if "use_camera" not in pose:

@@ -19,6 +19,7 @@ from ._decode import decode, read_call
 from ._effects import EXPOSURES, POWERS, Fog, Hemisphere, Rim, Tone
 from ._files.colors import sample
 from ._files.content import MAX_BYTES
+from ._files.gltf.animation import animation_length
 from ._files.gltf.view import read_view
 from ._files.mesh_file import GLTF, READERS, read_mesh, read_model
 from ._files.model import TEXTURED, MeshPart
@@ -55,7 +56,7 @@ from ._staging import (
     view_axes,
 )
 from ._texture import FILTERS, MAX_TEXTURE_SIDE, WRAPS, Texture
-from ._turning import FILLED, full_turn, middle, turn
+from ._turning import FILLED, frame_count, full_turn, middle, turn
 from ._upright import AXES, Axis, axis_of_file, axis_of_format, base_axis, upright
 
 __all__ = [
@@ -135,6 +136,7 @@ __all__ = [
     "Tone",
     "Viewpoint",
     "about",
+    "animation_length",
     "axis_of_file",
     "axis_of_format",
     "base_axis",
@@ -153,6 +155,7 @@ __all__ = [
     "fit",
     "fit_factor",
     "frame",
+    "frame_count",
     "from_axis_angle",
     "from_euler",
     "full_turn",

@@ -10,7 +10,7 @@ import numpy as np
 from attrs import evolve, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import Color, choice, color, flag, integer, number, vector, whole
+from ..checks import Color, Floats, choice, color, flag, integer, number, vector, whole
 from ..errors import InputError
 from ._arithmetic import dot, length
 from ._background import Background, background_of
@@ -473,10 +473,16 @@ def stage(
     return look_at(mesh, checked_look({"size": size, **look}), evolve(PLAIN, material=material or PLAIN.material))
 
 
-def look_at(thing: Mesh | Sequence[Object] | Scene, look: Mapping[str, Any], staging: Staging = MESH_STAGING) -> Scene:
+def look_at(
+    thing: Mesh | Sequence[Object] | Scene,
+    look: Mapping[str, Any],
+    staging: Staging = MESH_STAGING,
+    around: Floats | None = None,
+) -> Scene:
     """Return the scene with a look, of `checked_look`; a mesh is staged, so that it fills the picture.
 
-    thing: also the parts of a model, as objects in its own coordinates.
+    thing: also the parts of a model, as objects in its own coordinates. around: points, (n, 3), of a model that are to
+    fill the picture in place of its own.
     """
     for setting in settings_of("file"):
         if setting.name in look:
@@ -499,10 +505,11 @@ def look_at(thing: Mesh | Sequence[Object] | Scene, look: Mapping[str, Any], sta
             # without a camera that it could tilt, it is a direction of the model
             rotation = multiply(turned_up(look["up"]), rotation)
             look = {name: value for name, value in look.items() if name != "up"}
-        own = staging.view_of(rotate(rotation, np.concatenate([each.world_positions() for each in parts])))
+        points = np.concatenate([each.world_positions() for each in parts]) if around is None else around
+        own = staging.view_of(rotate(rotation, points))
         view = view_of(look, width, height, look.get("orthographic", False), own)
         shaded = [_shaded(each, look) if staging.by_normals else (each, look) for each in parts]
-        scene = placed([each for each, _ in shaded], rotation, view, staging, width, height)
+        scene = placed([each for each, _ in shaded], points, rotation, view, staging, width, height)
         looks = [own_look for _, own_look in shaded]
     chosen = _given(look, settings_of("scene"))
     fog = chosen.pop("fog", scene.fog)

@@ -117,22 +117,22 @@ MESH_STAGING = Staging(
 
 
 def placed(
-    objects: Sequence[Object], rotation: Floats, view: Viewpoint, staging: Staging, width: int, height: int
+    objects: Sequence[Object], points: Floats, rotation: Floats, view: Viewpoint, staging: Staging, *size: int
 ) -> Scene:
     """Return a scene of the parts of a model, scaled to a bounding sphere of radius 1 about the origin, and filling the
     picture.
 
     objects: meshes with their materials, turned upright. The meshes keep their coordinates; the places of the objects
-    do the rest.
+    do the rest. points: (n, 3), those that are scaled and fill the picture. size: width and height.
     """
-    positions = np.concatenate([rotate(each.rotation, each.mesh.positions) for each in objects])
     with np.errstate(over="ignore"):
-        center = (positions.min(axis=0) + positions.max(axis=0)) / 2
-        radius = float(length(positions - center).max())
+        center = (points.min(axis=0) + points.max(axis=0)) / 2
+        radius = float(length(points - center).max())
     scale = 1 / radius if radius > 0 else 1.0
     if not np.isfinite(center).all() or not np.isfinite(radius) or not np.isfinite(scale):
         raise InputError("the coordinates of the mesh are too large or too small to be scaled")
-    turned = rotate(rotation, (positions - center) * scale)
+    turned = rotate(rotation, (points - center) * scale)
+    positions = np.concatenate([each.mesh.positions for each in objects])
     starts = np.cumsum([0, *(len(each.mesh.positions) for each in objects)])
     faces = [each.mesh.faces + start for each, start in zip(objects, starts, strict=False)]
     cull = is_closed(Mesh(positions, np.concatenate(faces)))
@@ -144,8 +144,8 @@ def placed(
         ],
         frame(turned, view),
         [_light(direction, color, view) for direction, color in staging.lights],
-        width=width,
-        height=height,
+        width=size[0],
+        height=size[1],
         **staging.fields,
     )
 
