@@ -168,8 +168,18 @@ def test_options_that_do_not_go_together(
     assert capsys.readouterr().err == f"shackled: {message}\n"
 
 
+def test_info_names_the_animations(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["info", "walk.gltf", "--no-gas"]) == 0
+    assert "animated  0 Slide (2 s), 1 Spin (4 s)\n" in capsys.readouterr().out
+    assert run(["info", "walk.gltf", "--no-gas", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["animations"] == [["Slide", 2], ["Spin", 4]]
+
+
 def test_other_files_say_so(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
     scene = Scene([])
     scene.save("scene.json")
     assert run(["render", "scene.json", "--frames", "3"]) == 2
     assert capsys.readouterr().err.startswith("shackled: scene.json has no animation")
+    write(Path("still.gltf"), animations=[])
+    assert run(["render", "still.gltf", "--frames", "3"]) == 2
+    assert capsys.readouterr().err == "shackled: still.gltf: it has no animations\n"

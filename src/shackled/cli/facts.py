@@ -12,7 +12,19 @@ from numpy.typing import NDArray
 from .._load import load
 from ..datasets import Piece
 from ..errors import InputError
-from ..scene import READERS, Axis, Material, Mesh, Object, axis_of_format, base_axis, is_closed, read_model
+from ..scene import (
+    GLTF,
+    READERS,
+    Axis,
+    Material,
+    Mesh,
+    Object,
+    animations_of,
+    axis_of_format,
+    base_axis,
+    is_closed,
+    read_model,
+)
 
 
 @dataclass(frozen=True)
@@ -24,6 +36,7 @@ class Facts:
     whether faces of a closed surface are seen from inside. up: the axis that is taken as up. base: "y" or "z", along
     which the model stands on a flat base; None if it does so along none, or both. textures: width and height of each.
     colors: different ones of vertices. opaque: whether nothing is transparent. normals: how many parts have them.
+    animations: the name and the length in seconds of each.
     """
 
     low: list[float]
@@ -43,6 +56,7 @@ class Facts:
     colors: int
     opaque: bool
     normals: int
+    animations: list[tuple[str, float]]
 
 
 def facts_of(place: Path | Piece) -> Facts:
@@ -76,6 +90,7 @@ def facts_of(place: Path | Piece) -> Facts:
         colors=len(np.unique(np.concatenate([each.mesh.rgba[:, :3] for each in objects]), axis=0)),
         opaque=all(each.opacity == 1 and each.mesh.opacities is None for each in objects),
         normals=sum(each.mesh.normals is not None for each in objects),
+        animations=animations_of(place) if isinstance(place, Path) and place.suffix.lower() in GLTF else [],
     )
 
 

@@ -48,9 +48,10 @@ def info(
 ) -> None:
     """Tell what a file holds, what of it is left out, and what its pictures cost."""
     failed: list[Exception] = []
+    is_first = True
     with ExitStack() as stack:
         sources = inputs_of(inputs, kind, stack)
-        for number, source in enumerate(sources):
+        for source in sources:
             try:
                 told = _told(source, gas)
             except (ShackledError, InputWarning) as error:
@@ -63,8 +64,9 @@ def info(
             if as_json:
                 print_line(json.dumps(told.to_json()))
             else:
-                for line in [*([""] if number else []), *told.lines()]:
+                for line in [*([] if is_first else [""]), *told.lines()]:
                     print_line(line)
+                is_first = False
     if failed:
         raise ExceptionGroup(f"{len(sources) - len(failed)} read, {len(failed)} failed", failed)
 
@@ -140,7 +142,12 @@ def _words(facts: Facts) -> dict[str, str]:
         "normals": "none, they are computed"
         if not facts.normals
         else f"of {facts.normals} of {plural(facts.parts, 'part')}",
-    }
+    } | ({"animated": _animations(facts)} if facts.animations else {})
+
+
+def _animations(facts: Facts) -> str:
+    names = [f"{number} {name}".strip() for number, (name, _) in enumerate(facts.animations)]
+    return ", ".join(f"{name} ({length:.6g} s)" for name, (_, length) in zip(names, facts.animations, strict=True))
 
 
 def _up(facts: Facts) -> str:

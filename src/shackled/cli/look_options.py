@@ -63,7 +63,7 @@ def with_look(command: Callable[..., None]) -> Callable[..., None]:
 
     @wraps(command)
     def whole(**values: Any) -> None:
-        if "transparent" in values and values["background"] == "none":
+        if "transparent" in values and (values["background"] or "").strip().lower() == "none":
             values |= {"background": None, "transparent": True}
         look = _look({setting.name: values.pop(setting.name) for setting in SETTINGS})
         command(**values, look=look)

@@ -19,7 +19,7 @@ from ._decode import decode, read_call
 from ._effects import EXPOSURES, POWERS, Fog, Hemisphere, Rim, Tone
 from ._files.colors import sample
 from ._files.content import MAX_BYTES
-from ._files.gltf.animation import animation_length
+from ._files.gltf.animation import animation_length, animations_of
 from ._files.gltf.view import read_view
 from ._files.mesh_file import GLTF, READERS, read_mesh, read_model
 from ._files.model import TEXTURED, MeshPart
@@ -137,6 +137,7 @@ __all__ = [
     "Viewpoint",
     "about",
     "animation_length",
+    "animations_of",
     "axis_of_file",
     "axis_of_format",
     "base_axis",
