@@ -651,7 +651,7 @@ def half_height_in(look: Mapping[str, Any], orthographic: bool) -> float | None:
 
 
 #: Settings that cannot be given together: one of the first and one of the second.
-_EXCLUSIVE = ((("fov",), ("half_height",)), (("azimuth", "elevation", "margin"), ("eye", "target", "up")))
+_EXCLUSIVE = ((("fov",), ("half_height",)), (("azimuth", "elevation", "margin"), ("eye", "target")))
 
 
 def _given(look: Mapping[str, Any], settings: Iterable[Setting]) -> dict[str, Any]:
