@@ -25,12 +25,16 @@ FEW = Animation([picture(RNG.choice(np.array([0, 90, 255], np.uint8), (6, 9, 3))
 MANY = Animation([picture(RNG.integers(0, 256, (30, 40, 3), np.uint8)) for _ in range(3)])
 
 
+#: What Pillow reads; test_mp4.py judges the other.
+EXACT = [extension for extension in FORMATS if extension != ".mp4"]
+
+
 def frames(data: bytes) -> list[np.ndarray]:
     with PillowImage.open(io.BytesIO(data)) as file:
         return [np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(file)]
 
 
-@pytest.mark.parametrize(("animation", "extension"), [*((FEW, extension) for extension in FORMATS), (MANY, ".png")])
+@pytest.mark.parametrize(("animation", "extension"), [*((FEW, each) for each in EXACT), (MANY, ".png")])
 def test_every_pixel_is_kept(animation: Animation, extension: str) -> None:
     found = frames(animation.encode(extension))
     assert len(found) == len(animation.frames)
@@ -86,7 +90,7 @@ def test_frames_of_one_size_are_needed() -> None:
 
 
 def test_frames_that_are_alike_take_their_time() -> None:
-    for extension in FORMATS:
+    for extension in EXACT:
         with PillowImage.open(io.BytesIO(Animation([FEW.frames[i] for i in (0, 0, 1)], 50).encode(extension))) as file:
             shown = 0
             for frame in ImageSequence.Iterator(file):

@@ -37,6 +37,7 @@ EXTRA_OF = {
     "bench": "bench",
     "chain/_embedded.py": "pyevm pyrevm",
     "creator": "creator",
+    "mp4.py": "mp4",
     "parallel/_cluster.py": "cluster",
     "scene/_files/gltf/draco.py": "draco",
     "preview/_server.py": "creator",

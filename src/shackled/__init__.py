@@ -6,7 +6,7 @@ from attrs import evolve as replace
 
 from ._load import load
 from ._on import Cluster, Nodes, Processes
-from ._render import render, turntable
+from ._render import animate, render, turntable
 from .animation import Animation
 from .errors import ChainError, InputError, OutputError, RenderError, ShackledError
 from .image import Image
@@ -56,6 +56,7 @@ __all__ = [
     "Texture",
     "Tone",
     "__version__",
+    "animate",
     "euler",
     "export",
     "load",

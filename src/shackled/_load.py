@@ -19,6 +19,7 @@ from .scene import (
     PICTURE,
     READERS,
     SCENES,
+    Axis,
     LookOptions,
     Mesh,
     MeshPart,
@@ -26,6 +27,7 @@ from .scene import (
     Scene,
     about,
     as_shown,
+    axis_of_file,
     checked_look,
     is_trimesh,
     look_at,
@@ -35,6 +37,7 @@ from .scene import (
     read_scene,
     read_view,
     settings_of,
+    upright,
 )
 
 #: Input of `load`. `Any`: arrays of vertices and faces, or a mesh or scene of trimesh, an optional package.
@@ -72,10 +75,8 @@ def load_picture(thing: Thing, size: int | tuple[int, int] | None = None, **look
 def _loaded(thing: Thing, look: Mapping[str, Any], is_picture: bool) -> Scene:
     chosen = checked_look(look)
     found = _located(thing)
-    pose = {}
-    if isinstance(found, Path) and found.suffix.lower() in GLTF:
-        pose = {setting.name: chosen.pop(setting.name) for setting in settings_of("file") if setting.name in chosen}
-    made = _posed(found, pose) if pose else _made(found, chosen)
+    is_posed = isinstance(found, Path) and found.suffix.lower() in GLTF
+    made = read_posed(found, chosen, pose_of(chosen)) if is_posed else _made(found, chosen)
     with about(str(found)) if isinstance(found, Path) else nullcontext():
         scene = look_at(made, chosen, name=str(found) if isinstance(found, Path) else "the mesh")
     if is_picture and "max_triangles" not in chosen and is_model(found):
@@ -114,22 +115,39 @@ def locate(input: str | os.PathLike[str]) -> Path | Piece:
         raise InputError(f"{name} does not exist, and {error}") from None
 
 
-def _unplaced(part: MeshPart) -> Object:
-    """Return a part of a model as an object, which `look_at` is to place."""
-    return Object(part.mesh, material=evolve(MESH_STAGING.material, **part.material), opacity=part.opacity)
+def _unplaced(part: MeshPart, up: Axis = "y") -> Object:
+    """Return a part of a model as an object, which `look_at` is to place. up: the axis that points up."""
+    material = evolve(MESH_STAGING.material, **part.material)
+    return Object(part.mesh, rotation=upright(up), material=material, opacity=part.opacity)
+
+
+def _model(path: Path, look: Mapping[str, Any], **pose: Any) -> list[Object]:
+    """Return the parts of a mesh file, turned upright unless the look says how."""
+    parts = read_model(path, **pose)
+    up: Axis = "y" if {"rotate", "up"} & look.keys() else axis_of_file(path, parts)
+    return [_unplaced(part, up) for part in parts]
 
 
 def _in_their_places(parts: list[Object], name: str) -> Scene:
     """Return parts of a model, shaded as when they are staged, but in their own places. name: for notes."""
     staged = look_at(parts, {}, name=name)
     return evolve(
-        staged, objects=[evolve(each, position=(0, 0, 0), rotation=(0, 0, 0, 1), scale=1) for each in staged.objects]
+        staged,
+        objects=[
+            evolve(each, position=(0, 0, 0), rotation=part.rotation, scale=1)
+            for each, part in zip(staged.objects, parts, strict=True)
+        ],
     )
 
 
-def _posed(path: Path, pose: dict[str, Any]) -> list[Object] | Scene:
+def pose_of(look: dict[str, Any]) -> dict[str, Any]:
+    """Take the settings of what is read of a glTF file out of a look, and return them."""
+    return {setting.name: look.pop(setting.name) for setting in settings_of("file") if setting.name in look}
+
+
+def read_posed(path: Path, look: Mapping[str, Any], pose: dict[str, Any]) -> list[Object] | Scene:
     """Return what a glTF file holds, with the settings of what is read of it."""
-    parts = [_unplaced(part) for part in read_model(path, **pose)]
+    parts = _model(path, look, **pose)
     if "use_camera" not in pose:
         return parts
     with about(str(path)):
@@ -138,13 +156,12 @@ def _posed(path: Path, pose: dict[str, Any]) -> list[Object] | Scene:
     return evolve(scene, camera=camera, lights=lights or scene.lights)
 
 
-def _made(thing: Any, look: dict[str, Any]) -> Mesh | list[Object] | Scene:
+def _made(thing: Any, look: Mapping[str, Any]) -> Mesh | list[Object] | Scene:
     """Return the mesh, the parts of a model or the scene of an input."""
     if isinstance(thing, Mesh | Scene):
         return thing
     if isinstance(thing, Path):
-        is_model = thing.suffix.lower() in READERS
-        return [_unplaced(part) for part in read_model(thing)] if is_model else read_scene(thing)
+        return _model(thing, look) if thing.suffix.lower() in READERS else read_scene(thing)
     if isinstance(thing, Piece):
         return _in_default_look(thing)
     if isinstance(thing, Object) or _is_trimesh_scene(thing):
@@ -208,7 +225,7 @@ def _combined(things: Sequence[Any], look: Mapping[str, Any]) -> list[Object] | 
                 raise InputError("a list must not hold lists: give one list of all members")
             if isinstance(found, Object) or _is_trimesh_scene(found):
                 parts = _placed(found)
-            elif isinstance(made := _made(found, {}), Mesh):
+            elif isinstance(made := _made(found, look), Mesh):
                 parts = [Object(made)]
             elif isinstance(made, Scene):
                 parts = list(made.objects)

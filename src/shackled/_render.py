@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -9,9 +10,10 @@ from typing import TYPE_CHECKING, Unpack
 
 from attrs import evolve
 
+from ._frames import load_frames
 from ._load import Thing, load_picture
 from ._on import On, where_of
-from .animation import DURATION, Animation
+from .animation import DURATION, DURATIONS, Animation
 from .chain import Chain, open_chain
 from .errors import InputError, warn
 from .image import Image, decode_bmp, uncovered
@@ -101,13 +103,57 @@ def turntable(
         return Animation.of(
             make_apng(load_picture(thing, size, **look), frames, duration, on=on, gas_limit=gas_limit), duration
         )
+    turned = full_turn(load_picture(thing, size, **look), frames)
+    return film(turned, duration, _where(on, gas_limit, tile), listener, keep, transparent)
+
+
+def animate(
+    thing: str | os.PathLike[str],
+    frames: int = 36,
+    size: int | tuple[int, int] | None = None,
+    *,
+    duration: int | None = None,
+    on: On | None = None,
+    gas_limit: int | None = None,
+    tile: int | tuple[int, int] | None = None,
+    listener: Listener | None = None,
+    keep: Path | None = None,
+    transparent: bool = False,
+    **look: Unpack[LookOptions],
+) -> Animation:
+    """Render an animation of a glTF file, by default its first one. Each frame is one call; the camera does not move.
+
+    thing: the path of the file.
+    frames: number of frames, 2..720, at equal steps from the start up to, and without, the end.
+    duration: as in `turntable`; None for the pace of the file.
+    animation: its name or number. size, look: as in `load`, but for `time`.
+    on, gas_limit, tile, listener, keep, transparent: as in `render`.
+    """
+    scenes, length = load_frames(thing, frames, size, **look)
+    shown = pace(length, frames) if duration is None else duration
+    return film(scenes, shown, _where(on, gas_limit, tile), listener, keep, transparent)
+
+
+def pace(length: float, frames: int) -> int:
+    """Return the duration in milliseconds, 20..10,000, of each of so many frames that take so many seconds."""
+    return round(min(max(1000 * length / frames, DURATIONS[0]), DURATIONS[1]))
+
+
+def film(
+    scenes: Sequence[Scene],
+    duration: int,
+    where: Where,
+    listener: Listener | None = None,
+    keep: Path | None = None,
+    transparent: bool = False,
+) -> Animation:
+    """Render scenes of one size as the frames of an animation."""
     from .parallel import render_frames
 
-    turned = full_turn(load_picture(thing, size, **look), frames)
-    drawn = [each for scene in turned for each in _twice(scene)] if transparent else turned
-    images = render_frames(drawn, _where(on, gas_limit, tile), listener, keep).images
+    drawn = [each for scene in scenes for each in _twice(scene)] if transparent else scenes
+    images = render_frames(drawn, where, listener, keep).images
     if transparent:
-        images = [uncovered(*both) for both in zip(images[::2], images[1::2], turned, strict=True)]
+        images = [uncovered(*both) for both in zip(images[::2], images[1::2], scenes, strict=True)]
     return Animation(images, duration)
 
 

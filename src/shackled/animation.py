@@ -1,4 +1,4 @@
-"""Animations: GIF, APNG, WebP, or a folder of PNG files."""
+"""Animations: GIF, APNG, WebP, MP4, or a folder of PNG files."""
 
 from __future__ import annotations
 
@@ -34,6 +34,7 @@ from .image import (
     total,
     write_open,
 )
+from .mp4 import check_mp4, encode_mp4
 from .palette import indexed
 from .scene import PICTURE
 from .values import plural
@@ -44,11 +45,14 @@ if TYPE_CHECKING:
 
 #: Milliseconds for which a frame is shown.
 DURATION = 80
+MP4 = ".mp4"
+#: The range of durations; viewers ignore shorter ones.
+DURATIONS = (20, 10_000)
 
 
 def check_duration(milliseconds: float) -> int:
-    """Return the duration of a frame; viewers ignore those below 20 milliseconds."""
-    return round(number(milliseconds, "the duration of a frame in milliseconds", 20, 10_000))
+    """Return the duration of a frame, within `DURATIONS`."""
+    return round(number(milliseconds, "the duration of a frame in milliseconds", *DURATIONS))
 
 
 def _frames(frames: Iterable[Image | ArrayLike]) -> tuple[Image, ...]:
@@ -110,10 +114,10 @@ class Animation:
         return np.stack([frame.pixels for frame in self.frames])
 
     def encode(self, extension: str, scene: bool | None = None) -> bytes:
-        """Return the bytes of a file: ".gif", ".webp", or ".png" for an APNG. InputError for any other.
+        """Return the bytes of a file: ".gif", ".webp", ".mp4", or ".png" for an APNG. InputError for any other.
 
-        A GIF has at most 256 colours for all frames, the nearest where there are more; the others are exact. Frames
-        with alpha need ".png" or ".webp".
+        A GIF has at most 256 colours for all frames, the nearest where there are more; an MP4 is near, does not repeat,
+        and needs the extra `mp4`; the others are exact. Frames with alpha need ".png" or ".webp".
         scene: whether an APNG carries the scene of its first frame, as in `Image.encode`; that of a contract does not.
         """
         extension = check_extension(extension, FORMATS)
@@ -188,6 +192,7 @@ FORMATS: dict[str, Format[Animation]] = {
     ".gif": Format("image/gif", _encode_gif),
     PICTURE: Format("image/png", _encode_apng, has_alpha=True),
     ".webp": Format("image/webp", lambda film: _encode(film, film.to_pil(), "WEBP", **WEBP), has_alpha=True),
+    MP4: Format("video/mp4", lambda film: encode_mp4([frame.pixels for frame in film.frames], film.duration)),
 }
 
 
@@ -201,6 +206,8 @@ def check_animation(path: str | os.PathLike[str], in_new_folder: bool = False) -
     """Return the path, if an animation can be saved there. in_new_folder: as in `check_output_file`."""
     path = Path(path)
     if path.suffix and path.suffix.lower() not in FORMATS:
-        raise InputError(f"the turntable {path} must end in {one_of(FORMATS)}, or be a folder")
+        raise InputError(f"the animation {path} must end in {one_of(FORMATS)}, or be a folder")
+    if path.suffix.lower() == MP4:
+        check_mp4()  # before anything is drawn
     is_file = path.suffix or not os.path.lexists(path)
-    return check_output_file(path, "turntable", in_new_folder) if is_file else check_output_folder(path)
+    return check_output_file(path, "animation", in_new_folder) if is_file else check_output_folder(path)

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 from PIL import Image as PillowImage
 
 from shackled import load, render
@@ -75,9 +76,15 @@ def test_what_looks_up(capsys: pytest.CaptureFixture[str]) -> None:
     write("y.obj", [(x, z, -y) for x, y, z in TENT], TENT_FACES)
     # a square alone stands on nothing
     write("flat.obj", [(x, z, -y) for x, y, z in TENT], TENT_FACES[:1])
-    assert [told(capsys, f"{name}.obj", "--no-gas")["up"] for name in ("z", "y", "flat")] == ["z", "y", None]
+    assert [told(capsys, f"{name}.obj", "--no-gas")["base"] for name in ("z", "y", "flat")] == ["z", "y", None]
     assert run(["info", "z.obj", "--no-gas"]) == 0
-    assert "--rotate -90,0,0 turns it" in capsys.readouterr().out
+    output = capsys.readouterr().out
+    assert "up        y is taken, but it stands on a flat base along z: --up-axis z turns it" in output
+    trimesh.load_mesh("z.obj").export("z.stl")
+    assert run(["info", "z.stl", "--no-gas"]) == 0
+    output = capsys.readouterr().out
+    assert "up        z: it stands on a flat base" in output
+    assert "note      z.stl is taken as z up; --up-axis y keeps it as it is" in output
 
 
 def test_materials(capsys: pytest.CaptureFixture[str]) -> None:

@@ -105,8 +105,8 @@ def test_nodes_as_they_are(capsys: pytest.CaptureFixture[str], monkeypatch: pyte
     ("options", "message"),
     [
         (["--turntable", "1"], "the number of frames of a turntable must be a finite number from 2 to 720"),
-        (["--turntable", "3", "-o", "a.svg"], "must end in .gif .png or .webp, or be a folder"),
-        (["--turntable", "3", "-o", "missing/a.gif"], "the folder missing of the turntable a.gif does not exist"),
+        (["--turntable", "3", "-o", "a.svg"], "must end in .gif .png .webp or .mp4, or be a folder"),
+        (["--turntable", "3", "-o", "missing/a.gif"], "the folder missing of the animation a.gif does not exist"),
         (["--turntable", "3", "-o", "shape"], "shape is a file, not a folder to write to"),
         (["--turntable", "3", "--duration", "5"], "the duration of a frame in milliseconds must be"),
         (["--duration", "50"], "--duration needs --turntable"),

@@ -95,6 +95,8 @@ def test_notes_are_those_of_each_input(capsys: pytest.CaptureFixture[str]) -> No
         (["models/a.obj", "shape.obj", "-o", "frames/", "--turntable", "2"], "give -o a pattern, such as out/{stem}"),
         (["models/a.obj", "shape.obj", "-o", "{stem}.tiff"], "must end in one of .png"),
         (["models/a.obj", "shape.obj", "-o", "-"], "standard output takes one picture, not 2"),
+        (["-", "-"], "-, standard input, is one file: give it once"),
+        (["more/none"], "the folder more/none has no mesh files in it, .obj .ply .stl .glb .gltf .off"),
         (["models/a.obj", "kept.png", "-o", "{stem}.png"], "would overwrite the input kept.png"),
         (["models/a.obj", "shape.obj", "-o", "models/a.obj/{stem}.png"], "models/a.obj"),
     ],
@@ -103,7 +105,7 @@ def test_notes_are_those_of_each_input(capsys: pytest.CaptureFixture[str]) -> No
 def test_wrong_names_are_told_before_anything_is_drawn(
     three: Path, arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    Path("more").mkdir()
+    Path("more/none").mkdir(parents=True)
     Path("more/a.obj").write_text(Path("shape.obj").read_text())
     Path("kept.png").write_bytes(b"kept")
     before = sorted(Path().rglob("*"))
@@ -139,7 +141,7 @@ def test_nothing_is_left_of_an_input_that_cannot_be_read(capsys: pytest.CaptureF
 def test_an_empty_folder(capsys: pytest.CaptureFixture[str]) -> None:
     Path("empty").mkdir()
     assert run(["render", "empty"]) == 2
-    assert "empty is a directory; a mesh or scene file is needed: .obj" in capsys.readouterr().err
+    assert "the folder empty has no mesh files in it, .obj" in capsys.readouterr().err
 
 
 def test_as_a_shell_runs_it(three: Path) -> None:

@@ -172,7 +172,7 @@ library Uniforms {
             uint256 end = OBJECT_LIT;
             if (object.material.shading != UNLIT) {
                 mode |= Materials.set(view_, scene, object.material);
-                if (mode & IS_SMOOTH != 0 && object.flags & (TWO_SIDED | WIREFRAME) == TWO_SIDED) {
+                if (mode & IS_SMOOTH != 0 && object.flags == TWO_SIDED) {
                     store(BACK_COUNT, mesh.vertexCount);
                     // OpenEdges numbers all records
                     if (mesh.vertexCount > MOST_WITH_BACKS) mode &= ~IS_QUADRATIC;

@@ -12,12 +12,19 @@ from numpy.typing import NDArray
 from .._load import load
 from ..datasets import Piece
 from ..errors import InputError
-from ..scene import READERS, Material, Mesh, Object, is_closed, read_model
-
-#: The share of the ground under a model that must be a flat base for the model to stand on it.
-BASE = 0.1
-#: How flat a base is, as a share of the height, and as the cosine of the angle of its faces.
-FLAT, LEVEL = 0.01, 0.99
+from ..scene import (
+    GLTF,
+    READERS,
+    Axis,
+    Material,
+    Mesh,
+    Object,
+    animations_of,
+    axis_of_format,
+    base_axis,
+    is_closed,
+    read_model,
+)
 
 
 @dataclass(frozen=True)
@@ -26,9 +33,10 @@ class Facts:
 
     low, high: the bounds. parts: how many objects. open_edges: edges of one face; crowded_edges: of three or more;
     disagreeing_edges: of two faces that are wound differently. closed: as `is_closed`, from outside. inside_out:
-    whether faces of a closed surface are seen from inside. up: "y" or "z", the axis along which the model stands on a
-    flat base; None if that does not tell it. textures: width and height of each. colors: different ones of vertices.
-    opaque: whether nothing is transparent. normals: how many parts have them.
+    whether faces of a closed surface are seen from inside. up: the axis that is taken as up. base: "y" or "z", along
+    which the model stands on a flat base; None if it does so along none, or both. textures: width and height of each.
+    colors: different ones of vertices. opaque: whether nothing is transparent. normals: how many parts have them.
+    animations: the name and the length in seconds of each.
     """
 
     low: list[float]
@@ -41,12 +49,14 @@ class Facts:
     open_edges: int
     crowded_edges: int
     disagreeing_edges: int
-    up: str | None
+    up: Axis
+    base: Axis | None
     materials: int
     textures: list[list[int]]
     colors: int
     opaque: bool
     normals: int
+    animations: list[tuple[str, float]]
 
 
 def facts_of(place: Path | Piece) -> Facts:
@@ -73,12 +83,14 @@ def facts_of(place: Path | Piece) -> Facts:
         open_edges=single,
         crowded_edges=crowded,
         disagreeing_edges=disagreeing,
-        up=_up(positions, faces),
+        up=axis_of_format(place) if isinstance(place, Path) else "y",
+        base=base_axis(positions, faces),
         materials=len({(each.material, each.opacity) for each in objects}),
         textures=[[*each.pixels.shape[1::-1]] for each in textures],
         colors=len(np.unique(np.concatenate([each.mesh.rgba[:, :3] for each in objects]), axis=0)),
         opaque=all(each.opacity == 1 and each.mesh.opacities is None for each in objects),
         normals=sum(each.mesh.normals is not None for each in objects),
+        animations=animations_of(place) if isinstance(place, Path) and place.suffix.lower() in GLTF else [],
     )
 
 
@@ -105,20 +117,3 @@ def _edges(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> tuple[in
     count = np.bincount(number)
     ahead = np.bincount(number, forward, len(count))
     return int((count == 1).sum()), int((count > 2).sum()), int(((count == 2) & (ahead != 1)).sum())
-
-
-def _up(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> str | None:
-    """Return the axis along which a model stands on a flat base, if it does so along one of y and z only."""
-    a, b, c = (positions[faces[:, corner]] for corner in range(3))
-    normals = np.cross(b - a, c - a)
-    areas = np.linalg.norm(normals, axis=1)
-    sizes = np.ptp(positions, axis=0)
-    stands = []
-    for axis, name in ((1, "y"), (2, "z")):
-        height = positions[faces][:, :, axis].max(axis=1) - positions[:, axis].min()
-        # either side may be the outer one
-        is_base = (np.abs(normals[:, axis]) >= LEVEL * areas) & (height <= FLAT * sizes[axis]) & (areas > 0)
-        ground = np.delete(sizes, axis).prod()
-        if sizes[axis] > 0 and areas[is_base].sum() / 2 > BASE * ground:
-            stands.append(name)
-    return stands[0] if len(stands) == 1 else None

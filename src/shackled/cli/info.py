@@ -48,9 +48,10 @@ def info(
 ) -> None:
     """Tell what a file holds, what of it is left out, and what its pictures cost."""
     failed: list[Exception] = []
+    is_first = True
     with ExitStack() as stack:
         sources = inputs_of(inputs, kind, stack)
-        for number, source in enumerate(sources):
+        for source in sources:
             try:
                 told = _told(source, gas)
             except (ShackledError, InputWarning) as error:
@@ -63,8 +64,9 @@ def info(
             if as_json:
                 print_line(json.dumps(told.to_json()))
             else:
-                for line in [*([""] if number else []), *told.lines()]:
+                for line in [*([] if is_first else [""]), *told.lines()]:
                     print_line(line)
+                is_first = False
     if failed:
         raise ExceptionGroup(f"{len(sources) - len(failed)} read, {len(failed)} failed", failed)
 
@@ -99,7 +101,7 @@ def _told(source: Source, gas: bool) -> Told:
     with warnings.catch_warnings(record=True) as caught, LateBar("reading"), named:
         place = locate(source.place)
         scene, facts = load(place), facts_of(place)
-    notes = [str(each.message) for each in caught if issubclass(each.category, InputWarning)]
+    notes = [with_options(str(each.message)) for each in caught if issubclass(each.category, InputWarning)]
     pictures = [_picture(scene, side, is_model(place)) for side in SIDES] if gas else None
     return Told(source.name, facts, list(dict.fromkeys(notes)), pictures)
 
@@ -132,11 +134,7 @@ def _words(facts: Facts) -> dict[str, str]:
             ]
         ),
         "bounds": f"{_numbers(facts.low)} to {_numbers(facts.high)}, size {_numbers(sizes)}",
-        "up": {
-            None: "y is taken as up; no flat base tells it",
-            "y": "y: it stands on a flat base",
-            "z": "z by its flat base, but y is taken as up: --rotate -90,0,0 turns it",
-        }[facts.up],
+        "up": _up(facts),
         "surface": _surface(facts),
         "material": ", ".join(
             [
@@ -151,7 +149,20 @@ def _words(facts: Facts) -> dict[str, str]:
         "normals": "none, they are computed"
         if not facts.normals
         else f"of {facts.normals} of {plural(facts.parts, 'part')}",
-    }
+    } | ({"animated": _animations(facts)} if facts.animations else {})
+
+
+def _animations(facts: Facts) -> str:
+    names = [f"{number} {name}".strip() for number, (name, _) in enumerate(facts.animations)]
+    return ", ".join(f"{name} ({length:.6g} s)" for name, (_, length) in zip(names, facts.animations, strict=True))
+
+
+def _up(facts: Facts) -> str:
+    if facts.base is None:
+        return f"{facts.up} is taken; no flat base tells it"
+    if facts.base == facts.up:
+        return f"{facts.up}: it stands on a flat base"
+    return f"{facts.up} is taken, but it stands on a flat base along {facts.base}: --up-axis {facts.base} turns it"
 
 
 def _surface(facts: Facts) -> str:

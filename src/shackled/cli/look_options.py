@@ -8,6 +8,7 @@ from functools import wraps
 from inspect import Parameter, Signature, signature
 from typing import Annotated, Any
 
+from .._frames import load_frames
 from .._load import load, load_picture, locate
 from ..datasets import Piece
 from ..scene import ALL, SETTINGS, Kind, Scene, Setting, checked_look
@@ -63,7 +64,7 @@ def with_look(command: Callable[..., None]) -> Callable[..., None]:
 
     @wraps(command)
     def whole(**values: Any) -> None:
-        if "transparent" in values and values["background"] == "none":
+        if "transparent" in values and (values["background"] or "").strip().lower() == "none":
             values |= {"background": None, "transparent": True}
         look = _look({setting.name: values.pop(setting.name) for setting in SETTINGS})
         command(**values, look=look)
@@ -101,6 +102,12 @@ def load_with(input: str, look: dict[str, Any], fit: str | None = None, is_pictu
         fitted = fit_scene(scene, fit, look.get("crease"))
     print(f"shackled: note: {fitted.sentence}", file=sys.stderr)
     return fitted.scene
+
+
+def load_frames_with(input: str, frames: int, look: dict[str, Any]) -> tuple[list[Scene], float]:
+    """Return the scenes of an animation of a glTF file, with a look, and its length in seconds."""
+    with LateBar("reading"):
+        return load_frames(input, frames, **look)
 
 
 def option_of(setting: Setting) -> str:

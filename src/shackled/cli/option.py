@@ -21,6 +21,7 @@ OPTIONS = {
     "contracts": "--contracts",
     "evm": "--chain",
     "fit": "--fit",
+    "frames": "--frames",
     "gas_limit": "--gas-limit",
     "host": "--host",
     "jobs": "--jobs",

@@ -13,9 +13,10 @@ from pathlib import Path
 from typing import Any
 
 from .._on import On, where_of
+from .._render import film, pace
 from .._render import render as draw
 from .._render import turntable as turn
-from ..animation import Animation
+from ..animation import DURATION, Animation
 from ..chain import ContractChain, open_chain
 from ..errors import ChainError
 from ..gas import Fit, fits_of, headline, render_call, suffices
@@ -25,7 +26,7 @@ from ..parallel import Listener, folder_of, remove_parts
 from ..scene import PICTURE, Scene, scene_chunk
 from ..values import plural
 from ..whole_file import make_output_folder
-from .look_options import load_with
+from .look_options import load_frames_with, load_with
 from .progress import LateBar
 from .streams import OUTPUT, STREAM, as_stdin, write_stdout
 
@@ -49,13 +50,19 @@ class Task:
     look: dict[str, Any]
     fit: str | None
     turntable: int | None
-    duration: int
+    frames: int | None
+    duration: int | None
     one_call: bool
     transparent: bool
     scene: bool | None
     on: On | None
     gas_limit: int | None
     tile: tuple[int, int] | None
+
+    @property
+    def is_film(self) -> bool:
+        """Whether it has several frames."""
+        return self.turntable is not None or self.frames is not None
 
 
 @dataclass(frozen=True)
@@ -112,24 +119,34 @@ class Done:
 def render_to(source: Source, path: Path | None, task: Task, listener: Listener) -> Done:
     """Render an input to a file, or for None to standard output."""
     with as_stdin(source.place) if source.name == STREAM else nullcontext():
-        loaded = load_with(source.place, task.look, task.fit)
+        scenes: list[Scene] = []
+        length = 0.0
+        if task.frames is None:
+            loaded = load_with(source.place, task.look, task.fit)
+        else:
+            scenes, length = load_frames_with(source.place, task.frames, task.look)
+            loaded = scenes[0]
     if task.scene:
         scene_chunk(loaded).check()
     extension = PICTURE if path is None else path.suffix.lower()
     if path is not None:
         make_output_folder(path.parent)
     where = where_of(task.on, task.gas_limit, task.tile)
-    in_parts = not task.one_call and (task.turntable is not None or not where.is_one_call(loaded))
+    in_parts = not task.one_call and (task.is_film or not where.is_one_call(loaded))
     started = time.perf_counter()
     keep = folder_of(path) if in_parts and path is not None else None
     told: dict[str, Any] = {"gas_limit": task.gas_limit, "tile": task.tile, "listener": listener, "keep": keep}
     told |= {"on": task.on, "transparent": task.transparent}
     with nullcontext() if in_parts else LateBar("rendering"):
         made: Image | Animation
-        if task.turntable is None:
-            made = draw(loaded, **told)
+        if task.frames is not None:
+            shown = pace(length, task.frames) if task.duration is None else task.duration
+            made = film(scenes, shown, where, listener, keep, task.transparent)
+        elif task.turntable is not None:
+            shown = DURATION if task.duration is None else task.duration
+            made = turn(loaded, task.turntable, duration=shown, one_call=task.one_call, **told)
         else:
-            made = turn(loaded, task.turntable, duration=task.duration, one_call=task.one_call, **told)
+            made = draw(loaded, **told)
     try:
         with LateBar("writing"):
             if path is None:
@@ -148,7 +165,7 @@ def render_to(source: Source, path: Path | None, task: Task, listener: Listener)
     with LateBar("counting"):
         counts, shows_something = _counted(made)
         fits = fits_of_made(made, loaded)
-    several = in_parts or task.transparent or task.turntable is not None
+    several = in_parts or task.transparent or task.is_film
     seconds = time.perf_counter() - started
     report = _report(made, source.name, path, seconds, counts, written, fits, several)
     if not shows_something:
@@ -199,7 +216,7 @@ def _report(
     fits: tuple[Fit, ...] | None,
     several: bool,
 ) -> dict[str, Any]:
-    """Return the object of --json; with the number of frames and calls for pictures in parts and turntables."""
+    """Return the object of --json; with the number of frames and calls for pictures in parts and animations."""
     frames = [made] if isinstance(made, Image) else made.frames
     digest = hashlib.sha256()
     for frame in frames:

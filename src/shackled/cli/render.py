@@ -43,7 +43,7 @@ def render(
         str | None,
         option(
             "-o --output",
-            f"Output file: {one_of(FORMATS)}; of turntables {one_of(FILMS)} or a folder. Named after INPUT by default. "
+            f"Output file: {one_of(FORMATS)}; of animations {one_of(FILMS)} or a folder. Named after INPUT by default. "
             "Of several inputs a folder, as out/, or a pattern, as 'out/{stem}.webp'; - is standard output.",
             "FILE",
         ),
@@ -81,9 +81,18 @@ def render(
         int | None,
         option("--turntable", "Render a full turn in this many frames.", "FRAMES"),
     ] = None,
+    frames: Annotated[
+        int | None,
+        option("--frames", "Render an animation, the first one by default, in this many frames.", "N", "glTF files"),
+    ] = None,
     duration: Annotated[
         int | None,
-        option("--duration", f"Duration of a frame (default: {DURATION}).", "MILLISECONDS", "Turntable"),
+        option(
+            "--duration",
+            f"Duration of a frame (default: {DURATION}, or the pace of the animation of the file).",
+            "MILLISECONDS",
+            "Turntable",
+        ),
     ] = None,
     one_call: Annotated[
         bool,
@@ -150,21 +159,31 @@ def render(
         if quiet:
             stack.enter_context(redirect_stderr(io.StringIO()))
         sources = inputs_of(inputs, kind, stack)
-        shown = check_duration(DURATION if duration is None else duration)
-        for name, is_given in (("--duration", duration is not None), ("--one-call", one_call)):
-            if turntable is None and is_given:
-                raise InputError(f"{name} needs --turntable")
-        paths = outputs_of(sources, output, turntable is not None)
+        if duration is not None:
+            check_duration(duration)
+            if turntable is None and frames is None:
+                raise InputError("--duration needs --turntable or --frames")
+        if one_call and turntable is None:
+            raise InputError("--one-call needs --turntable")
+        if turntable is not None and frames is not None:
+            raise InputError("--turntable and --frames exclude each other: give one of them")
+        are_films = turntable is not None or frames is not None
+        paths = outputs_of(sources, output, are_films)
         extensions = {PICTURE if path is None else path.suffix.lower() for path in paths} - {""}
         if transparent:
             for extension in extensions:
-                check_alpha(extension, FORMATS if turntable is None else FILMS)
+                check_alpha(extension, FILMS if are_films else FORMATS)
         if (chain is not None or cluster is not None) and _from_environment(context, "rpc"):
             rpc = None  # options override the environment
         on = _on(chain, jobs, rpc or (), address, rpc_timeout, cluster, verify)
         sides = None if tile is None else parse_sides(tile, "--tile")
         where_of(on, gas_limit, sides)
-        for name, given in (("--tile", tile), ("--gas-limit", gas_limit), ("--turntable", turntable)):
+        for name, given in (
+            ("--tile", tile),
+            ("--gas-limit", gas_limit),
+            ("--turntable", turntable),
+            ("--frames", frames),
+        ):
             if fit is not None and given is not None:
                 raise InputError(f"--fit and {name} exclude each other: give one of them")
         if chain is not None:
@@ -175,7 +194,7 @@ def render(
             raise InputError("--transparent and --one-call exclude each other: the contract's file has a background")
         if scene and extensions - {PICTURE}:
             raise InputError(f"--scene needs a {PICTURE} file, not {paths[0]}")
-        task = Task(look, fit, turntable, shown, one_call, transparent, scene, on, gas_limit, sides)
+        task = Task(look, fit, turntable, frames, duration, one_call, transparent, scene, on, gas_limit, sides)
         if len(sources) > 1:
             render_all(sources, paths, task, "json" if as_json else None if quiet else "line")
             return

@@ -49,6 +49,8 @@ def inputs_of(names: Sequence[str], kind: str | None, stack: ExitStack) -> list[
     """
     if STREAM not in names and kind is not None:
         raise InputError(f"--format is for {STREAM}, standard input: other inputs have an extension")
+    if names.count(STREAM) > 1:
+        raise InputError(f"{STREAM}, standard input, is one file: give it once")
     sources: list[Source] = []
     for name in names:
         if name == STREAM:
@@ -63,8 +65,10 @@ def inputs_of(names: Sequence[str], kind: str | None, stack: ExitStack) -> list[
         if isinstance(found, Piece):
             sources.append(Source(name, name, found.file_stem))
         else:
-            members = _meshes(found) or [name]
-            sources += [Source(each, each, Path(each).stem or UNNAMED) for each in members]
+            members = _meshes(found)
+            if not members and len(names) == 1 and found.is_dir():
+                raise InputError(f"the folder {name} has no mesh files in it, {' '.join(READERS)}")
+            sources += [Source(each, each, Path(each).stem or UNNAMED) for each in members or [name]]
     return sources
 
 

@@ -21,6 +21,7 @@ from ._decode import decode, read_call
 from ._effects import EXPOSURES, POWERS, Fog, Hemisphere, Rim, Tone
 from ._files.colors import sample
 from ._files.content import MAX_BYTES
+from ._files.gltf.animation import animation_length, animations_of
 from ._files.gltf.view import read_view
 from ._files.mesh_file import GLTF, READERS, read_mesh, read_model
 from ._files.model import TEXTURED, MeshPart
@@ -58,11 +59,13 @@ from ._staging import (
     view_axes,
 )
 from ._texture import FILTERS, MAX_TEXTURE_SIDE, WRAPS, Texture
-from ._turning import FILLED, full_turn, middle, turn
+from ._turning import FILLED, frame_count, full_turn, middle, turn
+from ._upright import AXES, Axis, axis_of_file, axis_of_format, base_axis, upright
 
 __all__ = [
     "ALL",
     "ANTIALIAS",
+    "AXES",
     "BACKGROUND",
     "CHUNK",
     "CULL_BACKFACES",
@@ -110,6 +113,7 @@ __all__ = [
     "WIDE",
     "WIREFRAME",
     "WRAPS",
+    "Axis",
     "Background",
     "Camera",
     "Fog",
@@ -134,7 +138,12 @@ __all__ = [
     "Tone",
     "Viewpoint",
     "about",
+    "animation_length",
+    "animations_of",
     "as_shown",
+    "axis_of_file",
+    "axis_of_format",
+    "base_axis",
     "checked_look",
     "components",
     "contrasting",
@@ -151,6 +160,7 @@ __all__ = [
     "fit",
     "fit_factor",
     "frame",
+    "frame_count",
     "from_axis_angle",
     "from_euler",
     "full_turn",
@@ -191,6 +201,7 @@ __all__ = [
     "turn",
     "unpack",
     "unpack_texture",
+    "upright",
     "vertex_normals",
     "view_axes",
     "weld",

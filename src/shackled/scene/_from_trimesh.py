@@ -15,6 +15,7 @@ from ._files.weld import weld
 from ._material import Material
 from ._mesh import Mesh
 from ._object import Object
+from ._texture import as_rgb
 
 
 def is_trimesh(value: object) -> bool:
@@ -72,7 +73,7 @@ def part_of(value: Any) -> MeshPart:
         return MeshPart(mesh_of(value), fields, opacity, two_sided)
     if mode in ("MASK", "BLEND") and is_transparent(image):
         warn("the texture of the mesh has alpha, which is left out")
-    picture = Picture(image.convert("RGB"), "the texture of the mesh")
+    picture = Picture(as_rgb(image), "the texture of the mesh")
     corners = finite_uvs(uvs, picture.name)[faces] * (1, -1) + (0, 1)
     texture, coordinates = picture.texture(corners, 1)
     colors = np.broadcast_to(to_srgb(color), (*faces.shape, 3))

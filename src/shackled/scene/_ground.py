@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
-from attrs import field, frozen
+from attrs import evolve, field, frozen
 from numpy.typing import ArrayLike
 
 from ..checks import Color, Floats, color, number, vector
@@ -85,6 +85,13 @@ class Ground:
         corners = [(-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1)]
         mesh = Mesh(corners, [(0, 1, 2), (0, 2, 3)], self.color)
         return Object(mesh, (x, height, z), scale=radius, material=MATERIAL, fade=(inner, radius))
+
+    def settled(self, points: Floats) -> Ground:
+        """Return the ground with what it is by default under points of the world, (n, 3)."""
+        under = self.under(points)
+        x, height, z = under.position.tolist()
+        inner = None if under.fade is None else under.fade[0]
+        return evolve(self, height=height, radius=under.scale, center=(x, z), inner=inner)
 
 
 def ground_of(value: Any, name: str = "the ground") -> Ground | None:

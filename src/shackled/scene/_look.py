@@ -10,7 +10,7 @@ import numpy as np
 from attrs import evolve, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import Color, choice, color, flag, integer, number, vector, whole
+from ..checks import Color, Floats, choice, color, flag, integer, number, vector, whole
 from ..errors import InputError
 from ._arithmetic import dot, length
 from ._background import Background, background_of
@@ -22,7 +22,7 @@ from ._light import Light
 from ._material import COEFFICIENTS, EXPONENTS, SHADINGS, Material, Shading
 from ._mesh import Mesh
 from ._object import OPACITIES, Object
-from ._rotation import IDENTITY, from_euler, multiply, rotate, rotation_of
+from ._rotation import IDENTITY, multiply, rotate, rotation_of
 from ._scene import MAX_SIDE, Scene, lights_of
 from ._staging import (
     ELEVATIONS,
@@ -39,6 +39,7 @@ from ._staging import (
     to_be_seen,
 )
 from ._turning import middle, turn
+from ._upright import AXES, Axis, turned_up, upright
 from ._winding import wound
 
 #: What a setting is a field of; "camera" also has settings from which a camera is made, "file" those that say what is
@@ -130,9 +131,6 @@ _WORDS: dict[Kind, str] = {
     "entry": "a name, or a number from 0",
 }
 
-#: The rotations, as in `from_euler`, that turn an axis to +y.
-UPRIGHT = {"x": (0, 0, 90), "y": (0, 0, 0), "z": (-90, 0, 0)}
-
 #: The value of `max_triangles` that leaves meshes as they are.
 ALL: Final = "all"
 
@@ -192,8 +190,8 @@ SETTINGS = (
         None,
         "Camera",
         "Axis of the file that points up in the scene, before `rotate`.",
-        default="y",
-        choices=tuple(UPRIGHT),
+        default="z for STL files, else y",
+        choices=AXES,
     ),
     Setting("eye", "vector", "camera", "Camera", "Position of the camera."),
     Setting("target", "vector", "camera", "Camera", "Point at which the camera looks."),
@@ -369,6 +367,15 @@ SETTINGS = (
         default="true for closed parts of mesh files",
         option="--cull/--no-cull",
     ),
+    Setting(
+        "two_sided",
+        "flag",
+        "object",
+        "Surface",
+        "Light what is seen from behind as from the front.",
+        default="true for what is not culled of mesh files",
+        option="--two-sided/--one-sided",
+    ),
     Setting("wireframe", "flag", "object", "Surface", "Draw edges only.", option="--wireframe/--filled"),
     Setting("opacity", "number", "object", "Surface", "Opacity of the objects.", *OPACITIES),
     Setting(
@@ -401,7 +408,7 @@ class LookOptions(TypedDict, total=False):
     invert: bool | None
     antialias: bool | None
     rotate: ArrayLike | None
-    up_axis: Literal["x", "y", "z"] | None
+    up_axis: Axis | None
     eye: ArrayLike | None
     target: ArrayLike | None
     up: ArrayLike | None
@@ -433,6 +440,7 @@ class LookOptions(TypedDict, total=False):
     emission: AnyColor | None
     color: AnyColor | None
     cull: bool | None
+    two_sided: bool | None
     wireframe: bool | None
     opacity: float | None
     animation: str | int | None
@@ -480,8 +488,7 @@ def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
     if shadings:
         look["shading"] = shadings.pop()
     if "up_axis" in look:
-        upright = from_euler(UPRIGHT[look.pop("up_axis")])
-        look["rotate"] = multiply(look.get("rotate", IDENTITY), upright)
+        look["rotate"] = multiply(look.get("rotate", IDENTITY), upright(look.pop("up_axis")))
     if "crease" in look and look.get("shading", "smooth") != "smooth":
         raise InputError(f"`crease` is for smooth shading, and excludes {look['shading']}")
     exclude(look, "`{}`".format)
@@ -515,10 +522,12 @@ def look_at(
     look: Mapping[str, Any],
     staging: Staging = MESH_STAGING,
     name: str = "the mesh",
+    around: Floats | None = None,
 ) -> Scene:
     """Return the scene with a look, of `checked_look`; a mesh is staged, so that it fills the picture.
 
-    thing: also the parts of a model, as objects in its own coordinates. name: of the model, in warnings.
+    thing: also the parts of a model, as objects in its own coordinates. name: of the model, in warnings. around:
+    points, (n, 3), of a model that are to fill the picture in place of its own.
     """
     for setting in settings_of("file"):
         if setting.name in look:
@@ -541,19 +550,22 @@ def look_at(
         width, height = look.get("size", (staging.side, staging.side))
         Scene([], width=width, height=height)  # refuses a wrong size before anything is divided by it
         rotation = look.get("rotate", IDENTITY)
-        own = staging.view_of(rotate(rotation, np.concatenate([each.mesh.positions for each in parts])))
+        if "up" in look and not {"eye", "target"} & look.keys():
+            # without a camera that it could tilt, it is a direction of the model
+            rotation = multiply(turned_up(look["up"]), rotation)
+            look = {name: value for name, value in look.items() if name != "up"}
+        points = np.concatenate([each.world_positions() for each in parts]) if around is None else around
+        own = staging.view_of(rotate(rotation, points))
         view = view_of(look, width, height, look.get("orthographic", False), own)
         shaded = [_shaded(each, look) if staging.by_normals else (each, look) for each in parts]
-        scene = placed([each for each, _ in shaded], rotation, view, staging, width, height)
+        scene = placed([each for each, _ in shaded], points, rotation, view, staging, width, height)
         looks = [own_look for _, own_look in shaded]
     chosen = _given(look, settings_of("scene"))
     fog = chosen.pop("fog", scene.fog)
-    scene = evolve(
-        scene,
-        objects=[_object(each, own_look) for each, own_look in zip(scene.objects, looks, strict=True)],
-        tone=_tone(scene.tone, look),
-        **chosen,
-    )
+    objects = [_object(each, own_look) for each, own_look in zip(scene.objects, looks, strict=True)]
+    if view is not None and staging.by_normals and "two_sided" not in look:
+        objects = [evolve(each, two_sided=not each.cull) for each in objects]
+    scene = evolve(scene, objects=objects, tone=_tone(scene.tone, look), **chosen)
     if view is not None and staging.by_normals and "background" not in look:
         scene = evolve(scene, background=contrasting(scene.objects))
     if "shadow" in look:
@@ -691,7 +703,7 @@ def half_height_in(look: Mapping[str, Any], orthographic: bool) -> float | None:
 
 
 #: Settings that cannot be given together: one of the first and one of the second.
-_EXCLUSIVE = ((("fov",), ("half_height",)), (("azimuth", "elevation", "margin"), ("eye", "target", "up")))
+_EXCLUSIVE = ((("fov",), ("half_height",)), (("azimuth", "elevation", "margin"), ("eye", "target")))
 
 
 def _given(look: Mapping[str, Any], settings: Iterable[Setting]) -> dict[str, Any]:

@@ -21,7 +21,7 @@ from ._light import WHITE, Light
 from ._material import Material
 from ._mesh import Mesh
 from ._object import Object
-from ._rotation import rotate
+from ._rotation import multiply, rotate
 from ._scene import DEFAULT_SIDE, Scene
 
 BACKGROUND = Background((46, 54, 72), (136, 146, 162))
@@ -127,29 +127,29 @@ MESH_STAGING = Staging(
 
 
 def placed(
-    objects: Sequence[Object], rotation: Floats, view: Viewpoint, staging: Staging, width: int, height: int
+    objects: Sequence[Object], points: Floats, rotation: Floats, view: Viewpoint, staging: Staging, *size: int
 ) -> Scene:
     """Return a scene of the parts of a model, scaled to a bounding sphere of radius 1 about the origin, and filling the
     picture.
 
-    objects: meshes with their materials, and whether they are culled. The meshes keep their coordinates; position and
-    scale of the objects do the rest.
+    objects: meshes with their materials, turned upright, and whether they are culled. The meshes keep their
+    coordinates; the places of the objects do the rest. points: (n, 3), those that are scaled and fill the picture.
+    size: width and height.
     """
-    positions = np.concatenate([each.mesh.positions for each in objects])
     with np.errstate(over="ignore"):
-        center = (positions.min(axis=0) + positions.max(axis=0)) / 2
-        radius = float(length(positions - center).max())
+        center = (points.min(axis=0) + points.max(axis=0)) / 2
+        radius = float(length(points - center).max())
     scale = 1 / radius if radius > 0 else 1.0
     if not np.isfinite(center).all() or not np.isfinite(radius) or not np.isfinite(scale):
         raise InputError("the coordinates of the mesh are too large or too small to be scaled")
-    turned = rotate(rotation, (positions - center) * scale)
+    turned = rotate(rotation, (points - center) * scale)
     position = -rotate(rotation, center * scale)
     return Scene(
-        [evolve(each, position=position, rotation=rotation, scale=scale) for each in objects],
+        [evolve(each, position=position, rotation=multiply(rotation, each.rotation), scale=scale) for each in objects],
         frame(turned, view),
         [_light(direction, color, view) for direction, color in staging.lights],
-        width=width,
-        height=height,
+        width=size[0],
+        height=size[1],
         **staging.fields,
     )
 

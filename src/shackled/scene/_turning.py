@@ -48,12 +48,18 @@ def full_turn(scene: Scene, frames: int) -> list[Scene]:
     Background, lights and camera stand still. If a scene that is completely in the picture would leave it, the camera
     is moved back for all frames.
     """
-    count = number(frames, "the number of frames of a turntable", 2, MOST_FRAMES)
-    if count != int(count):
-        raise InputError(f"the number of frames of a turntable must be a whole number, not {frames!r}")
-    turned = [scene, *(turn(scene, (0, 360 * step / count, 0)) for step in range(1, int(count)))]
+    count = frame_count(frames, "a turntable")
+    turned = [scene, *(turn(scene, (0, 360 * step / count, 0)) for step in range(1, count))]
     camera = _holding(scene.camera, [each.world_positions() for each in turned], scene.width / scene.height)
     return [evolve(each, camera=camera) for each in turned]
+
+
+def frame_count(frames: float, whose: str) -> int:
+    """Return the number of frames of something, 2..720. InputError if it is none."""
+    count = number(frames, f"the number of frames of {whose}", 2, MOST_FRAMES)
+    if count != int(count):
+        raise InputError(f"the number of frames of {whose} must be a whole number, not {frames!r}")
+    return int(count)
 
 
 def middle(scene: Scene) -> Points:

@@ -137,12 +137,23 @@ CASES = {
         emissions=((0, 0, 0), (0, 0, 0)),
         notes=("2 triangles without usable texture coordinates drawn without texture",),
     ),
-    "colours of vertices before a texture": Case(
+    "a texture before colours of vertices": Case(
         BOARD.replace("v 0 0 0", "v 0 0 0 1 0 0"),
         "newmtl a\nmap_Kd wood.png\nKd 0 0 1",
         ("wood.png",),
-        colors=(RED, RED),
-        notes=("2 triangles with colours of vertices drawn without texture",),
+        colors=(WHITE, WHITE),
+        notes=("2 triangles drawn in the colours of a texture, not in their own",),
+    ),
+    "a texture on white vertices": Case(
+        CORNERS.replace(" 0\n", " 0 1 1 1\n") + BOARD.replace(CORNERS, ""),
+        "newmtl a\nmap_Kd wood.png\nKd 0 0 1",
+        ("wood.png",),
+        colors=(WHITE, WHITE),
+    ),
+    "no material file": Case(
+        PAIR.format("a", "b").replace("mtllib m.mtl\n", ""),
+        colors=(GREY, GREY),
+        notes=("2 materials left out, for no line mtllib names their file: 'a', 'b'",),
     ),
     # opacity and emission
     "both say opaque": Case(pair("a", "b").obj, "newmtl a\nKd 1 0 0\nd 1.0\nTr 1.0\nnewmtl b\nKd 0 0 1\nTr 1\nd 1"),

@@ -310,7 +310,7 @@ def test_weights_and_joints_are_animated(tmp_path: Path) -> None:
 
 def test_animations_that_are_not_there(tmp_path: Path) -> None:
     file = File()
-    assert refusal(file, tmp_path, time=1) == "it has no animation 0; it has none"
+    assert refusal(file, tmp_path, time=1) == "it has no animations"
     file.animation("translation", [0, 1], [[0, 0, 0], [4, 0, 0]], name="Walk")
     file.animation("translation", [0, 1], [[0, 0, 0], [4, 0, 0]], name="")
     assert refusal(file, tmp_path, animation="Run") == "it has no animation 'Run'; it has 0 Walk, 1"

@@ -569,9 +569,20 @@ def test_a_texture_comes_before_colors(tmp_path: Path) -> None:
     more = COLOR + "property uchar alpha\nproperty float s\nproperty float t\n"
     rows = "".join(f"{x} {y} {z} 1 2 3 51 {x} {y}\n" for x, y, z in SQUARE)
     (tmp_path / "model.ply").write_text(textured(more) + rows + "4 0 1 2 3\n")
-    with pytest.warns(InputWarning, match="the colours of its vertices or faces are left out where it has a texture$"):
+    with pytest.warns(InputWarning, match="2 triangles drawn in the colours of a texture, not in their own$"):
         (part,) = read_model(tmp_path / "model.ply")
     assert part.mesh.rgba.tolist() == [[255, 255, 255, 51]] * 4
+
+
+@pytest.mark.parametrize("name", ["T.PNG", "C:\\scans\\t.png", "/home/me/t.png", "parts/t.png"])
+def test_a_texture_is_looked_for_beside_the_file(tmp_path: Path, name: str) -> None:
+    """By its last part, in any letter case, as those of material files are."""
+    HALVES.save(tmp_path / "t.png")
+    rows = "".join(f"{x} {y} {z} {x} {y}\n" for x, y, z in SQUARE)
+    header = textured("property float s\nproperty float t\n", names=(name,))
+    (tmp_path / "model.ply").write_text(header + rows + "4 0 1 2 3\n")
+    (part,) = read_model(tmp_path / "model.ply")
+    assert part.material["texture"].pixels.tolist() == np.asarray(HALVES).tolist()
 
 
 def test_texture_coordinates_that_are_no_numbers(tmp_path: Path) -> None:

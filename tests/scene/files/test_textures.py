@@ -343,6 +343,15 @@ def test_a_texture_of_trimesh(tmp_path: Path) -> None:
     assert shackled.render(theirs, 48).pixels.tolist() == shackled.render(ours, 48).pixels.tolist()
 
 
+def test_a_grey_texture_of_trimesh_with_16_bits() -> None:
+    levels = np.array([[0, 8192], [49152, 65535]], "<u2")
+    image = Image.frombytes("I;16", (2, 2), levels.tobytes())
+    library: Any = trimesh
+    visual = library.visual.TextureVisuals([(0, 0), (1, 0), (0, 1)], image=image)
+    mesh = trimesh.Trimesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)], visual=visual, process=False)
+    assert texture_of(load(mesh)).pixels[..., 0].tolist() == [[0, 32], [192, 255]]
+
+
 def test_one_color_for_all_is_without_texture() -> None:
     scene = load([textured()], color="tomato")
     assert scene.objects[0].material.texture is None

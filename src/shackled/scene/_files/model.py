@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 import numpy as np
@@ -12,13 +12,17 @@ from PIL import Image
 
 from ...errors import warn
 from .._crease import filled
-from .._mesh import Mesh
+from .._mesh import DEFAULT_COLOR, Mesh
 from .._texture import MAX_TEXTURE_SIDE, Filter, Texture, Wrap, reduced
 from .colors import sample
 from .weld import weld
 
 #: The warning for a mesh whose textures have more than one colour, if only the mesh is read.
 TEXTURED = "its textures give their colours at the vertices only; what they show between them is lost"
+
+#: What becomes of triangles with a texture that have colours of their own, too: these are often those of the same
+#: surface, as in scans, of which the product would be dark.
+REPLACED = "drawn in the colours of a texture, not in their own"
 
 #: How an image goes on outside of 0..1 in files.
 FileWrap = Literal["repeat", "clamp", "mirror"]
@@ -117,6 +121,60 @@ class Picture:
             (width, height), (old_width, old_height) = smaller.size, image.size
             warn(f"{self.name} is reduced from {old_width} x {old_height} to {width} x {height} texels")
         return Texture.of_image(smaller, self.filter, wrap, self.cutoff), uvs
+
+
+@dataclass(frozen=True)
+class Look:
+    """What the triangles of a part have in common: their texture, other fields of a `Material`, and their opacity."""
+
+    picture: Picture | None = None
+    fields: Mapping[str, Any] = field(default_factory=dict)
+    opacity: float = 1.0
+
+
+def split(
+    positions: Array,
+    corners: NDArray[np.int64],
+    colors: Array,
+    normals: Array | None,
+    uvs: Array,
+    look: NDArray[np.int64],
+    looks: Sequence[Look],
+) -> list[MeshPart]:
+    """Return the triangles as meshes, one for each look that some of them have.
+
+    corners: (m, 3), rows of `positions`. colors, normals, uvs: of corners. look: (m,), the place in `looks` of that of
+    each triangle.
+    """
+    textures = len({id(each.picture) for each in looks if each.picture is not None})
+    parts = []
+    for number in np.unique(look).tolist():
+        own, each = np.flatnonzero(look == number), looks[number]
+        fields, own_uvs = dict(each.fields), None
+        if each.picture is not None:
+            fields["texture"], own_uvs = each.picture.texture(uvs[own], textures)
+        own_normals = None if normals is None else normals[own]
+        mesh = weld(positions, corners[own], colors[own], own_normals, own_uvs)
+        parts.append(MeshPart(mesh, fields, each.opacity))
+    return parts
+
+
+def under(picture: Picture, uvs: Array, colors: Array) -> tuple[Array, bool]:
+    """Return the colours of corners, (m, 3, n), that show a picture, and whether they need it as a texture.
+
+    They are white; or those of the picture, where each triangle shows one colour of it.
+    """
+    shown = np.array(colors, dtype=np.float64)
+    shown[..., :3] = 255
+    if picture.is_varied and not picture.is_plain(uvs):
+        return shown, True
+    return tinted(shown, picture, uvs), False
+
+
+def replaced(colors: Array) -> int:
+    """Return how many triangles lose their own colours, (m, 3, n), to a texture; white and light grey are none."""
+    plain = [(colors[..., :3] == each).all(axis=(1, 2)) for each in (255, DEFAULT_COLOR)]
+    return int((~(plain[0] | plain[1])).sum())
 
 
 def _mirrored(image: Image.Image, axis: int) -> Image.Image:

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import os
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from pathlib import Path, PurePosixPath
-from typing import TypeVar
+from pathlib import Path
 
 import numpy as np
 
 from ...errors import InputError, warn
+from .beside import read_beside
 from .content import read_text
 from .model import FileWrap
 
-T = TypeVar("T")
 Triple = tuple[float, float, float]
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?!\S)"
@@ -93,45 +91,6 @@ def read_materials(path: Path, line: str) -> dict[str, ObjMaterial]:
         else:
             materials.update(_parse(tuple(dict.fromkeys((file.parent, path.parent))), text))
     return materials
-
-
-def read_beside(folders: Sequence[Path], name: str, read: Callable[[Path], T]) -> T:
-    """Read a file by the name that another file in the first of the folders gives it.
-
-    It may be that of the machine of the author: then the file is in one of the folders, in any letter case. InputError
-    of the first attempt if none of them succeeds.
-    """
-    first = None
-    for place in dict.fromkeys(_places(folders, name)):
-        try:  # not asked first whether it exists: what is told must not depend on files that may not be read
-            return read(place)
-        except InputError as error:
-            first = first or error
-    raise first or InputError("it has no name")
-
-
-def _places(folders: Sequence[Path], name: str) -> Iterator[Path]:
-    parts = PurePosixPath(name.replace("\\", "/"))
-    for folder in folders:
-        yield folder / parts
-    for folder in folders:
-        if not parts.is_absolute() and ".." not in parts.parts:
-            yield from _in_any_case(folder, parts.parts)
-        yield folder / parts.name
-        yield from _in_any_case(folder, parts.parts[-1:])
-
-
-def _in_any_case(folder: Path, parts: Sequence[str]) -> Iterator[Path]:
-    if not parts:
-        yield folder
-        return
-    try:
-        names = sorted(os.listdir(folder))
-    except (OSError, ValueError):
-        return
-    for each in names:
-        if each.casefold() == parts[0].casefold():
-            yield from _in_any_case(folder / each, parts[1:])
 
 
 def _parse(folders: tuple[Path, ...], text: str) -> dict[str, ObjMaterial]:

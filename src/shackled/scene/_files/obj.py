@@ -8,22 +8,20 @@ from __future__ import annotations
 
 from collections import Counter
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import InputError, warn
+from ...errors import warn
 from ...values import plural
 from .._crease import corner_normals, filled
 from .._mesh import DEFAULT_COLOR, Mesh
-from .._texture import open_image
+from .beside import picture_beside
 from .colors import to_bytes
-from .model import MeshPart, Picture, tinted
-from .mtl import Map, ObjMaterial, read_beside
+from .model import REPLACED, Look, MeshPart, Picture, replaced, split, under
+from .mtl import Map, ObjMaterial
 from .obj_lines import ABSENT, Floats, Ints, ObjFaces, ObjLines, drawn_faces, read_lines
 from .polygons import cut
-from .weld import weld
 
 #: So many images fit along a triangle in a contract, and so far away is it drawn, if they repeat.
 _SPAN, _FAR = 100, 1e6
@@ -38,9 +36,9 @@ _PLAIN: _Look = (None, 1.0, (0, 0, 0))
 def read_obj(path: Path) -> list[MeshPart]:
     """Return the meshes of an OBJ file, all its groups and objects: one for each texture, opacity and emission.
 
-    The colour of a corner is that of its vertex (`v x y z r g b`, or ZBrush's `#MRGB`), else white where it has a
-    texture (`map_Kd`, or else `map_Ka`), else the diffuse colour (`Kd`) of its material, else light grey. Its normal is
-    that of the file (`vn`), else that of its smoothing group (`s`), if the file has any. InputWarnings tell what is
+    The colour of a corner is white where it has a texture (`map_Kd`, or else `map_Ka`), else that of its vertex
+    (`v x y z r g b`, or ZBrush's `#MRGB`), else the diffuse colour (`Kd`) of its material, else light grey. Its normal
+    is that of the file (`vn`), else that of its smoothing group (`s`), if the file has any. InputWarnings tell what is
     left out, such as materials and textures that cannot be read.
     """
     obj = read_lines(path)
@@ -54,20 +52,11 @@ def read_obj(path: Path) -> list[MeshPart]:
         found = filled(drawn.positions, faces, np.where((normal == ABSENT)[:, :, None], 0, drawn.normals[normal]))
     elif group.any():
         found = corner_normals(drawn.positions, faces, groups=group)
-    textures = len({image for image, _, _ in surfaces.looks if image})
-    parts = []
-    for (image, opacity, emission), number in surfaces.looks.items():
-        own = np.flatnonzero(surfaces.look == number)
-        if not len(own):
-            continue
-        fields: dict[str, Any] = {"emission": emission} if any(emission) else {}
-        own_normals, own_uvs = None if found is None else found[own], None
-        picture = surfaces.pictures[image] if image else None
-        if picture:
-            fields["texture"], own_uvs = picture.texture(surfaces.uvs[own], textures)
-        mesh = weld(drawn.positions, faces[own], surfaces.colors[own], own_normals, own_uvs)
-        parts.append(MeshPart(mesh, fields, opacity))
-    return parts
+    looks = [
+        Look(surfaces.pictures[image] if image else None, {"emission": emission} if any(emission) else {}, opacity)
+        for image, opacity, emission in surfaces.looks
+    ]
+    return split(drawn.positions, faces, surfaces.colors, found, surfaces.uvs, surfaces.look, looks)
 
 
 def write_obj(mesh: Mesh, path: str | Path) -> None:
@@ -105,7 +94,8 @@ class _Surfaces:
         #: how many of a thing there are, and what of it is left out
         self.notes: Counter[tuple[str, str]] = Counter()
         painted, own_colors = _vertex_colors(obj, len(drawn.positions))
-        self.has_own = painted[drawn.vertex[corners]]
+        self.has_own, self.own_colors = painted[drawn.vertex[corners]], own_colors[drawn.vertex[corners]]
+        self.colors[self.has_own] = self.own_colors[self.has_own]
         lost = []
         for name, number in obj.material_numbers.items():
             triangles = np.flatnonzero(material == number)
@@ -113,10 +103,11 @@ class _Surfaces:
                 self._take(obj.materials[name], triangles)
             elif len(triangles) and name:
                 lost.append(name)
-        self.colors[self.has_own] = own_colors[drawn.vertex[corners]][self.has_own]
-        if obj.materials:  # otherwise a warning tells that there are none
-            named = ", ".join(repr(name[:40]) for name in lost[:_MOST_NAMED])
+        named = ", ".join(repr(name[:40]) for name in lost[:_MOST_NAMED])
+        if obj.materials:
             self.notes["material", f"that no material file has, drawn in light grey: {named}"] = len(lost)
+        elif not obj.has_library:  # otherwise a warning tells that it is not read
+            self.notes["material", f"left out, for no line mtllib names their file: {named}"] = len(lost)
         for (thing, note), count in self.notes.items():
             if count:
                 warn(f"{obj.path}: {plural(count, thing)} {note}")
@@ -125,7 +116,8 @@ class _Surfaces:
         """Give triangles their material."""
         self.notes.update((f"{each[:20]} statement", "of its materials left out") for each in sorted(material.left_out))
         self.notes["material", "with an opacity of 0, of which nothing is visible"] += material.opacity == 0
-        self.colors[own] = to_bytes(material.color, largest=1)
+        has_own = self.has_own[own]
+        self.colors[own] = np.where(has_own[:, :, None], self.own_colors[own], to_bytes(material.color, largest=1))
         emission = tuple(int(level) for level in to_bytes(material.emission, largest=1))
         self.look[own] = self._number((None, material.opacity, emission))
         picture = self._picture(material.image)
@@ -135,18 +127,12 @@ class _Surfaces:
             uvs = (self.texcoords[self.texcoord[own]] * material.scale + material.offset) * (1, -1) + (0, 1)
             is_near = np.abs(uvs) <= (_SPAN if picture.wraps[0] == "clamp" else _FAR)
             has_place = is_near.all(axis=(1, 2)) & (np.ptp(uvs, axis=1) <= _SPAN).all(axis=1)
-        has_own = self.has_own[own].any(axis=1)
         self.notes["triangle", "without usable texture coordinates drawn without texture"] += int((~has_place).sum())
-        self.notes["triangle", "with colours of vertices drawn without texture"] += int((has_place & has_own).sum())
-        chosen = has_place & ~has_own
-        if not chosen.any():
-            return
-        textured, uvs = own[chosen], uvs[chosen]
+        self.notes["triangle", REPLACED] += replaced(self.colors[own[has_place & has_own.any(axis=1)]])
+        textured, uvs = own[has_place], uvs[has_place]
         self.uvs[textured] = uvs
-        self.colors[textured] = 255
-        if not picture.is_varied or picture.is_plain(uvs):
-            self.colors[textured] = tinted(self.colors[textured], picture, uvs)
-        else:
+        self.colors[textured], needs_it = under(picture, uvs, self.colors[textured])
+        if needs_it:
             self.look[textured] = self._number((material.image, material.opacity, emission))
 
     def _number(self, look: _Look) -> int:
@@ -157,12 +143,7 @@ class _Surfaces:
         if image is None:
             return None
         if image not in self.pictures:
-            self.pictures[image] = None
-            try:
-                place, pixels = read_beside(image.folders, image.name, lambda each: (each, open_image(each, str(each))))
-                self.pictures[image] = Picture(pixels, f"{self.obj.path}: {place.name}", wraps=(image.wrap, image.wrap))
-            except InputError as error:
-                warn(f"{self.obj.path}: a texture is left out: {error}")
+            self.pictures[image] = picture_beside(self.obj.path, image.folders, image.name, image.wrap)
         return self.pictures[image]
 
 

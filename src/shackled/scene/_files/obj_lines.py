@@ -67,6 +67,7 @@ class ObjLines:
         self.face_groups = array("q")
         self.material_numbers: dict[str, int] = {"": 0}
         self.materials: dict[str, ObjMaterial] = {}
+        self.has_library = False
         #: how many statements of a kind are not read
         self.left_out: Counter[str] = Counter()
 
@@ -124,6 +125,7 @@ def read_lines(path: Path) -> ObjLines:
             elif keyword == "s":
                 group = int(words[1]) if words[1:] and words[1].isdecimal() else 0
             elif keyword == "mtllib":
+                obj.has_library = True
                 obj.materials.update(read_materials(path, line))
             elif keyword not in _SILENT:
                 obj.left_out[keyword] += len(words) - 1 if keyword == "p" else 1

@@ -10,12 +10,11 @@ from numpy.typing import NDArray
 from ...errors import InputError, warn
 from ...values import plural
 from .._mesh import DEFAULT_COLOR
-from .._texture import open_image
+from .beside import picture_beside
 from .content import read_bytes
-from .model import MeshPart, Picture, finite_uvs, given_normals, tinted
+from .model import REPLACED, Look, MeshPart, Picture, finite_uvs, given_normals, replaced, split, under
 from .ply_elements import Element, read_elements
 from .polygons import cut
-from .weld import weld
 
 #: The names of texture coordinates, which go to the right and up.
 _COORDINATES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"))
@@ -65,15 +64,9 @@ def read_ply(path: Path) -> list[MeshPart]:
         picture, uvs = _textured(path, vertex, face, sizes, triangles, corners)
         _paint(path, pictures, picture, uvs, colors)
     _tell_what_is_left(path, elements, face)
-    parts = []
-    for number in np.unique(picture).tolist():
-        own = np.flatnonzero(picture == number)
-        fields, own_uvs = {}, None
-        if number != _NONE:
-            fields["texture"], own_uvs = pictures[number].texture(uvs[own], len(pictures))
-        own_normals = None if normals is None else normals[own]
-        parts.append(MeshPart(weld(positions, corners[own], colors[own], own_normals, own_uvs), fields))
-    return parts
+    # the last one is that of _NONE
+    looks = [*(Look(pictures.get(number)) for number in range(len(textures))), Look()]
+    return split(positions, corners, colors, normals, uvs, picture, looks)
 
 
 def _whole(numbers: Array) -> Ints:
@@ -111,11 +104,8 @@ def _colors(path: Path, vertex: Element, face: Element, corners: Ints, polygon: 
 def _pictures(path: Path, names: list[str]) -> dict[int, Picture]:
     pictures = {}
     for number, name in enumerate(names):
-        file = path.parent / name.replace("\\", "/")
-        try:
-            pictures[number] = Picture(open_image(file, str(file)), f"{path}: {file.name}")
-        except InputError as error:
-            warn(f"{path}: a texture is left out: {error}")
+        if found := picture_beside(path, [path.parent], name):
+            pictures[number] = found
     return pictures
 
 
@@ -147,16 +137,14 @@ def _textured(
 
 
 def _paint(path: Path, pictures: dict[int, Picture], picture: Ints, uvs: Array, colors: Array) -> None:
-    """Make white what shows a texture, and give what shows one colour of it that colour, and no texture."""
+    """Give the triangles with a texture its colours; those that do not need it then have none."""
     picture[~np.isin(picture, list(pictures))] = _NONE
-    hidden = colors[picture != _NONE, :, :3]
-    if not any((hidden == plain).all() for plain in (255, DEFAULT_COLOR)):
-        warn(f"{path}: the colours of its vertices or faces are left out where it has a texture")
-    colors[picture != _NONE, :, :3] = 255
+    if count := replaced(colors[picture != _NONE]):
+        warn(f"{path}: {plural(count, 'triangle')} {REPLACED}")
     for number, opened in pictures.items():
         faces = np.flatnonzero(picture == number)
-        if len(faces) and (not opened.is_varied or opened.is_plain(uvs[faces])):
-            colors[faces] = tinted(colors[faces], opened, uvs[faces])
+        colors[faces], needs_it = under(opened, uvs[faces], colors[faces])
+        if not needs_it:
             picture[faces] = _NONE
 
 

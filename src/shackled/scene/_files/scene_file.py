@@ -29,10 +29,11 @@ from .._look import Kind, Part, Setting, exclude, half_height_in, settings_of, v
 from .._material import Material
 from .._mesh import Mesh
 from .._object import Object
-from .._rotation import IDENTITY, from_axis_angle, from_euler
+from .._rotation import IDENTITY, from_axis_angle, from_euler, multiply
 from .._scene import DEFAULT_SIDE, Scene
 from .._staging import BACKGROUND, Viewpoint, frame, key_light, painted_object
 from .._texture import FILTERS, WRAPS, Texture
+from .._upright import AXES, axis_of_file, upright
 from .content import parse, read_text
 from .mesh_file import READERS, read_model
 from .model import MeshPart
@@ -49,7 +50,7 @@ def _keys(part: Part, *before: str) -> tuple[str, ...]:
 
 _SCENE = _keys("scene", "size", "camera", "objects", "tone")
 _CAMERA = _keys("camera", "projection")
-_OBJECT = _keys("object", "mesh", "position", "rotation", "scale", "material", "fade")
+_OBJECT = _keys("object", "mesh", "position", "rotation", "up_axis", "scale", "material", "fade")
 _BACKGROUND = ("top", "bottom")
 _HEMISPHERE = ("sky", "ground")
 _RIM = ("color", "power")
@@ -309,7 +310,14 @@ def _objects(value: object, where: str, folder: Path) -> list[Object]:
     if isinstance(keys.get("mesh"), str):
         fields["shading"] = "flat"
     texture = _texture(surface, folder) if "texture" in surface else None
-    position, rotation, scale = keys.numbers("position", (0, 0, 0)), _rotation(keys), keys.number("scale", 1)
+    position, scale = keys.numbers("position", (0, 0, 0)), keys.number("scale", 1)
+    axis = keys.choice("up_axis", AXES, "y")
+    if not isinstance(name := keys.get("mesh"), str):
+        if "up_axis" in keys:
+            raise InputError(f"{keys.place('up_axis')} is for meshes of files")
+    elif "up_axis" not in keys and "rotation" not in keys:
+        axis = axis_of_file(folder / name, parts)
+    rotation = multiply(_rotation(keys), upright(axis))
     if "fade" in keys:
         given["fade"] = keys.numbers("fade", (0, 0))
     color = given.pop("color", None)

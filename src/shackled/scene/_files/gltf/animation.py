@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -45,6 +46,25 @@ def posed(gltf: Document, nodes: Sequence[Table], animation: str | int, time: fl
         # it would hide what moves
         moved[node].pop("matrix", None)
     return [Table(values, node.where) for values, node in zip(moved, nodes, strict=True)]
+
+
+def animation_length(path: Path, animation: str | int) -> float:
+    """Return the time of the last keyframe of an animation of a file, by its name or number, in seconds."""
+    gltf = Document(path)
+    return _length(gltf, gltf.named(animation, "animations", "animation"))
+
+
+def animations_of(path: Path) -> list[tuple[str, float]]:
+    """Return the name of each animation of a file, and the time of its last keyframe in seconds."""
+    gltf = Document(path)
+    animations = [Table(value, where) for where, value in gltf.keys.rows("animations")]
+    return [(str(each.get("name") or ""), _length(gltf, each)) for each in animations]
+
+
+def _length(gltf: Document, animation: Table) -> float:
+    samplers = animation.rows("samplers")
+    times = [numbers(gltf, Table(value, where), "input", "SCALAR") for where, value in samplers]
+    return max((float(each.max()) for each in times if len(each) and np.isfinite(each).all()), default=0.0)
 
 
 def _sampled(gltf: Document, sampler: Table, path: str, time: float) -> Array:

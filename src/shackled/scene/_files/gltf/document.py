@@ -112,7 +112,7 @@ class Document:
             if str(name) in keys:
                 return items[keys.index(str(name))]
         known = ", ".join(f"{number} {each:.40}".strip() for number, each in enumerate(names))
-        raise InputError(f"it has no {word} {name!r:.60}; it has {known or 'none'}")
+        raise InputError(f"it has no {word} {name!r:.60}; it has {known}" if known else f"it has no {kind}")
 
     def view(self, view: Table) -> memoryview:
         """Return the bytes of a buffer view."""

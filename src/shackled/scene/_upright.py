@@ -1,0 +1,91 @@
+"""Which axis of a model points up: y, as in glTF and most programs of animation, or z, as in CAD."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..checks import Floats, vector
+from ..errors import InputError, warn
+from ._arithmetic import unit
+from ._files.model import MeshPart
+from ._rotation import from_euler
+
+Axis = Literal["x", "y", "z"]
+AXES: tuple[Axis, ...] = ("x", "y", "z")
+_ROTATIONS: dict[Axis, tuple[int, int, int]] = {"x": (0, 0, 90), "y": (0, 0, 0), "z": (-90, 0, 0)}
+
+#: Files that have z up by convention, and those that have one axis or the other.
+_Z_UP, _EITHER = (".stl",), (".obj", ".ply")
+
+#: The share of the ground under a model that must be a flat base for the model to stand on it.
+_BASE = 0.1
+#: How flat a base is, as a share of the height, and as the cosine of the angle of its faces.
+_FLAT, _LEVEL = 0.01, 0.99
+#: Along z, the least height by the largest side, and the largest top by the base: reliefs and letters, which face the
+#: viewer, are flatter, or have a front like their back.
+_HEIGHT, _TOP = 0.5, 0.5
+
+
+def upright(axis: Axis) -> Floats:
+    """Return the rotation that turns an axis to +y."""
+    return vector(from_euler(_ROTATIONS[axis]), size=4)
+
+
+def turned_up(direction: ArrayLike) -> Floats:
+    """Return the shortest rotation that turns a direction to +y. InputError for (0, 0, 0)."""
+    given = vector(direction, "`up`")
+    if not given.any():
+        raise InputError("`up` must not be (0, 0, 0)")
+    x, y, z = unit(given)
+    # straight down has no shortest way
+    return vector(unit(np.array([-z, 0, x, 1 + y])) if y > -1 else (1, 0, 0, 0), size=4)
+
+
+def axis_of_format(path: Path) -> Axis:
+    """Return the axis that points up in files of a format: z for STL files, y for others."""
+    return "z" if path.suffix.lower() in _Z_UP else "y"
+
+
+def axis_of_file(path: Path, parts: Sequence[MeshPart]) -> Axis:
+    """Return the axis of a mesh file that points up, where nothing but its format says which.
+
+    An InputWarning tells if that is not y, or if the model seems to have z up.
+    """
+    axis = axis_of_format(path)
+    if axis != "y":
+        warn(f"{path} is taken as {axis} up; `up_axis` y keeps it as it is")
+    elif path.suffix.lower() in _EITHER:
+        starts = np.cumsum([0, *(len(part.mesh.positions) for part in parts)])
+        faces = [part.mesh.faces + start for part, start in zip(parts, starts, strict=False)]
+        if base_axis(np.concatenate([part.mesh.positions for part in parts]), np.concatenate(faces)) == "z":
+            warn(f"{path} is taken as y up, but stands on a flat base along z; `up_axis` z turns it upright")
+    return axis
+
+
+def base_axis(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> Axis | None:
+    """Return the axis along which a model stands on a flat base, if it does so along one of y and z only."""
+    sizes = np.ptp(positions, axis=0)
+    if not 0 < sizes.max() < np.inf:
+        return None
+    corners = (positions - positions.min(axis=0))[faces] / sizes.max()
+    sizes /= sizes.max()
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    areas = np.linalg.norm(normals, axis=1)
+    found: list[Axis] = []
+    for axis in (1, 2):
+        heights, height = corners[:, :, axis], sizes[axis]
+        # either side may be the outer one
+        is_level = (np.abs(normals[:, axis]) >= _LEVEL * areas) & (areas > 0)
+        base = areas[is_level & (heights.max(axis=1) <= _FLAT * height)].sum() / 2
+        top = areas[is_level & (heights.min(axis=1) >= (1 - _FLAT) * height)].sum() / 2
+        if height > 0 and base > _BASE * np.delete(sizes, axis).prod():
+            found.append(AXES[axis])
+    # `base`, `top` and `height` are along z
+    if found == ["z"] and (height < _HEIGHT or top > _TOP * base):
+        return None
+    return found[0] if len(found) == 1 else None
