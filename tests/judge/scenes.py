@@ -287,10 +287,9 @@ def _cards(rng: Rng) -> Scene:
         thing = _with_texture(rng, evolve(_painted(rng, mesh, cull), position=0.5 * rng.normal(size=3)))
         texture = thing.material.texture
         assert texture is not None
-        alpha = (
-            rng.choice([0, 90, 170, 255], texture.pixels.shape[:2]) if rng.random() < 0.5 else texture.pixels[..., 0]
-        )
-        texture = evolve(texture, alpha=alpha, cutoff=int(rng.choice([0, rng.integers(1, 256)])))
+        levels = np.array([0, 90, 170, 255])
+        alpha = rng.choice(levels, texture.pixels.shape[:2]) if rng.random() < 0.5 else texture.pixels[..., 0]
+        texture = evolve(texture, alpha=alpha, cutoff=int(rng.integers(2) * rng.integers(1, 256)))
         thing = evolve(
             thing, material=evolve(thing.material, texture=texture), rotation=rng.normal(size=4) * (1, 1, 1, 4)
         )
