@@ -6,22 +6,22 @@ pragma solidity ^0.8.25;
 /// @title Addresses: the contract addresses of `shackled deploy`, the same on every chain.
 /// @notice Derived from the bytecode: another version of a contract has another address.
 library Addresses {
-    address internal constant ENGINE = 0x441330019Db071Bde17efbAe59d681a5596C8c22;
-    address internal constant FRAGMENT_ENGINE = 0xa3AeD81965d10e906082DA1288216fAe207a0Ad2;
-    address internal constant ANTIALIASED_ENGINE = 0x54406a6238756E9D907E737643195e8c86fDEAB1;
-    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x9778Ac06a07c23cFD2F3A617607329A6aE9d89C0;
-    address internal constant ANTIALIASED_SMOOTH_ENGINE = 0x7f9b31d83bE01160CC95B80910CD407f020F587B;
-    address internal constant EFFECTS_ENGINE = 0x4d4E5Be894C011bccCb3fe480A343C6D8b622BE3;
-    address internal constant EFFECTS = 0xa06A63BbC951002fDf5Cc3a375c42C98De1a7cE9;
-    address internal constant RENDERER = 0x58edCee1923F514D59407eE2CcCA9AD37D04E4Fb;
-    address internal constant ORIGINAL = 0xD3ec3c74152f776AE490196Cd8E76b688f4C7B00;
-    address internal constant GENESIS = 0x9924002Dd1883B41dC8d33F25D28C9dF48F14628;
+    address internal constant ENGINE = 0x644828a2b5B517dF2c420918F70E1fd6a7C8DEd8;
+    address internal constant FRAGMENT_ENGINE = 0xD67E1760B6fc01f38530aab1CC89aCc0999AF816;
+    address internal constant ANTIALIASED_ENGINE = 0x90b54005E8eE60dd17A1fC75bfFe372B006E037c;
+    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x42947D64cC346AEa8A945F44EBf9c78164aB65cb;
+    address internal constant ANTIALIASED_SMOOTH_ENGINE = 0xB34DeCA16Ed698FA5dC507d3e4F0bA163aFf4711;
+    address internal constant EFFECTS_ENGINE = 0xF4E913f9E6e9f3003233c71B4085df3Fd1e7E4b5;
+    address internal constant EFFECTS = 0x9aa2378f84a3c364246414a8e21562acc0d02fd2;
+    address internal constant RENDERER = 0x61D559642f44Fc9a1D582939dB709081e2bDB5bB;
+    address internal constant ORIGINAL = 0xAEB349F0D4496656AaCE29f52983A54531D973Ad;
+    address internal constant GENESIS = 0x297ca6D0e899606d073B3E5AaA88B0554FF1270a;
     address internal constant PNG_ENCODER = 0x72A25989288b6193eDe481BA7ad20EddECBa08BD;
-    address internal constant TURNTABLE = 0xc43cab623739C698f46f17ee913Bcb02513b1192;
-    address internal constant GLB_ENCODER = 0xBcf77312a660eE0Aa6F8d88f37aB56356EF2452f;
-    address internal constant STUDIO = 0x4D666cb8Ba48CFBA9bEdFAeBa6C330305f31094b;
-    address internal constant LIBRARY = 0x50f883623c2AACf2cd8428730D3C2a9F0ca25613;
-    address internal constant WEB = 0x94364C59f19F1450E4afB22016da16eb6F1f08C3;
-    address internal constant EDITIONS = 0x7724461f5f08515b30aDf3c0383448D4553DD689;
-    address internal constant GENESIS_METADATA = 0xD7ae50010767F68f46Eb5661a54D9F2a049a6eBc;
+    address internal constant TURNTABLE = 0x0b651B3F01A41a618F68b0ADf4287f9223611421;
+    address internal constant GLB_ENCODER = 0x7E7ACc21fAe51807B747DE1FCD13525A2f118650;
+    address internal constant STUDIO = 0x3A553481e604F95d7050Cad5D0Fd1E011CD8aF60;
+    address internal constant LIBRARY = 0xd3A119852Dcc340fa7B730F0E819FE7391237123;
+    address internal constant WEB = 0x76812A295323bc56FdCd8cD6fDfE8306A06C8eAb;
+    address internal constant EDITIONS = 0xE1CcE04BEaC8ec276E85788923e7886C4373784C;
+    address internal constant GENESIS_METADATA = 0xBAe7fd4aFC00EC337E38fDEE119F1aBE4F1BB8fD;
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from ._files.weld import weld
 from ._material import Material
 from ._mesh import Mesh
 from ._object import Object
-from ._texture import as_rgb
+from ._texture import as_rgb, as_rgba
 
 
 def is_trimesh(value: object) -> bool:
@@ -48,8 +49,7 @@ def mesh_of(value: Any) -> Mesh:
 
 def part_of(value: Any) -> MeshPart:
     """Return the mesh of a trimesh.Trimesh, texture and emission of its material as fields of a `Material`, if it has
-    any, its opacity, if it is blended, and whether it has two sides. An InputWarning tells of alpha in the texture that
-    is left out. Errors as in `mesh_of`.
+    any, its opacity, if it is blended, and whether it has two sides. Errors as in `mesh_of`.
     """
     visual: Any = getattr(value, "visual", None)
     uvs = getattr(visual, "uv", None)
@@ -71,9 +71,13 @@ def part_of(value: Any) -> MeshPart:
     faces = np.asarray(value.faces)
     if image is None or uvs is None or len(uvs) != len(value.vertices):
         return MeshPart(mesh_of(value), fields, opacity, two_sided)
-    if mode in ("MASK", "BLEND") and is_transparent(image):
-        warn("the texture of the mesh has alpha, which is left out")
-    picture = Picture(as_rgb(image), "the texture of the mesh")
+    cutoff = getattr(material, "alphaCutoff", None) or 0.5
+    has_alpha = mode in ("MASK", "BLEND") and is_transparent(image)
+    picture = Picture(
+        (as_rgba if has_alpha else as_rgb)(image),
+        "the texture of the mesh",
+        cutoff=min(max(math.ceil(255 * cutoff), 1), 255) if mode == "MASK" else 0,
+    )
     corners = finite_uvs(uvs, picture.name)[faces] * (1, -1) + (0, 1)
     texture, coordinates = picture.texture(corners, 1)
     colors = np.broadcast_to(to_srgb(color), (*faces.shape, 3))

@@ -118,7 +118,7 @@ CASES = {
     "other images": board(
         "map_Kd wood.png\nmap_d wood.png\nmap_Bump -bm 1 wood.png\nnorm wood.png\nKe 1 1 1\nmap_Ke wood.png",
         notes=tuple(
-            f"1 {each} statement of its materials left out" for each in ("map_Bump", "map_Ke", "map_d", "norm")
+            f"1 {each} statement of its materials left out" for each in ("map_Bump", "map_Ke", "norm")
         ),
     ),
     "without coordinates": Case(

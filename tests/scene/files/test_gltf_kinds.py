@@ -394,14 +394,42 @@ def test_two_sides(tmp_path: Path) -> None:
     assert [part.two_sided for part in read(file, tmp_path)] == [True, False]
 
 
-@pytest.mark.parametrize("mode", ["OPAQUE", "MASK", "BLEND"])
-def test_alpha_of_textures(tmp_path: Path, mode: str) -> None:
+@pytest.mark.parametrize(
+    ("keys", "cutoff"),
+    [
+        ({"alphaMode": "OPAQUE"}, None),
+        ({"alphaMode": "MASK"}, 128),
+        ({"alphaMode": "MASK", "alphaCutoff": 0.2}, 51),
+        ({"alphaMode": "MASK", "alphaCutoff": 0}, None),
+        ({"alphaMode": "BLEND"}, 0),
+    ],
+)
+def test_alpha_of_textures(tmp_path: Path, keys: dict[str, Any], cutoff: int | None) -> None:
+    """Hidden texels have the colours of visible neighbours."""
+    file = File()
+    info = file.texture([[(255, 0, 0, 255), (0, 0, 255, 7), (9, 9, 9, 0)]] * 2, "RGBA")
+    file.material(pbrMetallicRoughness={"baseColorTexture": info}, **keys)
+    (part,) = read(file, tmp_path)
+    texture = part.material["texture"]
+    if cutoff is None:
+        assert texture.alpha is None
+        assert texture.pixels[0].tolist() == [[255, 0, 0], [0, 0, 255], [9, 9, 9]]
+    else:
+        assert texture.alpha.tolist() == [[255, 7, 0]] * 2
+        assert texture.cutoff == cutoff
+        assert texture.pixels[0].tolist() == [[255, 0, 0], [0, 0, 255], [128, 0, 128]]
+    file = File()
+    info = file.texture([[(255, 0, 0, 255), (0, 0, 255, 255)]] * 2, "RGBA")
+    file.material(pbrMetallicRoughness={"baseColorTexture": info}, **keys)
+    assert read(file, tmp_path)[0].material["texture"].alpha is None
+
+
+def test_a_cutoff_of_texture_and_factor(tmp_path: Path) -> None:
+    """The alpha of a texel is multiplied by that of the factor."""
     file = File()
     info = file.texture([[(255, 0, 0, 255), (0, 0, 255, 7)]] * 2, "RGBA")
-    file.material(alphaMode=mode, pbrMetallicRoughness={"baseColorTexture": info})
-    read(file, tmp_path, *([] if mode == "OPAQUE" else ["the alpha of 1 texture"]))
-    info = file.texture([[(255, 0, 0, 255), (0, 0, 255, 255)]] * 2, "RGBA")
-    read(file, tmp_path)
+    file.material(alphaMode="MASK", pbrMetallicRoughness={"baseColorTexture": info, "baseColorFactor": [1, 1, 1, 0.8]})
+    assert read(file, tmp_path)[0].material["texture"].cutoff == 160
 
 
 def test_what_trimesh_knows_of_a_material(tmp_path: Path) -> None:
@@ -411,12 +439,12 @@ def test_what_trimesh_knows_of_a_material(tmp_path: Path) -> None:
         alphaMode="MASK", doubleSided=True, emissiveFactor=[1, 0.2, 0], pbrMetallicRoughness={"baseColorTexture": info}
     )
     mesh: Any = trimesh.load(file.write(tmp_path), force="mesh")
-    with pytest.warns(InputWarning, match=r"^the texture of the mesh has alpha, which is left out$"):
-        part = part_of(mesh)
+    part = part_of(mesh)
     assert part.two_sided
     assert part.material["emission"] == [255, 124, 0]
-    with pytest.warns(InputWarning):
-        assert load(mesh).objects[0].material.emission == (255, 124, 0)
+    assert part.material["texture"].alpha.tolist() == [[255, 7]] * 2
+    assert part.material["texture"].cutoff == 128
+    assert load(mesh).objects[0].material.emission == (255, 124, 0)
 
 
 def test_alpha_below_the_cutoff(tmp_path: Path) -> None:

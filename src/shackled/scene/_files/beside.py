@@ -7,21 +7,52 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path, PurePosixPath
 from typing import TypeVar
 
+import numpy as np
+from PIL import Image
+
 from ...errors import InputError, warn
-from .._texture import open_image
+from .._texture import as_rgba, open_image
 from .model import FileWrap, Picture
 
 T = TypeVar("T")
+Found = tuple[Path, Image.Image]
 
 
-def picture_beside(path: Path, folders: Sequence[Path], name: str, wrap: FileWrap = "repeat") -> Picture | None:
-    """Return the picture that a mesh file names, as `read_beside`; None, with an InputWarning, if it cannot be read."""
+#: An alpha is a mask if so many of its texels are nearly 0 or 255; of a mask, those below the second number are hidden.
+_MASK, _HIDDEN = 0.95, 128
+
+
+def picture_beside(
+    path: Path, folders: Sequence[Path], name: str, wrap: FileWrap = "repeat", alpha: str | None = None
+) -> Picture | None:
+    """Return the picture that a mesh file names, as `read_beside`; None, with an InputWarning, if it cannot be read.
+
+    name: "" for a white one. alpha: the name of the image of its alpha, which has an alpha itself, or is grey.
+    """
+    shown = None
     try:
-        place, image = read_beside(folders, name, lambda each: (each, open_image(each, str(each))))
+        if name:
+            shown = read_beside(folders, name, lambda each: (each, open_image(each, str(each))))
     except InputError as error:
         warn(f"{path}: a texture is left out: {error}")
-        return None
-    return Picture(image, f"{path}: {place.name}", wraps=(wrap, wrap))
+    try:
+        if alpha:
+            hidden = read_beside(folders, alpha, lambda each: (each, open_image(each, str(each), as_rgba)))
+            return _with_alpha(path, shown, hidden, wrap)
+    except InputError as error:
+        warn(f"{path}: an alpha is left out: {error}")
+    return shown and Picture(shown[1], f"{path}: {shown[0].name}", wraps=(wrap, wrap))
+
+
+def _with_alpha(path: Path, shown: Found | None, hidden: Found, wrap: FileWrap) -> Picture:
+    place, image = shown or (hidden[0], Image.new("RGB", hidden[1].size, "white"))
+    own = hidden[1].getchannel("A")
+    alpha = (own if own.getextrema() != (255, 255) else hidden[1].convert("L")).resize(image.size)
+    image = image.copy()
+    image.putalpha(alpha)
+    levels = np.asarray(alpha)
+    is_mask = ((levels < 16) | (levels > 239)).mean() >= _MASK
+    return Picture(image, f"{path}: {place.name}", wraps=(wrap, wrap), cutoff=_HIDDEN if is_mask else 0)
 
 
 def read_beside(folders: Sequence[Path], name: str, read: Callable[[Path], T]) -> T:

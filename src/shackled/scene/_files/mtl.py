@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -38,11 +38,14 @@ _MESHLAB = re.compile(r"^#.*\bmeshlab\b", re.IGNORECASE | re.MULTILINE)
 
 @dataclass(frozen=True)
 class Map:
-    """An image that a material names. folders: where it may be."""
+    """An image that a material names, "" for a white one. folders: where it may be. alpha: the name of that of its
+    alpha.
+    """
 
     name: str
     folders: tuple[Path, ...]
     wrap: FileWrap
+    alpha: str | None = None
 
 
 @dataclass
@@ -56,9 +59,17 @@ class ObjMaterial:
     emission: Triple = (0.0, 0.0, 0.0)
     opacity: float = 1.0
     image: Map | None = None
+    alpha: Map | None = None
     scale: tuple[float, float] = (1.0, 1.0)
     offset: tuple[float, float] = (0.0, 0.0)
     left_out: set[str] = field(default_factory=set)
+
+    @property
+    def texture(self) -> Map | None:
+        """Its image, with its alpha."""
+        if self.alpha is None:
+            return self.image
+        return replace(self.image or replace(self.alpha, name=""), alpha=self.alpha.name)
 
 
 def name_of(line: str) -> str:
@@ -117,6 +128,11 @@ def _parse(folders: tuple[Path, ...], text: str) -> dict[str, ObjMaterial]:
         elif key == "map_kd" or (key == "map_ka" and "map_kd" not in given):
             _add_map(material, folders, name_of(line))
             given.add(key)
+        elif key == "map_d":
+            own = ObjMaterial()
+            _add_map(own, folders, name_of(line))
+            material.alpha = own.image
+            material.left_out |= own.left_out
         elif key.startswith(("map_", "bump", "norm", "disp", "decal", "refl")) and key != "map_ka":
             material.left_out.add(keyword)
             if key == "map_ke":  # without it, all of the surface would emit light

@@ -120,7 +120,7 @@ class _Surfaces:
         self.colors[own] = np.where(has_own[:, :, None], self.own_colors[own], to_bytes(material.color, largest=1))
         emission = tuple(int(level) for level in to_bytes(material.emission, largest=1))
         self.look[own] = self._number((None, material.opacity, emission))
-        picture = self._picture(material.image)
+        picture = self._picture(material.texture)
         if picture is None:
             return
         with np.errstate(all="ignore"):
@@ -128,12 +128,14 @@ class _Surfaces:
             is_near = np.abs(uvs) <= (_SPAN if picture.wraps[0] == "clamp" else _FAR)
             has_place = is_near.all(axis=(1, 2)) & (np.ptp(uvs, axis=1) <= _SPAN).all(axis=1)
         self.notes["triangle", "without usable texture coordinates drawn without texture"] += int((~has_place).sum())
-        self.notes["triangle", REPLACED] += replaced(self.colors[own[has_place & has_own.any(axis=1)]])
         textured, uvs = own[has_place], uvs[has_place]
         self.uvs[textured] = uvs
-        self.colors[textured], needs_it = under(picture, uvs, self.colors[textured])
+        needs_it = True
+        if material.image is not None:  # else only an alpha
+            self.notes["triangle", REPLACED] += replaced(self.colors[own[has_place & has_own.any(axis=1)]])
+            self.colors[textured], needs_it = under(picture, uvs, self.colors[textured])
         if needs_it:
-            self.look[textured] = self._number((material.image, material.opacity, emission))
+            self.look[textured] = self._number((material.texture, material.opacity, emission))
 
     def _number(self, look: _Look) -> int:
         return self.looks.setdefault(look, len(self.looks))
@@ -143,7 +145,7 @@ class _Surfaces:
         if image is None:
             return None
         if image not in self.pictures:
-            self.pictures[image] = picture_beside(self.obj.path, image.folders, image.name, image.wrap)
+            self.pictures[image] = picture_beside(self.obj.path, image.folders, image.name, image.wrap, image.alpha)
         return self.pictures[image]
 
 
