@@ -14,7 +14,7 @@ from tools.anvil import AnvilChain, find_anvil
 
 import shackled
 from original_scenes import document, mesh_keys
-from shackled import InputError, Scene, load
+from shackled import InputError, Scene
 from shackled.artifacts import artifact
 from shackled.bench import (
     CODE_SIZES,
@@ -33,6 +33,7 @@ from shackled.bench import (
 )
 from shackled.chain import DEFAULT_GAS_LIMIT, SENDER, EmbeddedChain, open_chain
 from shackled.cli.app import run
+from shackled.datasets import require
 from shackled.deploy import STANDARD
 from shackled.ethereum import to_hex
 from shackled.scene import original_scene
@@ -179,7 +180,7 @@ def test_genesis(made: Path) -> None:
         assert int(row["triangles"]) % 7 == 0
         assert 0 < int(row["drawn"]) <= int(row["triangles"])
         assert 0 < int(row["lit_pixels"]) < 128 * 128
-    first = load("genesis/0")
+    first = require("genesis/0").make()
     assert column(rows, "gas")[0] == cost(first).gas
 
 

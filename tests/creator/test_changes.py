@@ -24,7 +24,7 @@ from shackled.creator import (
     set_value,
 )
 
-FACTS = describe(Source("piece", "teapot"), load("teapot"), "Teapot")
+FACTS = describe(Source("piece", "teapot"), load("teapot", antialias=False), "Teapot")
 PLAIN = State(FACTS.source)
 
 OTHER: dict[str, Any] = {

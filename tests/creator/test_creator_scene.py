@@ -34,6 +34,7 @@ from shackled.creator import (
     orbit_of,
     to_scene,
 )
+from shackled.datasets import require
 from shackled.gas import render_call
 from shackled.scene import Hemisphere
 from states import states
@@ -52,7 +53,7 @@ PIECES = (
 
 
 def facts_of(name: str) -> tuple[Scene, Facts]:
-    scene = load(name)
+    scene = require(name).make()
     return scene, describe(Source("piece", name), scene, name)
 
 

@@ -18,6 +18,7 @@ from tools.page_server import Started, browser_path, creator, pixels
 
 import shackled
 from nodes import anvil, needs_anvil
+from shackled.datasets import require
 
 pytest.importorskip("playwright.sync_api", reason="the tests of the page need playwright")
 pytest.importorskip("starlette", reason="the page needs starlette")
@@ -149,7 +150,7 @@ def test_a_first_picture_within_three_seconds_of_the_start(browser: Any) -> None
 
 
 def test_the_picture_is_the_contracts_own(visit: NewPage) -> None:
-    image = shackled.render("icons/diamond")
+    image = shackled.render(require("icons/diamond").make())
     page = visit()
     assert pixels(page) == image.pixels.tobytes()
     assert gas(page) == image.gas
@@ -257,7 +258,7 @@ def test_dragging_without_webassembly(visit: NewPage) -> None:
     shown = after(page, let_go)
     assert shown != before
     assert gas(page) != used
-    assert page.evaluate("document.getElementById('picture').width") == shackled.load("icons/diamond").width
+    assert page.evaluate("document.getElementById('picture').width") == require("icons/diamond").make().width
     assert page.get_attribute("#picture", "data-draft") == "false"
     assert painted(page) == 0
 
@@ -468,7 +469,7 @@ def test_keys_after_a_click_on_anything(visit: NewPage) -> None:
 def test_a_piece_from_the_shelf(visit: NewPage) -> None:
     page = visit()
     shown = after(page, lambda: page.click("[data-name='piece-icons/heart']"))
-    assert shown == shackled.render("icons/heart").pixels.tobytes()
+    assert shown == shackled.render(require("icons/heart").make()).pixels.tobytes()
     page.wait_for_function(
         "() => { const i = document.querySelector('[data-name=\"piece-icons/heart\"] img'); return i.naturalWidth > 0 }"
     )
@@ -491,7 +492,7 @@ def test_a_genesis_seed_is_pasted(visit: NewPage) -> None:
     page.wait_for_selector("#picture[data-draft=false]")
     page.fill("[data-search]", "3")
     shown = after(page, lambda: page.keyboard.press("Enter"))
-    assert shown == shackled.render("genesis/3").pixels.tobytes()
+    assert shown == shackled.render(require("genesis/3").make()).pixels.tobytes()
 
 
 def test_a_file_is_opened(visit: NewPage, tmp_path: Path) -> None:

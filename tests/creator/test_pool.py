@@ -20,8 +20,9 @@ import pytest
 from PIL import Image as PillowImage
 
 from nodes import anvil, needs_anvil
-from shackled import ChainError, InputError, load, render
+from shackled import ChainError, InputError, render
 from shackled.creator import Limits, Pool, PoolError, Queue, Size, Source, State, Tasks, set_value, to_scene
+from shackled.datasets import require
 from shackled.gas import STAGES
 from shackled.scene import full_turn
 from strange_tasks import StrangeTasks
@@ -314,7 +315,7 @@ def test_a_picture_is_that_of_the_command_line() -> None:
     async def test(pool: Pool) -> None:
         facts = await pool.open(TETRAHEDRON.source)
         state = set_value(TETRAHEDRON, facts, "camera.azimuth", 100)
-        image = render(to_scene(state, load("tetrahedron")))
+        image = render(to_scene(state, require("tetrahedron").make()))
         frame = await pool.render("a", state)
         assert frame is not None
         assert frame.bmp == image.bmp
@@ -391,7 +392,7 @@ def test_a_turntable_goes_round() -> None:
             for number in range(4):
                 picture.seek(number)
                 frames.append(np.asarray(picture.convert("RGB")).astype(int))
-        turned = full_turn(to_scene(TETRAHEDRON, load("tetrahedron")), 4)
+        turned = full_turn(to_scene(TETRAHEDRON, require("tetrahedron").make()), 4)
         for frame, scene in zip(frames, turned, strict=True):
             assert np.abs(frame - render(scene).pixels.repeat(2, axis=0).repeat(2, axis=1)).mean() < 3
         assert np.abs(frames[0] - frames[1]).mean() > 3
@@ -503,7 +504,7 @@ def test_a_thumbnail(tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> None:
         return await pool.thumbnail("icons/coin")
 
     png = with_pool(test)
-    assert (np.asarray(PillowImage.open(BytesIO(png))) == render("icons/coin").pixels).all()
+    assert (np.asarray(PillowImage.open(BytesIO(png))) == render(require("icons/coin").make()).pixels).all()
 
 
 def test_an_upload_reaches_workers_that_never_saw_it() -> None:

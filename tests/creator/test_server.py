@@ -36,6 +36,7 @@ from shackled.creator import (
     make_app,
     unpack_upload,
 )
+from shackled.datasets import require
 from shackled.errors import InputError
 from shackled.scene import decode
 from shackled.serving import open_in_browser
@@ -190,7 +191,10 @@ def test_the_call_of_a_picture_is_for_its_visitor(server: Started) -> None:
         head = json.loads(body[4 : 4 + length])
         assert (status, headers["cache-control"]) == (200, "no-store")
         assert set(head) == {"key", "camera", "follow", "radius"}
-        assert render(decode(body[4 + length :])).pixels.tobytes() == render("tetrahedron").pixels.tobytes()
+        assert (
+            render(decode(body[4 + length :])).pixels.tobytes()
+            == render(require("tetrahedron").make()).pixels.tobytes()
+        )
         assert ask(server, f"call/{name}", {"Origin": "http://evil.example"})[0] == 403
     assert ask(server, "call/nobody")[0] == 404
 

@@ -19,8 +19,9 @@ from tools.examples import compile_example
 
 from compiler import needs_compiler
 from nodes import KEY, anvil, needs_anvil
-from shackled import load, render
+from shackled import render
 from shackled.chain import Connection
+from shackled.datasets import require
 from shackled.datasets.genesis import seed_of
 from shackled.deploy import Deployer, Deployment, Transactor, deployment, deployments, environment_account
 from shackled.ethereum import checksum_address
@@ -98,7 +99,7 @@ def test_pictures(fetch: Fetch) -> None:
     normal, small, piece = fetch("{Web}/icons/crown.png", "{Web}/icons/crown.png?scale=2", "{Web}/genesis/12.png")
     check_picture(normal, crown.scene, 4)
     check_picture(small, crown.scene, 2)
-    check_picture(piece, load("genesis/12"), 4)
+    check_picture(piece, require("genesis/12").make(), 4)
 
 
 def test_the_page(fetch: Fetch) -> None:
@@ -123,7 +124,7 @@ def test_the_auto_mode(fetch: Fetch) -> None:
     assert model.headers == {"Content-Type": "model/gltf-binary"}
     assert model.body == same_model.body
     assert bitmap.headers == {"Content-Type": "image/bmp"}
-    assert bitmap.body == render(load("genesis/12")).bmp
+    assert bitmap.body == render(require("genesis/12").make()).bmp
     # a string in place of bytes
     assert base64.b64decode(uri.body.decode("ascii").removeprefix("data:image/png;base64,")) == same_picture.body
 

@@ -9,8 +9,8 @@ import pytest
 from attrs import evolve
 from benchmarks.parallel import GRIDS, SIDES
 
-from shackled import load
 from shackled.bench import gas
+from shackled.datasets import require
 from shackled.parallel import grid
 
 FIGURES = json.loads((Path(__file__).parents[2] / "benchmarks" / "parallel.json").read_text("utf-8"))
@@ -18,7 +18,7 @@ FIGURES = json.loads((Path(__file__).parents[2] / "benchmarks" / "parallel.json"
 
 @pytest.mark.parametrize("side", SIDES[:3])
 def test_gas_of_tiles(side: int) -> None:
-    scene, written = evolve(load("teapot"), width=side, height=side), FIGURES["Tiles"][str(side)]
+    scene, written = evolve(require("teapot").make(), width=side, height=side), FIGURES["Tiles"][str(side)]
     assert written["whole"] == gas(scene)
     for across, down in GRIDS[:3]:
         parts = grid(side, side, side // across, side // down)

@@ -71,8 +71,8 @@ def test_pictures_and_errors(tmp_path: Path) -> None:
 def test_gas_by_stage(tmp_path: Path) -> None:
     """All stages, for each engine, are those that `shackled gas` prints."""
     looks: tuple[LookOptions, ...] = (
-        {"unlit": True},
-        {"smooth": False},
+        {"unlit": True, "antialias": False},
+        {"smooth": False, "antialias": False},
         {"smooth": True, "antialias": False},
         {"smooth": True},
         {"exposure": 1.2, "gamma": True, "shadow": True, "ground": "gray"},

@@ -91,7 +91,10 @@ def _loaded(subject: Subject) -> list[str]:
     if _is_packed(subject):
         return [f'scene = shackled.load("{subject.stem}.json")  # download the scene file as well']
     if stored is None:
-        lines, bounds = [f"scene = shackled.load({json.dumps(state.source.name)})"], [state.max_triangles]
+        source = subject.source
+        plain = f"size=({source.width}, {source.height}), antialias={source.antialias}"
+        lines = [f"scene = shackled.load({json.dumps(state.source.name)}, {plain})"]
+        bounds = [state.max_triangles]
     else:
         lines = [f"scene = shackled.load({json.dumps(stored.name)})  # SHA-256 {state.source.name}"]
         bounds = [stored.simplified_to, state.max_triangles]
