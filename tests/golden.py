@@ -228,6 +228,17 @@ def _color(rng: Rng) -> tuple[int, int, int]:
     return red, green, blue
 
 
+def with_alpha(cutoff: int) -> Callable[[Object, Rng], Object]:
+    """Gives a texture an alpha."""
+
+    def change(o: Object, rng: Rng) -> Object:
+        assert o.material.texture is not None
+        alpha = rng.integers(0, 256, o.material.texture.pixels.shape[:2])
+        return evolve(o, material=evolve(o.material, texture=evolve(o.material.texture, alpha=alpha, cutoff=cutoff)))
+
+    return change
+
+
 SHADINGS = (*get_args(Shading), "wireframe")
 SAMPLING, PROJECTION = ("", "antialiased"), ("", "orthographic")
 LIT, LIGHTS = ("flat", "smooth"), ("no light", *(f"{kind} light" for kind in LIGHT_KINDS), "four lights")
@@ -250,6 +261,7 @@ CHANGES: dict[str, Change] = {
     "antialiased": fields(antialias=True),
     "orthographic": orthographic,
     "both sides": each(lambda o, _: evolve(o, cull=False)),
+    "two-sided": each(lambda o, _: evolve(o, cull=False, two_sided=True)),
     "no light": fields(lights=()),
     **{f"{kind} light": lit(kind) for kind in LIGHT_KINDS},
     "four lights": lit(*LIGHT_KINDS, "point"),
@@ -266,6 +278,8 @@ CHANGES: dict[str, Change] = {
     "gamma": fields(tone=Tone(gamma=True)),
     "all effects": all_effects,
     **{name: textured(filter, wrap, TEXELS[texels]) for name, (filter, wrap, texels) in TEXTURES.items()},
+    "blended": each(with_alpha(0)),
+    "masked": each(with_alpha(128)),
     "gradient": lambda scene, rng: evolve(scene, background=Background(_color(rng), _color(rng))),
     "inverted": fields(invert=True),
     "slivers": each(slivers),
@@ -293,6 +307,9 @@ KINDS: tuple[tuple[Kind, int, tuple[Iterable[str], ...]], ...] = (
     ("tame", 1, (("smooth",), ("antialiased",), LAMPS[:1], ("orthographic",), VARIANTS)),
     ("tame", 2, (("mixed",), ("antialiased",), LAMPS)),
     ("tame", 1, (SHADINGS, ("emission",), EMISSIONS)),
+    ("tame", 1, (LIT, ("two-sided",), SAMPLING, ("", "translucent", "all effects"))),
+    ("close", 1, (LIT, ("two-sided",), SAMPLING)),
+    ("tame", 1, (LIT, (TEXTURED, "bilinear clamp RGB"), ("blended", "masked"))),
     ("close", 1, (SHADINGS, SAMPLING, PROJECTION)),
     ("wild", 1, (SHADINGS, SAMPLING, PROJECTION)),
     ("close", 1, (("smooth",), ("antialiased",), LAMPS)),

@@ -156,7 +156,7 @@ WRONG: list[tuple[Callable[[Values], None], str]] = [
     (put(OBJECTS, 0, MATERIAL, 3, value=BIG), f"CoefficientOutOfRange(object=0, value={BIG})"),
     (put(OBJECTS, 0, MATERIAL, 4, value=0), "ShininessOutOfRange(object=0, shininess=0)"),
     (put(OBJECTS, 1, MATERIAL, 4, value=129), "ShininessOutOfRange(object=1, shininess=129)"),
-    (put(OBJECTS, 1, FLAGS, value=4), "UnknownFlags(object=1, flags=4)"),
+    (put(OBJECTS, 1, FLAGS, value=8), "UnknownFlags(object=1, flags=8)"),
     (put(OBJECTS, 0, MESH, value=b""), "MeshHeader(object=0, format=0, length=0)"),
     (put(OBJECTS, 0, MESH, value=b"\0\0\0\0"), "MeshHeader(object=0, format=0, length=4)"),
     (put(OBJECTS, 1, MESH, value=b"\4\0\0\0\0"), "MeshHeader(object=1, format=4, length=5)"),
@@ -210,6 +210,7 @@ WRONG: list[tuple[Callable[[Values], None], str]] = [
         put(EXTENSIONS, value=b"\x0c\0\0\0\1" + (1 << 24).to_bytes(32, "big")),
         "EmissionNotAColor(object=0, value=16777216)",
     ),
+    (put(EXTENSIONS, value=b"\x0d\0\0\0\1" + bytes(32)), "AlphaWithoutTexture(object=0)"),
 ]
 
 

@@ -313,7 +313,16 @@ def levels(index: int, words: int) -> bytes:
         (b"\x0c\0\3\0\1" + bytes(32), "ExtensionIndex(kind=12, index=3, count=3)"),
         (b"\x0c\0\1\0\2" + bytes(64), "ExtensionSize(kind=12, index=1, expected=32, actual=64)"),
         (b"\x0c\0\2\0\1" + (1 << 24).to_bytes(32, "big"), "EmissionNotAColor(object=2, value=16777216)"),
-        (b"\x0d\0\1\0\1" + bytes(32), "UnknownExtension(kind=13, index=1)"),
+        (b"\x0d\0\1\0\1" + bytes(32), "AlphaWithoutTexture(object=1)"),
+        (texture(0, 0, 1, 1, 1) + b"\x0d\0\1\0\1" + bytes(32), "AlphaWithoutTexture(object=1)"),
+        (texture(1, 0, 1, 1, 1) + b"\x0d\0\1\0\1\0\4\0\0\1" + bytes(27), "TextureFormat(object=1, flags=4, bits=1)"),
+        (texture(1, 0, 1, 1, 1) + b"\x0d\0\1\0\1\0\0\0\0\3" + bytes(27), "TextureFormat(object=1, flags=0, bits=3)"),
+        (
+            texture(1, 0, 1, 1, 1) + b"\x0d\0\1\0\1\0\0\x0f\x0f\1" + bytes(27),
+            "ExtensionSize(kind=13, index=1, expected=64, actual=32)",
+        ),
+        (b"\x0d\0\1\0\0", "ExtensionSize(kind=13, index=1, expected=32, actual=0)"),
+        (b"\x0e\0\1\0\1" + bytes(32), "UnknownExtension(kind=14, index=1)"),
     ],
 )
 def test_wrong_records_are_refused(data: bytes, error: str) -> None:

@@ -186,8 +186,11 @@ def vectors(t: Triangles, at: Array) -> tuple[Array, Array, Array, Array, Boolea
     return normal, light, unit(half), dot(half, half), far
 
 
-def judged(t: Triangles, exact_middles: bool, old: bool) -> tuple[Booleans, Array]:
-    """Whether triangles are accepted, by the bounds of SmoothTriangle.sol or old ones, and their errors in levels."""
+def judged(t: Triangles, exact_middles: bool, old: bool, by_nodes: bool = False) -> tuple[Booleans, Array]:
+    """Whether triangles are accepted, by the bounds of SmoothTriangle.sol or old ones, and their errors in levels.
+
+    by_nodes: whether the light itself is interpolated, from that of products at six nodes: see SmoothLight.sol.
+    """
     n, k, kd = t["n"], t["k"], np.maximum(t["kd"], 1e-9)
     normal, light, half, length, far = vectors(t, NODES)
     bends, turns = (v[:, ENDS[0]] - v[:, ENDS[1]] for v in (normal, half))
@@ -207,6 +210,10 @@ def judged(t: Triangles, exact_middles: bool, old: bool) -> tuple[Booleans, Arra
     lit, shine = (dot(unit(true[0]), v) for v in true[1:3])
     root = np.sqrt(products[0].clip(1e-9))
     cosine = np.where(products[1] > 0, (products[2] / root).clip(0, 1), 0)
+    cosines = [v[:, :6] / np.sqrt(square[:, :6]) for v in (diffuse, specular)]
+    if by_nodes:
+        products[1], root = cosines[0] @ shape[0], np.ones_like(root)
+        cosine = np.where(products[1] > 0, (cosines[1] @ shape[0]).clip(0, 1), 0)
     error = 255 * t["kd"][:, None] * np.abs(products[1].clip(0) / root - lit.clip(0))
     highlight = np.abs(cosine ** n[:, None] - np.where(lit > 0, shine.clip(0) ** n[:, None], 0))
     # where the light is in the surface the highlight ends
@@ -230,6 +237,10 @@ def judged(t: Triangles, exact_middles: bool, old: bool) -> tuple[Booleans, Arra
     if not exact_middles:
         reach = np.minimum(reach, lamp_reach) / np.where((length[:, :3] >= 3).all(axis=1), 1, 4)
         good &= (size < reach) & (levels * turn * (1 - q) / (12 * q) <= 3.5)
+        if by_nodes:
+            is_shiny = (cosines[1].clip(0) ** 2).max(axis=1) > 1 - 2.8 / n - 0.19
+            good &= bend < np.where(is_shiny, np.minimum(1 / np.sqrt(n * k), 0.65), 0.65)
+            good &= square[:, :3].min(axis=1) > 0.75
         return good, error.max(axis=1)
     good &= (size < np.minimum(20 * reach, 8 * lamp_reach)) & (turn < 3 / 8)
     skew = 2 * np.abs(dot(half[:, 3:6], turns)) + np.abs(dot(bends, 2 * half[:, 3:6] - sums[1]))
@@ -239,7 +250,7 @@ def judged(t: Triangles, exact_middles: bool, old: bool) -> tuple[Booleans, Arra
     return good, error.max(axis=1)
 
 
-def worst(exact_middles: bool, old: bool, generations: int, seed: int) -> float:
+def worst(exact_middles: bool, old: bool, generations: int, seed: int, by_nodes: bool = False) -> float:
     """The largest error of an accepted triangle: of random ones, and of those that resemble the worst."""
     rng, best, scores = np.random.default_rng(seed), some_triangles(np.random.default_rng(seed), 1), np.full(1, -1.0)
     for generation in range(generations):
@@ -247,17 +258,23 @@ def worst(exact_middles: bool, old: bool, generations: int, seed: int) -> float:
         more = some_triangles(rng, count)
         near = changed(rng, {name: v[rng.integers(0, len(scores), 1500 - count)] for name, v in best.items()})
         more = {name: np.concatenate([best[name], near[name], v]) for name, v in more.items()}
-        good, error = judged({name: v[len(scores) :] for name, v in more.items()}, exact_middles, old)
+        good, error = judged({name: v[len(scores) :] for name, v in more.items()}, exact_middles, old, by_nodes)
         scores = np.concatenate([scores, np.where(good, error, -1)])
         order = np.argsort(-scores)[:100]
         best, scores = {name: v[order] for name, v in more.items()}, scores[order]
     return float(scores[0])
 
 
-@pytest.mark.parametrize("exact_middles", [False, True], ids=["vertices", "midpoints"])
-def test_accepted_triangles_have_the_light_of_their_points(exact_middles: bool) -> None:
-    """Within the bounds that SmoothTriangle.sol documents, for products of vertices and of midpoints too."""
-    assert 4 < worst(exact_middles, False, 14, 0) < FOUND
+@pytest.mark.parametrize(
+    ("exact_middles", "by_nodes"),
+    [(False, False), (True, False), (False, True)],
+    ids=["vertices", "midpoints", "light at nodes"],
+)
+def test_accepted_triangles_have_the_light_of_their_points(exact_middles: bool, by_nodes: bool) -> None:
+    """Within the bounds that SmoothTriangle.sol documents, for products of vertices and of midpoints too; and within
+    those of SmoothLight.sol.
+    """
+    assert 4 < worst(exact_middles, False, 14, 0, by_nodes) < FOUND
 
 
 def test_the_search_finds_what_is_far_off() -> None:

@@ -19,6 +19,8 @@ from .shadows import Shadows
 from .visibility import AROUND, CENTER, SAME_DEPTH, SAMPLES, Seen, seen
 from .wires import seen_wires
 
+#: Opacities of texels below this may be taken as 0.
+HIDDEN = 1e-4
 #: Pixels of which the range is wider, in levels, contain a step: the border of a texel, the end of a highlight.
 STEP = 1.0
 
@@ -144,11 +146,12 @@ class Composition:
         # what is there may hide them, and they what is there
         before = canvas.floor.min(axis=2)[rows.pixel, rows.sample]
         rows = rows.chosen(rows.most >= before)
+        found = fragments(world, self.shadows, pieces, rows, reached, self.places)
+        rows, found, floor = self._unhidden(pieces, rows, found, floor)
         samples = rows.pixel * len(self.places) + rows.sample
         self.shown.append(np.stack([rows.pixel, pieces.face[rows.piece]], axis=1))
         sure = np.asarray((floor > canvas.ceiling[..., None]).all(axis=2))
         likely = self._likely(pieces, rows, samples)
-        found = fragments(world, self.shadows, pieces, rows, reached, self.places)
         for there, color in zip(canvas.colors, found.colors, strict=True):
             _blend(there, color, found.opacity, samples, sure, likely)
         if world.antialias and not world.exact:
@@ -159,6 +162,20 @@ class Composition:
         np.maximum.at(canvas.ceiling.reshape(-1), samples, rows.most)
         np.maximum(canvas.floor, floor, out=canvas.floor)
         self.only.append(self._only(pieces.face[rows.piece], rows, sure, found))
+
+    def _unhidden(self, pieces: Pieces, rows: Seen, found: Fragments, floor: Array) -> tuple[Seen, Fragments, Array]:
+        """Leave out what hidden texels show; and what may be hidden by one hides nothing for sure."""
+        surfaces = self.world.surfaces
+        has_alpha = np.array([s.texture is not None and s.texture.alpha is not None for s in surfaces], bool)
+        own = has_alpha[np.searchsorted([s.first for s in surfaces], pieces.face[rows.piece], side="right") - 1]
+        least, _, most = found.opacity[..., 0]
+        if not own.any():
+            return rows, found, floor
+        maybe, kept = np.flatnonzero(own & (least < HIDDEN)), np.flatnonzero(~own | (most > 0))
+        floor = floor.copy()
+        floor[rows.pixel[maybe], rows.sample[maybe]] = -np.inf
+        colors, opacity = found.colors[:, :, kept], found.opacity[:, kept]
+        return rows.chosen(kept), Fragments(colors, opacity, found.lit[kept], found.dark[kept]), floor
 
     def _widen(self, pieces: Pieces, rows: Seen, sure: Booleans) -> None:
         """Let pixels that show one smooth surface, and only that, have the colour of any sample there or in the pixels

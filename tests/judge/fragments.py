@@ -108,7 +108,7 @@ def fragments(
         reach = unseen if rule == 2 else may_be_lit
         both = [_extent(values[:, chosen], to[chosen], count)[:, key] for values in (lit, dark)]
         colors.append(_either(both[0], both[1], reach, may_be_dark))
-    return Fragments(np.stack(colors), _extent(opacity[:, :end], to[:end], count)[:, key], may_be_lit, may_be_dark)
+    return Fragments(np.stack(colors), _extent(opacity[:, fans], to[fans], count)[:, key], may_be_lit, may_be_dark)
 
 
 def _shaded(

@@ -68,7 +68,8 @@ abstract contract EffectSamples is BlendedSamples {
         }
     }
 
-    /// @dev The opacity of a fragment, which `colorAt` sets if vertices or texels have opacities or a ground fades, is valid until it is blended.
+    /// @dev The opacity of a fragment, which `colorAt` sets if vertices or texels have opacities or a ground fades, is valid until it is
+    /// blended.
     function over(uint256 color, uint256 behind) internal pure override returns (uint256 mixed) {
         mixed = super.over(color, behind);
         store(OPACITY, load(OBJECT_OPACITY));

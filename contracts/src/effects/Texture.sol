@@ -59,8 +59,8 @@ library Texture {
         return uint256(int256(change) >> (Q16 - Q10));
     }
 
-    /// @notice Returns the colour at perspective-correct barycentric coordinates, Q24: lanes of Q16, where 255 is one. Multiplies OPACITY by
-    /// the opacity there; sets it to 0 where nothing is drawn.
+    /// @notice Returns the colour at perspective-correct barycentric coordinates, Q24: lanes of Q16, where 255 is one. Multiplies OPACITY
+    /// by the opacity there; sets it to 0 where nothing is drawn.
     function colorAt(uint256 s, uint256 t) internal pure returns (uint256) {
         assembly ("memory-safe") {
             t := add(add(mload(UV_0), mul(mload(UV_1), s)), mul(mload(UV_2), t)) // from here on, both coordinates, Q40

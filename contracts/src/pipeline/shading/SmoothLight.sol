@@ -10,10 +10,10 @@ import "../../words/SampleRegisters.sol";
 // than those of products. In a triangle of 200 pixels, their rounding moves the light by 1/1300 of it.
 //
 // If a normal turns by the angle d along an edge, the third derivatives of both are about d^3. The light of a lamp may be off by 2 * d^3
-// levels of 255, so edges may turn by up to d^2 = 0.65. The highlight, of the strength m, changes with the angle by up to 0.6 * sqrt(n) * m:
-// where there may be one, d^2 is at most 1 / sqrt(n * m). There is none if no node has a square of N * H above FAR_FROM_HIGHLIGHT - 0.19.
-// Other triangles keep their products. A search for the worst triangles finds 11.8 levels: see tests/test_smooth_light.py. A comparison at
-// one point within the triangle in place of these bounds would not do: there may be hundreds of levels elsewhere.
+// levels of 255, so edges may turn by up to d^2 = 0.65. The highlight, of the strength m, changes with the angle by up to 0.6 * sqrt(n)
+// * m: where there may be one, d^2 is at most 1 / sqrt(n * m). There is none if no node has a square of N * H above FAR_FROM_HIGHLIGHT -
+// 0.19. Other triangles keep their products. A search for the worst triangles finds 12.2 levels: see tests/test_smooth_light.py. A
+// comparison at one point within the triangle in place of these bounds would not do: there may be hundreds of levels elsewhere.
 
 /// @dev The greatest square of a turn, Q20: 0.65; the least N * N at vertices: 3/4, so that it is 1/2 at midpoints. From there to 17/16, a
 /// step of Newton's method from NEAR_ROOT_AT_0 + (N * N) * NEAR_ROOT_SLOPE >> ROOT_SHIFT gives its root to 1/23,000.
