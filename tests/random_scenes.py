@@ -85,7 +85,9 @@ def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
     scene = _textured(np.random.default_rng([seed, 8]), scene)
     scene = _shadowed(np.random.default_rng([seed, 16]), scene)
     scene = _emitting(np.random.default_rng([seed, 10]), scene)
-    return Case(_seen_through(np.random.default_rng([seed, 9]), scene), tile)
+    scene = _seen_through(np.random.default_rng([seed, 9]), scene)
+    scene = _two_sided(np.random.default_rng([seed, 11]), scene)
+    return Case(_with_alpha(np.random.default_rng([seed, 12]), scene), tile)
 
 
 def _effects(rng: Rng, scene: Scene) -> dict[str, Any]:
@@ -142,6 +144,24 @@ def _emitting(rng: Rng, scene: Scene) -> Scene:
     emissions = [_color(rng) if rng.random() < 0.8 else (0, 0, 0) for _ in scene.objects]
     pairs = zip(scene.objects, emissions, strict=True)
     return evolve(scene, objects=[evolve(o, material=evolve(o.material, emission=each)) for o, each in pairs])
+
+
+def _two_sided(rng: Rng, scene: Scene) -> Scene:
+    """The scene, in which some objects have two sides."""
+    return evolve(scene, objects=[evolve(o, two_sided=bool(rng.random() < 0.3)) for o in scene.objects])
+
+
+def _with_alpha(rng: Rng, scene: Scene) -> Scene:
+    """The scene, in which some textures have an alpha, as a mask or blended."""
+    objects = []
+    for o in scene.objects:
+        texture = o.material.texture
+        if texture is not None and rng.random() < 0.3:
+            alpha = rng.choice(np.array([0, 255, int(rng.integers(256))]), texture.pixels.shape[:2])
+            cutoff = int(rng.integers(2) * rng.integers(1, 256))
+            o = evolve(o, material=evolve(o.material, texture=evolve(texture, alpha=alpha, cutoff=cutoff)))
+        objects.append(o)
+    return evolve(scene, objects=objects)
 
 
 def _seen_through(rng: Rng, scene: Scene) -> Scene:

@@ -7,21 +7,21 @@ pragma solidity ^0.8.25;
 /// @notice Derived from the bytecode: another version of a contract has another address.
 library Addresses {
     address internal constant ENGINE = 0x644828a2b5B517dF2c420918F70E1fd6a7C8DEd8;
-    address internal constant FRAGMENT_ENGINE = 0xD67E1760B6fc01f38530aab1CC89aCc0999AF816;
-    address internal constant ANTIALIASED_ENGINE = 0x90b54005E8eE60dd17A1fC75bfFe372B006E037c;
-    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x42947D64cC346AEa8A945F44EBf9c78164aB65cb;
-    address internal constant ANTIALIASED_SMOOTH_ENGINE = 0x74F75A8226f47BE2Fc401C7B41d077031d91e677;
-    address internal constant EFFECTS_ENGINE = 0x8976E390C96D697471cd1bef744953e7Bf83Bfb6;
+    address internal constant FRAGMENT_ENGINE = 0x541516A09D7e4D9D78b6a59a3Db3c9535C660879;
+    address internal constant ANTIALIASED_ENGINE = 0xB27D890206DaeE5D4633787A7f83740abd9b861B;
+    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0xf40c19b4D73b28985688d0c3FD510513EEBA8A7e;
+    address internal constant ANTIALIASED_SMOOTH_ENGINE = 0x2c2c506A55e7aBa45d46bc9931Fd157C1A52D940;
+    address internal constant EFFECTS_ENGINE = 0x8B949e4B31f75EfE6BE461b2EED0b95A1246e29C;
     address internal constant EFFECTS = 0x9aa2378f84a3c364246414a8e21562acc0d02fd2;
-    address internal constant RENDERER = 0x383c1cB7382B09E32cADF4FA75B5444a1cbBFF23;
-    address internal constant ORIGINAL = 0xF9cc2d9b96fAFB4f44EA5FFF1cAc798acCFf79Ab;
-    address internal constant GENESIS = 0x2040695fFdcb3c271147523Ee6a375E97D9C736a;
+    address internal constant RENDERER = 0xA86F51cAd32d20320c404b76D2536AFe6958c096;
+    address internal constant ORIGINAL = 0xa21DFa176eeeF141E6527C9AD19c9dCbE4144094;
+    address internal constant GENESIS = 0x99e49417a3891F4Af7c28d2E931fe416D329F25e;
     address internal constant PNG_ENCODER = 0x72A25989288b6193eDe481BA7ad20EddECBa08BD;
-    address internal constant TURNTABLE = 0xc185a940D15251cda6b2D05A0A80Bb10B3266Cf5;
+    address internal constant TURNTABLE = 0x3B3eF4A787057a3EE78111CEF887677f61a5e4b1;
     address internal constant GLB_ENCODER = 0x7E7ACc21fAe51807B747DE1FCD13525A2f118650;
-    address internal constant STUDIO = 0x12961d5F0e6e1e508c783b5fFF8A06dFF67d465D;
-    address internal constant LIBRARY = 0xAcBA05B0649056e0FA6F46e1CC0A7f17300565c0;
-    address internal constant WEB = 0xe1cc3a2ce8B5973fD853bc97BEb430bf031a32D2;
-    address internal constant EDITIONS = 0x537f135105DFEBF0Eb949b6f911BD4d9990264Ea;
-    address internal constant GENESIS_METADATA = 0x2e04f52e89481cc02D61eB0Cd666d2Bb2d755E7F;
+    address internal constant STUDIO = 0x66f199AA29f913C9a465cEF80721B25783585Cd2;
+    address internal constant LIBRARY = 0xB78D56bdc217A4F908EE932bdBc43BCd53AE91Cf;
+    address internal constant WEB = 0x9Ee8cc83FCA315B4b5bBd742F52931F8f950a212;
+    address internal constant EDITIONS = 0x280c7Ae5F8fbc6A38D88C9BD864Bd770FF70d503;
+    address internal constant GENESIS_METADATA = 0xEf3C253EA5a42adD095709b0855552B28f5ABEdb;
 }

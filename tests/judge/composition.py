@@ -165,9 +165,7 @@ class Composition:
 
     def _unhidden(self, pieces: Pieces, rows: Seen, found: Fragments, floor: Array) -> tuple[Seen, Fragments, Array]:
         """Leave out what hidden texels show; and what may be hidden by one hides nothing for sure."""
-        surfaces = self.world.surfaces
-        has_alpha = np.array([s.texture is not None and s.texture.alpha is not None for s in surfaces], bool)
-        own = has_alpha[np.searchsorted([s.first for s in surfaces], pieces.face[rows.piece], side="right") - 1]
+        own = self._has_alpha(pieces.face[rows.piece])
         least, _, most = found.opacity[..., 0]
         if not own.any():
             return rows, found, floor
@@ -176,6 +174,11 @@ class Composition:
         floor[rows.pixel[maybe], rows.sample[maybe]] = -np.inf
         colors, opacity = found.colors[:, :, kept], found.opacity[:, kept]
         return rows.chosen(kept), Fragments(colors, opacity, found.lit[kept], found.dark[kept]), floor
+
+    def _has_alpha(self, face: Integers) -> Booleans:
+        surfaces = self.world.surfaces
+        has_alpha = np.array([s.texture is not None and s.texture.alpha is not None for s in surfaces], bool)
+        return np.asarray(has_alpha[np.searchsorted([s.first for s in surfaces], face, side="right") - 1])
 
     def _widen(self, pieces: Pieces, rows: Seen, sure: Booleans) -> None:
         """Let pixels that show one smooth surface, and only that, have the colour of any sample there or in the pixels
@@ -216,7 +219,9 @@ class Composition:
             found = Seen(np.maximum(first.floor, second.floor), *both)
         else:
             found = seen(pieces, self.frame, self.places)
-        rows = found.chosen(found.most >= found.floor.min(axis=2)[found.pixel, found.sample])
+        nearest = found.floor.min(axis=2)[found.pixel, found.sample]
+        # what hidden texels show hides nothing
+        rows = found.chosen((found.most >= nearest) | self._has_alpha(pieces.face[found.piece]))
         # where a front and a back face are in the same place, the front face is seen
         front = np.full(found.floor.shape[:2], -np.inf)
         is_front = pieces.front[rows.piece] | pieces.is_wire[rows.piece]

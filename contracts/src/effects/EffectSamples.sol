@@ -16,7 +16,9 @@ import "../words/EffectRegisters.sol";
 abstract contract EffectSamples is BlendedSamples {
     function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure override {
         uint256 mode = load(MODE);
-        if (mode & (IS_PARTLY_DARK | IS_BLENDED | IS_DEPTH_PASS) == 0) return drawEach(left, right, column, end, row, EXACT);
+        if (mode & (IS_PARTLY_DARK | IS_BLENDED | IS_DEPTH_PASS) == 0 || (mode & IS_DEPTH_PASS != 0 && load(ALPHA) != 0)) {
+            return drawEach(left, right, column, end, row, EXACT);
+        }
         if (mode & IS_PARTLY_DARK == 0) return drawEach(left, right, column, end, row, BLENDED);
         ShadowRows.prepare(column, end, row);
         drawEach(left, right, column, end, row, PARTLY_DARK);
@@ -56,13 +58,12 @@ abstract contract EffectSamples is BlendedSamples {
                 z |= color * ONES_64;
                 if (seen == TOPS_64) return Samples.paint(p, z);
             } else {
-                if (load(OPACITY) | load(FADE_RANGE) == 0) {
-                    // a hidden texel
-                    store(OPACITY, load(OBJECT_OPACITY));
-                    return;
-                }
-                // where a ground fades
-                z |= over(color, load(p));
+                // where a ground fades, or a texel is not opaque
+                bool isHidden = load(OPACITY) | load(FADE_RANGE) == 0;
+                color = over(color, load(p));
+                if (isHidden) return;
+                // as BlendedSamples if this is the first pass
+                z |= load(MODE) & IS_DEPTH_PASS == 0 ? color : FOUND_SAMPLES | (load(p) & SAMPLE_COLORS);
             }
             Samples.write(p, z, seen);
         }
@@ -72,13 +73,6 @@ abstract contract EffectSamples is BlendedSamples {
     /// blended.
     function over(uint256 color, uint256 behind) internal pure override returns (uint256 mixed) {
         mixed = super.over(color, behind);
-        store(OPACITY, load(OBJECT_OPACITY));
-    }
-
-    function isHidden(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure override returns (bool hidden) {
-        if (load(ALPHA) == 0) return false;
-        colorAt(attribute, covered, column, row);
-        hidden = load(OPACITY) == 0;
         store(OPACITY, load(OBJECT_OPACITY));
     }
 

@@ -71,7 +71,7 @@ library Texture {
             unchecked {
                 uint256 alpha = sample(load(ALPHA), s, t) & LANE_24;
                 if (alpha < load(ALPHA_LEAST)) store(OPACITY, 0);
-                else if (load(ALPHA_LEAST) == 1) store(OPACITY, (load(OPACITY) * alpha) >> Q16);
+                else if (load(ALPHA_LEAST) == 1) store(OPACITY, (load(OPACITY) * alpha - 1) >> Q16); // below OPAQUE: see EffectSamples
             }
         }
         return sample(load(TEXTURE), s, t);

@@ -202,7 +202,7 @@ abstract contract Pipeline is PrimitiveAssembly {
             VertexShader.run(mesh, records, 1 << shift, isSmooth());
             Indices.check(mesh, index);
             list = records + (mesh.vertexCount << shift);
-            if (isSmooth() && load(BACK_COUNT) != 0) list = VertexShader.addBacks(records, list, 1 << shift);
+            if (hasBacks()) list = VertexShader.addBacks(records, list, 1 << shift);
             end = list;
             bool cull = load(OBJECT_FLAGS) & CULL_BACKFACES != 0;
             bool isWireframe = load(OBJECT_FLAGS) & WIREFRAME != 0;
@@ -211,7 +211,7 @@ abstract contract Pipeline is PrimitiveAssembly {
             uint256 free = end;
             if (load(HAS_CLIPPED) != 0) {
                 uint256 cut;
-                (end, free, cut) = Clipper.run(mesh, records, shift, end, cull, isSmooth());
+                (end, free, cut) = Clipper.run(mesh, records, shift, end, cull, hasBacks());
                 drawn += cut;
             }
             if (isListed()) free = closeList(list, end, records, free);

@@ -28,11 +28,11 @@ uint256 constant NORMAL_LANES = 0xfffffffffffffc00000003ffffffffffffe00000001fff
 
 library Clipper {
     /// @notice Clips the faces that primitive assembly left, and appends the resulting triangles to its list.
-    /// @param isSmooth Whether vertices have normals.
+    /// @param hasBacks Whether the normals of faces that are turned away are turned, too.
     /// @return end The end of the list.
     /// @return free The first address after the list and the new vertices.
     /// @return drawn The number of faces with a visible part: see PrimitiveAssembly.
-    function run(Mesh memory mesh, uint256 records, uint256 shift, uint256 list, bool cull, bool isSmooth)
+    function run(Mesh memory mesh, uint256 records, uint256 shift, uint256 list, bool cull, bool hasBacks)
         internal
         pure
         returns (uint256 end, uint256 free, uint256 drawn)
@@ -50,7 +50,7 @@ library Clipper {
                 (uint256 start, uint256 corners) = cut(polygon);
                 if (corners < 3) continue;
                 for (uint256 i; i != corners; ++i) project(start + i * CORNER_SIZE, free + (i << shift));
-                if (isSmooth && load(BACK_COUNT) != 0) turnBack(free, corners, shift);
+                if (hasBacks) turnBack(free, corners, shift);
                 store(FACE, mesh.faces + FACE_SIZE * face);
                 bool isDrawn;
                 (end, isDrawn) = fan(start, corners, free, shift, end, cull);

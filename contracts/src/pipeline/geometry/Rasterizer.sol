@@ -11,6 +11,9 @@ abstract contract Rasterizer {
     /// @notice Returns whether the vertices of the current object have normals.
     function isSmooth() internal pure virtual returns (bool);
 
+    /// @notice Returns whether they have second records for faces that are turned away: see VertexShader.
+    function hasBacks() internal pure virtual returns (bool);
+
     /// @notice Selects how a triangle is shaded, and sets the registers for it: MODE, ATTRIBUTE_0, DELTA_1, DELTA_2 and others.
     /// @param a, b, c The screen words of its vertices, the topmost first, counter-clockwise.
     /// @param crossing The sum of CROSSES_COLUMNS, CROSSES_ROWS and IS_TURNED_AWAY, or of some of them.

@@ -19,17 +19,12 @@ abstract contract BlendedSamples is ExactSamples {
             // nearer than the stored depth; or equal to the depth found by the first pass
             uint256 seen = isFirst ? z + BELOW_TOPS_64 - old : TOPS_64 - ((old ^ (z | FOUND_SAMPLES)) & PASSES_OF_SAMPLES);
             seen &= covered;
-            if (seen == 0 || (isFirst && isHidden(attribute, covered, column, row))) return;
+            if (seen == 0) return;
             z |= isFirst
                 ? FOUND_SAMPLES | (old & SAMPLE_COLORS)
                 : DRAWN_SAMPLES | over(colorAt(attribute, covered, column, row), old);
             Samples.write(p, z, seen);
         }
-    }
-
-    /// @dev Returns whether nothing is visible of a fragment, so that it hides nothing.
-    function isHidden(uint256, uint256, uint256, uint256) internal pure virtual returns (bool) {
-        return false;
     }
 
     /// @dev Returns a colour blended over those of the four samples: color * OPACITY + behind * (1 - OPACITY), rounded to the nearest

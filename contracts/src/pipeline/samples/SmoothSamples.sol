@@ -59,6 +59,10 @@ abstract contract SmoothSamples is SampleRasterizer {
         return true;
     }
 
+    function hasBacks() internal pure override returns (bool) {
+        return load(BACK_COUNT) != 0;
+    }
+
     function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
         unchecked {
             (uint256 p, uint256 q, uint256 r) = Shading.attributesOf(a, b, c);

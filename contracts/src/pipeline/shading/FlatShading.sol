@@ -24,6 +24,10 @@ abstract contract FlatShading is Rasterizer {
         return false;
     }
 
+    function hasBacks() internal pure override returns (bool) {
+        return false;
+    }
+
     function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
         if (load(OBJECT_MODE) & IS_FLAT != 0) return shadeFlat(a, b, c, crossing);
         uint256 p;

@@ -18,6 +18,10 @@ abstract contract SmoothShading is Rasterizer {
         return load(OBJECT_MODE) & IS_SMOOTH != 0;
     }
 
+    function hasBacks() internal pure override returns (bool) {
+        return load(BACK_COUNT) != 0;
+    }
+
     function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure virtual override {
         unchecked {
             uint256 mode = load(OBJECT_MODE);
