@@ -14,8 +14,8 @@ from statistics import fmean
 from attrs import evolve
 from tools.pages import ROOT, update
 
-from shackled import Scene, load, render
-from shackled.datasets import pieces
+from shackled import Scene, render
+from shackled.datasets import pieces, require
 
 from . import shared
 
@@ -28,8 +28,8 @@ TRANSACTION = 1 << 24
 def groups() -> dict[str, list[Scene]]:
     """Return the scenes of each group, 128 x 128 pixels each; those of the cost table if they are there."""
     found = {
-        "28 icons": [load(piece.name) for piece in pieces("icons")],
-        "Genesis 0 to 23": [load(f"genesis/{number}") for number in range(24)],
+        "28 icons": [piece.make() for piece in pieces("icons")],
+        "Genesis 0 to 23": [require(f"genesis/{number}").make() for number in range(24)],
     }
     if shared.is_there():
         found["15 objects of the cost table, flat"] = [shared.scene(name) for name in shared.objects()]

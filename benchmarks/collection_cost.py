@@ -8,10 +8,9 @@ import numpy as np
 from tools.tokens.stage import LIMIT, PRICE, Stage, icon_scene, stage, store_scene
 from tools.tokens.world import GAS, Contract
 
-from shackled import load
 from shackled.artifacts import artifact
 from shackled.bench import call, gas
-from shackled.datasets import icons
+from shackled.datasets import icons, require
 from shackled.datasets.genesis import seed_of
 
 from .cost import Row
@@ -32,7 +31,7 @@ def piece_rows() -> list[Row]:
     """Measure the generation and the pictures of the pieces."""
     generate = artifact("Genesis").selectors["generate"]
     generation = [call("Genesis", generate + seed_of(number)).gas for number in range(PIECES)]
-    pictures = [gas(load(f"genesis/{number}")) for number in range(PIECES)]
+    pictures = [gas(require(f"genesis/{number}").make()) for number in range(PIECES)]
     worst = int(np.argmax(pictures))
     expensive = Row(
         f"most expensive Genesis piece of {PIECES:,}",

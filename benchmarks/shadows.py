@@ -14,7 +14,7 @@ from attrs import evolve
 from tools.pages import ROOT, update
 
 from shackled import Camera, Ground, Light, Material, Object, Scene, load, render
-from shackled.datasets import pieces
+from shackled.datasets import pieces, require
 from shackled.datasets.common.shapes import sphere
 
 PAGE = ROOT / "docs" / "shadows.md"
@@ -26,8 +26,8 @@ def groups() -> dict[str, list[Scene]]:
     return {
         f"{', '.join(models)}, smooth": [load(name, size=128, shading="smooth") for name in models],
         "the same, flat": [load(name, size=128, shading="flat") for name in models],
-        "28 icons": [load(piece.name) for piece in pieces("icons")],
-        "Genesis 0 to 23": [load(f"genesis/{number}") for number in range(24)],
+        "28 icons": [piece.make() for piece in pieces("icons")],
+        "Genesis 0 to 23": [require(f"genesis/{number}").make() for number in range(24)],
         "a point light amid six spheres": [amid_spheres()],
     }
 

@@ -20,8 +20,8 @@ library Addresses {
     address internal constant TURNTABLE = 0x3B3eF4A787057a3EE78111CEF887677f61a5e4b1;
     address internal constant GLB_ENCODER = 0x7E7ACc21fAe51807B747DE1FCD13525A2f118650;
     address internal constant STUDIO = 0x66f199AA29f913C9a465cEF80721B25783585Cd2;
-    address internal constant LIBRARY = 0xB78D56bdc217A4F908EE932bdBc43BCd53AE91Cf;
-    address internal constant WEB = 0x9Ee8cc83FCA315B4b5bBd742F52931F8f950a212;
+    address internal constant LIBRARY = 0xA3159417CDDca6D04A8Cea621Bc144f12Ed80F25;
+    address internal constant WEB = 0xf98fC210d1d135D446eCe553528b7a7C33972289;
     address internal constant EDITIONS = 0x280c7Ae5F8fbc6A38D88C9BD864Bd770FF70d503;
     address internal constant GENESIS_METADATA = 0xEf3C253EA5a42adD095709b0855552B28f5ABEdb;
 }

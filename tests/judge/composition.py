@@ -169,7 +169,7 @@ class Composition:
         least, _, most = found.opacity[..., 0]
         if not own.any():
             return rows, found, floor
-        maybe, kept = np.flatnonzero(own & (least < HIDDEN)), np.flatnonzero(~own | (most > 0))
+        maybe, kept = own & (least < HIDDEN), np.asarray(~own | (most > 0))
         floor = floor.copy()
         floor[rows.pixel[maybe], rows.sample[maybe]] = -np.inf
         colors, opacity = found.colors[:, :, kept], found.opacity[:, kept]

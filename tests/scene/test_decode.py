@@ -72,7 +72,17 @@ def test_every_piece() -> None:
 def test_every_field() -> None:
     scene = Scene(
         [
-            Object(TRIANGLE, (1, 2, -30), (0, 1, 0, 1), 0.5, Material("flat", 1, 2, 4, 128), False, True, 0.5),
+            Object(
+                TRIANGLE,
+                (1, 2, -30),
+                (0, 1, 0, 1),
+                0.5,
+                Material("flat", 1, 2, 4, 128),
+                False,
+                True,
+                0.5,
+                two_sided=True,
+            ),
             Object(TRIANGLE, material=Material("unlit", 0.25, 0.5, 0)),
         ],
         Camera((0, 0, 4), (0, 0, 0), (0, 2, 0), near=0.25, half_height=0.5),
@@ -287,7 +297,7 @@ OBJECT = HEAD + STRUCT + 1 + 5 + 1 + 1
         (changed(OBJECT + 9, 2), "smooth shading needs a mesh with normals"),
         (changed(OBJECT + 10, 2**35), "ambient coefficient of objects.0. must be from 0 to 4"),
         (changed(OBJECT + 13, 0), "shininess of objects.0. must be from 1 to 128"),
-        (changed(OBJECT + 14, 4), "flags of objects.0. must be from 0 to 3"),
+        (changed(OBJECT + 14, 8), "flags of objects.0. must be from 0 to 7"),
         (changed(OBJECT + 15, 2**62), "cut off: the mesh"),
         (changed(OBJECT + 16, 4 << 248), "format from 0 to 3"),
         (changed(OBJECT + 16, 0), "a mesh|packed mesh of 0 vertices"),

@@ -21,7 +21,7 @@ from ..errors import (
     WrongChainError,
 )
 from ..ethereum import checksum_address, intrinsic_gas, to_hex, word
-from ..scene import ANTIALIAS, LONG_KINDS, RECORD_HEADER, SHADINGS, WIREFRAME
+from ..scene import ANTIALIAS, LONG_KINDS, RECORD_HEADER, SHADINGS, TWO_SIDED, WIREFRAME
 from ._address_book import AddressBook
 from ._chain import ContractCaller, NodeResult
 from ._connection import Connection
@@ -42,9 +42,12 @@ METER = bytes.fromhex("5ac61ed000000000000000000000000000000002")
 GAS_LEFT = bytes.fromhex("5a5f525f5f5f5e60205ff3")
 
 
+#: Bytes of a light in calldata.
+LIGHT_SIZE = 5 * 32
+#: The least bytes of a mesh with normals of so many vertices as AntialiasedSmoothEngine takes with two sides.
+TWO_SIDED_MESH = 32767 * 12
 #: Bytes from the beginning of a scene in calldata to its projection, and to the offsets of its lights, objects and
 #: extensions; from the beginning of an object to its shading, specular coefficient, shininess and flags.
-LIGHT_SIZE = 5 * 32
 PROJECTION, LIGHTS, OBJECTS, EXTENSIONS = (place * 32 for place in (11, 18, 19, 20))
 OBJECT_FIELDS = tuple(place * 32 for place in (9, 12, 13, 14))
 
@@ -324,13 +327,16 @@ def engines(data: bytes) -> list[str]:
     needed = set() if alone else {"AntialiasedFragmentEngine"}
     first = objects + 32
     for at in range(first, min(first + 32 * _word(data, objects), len(data)), 32):
-        shading, specular, shininess, flags = (_word(data, first + _word(data, at) + each) for each in OBJECT_FIELDS)
+        thing = first + _word(data, at)
+        shading, specular, shininess, flags = (_word(data, thing + each) for each in OBJECT_FIELDS)
         is_smooth = shading == SHADINGS["smooth"] and lamps != 0
         is_broad = shininess == 1 and specular != 0
         if flags & WIREFRAME or (is_smooth and (is_broad or not is_quadratic)):
             needed.add("AntialiasedFragmentEngine")
         else:
             needed.add("AntialiasedSmoothEngine" if is_smooth else "AntialiasedEngine")
+            if is_smooth and flags == TWO_SIDED and _word(data, thing + _word(data, thing)) > TWO_SIDED_MESH:
+                needed.add("AntialiasedFragmentEngine")
     return [name for name in ANTIALIASED if name in needed] or ["AntialiasedEngine"]
 
 

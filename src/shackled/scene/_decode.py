@@ -255,8 +255,8 @@ def _object(words: _Words, where: str) -> Object:
         if shading == "smooth" and mesh.normals is None:
             raise InputError("smooth shading needs a mesh with normals")
         material = Material(shading, ambient, diffuse, specular, shininess)
-        sides = bool(flags & CULL_BACKFACES), bool(flags & WIREFRAME), bool(flags & TWO_SIDED)
-        return Object(mesh, position, rotation, scale, material, *sides)
+        cull, wireframe, two_sided = (bool(flags & each) for each in (CULL_BACKFACES, WIREFRAME, TWO_SIDED))
+        return Object(mesh, position, rotation, scale, material, cull, wireframe, two_sided=two_sided)
 
 
 def _records(data: bytes, counts: Mapping[str, int]) -> Records:

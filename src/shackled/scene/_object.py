@@ -51,12 +51,12 @@ class Object(Value):
     rotation: a quaternion (x, y, z, w) of any length but zero; the identity is (0, 0, 0, 1). Also given as three angles
         in degrees about x, then y, then z, or as a (3, 3) matrix.
     cull: whether faces that turn away from the viewer are left out. wireframe: draw the edges only, one pixel wide.
-    two_sided: whether faces that turn away from the viewer, if they are not left out, are lit as from their front: with
-        the opposite normals. Wires always have the light of the front.
     opacity: 0..1. Objects below 1, and those whose mesh has opacities, are drawn after the others, blended in the order
         of the scene; the farthest should come first.
     fade: of a ground, which casts no shadow: the distances from its position, in world units, at which it begins to
         fade into what is behind it, and at which nothing is left of it; (0 <= first < second). None for other objects.
+    two_sided: whether faces that turn away from the viewer, if they are not left out, are lit as from their front: with
+        the opposite normals. Wires always have the light of the front.
     """
 
     mesh: Mesh = field(converter=_mesh)
@@ -70,9 +70,9 @@ class Object(Value):
     material: Material = field(factory=Material, converter=_material)
     cull: bool = field(default=True, converter=flag, metadata=checked("cull of an object"))
     wireframe: bool = field(default=False, converter=flag, metadata=checked("wireframe of an object"))
-    two_sided: bool = field(default=False, converter=flag, metadata=checked("two_sided of an object"))
     opacity: float = field(default=1.0, converter=number, metadata=checked("the opacity of an object", *OPACITIES))
     fade: tuple[float, float] | None = field(default=None, converter=_fade)
+    two_sided: bool = field(default=False, converter=flag, metadata=checked("two_sided of an object"))
 
     def __attrs_post_init__(self) -> None:
         """Check that a texture has its coordinates."""
