@@ -141,7 +141,7 @@ def test_wrong_values() -> None:
         (bytes([10, 0, 0, 0, 1]) + (4).to_bytes(32, "big"), "ShadowRuleOutOfRange"),
         (2 * (bytes([10, 0, 0, 0, 1]) + (1).to_bytes(32, "big")), "SeveralShadows"),
         (bytes([11, 0, 0, 0, 1]) + bytes(32), "GroundOutOfRange"),
-        (bytes([13, 0, 0, 0, 0]), "UnknownExtension"),
+        (bytes([14, 0, 0, 0, 0]), "UnknownExtension"),
     ],
 )
 def test_wrong_records(record: bytes, error: str) -> None:

@@ -190,7 +190,12 @@ class NodeChain(ContractCaller):
         codes = {}
         if place is None:
             place = self._local.address(contract)
-            for name in [contract, *self._below(contract, data)]:
+            names = [contract, *self._below(contract, data)]
+            engine = next((name for name in names if name in ANTIALIASED), None)
+            if engine is not None:
+                # the first engine draws the background where nothing is seen; any of them can
+                codes[self._local.address(ANTIALIASED[0])] = self._local.code(engine)
+            for name in names:
                 codes[self._local.address(name)] = self._local.code(name)
         return metered(self.connection, place, data, gas_limit, codes, self._probed.field)
 
@@ -276,7 +281,9 @@ class NodeChain(ContractCaller):
         parts = artifact(contract).parts
         if contract == "Renderer":
             parts = engines(data)
-        return parts + [each for part in parts for each in self._below(part, b"")]
+        # whose calls have a scene in the same place
+        below = data if contract == "Turntable" else b""
+        return parts + [each for part in parts for each in self._below(part, below)]
 
     def _refused(self, data: bytes | None, gas_limit: int | None) -> ChainError:
         """Return the error for a call that reverted with `data`, or, with None, ran out of gas."""

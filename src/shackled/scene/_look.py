@@ -571,7 +571,7 @@ def look_at(
     if "shadow" in look:
         lights = [evolve(light, shadow=look["shadow"] and number == 0) for number, light in enumerate(scene.lights)]
         scene = evolve(scene, lights=lights)
-    scene = evolve(scene, camera=_camera(scene, look, view))
+    scene = evolve(scene, camera=_camera(scene, look, view, is_framed=around is not None))
     scene = evolve(scene, fog=_fog_between(scene, fog) if isinstance(fog, tuple) else fog)
     if look.get("max_triangles", ALL) == ALL:
         return scene
@@ -662,13 +662,15 @@ def _fog_between(scene: Scene, color: Color) -> Fog:
     return Fog(color, near, far if far > near else 2 * near + 1)
 
 
-def _camera(scene: Scene, look: Mapping[str, Any], view: Viewpoint | None) -> Camera:
-    """Return the camera that a look asks for. view: that of a scene that is staged."""
+def _camera(scene: Scene, look: Mapping[str, Any], view: Viewpoint | None, is_framed: bool) -> Camera:
+    """Return the camera that a look asks for. view: that of a scene that is staged. is_framed: whether it stays."""
     camera = scene.camera
     orthographic = look.get("orthographic", camera.projection == "orthographic")
     projection: Projection = "orthographic" if orthographic else "perspective"
     chosen = half_height_in(look, orthographic)
-    if view is not None:
+    if is_framed:
+        pass
+    elif view is not None:
         camera = frame(to_be_seen(scene), view)
     elif scene.objects and {"azimuth", "elevation", "margin"} & look.keys():
         view = view_of(look, scene.width, scene.height, orthographic)
