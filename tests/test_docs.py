@@ -18,6 +18,7 @@ import pytest
 from typer.main import get_command
 
 import shackled
+from animated_gltf import write
 from nodes import KEY, anvil, needs_anvil
 from shackled.cli.app import app
 
@@ -71,6 +72,7 @@ def test_the_code_of_a_page_runs(page: Path, tmp_path: Path, monkeypatch: pytest
     (tmp_path / "build").mkdir()
     (tmp_path / "build" / "teapot.obj").write_text(TRIANGLE)
     (tmp_path / "model.ply").write_text(MODEL)
+    write(tmp_path / "walk.gltf")
     if page.stem not in RUNNING:
         code.body = list(imports)
     names: dict[str, Any] = {
