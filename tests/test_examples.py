@@ -107,7 +107,7 @@ def test_call_from_contract() -> None:
 def test_a_token_with_a_picture_of_the_studio() -> None:
     world = World()
     studio = world.address("Studio")
-    for storing in store_scene(load("icons/diamond"), studio, chain=world.chain):
+    for storing in store_scene(require("icons/diamond").make(), studio, chain=world.chain):
         world.run(studio, storing.data, created=True)
     source = "examples/tokens/PictureToken.sol"
     assert len((ROOT / source).read_text("utf-8").splitlines()) <= 40
@@ -115,7 +115,7 @@ def test_a_token_with_a_picture_of_the_studio() -> None:
     token = world.deploy(creation, b"".join(address.rjust(32, b"\0") for address in (studio, storing.pointer)))
     first, second = (picture(token_uri(world, token, number, 3)) for number in (0, 2))
     assert first.shape == (512, 512, 3)
-    expected = render(load("icons/diamond"), size=128).pixels.repeat(4, 0).repeat(4, 1)
+    expected = render(require("icons/diamond").make(), size=128).pixels.repeat(4, 0).repeat(4, 1)
     # the first one is not turned
     assert np.array_equal(first, expected)
     assert 0.05 < (first != second).any(axis=2).mean() < 0.6

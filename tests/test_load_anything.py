@@ -303,6 +303,7 @@ VALUES: dict[str, Any] = {
     "emission": "maroon",
     "color": "tomato",
     "cull": False,
+    "two_sided": True,
     "wireframe": True,
     "opacity": 0.5,
 }

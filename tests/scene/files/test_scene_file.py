@@ -206,11 +206,11 @@ def test_rotation_as_quaternion(folder: Path) -> None:
         ({"objects": {}}, "objects must be a list, not {}"),
         ({"objects": [3]},
          "objects[0] must be a table with keys of mesh, position, rotation, up_axis, scale, material, fade, color, "
-         "cull, wireframe, opacity, not 3"),
+         "cull, two_sided, wireframe, opacity, not 3"),
         ({"objects": [{}]}, "objects[0] needs a mesh: the path of a file, relative to the scene file"),
         ({"objects": [thing(colour="#fff")]},
          "unknown key 'colour' in objects[0]; known are mesh, position, rotation, up_axis, scale, "
-         "material, fade, color, cull, wireframe, opacity"),
+         "material, fade, color, cull, two_sided, wireframe, opacity"),
         ({"objects": [thing(color="#fffff")]},
          "objects[0].color must be red, green and blue from 0 to 255, #rgb, #rrggbb, or the name of a colour, not "
          "'#fffff'"),
