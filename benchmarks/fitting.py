@@ -94,7 +94,7 @@ def judge(path: Path, rows: tuple[Lowered, ...]) -> list[tuple[float, float, flo
     """Return for each row its share of gas, FLIP, and mean error in levels, beside the picture that was asked for."""
     from flip_evaluator import evaluate
 
-    scene = load(path, size=SIDE)
+    scene = load(path, size=SIDE, max_triangles="all")
     asked = render(scene)
     right = asked.pixels.astype(float)
     found = []
