@@ -22,6 +22,7 @@ from tools.ledger import World
 from compiler import needs_compiler
 from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene, load, render
 from shackled.chain import EmbeddedChain, open_chain
+from shackled.datasets import require
 from shackled.image import decode_bmp
 from shackled.scene import from_euler, is_closed, render_call
 from shackled.studio import store_scene

@@ -68,7 +68,7 @@ THROUGH in vec3 f_color, f_to_eye, f_to_light[4], f_normal;
 flat in vec3 f_facing;
 flat in float f_number;
 out vec4 result;
-uniform bool perspective, lit, smooth_normals;
+uniform bool perspective, lit, smooth_normals, two_sided;
 uniform float near, ambient, diffuse, specular, threshold;
 uniform int lights, shininess;
 uniform vec3 ambient_light, light[4], axis[4];
@@ -94,6 +94,7 @@ void main() {
     int shining = 0;
     if (lit) {
         vec3 normal = unit(smooth_normals ? f_normal : f_facing);
+        if (two_sided && !gl_FrontFacing) normal = -normal;
         vec3 view = perspective ? unit(f_to_eye) : vec3(0.0, 0.0, 1.0);
         vec3 surface = ambient * ambient_light, highlight = vec3(0.0);
         for (int i = 0; i < lights; ++i) {
@@ -272,6 +273,7 @@ def _set_uniforms(program: moderngl.Program, world: World, solid: Solid) -> None
         "perspective": world.perspective,
         "lit": material.shading != "unlit",
         "smooth_normals": material.shading == "smooth",
+        "two_sided": solid.two_sided,
         "near": world.near if np.isfinite(world.near) else 0.0,
         "ambient": material.ambient,
         "diffuse": material.diffuse,

@@ -37,6 +37,7 @@ class Solid:
     facing: Array
     material: Material
     cull: bool
+    two_sided: bool
     first: int
 
 
@@ -105,6 +106,7 @@ def before_camera(scene: Scene) -> World:
                     facing=facing @ turn.T @ axes.T,
                     material=o.material,
                     cull=o.cull,
+                    two_sided=o.two_sided,
                     first=first,
                 )
             )

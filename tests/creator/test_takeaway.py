@@ -331,7 +331,7 @@ def test_the_solidity_snippets_make_the_picture(monkeypatch: pytest.MonkeyPatch)
             del evm._codes[place]
         assert returned_bytes(output, 0) == picture.image.bmp
     assert ["bytes[] calldata" in source for source in sources] == [False, True, True]
-    assert ["bytes calldata" in source for source in sources] == [False, False, True]
+    assert ["bytes calldata" in source for source in sources] == [False, True, True]
 
 
 def parts(scene: Scene, kinds: list[str]) -> bytes:

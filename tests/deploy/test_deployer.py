@@ -201,7 +201,9 @@ def test_chains_that_cannot_have_the_contracts(book: AddressBook, wanted: list[D
     with anvil("--hardfork", "shanghai") as old, pytest.raises(WrongChainError, match="they need the rules of Cancun"):
         Deployer(old.connection, book).plan(wanted)
     with anvil("--gas-limit", "3000000") as small:
-        message = r"^Engine needs [45],\d+,\d+ gas, and a block of chain 31337 has 3,000,000: it cannot be deployed there$"
+        message = (
+            r"^Engine needs [45],\d+,\d+ gas, and a block of chain 31337 has 3,000,000: it cannot be deployed there$"
+        )
         with pytest.raises(TransactionError, match=message):
             Deployer(small.connection, book).plan(wanted)
 

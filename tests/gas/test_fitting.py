@@ -101,7 +101,7 @@ def test_coarse_meshes_keep_their_triangles_until_the_end(default: Scene) -> Non
     found = fit_scene(resize(some, 256), "transaction")
     assert found.scene.objects == some.objects
     assert 64 <= found.scene.width < 256
-    many = dear(small, 1.5 * LIMITS["transaction"].gas)
+    many = dear(small, 2.5 * LIMITS["transaction"].gas)
     found = fit_scene(resize(many, 256), "transaction")
     assert found.scene.width == 64
     (mesh,) = {each.mesh for each in found.scene.objects}
@@ -134,7 +134,7 @@ def test_what_fits_nowhere_is_told(default: Scene) -> None:
 
 def test_without_the_package_that_simplifies(default: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("shackled.scene._simplify.find_spec", lambda name: None)
-    many = dear(resize(evolve(default, antialias=False), 64), 1.5 * LIMITS["transaction"].gas)
+    many = dear(resize(evolve(default, antialias=False), 64), 2.5 * LIMITS["transaction"].gas)
     with pytest.raises(InputError, match=r"at 64 x 64 instead of 256 x 256 pixels; .*fast-simplification"):
         fit_scene(resize(many, 256), "transaction")
 

@@ -116,7 +116,7 @@ CASES = {
     ),
     "a name like an option": board("map_Kd my -s.png", "my -s.png"),
     "other images": board(
-        "map_Kd wood.png\nmap_d wood.png\nmap_Bump -bm 1 wood.png\nnorm wood.png\nKe 1 1 1\nmap_Ke wood.png",
+        "map_Kd wood.png\nmap_Bump -bm 1 wood.png\nnorm wood.png\nKe 1 1 1\nmap_Ke wood.png",
         notes=tuple(
             f"1 {each} statement of its materials left out" for each in ("map_Bump", "map_Ke", "norm")
         ),
@@ -268,6 +268,30 @@ def test_what_is_loaded_and_told(name: str, tmp_path: Path, recwarn: pytest.Warn
         return
     assert mesh.uvs is not None
     np.testing.assert_allclose(mesh.uvs[mesh.faces][0, [0, 2]], case.uvs, atol=1e-12)
+
+
+GRADED, BINARY = [[10, 200], [90, 255]], [[0, 255], [255, 255]]
+
+
+@pytest.mark.parametrize(("levels", "cutoff"), [(GRADED, 0), (BINARY, 128)])
+@pytest.mark.parametrize("mode", ["L", "RGBA"])
+@pytest.mark.parametrize("image", ["map_Kd wood.png\n", ""])
+def test_the_alpha_of_map_d(tmp_path: Path, levels: list[list[int]], cutoff: int, mode: str, image: str) -> None:
+    """Of a grey image, or the alpha of one that has it; with an image or without."""
+    grey = Image.fromarray(np.array(levels, dtype=np.uint8))
+    whole = grey
+    if mode == "RGBA":
+        whole = Image.new("RGBA", (2, 2), "navy")
+        whole.putalpha(grey)
+    whole.save(tmp_path / "mask.png")
+    path = build(tmp_path, Case(BOARD, f"newmtl a\nKd 1 0 0\n{image}map_d mask.png\n", ("wood.png",)))
+    (part,) = read_model(path)
+    texture = part.material["texture"]
+    assert texture.alpha.tolist() == levels
+    assert texture.cutoff == cutoff
+    visible = texture.alpha > 0
+    assert (texture.pixels[visible] == (WOOD[visible] if image else 255)).all()
+    assert part.mesh.colors.tolist() == [[255] * 3 if image else list(RED)] * 4
 
 
 def test_the_normals_of_corners_that_have_none_are_computed(tmp_path: Path) -> None:
