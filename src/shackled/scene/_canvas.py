@@ -92,6 +92,9 @@ def _reduced(o: Object, scale: float, share: float) -> Object:
     faces = faces[proper(faces)]
     positions, values = np.ascontiguousarray(rows[:, :3] * scale), rows[:, 3:]
     points, became, nearest = collapsed(positions, faces, int(share * len(faces)), _AGGRESSIVENESS, keep_borders=True)
+    # the library has no place for some vertices of needles
+    lost = ~np.isfinite(points).all(axis=1)
+    points[lost] = positions[nearest[lost]]
     a, b, c = positions[faces].transpose(1, 0, 2)
     weights = np.bincount(faces.ravel(), np.repeat(length(np.cross(b - a, c - a)), 3), len(rows))
     old = np.flatnonzero((became >= 0) & (weights > 0))

@@ -131,6 +131,10 @@ _WORDS: dict[Kind, str] = {
     "entry": "a name, or a number from 0",
 }
 
+#: Models of more vertices have one side by default: the second records of vertices would take much memory, whose gas is
+#: quadratic.
+MOST_TWO_SIDED = 16384
+
 #: The value of `max_triangles` that leaves meshes as they are.
 ALL: Final = "all"
 
@@ -373,7 +377,7 @@ SETTINGS = (
         "object",
         "Surface",
         "Light what is seen from behind as from the front.",
-        default="true for what is not culled of mesh files",
+        default="true for what is not culled of mesh files, up to 16,384 vertices",
         option="--two-sided/--one-sided",
     ),
     Setting("wireframe", "flag", "object", "Surface", "Draw edges only.", option="--wireframe/--filled"),
@@ -564,7 +568,8 @@ def look_at(
     fog = chosen.pop("fog", scene.fog)
     objects = [_object(each, own_look) for each, own_look in zip(scene.objects, looks, strict=True)]
     if view is not None and staging.by_normals and "two_sided" not in look:
-        objects = [evolve(each, two_sided=not each.cull) for each in objects]
+        count = sum(len(each.mesh.positions) for each in objects if not each.cull)
+        objects = [evolve(each, two_sided=not each.cull and count <= MOST_TWO_SIDED) for each in objects]
     scene = evolve(scene, objects=objects, tone=_tone(scene.tone, look), **chosen)
     if view is not None and staging.by_normals and "background" not in look:
         scene = evolve(scene, background=contrasting(scene.objects))
