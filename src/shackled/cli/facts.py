@@ -88,7 +88,7 @@ def facts_of(place: Path | Piece) -> Facts:
         materials=len({(each.material, each.opacity) for each in objects}),
         textures=[[*each.pixels.shape[1::-1]] for each in textures],
         colors=len(np.unique(np.concatenate([each.mesh.rgba[:, :3] for each in objects]), axis=0)),
-        opaque=all(each.opacity == 1 and each.mesh.opacities is None for each in objects),
+        opaque=all(each.is_opaque for each in objects),
         normals=sum(each.mesh.normals is not None for each in objects),
         animations=animations_of(place) if isinstance(place, Path) and place.suffix.lower() in GLTF else [],
     )
