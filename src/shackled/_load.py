@@ -118,7 +118,7 @@ def locate(input: str | os.PathLike[str]) -> Path | Piece:
 def _unplaced(part: MeshPart, up: Axis = "y") -> Object:
     """Return a part of a model as an object, which `look_at` is to place. up: the axis that points up."""
     material = evolve(MESH_STAGING.material, **part.material)
-    return Object(part.mesh, rotation=upright(up), material=material, opacity=part.opacity)
+    return Object(part.mesh, (0, 0, 0), upright(up), material=material, opacity=part.opacity, two_sided=part.two_sided)
 
 
 def _model(path: Path, look: Mapping[str, Any], **pose: Any) -> list[Object]:

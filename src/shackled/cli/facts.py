@@ -22,6 +22,7 @@ from ..scene import (
     animations_of,
     axis_of_format,
     base_axis,
+    faces_of_all,
     is_closed,
     read_model,
 )
@@ -65,8 +66,7 @@ def facts_of(place: Path | Piece) -> Facts:
     if not objects:
         raise InputError(f"{place} has no objects")
     positions = np.concatenate([each.world_positions() for each in objects])
-    starts = np.cumsum([0, *(len(each.mesh.positions) for each in objects)])
-    faces = np.concatenate([each.mesh.faces + start for each, start in zip(objects, starts, strict=False)])
+    faces = faces_of_all(each.mesh for each in objects)
     low, high = positions.min(axis=0), positions.max(axis=0)
     single, crowded, disagreeing = _edges(positions, faces)
     textures = [each.material.texture for each in objects if each.material.texture is not None]

@@ -38,7 +38,7 @@ from ._ground import Ground
 from ._light import INNER_ANGLE, LIGHT_KINDS, OUTER_ANGLE, WHITE, Light, LightKind
 from ._look import ALL, SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, settings_of, size_of, stage
 from ._material import Material, Shading
-from ._mesh import DEFAULT_COLOR, Mesh, components, vertex_normals, without_slivers
+from ._mesh import DEFAULT_COLOR, Mesh, components, faces_of_all, vertex_normals, without_slivers
 from ._object import Object
 from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack, unpack
 from ._packed_texture import pack_texture, unpack_texture
@@ -156,6 +156,7 @@ __all__ = [
     "encode_scene_file",
     "euler",
     "extensions",
+    "faces_of_all",
     "fans",
     "fit",
     "fit_factor",

@@ -8,7 +8,7 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
 
-from ._mesh import MAX_FACES, MAX_VERTICES, Mesh
+from ._mesh import MAX_FACES, MAX_VERTICES, part_of_faces
 from ._object import Object
 
 
@@ -22,13 +22,6 @@ def divided(o: Object) -> list[Object]:
     if len(mesh.positions) <= MAX_VERTICES and mesh.triangles <= MAX_FACES:
         return [o]
     return [evolve(o, mesh=part_of_faces(mesh, faces)) for faces in _runs(mesh.faces)]
-
-
-def part_of_faces(mesh: Mesh, faces: NDArray[np.int64]) -> Mesh:
-    """Return some faces, (k, 3), of a mesh, with the vertices that they use."""
-    used, corners = np.unique(faces, return_inverse=True)
-    normals, uvs = (None if each is None else each[used] for each in (mesh.normals, mesh.uvs))
-    return Mesh(mesh.positions[used], corners.reshape(-1, 3), mesh.rgba[used], normals, uvs)
 
 
 def _runs(faces: NDArray[np.int64]) -> Iterator[NDArray[np.int64]]:

@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from ._arithmetic import dot, length, unit
 from ._camera import Camera
-from ._divide import divided, part_of_faces
+from ._divide import divided
 from ._effects import Fog
 from ._light import Light
-from ._mesh import vertex_normals
+from ._mesh import part_of_faces, vertex_normals
 from ._object import Object
 from ._packed_mesh import MAX_SHORT, MAX_WIDE, fits, is_integral
 from ._rotation import rotate

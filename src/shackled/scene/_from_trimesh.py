@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
@@ -16,7 +15,7 @@ from ._files.weld import weld
 from ._material import Material
 from ._mesh import Mesh
 from ._object import Object
-from ._texture import as_rgb, as_rgba
+from ._texture import as_rgb, as_rgba, cutoff_of
 
 
 def is_trimesh(value: object) -> bool:
@@ -71,13 +70,11 @@ def part_of(value: Any) -> MeshPart:
     faces = np.asarray(value.faces)
     if image is None or uvs is None or len(uvs) != len(value.vertices):
         return MeshPart(mesh_of(value), fields, opacity, two_sided)
-    cutoff = getattr(material, "alphaCutoff", None) or 0.5
-    has_alpha = mode in ("MASK", "BLEND") and is_transparent(image)
-    picture = Picture(
-        (as_rgba if has_alpha else as_rgb)(image),
-        "the texture of the mesh",
-        cutoff=min(max(math.ceil(255 * cutoff), 1), 255) if mode == "MASK" else 0,
-    )
+    cutoff = getattr(material, "alphaCutoff", None)
+    cutoff = 0.5 if cutoff is None else float(cutoff)
+    has_alpha = mode == "BLEND" or (mode == "MASK" and cutoff > 0)
+    image = (as_rgba if has_alpha and is_transparent(image) else as_rgb)(image)
+    picture = Picture(image, "the texture of the mesh", cutoff=cutoff_of(cutoff) if mode == "MASK" else 0)
     corners = finite_uvs(uvs, picture.name)[faces] * (1, -1) + (0, 1)
     texture, coordinates = picture.texture(corners, 1)
     colors = np.broadcast_to(to_srgb(color), (*faces.shape, 3))

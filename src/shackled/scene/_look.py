@@ -569,7 +569,9 @@ def look_at(
     objects = [_object(each, own_look) for each, own_look in zip(scene.objects, looks, strict=True)]
     if view is not None and staging.by_normals and "two_sided" not in look:
         count = sum(len(each.mesh.positions) for each in objects if not each.cull)
-        objects = [evolve(each, two_sided=not each.cull and count <= MOST_TWO_SIDED) for each in objects]
+        objects = [
+            evolve(each, two_sided=not each.cull and (each.two_sided or count <= MOST_TWO_SIDED)) for each in objects
+        ]
     scene = evolve(scene, objects=objects, tone=_tone(scene.tone, look), **chosen)
     if view is not None and staging.by_normals and "background" not in look:
         scene = evolve(scene, background=contrasting(scene.objects))
@@ -673,10 +675,8 @@ def _camera(scene: Scene, look: Mapping[str, Any], view: Viewpoint | None, is_fr
     orthographic = look.get("orthographic", camera.projection == "orthographic")
     projection: Projection = "orthographic" if orthographic else "perspective"
     chosen = half_height_in(look, orthographic)
-    if is_framed:
-        pass
-    elif view is not None:
-        camera = frame(to_be_seen(scene), view)
+    if view is not None:
+        camera = camera if is_framed else frame(to_be_seen(scene), view)
     elif scene.objects and {"azimuth", "elevation", "margin"} & look.keys():
         view = view_of(look, scene.width, scene.height, orthographic)
         if not orthographic and chosen is None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -219,6 +219,22 @@ def without_slivers(faces: NDArray[np.int64]) -> NDArray[np.int64]:
     """Return the faces, (m, 3), that have three different vertices."""
     a, b, c = faces.T
     return np.asarray(faces[(a != b) & (b != c) & (c != a)])
+
+
+def faces_of_all(meshes: Iterable[Mesh]) -> NDArray[np.int64]:
+    """Return the faces of several meshes, (m, 3), whose vertices are numbered one mesh after the other."""
+    begin, faces = 0, [np.empty((0, 3), np.int64)]
+    for mesh in meshes:
+        faces.append(mesh.faces + begin)
+        begin += len(mesh.positions)
+    return np.concatenate(faces)
+
+
+def part_of_faces(mesh: Mesh, faces: NDArray[np.int64]) -> Mesh:
+    """Return some faces, (k, 3), of a mesh, with the vertices that they use."""
+    used, corners = np.unique(faces, return_inverse=True)
+    normals, uvs = (None if each is None else each[used] for each in (mesh.normals, mesh.uvs))
+    return Mesh(mesh.positions[used], corners.reshape(-1, 3), mesh.rgba[used], normals, uvs)
 
 
 def components(links: NDArray[np.int64], count: int) -> NDArray[np.int64]:

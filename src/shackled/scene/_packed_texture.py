@@ -28,27 +28,25 @@ def pack_texture(texture: Texture, uvs: Floats) -> bytes:
 
     An image of up to 256 colours has a palette. InputError for coordinates out of range.
     """
-    flags = TEXTURE_BILINEAR * (texture.filter == "bilinear") + TEXTURE_CLAMP * (texture.wrap == "clamp")
-    content = _pack_image(texture.pixels, flags) + _pack_uvs(uvs)
+    content = _pack_image(texture, texture.pixels) + _pack_uvs(uvs)
     return content + bytes(-len(content) % 32)
 
 
 def pack_alpha(texture: Texture) -> bytes:
     """Return the bytes of the record ALPHA of a texture that has an alpha, in whole words of 32 bytes."""
     assert texture.alpha is not None
-    flags = TEXTURE_BILINEAR * (texture.filter == "bilinear") + TEXTURE_CLAMP * (texture.wrap == "clamp")
-    content = bytes([texture.cutoff]) + _pack_image(np.repeat(texture.alpha[..., None], 3, axis=2), flags)
+    content = bytes([texture.cutoff]) + _pack_image(texture, np.repeat(texture.alpha[..., None], 3, axis=2))
     return content + bytes(-len(content) % 32)
 
 
-def _pack_image(pixels: NDArray[np.uint8], flags: int) -> bytes:
-    """Return header, palette and texels of an image, (h, w, 3)."""
-    height, width = pixels.shape[:2]
+def _pack_image(texture: Texture, pixels: NDArray[np.uint8]) -> bytes:
+    """Return header, palette and texels of an image, (h, w, 3), with the filter and the wrap of a texture."""
+    flags = TEXTURE_BILINEAR * (texture.filter == "bilinear") + TEXTURE_CLAMP * (texture.wrap == "clamp")
     texels = pixels.reshape(-1, 3)
     colors, numbers = np.unique(texels, axis=0, return_inverse=True)
     bits = next((each for each in INDEX_BITS if len(colors) <= 1 << each), COLOR_BITS)
     content = texels.tobytes() if bits == COLOR_BITS else _indexed(colors, numbers.reshape(-1), bits)
-    return bytes([flags, width - 1, height - 1, bits]) + content
+    return bytes([flags, texture.width - 1, texture.height - 1, bits]) + content
 
 
 def _indexed(colors: NDArray[np.uint8], numbers: NDArray[np.int64], bits: int) -> bytes:

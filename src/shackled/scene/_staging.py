@@ -19,7 +19,7 @@ from ._background import Background
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
 from ._light import WHITE, Light
 from ._material import Material
-from ._mesh import Mesh
+from ._mesh import Mesh, faces_of_all
 from ._object import Object
 from ._rotation import multiply, rotate
 from ._scene import DEFAULT_SIDE, Scene
@@ -281,8 +281,7 @@ def are_closed(objects: Sequence[Object]) -> bool:
     low, high = positions.min(axis=0), positions.max(axis=0)
     step = math.ldexp(1.0, math.frexp(float((high - low).max()))[1] - 16)
     places = np.rint((positions - low) / step)
-    begins = np.cumsum([0, *(len(o.mesh.positions) for o in objects[:-1])])
-    faces = np.concatenate([o.mesh.faces + begin for o, begin in zip(objects, begins, strict=True)])
+    faces = faces_of_all(o.mesh for o in objects)
     a, b, c = (places[faces[:, corner]] for corner in range(3))
     return _is_closed(places, faces) and float(dot(a, np.cross(b, c)).sum()) > 0
 

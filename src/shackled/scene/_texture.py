@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import warnings
 from collections.abc import Callable
@@ -113,9 +114,12 @@ class Texture(Value):
         alpha: whether it has the alpha of the image, if that is transparent anywhere; hidden texels get the colours of
         the nearest visible ones. cutoff: see `Texture`. InputError if the file does not exist or is not an image.
         """
+        convert = as_rgba if alpha else as_rgb
         if isinstance(image, str | os.PathLike):
-            image = open_image(Path(image), str(image), as_rgba if alpha else as_rgb)
-        return cls.of_image(reduced((as_rgba if alpha else as_rgb)(image), side), filter, wrap, cutoff)
+            opened = open_image(Path(image), str(image), convert)
+        else:
+            opened = convert(image)
+        return cls.of_image(reduced(opened, side), filter, wrap, cutoff)
 
     @classmethod
     def of_image(cls, image: Image.Image, filter: Filter, wrap: Wrap, cutoff: int = 0) -> Texture:
@@ -156,6 +160,11 @@ def _unhidden(pixels: NDArray[np.uint8], wrap: Wrap) -> NDArray[np.uint8]:
         sums[found] = around[found][:, :3] / around[found][:, 3:]
         known |= found
     return np.rint(sums).astype(np.uint8)
+
+
+def cutoff_of(alpha: float) -> int:
+    """Return the cutoff, 1..255, of a mask that hides what has an alpha, 0..1, below a number above 0."""
+    return min(max(math.ceil(255 * alpha - 1e-6), 1), 255)
 
 
 def open_image(

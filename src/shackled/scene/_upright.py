@@ -13,6 +13,7 @@ from ..checks import Floats, vector
 from ..errors import InputError, warn
 from ._arithmetic import unit
 from ._files.model import MeshPart
+from ._mesh import faces_of_all
 from ._rotation import from_euler
 
 Axis = Literal["x", "y", "z"]
@@ -60,9 +61,8 @@ def axis_of_file(path: Path, parts: Sequence[MeshPart]) -> Axis:
     if axis != "y":
         warn(f"{path} is taken as {axis} up; `up_axis` y keeps it as it is")
     elif path.suffix.lower() in _EITHER:
-        starts = np.cumsum([0, *(len(part.mesh.positions) for part in parts)])
-        faces = [part.mesh.faces + start for part, start in zip(parts, starts, strict=False)]
-        if base_axis(np.concatenate([part.mesh.positions for part in parts]), np.concatenate(faces)) == "z":
+        meshes = [part.mesh for part in parts]
+        if base_axis(np.concatenate([mesh.positions for mesh in meshes]), faces_of_all(meshes)) == "z":
             warn(f"{path} is taken as y up, but stands on a flat base along z; `up_axis` z turns it upright")
     return axis
 

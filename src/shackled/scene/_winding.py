@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..errors import warn
 from ..values import plural
 from ._arithmetic import dot
-from ._mesh import Mesh, components
+from ._mesh import Mesh, components, faces_of_all, part_of_faces
 from ._object import Object
 
 Floats = NDArray[np.float64]
@@ -37,9 +37,8 @@ def wound(objects: Sequence[Object], name: str, split: bool) -> list[Object]:
     """
     meshes = [each.mesh for each in objects]
     positions = np.concatenate([mesh.positions for mesh in meshes])
-    starts = np.cumsum([0, *(len(mesh.positions) for mesh in meshes)])
     number = np.unique(positions + 0.0, axis=0, return_inverse=True)[1].reshape(-1)
-    faces = np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts, strict=False)])
+    faces = faces_of_all(meshes)
     with np.errstate(over="ignore", invalid="ignore"):
         points = (positions - positions[0]) / (np.abs(positions - positions[0]).max() or 1.0)
         part, are_closed, are_inverted = _parts(points[faces], number[faces])
@@ -49,7 +48,7 @@ def wound(objects: Sequence[Object], name: str, split: bool) -> list[Object]:
     for each, own in zip(objects, np.split(part, np.cumsum([len(mesh.faces) for mesh in meshes])[:-1]), strict=True):
         closed, mesh = are_closed[own], _turned(each.mesh, are_inverted[own])
         if split and each.is_opaque and SPLIT_FACES <= closed.sum() < len(closed):
-            halves = [(_part(mesh, kept), cull) for kept, cull in ((closed, True), (~closed, False))]
+            halves = [(part_of_faces(mesh, mesh.faces[closed == cull]), cull) for cull in (True, False)]
         else:
             halves = [(mesh, bool(closed.all()))]
         made += [evolve(each, mesh=half, cull=cull) for half, cull in halves]
@@ -131,14 +130,3 @@ def _turned(mesh: Mesh, turned: Flags) -> Mesh:
     if dot(normals[faces[turned]].sum(axis=1), np.cross(b - a, c - a)).sum() < 0:
         normals[np.unique(faces[turned])] *= -1
     return evolve(mesh, faces=faces, normals=normals)
-
-
-def _part(mesh: Mesh, kept: Flags) -> Mesh:
-    """Return the mesh with some of its faces, (m,)."""
-    used, faces = np.unique(mesh.faces[kept], return_inverse=True)
-    fields = {
-        name: values[used]
-        for name in ("positions", "colors", "normals", "uvs", "opacities")
-        if (values := getattr(mesh, name)) is not None
-    }
-    return evolve(mesh, faces=faces.reshape(-1, 3), **fields)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...checks import color as checked_color
-from ...scene import Mesh, vertex_normals, without_slivers
+from ...scene import Mesh, faces_of_all, vertex_normals, without_slivers
 
 Array = NDArray[np.float64]
 #: From u and v, each (n, m) from 0 to 1, to points (n, m, 3).
@@ -286,11 +286,10 @@ def shaded(mesh: Mesh, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1,
 
 def joined(*meshes: Mesh) -> Mesh:
     """Return several meshes as one, with their opacities, and with normals if all have some."""
-    starts = np.cumsum([0, *(len(mesh.positions) for mesh in meshes)])
     normals = [mesh.normals for mesh in meshes if mesh.normals is not None]
     return Mesh(
         np.concatenate([mesh.positions for mesh in meshes]),
-        np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts, strict=False)]),
+        faces_of_all(meshes),
         np.concatenate([mesh.rgba for mesh in meshes]),
         np.concatenate(normals) if len(normals) == len(meshes) else None,
     )

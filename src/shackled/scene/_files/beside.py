@@ -29,16 +29,18 @@ def picture_beside(
 
     name: "" for a white one. alpha: the name of the image of its alpha, which has an alpha itself, or is grey.
     """
+
+    def found(name: str, convert: Callable[[Image.Image], Image.Image] | None = None) -> Found:
+        return read_beside(folders, name, lambda each: (each, open_image(each, str(each), convert)))
+
     shown = None
     try:
-        if name:
-            shown = read_beside(folders, name, lambda each: (each, open_image(each, str(each))))
+        shown = found(name) if name else None
     except InputError as error:
         warn(f"{path}: a texture is left out: {error}")
     try:
         if alpha:
-            hidden = read_beside(folders, alpha, lambda each: (each, open_image(each, str(each), as_rgba)))
-            return _with_alpha(path, shown, hidden, wrap)
+            return _with_alpha(path, shown, found(alpha, as_rgba), wrap)
     except InputError as error:
         warn(f"{path}: an alpha is left out: {error}")
     return shown and Picture(shown[1], f"{path}: {shown[0].name}", wraps=(wrap, wrap))

@@ -12,7 +12,7 @@ from PIL import Image
 
 from ...errors import warn
 from .._crease import filled
-from .._mesh import DEFAULT_COLOR, Mesh
+from .._mesh import DEFAULT_COLOR, Mesh, faces_of_all
 from .._texture import MAX_TEXTURE_SIDE, Filter, Texture, Wrap, reduced
 from .colors import sample
 from .weld import weld
@@ -232,8 +232,7 @@ def baked(parts: Sequence[MeshPart]) -> tuple[Mesh, bool]:
     textured = [part for part in parts if "texture" in part.material]
     if len(parts) == 1 and not textured and parts[0].opacity == 1:
         return parts[0].mesh, False
-    starts = np.cumsum([0, *(len(part.mesh.positions) for part in parts)])
-    faces = np.concatenate([part.mesh.faces + start for part, start in zip(parts, starts, strict=False)])
+    faces = faces_of_all(part.mesh for part in parts)
     colors = np.concatenate([_baked_colors(part) for part in parts])
     positions = np.concatenate([part.mesh.positions for part in parts])
     normals = [part.mesh.normals for part in parts]

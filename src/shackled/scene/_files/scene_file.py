@@ -324,10 +324,11 @@ def _objects(value: object, where: str, folder: Path) -> list[Object]:
     with about(where):
         objects = []
         for part in parts:
+            own_fields = {"opacity": part.opacity, "two_sided": part.two_sided}
             own = {name: part.material[name] for name in ("texture", "emission") if name in part.material}
             given_texture = {} if texture is None else {"texture": texture}
             material = Material(**(own | fields | given_texture))
-            thing = Object(part.mesh, position, rotation, scale, material, **{"opacity": part.opacity, **given})
+            thing = Object(part.mesh, position, rotation, scale, material, **(own_fields | given))
             thing = shaded(thing, shading)
             objects.append(thing if color is None else painted_object(thing, color))
         return objects

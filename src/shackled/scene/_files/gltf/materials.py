@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ....checks import Color
 from ....errors import InputError
 from ..._mesh import DEFAULT_COLOR
+from ..._texture import cutoff_of
 from ..colors import to_srgb
 from ..model import Picture, finite_uvs
 from ..table import Table
@@ -146,8 +147,7 @@ def picture_on(vertices: Vertices, surface: Surface | None, where: str) -> tuple
     picture = picture_of(vertices.gltf, vertices.gltf.item(info, "index", "textures"), surface.has_alpha)
     if picture is not None and surface.cutoff is not None and surface.has_alpha:
         # of the texture times the factor
-        cutoff = math.ceil(255 * surface.cutoff / max(surface.factor[3], 1e-9) - 1e-6)
-        picture = replace(picture, cutoff=min(max(cutoff, 1), 255))
+        picture = replace(picture, cutoff=cutoff_of(surface.cutoff / max(surface.factor[3], 1e-9)))
     if coordinates is None:
         vertices.gltf.leave_out("primitive", where, "the texture of {} without coordinates")
     if picture is None or coordinates is None:
