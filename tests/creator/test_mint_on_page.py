@@ -22,7 +22,7 @@ TRANSFER = "0xddf252ad1be2c89b69c2b068fc378daa952ba7f163c4a11628f55a4df523b3ef"
 
 #: A wallet that announces itself as EIP-6963 has it, and has each request answered by the test. Where `thinking` is set
 #: its owner thinks before a transaction is sent. `breakWire` closes the connection to the server, and new ones go to a
-#: port on which nobody listens until `mendWire`.
+#: path that does not exist until `mendWire`; the page's policy forbids other servers.
 WALLET = """
 const provider = { request: async ({ method, params }) => {
     while (window.thinking && method === 'eth_sendTransaction') await new Promise(done => setTimeout(done, 20));
@@ -37,7 +37,7 @@ announce();
 const wires = [];
 let broken = false;
 window.WebSocket = class extends WebSocket {
-    constructor(url) { super(broken ? 'ws://127.0.0.1:9/' : url); wires.push(this); }
+    constructor(url) { super(broken ? url.replace('/live', '/none') : url); wires.push(this); }
 };
 window.breakWire = () => {
     broken = true;
@@ -111,7 +111,7 @@ def open_mint(browser: Any, server: Started, chain: Any) -> Any:
         page.expose_function("answer", chain.answer)
         page.add_init_script(WALLET)
     page.goto(server.address)
-    page.wait_for_selector("#picture[data-draft=false]")
+    page.wait_for_selector("#picture[data-number][data-draft=false]")
     page.click("text=Download")
     page.wait_for_selector("#takeaway >> text=Shackled Icons")
     return page

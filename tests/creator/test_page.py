@@ -708,6 +708,8 @@ def test_a_node_makes_the_same_picture(browser: Any) -> None:
         page = browser.new_page()
         page.set_default_timeout(PATIENCE)
         page.goto(started.address)
+        # before it there is no connection
+        page.wait_for_selector("#picture[data-number][data-draft=false]")
         page.click("text=Render on the node")
         page.wait_for_selector(".toast")
         assert "the same bytes as here" in page.inner_text(".toast")

@@ -34,6 +34,7 @@ def open_page(browser: Any, address: str, chain: RevealChain | None) -> Any:
         page.expose_function("answer", chain.answer)
         page.add_init_script(WALLET)
     page.goto(address)
+    page.wait_for_selector("#picture[data-number][data-draft=false]")
     return page
 
 
