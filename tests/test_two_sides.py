@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from pictures import draw
 from shackled import Camera, Light, Material, Mesh, Object, Scene
-from shackled.scene import Hemisphere, Texture, fit, vertex_normals
+from shackled.scene import Hemisphere, Texture, fit, look_at, vertex_normals
+from shackled.scene._look import MOST_TWO_SIDED
 
 LOOKS: dict[str, tuple[dict[str, Any], dict[str, Any], dict[str, Any]]] = {
     # fields of the material, of the object, of the scene
@@ -53,6 +54,17 @@ def picture(
     thing = Object(mesh, material=Material(**{**material, **more}), cull=False, two_sided=two_sided, **fields)
     camera = Camera.perspective(eye, (0, 0, 0), fov=50)
     return np.asarray(draw(fit(Scene([thing], camera, LIGHTS, width=48, height=48, **scene))))
+
+
+def test_large_meshes_have_two_sides_only_if_their_file_says_so() -> None:
+    """By default; each vertex would have a second record in memory."""
+    small, large = sheet(128), sheet(129)
+    assert len(small.positions) == MOST_TWO_SIDED < len(large.positions)
+    for mesh, stated, expected in ((small, False, True), (large, False, False), (large, True, True)):
+        (thing,) = look_at([Object(mesh, two_sided=stated)], {}).objects
+        assert (thing.cull, thing.two_sided) == (False, expected)
+    (thing,) = look_at([Object(large, two_sided=True)], {"two_sided": False}).objects
+    assert not thing.two_sided
 
 
 @pytest.mark.parametrize("look", LOOKS)

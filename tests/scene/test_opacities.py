@@ -265,6 +265,17 @@ def test_materials_of_trimesh(mode: str | None, image: Image.Image | None) -> No
     assert part.mesh.colors.tolist() == [[255, 0, 0]] * 4
 
 
+@pytest.mark.parametrize(("given", "expected"), [(None, 128), (0.25, 64), (1.0, 255), (0.0, None)])
+def test_masks_of_trimesh(given: float | None, expected: int | None) -> None:
+    """Without a cutoff it is a half, as in glTF; one of 0 hides nothing."""
+    image = Image.new("RGBA", (2, 2), (1, 2, 3, 4))
+    visuals: Any = trimesh.visual
+    material = visuals.material.PBRMaterial(alphaMode="MASK", alphaCutoff=given, baseColorTexture=image)
+    visual = visuals.TextureVisuals(uv=np.zeros((4, 2)), material=material)
+    texture = part_of(trimesh.Trimesh(CORNERS, FACES, visual=visual, process=False)).material["texture"]
+    assert (None if texture.alpha is None else texture.cutoff) == expected
+
+
 # ---- pictures ----
 
 

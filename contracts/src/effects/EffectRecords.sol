@@ -61,11 +61,11 @@ uint256 constant MAX_EXPOSURE = 64 << 16;
 /// @dev Bytes before the palette; bits of a texel that contains a colour; bytes of a pair of coordinates; 2^bits for all bits that a texel
 /// can have, ORed.
 uint256 constant TEXTURE_HEADER = 4;
-/// @dev Bytes before the image of an ALPHA.
-uint256 constant ALPHA_HEADER = 1;
 uint256 constant TEXTURE_COLOR_BITS = 24;
 uint256 constant UV_SIZE = 6;
 uint256 constant BITS_ALLOWED = 0x1000116;
+/// @dev Bytes before the image of an ALPHA.
+uint256 constant ALPHA_HEADER = 1;
 /// @dev The maximum radius of a GROUND: 2^26 units, Q32.
 uint256 constant MAX_FADE = 1 << 58;
 

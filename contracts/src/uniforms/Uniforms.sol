@@ -4,7 +4,7 @@ pragma solidity 0.8.37;
 import {Matrix} from "../math/Quaternion.sol";
 import {Object, Rectangle, Scene, TWO_SIDED, UNLIT, WIREFRAME} from "../scene/Scene.sol";
 import {Extensions, OPAQUE} from "../scene/Extensions.sol";
-import {ANTIALIAS, OPACITIES_OF, OPACITY_OF, RECORD_HEADER} from "../words/Records.sol";
+import {ANTIALIAS, OPACITY_OF, RECORD_HEADER} from "../words/Records.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
 import {Lights} from "./Lights.sol";
 import {Materials} from "./Materials.sol";

@@ -377,7 +377,7 @@ SETTINGS = (
         "object",
         "Surface",
         "Light what is seen from behind as from the front.",
-        default="true for what is not culled of mesh files, up to 16,384 vertices",
+        default="true for what is not culled of mesh files, up to 16,384 vertices or if the file says so",
         option="--two-sided/--one-sided",
     ),
     Setting("wireframe", "flag", "object", "Surface", "Draw edges only.", option="--wireframe/--filled"),

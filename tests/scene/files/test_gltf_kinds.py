@@ -392,6 +392,11 @@ def test_two_sides(tmp_path: Path) -> None:
     file.material(doubleSided=True)
     file.keys["meshes"][0]["primitives"].append({"attributes": dict(file.primitive["attributes"])})
     assert [part.two_sided for part in read(file, tmp_path)] == [True, False]
+    # in a scene file it counts unless the object says something else
+    for given, expected in (("", [True, False]), ("two_sided = false", [False, False])):
+        scene = tmp_path / "scene.toml"
+        scene.write_text(f'[[objects]]\nmesh = "model.gltf"\n{given}\n')
+        assert [each.two_sided for each in load(scene).objects] == expected
 
 
 @pytest.mark.parametrize(
