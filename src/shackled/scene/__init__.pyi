@@ -36,7 +36,20 @@ from ._fit import EXACT_SIZES, MAX_COORDINATE, fit, fit_factor, near_plane
 from ._from_trimesh import is_trimesh, mesh_of, objects_of, part_of
 from ._ground import Ground
 from ._light import INNER_ANGLE, LIGHT_KINDS, OUTER_ANGLE, WHITE, Light, LightKind
-from ._look import ALL, SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, settings_of, size_of, stage
+from ._look import (
+    ALL,
+    MOST_TWO_SIDED,
+    SETTINGS,
+    Kind,
+    LookOptions,
+    Setting,
+    checked_look,
+    look_at,
+    resize,
+    settings_of,
+    size_of,
+    stage,
+)
 from ._material import Material, Shading
 from ._mesh import DEFAULT_COLOR, Mesh, components, faces_of_all, vertex_normals, without_slivers
 from ._object import Object
@@ -91,6 +104,7 @@ __all__ = [
     "MAX_SIDE",
     "MAX_TEXTURE_SIDE",
     "MESH_STAGING",
+    "MOST_TWO_SIDED",
     "NORMALS",
     "NORMAL_UNIT",
     "ONE",
