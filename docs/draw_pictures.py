@@ -25,7 +25,7 @@ from shackled.datasets.common import builtin, shapes
 from shackled.datasets.genesis import generate, picture_on_chain, seed_of
 from shackled.datasets.icons import pieces as icons
 from shackled.datasets.showcase import draw_showcase
-from shackled.scene import LookOptions, painted, stage
+from shackled.scene import PRESETS, LookOptions, painted, stage
 from shackled.stages import draw_stages
 from shackled.stages import strip as stages_strip
 from shackled.studio import make_apng
@@ -136,6 +136,14 @@ def strip() -> list[Image]:
     return images
 
 
+def presets() -> tuple[PillowImage.Image, list[int | None]]:
+    """Draw the same teapot with all presets, in two rows; return the gas of each, too."""
+    images = [render(pot(4, 160, GLAZED, preset=each.name, antialias=True)) for each in PRESETS]
+    half = (len(images) + 1) // 2
+    rows = [np.hstack([image.pixels for image in part]) for part in (images[:half], images[half:])]
+    return PillowImage.fromarray(np.vstack(rows)), [image.gas for image in images]
+
+
 def effects() -> dict[str, list[Image]]:
     """Draw the rows of docs/light.md and docs/shadows.md, 192 x 192 pixels each, the first without the effect."""
     chalk = Material("smooth", ambient=0.6, diffuse=0.5, specular=0.1, shininess=20)
@@ -232,6 +240,9 @@ def main() -> None:
     both, gas = transparent()
     both.save(IMAGES / "transparent.png", optimize=True)
     figures["transparent"] = {"gas": gas}
+    in_rows, each_gas = presets()
+    in_rows.save(IMAGES / "presets.png", optimize=True)
+    figures["presets"] = {"gas": each_gas}
     turning = spin()
     turning.save(IMAGES / "turntable.gif")
     figures["turntable"] = {"frames": len(turning.frames), "gas": turning.gas}

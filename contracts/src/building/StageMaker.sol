@@ -13,7 +13,8 @@ import {
 } from "../words/Records.sol";
 import {addRecord, copyBytes} from "../scene/RecordWriter.sol";
 import {
-    Scene, Canvas, Background, Light, Material, Object, PERSPECTIVE, DIRECTIONAL, POINT, UNLIT, FLAT, SMOOTH, CULL_BACKFACES
+    Scene, Canvas, Background, Light, Material, Object, PERSPECTIVE, DIRECTIONAL, POINT, UNLIT, FLAT, SMOOTH, CULL_BACKFACES,
+    WIREFRAME
 } from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 import {Box, Framing} from "./Framing.sol";
@@ -30,6 +31,22 @@ struct Stage {
     uint256 room;
     Box[] bounds;
     uint256 defaultLights;
+}
+
+/// @dev The `color` of a preset with which objects keep their colours.
+uint256 constant OWN_COLORS = 1 << 24;
+
+/// @notice A look for all objects of a stage, such as `Presets.gold()`.
+/// @param color Of all objects, 0xRRGGBB, or OWN_COLORS.
+/// @param lights Directional lights; their vectors are to the right, up, and toward a level camera.
+struct Preset {
+    Material material;
+    uint256 color;
+    Background background;
+    uint256 ambientLight;
+    bool wireframe;
+    bool invert;
+    Light[] lights;
 }
 
 using StageMaker for Stage global;
@@ -137,6 +154,41 @@ library StageMaker {
         bytes memory own = bytes.concat(mesh);
         PackedMesh.paint(own, color);
         made.scene.objects[object].mesh = own;
+    }
+
+    /// @notice Gives all objects a material and colours, and the scene lights and a background. Call it when the camera is placed, before
+    /// `spot`, `shadow` and `ground`. A smooth material becomes flat for meshes without normals. Stored meshes keep their shading, and can
+    /// only have a preset with OWN_COLORS.
+    function preset(Stage memory made, Preset memory look) internal pure {
+        unchecked {
+            Scene memory s = made.scene;
+            for (uint256 k; k != s.objects.length; ++k) {
+                if (look.color != OWN_COLORS) paint(made, k, look.color);
+                Object memory object = s.objects[k];
+                Material memory m = look.material;
+                object.material = Material(shadingOf(object, m.shading), m.ambient, m.diffuse, m.specular, m.shininess);
+                object.flags = (object.flags & ~WIREFRAME) | (look.wireframe ? WIREFRAME : 0);
+            }
+            (s.background, s.ambientLight, s.invert) = (look.background, look.ambientLight, look.invert ? 1 : 0);
+            Vector memory toward = s.camera.eye.sub(s.camera.target);
+            toward.y = ZERO;
+            toward = toward.isZero() ? units(0, 0, 1) : toward.normalize();
+            s.lights = new Light[](look.lights.length);
+            for (uint256 k; k != s.lights.length; ++k) {
+                Vector memory v = look.lights[k].vector;
+                Vector memory right = Vector(toward.z, ZERO, ZERO - toward.x).scale(v.x);
+                s.lights[k] = Light(DIRECTIONAL, right.add(toward.scale(v.z)).add(Vector(ZERO, v.y, ZERO)), look.lights[k].color);
+            }
+        }
+    }
+
+    /// @dev Returns the shading that an object has instead of the one that is wanted.
+    function shadingOf(Object memory object, uint256 wanted) private pure returns (uint256) {
+        uint256 own = object.material.shading;
+        if (wanted == UNLIT || own == SMOOTH && wanted == SMOOTH) return wanted;
+        bytes memory mesh = object.mesh;
+        if (mesh.length == 0 || uint8(mesh[0]) > NORMALS + WIDE) return own == UNLIT ? FLAT : own;
+        return uint8(mesh[0]) & NORMALS == 0 ? FLAT : wanted;
     }
 
     /// @notice Adds a directional light.
@@ -300,10 +352,14 @@ library StageMaker {
     /// @notice Makes the last light cast shadows; at most one light of a scene can.
     function shadow(Stage memory made) internal pure {
         unchecked {
-            uint256 count = made.scene.lights.length;
-            if (count == 0) revert NoLight();
-            made.scene.extensions = addRecord(made.scene.extensions, SHADOW, count - 1, abi.encode(SHADOWS_ALL));
+            shadow(made, made.scene.lights.length - 1);
         }
+    }
+
+    /// @notice Makes a light cast shadows, by its index from 0; that of a preset is 0.
+    function shadow(Stage memory made, uint256 light) internal pure {
+        if (light >= made.scene.lights.length) revert NoLight();
+        made.scene.extensions = addRecord(made.scene.extensions, SHADOW, light, abi.encode(SHADOWS_ALL));
     }
 
     /// @notice Adds a horizontal, matte disc that receives shadows and casts none. It is opaque in the middle and fades out toward its

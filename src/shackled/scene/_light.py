@@ -71,14 +71,14 @@ class Light(Value):
             )
 
     @classmethod
-    def directional(cls, toward: ArrayLike, color: ArrayLike | str = WHITE) -> Light:
+    def directional(cls, toward: ArrayLike, color: ArrayLike | str = WHITE, *, shadow: bool = False) -> Light:
         """Return a light at infinity. toward: (3,) the direction from the scene to the light."""
-        return cls("directional", toward, color)
+        return cls("directional", toward, color, shadow=shadow)
 
     @classmethod
-    def point(cls, position: ArrayLike, color: ArrayLike | str = WHITE) -> Light:
+    def point(cls, position: ArrayLike, color: ArrayLike | str = WHITE, *, shadow: bool = False) -> Light:
         """Return a light that shines in all directions from a position, (3,) in the world; it does not fade."""
-        return cls("point", position, color)
+        return cls("point", position, color, shadow=shadow)
 
     @classmethod
     def spot(
@@ -88,6 +88,8 @@ class Light(Value):
         color: ArrayLike | str = WHITE,
         inner_angle: float = INNER_ANGLE,
         outer_angle: float = OUTER_ANGLE,
+        *,
+        shadow: bool = False,
     ) -> Light:
         """Return a light that shines from a position into a cone about a direction, (3,) each, angles in degrees."""
-        return cls("spot", position, color, direction, inner_angle, outer_angle)
+        return cls("spot", position, color, direction, inner_angle, outer_angle, shadow)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from typing import Any, Final, Literal, TypedDict, Unpack, cast
@@ -22,6 +23,7 @@ from ._light import Light
 from ._material import COEFFICIENTS, EXPONENTS, SHADINGS, Material, Shading
 from ._mesh import Mesh
 from ._object import OPACITIES, Object
+from ._presets import PRESETS, preset_of
 from ._rotation import IDENTITY, multiply, rotate, rotation_of
 from ._scene import MAX_SIDE, Scene, lights_of
 from ._staging import (
@@ -251,6 +253,14 @@ SETTINGS = (
         option="--orthographic/--perspective",
     ),
     Setting(
+        "preset",
+        "choice",
+        None,
+        "Light",
+        "Material, colour, lights and background by the name of a look; other settings change it.",
+        choices=tuple(each.name for each in PRESETS),
+    ),
+    Setting(
         "lights", "lights", "scene", "Light", "Up to four lights, which replace those of the scene.", option="--light"
     ),
     Setting(
@@ -423,6 +433,7 @@ class LookOptions(TypedDict, total=False):
     half_height: float | None
     near: float | None
     orthographic: bool | None
+    preset: str | None
     lights: Light | Sequence[Light] | None
     ambient_light: AnyColor | None
     hemisphere: Hemisphere | AnyColor | tuple[AnyColor, AnyColor] | None
@@ -491,6 +502,11 @@ def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
         raise InputError(f"the shading cannot be {' and '.join(sorted(shadings))} at once")
     if shadings:
         look["shading"] = shadings.pop()
+    if "preset" in look:
+        preset = preset_of(look["preset"]).settings
+        if "crease" in look:
+            del preset["shading"]
+        look = preset | look
     if "up_axis" in look:
         look["rotate"] = multiply(look.get("rotate", IDENTITY), upright(look.pop("up_axis")))
     if "crease" in look and look.get("shading", "smooth") != "smooth":
@@ -575,6 +591,11 @@ def look_at(
     scene = evolve(scene, objects=objects, tone=_tone(scene.tone, look), **chosen)
     if view is not None and staging.by_normals and "background" not in look:
         scene = evolve(scene, background=contrasting(scene.objects))
+    if "preset" in look and "lights" not in look:
+        seen = _camera(scene, look, view, is_framed=around is not None)
+        x, _, z = (seen.eye - seen.target).tolist()
+        casts = any(each.shadow for each in scene.lights)
+        scene = evolve(scene, lights=preset_of(look["preset"]).lights(math.degrees(math.atan2(x, z)), casts))
     if "shadow" in look:
         lights = [evolve(light, shadow=look["shadow"] and number == 0) for number, light in enumerate(scene.lights)]
         scene = evolve(scene, lights=lights)
