@@ -20,6 +20,7 @@ from .scene import (
     READERS,
     SCENES,
     Axis,
+    Link,
     LookOptions,
     Mesh,
     MeshPart,
@@ -30,6 +31,7 @@ from .scene import (
     axis_of_file,
     checked_look,
     is_trimesh,
+    link_of,
     look_at,
     objects_of,
     part_of,
@@ -51,11 +53,11 @@ def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
     """Return the scene of a file, a piece of a dataset, a mesh, arrays, or an object of trimesh.
 
     thing: the path of a mesh or scene file, or of a PNG file that carries a scene; the name of a piece, such as
-    "teapot" or "genesis/12" (a file wins over a piece of the same name); a Mesh; an Object; (vertices, faces) or
-    (vertices, faces, colors), (n, 3) and (m, 3); a trimesh.Trimesh or trimesh.Scene; a Scene; or a list of any of
-    these, which is one scene of all their objects. Meshes, objects and models stay where they are; several pieces stand
-    in a row along x. Of a piece only the objects are taken, of a Scene also camera, lights and all else, in which
-    several must agree. A list of mesh files or of trimesh.Trimesh is one model, staged like one mesh.
+    "teapot" or "genesis/12" (a file wins over a piece of the same name); a link of the Creator; a Mesh; an Object;
+    (vertices, faces) or (vertices, faces, colors), (n, 3) and (m, 3); a trimesh.Trimesh or trimesh.Scene; a Scene; or a
+    list of any of these, which is one scene of all their objects. Meshes, objects and models stay where they are;
+    several pieces stand in a row along x. Of a piece only the objects are taken, of a Scene also camera, lights and all
+    else, in which several must agree. A list of mesh files or of trimesh.Trimesh is one model, staged like one mesh.
     A mesh is staged: it fills the picture, antialiased, in smooth shading except across creases. A piece is antialiased
     as well. A scene keeps its look except for the given settings.
     size: side of a square picture, or (width, height), in pixels; None for the scene's, or 256 for a mesh or a piece.
@@ -77,7 +79,7 @@ def _loaded(thing: Thing, look: Mapping[str, Any], is_picture: bool) -> Scene:
     found = _located(thing)
     is_posed = isinstance(found, Path) and found.suffix.lower() in GLTF
     made = read_posed(found, chosen, pose_of(chosen)) if is_posed else _made(found, chosen)
-    with about(str(found)) if isinstance(found, Path) else nullcontext():
+    with about(str(found)) if isinstance(found, Path | Link) else nullcontext():
         scene = look_at(made, chosen, name=str(found) if isinstance(found, Path) else "the mesh")
     if is_picture and "max_triangles" not in chosen and is_model(found):
         return as_shown(scene, str(found) if isinstance(found, Path) else "the model")
@@ -96,8 +98,10 @@ def _located(thing: Any) -> Any:
     return locate(thing) if isinstance(thing, str | os.PathLike) else thing
 
 
-def locate(input: str | os.PathLike[str]) -> Path | Piece:
-    """Return the path of a file, or else the piece of that name. InputError if there is neither."""
+def locate(input: str | os.PathLike[str]) -> Path | Piece | Link:
+    """Return the path of a file, or else the piece of that name, or a link. InputError if there is none of them."""
+    if isinstance(input, str) and (link := link_of(input)) is not None:
+        return link
     if isinstance(input, str) and "://" in input:
         raise InputError(f"{input} is an address of the web: download the file first")
     path = Path(input)
@@ -162,6 +166,8 @@ def _made(thing: Any, look: Mapping[str, Any]) -> Mesh | list[Object] | Scene:
         return thing
     if isinstance(thing, Path):
         return _model(thing, look) if thing.suffix.lower() in READERS else read_scene(thing)
+    if isinstance(thing, Link):
+        return thing.scene()
     if isinstance(thing, Piece):
         return _in_default_look(thing)
     if isinstance(thing, Object) or _is_trimesh_scene(thing):
@@ -199,7 +205,7 @@ def _is_input(thing: Any) -> bool:
             2 <= len(thing) <= 4 and hasattr(first, "__len__") and len(first) > 0 and hasattr(first[0], "__len__")
         )
         return are_arrays or _is_input(first)
-    return isinstance(thing, str | os.PathLike | Piece | Mesh | Object | Scene) or is_trimesh(thing)
+    return isinstance(thing, str | os.PathLike | Piece | Link | Mesh | Object | Scene) or is_trimesh(thing)
 
 
 def _placed(thing: Any) -> list[Object]:

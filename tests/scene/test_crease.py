@@ -12,7 +12,6 @@ import trimesh
 from numpy.typing import NDArray
 
 from shackled import Material, Mesh, Object, Scene, load, render
-from shackled.creator import Source, State, Surface, describe, to_scene
 from shackled.datasets.common import shapes
 from shackled.scene import creased, simplify_scene, stage
 
@@ -159,14 +158,8 @@ WAYS: dict[str, Callable[[Mesh, Path], Object]] = {
     "unlit": lambda mesh, folder: load(Object(mesh, material=Material("unlit")), smooth=True).objects[0],
     "scene file": in_a_scene_file,
     "picture": from_a_picture,
-    "creator": lambda mesh, folder: in_the_creator(mesh),
+    "preset": lambda mesh, folder: load(Scene([Object(mesh)]), preset="studio").objects[0],
 }
-
-
-def in_the_creator(mesh: Mesh) -> Object:
-    scene = Scene([Object(mesh)])
-    facts = describe(Source("piece", "x"), scene, "")
-    return to_scene(State(facts.source, surface=Surface("smooth")), scene).objects[0]
 
 
 @pytest.mark.parametrize("way", WAYS.values(), ids=WAYS)

@@ -23,6 +23,7 @@ from ._files.colors import sample
 from ._files.content import MAX_BYTES
 from ._files.gltf.animation import animation_length, animations_of
 from ._files.gltf.view import read_view
+from ._files.link import Link, link_of
 from ._files.mesh_file import GLTF, READERS, read_mesh, read_model
 from ._files.model import TEXTURED, MeshPart
 from ._files.obj import write_obj
@@ -55,6 +56,7 @@ from ._mesh import DEFAULT_COLOR, Mesh, components, faces_of_all, vertex_normals
 from ._object import Object
 from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack, unpack
 from ._packed_texture import pack_texture, unpack_texture
+from ._presets import PRESETS, Lamp, Preset
 from ._records import ANTIALIAS, FOG, HEMISPHERE, LONG_KINDS, OPACITY_OF, RECORD_HEADER, RIM, SPOT, TONE
 from ._rotation import euler, from_axis_angle, from_euler, multiply, rotate
 from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
@@ -74,6 +76,7 @@ from ._staging import (
 from ._texture import FILTERS, MAX_TEXTURE_SIDE, WRAPS, Texture
 from ._turning import FILLED, frame_count, full_turn, middle, turn
 from ._upright import AXES, Axis, axis_of_file, axis_of_format, base_axis, upright
+from ._winding import wound
 
 __all__ = [
     "ALL",
@@ -112,6 +115,7 @@ __all__ = [
     "OUTER_ANGLE",
     "PICTURE",
     "POWERS",
+    "PRESETS",
     "PROJECTIONS",
     "READERS",
     "RECORD_HEADER",
@@ -134,13 +138,16 @@ __all__ = [
     "Ground",
     "Hemisphere",
     "Kind",
+    "Lamp",
     "Light",
     "LightKind",
+    "Link",
     "LookOptions",
     "Material",
     "Mesh",
     "MeshPart",
     "Object",
+    "Preset",
     "Projection",
     "Rectangle",
     "Rim",
@@ -182,6 +189,7 @@ __all__ = [
     "half_height_of",
     "is_closed",
     "is_trimesh",
+    "link_of",
     "look_at",
     "mesh_of",
     "middle",
@@ -221,6 +229,7 @@ __all__ = [
     "view_axes",
     "weld",
     "without_slivers",
+    "wound",
     "write_obj",
     "write_scene",
 ]

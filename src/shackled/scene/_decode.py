@@ -293,8 +293,8 @@ def _with_spot(light: Light, record: bytes | None, where: str) -> Light:
     # the arc cosine errs by a few units in the last place, far less than half a step of Q32
     cosines = [_number(value, f"a cosine of {where}", -1, 1) for value in (inner, outer)]
     with about(where):
-        spot = Light.spot(light.vector, direction, light.color, *(math.degrees(math.acos(each)) for each in cosines))
-        return evolve(spot, shadow=light.shadow)
+        inner_angle, outer_angle = (math.degrees(math.acos(each)) for each in cosines)
+        return Light.spot(light.vector, direction, light.color, inner_angle, outer_angle, shadow=light.shadow)
 
 
 def _with_records(thing: Object, records: Records, index: int) -> Object:

@@ -190,8 +190,8 @@ def test_rotation_as_quaternion(folder: Path) -> None:
     ("document", "message"),
     [
         ({"object": []},
-         "unknown key 'object'; known are size, camera, objects, tone, background, invert, antialias, lights, "
-         "ambient_light, hemisphere, rim, fog, ground"),
+         "unknown key 'object'; known are size, camera, objects, tone, creator, background, invert, antialias, "
+         "lights, ambient_light, hemisphere, rim, fog, ground"),
         ({"hemisphere": "white"}, "hemisphere must be a table with keys of sky, ground, not 'white'"),
         ({"hemisphere": {"ground": "white"}}, "hemisphere.sky must be red, green and blue from 0 to 255, #rgb, "
          "#rrggbb, or the name of a colour, not None"),
@@ -205,12 +205,12 @@ def test_rotation_as_quaternion(folder: Path) -> None:
         ({"antialias": 4}, "antialias must be true or false, not 4"),
         ({"objects": {}}, "objects must be a list, not {}"),
         ({"objects": [3]},
-         "objects[0] must be a table with keys of mesh, position, rotation, up_axis, scale, material, fade, color, "
-         "cull, two_sided, wireframe, opacity, not 3"),
+         "objects[0] must be a table with keys of mesh, position, rotation, up_axis, scale, material, fade, crease, "
+         "color, cull, two_sided, wireframe, opacity, not 3"),
         ({"objects": [{}]}, "objects[0] needs a mesh: the path of a file, relative to the scene file"),
         ({"objects": [thing(colour="#fff")]},
          "unknown key 'colour' in objects[0]; known are mesh, position, rotation, up_axis, scale, "
-         "material, fade, color, cull, two_sided, wireframe, opacity"),
+         "material, fade, crease, color, cull, two_sided, wireframe, opacity"),
         ({"objects": [thing(color="#fffff")]},
          "objects[0].color must be red, green and blue from 0 to 255, #rgb, #rrggbb, or the name of a colour, not "
          "'#fffff'"),

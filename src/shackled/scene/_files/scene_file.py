@@ -17,11 +17,12 @@ import numpy as np
 from attrs import asdict, evolve
 from numpy.typing import ArrayLike, NDArray
 
+from ...checks import number
 from ...errors import InputError
 from ...whole_file import check_output_file, write_output
 from .._background import Background
 from .._camera import PROJECTIONS, Camera
-from .._crease import shaded
+from .._crease import CREASES, shaded
 from .._effects import Fog, Hemisphere, Rim, Tone
 from .._ground import Ground
 from .._light import LIGHT_KINDS, WHITE, Light
@@ -48,9 +49,10 @@ def _keys(part: Part, *before: str) -> tuple[str, ...]:
     return (*before, *(setting.name for setting in settings_of(part)))
 
 
-_SCENE = _keys("scene", "size", "camera", "objects", "tone")
+#: `creator`: a table of the Creator, which has no effect here.
+_SCENE = _keys("scene", "size", "camera", "objects", "tone", "creator")
 _CAMERA = _keys("camera", "projection")
-_OBJECT = _keys("object", "mesh", "position", "rotation", "up_axis", "scale", "material", "fade")
+_OBJECT = _keys("object", "mesh", "position", "rotation", "up_axis", "scale", "material", "fade", "crease")
 _BACKGROUND = ("top", "bottom")
 _HEMISPHERE = ("sky", "ground")
 _RIM = ("color", "power")
@@ -58,6 +60,7 @@ _FOG = ("color", "near", "far")
 _GROUND = ("color", "height", "radius", "center", "inner")
 _LIGHT = ("kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow")
 _MESH = ("positions", "faces", "colors", "normals", "uvs", "opacities")
+_PIECE = ("piece", "object")
 _TEXTURE = ("image", "width", "height", "pixels", "filter", "wrap", "alpha", "cutoff")
 _ROTATION = ("quaternion", "axis", "angle")
 
@@ -81,12 +84,13 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     with about(str(path)):
         if extension == ".json" and is_original(document):
             return original_scene(document)
-        return _scene(document, path.parent)
+        return scene_of(document, path.parent)
 
 
-def _scene(document: Mapping[str, Any], folder: Path) -> Scene:
-    """Return the scene of a document whose meshes are files relative to `folder`."""
+def scene_of(document: Mapping[str, Any], folder: Path | None) -> Scene:
+    """Return the scene of a document whose meshes are files relative to `folder`; without one it cannot name files."""
     table = Table(document, "", _SCENE)
+    table.table("creator")
     width, height = _size(table)
     objects = [each for where, part in table.rows("objects") for each in _objects(part, where, folder)]
     view, camera = _camera(table.table("camera", _CAMERA), width, height, objects)
@@ -298,16 +302,18 @@ def _light(value: object, where: str) -> Light:
         return Light(kind, place, color, *direction, **given)
 
 
-def _objects(value: object, where: str, folder: Path) -> list[Object]:
+def _objects(value: object, where: str, folder: Path | None) -> list[Object]:
     """Return the objects of a table: one, or one for each texture of the mesh file that it names."""
     keys = Table(value, where, _OBJECT)
     parts = _parts(keys, where, folder)
     given = _settings(keys, "object")
     surface = keys.table("material", _keys("material", "texture"))
     fields = _settings(surface, "material")
-    # a mesh from a file is given normals, one in the table is as it is
+    # a mesh from a file or a piece is given normals, one in the table is as it is
     shading = fields.get("shading", "flat")
-    if isinstance(keys.get("mesh"), str):
+    crease = number(keys.number("crease"), keys.place("crease"), *CREASES) if "crease" in keys else None
+    is_inside = isinstance(mesh := keys.get("mesh"), Mapping) and "piece" not in mesh
+    if not is_inside or crease is not None:
         fields["shading"] = "flat"
     texture = _texture(surface, folder) if "texture" in surface else None
     position, scale = keys.numbers("position", (0, 0, 0)), keys.number("scale", 1)
@@ -316,7 +322,7 @@ def _objects(value: object, where: str, folder: Path) -> list[Object]:
         if "up_axis" in keys:
             raise InputError(f"{keys.place('up_axis')} is for meshes of files")
     elif "up_axis" not in keys and "rotation" not in keys:
-        axis = axis_of_file(folder / name, parts)
+        axis = axis_of_file(_beside(folder, name), parts)
     rotation = multiply(_rotation(keys), upright(axis))
     if "fade" in keys:
         given["fade"] = keys.numbers("fade", (0, 0))
@@ -329,18 +335,20 @@ def _objects(value: object, where: str, folder: Path) -> list[Object]:
             given_texture = {} if texture is None else {"texture": texture}
             material = Material(**(own | fields | given_texture))
             thing = Object(part.mesh, position, rotation, scale, material, **(own_fields | given))
-            thing = shaded(thing, shading)
+            thing = shaded(thing, shading, crease, anew=crease is not None)
             objects.append(thing if color is None else painted_object(thing, color))
         return objects
 
 
-def _parts(keys: Table, where: str, folder: Path) -> list[MeshPart]:
+def _parts(keys: Table, where: str, folder: Path | None) -> list[MeshPart]:
     value = keys.get("mesh")
     if isinstance(value, str) and value:
         with about(keys.place("mesh")):
-            return read_model(folder / value)
+            return read_model(_beside(folder, value))
     if value is None or isinstance(value, str):
         raise InputError(f"{where} needs a mesh: the path of a file, relative to the scene file")
+    if isinstance(value, Mapping) and "piece" in value:
+        return [MeshPart(_mesh_of_piece(keys.table("mesh", _PIECE)), {})]
     inside = keys.table("mesh", _MESH)
     with about(inside.where):
         mesh = Mesh(
@@ -354,13 +362,34 @@ def _parts(keys: Table, where: str, folder: Path) -> list[MeshPart]:
     return [MeshPart(mesh, {})]
 
 
+def _beside(folder: Path | None, name: str) -> Path:
+    if folder is None:
+        raise InputError(f"a link cannot name files, such as {name!r:.60}")
+    return folder / name
+
+
+def _mesh_of_piece(keys: Table) -> Mesh:
+    """Return the mesh of an object of a piece of a dataset, in its own coordinates."""
+    # a dataset is made of scenes
+    from ...datasets import require
+
+    name, index = keys.get("piece"), keys.whole("object", 0)
+    if not isinstance(name, str):
+        raise InputError(f"{keys.place('piece')} must be the name of a piece, not {name!r:.60}")
+    with about(keys.place("piece")):
+        objects = require(name).make().objects
+    if not 0 <= index < len(objects):
+        raise InputError(f"{keys.place('object')} must be from 0 to {len(objects) - 1} for {name}, not {index}")
+    return objects[index].mesh
+
+
 def _colors(mesh: Table) -> NDArray[Any]:
     """Return rows of red, green and blue, or with alpha if the first row has one."""
     _, first = next(iter(mesh.rows("colors")), ("", None))
     return mesh.matrix("colors", whole=True, width=4 if isinstance(first, list) and len(first) == 4 else 3)
 
 
-def _texture(surface: Table, folder: Path) -> Texture:
+def _texture(surface: Table, folder: Path | None) -> Texture:
     """Return a texture: the path of an image, relative to the scene file, or its pixels."""
     keys = Table({"image": value}, "") if isinstance(value := surface.get("texture"), str) else None
     keys = keys or surface.table("texture", _TEXTURE)
@@ -372,7 +401,7 @@ def _texture(surface: Table, folder: Path) -> Texture:
             image = keys.get("image")
             if not isinstance(image, str) or not image:
                 raise InputError("a texture needs an image: the path of a file, relative to the scene file")
-            return Texture.open(folder / image, filter, wrap, alpha=keys.flag("alpha", False), cutoff=cutoff)
+            return Texture.open(_beside(folder, image), filter, wrap, alpha=keys.flag("alpha", False), cutoff=cutoff)
         width, height = keys.whole("width"), keys.whole("height")
         alpha = _levels(keys, "alpha", (height, width), "bytes") if "alpha" in keys else None
         pixels = _levels(keys, "pixels", (height, width, 3), "red, green and blue bytes")

@@ -1,0 +1,123 @@
+"""Meshes of pieces in scene files and links, normals across creases there, and what only the Creator reads."""
+
+from __future__ import annotations
+
+import base64
+import json
+import zlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from shackled import InputError, Mesh, Scene, load, render
+from shackled.cli.app import run
+from shackled.scene import creased
+
+TEAPOT = {"piece": "teapot", "object": 0}
+SMOOTH = {"shading": "smooth"}
+TETRAHEDRON = {"positions": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], "faces": [[0, 2, 1], [0, 1, 3]]}
+
+
+def read(tmp_path: Path, document: dict[str, Any]) -> Scene:
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps(document), "utf-8")
+    return load(path)
+
+
+def link(document: Any, address: str = "") -> str:
+    squeezer = zlib.compressobj(9, zlib.DEFLATED, -15)
+    packed = squeezer.compress(json.dumps(document).encode()) + squeezer.flush()
+    return f"{address}#1{base64.urlsafe_b64encode(packed).rstrip(b'=').decode()}"
+
+
+def same(one: Mesh, other: Mesh) -> bool:
+    return all(
+        np.array_equal(getattr(one, name), getattr(other, name)) for name in ("positions", "faces", "normals", "rgba")
+    )
+
+
+def test_a_mesh_of_a_piece_is_that_of_its_object(tmp_path: Path) -> None:
+    document = {
+        "creator": {"title": "T", "objects": [{"name": "pot"}]},
+        "objects": [
+            {"mesh": TEAPOT, "position": [1, 2, 3], "scale": 2, "material": SMOOTH},
+            {"mesh": {"piece": "genesis/5"}, "color": "#ff0000"},
+            {"mesh": {"piece": "cube"}, "material": SMOOTH},
+        ],
+    }
+    pot, genesis, cube = read(tmp_path, document).objects
+    assert same(pot.mesh, load("teapot").objects[0].mesh)
+    assert (pot.position.tolist(), pot.scale, pot.material.shading) == ([1, 2, 3], 2, "smooth")
+    assert (genesis.mesh.colors == (255, 0, 0)).all()
+    assert (genesis.mesh.positions == load("genesis/5").objects[0].mesh.positions).all()
+    # as the mesh of a file: by its shape
+    assert cube.material.shading == "flat"
+
+
+@pytest.mark.parametrize("mesh", [TEAPOT, TETRAHEDRON])
+def test_crease(tmp_path: Path, mesh: dict[str, Any]) -> None:
+    plain = load("teapot").objects[0].mesh if mesh is TEAPOT else Mesh(mesh["positions"], mesh["faces"])
+    for degrees in (30, 180):
+        (thing,) = read(tmp_path, {"objects": [{"mesh": mesh, "crease": degrees, "material": SMOOTH}]}).objects
+        assert same(thing.mesh, creased(plain, degrees))
+    (flat,) = read(tmp_path, {"objects": [{"mesh": mesh, "crease": 30}]}).objects
+    assert flat.material.shading == "flat"
+    assert same(flat.mesh, plain)
+
+
+@pytest.mark.parametrize(
+    ("document", "words"),
+    [
+        ({"creator": 1}, "creator must be a table, not 1"),
+        ({"objects": [{"mesh": {"piece": "teapott"}}]}, r"mesh.piece: there is no piece 'teapott'; did you mean"),
+        ({"objects": [{"mesh": {"piece": "../a.obj"}}]}, "there is no piece"),
+        ({"objects": [{"mesh": {"piece": 3}}]}, r"objects\[0\].mesh.piece must be the name of a piece, not 3"),
+        ({"objects": [{"mesh": {**TEAPOT, "object": 1}}]}, r"mesh.object must be from 0 to 0 for teapot, not 1"),
+        ({"objects": [{"mesh": {**TEAPOT, "faces": []}}]}, r"unknown key 'faces' in objects\[0\].mesh"),
+        ({"objects": [{"mesh": TEAPOT, "crease": 181}]}, r"objects\[0\].crease must be a finite number from 0 to 180"),
+    ],
+)  # fmt: skip
+def test_wrong_references(tmp_path: Path, document: dict[str, Any], words: str) -> None:
+    with pytest.raises(InputError, match=f"scene.json: .*{words}"):
+        read(tmp_path, document)
+    with pytest.raises(InputError, match=f"the link: .*{words}"):
+        load(link(document))
+
+
+def test_a_link_is_a_scene(tmp_path: Path) -> None:
+    document = {"size": 40, "objects": [{"mesh": TEAPOT, "material": SMOOTH}], "background": "#102030"}
+    wanted = render(read(tmp_path, document))
+    for address in (
+        "",
+        "https://shackled.example/creator/",
+        "http://127.0.0.1:8080/?input",
+        "file:///tmp/creator.html",
+    ):
+        assert render(link(document, address)).sha256 == wanted.sha256
+    assert len(load([link(document), "cube"]).objects) == 2
+    assert run(["render", link(document), "-o", str(tmp_path / "a.png"), "--preset", "gold", "--size", "20"]) == 0
+    assert load(tmp_path / "a.png").background.top == (0x1C, 0x13, 0x0A)
+
+
+def test_links_that_are_refused() -> None:
+    good = link({"objects": [{"mesh": TEAPOT}]})
+    for damaged in ("#1", good[:-3], good + "AAAA", "#1====", "#1_____"):
+        with pytest.raises(InputError, match=r"the link is damaged|does not exist"):
+            load(damaged)
+    with pytest.raises(InputError, match="the link holds more than 4,194,304 bytes"):
+        load(link({"x": "a" * (1 << 23)}))
+    with pytest.raises(InputError, match="the link must hold an object"):
+        load(link([]))
+    opened = {"objects": [{"mesh": TEAPOT}, {"mesh": {"file": "ab12"}}]}
+    with pytest.raises(InputError, match=r"objects\[1\] needs the file ab12 that was opened on the page"):
+        load(link(opened))
+    with pytest.raises(InputError, match=r"needs the file dog.glb that was opened"):
+        load(link(opened | {"creator": {"objects": [{}, {"name": "dog.glb"}]}}))
+
+
+@pytest.mark.parametrize("part", [{"mesh": "dog.obj"}, {"mesh": TEAPOT, "material": {"texture": "wood.png"}}])
+def test_a_link_names_no_files(part: dict[str, Any]) -> None:
+    with pytest.raises(InputError, match=r"a link cannot name files, such as '(dog.obj|wood.png)'"):
+        load(link({"objects": [part]}))
