@@ -1,13 +1,21 @@
-"""Scripts for Node that answer a file of JSON lines with a file of byte strings."""
+"""Scripts for Node that answer a file of JSON lines with a file of byte strings, and modules bundled for them."""
 
 from __future__ import annotations
 
 import json
+import os
+import shutil
 import subprocess
 from collections.abc import Sequence
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
+
+import pytest
+
+WEB = Path(__file__).resolve().parents[1] / "web"
+ESBUILD = WEB / "node_modules" / ".bin" / "esbuild"
+needs_web = pytest.mark.skipif(not ESBUILD.exists() or not shutil.which("node"), reason="needs Node, and `npm ci`")
 
 
 def answers(script: Path, bundle: Traversable, lines: Sequence[dict[str, Any]], folder: Path) -> list[bytes]:
@@ -21,3 +29,22 @@ def answers(script: Path, bundle: Traversable, lines: Sequence[dict[str, Any]], 
         found.append(data[place + 4 : end])
         place = end
     return found
+
+
+def bundled(folder: Path, *modules: str) -> Path:
+    """Bundle all that modules of web/src export; return the path of the bundle."""
+    source = "".join(f'export * from "./src/{name}.js";' for name in modules)
+    return _bundle(folder, source=source)
+
+
+def run_script(script: Path, folder: Path, *arguments: Path) -> None:
+    """Run a script in TypeScript, which may import modules of web/src."""
+    subprocess.run(["node", _bundle(folder, script), *arguments], check=True)
+
+
+def _bundle(folder: Path, *scripts: Path, source: str | None = None) -> Path:
+    path = folder / "bundle.mjs"
+    options = ("--bundle", "--format=esm", "--platform=node", f"--outfile={path}", "--log-level=warning")
+    environment = {**os.environ, "NODE_PATH": str(WEB / "node_modules")}
+    subprocess.run([ESBUILD, *scripts, *options], input=source, text=True, cwd=WEB, env=environment, check=True)
+    return path

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import shutil
 import subprocess
@@ -18,7 +19,7 @@ from PIL import ImageColor
 
 import shackled
 from judge import random_scene
-from node_scripts import answers
+from node_scripts import answers, bundled, needs_web
 from original_scenes import document as original_document
 from original_scenes import documents as original_documents
 from pictures import chain, dynamic
@@ -129,6 +130,51 @@ def test_decoded_scenes(tmp_path: Path) -> None:
         scene = decode(render_call(evolve(scene, lights=lights)))
         calls.add(f"seed {seed}", encode_scene_file(scene).decode(), scene)
     assert calls.differences(tmp_path) == []
+
+
+@needs_web
+def test_decoded_calls(tmp_path: Path) -> None:
+    """Calls are decoded to scenes of which the same calls are made; others are refused."""
+    calls: list[bytes] = []
+    wrong: list[bytearray] = []
+    grounds: list[Ground | None] = []
+    for seed in range(RANDOM):
+        rng = np.random.default_rng([seed, 3])
+        scene = random_scene("shadows", seed) if seed % 4 == 0 else changed(random_case(seed).scene, rng)
+        if seed % 8 == 0:
+            others = [each for each in scene.objects if each.fade is None]
+            scene = evolve(scene, objects=others, ground=Ground("tan", *(None, 2.5)[: rng.integers(3)]))
+        calls.append(render_call(scene))
+        grounds.append(decode(calls[-1]).ground)
+        wrong.append(bytearray(calls[-1]))
+        for place in rng.integers(0, len(calls[-1]), rng.integers(1, 4)):
+            wrong[-1][place] = rng.integers(256)
+    bundle = bundled(tmp_path, "scene/decode", "scene/encode")
+    lines = [{"call": base64.b64encode(bytes(call)).decode()} for call in (*calls, *wrong)]
+    found = answers(SCRIPT, bundle, [*lines, *({**line, "ground": True} for line in lines[: len(calls)])], tmp_path)
+    assert [number for number, call in enumerate(calls) if found[number] != call] == []
+    assert grounds.count(None) not in (0, len(grounds))
+    for ground, text in zip(grounds, found[2 * len(calls) :], strict=True):
+        values = json.loads(text)
+        assert (values is None) == (ground is None)
+        if ground is not None:
+            assert (values["height"], values["radius"], values.get("inner")) == (
+                ground.height,
+                ground.radius,
+                ground.inner,
+            )
+            assert (tuple(values["center"]), tuple(values["color"])) == (ground.center, ground.color)
+    refused = 0
+    for call, again in zip(wrong, found[len(calls) : 2 * len(calls)], strict=True):
+        refused += again.startswith(b"InputError: ")
+        assert again == call or again.startswith(b"InputError: ")
+        try:
+            decode(bytes(call))
+        except InputError:
+            assert again != call
+        else:
+            assert again == call
+    assert refused > RANDOM / 4
 
 
 def changed(scene: Scene, rng: np.random.Generator) -> Scene:
@@ -400,4 +446,30 @@ def test_shadows_and_grounds(tmp_path: Path) -> None:
         scene = decode(render_call(scene))
         assert scene.ground is not None
         calls.add(f"decoded ground {seed}", encode_scene_file(scene).decode(), scene)
+    assert calls.differences(tmp_path) == []
+
+
+def test_what_casts_shadows(tmp_path: Path) -> None:
+    """Closed or not, thick or as thin as rounding, once or twice at one place, of two halves."""
+    calls, rng = Calls(), np.random.default_rng(8)
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
+    faces = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+    triangles = np.concatenate([faces[:, :3], faces[:, [0, 2, 3]]])
+    for number in range(120):
+        objects = []
+        for _ in range(int(rng.integers(1, 4))):
+            thin = rng.choice([1, 1, 10.0 ** rng.uniform(-7, -2)], 3)
+            place: dict[str, Any] = {
+                "position": rng.normal(size=3) * 3,
+                "rotation": rng.normal(size=4),
+                "scale": rng.uniform(0.1, 2),
+            }
+            inside_out = slice(None, None, -1 if rng.random() < 0.2 else 1)
+            half = rng.integers(2, 11) if rng.random() < 0.4 else 12
+            parts = [triangles[:half], triangles[half:]][: rng.integers(1, 3)]
+            objects += [Object(Mesh(corners * thin, part[:, inside_out]), **place) for part in parts if len(part)]
+        scene = Scene(objects, lights=[evolve(Light.directional((1, 2, 3)), shadow=True)], width=32, height=32)
+        calls.add(f"casters {number}", encode_scene_file(scene).decode(), scene)
+    rules = {int.from_bytes(call[-32:], "big") for call in calls.expected}
+    assert len(rules) == 2
     assert calls.differences(tmp_path) == []

@@ -1,7 +1,7 @@
 // What the Renderer returns for a call: bitmaps, their pixels, and the hash of those.
 
 import { InputError } from "./errors.js";
-import { bytesAt, wordAt } from "./evm/bytes.js";
+import { bytesAt, toHex, wordAt } from "./evm/bytes.js";
 import type { ContractEvm } from "./evm/contracts.js";
 import { FUNCTIONS, type FunctionName } from "./scene/encode.js";
 
@@ -89,6 +89,5 @@ export async function hashPixels(pixels: Uint8ClampedArray): Promise<string | nu
         rgb[to + 1] = pixels[from + 1] as number;
         rgb[to + 2] = pixels[from + 2] as number;
     }
-    const digest = new Uint8Array(await subtle.digest("SHA-256", rgb));
-    return Array.from(digest, (byte) => byte.toString(16).padStart(2, "0")).join("");
+    return toHex(new Uint8Array(await subtle.digest("SHA-256", rgb)), "");
 }

@@ -149,7 +149,7 @@ test("tiles lie on the canvas, and belong to functions of tiles", () => {
 test("wrong scene files are refused, with the place", () => {
     const cases: [string, RegExp][] = [
         ["{", /the scene is not valid JSON: /],
-        ["[]", /a scene must be a table with keys of background/],
+        ["[]", /a scene must be a table with keys of objects/],
         ['{"size": [1, 2, 3]}', /size must be a number of pixels, or width and height/],
         ['{"antialias": "yes"}', /antialias must be true or false, not "yes"/],
         ['{"fog": {"color": "red", "near": 1}}', /fog\.far must be a finite number, at least 0, not undefined/],
@@ -177,7 +177,7 @@ test("the time of an encoding is in proportion to the number of objects", () => 
         lights: [{ kind: "point", position: [9, 9, 9], shadow: true }],
     });
     const seconds = (scene: Scene): number => {
-        const times = Array.from({ length: 5 }, () => {
+        const times = Array.from({ length: 12 }, () => {
             // of the processor, however busy the machine is
             const start = process.cpuUsage();
             encode(scene);
@@ -188,5 +188,5 @@ test("the time of an encoding is in proportion to the number of objects", () => 
     const [few, many] = [of(200), of(1600)];
     seconds(few);
     // 64 times as long where each object looks at all others
-    assert.ok(seconds(many) < 24 * seconds(few));
+    assert.ok(seconds(many) < 40 * seconds(few));
 });

@@ -12,11 +12,33 @@ export function fromHex(text: string): Uint8Array<ArrayBuffer> {
     return bytes;
 }
 
-/** Return bytes as "0x" and hexadecimal digits. */
-export function toHex(bytes: Uint8Array): string {
-    const parts = ["0x"];
-    for (const byte of bytes) parts.push(byte.toString(16).padStart(2, "0"));
-    return parts.join("");
+/** Return bytes as "0x", or another start, and hexadecimal digits. */
+export function toHex(bytes: ArrayLike<number>, start = "0x"): string {
+    return start + Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
+}
+
+/** Return the bytes of a text in base64; undefined where it is none. */
+export function fromBase64(text: string): Uint8Array<ArrayBuffer> | undefined {
+    try {
+        return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+    } catch {
+        return undefined;
+    }
+}
+
+export function toBase64(bytes: Uint8Array): string {
+    const parts: string[] = [];
+    for (let at = 0; at < bytes.length; at += 0x8000)
+        parts.push(String.fromCharCode(...bytes.subarray(at, at + 0x8000)));
+    return btoa(parts.join(""));
+}
+
+/** Return bytes one after the other. */
+export function joined(parts: readonly Uint8Array[]): Uint8Array<ArrayBuffer> {
+    const bytes = new Uint8Array(parts.reduce((size, part) => size + part.length, 0));
+    let place = 0;
+    for (const part of parts) bytes.set(part, (place += part.length) - part.length);
+    return bytes;
 }
 
 /** Return the number of a word of 32 bytes, if it is whole and at most `most`; otherwise -1. */
@@ -56,13 +78,7 @@ export async function readStream(
         }
         parts.push(value);
     }
-    const bytes = new Uint8Array(size);
-    let place = 0;
-    for (const part of parts) {
-        bytes.set(part, place);
-        place += part.length;
-    }
-    return bytes;
+    return joined(parts);
 }
 
 /** Return whether bytes are in gzip. */
@@ -84,14 +100,17 @@ export async function inflate(
     }
 }
 
+export async function deflate(
+    content: Uint8Array<ArrayBuffer> | string,
+    format: "gzip" | "deflate",
+): Promise<Uint8Array<ArrayBuffer>> {
+    const stream = new Blob([content]).stream().pipeThrough(new CompressionStream(format));
+    return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
 /** Return the bytes of a text in base64 of bytes in gzip, as pages carry files in themselves. */
 export async function unpack(text: string, most: number, name: string): Promise<Uint8Array<ArrayBuffer>> {
-    let binary: string;
-    try {
-        binary = atob(text.trim());
-    } catch {
-        throw new InputError(`${name} is not base64`);
-    }
-    const bytes = Uint8Array.from(binary, (letter) => letter.charCodeAt(0));
+    const bytes = fromBase64(text.trim());
+    if (!bytes) throw new InputError(`${name} is not base64`);
     return inflate(bytes, "gzip", most, name);
 }

@@ -66,6 +66,11 @@ export class ContractEvm {
         return this.#checked(this.#evm.call(address, data, gas), gas);
     }
 
+    /** Call a contract as `call` does, with a value in wei, and keep what the call changes. */
+    send(address: Uint8Array, data: Uint8Array, gas = GAS_LIMIT, value = 0n): Answer {
+        return this.#checked(this.#evm.send(address, data, gas, value), gas);
+    }
+
     /** Return the gas of a call of the Renderer by stage. CallError where it fails, InputError for stages of other contracts. */
     profile(data: Uint8Array, stages: Stages, gas = GAS_LIMIT): StageGas[] {
         if (this.#described !== stages) {

@@ -27,6 +27,7 @@ interface Exports {
     release(start: number, size: number): void;
     put(address: number, code: number, size: number): void;
     call(address: number, data: number, size: number, gas: bigint): number;
+    send(address: number, value: number, data: number, size: number, gas: bigint): number;
     describe(address: number, places: number, size: number): void;
     profile(address: number, data: number, size: number, gas: bigint): number;
     table(): number;
@@ -36,7 +37,10 @@ interface Exports {
     gas_used(): bigint;
 }
 
-/** An EVM with the rules of Cancun. Every call starts from the same state, so that the same call costs the same gas. */
+/**
+ * An EVM with the rules of Cancun. Every call starts from the state that `put` and `send` left, so that the same call costs
+ * the same gas.
+ */
 export class Evm {
     readonly #module: WebAssembly.Module;
     readonly #codes = new Map<string, [Uint8Array, Uint8Array]>();
@@ -74,6 +78,13 @@ export class Evm {
         return this.#run("call", address, data, gas, ({ answer }) => answer);
     }
 
+    /** Call a contract with a value in wei, and keep what the call changes, until the EVM has to start anew after a failure. */
+    send(address: Uint8Array, data: Uint8Array, gas = GAS_LIMIT, value = 0n): Answer {
+        const wei = new Uint8Array(32);
+        for (let place = 31, left = value; left; left >>= 8n) wei[place--] = Number(left & 255n);
+        return this.#run("send", address, data, gas, ({ answer }) => answer, wei);
+    }
+
     /**
      * Call a contract, and count the gas of each instruction of the contracts that are described. The table is that of
      * evm/src/profile.rs. It takes several times as long as `call`.
@@ -86,11 +97,12 @@ export class Evm {
     }
 
     #run<T>(
-        name: "call" | "profile",
+        name: "call" | "send" | "profile",
         address: Uint8Array,
         data: Uint8Array,
         gas: number,
         read: (done: { answer: Answer; exports: Exports }) => T,
+        value?: Uint8Array,
     ): T {
         checkAddress(address);
         checkSize(data, "the call");
@@ -98,8 +110,11 @@ export class Evm {
             throw new InputError(`gas must be a number of at least 0 and less than 2^45, not ${String(gas)}`);
         const exports = (this.#exports ??= this.#start());
         try {
-            const status = passed(exports, [address, data], (to, start) =>
-                exports[name](to, start, data.length, BigInt(Math.floor(gas))),
+            const limit = BigInt(Math.floor(gas));
+            const status = passed(exports, value ? [address, data, value] : [address, data], (to, start, wei) =>
+                name === "send"
+                    ? exports.send(to, wei, start, data.length, limit)
+                    : exports[name](to, start, data.length, limit),
             );
             const place = exports.answer();
             const output = new Uint8Array(exports.memory.buffer, place, exports.answer_size()).slice();
@@ -139,17 +154,15 @@ export async function compile(source: BufferSource | Response | WebAssembly.Modu
 /** Return what a function returns for the places of values in memory. */
 function passed<T>(
     exports: Exports,
-    [first, second]: readonly [Uint8Array, Uint8Array],
-    use: (first: number, second: number) => T,
+    values: readonly Uint8Array[],
+    use: (...places: [number, number, number]) => T,
 ): T {
-    const places = [exports.allocate(first.length), exports.allocate(second.length)] as const;
+    const places = values.map((value) => exports.allocate(value.length));
     // only now: `allocate` may replace the buffer
     const memory = new Uint8Array(exports.memory.buffer);
-    memory.set(first, places[0]);
-    memory.set(second, places[1]);
-    const result = use(...places);
-    exports.release(places[0], first.length);
-    exports.release(places[1], second.length);
+    values.forEach((value, index) => memory.set(value, places[index]));
+    const result = use(...(places as [number, number, number]));
+    values.forEach((value, index) => exports.release(places[index] as number, value.length));
     return result;
 }
 

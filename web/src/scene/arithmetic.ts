@@ -37,6 +37,30 @@ export function largest(v: readonly number[]): number {
     return Math.max(...v.map(Math.abs));
 }
 
+/** Return the least and the largest of each coordinate of points, three numbers each; zeros without points. */
+export function boundsOf(points: Float64Array): [Vector, Vector] {
+    if (!points.length)
+        return [
+            [0, 0, 0],
+            [0, 0, 0],
+        ];
+    const [low, high] = [rowOf(points, 0), rowOf(points, 0)];
+    for (let axis = 0; axis < 3; axis++) {
+        let [least, most] = [low[axis], high[axis]];
+        for (let at = axis; at < points.length; at += 3) {
+            if (points[at] < least) least = points[at];
+            if (points[at] > most) most = points[at];
+        }
+        [low[axis], high[axis]] = [least, most];
+    }
+    return [low, high];
+}
+
+/** Return a row of three numbers. */
+export function rowOf(table: Float64Array, index: number): Vector {
+    return [table[3 * index] as number, table[3 * index + 1] as number, table[3 * index + 2] as number];
+}
+
 /** Return a vector or quaternion of any length but zero as one of length 1. */
 export function unit<V extends Vector | Quaternion>(v: V): V {
     const most = largest(v);

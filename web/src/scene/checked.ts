@@ -1,9 +1,10 @@
 // Scenes whose values are checked, converted and complete, with the defaults of docs/scene-files.md.
 
 import { InputError, show } from "../errors.js";
-import { fromEuler, rint, rotation, times, type Quaternion, type Vector } from "./arithmetic.js";
+import { boundsOf, fromEuler, rint, times, unit, type Quaternion, type Vector } from "./arithmetic.js";
 import * as check from "./checks.js";
 import type { Rgb } from "./checks.js";
+import { checkedOnce, remembered } from "./memory.js";
 import { PROJECTIONS, VIEW, frame, keyLight } from "./staging.js";
 import type * as given from "./types.js";
 
@@ -20,7 +21,7 @@ const DEFAULT_COLOR: Rgb = [200, 200, 200];
 export const SHADINGS = ["unlit", "flat", "smooth"] as const;
 export const LIGHT_KINDS = ["directional", "point", "spot"] as const;
 
-const SCENE = [
+export const SCENE = [
     "objects",
     "camera",
     "lights",
@@ -48,7 +49,7 @@ const LIGHTS = {
     point: ["kind", "position", "color", "shadow"],
     spot: ["kind", "position", "direction", "color", "innerAngle", "outerAngle", "shadow"],
 } as const;
-const OBJECT = [
+export const OBJECT = [
     "mesh",
     "position",
     "rotation",
@@ -60,16 +61,16 @@ const OBJECT = [
     "opacity",
     "fade",
 ] as const;
-const MATERIAL = ["shading", "ambient", "diffuse", "specular", "shininess", "texture", "emission"] as const;
-const MESH = ["positions", "faces", "colors", "normals", "uvs", "opacities"] as const;
-const TEXTURE = ["width", "height", "pixels", "filter", "wrap", "alpha", "cutoff"] as const;
+export const MATERIAL = ["shading", "ambient", "diffuse", "specular", "shininess", "texture", "emission"] as const;
+export const MESH = ["positions", "faces", "colors", "normals", "uvs", "opacities"] as const;
+export const TEXTURE = ["width", "height", "pixels", "filter", "wrap", "alpha", "cutoff"] as const;
 export const FILTERS = ["nearest", "bilinear"] as const;
 export const WRAPS = ["repeat", "clamp"] as const;
 const MAX_TEXTURE_SIDE = 256;
 
 /**
- * Positions and normals have three numbers for each vertex, colours three bytes, uvs two numbers, opacities a byte, of
- * which one at least is below 255; faces three vertex numbers each.
+ * Positions and normals have three numbers for each vertex, colours three bytes, uvs two numbers, opacities a multiple of
+ * 1/255, of which one at least is below 1; faces three vertex numbers each. Nobody changes them.
  */
 export interface Mesh {
     positions: Float64Array;
@@ -77,7 +78,7 @@ export interface Mesh {
     colors: Uint8Array;
     normals: Float64Array | undefined;
     uvs: Float64Array | undefined;
-    opacities: Uint8Array | undefined;
+    opacities: Float64Array | undefined;
 }
 
 /** `pixels` has three bytes for each texel, `alpha` one. */
@@ -188,7 +189,7 @@ export function checkedScene(scene: given.Scene): Scene {
     const objects = scene.objects.map((each: given.SceneObject, index) => checkedObject(each, `objects[${index}]`));
     let { camera, lights, background } = scene;
     if (objects.length && camera === undefined && lights === undefined && background === undefined) {
-        camera = stagedCamera(objects.flatMap(worldPositions), width / height);
+        camera = stagedCamera(worldPositions(objects), width / height);
         lights = [keyLight(VIEW)];
         background = STAGED_BACKGROUND;
     }
@@ -255,7 +256,7 @@ function checkedMaterial(material: given.Material, where: string): Material {
     };
 }
 
-function checkedTexture(texture: given.Texture, where: string): Texture {
+const checkedTexture = checkedOnce((texture: given.Texture, where: string): Texture => {
     check.fields(texture, where, TEXTURE);
     const width = check.whole(texture.width, `${where}.width`, 1, MAX_TEXTURE_SIDE);
     const height = check.whole(texture.height, `${where}.height`, 1, MAX_TEXTURE_SIDE);
@@ -285,7 +286,7 @@ function checkedTexture(texture: given.Texture, where: string): Texture {
         alpha: alpha && Uint8Array.from(alpha),
         cutoff: check.whole(texture.cutoff ?? 0, `${where}.cutoff`, 0, 255),
     };
-}
+});
 
 function checkLevels(levels: ArrayLike<number>, where: string): void {
     const bad = Array.prototype.findIndex.call(levels, (level: unknown) => !check.isLevel(level as number));
@@ -293,7 +294,8 @@ function checkLevels(levels: ArrayLike<number>, where: string): void {
         throw new InputError(`${where}[${bad}] must be a whole number from 0 to 255, not ${show(levels[bad])}`);
 }
 
-function checkedMesh(mesh: given.Mesh, where: string): Mesh {
+/** Return the mesh with all its tables, each of one type. It is the same one each time, and may share tables. */
+export const checkedMesh = checkedOnce((mesh: given.Mesh, where: string): Mesh => {
     check.fields(mesh, where, MESH);
     const positions = rows(mesh.positions, `${where}.positions`);
     const faces = rows(mesh.faces, `${where}.faces`);
@@ -319,16 +321,16 @@ function checkedMesh(mesh: given.Mesh, where: string): Mesh {
     }
     return {
         positions,
-        faces: Uint32Array.from(faces),
+        faces: mesh.faces instanceof Uint32Array ? mesh.faces : Uint32Array.from(faces),
         colors,
         normals,
         uvs: mesh.uvs && uvsOf(mesh.uvs, count, `${where}.uvs`),
         opacities: opacities ?? alpha,
     };
-}
+});
 
-/** Return a byte for each vertex, or undefined where all are opaque. */
-function opacitiesOf(value: ArrayLike<number>, count: number, where: string): Uint8Array | undefined {
+/** Return a multiple of 1/255 for each vertex, or undefined where all are opaque. */
+function opacitiesOf(value: ArrayLike<number>, count: number, where: string): Float64Array | undefined {
     if (!check.isList(value)) throw new InputError(`${where} must be a list of numbers, not ${show(value)}`);
     const levels = Array.from(value, (each, index) => rint(255 * check.number(each, `${where}[${index}]`, 0, 1)));
     if (levels.length !== count) {
@@ -337,8 +339,8 @@ function opacitiesOf(value: ArrayLike<number>, count: number, where: string): Ui
     return unlessOpaque(levels);
 }
 
-function unlessOpaque(levels: number[]): Uint8Array | undefined {
-    return levels.every((level) => level === 255) ? undefined : Uint8Array.from(levels);
+function unlessOpaque(levels: number[]): Float64Array | undefined {
+    return levels.every((level) => level === 255) ? undefined : Float64Array.from(levels, (level) => level / 255);
 }
 
 function uvsOf(value: NonNullable<given.Mesh["uvs"]>, count: number, where: string): Float64Array {
@@ -356,8 +358,8 @@ function uvsOf(value: NonNullable<given.Mesh["uvs"]>, count: number, where: stri
 
 interface Painted {
     colors: Uint8Array;
-    /** A byte for each vertex; undefined where all are opaque. */
-    alpha: Uint8Array | undefined;
+    /** As the opacities of a mesh. */
+    alpha: Float64Array | undefined;
 }
 
 function colorsOf(value: given.Rows | given.Color | undefined, count: number, where: string): Painted {
@@ -379,7 +381,9 @@ function colorsOf(value: given.Rows | given.Color | undefined, count: number, wh
             `${where}[${Math.floor(bad / width)}] must be whole numbers from 0 to 255, not ${levels[bad]}`,
         );
     }
-    if (width === 3) return { colors: Uint8Array.from(levels), alpha: undefined };
+    if (width === 3) {
+        return { colors: value instanceof Uint8Array ? value : Uint8Array.from(levels), alpha: undefined };
+    }
     const [colors, alpha] = [levels.filter((_, at) => at % 4 < 3), levels.filter((_, at) => at % 4 === 3)];
     return { colors: Uint8Array.from(colors), alpha: unlessOpaque(Array.from(alpha)) };
 }
@@ -395,7 +399,7 @@ function rows(value: given.Rows, where: string, width: 3 | 4 = 3): Float64Array 
         }
         return flat;
     }
-    flat = Float64Array.from(value as ArrayLike<number>);
+    flat = value instanceof Float64Array ? value : Float64Array.from(value as ArrayLike<number>);
     if (flat.length % 3) throw new InputError(`${where} must be rows of three numbers, not ${flat.length} in all`);
     const bad = flat.findIndex((x) => !Number.isFinite(x));
     if (bad < 0) return flat;
@@ -516,29 +520,61 @@ function checkedTone(value: given.Tone): Tone {
     };
 }
 
-/** Return the vertices of an object in the world. */
-export function worldPositions(object: SceneObject): Vector[] {
-    const { position, scale, mesh } = object;
-    const turn = rotation(object.rotation);
-    return Array.from({ length: mesh.positions.length / 3 }, (_, index) => {
-        const [x, y, z] = turn(times(scale, rowOf(mesh.positions, index)));
-        return [position[0] + x, position[1] + y, position[2] + z];
-    });
+/** What a scene may have besides, by its keys: the keys of each, and what checks it. */
+export const EFFECTS = {
+    hemisphere: { known: HEMISPHERE, check: checkedHemisphere },
+    rim: { known: RIM, check: checkedRim },
+    fog: { known: FOG, check: checkedFog },
+    tone: { known: TONE, check: checkedTone },
+    ground: { known: GROUND, check: checkedGround },
+};
+
+/** A mesh in the world. */
+type Placed = Pick<SceneObject, "mesh" | "position" | "rotation" | "scale">;
+
+/** Return the least and the largest of each coordinate of the vertices of objects in the world. */
+export function worldBounds(objects: readonly Placed[]): [Vector, Vector] {
+    const all = objects.map(({ mesh, position, rotation, scale }) =>
+        placedBounds(mesh, JSON.stringify({ position, rotation, scale })),
+    );
+    return boundsOf(Float64Array.from(all.flat(2)));
 }
 
-/** Return a row of three numbers. */
-export function rowOf(table: Float64Array, index: number): Vector {
-    return [table[3 * index] as number, table[3 * index + 1] as number, table[3 * index + 2] as number];
+const placedBounds = remembered((mesh: Mesh, place: string) =>
+    boundsOf(worldPositions([{ mesh, ...(JSON.parse(place) as Omit<Placed, "mesh">) }])),
+);
+
+/** Return the vertices of objects in the world, three numbers each. */
+export function worldPositions(objects: readonly Placed[]): Float64Array {
+    const found = new Float64Array(objects.reduce((sum, { mesh }) => sum + mesh.positions.length, 0));
+    let at = 0;
+    for (const { mesh, position, scale, rotation } of objects) {
+        // `rotation` of arithmetic.ts without its vectors
+        const [a, b, c, w] = unit(rotation);
+        for (let vertex = 0; vertex < mesh.positions.length; vertex += 3) {
+            const x = scale * mesh.positions[vertex];
+            const y = scale * mesh.positions[vertex + 1];
+            const z = scale * mesh.positions[vertex + 2];
+            const t = 2 * (b * z - c * y);
+            const u = 2 * (c * x - a * z);
+            const v = 2 * (a * y - b * x);
+            found[at++] = position[0] + (x + w * t + (b * v - c * u));
+            found[at++] = position[1] + (y + w * u + (c * t - a * v));
+            found[at++] = position[2] + (z + w * v + (a * u - b * t));
+        }
+    }
+    return found;
 }
 
-function stagedCamera(points: Vector[], aspect: number): given.Camera {
+function stagedCamera(points: Float64Array, aspect: number): given.Camera {
     // of any size: squares of its lengths stay within floats
-    let size = 0;
-    for (const point of points) for (const x of point) size = Math.max(size, Math.abs(x));
+    let size = points.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
     if (!(size < LARGEST))
         throw new InputError("the coordinates of the objects are too large for a camera to be placed");
     size ||= 1;
-    const shape = points.map(([x, y, z]): Vector => [x / size, y / size, z / size]);
-    const camera = frame(shape, { ...VIEW, aspect });
+    const camera = frame(
+        points.map((x) => x / size),
+        { ...VIEW, aspect },
+    );
     return { ...camera, eye: times(size, camera.eye), target: times(size, camera.target) };
 }

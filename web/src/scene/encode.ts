@@ -2,7 +2,8 @@
 //
 // Every field of the structs is a word of 32 bytes; lengths and coefficients are Q32 fixed-point numbers, value * 2^32.
 
-import { InputError } from "../errors.js";
+import { InputError, about } from "../errors.js";
+import { joined } from "../evm/bytes.js";
 import { cosine, rint } from "./arithmetic.js";
 import { checkedScene, type Light, type Scene as CheckedScene, type SceneObject } from "./checked.js";
 import * as check from "./checks.js";
@@ -30,14 +31,14 @@ export const WORD = 32;
 const MAX_FADE = 2n ** 58n;
 const MAX_INNER_FADE = MAX_FADE - 64n;
 /** One, in exposures. */
-const EXPOSURE = 2 ** 16;
+export const EXPOSURE = 2 ** 16;
 
-const PROJECTION_NUMBERS = { perspective: 0, orthographic: 1 } as const;
-const LIGHT_NUMBERS = { directional: 0, point: 1, spot: 1 } as const;
-const SHADING_NUMBERS = { unlit: 0, flat: 1, smooth: 2 } as const;
-const CULL_BACKFACES = 1;
-const WIREFRAME = 2;
-const TWO_SIDED = 4;
+export const PROJECTION_NUMBERS = { perspective: 0, orthographic: 1 } as const;
+export const LIGHT_NUMBERS = { directional: 0, point: 1, spot: 1 } as const;
+export const SHADING_NUMBERS = { unlit: 0, flat: 1, smooth: 2 } as const;
+export const CULL_BACKFACES = 1;
+export const WIREFRAME = 2;
+export const TWO_SIDED = 4;
 
 /**
  * Return the bytes of the call that draws a scene: the calldata for `eth_call`.
@@ -54,7 +55,7 @@ export function encode(scene: Scene, name: FunctionName = "render", tile?: Recta
     const rectangle = tile ? checkedTile(tile, checked) : [];
     const selector = new Uint8Array(4);
     new DataView(selector.buffer).setUint32(0, FUNCTIONS[name]);
-    return joined([selector, words([WORD * (1 + rectangle.length), ...rectangle]), encodeScene(fit(checked))]);
+    return joined([selector, words([WORD * (1 + rectangle.length), ...rectangle]), ...encodeScene(fit(checked))]);
 }
 
 /** Return whether a function takes a Rectangle. */
@@ -73,8 +74,8 @@ function checkedTile({ x, y, width, height }: Rectangle, scene: CheckedScene): n
     return numbers;
 }
 
-/** Return the struct Scene. */
-function encodeScene(scene: FittedScene): Uint8Array {
+/** Return the struct Scene, in parts. */
+function encodeScene(scene: FittedScene): Uint8Array[] {
     const { camera } = scene;
     const head = words([
         scene.width,
@@ -88,11 +89,12 @@ function encodeScene(scene: FittedScene): Uint8Array {
         Number(scene.invert),
         rgb(scene.ambientLight),
     ]);
-    const lights = joined([words([scene.lights.length]), ...scene.lights.map(encodeLight)]);
+    const lights = [words([scene.lights.length]), ...scene.lights.map(encodeLight)];
     const objects = arrayOfDynamic(scene.objects.map(encodeObject));
     const first = head.length + 3 * WORD;
-    const offsets = words([first, first + lights.length, first + lights.length + objects.length]);
-    return joined([head, offsets, lights, objects, dynamicBytes(extensions(scene))]);
+    const toObjects = first + sizeOf(lights);
+    const offsets = words([first, toObjects, toObjects + sizeOf(objects)]);
+    return [head, offsets, ...lights, ...objects, dynamicBytes(extensions(scene))];
 }
 
 /** Return the fields that the structs do not have: records in ascending order of kind and index. */
@@ -115,13 +117,14 @@ function extensions(scene: CheckedScene): Uint8Array {
     made.push(...effects(scene));
     scene.objects.forEach(({ mesh, material: { texture } }, index) => {
         if (!texture || !mesh.uvs) return;
-        const content = packTexture(texture, mesh.uvs, `objects[${index}]`);
+        const { uvs } = mesh;
+        const content = about(`objects[${index}]`, () => packTexture(texture, uvs));
         made.push(record(records.TEXTURE_OF, index, new DataView(content.buffer)));
     });
     scene.objects.forEach(({ mesh: { opacities } }, index) => {
         if (!opacities) return;
         const content = new Uint8Array(opacities.length + (-opacities.length & (WORD - 1)));
-        content.set(opacities);
+        content.set(opacities.map((each) => rint(255 * each)));
         made.push(record(records.OPACITIES_OF, index, new DataView(content.buffer)));
     });
     scene.lights.forEach(({ shadow }, index) => {
@@ -190,7 +193,7 @@ function encodeLight(light: Light): Uint8Array {
     return words([LIGHT_NUMBERS[light.kind], ...light.vector.map(q32), rgb(light.color)]);
 }
 
-function encodeObject(object: SceneObject): Uint8Array {
+function encodeObject(object: SceneObject): Uint8Array[] {
     const { material } = object;
     const fields = [
         ...[...object.position, ...object.rotation, object.scale].map(q32),
@@ -200,16 +203,20 @@ function encodeObject(object: SceneObject): Uint8Array {
         (object.cull ? CULL_BACKFACES : 0) | (object.wireframe ? WIREFRAME : 0) | (object.twoSided ? TWO_SIDED : 0),
     ];
     const mesh = pack(object.mesh, material.shading === "smooth");
-    return joined([words([WORD * (1 + fields.length), ...fields]), dynamicBytes(mesh)]);
+    return [words([WORD * (1 + fields.length), ...fields]), dynamicBytes(mesh)];
 }
 
-function arrayOfDynamic(items: Uint8Array[]): Uint8Array {
+function arrayOfDynamic(items: Uint8Array[][]): Uint8Array[] {
     let end = WORD * items.length;
-    const offsets = items.map((item) => (end += item.length) - item.length);
-    return joined([words([items.length, ...offsets]), ...items]);
+    const offsets = items.map((item) => {
+        const begin = end;
+        end += sizeOf(item);
+        return begin;
+    });
+    return [words([items.length, ...offsets]), ...items.flat()];
 }
 
-function dynamicBytes(content: Uint8Array): Uint8Array {
+export function dynamicBytes(content: Uint8Array): Uint8Array<ArrayBuffer> {
     return joined([words([content.length]), content, new Uint8Array(-content.length & (WORD - 1))]);
 }
 
@@ -236,12 +243,6 @@ export function setWord(bytes: Uint8Array, place: number, value: bigint): void {
     new DataView(bytes.buffer, bytes.byteOffset).setBigInt64(place + WORD - 8, value);
 }
 
-function joined(parts: readonly Uint8Array[]): Uint8Array {
-    const bytes = new Uint8Array(parts.reduce((size, part) => size + part.length, 0));
-    let place = 0;
-    for (const part of parts) {
-        bytes.set(part, place);
-        place += part.length;
-    }
-    return bytes;
+function sizeOf(parts: readonly Uint8Array[]): number {
+    return parts.reduce((size, part) => size + part.length, 0);
 }

@@ -1,90 +1,56 @@
 // Scene files: docs/scene-files.md documents the keys and their defaults.
 
 import { InputError, about, show } from "../errors.js";
+import { fromBase64 } from "../evm/bytes.js";
 import { fromAxisAngle, rint, type Vector } from "./arithmetic.js";
-import {
-    DEFAULT_SIDE,
-    FILTERS,
-    LIGHT_KINDS,
-    MAX_SIDE,
-    SHADINGS,
-    STAGED_BACKGROUND,
-    WRAPS,
-    checkedCamera,
-    checkedObject,
-    worldPositions,
-} from "./checked.js";
+import * as checked from "./checked.js";
 import * as check from "./checks.js";
 import { PROJECTIONS, VIEW, frame, halfHeightOf, keyLight, type Viewpoint } from "./staging.js";
+import { shadedMesh } from "./normals.js";
 import { isOriginal, originalScene } from "./original.js";
-import { Table } from "./table.js";
+import { Table, snake } from "./table.js";
 import type * as given from "./types.js";
 
-const SCENE = [
-    "background",
-    "invert",
-    "antialias",
-    "lights",
-    "ambient_light",
-    "hemisphere",
-    "rim",
-    "fog",
-    "tone",
-    "ground",
-    "size",
-    "camera",
-    "objects",
-];
+const SCENE = [...checked.SCENE.filter((key) => key !== "width" && key !== "height").map(snake), "size", "creator"];
 const PLACES = ["eye", "target", "up"] as const;
 const ANGLES = ["azimuth", "elevation", "margin"] as const;
 const CAMERA = [...PLACES, ...ANGLES, "fov", "half_height", "near", "projection"];
 const LIGHT = ["kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow"];
-const OBJECT = [
-    "color",
-    "cull",
-    "wireframe",
-    "two_sided",
-    "opacity",
-    "fade",
-    "mesh",
-    "position",
-    "rotation",
-    "scale",
-    "material",
-];
-const MATERIAL = ["texture", "shading", "ambient", "diffuse", "specular", "shininess", "emission"];
-const GROUND = ["color", "height", "radius", "center", "inner"];
-const TEXTURE = ["image", "width", "height", "pixels", "filter", "wrap", "alpha", "cutoff"];
+const OBJECT = [...checked.OBJECT.map(snake), "color", "crease"];
+const TEXTURE = ["image", ...checked.TEXTURE];
+
+/** Returns the mesh that the key `mesh` of an object refers to. */
+export type FindMesh = (mesh: unknown, where: string) => Pick<given.Material, "texture"> & { mesh: given.Mesh };
 
 /**
  * Return the scene of a scene file: its JSON as text, or as `JSON.parse` returns it.
  *
- * Meshes must be inside, as `Scene.save` of Python writes them: there are no files to read. `JSON.parse` does not tell
- * 1.0 from 1: a colour such as [1.0, 0.0, 0.0] is red in a text, and nearly black in a value. InputError, with the key,
- * if anything is wrong.
+ * Meshes must be inside, as `Scene.save` of Python writes them, or `find` returns them: there are no files to read.
+ * `JSON.parse` does not tell 1.0 from 1: a colour such as [1.0, 0.0, 0.0] is red in a text, and nearly black in a value.
+ * InputError, with the key, if anything is wrong.
  */
-export function parseScene(json: string | object): given.Scene {
-    const document: unknown = typeof json === "string" ? parse(json) : json;
+export function parseScene(json: string | object, find: FindMesh = findNone): given.Scene {
+    const document: unknown = typeof json === "string" ? parseJson(json) : json;
     if (isOriginal(document)) return originalScene(document);
     const table = new Table(document, "", SCENE);
     const [width, height] = sizeOf(table.get("size"));
-    const objects = table.list("objects").map((each, index) => objectOf(each, `objects[${index}]`));
+    const objects = table.list("objects").map((each, index) => objectOf(each, `objects[${index}]`, find));
     const { view, camera } = cameraOf(table.table("camera", CAMERA), width / height, objects);
+    const effects = Object.entries(checked.EFFECTS).map(([key, { known, check }]) => [
+        key,
+        table.has(key) ? check(table.table(key, known).values as never) : undefined,
+    ]);
     return {
         objects,
         camera,
         lights: table.has("lights")
             ? table.list("lights").map((each, index) => lightOf(each, `lights[${index}]`))
             : [keyLight(view)],
-        background: table.has("background") ? backgroundOf(table) : STAGED_BACKGROUND,
+        background: table.has("background") ? backgroundOf(table) : checked.STAGED_BACKGROUND,
         ambientLight: table.read("ambient_light", check.color),
         invert: table.read("invert", check.flag),
         antialias: table.read("antialias", check.flag),
-        hemisphere: table.has("hemisphere") ? hemisphereOf(table.table("hemisphere", ["sky", "ground"])) : undefined,
-        rim: table.has("rim") ? rimOf(table.table("rim", ["color", "power"])) : undefined,
-        fog: table.has("fog") ? fogOf(table.table("fog", ["color", "near", "far"])) : undefined,
-        tone: table.has("tone") ? toneOf(table.table("tone", ["exposure", "filmic", "gamma"])) : undefined,
-        ground: table.has("ground") ? groundOf(table.table("ground", GROUND)) : undefined,
+        ...(Object.fromEntries(effects) as Pick<given.Scene, keyof typeof checked.EFFECTS>),
         width,
         height,
     };
@@ -93,7 +59,8 @@ export function parseScene(json: string | object): given.Scene {
 /** The arrays of colours in a text; a quote inside of a string has a backslash before it. */
 const COLORS = /"(?:color|background|top|bottom|ambient_light|sky|ground)"\s*:\s*\[([^\]"{}[]*)\]/g;
 
-function parse(text: string): unknown {
+/** Return the value of the JSON of a scene file. */
+export function parseJson(text: string): unknown {
     const whole = text.replace(COLORS, (found, content: string) => {
         const levels = content.split(",").map(Number);
         const areFractions = /[.eE]/.test(content) && levels.every((level) => level >= 0 && level <= 1);
@@ -107,12 +74,12 @@ function parse(text: string): unknown {
 }
 
 function sizeOf(size: unknown): [number, number] {
-    if (size === undefined) return [DEFAULT_SIDE, DEFAULT_SIDE];
+    if (size === undefined) return [checked.DEFAULT_SIDE, checked.DEFAULT_SIDE];
     const sides: unknown[] = Array.isArray(size) ? size : [size, size];
     if (sides.length !== 2) {
         throw new InputError(`size must be a number of pixels, or width and height, not ${show(size)}`);
     }
-    return [check.whole(sides[0], "size", 1, MAX_SIDE), check.whole(sides[1], "size", 1, MAX_SIDE)];
+    return [check.whole(sides[0], "size", 1, checked.MAX_SIDE), check.whole(sides[1], "size", 1, checked.MAX_SIDE)];
 }
 
 function backgroundOf(table: Table): given.Background | given.Color {
@@ -120,37 +87,6 @@ function backgroundOf(table: Table): given.Background | given.Color {
     if (typeof value !== "object" || Array.isArray(value)) return check.color(value, "background");
     const inside = table.table("background", ["top", "bottom"]);
     return { top: inside.read("top", check.color), bottom: inside.read("bottom", check.color) };
-}
-
-function hemisphereOf(keys: Table): given.Hemisphere {
-    return { sky: check.color(keys.get("sky"), keys.place("sky")), ground: keys.read("ground", check.color) };
-}
-
-function rimOf(keys: Table): given.Rim {
-    return { color: check.color(keys.get("color"), keys.place("color")), power: keys.number("power", 1, 16) };
-}
-
-function fogOf(keys: Table): given.Fog {
-    const [near, far] = ["near", "far"].map((key) => check.number(keys.get(key), keys.place(key), 0));
-    return { color: check.color(keys.get("color"), keys.place("color")), near: near as number, far: far as number };
-}
-
-function groundOf(keys: Table): given.Ground {
-    return {
-        color: check.color(keys.get("color"), keys.place("color")),
-        height: keys.number("height"),
-        radius: keys.number("radius", 0),
-        center: keys.read("center", (value, where) => check.numbers(value, where, 2) as [number, number]),
-        inner: keys.number("inner", 0),
-    };
-}
-
-function toneOf(keys: Table): given.Tone {
-    return {
-        exposure: keys.number("exposure", 0, 64),
-        filmic: keys.read("filmic", check.flag),
-        gamma: keys.read("gamma", check.flag),
-    };
 }
 
 function cameraOf(
@@ -187,11 +123,13 @@ function cameraOf(
         const [eye, target, up] = PLACES.map((key) => keys.read(key, check.vector));
         camera = { eye, target, up, projection };
     } else {
-        const points = objects.flatMap((each, index) => worldPositions(checkedObject(each, `objects[${index}]`)));
-        camera = about("camera", () => frame(objects.length ? points : [[0, 0, 0]], view));
+        const points = checked.worldPositions(
+            objects.map((each, index) => checked.checkedObject(each, `objects[${index}]`)),
+        );
+        camera = about("camera", () => frame(objects.length ? points : new Float64Array(3), view));
     }
     const whole = { ...camera, halfHeight: halfHeight ?? camera.halfHeight, near: keys.number("near") };
-    checkedCamera(whole);
+    checked.checkedCamera(whole);
     return { view, camera: whole };
 }
 
@@ -214,7 +152,7 @@ const LIGHT_KEYS = {
 
 function lightOf(value: unknown, where: string): given.Light {
     const keys = new Table(value, where, LIGHT);
-    const kind = check.choice(keys.get("kind"), keys.place("kind"), LIGHT_KINDS);
+    const kind = check.choice(keys.get("kind"), keys.place("kind"), checked.LIGHT_KINDS);
     const [needed, optional]: readonly [readonly string[], readonly string[]] = LIGHT_KEYS[kind];
     for (const key of ["position", "direction", "inner_angle", "outer_angle"]) {
         if (needed.includes(key) && !keys.has(key))
@@ -235,17 +173,26 @@ function lightOf(value: unknown, where: string): given.Light {
     return { kind, position, direction, color, innerAngle, outerAngle, shadow };
 }
 
-function objectOf(value: unknown, where: string): given.SceneObject {
+function objectOf(value: unknown, where: string, find: FindMesh): given.SceneObject {
     const keys = new Table(value, where, OBJECT);
     const color = keys.read("color", check.color);
-    const mesh = meshOf(keys);
-    const material = materialOf(keys.table("material", MATERIAL));
+    const own = keys.table("material", checked.MATERIAL);
+    const material = materialOf(own);
+    const found = isInside(keys) ? { mesh: meshOf(keys) } : find(keys.get("mesh"), keys.place("mesh"));
+    if (found.texture && !own.has("texture")) material.texture = found.texture;
+    let { mesh } = found;
+    const crease = keys.number("crease", 0, 180);
+    if (crease !== undefined && material.shading === "smooth") {
+        const shaded = shadedMesh(checked.checkedMesh(mesh, keys.place("mesh")), crease);
+        [mesh, material.shading] = [shaded.mesh, shaded.shading];
+    }
+    if (color) [mesh, material.texture] = [{ ...mesh, colors: color }, undefined];
     return {
-        mesh: color ? { ...mesh, colors: color } : mesh,
+        mesh,
         position: keys.read("position", check.vector),
         rotation: rotationOf(keys),
         scale: keys.number("scale", 0),
-        material: color ? { ...material, texture: undefined } : material,
+        material,
         cull: keys.read("cull", check.flag),
         wireframe: keys.read("wireframe", check.flag),
         twoSided: keys.read("two_sided", check.flag),
@@ -254,9 +201,19 @@ function objectOf(value: unknown, where: string): given.SceneObject {
     };
 }
 
+/** Return whether the mesh of an object is in the file. */
+function isInside(keys: Table): boolean {
+    const mesh = keys.get("mesh");
+    return typeof mesh === "object" && mesh !== null && !("piece" in mesh) && !("file" in mesh);
+}
+
+function findNone(_: unknown, where: string): never {
+    throw new InputError(`${where} must be a table with positions and faces: no files are read here`);
+}
+
 function materialOf(keys: Table): given.Material {
     return {
-        shading: keys.read("shading", (value, where) => check.choice(value, where, SHADINGS)),
+        shading: keys.read("shading", (value, where) => check.choice(value, where, checked.SHADINGS)),
         ambient: keys.number("ambient", 0, 4),
         diffuse: keys.number("diffuse", 0, 4),
         specular: keys.number("specular", 0, 4),
@@ -277,26 +234,21 @@ function textureOf(material: Table): given.Texture {
         width: check.whole(keys.get("width"), keys.place("width"), 1, 256),
         height: check.whole(keys.get("height"), keys.place("height"), 1, 256),
         pixels: levelsOf(pixels, `${place}.pixels must be red, green and blue bytes in base64`),
-        filter: keys.read("filter", (value, where) => check.choice(value, where, FILTERS)),
-        wrap: keys.read("wrap", (value, where) => check.choice(value, where, WRAPS)),
+        filter: keys.read("filter", (value, where) => check.choice(value, where, checked.FILTERS)),
+        wrap: keys.read("wrap", (value, where) => check.choice(value, where, checked.WRAPS)),
         alpha: keys.read("alpha", (value, where) => levelsOf(String(value), `${where} must be bytes in base64`)),
         cutoff: keys.read("cutoff", (value, where) => check.whole(value, where, 0, 255)),
     };
 }
 
 function levelsOf(base64: string, error: string): Uint8Array {
-    try {
-        return Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
-    } catch {
-        throw new InputError(error);
-    }
+    const bytes = fromBase64(base64);
+    if (bytes) return bytes;
+    throw new InputError(error);
 }
 
 function meshOf(keys: Table): given.Mesh {
-    if (!keys.has("mesh") || typeof keys.get("mesh") === "string") {
-        throw new InputError(`${keys.place("mesh")} must be a table with positions and faces: no files are read here`);
-    }
-    const inside = keys.table("mesh", ["positions", "faces", "colors", "normals", "uvs", "opacities"]);
+    const inside = keys.table("mesh", checked.MESH);
     return {
         positions: inside.rows("positions"),
         faces: inside.rows("faces"),

@@ -4,6 +4,7 @@
 import { InputError } from "../errors.js";
 import {
     add,
+    boundsOf,
     cross,
     dot,
     exponentOf,
@@ -19,7 +20,6 @@ import {
     type Vector,
 } from "./arithmetic.js";
 import {
-    rowOf,
     worldPositions,
     type Camera,
     type Fog,
@@ -29,6 +29,7 @@ import {
     type SceneObject,
 } from "./checked.js";
 import { withGround } from "./ground.js";
+import { remembered } from "./memory.js";
 import { MAX_SHORT, MAX_WIDE, fits, isIntegral, vertexNormals } from "./mesh.js";
 
 /** Limits of the contracts, in world units. */
@@ -94,36 +95,60 @@ function checkView({ eye, target, up }: Camera): void {
 
 /** Return the object without unused vertices, and with the normals that smooth shading needs. */
 function prepare(object: SceneObject): SceneObject {
-    const { mesh } = object;
+    return { ...object, mesh: preparedMesh(object.mesh, object.material.shading === "smooth") };
+}
+
+const preparedMesh = remembered((mesh: Mesh, isSmooth: boolean): Mesh => {
     const count = mesh.positions.length / 3;
-    const normals = object.material.shading === "smooth" ? (mesh.normals ?? computedNormals(mesh)) : undefined;
+    const normals = isSmooth ? (mesh.normals ?? computedNormals(mesh)) : undefined;
     const numbers = new Int32Array(count).fill(-1);
     for (const vertex of mesh.faces) numbers[vertex] = 0;
     let used = 0;
     for (let vertex = 0; vertex < count; vertex++) if (numbers[vertex] === 0) numbers[vertex] = used++;
-    if (used === count) return { ...object, mesh: { ...mesh, normals } };
+    if (used === count) return { ...mesh, normals };
     const kept = <T extends Float64Array | Uint8Array>(table: T, width = 3): T =>
-        table.filter((_, index) => (numbers[Math.floor(index / width)] as number) >= 0) as T;
+        table.filter((_, index) => numbers[Math.floor(index / width)] >= 0) as T;
     const opacities = mesh.opacities && kept(mesh.opacities, 1);
     return {
-        ...object,
-        mesh: {
-            positions: kept(mesh.positions),
-            faces: mesh.faces.map((vertex) => numbers[vertex] as number),
-            colors: kept(mesh.colors),
-            normals: normals && kept(normals),
-            uvs: mesh.uvs && kept(mesh.uvs, 2),
-            opacities: opacities?.some((level) => level < 255) ? opacities : undefined,
-        },
+        positions: kept(mesh.positions),
+        faces: mesh.faces.map((vertex) => numbers[vertex]),
+        colors: kept(mesh.colors),
+        normals: normals && kept(normals),
+        uvs: mesh.uvs && kept(mesh.uvs, 2),
+        opacities: opacities?.some((each) => each < 1) ? opacities : undefined,
     };
+});
+
+function computedNormals(mesh: Mesh): Float64Array {
+    const { center, radius } = factsOf(mesh);
+    // of any size: squares of its lengths stay within floats
+    const shape = mesh.positions.map((x, index) => (x - center[index % 3]) / (radius || 1));
+    return vertexNormals(shape, mesh.faces);
 }
 
-function computedNormals({ positions, faces }: Mesh): Float64Array {
-    const { center, radius } = boxOf(positions);
-    // of any size: squares of its lengths stay within floats
-    const shape = positions.map((x, index) => (x - (center[index % 3] as number)) / (radius || 1));
-    return vertexNormals(shape, faces);
+/** The size of a mesh, in its own units. */
+interface Facts {
+    /** Whether a packed mesh can hold its coordinates, and whether 16 bits can. */
+    isIntegral: boolean;
+    isShort: boolean;
+    /** The largest coordinate, without its sign. */
+    reach: number;
+    /** The middle of the bounding box, and the largest distance from it along an axis. */
+    center: Vector;
+    radius: number;
 }
+
+const factsOf = remembered(({ positions }: Mesh): Facts => {
+    const bounds = boundsOf(positions);
+    const [low, high] = bounds.map((each) => times(0.5, each));
+    return {
+        isIntegral: isIntegral(positions),
+        isShort: fits(positions, MAX_SHORT),
+        reach: largest(bounds.flat()),
+        center: add(low, high),
+        radius: Math.max(...subtract(high, low)),
+    };
+});
 
 /** Return whether the contracts represent the scene exactly, well within their ranges. */
 function isExact({ camera, lights, objects, fog }: Scene): boolean {
@@ -132,10 +157,10 @@ function isExact({ camera, lights, objects, fog }: Scene): boolean {
     for (const light of lights) if (light.kind !== "directional") lengths.push(...light.vector);
     let reach = largest(lengths);
     for (const { mesh, scale, position } of objects) {
-        if (!isIntegral(mesh.positions) || scale > maxScale(mesh.positions)) return false;
+        const facts = factsOf(mesh);
+        if (!facts.isIntegral || scale > maxScale(facts)) return false;
         lengths.push(scale, ...position);
-        const size = mesh.positions.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
-        reach = Math.max(reach, largest(position) + scale * size);
+        reach = Math.max(reach, largest(position) + scale * facts.reach);
     }
     const view = cross(unit(subtract(camera.target, camera.eye)), unit(camera.up));
     // by `moveCamera`: a scene decoded from a call must not be moved again
@@ -173,7 +198,7 @@ function factorOf(scene: Scene): number {
 function extentOf({ objects, camera }: Scene): { size: number; farthest: number } {
     let [size, farthest] = [0, 0];
     for (const { mesh, scale, position, rotation: quaternion } of objects) {
-        const { center, radius } = boxOf(mesh.positions);
+        const { center, radius } = factsOf(mesh);
         const place = subtract(add(position, rotation(quaternion)(times(scale, center))), camera.eye);
         size = Math.max(size, scale * radius);
         farthest = Math.max(farthest, largest(place) + scale * radius);
@@ -236,14 +261,15 @@ function moveObject(object: SceneObject, scene: Scene, factor: number, near: num
     let { mesh } = object;
     let center: Vector = [0, 0, 0];
     let step = 1;
-    if (!isIntegral(mesh.positions) || object.scale * factor > maxScale(mesh.positions)) {
+    const facts = factsOf(mesh);
+    if (!facts.isIntegral || object.scale * factor > maxScale(facts)) {
         // the radii of a fade are about the object's position, which therefore stays
-        const radius = mesh.positions.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
-        const box = object.fade ? { center, radius } : boxOf(mesh.positions);
+        const isFixed = object.fade !== undefined;
+        const box = isFixed ? { center, radius: facts.reach } : facts;
+        const steps = stepsOf(object, box, scene, factor, near);
         center = box.center;
-        step = box.radius / stepsOf(object, box.radius, scene, factor, near);
-        const grid = mesh.positions.map((x, index) => (step ? rint((x - (center[index % 3] as number)) / step) : 0));
-        mesh = { ...mesh, positions: grid };
+        step = box.radius / steps;
+        mesh = isFixed ? onGrid(mesh, center, step) : inSteps(mesh, steps);
     }
     const turned = rotation(object.rotation)(times(object.scale, center));
     const place = subtract(add(object.position, turned), scene.camera.eye);
@@ -251,37 +277,54 @@ function moveObject(object: SceneObject, scene: Scene, factor: number, near: num
     return { ...object, mesh, position: times(factor, place), scale: object.scale * step * factor, fade };
 }
 
+/** Return the mesh with whole coordinates: the largest of its box, from the middle, is `steps`. */
+const inSteps = remembered((mesh: Mesh, steps: number): Mesh => {
+    const { center, radius } = factsOf(mesh);
+    return onGrid(mesh, center, radius / steps);
+});
+
+function onGrid(mesh: Mesh, center: Vector, step: number): Mesh {
+    return { ...mesh, positions: mesh.positions.map((x, index) => (step ? rint((x - center[index % 3]) / step) : 0)) };
+}
+
 /** Return how many steps the grid of an object has across half its largest side. */
-function stepsOf(object: SceneObject, radius: number, scene: Scene, factor: number, near: number): number {
-    const { camera } = scene;
-    let pixels = scene.height / (2 * camera.halfHeight);
-    if (camera.projection === "perspective") {
-        const forward = unit(subtract(camera.target, camera.eye));
-        const depths = worldPositions(object).map((place) => dot(subtract(place, camera.eye), forward));
-        const nearest = depths.reduce((least, depth) => Math.min(least, depth));
-        pixels /= Math.max(nearest, near / factor);
-    }
+function stepsOf(
+    object: SceneObject,
+    { center, radius }: { center: Vector; radius: number },
+    { camera, height }: Scene,
+    factor: number,
+    near: number,
+): number {
     const size = object.scale * radius;
-    if (size * pixels <= STEP_IN_PIXELS * MAX_SHORT) return MAX_SHORT;
+    const isCoarse = (nearest: number): boolean =>
+        size * (height / (2 * camera.halfHeight) / Math.max(nearest, near / factor)) <= STEP_IN_PIXELS * MAX_SHORT;
+    if (camera.projection === "orthographic") {
+        if (size * (height / (2 * camera.halfHeight)) <= STEP_IN_PIXELS * MAX_SHORT) return MAX_SHORT;
+    } else {
+        const forward = unit(subtract(camera.target, camera.eye));
+        const middle = add(object.position, rotation(object.rotation)(times(object.scale, center)));
+        // no vertex is nearer than the sphere about the box, whatever the rounding
+        const slack = 1e-9 * (largest(middle) + largest(camera.eye) + largest(object.position) + size);
+        if (isCoarse(dot(subtract(middle, camera.eye), forward) - 2 * size - slack)) return MAX_SHORT;
+        const places = worldPositions([object]);
+        let nearest = Infinity;
+        for (let at = 0; at < places.length; at += 3) {
+            const [x, y, z] = [
+                places[at] - camera.eye[0],
+                places[at + 1] - camera.eye[1],
+                places[at + 2] - camera.eye[2],
+            ];
+            nearest = Math.min(nearest, x * forward[0] + y * forward[1] + z * forward[2]);
+        }
+        if (isCoarse(nearest)) return MAX_SHORT;
+    }
     // the contract's matrix is rounded to 2^-32 units a step: with more steps that would be more than one of them
     return Math.trunc(Math.min(Math.max(Math.sqrt((size * factor) / STEP), MAX_SHORT), MAX_WIDE));
 }
 
 /** Return the scale up to which the contracts draw a mesh of these coordinates, which depends on their bits. */
-function maxScale(positions: Float64Array): number {
-    return fits(positions, MAX_SHORT) ? 2 ** 12 : 2 ** 4;
-}
-
-/** Return the middle of the bounding box, and the largest distance from it along an axis. */
-function boxOf(positions: Float64Array): { center: Vector; radius: number } {
-    const [low, high] = [rowOf(positions, 0), rowOf(positions, 0)];
-    positions.forEach((x, index) => {
-        const axis = (index % 3) as 0 | 1 | 2;
-        low[axis] = Math.min(low[axis], x);
-        high[axis] = Math.max(high[axis], x);
-    });
-    const [a, b] = [times(0.5, low), times(0.5, high)];
-    return { center: add(a, b), radius: Math.max(...subtract(b, a)) };
+function maxScale({ isShort }: Facts): number {
+    return isShort ? 2 ** 12 : 2 ** 4;
 }
 
 export function direction<V extends Vector | Quaternion>(v: V): V {

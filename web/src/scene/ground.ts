@@ -1,8 +1,32 @@
 /** A ground under the objects of a scene, and what casts shadows on it. */
 
-import { cross, dot, exponentOf, length, powerOfTwo, rint, type Vector } from "./arithmetic.js";
-import { checkInner, worldPositions, type Ground, type Scene, type SceneObject } from "./checked.js";
+import {
+    add,
+    boundsOf,
+    cross,
+    dot,
+    exponentOf,
+    length,
+    powerOfTwo,
+    rint,
+    rotation,
+    rowOf,
+    subtract,
+    times,
+    type Vector,
+} from "./arithmetic.js";
+import {
+    checkInner,
+    checkedObject,
+    worldBounds,
+    worldPositions,
+    type Ground,
+    type Scene,
+    type SceneObject,
+} from "./checked.js";
 import { SHADOWS_ALL, SHADOWS_BACK_FACES } from "./records.js";
+import { facesOfAll, isBalanced, numbered } from "./topology.js";
+import { solidOf } from "./winding.js";
 
 /**
  * The radius of a ground, as a multiple of half the diagonal of the box around the objects; the part of the radius at
@@ -11,57 +35,36 @@ import { SHADOWS_ALL, SHADOWS_BACK_FACES } from "./records.js";
 const [REACH, INNER, GAP] = [2.25, 0.4, 2 ** -10];
 /** Its coordinates are multiples of the half diagonal, rounded up to a power of two, times 2^-20. */
 const STEP_BITS = 20;
+/** Casters are closed if they are with vertices at multiples of their size, rounded up to a power of two, times 2^-16. */
+const PLACE_BITS = 16;
 /** One, in opacities. */
 export const OPAQUE = 2 ** 24;
 const CORNERS = [-1, 0, -1, -1, 0, 1, 1, 0, 1, 1, 0, -1];
 
 /** Return the objects of a scene, with its ground as the last. */
 export function withGround({ objects, ground }: Scene): SceneObject[] {
-    return ground ? [...objects, groundUnder(ground, objects.flatMap(worldPositions))] : objects;
+    return ground ? [...objects, groundUnder(ground, worldBounds(objects))] : objects;
 }
 
-function groundUnder({ color, height, radius, center, inner }: Ground, points: Vector[]): SceneObject {
-    const bounds = [0, 1, 2].map((axis) => {
-        const values = points.length ? points.map((point) => point[axis] as number) : [0];
-        const low = values.reduce((least, value) => Math.min(least, value));
-        return [low / 2, values.reduce((most, value) => Math.max(most, value)) / 2] as const;
-    });
-    const half = length(bounds.map(([low, high]) => high - low)) || 1;
+/** Return the object that is a ground under what has these bounds. */
+export function groundUnder({ color, height, radius, center, inner }: Ground, bounds: [Vector, Vector]): SceneObject {
+    const [low, high] = bounds.map((each) => times(0.5, each));
+    const half = length(subtract(high, low)) || 1;
     const step = powerOfTwo(exponentOf(half) - STEP_BITS);
     const onGrid = (value: number): number => Math.floor(value / step) * step;
-    const [x, , z] = bounds.map(([low, high]) => onGrid(low + high)) as [number, number, number];
-    const lowest = (bounds[1] as readonly [number, number])[0];
+    const [x, , z] = add(low, high).map(onGrid);
     const scale = radius ?? onGrid(REACH * half);
     const start = inner ?? INNER * scale;
     checkInner(start, scale);
-    return {
-        mesh: {
-            positions: Float64Array.from(CORNERS),
-            faces: Uint32Array.from([0, 1, 2, 0, 2, 3]),
-            colors: Uint8Array.from({ length: 12 }, (_, index) => color[index % 3] as number),
-            normals: undefined,
-            uvs: undefined,
-            opacities: undefined,
-        },
-        position: [center?.[0] ?? x, height ?? onGrid(2 * lowest - GAP * half), center?.[1] ?? z],
-        rotation: [0, 0, 0, 1],
+    const object = {
+        mesh: { positions: CORNERS, faces: [0, 1, 2, 0, 2, 3], colors: color },
+        position: [center?.[0] ?? x, height ?? onGrid(2 * low[1] - GAP * half), center?.[1] ?? z],
         scale,
         // matte
-        material: {
-            shading: "flat",
-            ambient: 0.4,
-            diffuse: 0.7,
-            specular: 0,
-            shininess: 24,
-            texture: undefined,
-            emission: [0, 0, 0],
-        },
-        cull: true,
-        wireframe: false,
-        twoSided: false,
-        opacity: 1,
+        material: { ambient: 0.4, diffuse: 0.7, specular: 0 },
         fade: [start, scale],
-    };
+    } as const;
+    return checkedObject(object, "ground");
 }
 
 /**
@@ -93,37 +96,46 @@ export function isOpaque({ opacity }: SceneObject): boolean {
 
 /** Return whether each edge has as many faces on one side as on the other, and they bound a volume from outside. */
 function areClosed(objects: SceneObject[]): boolean {
-    const positions = objects.flatMap(worldPositions);
-    if (!positions.length) return true;
-    const low = [0, 1, 2].map((axis) => positions.reduce((least, p) => Math.min(least, p[axis] as number), Infinity));
-    const sides = low.map((least, axis) =>
-        positions.reduce((most, p) => Math.max(most, (p[axis] as number) - least), 0),
-    );
-    const step = powerOfTwo(exponentOf(Math.max(...sides)) - 16);
-    const places = positions.map((p) => p.map((x, axis) => rint((x - (low[axis] as number)) / step)) as Vector);
-    const names = new Map<string, number>();
-    const numbers = places.map((place) => {
-        const key = place.join();
-        const number = names.get(key) ?? names.size;
-        names.set(key, number);
-        return number;
-    });
-    const edges = new Map<number, number>();
-    let [volume, begin] = [0, 0];
-    for (const { mesh } of objects) {
-        for (let face = 0; face < mesh.faces.length; face += 3) {
-            const corners = [0, 1, 2].map((corner) => begin + (mesh.faces[face + corner] as number));
-            const [a, b, c] = corners.map((vertex) => places[vertex] as Vector) as [Vector, Vector, Vector];
-            volume += dot(a, cross(b, c));
-            for (let corner = 0; corner < 3; corner++) {
-                const one = numbers[corners[corner] as number] as number;
-                const other = numbers[corners[(corner + 1) % 3] as number] as number;
-                if (one === other) continue;
-                const key = Math.min(one, other) * names.size + Math.max(one, other);
-                edges.set(key, (edges.get(key) ?? 0) + (one < other ? 1 : -1));
-            }
-        }
-        begin += mesh.positions.length / 3;
+    const known = objects.length ? volumeOf(objects) : 1;
+    if (known !== undefined) return known > 0;
+    const positions = worldPositions(objects);
+    const [low, high] = boundsOf(positions);
+    const step = powerOfTwo(exponentOf(Math.max(...subtract(high, low))) - PLACE_BITS);
+    const places = positions.map((x, index) => rint((x - low[index % 3]) / step));
+    const { numbers } = numbered(places, 3);
+    const faces = facesOfAll(objects.map(({ mesh }) => mesh));
+    if (!isBalanced(faces.map((vertex) => numbers[vertex]))) return false;
+    let volume = 0;
+    for (let face = 0; face < faces.length; face += 3) {
+        const [a, b, c] = [0, 1, 2].map((corner) => rowOf(places, faces[face + corner]));
+        volume += dot(a, cross(b, c));
     }
-    return volume > 0 && [...edges.values()].every((balance) => balance === 0);
+    return volume > 0;
+}
+
+/**
+ * Return the volume within objects, if each of them is closed by itself, and the volume far enough from zero to have
+ * this sign wherever `areClosed` moves their vertices: then it need not look at all of them.
+ */
+function volumeOf(objects: SceneObject[]): number | undefined {
+    const solids = objects.map(({ mesh }) => solidOf(mesh));
+    if (!solids.every(({ isClosed }) => isClosed)) return undefined;
+    const balls = objects.map((each, index) => {
+        const { center, radius } = solids[index];
+        const middle = add(each.position, rotation(each.rotation)(times(each.scale, center)));
+        return [-1, 1].flatMap((side) => middle.map((x) => x + side * 2 * each.scale * radius));
+    });
+    const [low, high] = boundsOf(Float64Array.from(balls.flat()));
+    const step = 2 ** -PLACE_BITS * 2 * Math.max(...subtract(high, low));
+    let [volume, error, faces] = [0, 0, 0];
+    objects.forEach(({ scale, mesh }, index) => {
+        const solid = solids[index];
+        faces += mesh.faces.length / 3;
+        volume += scale ** 3 * solid.volume;
+        // each vertex moves by less than a step, and so the volume by less than what the surface then sweeps
+        error += step * (scale ** 2 * solid.area + scale * step * solid.sides + 2 * step ** 2 * mesh.faces.length);
+    });
+    // that of the sum: of products below 2^50 cubic steps
+    error += step ** 3 * faces ** 2;
+    return Math.abs(volume) > error ? volume : undefined;
 }

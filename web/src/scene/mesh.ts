@@ -2,15 +2,16 @@
 
 import { InputError } from "../errors.js";
 import { rint } from "./arithmetic.js";
-import type { Mesh } from "./checked.js";
+import { checkedMesh, type Mesh } from "./checked.js";
+import { remembered } from "./memory.js";
 
 /** Bits of the first byte. */
-export const NORMALS = 1;
-export const WIDE = 2;
+const NORMALS = 1;
+const WIDE = 2;
 /** Bytes before the vertices. */
-export const HEADER = 5;
+const HEADER = 5;
 /** Bytes of a face. */
-export const FACE = 6;
+const FACE = 6;
 
 const MAX_COUNT = 65535;
 /** The largest coordinates, of 16 and of 24 bits. */
@@ -20,7 +21,7 @@ export const MAX_WIDE = 2 ** 23 - 1;
 const NORMAL_UNIT = 511;
 
 /** Return the bytes of a mesh with whole coordinates; with its normals if `smooth`. */
-export function pack(mesh: Mesh, smooth: boolean): Uint8Array {
+export const pack = remembered((mesh: Mesh, smooth: boolean): Uint8Array => {
     const { positions, faces, colors } = mesh;
     const [count, faceCount] = [positions.length / 3, faces.length / 3];
     if (count > MAX_COUNT || faceCount > MAX_COUNT) {
@@ -55,33 +56,97 @@ export function pack(mesh: Mesh, smooth: boolean): Uint8Array {
         place += 2;
     }
     return bytes;
+});
+
+/** Return the coordinates of a packed mesh, and how many triangles it has. InputError where its size is not what it says. */
+export function unpackedPositions(packed: Uint8Array): { positions: Float64Array; triangles: number } {
+    const view = new DataView(packed.buffer, packed.byteOffset, packed.length);
+    const format = packed.length < HEADER ? 0xff : packed[0];
+    if (format > NORMALS + WIDE) throw new InputError("a packed mesh must begin with a format and two counts");
+    const [vertices, triangles, size] = [view.getUint16(1), view.getUint16(3), vertexSize(format)];
+    const expected = HEADER + vertices * size + triangles * FACE;
+    if (packed.length !== expected) {
+        throw new InputError(`a packed mesh of this header must have ${expected} bytes, not ${packed.length}`);
+    }
+    const positions = new Float64Array(3 * vertices);
+    for (let vertex = 0, at = 0; vertex < vertices; vertex++) {
+        let place = HEADER + vertex * size;
+        for (let axis = 0; axis < 3; axis++) {
+            positions[at++] = format & WIDE ? view.getInt16(place) * 256 + packed[place + 2] : view.getInt16(place);
+            place += format & WIDE ? 3 : 2;
+        }
+    }
+    return { positions, triangles };
+}
+
+/** Return the mesh of packed bytes, such that `pack` makes the same bytes of it again. InputError for any others. */
+export function unpack(packed: Uint8Array): Mesh {
+    const { positions, triangles } = unpackedPositions(packed);
+    const view = new DataView(packed.buffer, packed.byteOffset, packed.length);
+    const [size, end] = [vertexSize(packed[0]), packed.length - FACE * triangles];
+    const colorsAt = packed[0] & WIDE ? 9 : 6;
+    const [colors, normals] = [new Uint8Array(positions.length), new Float64Array(positions.length)];
+    for (let place = HEADER, at = 0; place < end; place += size, at += 3) {
+        colors.set(packed.subarray(place + colorsAt, place + colorsAt + 3), at);
+        if (packed[0] & NORMALS) normals.set(unpackedNormal(view.getUint32(place + size - 4)), at);
+    }
+    const faces = Uint32Array.from({ length: 3 * triangles }, (_, at) => view.getUint16(end + 2 * at));
+    const mesh = { positions, faces, colors, normals: packed[0] & NORMALS ? normals : undefined };
+    return checkedMesh(mesh, "the packed mesh");
+}
+
+/**
+ * Return a vector that `packedNormals` rounds to the same word, although it makes it a unit vector; _packed_mesh.py says
+ * how.
+ */
+function unpackedNormal(word: number): number[] {
+    const numbers = [22, 12, 2].map((at) => (((word >>> at) & 1023) ^ 512) - 512);
+    const excess = numbers.reduce((sum, x) => sum + x * x, 0) - NORMAL_UNIT ** 2;
+    const way = numbers.map((x) => (excess <= 0 ? (x < 0 ? -0.5 : 0.5) : Math.sign(x) * -0.5));
+    const a = way.reduce((sum, x) => sum + x * x, 0);
+    const b = Math.abs(numbers.reduce((sum, x, axis) => sum + x * way[axis], 0));
+    // |numbers + t way| = NORMAL_UNIT
+    const t = Math.abs(excess) / (b + Math.sqrt(b * b - a * excess));
+    return numbers.map((x, axis) => x + (t < 1 ? t : 0) * way[axis]);
 }
 
 /** Return how many bytes a vertex of a packed mesh of a format takes. */
-export function vertexSize(format: number): number {
+function vertexSize(format: number): number {
     return (format & WIDE ? 9 : 6) + 3 + (format & NORMALS ? 4 : 0);
 }
 
 /** Return unit normals, three numbers each: the mean of the faces around a vertex by area; zero where none are. */
 export function vertexNormals(positions: Float64Array, faces: Uint32Array): Float64Array {
-    const ofFaces = new Float64Array(faces.length);
-    for (let face = 0; face < faces.length; face += 3) {
-        const [a, b, c] = [0, 1, 2].map((corner) => 3 * (faces[face + corner] as number)) as [number, number, number];
-        const [ux, uy, uz] = edge(positions, a, b);
-        const [vx, vy, vz] = edge(positions, a, c);
-        ofFaces.set([uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx], face);
-    }
+    const ofFaces = areaNormals(positions, faces);
     const normals = new Float64Array(positions.length);
     // all first corners before the second ones: the order of the sums
     for (let corner = 0; corner < 3; corner++) {
         for (let face = 0; face < faces.length; face += 3) {
-            const vertex = 3 * (faces[face + corner] as number);
-            for (let axis = 0; axis < 3; axis++) {
-                normals[vertex + axis] = (normals[vertex + axis] as number) + (ofFaces[face + axis] as number);
-            }
+            const vertex = 3 * faces[face + corner];
+            for (let axis = 0; axis < 3; axis++) normals[vertex + axis] += ofFaces[face + axis];
         }
     }
     return unitRows(normals);
+}
+
+/** Return the normals of faces, three numbers each, twice as long as their areas. */
+export function areaNormals(positions: Float64Array, faces: Uint32Array): Float64Array {
+    const normals = new Float64Array(faces.length);
+    for (let face = 0; face < faces.length; face += 3) {
+        const a = 3 * faces[face];
+        const b = 3 * faces[face + 1];
+        const c = 3 * faces[face + 2];
+        const ux = positions[b] - positions[a];
+        const uy = positions[b + 1] - positions[a + 1];
+        const uz = positions[b + 2] - positions[a + 2];
+        const vx = positions[c] - positions[a];
+        const vy = positions[c + 1] - positions[a + 1];
+        const vz = positions[c + 2] - positions[a + 2];
+        normals[face] = uy * vz - uz * vy;
+        normals[face + 1] = uz * vx - ux * vz;
+        normals[face + 2] = ux * vy - uy * vx;
+    }
+    return normals;
 }
 
 /** Return whether all coordinates are whole numbers that a packed mesh can hold. */
@@ -94,18 +159,12 @@ export function fits(positions: Float64Array, most: number): boolean {
     return positions.every((x) => x <= most && x >= -most - 1);
 }
 
-function edge(positions: Float64Array, from: number, to: number): [number, number, number] {
-    const along = (axis: number): number => (positions[to + axis] as number) - (positions[from + axis] as number);
-    return [along(0), along(1), along(2)];
-}
-
 /** Return rows of three numbers as vectors of length 1, or zero. */
-function unitRows(rows: Float64Array): Float64Array {
+export function unitRows(rows: Float64Array): Float64Array {
     const units = new Float64Array(rows.length);
     for (let row = 0; row < rows.length; row += 3) {
-        const [x, y, z] = rows.subarray(row, row + 3) as unknown as [number, number, number];
-        const size = Math.sqrt(x * x + y * y + z * z);
-        if (size > 0) units.set([x / size, y / size, z / size], row);
+        const size = Math.sqrt(rows[row] * rows[row] + rows[row + 1] * rows[row + 1] + rows[row + 2] * rows[row + 2]);
+        for (let at = row; size > 0 && at < row + 3; at++) units[at] = rows[at] / size;
     }
     return units;
 }

@@ -1,7 +1,7 @@
 // The camera and the light of scenes that have none: all objects in the picture, seen from a little above.
 
 import { InputError } from "../errors.js";
-import { add, cosine, cross, dot, sine, tangent, times, type Vector } from "./arithmetic.js";
+import { add, boundsOf, cosine, cross, sine, subtract, tangent, times, type Vector } from "./arithmetic.js";
 import { number } from "./checks.js";
 import type { DirectionalLight, Projection } from "./types.js";
 
@@ -52,17 +52,18 @@ export function keyLight(view: Viewpoint): DirectionalLight {
     return { kind: "directional", direction };
 }
 
-/** Return the camera of a view, as near as all points fit the picture. */
+/** Return the camera of a view, as near as all points, three numbers each, fit the picture. */
 export function frame(
-    points: Vector[],
+    points: Float64Array,
     view: Viewpoint,
 ): { eye: Vector; target: Vector; up: Vector; projection: Projection; halfHeight: number } {
     const [right, up, back] = viewAxes(view.azimuth, view.elevation);
-    const [x, y, z] = [right, up, back].map((axis) => points.map((point) => dot(point, axis))) as [
-        number[],
-        number[],
-        number[],
-    ];
+    const [x, y, z] = [right, up, back].map(([a, b, c]) =>
+        Float64Array.from(
+            { length: points.length / 3 },
+            (_, at) => points[3 * at] * a + points[3 * at + 1] * b + points[3 * at + 2] * c,
+        ),
+    );
     const free = 1 - view.margin;
     let halfHeight = view.halfHeight;
     let middle: Vector;
@@ -81,18 +82,14 @@ export function frame(
                 [y, slope],
             ] as const
         ).map(([a, s]) => ({
-            high: max(a.map((each, index) => each / s + (z[index] as number))),
-            low: max(a.map((each, index) => (z[index] as number) - each / s)),
+            high: max(a.map((each, index) => each / s + z[index])),
+            low: max(a.map((each, index) => z[index] - each / s)),
             slope: s,
         }));
-        const z0 = max(sides.map(({ high, low }) => (high + low) / 2));
+        const z0 = Math.max(...sides.map(({ high, low }) => (high + low) / 2));
         const [x0, y0] = sides.map(({ high, low, slope: s }) => (s * (high - low)) / 2) as [number, number];
-        const extent = max(
-            [0, 1, 2].map((axis) => {
-                const column = points.map((point) => point[axis] as number);
-                return max(column) - min(column);
-            }),
-        );
+        const [low, high] = boundsOf(points);
+        const extent = Math.max(...subtract(high, low));
         // a mesh that is only a line toward the eye fits at any distance
         middle = [x0, y0, (max(z) + min(z)) / 2];
         distance = Math.max(z0, max(z) + 1e-3 * (extent || 1)) - middle[2];
@@ -105,10 +102,10 @@ export function frame(
     return { eye, target, up: Math.abs(back[1]) < 0.999 ? [0, 1, 0] : up, projection: view.projection, halfHeight };
 }
 
-function max(values: number[]): number {
+function max(values: Float64Array): number {
     return values.reduce((most, value) => Math.max(most, value));
 }
 
-function min(values: number[]): number {
+function min(values: Float64Array): number {
     return values.reduce((least, value) => Math.min(least, value));
 }

@@ -65,3 +65,8 @@ export class Table {
         return this.list(key).map((row, index) => check.vector(row, `${this.place(key)}[${index}]`));
     }
 }
+
+/** Return a name of JavaScript as scene files have it. */
+export function snake(name: string): string {
+    return name.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`);
+}

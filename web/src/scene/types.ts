@@ -15,7 +15,7 @@ export type Color = readonly [number, number, number] | string;
 /** Three angles in degrees about the axes x, then y, then z; or a quaternion x, y, z, w of any length but zero. */
 export type Rotation = Vector3 | readonly [number, number, number, number];
 
-/** A triangle mesh; counter-clockwise faces are seen from the front. */
+/** A triangle mesh; counter-clockwise faces are seen from the front. It must not change after it was encoded. */
 export interface Mesh {
     /** The vertices. */
     positions: Rows;
@@ -37,7 +37,7 @@ export interface Mesh {
     opacities?: ArrayLike<number> | undefined;
 }
 
-/** An image that is multiplied with the colours of a mesh, at the places that `Mesh.uvs` gives. */
+/** An image that is multiplied with the colours of a mesh, at the places of `Mesh.uvs`. It must not change, either. */
 export interface Texture {
     /** Texels of a row, and rows: 1..256. */
     width: number;
