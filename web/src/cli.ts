@@ -1,0 +1,167 @@
+#!/usr/bin/env node
+// The command `shackled poster`: pictures of models and scenes, in Node.
+
+import { existsSync, mkdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
+import { basename, dirname, join, relative, resolve, sep } from "node:path";
+import { parseArgs } from "node:util";
+import { encode as encodePng } from "fast-png";
+import { fitted, withCamera } from "./creator/camera.js";
+import { sceneOf, type Document, type MeshRef, type Meshes, type StoredMesh } from "./creator/document.js";
+import { applyLook, LOOKS } from "./creator/looks.js";
+import { withScene } from "./creator/work/encoders.js";
+import { InputError } from "./errors.js";
+import { decodeImagesBy } from "./files/images.js";
+import { decodeInNode } from "./files/node.js";
+import { readFiles, type Opened } from "./files/read.js";
+import { render } from "./render.js";
+import { boundsOf } from "./scene/arithmetic.js";
+import { checkedScene, worldPositions } from "./scene/checked.js";
+import * as check from "./scene/checks.js";
+import { encode } from "./scene/encode.js";
+
+const PRESETS = LOOKS.map(({ name }) => name);
+const HELP = `Draw posters of models and scenes, every pixel by the contracts of Shackled.
+
+  shackled poster INPUT... -o OUTPUT [options]
+
+INPUT is a mesh file (.glb, .gltf, .obj, .ply, .stl, .off), a scene file (.toml, .json), a PNG file by Shackled, or a
+ZIP file of them. OUTPUT is a PNG file, or a folder for several inputs.
+
+  --size N            pixels of a side, 1 to 2048; 256 for mesh files
+  --preset NAME       a look: ${PRESETS.join(", ")}
+  --azimuth=DEGREES   where the camera stands, to the right of the front
+  --elevation=DEGREES and above the horizon
+  --background COLOR  one colour, or those of top and bottom with a comma between them
+  --no-antialias      without smooth edges: cheaper
+  --max-triangles N   simplify larger meshes to so many triangles; "all" keeps all
+  --json              print what was read as JSON, a line for each input
+  --help
+`;
+const TEXT = { type: "string" } as const;
+const FLAG = { type: "boolean" } as const;
+const OPTIONS = {
+    ...{ output: { ...TEXT, short: "o" }, size: TEXT, preset: TEXT, azimuth: TEXT, elevation: TEXT, background: TEXT },
+    ...{ "max-triangles": TEXT, "no-antialias": FLAG, json: FLAG, help: { ...FLAG, short: "h" } },
+};
+
+type Values = Partial<Record<keyof typeof OPTIONS, string | boolean>>;
+
+decodeImagesBy(decodeInNode);
+
+try {
+    await main(process.argv.slice(2));
+} catch (error) {
+    const { code = "", message } = error as Error & { code?: string };
+    if (!(error instanceof InputError) && !code.startsWith("ERR_PARSE_ARGS") && (error as Error).name !== "CallError")
+        throw error;
+    console.error(message);
+    process.exitCode = 2;
+}
+
+async function main(given: string[]): Promise<void> {
+    const { values, positionals } = parseArgs({ args: given, options: OPTIONS, allowPositionals: true });
+    const [command, ...inputs] = positionals;
+    if (values.help || !command) return console.log(HELP);
+    if (command !== "poster") throw new InputError(`The command is poster, not ${command}; --help tells more.`);
+    if (!inputs.length) throw new InputError("An input is missing: shackled poster model.glb -o poster.png");
+    const { output, json } = values as { output?: string; json?: boolean };
+    if (!output && !json) throw new InputError("An output is missing: -o poster.png");
+    const isFolder =
+        inputs.length > 1 || output?.endsWith("/") || statSync(output ?? "", { throwIfNoEntry: false })?.isDirectory();
+    for (const input of inputs) {
+        const path = output && isFolder ? join(output, `${basename(input).replace(/\.[^.]*$/, "")}.png`) : output;
+        try {
+            const opened = await open(input, values);
+            if (!json) for (const note of opened.notes) console.error(note);
+            const facts = await draw(opened, values, path);
+            const line = `${path}: ${facts.width} x ${facts.height} pixels, ${facts.gas?.toLocaleString("en")} gas`;
+            console.log(json ? JSON.stringify({ input, ...facts, notes: opened.notes }) : line);
+        } catch (error) {
+            if (inputs.length === 1) throw error;
+            // the others are drawn all the same
+            process.exitCode = 2;
+            const { message } = error as Error;
+            if (json) console.log(JSON.stringify({ input, error: message }));
+            else console.error(message);
+        }
+    }
+}
+
+/** Return a number of an option, undefined if it is not given. */
+function numberOf(values: Values, name: keyof Values, low?: number, high?: number): number | undefined {
+    const value = values[name];
+    return value === undefined ? undefined : check.number(value === "" ? NaN : Number(value), `--${name}`, low, high);
+}
+
+function open(input: string, values: Values): Promise<Opened> {
+    const folder = dirname(resolve(input));
+    return readFiles([{ name: basename(input), bytes: bytesOf(input) }], {
+        size: numberOf(values, "size", 1, 2048) ?? 256,
+        maxTriangles: values["max-triangles"] === "all" ? "all" : numberOf(values, "max-triangles", 1),
+        draco: () => Promise.resolve(bytesOf(new URL("./draco.wasm", import.meta.url))),
+        beside: (name) => {
+            const paths = [name, basename(name)].map((each) => resolve(folder, each.replaceAll("\\", "/")));
+            // only files in the folder of the input, or below
+            const isThere = (path: string): boolean =>
+                path.startsWith(folder + sep) && existsSync(path) && statSync(path).isFile();
+            const path = paths.find(isThere);
+            return path ? { name: relative(folder, path), bytes: bytesOf(path) } : undefined;
+        },
+    });
+}
+
+function bytesOf(path: string | URL): Uint8Array<ArrayBuffer> {
+    try {
+        return new Uint8Array(readFileSync(path));
+    } catch (error) {
+        const { code, message } = error as NodeJS.ErrnoException;
+        throw new InputError(`Cannot read ${String(path)}: ${code === "ENOENT" ? "it does not exist" : message}.`);
+    }
+}
+
+/** Draw a document, if there is a path, and return what is known of it. */
+async function draw({ document, meshes }: Opened, values: Values, path: string | undefined) {
+    const store = { get: (ref: MeshRef) => meshes.get("file" in ref ? ref.file : "") as StoredMesh };
+    const scene = sceneOf(changed(document, store, values), store);
+    const { objects, width, height } = checkedScene(scene);
+    const corners = objects.reduce((sum, { mesh }) => sum + mesh.faces.length, 0);
+    const color = [0, 0, 0];
+    for (const { mesh } of objects)
+        mesh.faces.forEach((vertex) => color.forEach((_, at) => (color[at] += mesh.colors[3 * vertex + at] / corners)));
+    const bounds = boundsOf(worldPositions(objects));
+    const facts = {
+        title: document.title,
+        width,
+        height,
+        objects: objects.length,
+        triangles: corners / 3,
+        bounds,
+        color,
+    };
+    if (!path) return { ...facts, gas: undefined };
+    const call = encode(scene);
+    const { pixels, gas } = await render(call);
+    const png = encodePng({ width, height, channels: 3, data: pixels.filter((_, at) => at % 4 < 3) });
+    mkdirSync(dirname(path), { recursive: true });
+    writeFileSync(path, await withScene(new Uint8Array(png), call));
+    return { ...facts, output: path, gas };
+}
+
+/** Return the document with what the options change. */
+function changed(given: Document, meshes: Meshes, values: Values): Document {
+    const size = numberOf(values, "size", 1, 2048);
+    let doc = size ? { ...given, width: size, height: size } : given;
+    if (values["no-antialias"]) doc = { ...doc, antialias: false };
+    if (values.preset !== undefined) doc = applyLook(doc, check.choice(values.preset, "--preset", PRESETS));
+    if (values.background !== undefined) {
+        const colors = String(values.background)
+            .split(",")
+            .map((each) => check.color(each.trim(), "--background"));
+        const [top, bottom = top] = colors.map((color) => `#${Buffer.from(color).toString("hex")}`);
+        doc = { ...doc, background: { top, bottom } };
+    }
+    const [azimuth, elevation] = [numberOf(values, "azimuth"), numberOf(values, "elevation", -90, 90)];
+    if (azimuth === undefined && elevation === undefined) return doc;
+    const angles = { ...(azimuth !== undefined && { azimuth }), ...(elevation !== undefined && { elevation }) };
+    return fitted(withCamera(doc, angles), meshes);
+}

@@ -1,0 +1,195 @@
+// Files that people open: mesh files, scene files, pictures with their scene, calls, and ZIP files of them.
+
+import { unzipSync } from "fflate";
+import { InputError } from "../errors.js";
+import { documentOfScene, type Library, type Made } from "../creator/save.js";
+import { decodeCall } from "../scene/decode.js";
+import { readFile } from "../view/source.js";
+import { readOff } from "./off.js";
+import { partsOf, type Part, type Triangles } from "./parts.js";
+import { readPly } from "./ply.js";
+import { readScene } from "./scenes.js";
+import { baseOf, extensionOf, type Given, type Source } from "./source.js";
+import { staged, type Model } from "./staging.js";
+
+export type { Given } from "./source.js";
+
+export interface Options {
+    /** The canvas, in pixels, for mesh files. */
+    size: number;
+    /** To how many triangles meshes are simplified; by default to what the canvas shows. */
+    maxTriangles?: number | "all" | undefined;
+    /** Of the pieces that scene files name. */
+    library?: Library | undefined;
+    /** Returns the decoder of Draco's meshes. */
+    draco?: (() => Promise<Uint8Array>) | undefined;
+    /** Returns a file that was not given, by the name that one of those that were gives it. */
+    beside?: ((name: string) => Given | undefined) | undefined;
+    signal?: AbortSignal | undefined;
+    /** Called with what is done at the moment. */
+    onProgress?: ((what: string) => void) | undefined;
+}
+
+/** What was opened: its document, the meshes of it by their keys, and a line for each thing that is not as in the file. */
+export interface Opened extends Made {
+    notes: string[];
+}
+
+/** The most bytes of all files, as they are and unpacked, and files of a ZIP file. */
+const [MOST_BYTES, MOST_FILES] = [100 * 2 ** 20, 1000];
+/** The readers of mesh files; those that need three.js are loaded with it. */
+const READERS: Record<string, (source: Source) => Triangles | Promise<Triangles>> = {
+    ".glb": async (source) => (await import("./gltf.js")).readGltf(source),
+    ".gltf": async (source) => (await import("./gltf.js")).readGltf(source),
+    ".obj": async (source) => (await import("./obj.js")).readObj(source),
+    ".stl": async (source) => (await import("./stl.js")).readStl(source),
+    ".ply": readPly,
+    ".off": readOff,
+};
+const MESHES = Object.keys(READERS);
+/** Of one scene each; the last ones are of calls, as bytes or hexadecimal digits. */
+const SCENES = [[".toml", ".json"], [".png"], [".bin", ".hex", ".txt", ".calldata"]];
+/** What may lie beside others without a word. */
+const SILENT = /\.(mtl|bin|txt|md|pdf|url)$/i;
+
+/** Return the document of files. InputError, a sentence, if nothing of them can be shown. */
+export async function readFiles(files: readonly Given[], options: Options): Promise<Opened> {
+    const { draco = noDraco, beside } = options;
+    const folder = unpacked(files);
+    const of = (extensions: readonly string[]): Given[] =>
+        folder.filter(({ name }) => extensions.includes(extensionOf(name)));
+    const meshes = of(MESHES);
+    // beside a mesh file, pictures are textures
+    const scenes =
+        SCENES.slice(0, meshes.length ? 1 : 3)
+            .map(of)
+            .find(({ length }) => length) ?? [];
+    if (scenes.length > 1) throw new InputError(`Open one scene at a time: ${namesOf(scenes)} are ${scenes.length}.`);
+    const shown = scenes.length ? scenes : meshes;
+    if (!shown.length) {
+        const known = [...MESHES, ...SCENES.slice(0, 2).flat()].join(", ");
+        throw new InputError(
+            `${files.length ? `${namesOf(folder)} cannot be shown` : "There is no file to open"}. Known are ${known} and .zip files of them.`,
+        );
+    }
+    const notes: string[] = [];
+    const sources = shown.map((file): Source => {
+        const tell = (note: string): void => void notes.push(`${baseOf(file.name)}: ${note}`);
+        return { ...file, folder, draco, beside, tell };
+    });
+    const made = scenes.length ? await openScene(sources[0], options) : await openMeshes(sources, options);
+    const unused = folder.filter((file) => !file.used && !shown.includes(file) && !SILENT.test(file.name));
+    if (unused.length) notes.push(`Not used: ${namesOf(unused)}`);
+    return { ...made, notes: [...new Set(notes)] };
+}
+
+function noDraco(): Promise<never> {
+    throw new InputError("it is compressed with Draco, whose decoder is not here");
+}
+
+async function openScene(source: Source, { library, onProgress }: Options): Promise<Made> {
+    onProgress?.(`Reading ${baseOf(source.name)}`);
+    const title = titleOf(source);
+    return said(source, async () => {
+        if (SCENES[0].includes(extensionOf(source.name))) return readScene(source, library, readMesh);
+        const call = await readFile(source.bytes).catch((error: Error) => {
+            if (!/carries no scene/.test(error.message)) throw error;
+            throw new InputError("This PNG was not made by Shackled: it holds no scene.");
+        });
+        return documentOfScene(decodeCall(call), { title });
+    });
+}
+
+async function openMeshes(sources: Source[], { size, maxTriangles, signal, onProgress }: Options): Promise<Made> {
+    const models: Model[] = [];
+    const titles: string[] = [];
+    let failed: unknown;
+    for (const source of sources) {
+        onProgress?.(`Reading ${baseOf(source.name)}`);
+        // the page shows it, and can be left
+        await new Promise((resolve) => setTimeout(resolve));
+        signal?.throwIfAborted();
+        try {
+            const parts = await said(source, () => readMesh(source));
+            models.push({ parts, isZUp: extensionOf(source.name) === ".stl", tell: source.tell });
+            titles.push(titleOf(source));
+        } catch (error) {
+            if (sources.length > 1) source.tell(`left out: ${(error as Error).message}`);
+            failed = error;
+        }
+    }
+    if (!models.length) throw failed;
+    const [scene, owners] = await said(sources[0], () => staged(models, size, maxTriangles));
+    signal?.throwIfAborted();
+    const names = owners.map((owner, at) => {
+        const own = owners.flatMap((each, place) => (each === owner ? [place] : []));
+        return { name: own.length > 1 ? `${titles[owner]} ${own.indexOf(at) + 1}` : titles[owner] };
+    });
+    return documentOfScene(scene, { title: listOf(titles) }, names);
+}
+
+/** Return the parts of a mesh file. */
+export async function readMesh(source: Source): Promise<Part[]> {
+    if (!source.bytes.length) throw new InputError("it is empty");
+    return partsOf(await READERS[extensionOf(source.name)](source), source);
+}
+
+/** Return what `read` does, with errors in one sentence that names the file. */
+async function said<T>({ name }: Source, read: () => Promise<T>): Promise<T> {
+    try {
+        return await read();
+    } catch (error) {
+        const text = (error as Error).message
+            .replace(/^THREE\.\w+: /, "")
+            .split("\n")[0]
+            .slice(0, 300);
+        if (/^[A-Z].*\.$/.test(text)) throw error;
+        const kind = extensionOf(name).slice(1).toUpperCase();
+        const why = error instanceof InputError ? text : `it is no ${kind} file that can be read (${text})`;
+        throw new InputError(`Cannot open ${baseOf(name)}: ${why}.`);
+    }
+}
+
+/** Return the files, with those of ZIP files in place of these. */
+function unpacked(files: readonly Given[]): Given[] {
+    let total = 0;
+    const add = (bytes: number): void => {
+        total += bytes;
+        if (total > MOST_BYTES)
+            throw new InputError("All files together may have up to 100 MB, also when they are unpacked.");
+    };
+    files.forEach(({ bytes }) => add(bytes.length));
+    return files.flatMap((file): Given[] => {
+        if (extensionOf(file.name) !== ".zip") return [{ ...file, name: file.name.replaceAll("\\", "/") }];
+        let count = 0;
+        try {
+            const entries = unzipSync(file.bytes, {
+                filter: ({ name, originalSize }) => {
+                    if (/\/$|(^|\/)(__MACOSX|\.[^/]*)/.test(name)) return false;
+                    if (++count > MOST_FILES) throw new InputError(`A ZIP file may hold up to ${MOST_FILES} files.`);
+                    add(originalSize);
+                    return true;
+                },
+            });
+            return Object.entries(entries).map(([name, bytes]) => ({ name, bytes: new Uint8Array(bytes) }));
+        } catch (error) {
+            if (error instanceof InputError) throw error;
+            throw new InputError(
+                `Cannot open ${baseOf(file.name)}: it is no ZIP file that can be read (${(error as Error).message}).`,
+            );
+        }
+    });
+}
+
+function titleOf({ name }: Given): string {
+    return baseOf(name).replace(/\.[^.]*$/, "");
+}
+
+function namesOf(files: readonly Given[]): string {
+    return listOf(files.map(({ name }) => baseOf(name)));
+}
+
+function listOf(names: readonly string[]): string {
+    const shown = names.length > 3 ? [...names.slice(0, 2), `${names.length - 2} others`] : names;
+    return [shown.slice(0, -1).join(", "), shown.at(-1)].filter(Boolean).join(" and ");
+}
