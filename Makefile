@@ -4,16 +4,16 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 PACKAGE := $(VENV)/.package
-CREATOR := $(VENV)/.creator
 DEV := $(VENV)/.dev
 NODE := tests/package/node_modules/.package-lock.json
+WEB := web/node_modules/.package-lock.json
 
 # Set-up steps write to the same folders. Checks do not: `make test` runs two of them at a time.
 ifndef CHECKS
 .NOTPARALLEL:
 endif
 .DEFAULT_GOAL := help
-.PHONY: help browser opengl demo creator test lint types contracts evm evm-check web docs unit verify build npm gas golden bench paper fuzz models mutants conformance pictures clean
+.PHONY: help browser opengl demo page creator test lint types contracts evm evm-check web docs unit verify build npm gas golden bench paper fuzz models mutants conformance pictures clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -23,14 +23,14 @@ help: ## this list
 $(PACKAGE): pyproject.toml tools/prepare.py tools/constraints.txt
 	@$(PYTHON) tools/prepare.py package
 
-$(CREATOR): pyproject.toml tools/prepare.py tools/constraints.txt
-	@$(PYTHON) tools/prepare.py creator
-
 $(DEV): pyproject.toml tools/prepare.py tools/constraints.txt
 	@$(PYTHON) tools/prepare.py dev
 
 $(NODE): $(foreach folder,contracts web tests/package,$(folder)/package.json $(folder)/package-lock.json) tools/prepare.py
 	@$(PYTHON) tools/prepare.py node
+
+$(WEB): web/package.json web/package-lock.json tools/prepare.py
+	@$(PYTHON) tools/prepare.py web
 
 browser:
 	@$(PYTHON) tools/prepare.py browser
@@ -44,7 +44,10 @@ demo: $(PACKAGE) ## a first picture: the teapot, in build/teapot.png
 	@$(BIN)/python examples/meshes.py --into build teapot
 	$(BIN)/shackled render build/teapot.obj -o build/teapot.png --rotate 0,12,0 --color '#c8553d'
 
-creator: $(CREATOR) ## the page on which pictures are made without code, in the browser
+page: $(PACKAGE) $(WEB) ## the page on which pictures are made without code: build/page, for any host, and build/creator.html
+	$(BIN)/python -m tools.build_page
+
+creator: page ## open that page in the browser
 	$(BIN)/shackled creator
 
 # ---- everything that must hold ----
@@ -69,14 +72,15 @@ evm-check: $(DEV) ## whether the compiled EVM is that of the sources
 	$(BIN)/python tools/build_evm.py --check
 
 web: $(DEV) $(NODE) ## types, style and tests of the TypeScript package, and whether its bundles are those of the sources
+	$(BIN)/python tools/page_settings.py --check
 	npm --prefix web run --silent check
 	npm --prefix web run --silent test
 	$(BIN)/python tools/build_web.py --check
 
-docs: $(DEV) ## the documentation, in site/
+docs: $(DEV) page ## the documentation, in site/, with the Creator in site/creator/
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
 
-unit: $(DEV) $(NODE) browser opengl ## the tests, the gas snapshot among them
+unit: $(DEV) $(NODE) page browser opengl ## the tests, the gas snapshot among them
 	$(BIN)/pytest -n 2 --dist worksteal
 
 # ---- what is made and kept in the repository ----
@@ -120,7 +124,7 @@ paper: $(DEV) $(NODE) ## make the experiments of the paper again: benchmarks/res
 	$(BIN)/python -m tools.anvil $(BIN)/shackled bench --all -o benchmarks/results --rpc
 	$(BIN)/python -m benchmarks.story
 
-pictures: $(DEV) ## draw the pictures of the documentation, except those of docs/draw_creator.py and docs/draw_gallery.py
+pictures: $(DEV) ## draw the pictures of the documentation, except those of tools/draw_creator.py and docs/draw_gallery.py
 	$(BIN)/python -m docs.draw_pictures
 	$(BIN)/python -m docs.draw_studio
 	$(BIN)/python -m docs.draw_textures

@@ -40,19 +40,22 @@ def build() -> dict[str, bytes]:
 
 def contracts() -> bytes:
     """Return the code and addresses of the contracts, and what their errors mean, as web/src/evm/contracts.ts says."""
-    chain = open_chain()
-    assert isinstance(chain, EmbeddedChain)
     names = (*RENDERER, "Studio")
     errors = dict(SOLIDITY_ERRORS)
     for name in names:
         errors |= artifact(name).errors
     document = {
-        "contracts": {
-            name: {"address": to_hex(chain.address(name)), "code": to_hex(chain.code(name))} for name in names
-        },
+        "contracts": {name: code_of(name) for name in names},
         "errors": {to_hex(selector): errors[selector] for selector in sorted(errors)},
     }
     return json.dumps(document, separators=(",", ":")).encode() + b"\n"
+
+
+def code_of(name: str) -> dict[str, str]:
+    """Return the address and the code of a contract."""
+    chain = open_chain()
+    assert isinstance(chain, EmbeddedChain)
+    return {"address": to_hex(chain.address(name)), "code": to_hex(chain.code(name))}
 
 
 def stages() -> bytes:

@@ -16,7 +16,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 CONSTRAINTS = ROOT / "tools" / "constraints.txt"
-EXTRAS = "bench,cluster,creator,draco,jupyter,mp4,pyevm,pyrevm"
+EXTRAS = "bench,cluster,draco,jupyter,mp4,pyevm,pyrevm"
 HEAD = "# The versions with which the project is tested; written by tools/constraints.py, which says how.\n"
 
 

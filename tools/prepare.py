@@ -1,8 +1,8 @@
 """Install what the Makefile needs; runs on a bare Python.
 
     python3 tools/prepare.py package    .venv with the package in it
-    python3 tools/prepare.py creator    and with what the page needs
     python3 tools/prepare.py dev        and with what tests and documentation need
+    python3 tools/prepare.py web        node_modules of web/, with which the Creator is built
     python3 tools/prepare.py node       node_modules of contracts/, web/ and tests/package: compilers, anvil, Hardhat
     python3 tools/prepare.py browser    browsers for the tests of pages, if they can be had
     python3 tools/prepare.py opengl     an OpenGL without a screen, to compare pictures with, if it can be had
@@ -47,8 +47,8 @@ def main() -> int:
     """Prepare what the arguments name."""
     targets = {
         "package": prepare_package,
-        "creator": prepare_creator,
         "dev": prepare_dev,
+        "web": prepare_web,
         "node": prepare_node,
         "browser": prepare_browser,
         "opengl": prepare_opengl,
@@ -72,30 +72,33 @@ def prepare_package() -> None:
     (VENV / ".package").touch()
 
 
-def prepare_creator() -> None:
-    """Install the package with the extra "creator"."""
-    make_venv()
-    say("installing the package and the page")
-    install("--editable", f"{ROOT}[creator]")
-    for stamp in (".package", ".creator"):
-        (VENV / stamp).touch()
-
-
 def prepare_dev() -> None:
     """Install the package and the dependency group "dev"."""
     make_venv()
     say("installing the package and the tools of development")
     install("--upgrade", PIP)
     install("--editable", ROOT, "--group", f"{ROOT / 'pyproject.toml'}:dev")
-    for stamp in (".package", ".creator", ".dev"):
+    for stamp in (".package", ".dev"):
         (VENV / stamp).touch()
+
+
+def prepare_web() -> None:
+    """Install node_modules of web/ from its package-lock.json."""
+    need_node()
+    say("installing the bundler and the libraries of the page")
+    npm_install(WEB)
+
+
+def need_node() -> None:
+    """Install Node.js, if there is none; exit if it is too old."""
+    if not (shutil.which("node") and shutil.which("npm")):
+        apt_install("Node.js and npm", "nodejs", "npm")
+    check_node(subprocess.run(["node", "--version"], capture_output=True, text=True).stdout)
 
 
 def prepare_node() -> None:
     """Install node_modules of contracts/, web/ and tests/package from their package-lock.json."""
-    if not (shutil.which("node") and shutil.which("npm")):
-        apt_install("Node.js and npm", "nodejs", "npm")
-    check_node(subprocess.run(["node", "--version"], capture_output=True, text=True).stdout)
+    need_node()
     say("installing the compilers, and anvil and Hardhat for the tests")
     for folder in (CONTRACTS, WEB, PACKAGE_TESTS):
         npm_install(folder)

@@ -1,6 +1,7 @@
-"""Put the sources of the contracts into a wheel, and those of the libraries if npm has installed them.
+"""Put the sources of the contracts into a wheel, those of the libraries if npm has installed them, and the Creator.
 
-Hatchling runs this. Explorers verify contracts with their sources: see `shackled.artifacts.standard_input`.
+Hatchling runs this. Explorers verify contracts with their sources: see `shackled.artifacts.standard_input`. The page of
+the Creator is there if `make page` has built it.
 """
 
 from __future__ import annotations
@@ -29,3 +30,8 @@ class WheelSources(BuildHookInterface):  # type: ignore[type-arg]
                 self.app.display_warning(f"without {path}, which npm ci installs in contracts/")
             else:
                 build_data["force_include"][str(found)] = f"shackled/artifacts/sources/{path}"
+        built = {name: root / "build" / name for name in ("page", "creator.html")}
+        if not all(path.exists() for path in built.values()):
+            self.app.display_warning("without the Creator, which make page builds")
+            return
+        build_data["force_include"] |= {str(path): f"shackled/web/{name}" for name, path in built.items()}

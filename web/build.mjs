@@ -3,35 +3,83 @@
 //   node build.mjs package       dist/, which npm publishes
 //   node build.mjs tests         dist/tests/, which `node --test` runs
 //   node build.mjs python DIR    what the Python package holds, into DIR
+//   node build.mjs page DIR      the scripts and styles of the Creator, into DIR; in DIR/one also as one script
 
-import { copyFileSync, readdirSync, rmSync } from "node:fs";
+import { copyFileSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { build } from "esbuild";
 
-/** Imports of "worker:PATH": a script as text, which a page starts as a worker. */
+/** What the scripts of workers are made of, for notices. */
+const insideWorkers = {};
+
+/** Imports of "worker:PATH", from src/: a script as text, which a page starts as a worker. */
 const workers = {
     name: "workers",
     setup: (building) => {
         building.onResolve({ filter: /^worker:/ }, ({ path }) => ({
-            path: `src/view/${path.slice("worker:".length)}`,
+            path: `src/${path.slice("worker:".length)}`,
             namespace: "worker",
         }));
         building.onLoad({ filter: /./, namespace: "worker" }, async ({ path }) => {
-            const script = { ...common, entryPoints: [path], format: "iife", minify: true, write: false };
-            const { outputFiles, metafile } = await build({ ...script, metafile: true });
+            const script = { ...common, plugins: [draco], external: ["fs", "path"], format: "iife", minify: true };
+            const { outputFiles, metafile } = await build({
+                ...script,
+                entryPoints: [path],
+                write: false,
+                metafile: true,
+            });
+            Object.assign(insideWorkers, metafile.inputs);
             return { contents: outputFiles[0].text, loader: "text", watchFiles: Object.keys(metafile.inputs) };
         });
     },
 };
 
-const common = { bundle: true, format: "esm", target: "es2022", charset: "utf8", legalComments: "none" };
-const modules = { ...common, plugins: [workers] };
-const forPython = { shackled: "src/index.ts", view: "src/view/index.ts", live: "src/view/live.ts" };
+/** What starts the decoder of Draco meshes is no module: here it exports what it defines. */
+const draco = {
+    name: "draco",
+    setup: (building) => {
+        building.onLoad({ filter: /draco_wasm_wrapper\.js$/ }, ({ path }) => ({
+            contents: `${readFileSync(path, "utf8")}\nexport default DracoDecoderModule;`,
+        }));
+    },
+};
+
+const common = {
+    bundle: true,
+    format: "esm",
+    target: "es2022",
+    charset: "utf8",
+    legalComments: "none",
+    jsx: "automatic",
+    jsxImportSource: "preact",
+};
+/** The decoder of Draco meshes; what starts it asks for parts of Node there. */
+const DRACO = "three/examples/jsm/libs/draco/gltf/draco_decoder.wasm";
+const modules = { ...common, plugins: [workers, draco] };
+const forPython = { shackled: "src/index.ts", view: "src/view/index.ts" };
+
+/** Write the licences of the packages that a bundle is made of. */
+function writeNotices(inputs, path) {
+    const found = Object.keys(inputs).map((input) => /.*node_modules\/((?:@[^/]+\/)?[^/]+)/.exec(input)?.[1]);
+    const notices = [...new Set(found.filter(Boolean))].sort().map((name) => {
+        const folder = `node_modules/${name}`;
+        const { version, license } = JSON.parse(readFileSync(`${folder}/package.json`, "utf8"));
+        const file = readdirSync(folder).find((each) => /^licen[sc]e/i.test(each));
+        const text = file ? readFileSync(`${folder}/${file}`, "utf8").trim() : "";
+        return `${name} ${version} (${license})\n\n${text}`.trim();
+    });
+    const decoder = "Draco (Apache-2.0)\n\nThe decoder of compressed meshes: https://github.com/google/draco";
+    writeFileSync(path, `${[...notices, decoder].join(`\n\n${"-".repeat(78)}\n`)}\n`);
+}
 
 const builds = {
     package: async () => {
         const entryPoints = { index: "src/index.ts", view: "src/view/index.ts" };
         await build({ ...modules, entryPoints, outdir: "dist" });
+        const command = { ...modules, entryPoints: { cli: "src/cli.ts" }, minify: true, platform: "node" };
+        const { metafile } = await build({ ...command, metafile: true, outdir: "dist" });
+        writeNotices(metafile.inputs, "dist/LICENSES.txt");
         copyFileSync("../src/shackled/evm/evm.wasm", "dist/evm.wasm");
+        copyFileSync(`node_modules/${DRACO}`, "dist/draco.wasm");
         for (const name of ["contracts.json", "stages.json"])
             copyFileSync(`../src/shackled/web/${name}`, `dist/${name}`);
     },
@@ -41,11 +89,22 @@ const builds = {
         return build({
             ...common,
             entryPoints: entryPoints.map((name) => `tests/${name}`),
+            plugins: [workers, draco],
             platform: "node",
             outdir: "dist/tests",
         });
     },
     python: (folder) => build({ ...modules, entryPoints: forPython, minify: true, outdir: folder }),
+    page: async (folder) => {
+        const entryPoints = { creator: "src/creator/main.tsx" };
+        const page = { ...modules, entryPoints, external: ["fs", "path"], minify: true, metafile: true };
+        const chunkNames = "chunks/[name]-[hash]";
+        const { metafile } = await build({ ...page, splitting: true, chunkNames, outdir: folder });
+        const inputs = { ...metafile.inputs, ...insideWorkers };
+        writeNotices(inputs, `${folder}/LICENSES.txt`);
+        writeFileSync(`${folder}/meta.json`, JSON.stringify(metafile));
+        await build({ ...page, outdir: `${folder}/one` });
+    },
 };
 
 const [what, ...rest] = process.argv.slice(2);

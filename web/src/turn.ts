@@ -1,12 +1,13 @@
 // Calls that show the same scene from elsewhere, or in another size. The bytes of the meshes stay as they are.
 
-import { readCall, type Call, type Field } from "./call.js";
+import { readCall, type Call } from "./call.js";
 import { InputError, show } from "./errors.js";
 import { add, cross, fromAxisAngle, multiply, rotation, subtract, unit, type Vector } from "./scene/arithmetic.js";
 import { MAX_SIDE } from "./scene/checked.js";
 import { number, whole } from "./scene/checks.js";
 import { WORD, isTiled, q32, setWord } from "./scene/encode.js";
 import { MAX_COORDINATE, direction } from "./scene/fit.js";
+import type { Field } from "./scene/reader.js";
 
 /** How far the viewer has gone around a scene. */
 export interface Turn {

@@ -1,6 +1,6 @@
 // The worker of a view as the page sees it: started when needed, ended when it takes too long.
 
-import script from "worker:worker.ts";
+import script from "worker:view/worker.ts";
 import type { Assets } from "../evm/assets.js";
 import type { Kind, Reply, Request, Requests } from "./protocol.js";
 

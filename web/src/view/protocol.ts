@@ -1,16 +1,14 @@
 // What a page asks its worker, and what the worker answers.
 
 import type { Contracts } from "../evm/contracts.js";
-import type { Base, Orbit } from "../orbit.js";
 import type { CallFacts, Turn } from "../turn.js";
 
 /** A file, or a scene that the contract Studio stores. */
 export type Source = { file: Uint8Array<ArrayBuffer> } | { rpc: string; studio: string; pointer: string };
 
-/** A picture. orbit: the camera, where it is not that of the turn. samples: along each side of a pixel. hashed: whether to return the hash of the pixels. */
+/** A picture. samples: along each side of a pixel. hashed: whether to return the hash of the pixels. */
 export interface Wish {
     turn: Turn;
-    orbit?: { base: Base; to: Orbit };
     width: number;
     height: number;
     samples: 1 | 2;

@@ -3,7 +3,6 @@
 import { InputError } from "../errors.js";
 import { CallError, ContractEvm } from "../evm/contracts.js";
 import { NodeError, askNode, readStored } from "../evm/rpc.js";
-import { orbitCall } from "../orbit.js";
 import { drawCall, functionOf, hashPixels, withFunction } from "../picture.js";
 import { isTiled } from "../scene/encode.js";
 import { describeCall, resizeCall, turnCall } from "../turn.js";
@@ -32,10 +31,9 @@ async function open(source: Source): Promise<Opened> {
 }
 
 /** Return the call that draws a wish; at its own size, without a turn, the bytes that were opened. */
-function callOf({ turn, orbit, width, height, samples }: Wish): Uint8Array {
+function callOf({ turn, width, height, samples }: Wish): Uint8Array {
     if (!opened) throw new InputError("there is no scene");
-    const seen = orbit ? orbitCall(opened, orbit.base, orbit.to) : turnCall(opened, turn);
-    return resizeCall(seen, width * samples, height * samples);
+    return resizeCall(turnCall(opened, turn), width * samples, height * samples);
 }
 
 async function draw(wish: Wish): Promise<Drawn> {

@@ -1,0 +1,91 @@
+"""Write web/src/creator/settings.ts: what the page takes from the package, which are settings, looks and limits of gas.
+
+python tools/page_settings.py    with --check it writes nothing, and fails if the file is not as it would be written
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from math import isfinite
+from pathlib import Path
+from typing import Any
+
+from shackled.checks import Color
+from shackled.gas import limits
+from shackled.scene import PRESETS, SETTINGS, Preset
+
+FILE = Path(__file__).resolve().parent.parent / "web" / "src" / "creator" / "settings.ts"
+HEAD = """// Written by tools/page_settings.py from the tables of the Python package.
+
+/** What can be set: src/shackled/scene/_look.py. `low` and `high` are null where there is none. */
+export type Setting = Readonly<
+    Record<"name" | "kind" | "group" | "text" | "unit" | "default", string> &
+        Record<"low" | "high", number | null> & { part: string | null; choices: readonly string[] }
+>;
+
+/** A look: src/shackled/scene/_presets.py. Lamps are directional; their azimuths are relative to the camera. */
+export type Preset = Readonly<
+    Record<"name" | "title" | "help" | "ambientLight", string> &
+        Record<"wireframe" | "invert", boolean> & {
+            material: Readonly<Record<string, number | string>>;
+            color: string | null;
+            lamps: readonly Readonly<{ azimuth: number; elevation: number; color: string }>[];
+            background: Readonly<{ top: string; bottom: string }>;
+        }
+>;
+
+/** How much gas a request may use, the smallest first: src/shackled/gas/limits.toml. */
+export type Limit = Readonly<
+    Record<"name" | "node" | "source" | "date" | "remark", string> & { gas: number; kind: "transaction" | "call" }
+>;
+"""
+#: The tables, and the types of their rows.
+TYPES = {"SETTINGS": "Setting", "PRESETS": "Preset", "LIMITS": "Limit"}
+
+
+def settings() -> list[dict[str, Any]]:
+    """Return the settings as JSON objects."""
+    names = ("name", "kind", "part", "group", "text", "unit", "choices", "default")
+    return [
+        {name: getattr(each, name) for name in names}
+        | {key: value if isfinite(value := getattr(each, key)) else None for key in ("low", "high")}
+        for each in SETTINGS
+    ]
+
+
+def look(preset: Preset) -> dict[str, Any]:
+    """Return a preset as a JSON object."""
+    surface = {"shading", "ambient", "diffuse", "specular", "shininess"}
+    return {
+        **{name: getattr(preset, name) for name in ("name", "title", "help", "wireframe", "invert")},
+        "material": {name: value for name, value in preset.settings.items() if name in surface},
+        "color": _hex(preset.color) if preset.color else None,
+        "lamps": [{"azimuth": e.azimuth, "elevation": e.elevation, "color": _hex(e.color)} for e in preset.lamps],
+        "background": {side: _hex(getattr(preset.background, side)) for side in ("top", "bottom")},
+        "ambientLight": _hex(preset.ambient_light),
+    }
+
+
+def text() -> str:
+    """Return the file."""
+    names = ("name", "gas", "kind", "node", "source", "date", "remark")
+    known = [{name: getattr(each, name) for name in names} for each in limits()]
+    made = [HEAD]
+    for table, rows in zip(TYPES, (settings(), [look(each) for each in PRESETS], known), strict=True):
+        lines = "".join(f"    {json.dumps(row, ensure_ascii=False, default=str)},\n" for row in rows)
+        made.append(f"\n// prettier-ignore\nexport const {table}: readonly {TYPES[table]}[] = [\n{lines}];\n")
+    return "".join(made)
+
+
+def _hex(color: Color) -> str:
+    return "#" + bytes(color).hex()
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] not in ([], ["--check"]):
+        sys.exit(__doc__)
+    if not sys.argv[1:]:
+        FILE.write_text(text(), "utf-8")
+    elif FILE.read_text("utf-8") != text():
+        sys.exit(f"{FILE.name} is not as tools/page_settings.py writes it: run it without --check")

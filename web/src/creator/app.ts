@@ -1,0 +1,305 @@
+// The state of the page, and all that changes it.
+
+import { batch, computed, effect, signal, type ReadonlySignal, type Signal } from "@preact/signals";
+import { InputError } from "../errors.js";
+import { CallError } from "../evm/contracts.js";
+import type { Opened } from "../files/index.js";
+import type { PageAssets, PieceEntry } from "./assets.js";
+import { fitted } from "./camera.js";
+import { prepare, type Document } from "./document.js";
+import { History } from "./history.js";
+import type { MeshStore } from "./library.js";
+import { linkOf } from "./link.js";
+import { withPiece } from "./objects.js";
+import { MissingFiles } from "./save.js";
+import { autosave } from "./things.js";
+import { calm } from "./ui/calm.js";
+import { Drawing } from "./ui/drawing.js";
+import { Cancelled, type Drawn, type Work } from "./work/work.js";
+
+/** The picture that is seen, and the document of which it is the picture. */
+export interface Shown {
+    drawn: Drawn;
+    doc: Document;
+}
+
+/** Something that takes long. part: 0..1, where it is known. */
+export interface Busy {
+    what: string;
+    part?: number;
+    cancel?: () => void;
+}
+
+/** A line that is shown for some seconds. */
+export interface Toast {
+    id: number;
+    text: string;
+    kind: "note" | "error";
+}
+
+/** The dialogs, and what shows them. */
+export type DialogName = "download" | "limits" | "keys" | "things" | "about" | "mint" | "edition" | "reveal";
+
+/** Milliseconds after the last change until it is kept. */
+const KEEP = 400;
+const MOST_BYTES = 100 * 1024 * 1024;
+/** The least side of the picture of a mesh file. */
+const LEAST_SIDE = 256;
+
+export class App {
+    readonly doc: Signal<Document>;
+    /** The document as it was opened, to which controls are reset. */
+    readonly own: Signal<Document>;
+    /** The ids of the objects that are selected; of none: all are meant. */
+    readonly selected: Signal<ReadonlySet<string>> = signal(new Set<string>());
+    /** The last finished picture at full size; null before the first. */
+    readonly shown: Signal<Shown | null> = signal(null);
+    readonly busy: Signal<Busy | null> = signal(null);
+    /** The dialog that is open. */
+    readonly dialog: Signal<DialogName | null> = signal(null);
+    readonly toasts: Signal<readonly Toast[]> = signal([]);
+    /** The link of the document, without the address of the page: "#1…"; null while it is not known. */
+    readonly link: Signal<string | null> = signal(null);
+    /** Files that the link does not contain: their names. */
+    readonly missing: Signal<readonly string[]> = signal([]);
+    readonly canUndo: ReadonlySignal<boolean>;
+    readonly canRedo: ReadonlySignal<boolean>;
+    readonly pieces: Signal<readonly PieceEntry[]> = signal([]);
+    /** The document for panels, which need not follow each frame of a movement. */
+    readonly calm: ReadonlySignal<Document>;
+    readonly drawing: Drawing;
+    readonly #history: History;
+    /** A document of which files are missing: it is shown when they were opened. */
+    #waiting: Document | null = null;
+    readonly #steps = signal(0);
+    #toast = 0;
+
+    constructor(
+        readonly assets: PageAssets,
+        readonly meshes: MeshStore,
+        readonly work: Work,
+        first: Document,
+        own = first,
+    ) {
+        this.doc = signal(first);
+        this.calm = calm(this.doc);
+        this.own = signal(own);
+        this.#history = new History(first);
+        this.canUndo = computed(() => this.#steps.value >= 0 && this.#history.canUndo);
+        this.canRedo = computed(() => this.#steps.value >= 0 && this.#history.canRedo);
+        this.drawing = new Drawing(this);
+        this.#keep();
+    }
+
+    // ---- changes ----
+
+    /** Show another document, as one step of undo; steps with the same `merge` within a second are one. */
+    change(next: Document, label: string, merge?: string): void {
+        if (next === this.doc.peek()) return;
+        this.#history.push(next, label, merge);
+        if (merge !== undefined) this.drawing.moved();
+        this.#show(this.#history.value);
+    }
+
+    undo(): void {
+        this.#show(this.#history.undo());
+    }
+
+    redo(): void {
+        this.#show(this.#history.redo());
+    }
+
+    #show(doc: Document | null): void {
+        if (!doc) return;
+        batch(() => {
+            this.doc.value = doc;
+            this.#steps.value += 1;
+            const there = [...this.selected.peek()].filter((id) => doc.objects.some((item) => item.id === id));
+            if (there.length < this.selected.peek().size) this.selected.value = new Set(there);
+        });
+    }
+
+    /** Select an object, or none. more: besides the others, or not any more. */
+    select(id: string | null, more = false): void {
+        const others = [...this.selected.peek()].filter((each) => each !== id);
+        const wasThere = others.length < this.selected.peek().size;
+        if (id === null) this.selected.value = more ? this.selected.peek() : new Set();
+        else this.selected.value = new Set(more ? (wasThere ? others : [...others, id]) : [id]);
+    }
+
+    // ---- opening ----
+
+    /** Open files, as from a drop. */
+    async open(files: readonly File[]): Promise<void> {
+        if (!files.length) return;
+        const what = files.length === 1 ? (files[0] as File).name : `${files.length} files`;
+        await this.run(`Reading ${what}`, async (signal) => {
+            if (files.reduce((sum, { size }) => sum + size, 0) > MOST_BYTES) {
+                throw new InputError("All files together may have up to 100 MB");
+            }
+            const { readFiles } = await import("../files/index.js");
+            const given = files.map(async (file) => {
+                return { name: file.webkitRelativePath || file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
+            });
+            const { width, height } = this.doc.peek();
+            const draco = (): Promise<Uint8Array> => this.assets.bytes("draco.wasm");
+            const options = { size: Math.max(width, height, LEAST_SIDE), library: this.meshes, draco, signal };
+            await this.take(await readFiles(await Promise.all(given), options));
+        });
+    }
+
+    /** Show what was opened elsewhere, and say what is not as in its file. */
+    async take({ document, meshes, notes }: Opened, label = "Open a file"): Promise<void> {
+        this.meshes.put(meshes);
+        const waiting = this.#waiting;
+        const isComplete = waiting?.objects.every(({ mesh }) => "piece" in mesh || this.meshes.has(mesh));
+        if (isComplete) this.#waiting = null;
+        await this.openDocument(waiting && isComplete ? waiting : document, label);
+        for (const note of notes) this.tell(note);
+    }
+
+    /** Open a piece of a dataset, or of Genesis by its number or seed: "genesis/7". add: as further objects of the scene. */
+    async openPiece(name: string, add = false): Promise<void> {
+        await this.run("Opening", async () => this.#open(await this.meshes.piece(name), add));
+    }
+
+    async openGenesis(seed: bigint, add = false): Promise<void> {
+        await this.openPiece(`genesis/${seed.toString(16).padStart(64, "0")}`, add);
+    }
+
+    async #open(piece: Document, add: boolean): Promise<void> {
+        const now = this.doc.peek();
+        const { width, height, antialias } = now;
+        if (!add) return this.openDocument({ ...piece, width, height, antialias }, `Open ${piece.title}`);
+        await this.meshes.need(piece);
+        this.addObjects(fitted(withPiece(now, piece, this.meshes), this.meshes), `Add ${piece.title}`);
+    }
+
+    /** Show a document with further objects at the end of its list, which are selected. */
+    addObjects(next: Document, label: string): void {
+        const added = next.objects.slice(this.doc.peek().objects.length);
+        this.own.value = { ...this.own.peek(), objects: [...this.own.peek().objects, ...added] };
+        this.change(next, label);
+        this.selected.value = new Set(added.map(({ id }) => id));
+    }
+
+    /** Open a document, such as one of my things. own: what its controls are reset to. */
+    async openDocument(doc: Document, label: string, own = doc): Promise<void> {
+        await this.meshes.need(doc);
+        batch(() => {
+            this.own.value = own;
+            this.selected.value = new Set();
+            this.change(doc, label);
+        });
+    }
+
+    // ---- what is kept ----
+
+    /** Keep the document in the address and in the browser, some time after its last change. */
+    #keep(): void {
+        let timer: ReturnType<typeof setTimeout> | undefined;
+        effect(() => {
+            const doc = this.doc.value;
+            this.link.value = null;
+            clearTimeout(timer);
+            timer = setTimeout(() => void this.#keepNow(doc).catch((error: unknown) => console.warn(error)), KEEP);
+        });
+    }
+
+    async #keepNow(doc: Document): Promise<void> {
+        await prepare(doc, this.meshes);
+        const { text, missing } = await linkOf(doc, this.meshes);
+        if (doc !== this.doc.peek()) return;
+        batch(() => {
+            this.link.value = text;
+            this.missing.value = missing;
+        });
+        // as long as nothing was done, the address stays as it is, and so does what was kept before
+        if (!this.#steps.peek()) return;
+        history.replaceState(null, "", location.pathname + (missing.length ? "" : text));
+        await autosave(doc);
+    }
+
+    // ---- long work, and words ----
+
+    /** Run something long: shows that the page is busy, cancels it by the button, and shows its error. undefined where it failed. */
+    async run<T>(
+        what: string,
+        work: (signal: AbortSignal, progress: (part: number) => void) => Promise<T>,
+    ): Promise<T | undefined> {
+        const abort = new AbortController();
+        let mine: Busy = { what, cancel: () => abort.abort() };
+        this.busy.value = mine;
+        const progress = (part: number): void => {
+            if (this.busy.peek() !== mine) return;
+            this.busy.value = mine = { ...mine, part };
+        };
+        try {
+            return await work(abort.signal, progress);
+        } catch (error) {
+            if (!abort.signal.aborted) this.fail(error);
+            return undefined;
+        } finally {
+            if (this.busy.peek() === mine) this.busy.value = null;
+        }
+    }
+
+    /** Show a sentence for some seconds. */
+    tell(text: string): void {
+        this.#say(capital(text), "note");
+    }
+
+    /** Show an error. */
+    fail(error: unknown): void {
+        if (error instanceof Cancelled) return;
+        this.#say(this.sentence(error), "error");
+    }
+
+    /** Return what an error says, for an artist. */
+    sentence(error: unknown): string {
+        if (error instanceof MissingFiles) this.#waiting = error.document;
+        if (error instanceof InputError || error instanceof CallError) return capital(error.message);
+        console.error(error);
+        return `Something went wrong: ${error instanceof Error ? error.message : String(error)}`;
+    }
+
+    #say(text: string, kind: Toast["kind"]): void {
+        const toast = { id: (this.#toast += 1), text, kind };
+        this.toasts.value = [
+            ...this.toasts
+                .peek()
+                .filter((each) => each.text !== text)
+                .slice(-2),
+            toast,
+        ];
+        setTimeout(() => this.dismiss(toast.id), kind === "error" ? 15_000 : 3000 + 70 * text.length);
+    }
+
+    dismiss(id: number): void {
+        this.toasts.value = this.toasts.peek().filter((each) => each.id !== id);
+    }
+
+    /** Hand a file to the visitor. */
+    save(blob: Blob, name: string): void {
+        const href = URL.createObjectURL(blob);
+        const anchor = Object.assign(document.createElement("a"), { href, download: name });
+        document.body.append(anchor);
+        anchor.click();
+        anchor.remove();
+        setTimeout(() => URL.revokeObjectURL(href), 60_000);
+    }
+
+    /** Copy a text, and say so. */
+    async copy(text: string): Promise<void> {
+        try {
+            await navigator.clipboard.writeText(text);
+            this.tell("Copied");
+        } catch {
+            this.#say("The browser does not allow the page to copy: select the text and copy it", "error");
+        }
+    }
+}
+
+function capital(text: string): string {
+    return text.slice(0, 1).toUpperCase() + text.slice(1);
+}

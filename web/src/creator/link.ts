@@ -1,0 +1,86 @@
+// Links: the scene file of a document, deflated, behind the # of the address of the page.
+
+import { deflateSync, inflateSync } from "fflate";
+import { InputError } from "../errors.js";
+import { fromBase64, toBase64 } from "../evm/bytes.js";
+import type { Document, Item, Meshes } from "./document.js";
+import type { MeshStore } from "./library.js";
+import { LINK_DICTIONARY, documentOfState } from "./old_link.js";
+import { openSceneFile, sceneTable } from "./save.js";
+
+const VERSION = "1";
+/** The most bytes of a link with meshes in it, and of the JSON in any link. */
+const MOST_INLINE = 24 * 1024;
+const MOST_JSON = 1 << 22;
+/** Above, meshes are too large for a link, whatever they are. */
+const MOST_VERTICES = 2500;
+
+/** Return the link of a document, "#1…", and the names of the files that are not in it. `prepare` must have been called. */
+export async function linkOf(doc: Document, meshes: Meshes): Promise<{ text: string; missing: string[] }> {
+    const files = doc.objects.filter(({ mesh }) => "file" in mesh);
+    const heavy = [...files, ...doc.objects.filter(({ maxTriangles }) => maxTriangles !== null)];
+    const isSmall = heavy.reduce((sum, item) => sum + verticesOf(item, meshes), 0) <= MOST_VERTICES;
+    const inside = isSmall ? packed(sceneTable(doc, meshes, true)) : null;
+    if (inside && (!heavy.length || inside.length <= MOST_INLINE)) return { text: textOf(inside), missing: [] };
+    const missing = [...new Set(files.map(({ name }) => name))];
+    return { text: textOf(packed(sceneTable(doc, meshes, false))), missing };
+}
+
+/** Return about how many vertices of an object would be in the link; Infinity where its mesh is not here. */
+function verticesOf({ mesh, maxTriangles }: Item, meshes: Meshes): number {
+    try {
+        const { vertices } = meshes.get(mesh);
+        return Math.min(vertices, maxTriangles ?? vertices);
+    } catch {
+        return Infinity;
+    }
+}
+
+function packed(table: object): Uint8Array {
+    return deflateSync(new TextEncoder().encode(JSON.stringify(table)), { level: 9 });
+}
+
+function textOf(bytes: Uint8Array): string {
+    return `#${VERSION}${toBase64(bytes).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "")}`;
+}
+
+/** Return the document of a link, also of one of the Creator before this one. InputError if it is damaged. */
+export async function documentOfLink(hash: string, store: MeshStore): Promise<Document> {
+    const bytes = bytesOf(hash);
+    const json = unpacked(bytes);
+    if (!json) {
+        const state = unpacked(bytes, LINK_DICTIONARY);
+        if (!state) throw new InputError("The link is damaged: copy all of it");
+        return documentOfState(state, store);
+    }
+    const { document, meshes } = await openSceneFile(json, store, { title: "" });
+    store.put(meshes);
+    return document;
+}
+
+function bytesOf(hash: string): Uint8Array {
+    const [, version, digits] = /^#?(.)([\w-]*)$/.exec(hash.trim()) ?? [];
+    if (version !== VERSION || digits === undefined) {
+        throw new InputError("The link is damaged, or of a newer page: copy all of it");
+    }
+    const bytes = fromBase64(digits.replaceAll("-", "+").replaceAll("_", "/"));
+    if (bytes) return bytes;
+    throw new InputError("The link is damaged: copy all of it");
+}
+
+/** Return the object whose JSON was deflated; null if it is none. */
+function unpacked(bytes: Uint8Array, dictionary?: Uint8Array): Record<string, unknown> | null {
+    try {
+        // what is larger is cut off
+        const out = new Uint8Array(MOST_JSON + 1);
+        const whole = inflateSync(bytes, { out, ...(dictionary && { dictionary }) });
+        if (whole.length > MOST_JSON)
+            throw new InputError(`The link holds more than ${MOST_JSON.toLocaleString("en")} bytes`);
+        const value: unknown = JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(whole));
+        const isTable = typeof value === "object" && value !== null && !Array.isArray(value);
+        return isTable ? (value as Record<string, unknown>) : null;
+    } catch (error) {
+        if (error instanceof InputError) throw error;
+        return null;
+    }
+}

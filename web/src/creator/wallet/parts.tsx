@@ -1,0 +1,147 @@
+// What the dialogs of wallets are made of, and the one thing that a wallet is asked to do at a time.
+
+import { signal } from "@preact/signals";
+import type { ComponentChildren } from "preact";
+import { useEffect } from "preact/hooks";
+import { formatEther, type Address } from "viem";
+import type { App, DialogName } from "../app.js";
+import { Button, Trouble, wordsOf as sentence } from "../dialogs/parts.js";
+import { stemOf, titleOf } from "../programs/subject.js";
+import { sceneFile } from "../save.js";
+import { chainName } from "./chains.js";
+import type { Token } from "./tokens.js";
+import { connect, discover, isDeclined, session, switchTo, wallets, wordsOf, type Tell } from "./wallet.js";
+
+/** What is being done. It goes on when its dialog is closed: what is sent cannot be taken back. */
+export const job = signal<string | null>(null);
+/** How the last thing ended that a dialog did. */
+const ends = signal<Partial<Record<DialogName, { words: string; isTrouble: boolean }>>>({});
+
+/** Do one thing with the wallet, unless another is being done. work: returns what to say at the end. */
+export function perform(of: DialogName, work: (tell: Tell) => Promise<string | void>): void {
+    if (job.peek() !== null) return;
+    const end = (words: string, isTrouble = false): void => {
+        ends.value = { ...ends.peek(), [of]: { words, isTrouble } };
+        job.value = null;
+    };
+    job.value = "Waiting for the wallet …";
+    work((words) => void (job.value = words)).then(
+        (words) => end(words ?? ""),
+        (error: unknown) => (isDeclined(error) ? end("Cancelled") : end(sentence(wordsOf(error)), true)),
+    );
+}
+
+/** What is being done now, or how it ended. */
+export function Said({ of }: { of: DialogName }) {
+    const { words, isTrouble } = ends.value[of] ?? { words: "", isTrouble: false };
+    if (job.value === null && isTrouble) return <Trouble text={words} />;
+    return <p role="status" data-name="said" children={job.value ?? words} />;
+}
+
+/** A button that is dead while something is being done. */
+export function Act(props: {
+    name: string;
+    off?: boolean;
+    look?: string;
+    does: () => void;
+    children: ComponentChildren;
+}) {
+    return <Button {...props} off={job.value !== null || (props.off ?? false)} />;
+}
+
+/** The wallet: those to choose from, or the one that is connected. command: what to do without one. */
+export function WalletLine({ app, of, command }: { app: App; of: DialogName; command: string }) {
+    useEffect(discover, []);
+    const now = session.value;
+    if (!now && !wallets.value.length) return <NoWallet app={app} command={command} />;
+    if (!now) {
+        const button = (wallet: (typeof wallets.value)[number]) => (
+            <Act key={wallet.id} name="connect" look="main" does={() => perform(of, () => connect(wallet))}>
+                Connect {wallet.name}
+            </Act>
+        );
+        return <section class="wallets" children={wallets.value.map(button)} />;
+    }
+    return (
+        <section class="wallets">
+            <p>
+                {now.wallet.name}: account <code title={now.account}>{short(now.account)}</code> on{" "}
+                <b data-name="chain">{chainName(now.chain)}</b>
+            </p>
+            <Act name="disconnect" look="small" does={() => void (session.value = null)}>
+                Use another wallet
+            </Act>
+        </section>
+    );
+}
+
+function NoWallet({ app, command }: { app: App; command: string }) {
+    const doc = app.doc.value;
+    const isFile = location.protocol === "file:";
+    const save = async (): Promise<void> =>
+        app.save(new Blob([await sceneFile(doc, app.meshes)]), `${stemOf(titleOf(doc))}.json`);
+    return (
+        <section data-name="no-wallet">
+            <h3>There is no wallet in this browser.</h3>
+            <p>
+                {isFile
+                    ? "This page is a file, and wallets talk to pages from a server only: open it there (http or https)."
+                    : "On a phone, open this page in the browser in your wallet's app. Elsewhere, wallets are extensions."}
+            </p>
+            <p class="quiet">
+                Or, with the saved scene, by the command line: <code>{command}</code>
+            </p>
+            <div class="scales">
+                <Act name="copy-page" look="small" off={isFile} does={() => void app.copy(location.href)}>
+                    Copy the address
+                </Act>
+                <Act name="save-scene" look="small" does={() => void save()}>
+                    Save the scene
+                </Act>
+            </div>
+        </section>
+    );
+}
+
+/** Buttons that ask the wallet to change to a chain. */
+export function Chains({ of, chains }: { of: DialogName; chains: readonly number[] }) {
+    const now = session.value;
+    const button = (chain: number) => (
+        <Act key={chain} name={`switch-${chain}`} does={() => perform(of, () => switchTo(now!, chain))}>
+            Switch to {chainName(chain)}
+        </Act>
+    );
+    return now && <div class="scales" children={chains.filter((chain) => chain !== now.chain).map(button)} />;
+}
+
+/** A token with its picture as the chain returned it. */
+export function TokenView(props: { token: Token; address: Address; chain: number; children: ComponentChildren }) {
+    const { token, address, chain, children } = props;
+    return (
+        <section class="take" data-name="token">
+            <img class="pixels" src={token.image} alt={token.name} />
+            <div>
+                <h3>{token.name}</h3>
+                {children}
+                <p class="quiet">
+                    Collection <code>{address}</code> on {chainName(chain)}
+                </p>
+            </div>
+        </section>
+    );
+}
+
+/** Return an amount exactly. */
+export function ether(wei: bigint): string {
+    return `${formatEther(wei)} ether`;
+}
+
+/** Return the most that something costs, rounded up. */
+export function atMost(wei: bigint): string {
+    const format = new Intl.NumberFormat("en", { maximumSignificantDigits: 3, roundingMode: "ceil" });
+    return `${format.format(Number(formatEther(wei)))} ether`;
+}
+
+export function short(address: Address): string {
+    return `${address.slice(0, 6)}…${address.slice(-4)}`;
+}

@@ -1,0 +1,220 @@
+// The visitor's own wallet in this browser (EIP-6963, EIP-1193): its account, its chain, and what it signs.
+
+import { signal, type Signal } from "@preact/signals";
+import { BaseError, createClient, custom, getAddress, isAddress, isHash, numberToHex as hex } from "viem";
+import type { Address, Client, EIP1193Provider, Hash, Hex, TransactionReceipt } from "viem";
+import { waitForTransactionReceipt } from "viem/actions";
+import { InputError } from "../../errors.js";
+import { oneLine } from "../programs/subject.js";
+import { additionOf, chainName } from "./chains.js";
+
+export interface Wallet {
+    id: string;
+    name: string;
+    provider: EIP1193Provider;
+}
+
+/** A wallet that the visitor has connected: its account and its chain, as last seen. */
+export interface Session {
+    wallet: Wallet;
+    client: Client;
+    account: Address;
+    chain: number;
+}
+
+/** Wei per gas: the most that is paid, and the part of the validator. */
+export interface Fees {
+    max: bigint;
+    tip: bigint;
+}
+
+/** gas: its limit. */
+export interface Call {
+    to: Address;
+    data: Hex;
+    value?: bigint;
+    gas: bigint;
+}
+
+/** Says what happens now. */
+export type Tell = (words: string) => void;
+
+/** Milliseconds between two looks at the chain, and until a transaction must be in a block. */
+const PAUSE = 1000;
+const PATIENCE = 240_000;
+/** Wei per gas, where a node names no tip. */
+const USUAL_TIP = 10n ** 9n;
+/** Codes of errors: the visitor said no (EIP-1193, WalletConnect); the chain is not known (EIP-3326). */
+const DECLINED = [4001, 5000];
+const UNKNOWN_CHAIN = [4902];
+
+export const wallets: Signal<readonly Wallet[]> = signal([]);
+export const session: Signal<Session | null> = signal(null);
+
+// ---- finding and connecting ----
+
+/** Find the wallets of this browser, and go on listening for others. */
+export function discover(): void {
+    addEventListener("eip6963:announceProvider", announced);
+    dispatchEvent(new Event("eip6963:requestProvider"));
+    const { ethereum: provider } = globalThis as { ethereum?: EIP1193Provider };
+    if (!wallets.peek().length && provider) wallets.value = [{ id: "", name: "the wallet of this browser", provider }];
+}
+
+function announced(event: Event): void {
+    const { info, provider } = ((event as CustomEvent).detail ?? {}) as Partial<{
+        info: { uuid: unknown; name: unknown };
+        provider: EIP1193Provider;
+    }>;
+    if (!info || typeof provider?.request !== "function") return;
+    const [id, name] = [String(info.uuid), oneLine(String(info.name)).slice(0, 40)];
+    wallets.value = [...wallets.peek().filter((each) => each.id && each.id !== id), { id, name, provider }];
+}
+
+/** Ask a wallet for an account, and follow it when it changes its account or chain. */
+export async function connect(wallet: Wallet): Promise<void> {
+    const { provider } = wallet;
+    // a library must not ask again for what the visitor has to sign
+    const client = createClient({ transport: custom(provider, { retryCount: 0 }), pollingInterval: PAUSE });
+    session.value = await look(wallet, client, "eth_requestAccounts");
+    const follow = async (): Promise<void> => {
+        const found = await look(wallet, client).catch(() => null);
+        if (session.peek()?.client === client) session.value = found;
+    };
+    provider.on?.("accountsChanged", () => void follow());
+    provider.on?.("chainChanged", () => void follow());
+}
+
+async function look(
+    wallet: Wallet,
+    client: Client,
+    method: "eth_accounts" | "eth_requestAccounts" = "eth_accounts",
+): Promise<Session> {
+    const accounts: unknown = await client.request({ method });
+    const account = Array.isArray(accounts) ? String(accounts[0]) : "";
+    if (!isAddress(account, { strict: false })) throw new InputError("The wallet gives no account: unlock it");
+    return { wallet, client, account: getAddress(account), chain: Number(await number(client, "eth_chainId")) };
+}
+
+/** Ask the wallet to change to a chain, and to add it where it is not known. */
+export async function switchTo({ wallet, client }: Session, chain: number): Promise<void> {
+    const change = (): Promise<unknown> =>
+        client.request({ method: "wallet_switchEthereumChain", params: [{ chainId: hex(chain) }] });
+    try {
+        await change();
+    } catch (error) {
+        if (!hasCode(error, UNKNOWN_CHAIN)) throw error;
+        const addition = additionOf(chain);
+        if (!addition) throw new InputError(`The wallet does not know ${chainName(chain)}: add it there, with a node`);
+        await client.request({ method: "wallet_addEthereumChain", params: [addition] });
+        if ((await look(wallet, client)).chain !== chain) await change();
+    }
+    const found = (session.value = await look(wallet, client));
+    if (found.chain !== chain) throw new InputError(`The wallet is still on ${chainName(found.chain)}`);
+}
+
+// ---- what it tells ----
+
+/** Return the answer to a request as a number. */
+export async function number(client: Client, method: string, ...params: unknown[]): Promise<bigint> {
+    const answer: unknown = await client.request({ method, params } as never);
+    if (typeof answer === "string" && /^0x[0-9a-f]{1,64}$/i.test(answer)) return BigInt(answer);
+    throw new InputError(
+        `The wallet answers ${method} with ${oneLine(String(answer)).slice(0, 40)}, which is no number`,
+    );
+}
+
+/** Return what gas may cost: the base fee can double until the transaction is in a block. */
+export async function feesOf({ client }: Session): Promise<Fees> {
+    const block = await client.request({ method: "eth_getBlockByNumber", params: ["latest", false] });
+    const base = String(block?.baseFeePerGas);
+    if (!/^0x[0-9a-f]{1,64}$/i.test(base)) throw new InputError("The chain of the wallet has no base fee (EIP-1559)");
+    const tip = await number(client, "eth_maxPriorityFeePerGas").catch(() => USUAL_TIP);
+    return { max: 2n * BigInt(base) + tip, tip };
+}
+
+/** Return the gas that the node of the wallet expects. */
+export function estimate({ client, account }: Session, { to, data, value = 0n }: Omit<Call, "gas">): Promise<bigint> {
+    return number(client, "eth_estimateGas", { from: account, to, data, value: hex(value) });
+}
+
+/** InputError unless the wallet still has this account and this chain. */
+export async function check({ wallet, client, account, chain }: Session): Promise<void> {
+    const now = await look(wallet, client);
+    if (now.chain === chain && now.account === account) return;
+    session.value = now;
+    const what = now.chain === chain ? `has another account now, ${now.account}` : `is on ${chainName(now.chain)} now`;
+    throw new InputError(`The wallet ${what}: nothing more was sent`);
+}
+
+// ---- what it signs ----
+
+/** Transactions that were sent, and of which nothing was heard yet: they are not sent again. */
+const open = new Map<string, Hash>();
+
+/** Have a transaction signed, and return its receipt. InputError if it fails, or is not known to be in a block. */
+export async function send(from: Session, call: Call, fees: Fees, tell: Tell): Promise<TransactionReceipt> {
+    await check(from);
+    const { client, account, chain } = from;
+    const { to, data, gas, value = 0n } = call;
+    const key = [chain, account, to, data, value].join();
+    let hash = open.get(key);
+    if (hash && !(await client.request({ method: "eth_getTransactionByHash", params: [hash] }))) hash = undefined;
+    if (!hash) {
+        // the most that was told is what is signed: if it does not suffice any more, nothing is
+        if ((await feesOf(from)).max > 2n * fees.max)
+            throw new InputError("Gas has become dearer: see what it costs now");
+        const most = { gas: hex(gas), maxFeePerGas: hex(fees.max), maxPriorityFeePerGas: hex(fees.tip) };
+        const transaction = { from: account, to, data, value: hex(value), chainId: hex(chain), ...most };
+        hash = (await client.request({ method: "eth_sendTransaction", params: [transaction] })) as Hash;
+        if (!isHash(hash)) throw new InputError("The wallet does not say what it sent: look there before you go on");
+        open.set(key, hash);
+    }
+    tell(`Sent: ${hash}. Waiting until it is in a block …`);
+    let isOther = false;
+    const onReplaced = ({ reason }: { reason: string }): void => void (isOther = reason !== "repriced");
+    const waiting = waitForTransactionReceipt(client, { hash, timeout: PATIENCE, onReplaced });
+    const receipt = await waiting.catch((error: unknown) => {
+        const why = wordsOf(error);
+        throw new InputError(
+            `Whether the transaction ${hash} is in a block is not known (${why}). Go on to wait for it`,
+        );
+    });
+    open.delete(key);
+    if (isOther) throw new InputError(`The transaction ${hash} was cancelled or replaced in the wallet`);
+    if (receipt.status !== "success") throw new InputError(`The transaction ${hash} failed: the contract refused it`);
+    return receipt;
+}
+
+// ---- errors ----
+
+/** Return whether it is the visitor who said no. */
+export function isDeclined(error: unknown): boolean {
+    return hasCode(error, DECLINED);
+}
+
+interface Faulty {
+    code?: number;
+    data?: { originalError?: { code?: number } };
+    cause?: Faulty;
+}
+
+/** Return whether an error, or one in it, has one of some codes; wallets on phones have them in `originalError`. */
+function hasCode(error: unknown, codes: readonly number[]): boolean {
+    const { code, data, cause } = (error ?? {}) as Faulty;
+    const own = [code, data?.originalError?.code];
+    return own.some((each) => codes.includes(each ?? 0)) || (cause !== undefined && hasCode(cause, codes));
+}
+
+/** Return what an error of a wallet, of its node or of a contract says, in one line. */
+export function wordsOf(error: unknown): string {
+    if (error instanceof BaseError) return oneLine(error.details || error.shortMessage).slice(0, 200);
+    return error instanceof Error ? error.message : String(error);
+}
+
+/** Return what a promise gives; its error is one line of words. */
+export async function plainly<T>(promise: Promise<T>): Promise<T> {
+    return promise.catch((error: unknown) => {
+        throw new InputError(isDeclined(error) ? "Cancelled" : wordsOf(error));
+    });
+}
