@@ -282,6 +282,7 @@ VALUES: dict[str, Any] = {
     "half_height": 0.9,
     "near": 4.5,
     "orthographic": True,
+    "preset": "gold",
     "lights": Light.point((2, 2, 2), "orange"),
     "ambient_light": "red",
     "hemisphere": ("skyblue", "tan"),

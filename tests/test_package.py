@@ -28,20 +28,15 @@ NEEDED = [Requirement(line) for line in PROJECT["project"]["dependencies"]]
 EXTRAS = {
     name: [Requirement(line) for line in lines] for name, lines in PROJECT["project"]["optional-dependencies"].items()
 }
-#: Needed, but imported by a package that we import: uvicorn serves WebSockets with it.
-LOADED_BY_OTHERS = {"websockets"}
 CONSTRAINTS = ROOT / "tools" / "constraints.txt"
 
 #: What parts of the package may import beside what every installation has: the extras that errors name.
 EXTRA_OF = {
     "bench": "bench",
     "chain/_embedded.py": "pyevm pyrevm",
-    "creator": "creator",
     "mp4.py": "mp4",
     "parallel/_cluster.py": "cluster",
     "scene/_files/gltf/draco.py": "draco",
-    "preview/_server.py": "creator",
-    "serving/": "creator",
     "web/_widget.py": "jupyter",
 }
 
@@ -75,7 +70,7 @@ def test_what_is_imported_is_declared() -> None:
         found |= owners & declared
     # and nothing is declared that nobody imports
     everything = [*NEEDED, *(each for lines in EXTRAS.values() for each in lines)]
-    assert {canonicalize_name(each.name) for each in everything} <= found | LOADED_BY_OTHERS
+    assert {canonicalize_name(each.name) for each in everything} <= found
 
 
 def test_the_extras_are_those_of_the_tests() -> None:

@@ -61,7 +61,7 @@ def test_versions_are_those_that_were_tried(
 ) -> None:
     monkeypatch.setattr(prepare, "make_venv", lambda: None)
     monkeypatch.setattr(Path, "touch", lambda path: None)
-    for target in (prepare.prepare_package, prepare.prepare_creator, prepare.prepare_dev):
+    for target in (prepare.prepare_package, prepare.prepare_dev):
         commands.clear()
         target()
         assert commands

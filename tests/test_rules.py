@@ -84,14 +84,15 @@ def test_contracts_say_licence_and_compiler(texts: dict[str, str]) -> None:
 
 
 def test_links_lead_somewhere(texts: dict[str, str]) -> None:
-    broken = []
+    # the page that docs/with_creator.py adds to the site
+    broken, made = [], {"docs/creating.md: creator/index.html"}
     for name, text in texts.items():
         if name.endswith(".md"):
             text = re.sub(r"^```.*?^```", "", text, flags=re.DOTALL | re.MULTILINE)
             for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", text) + re.findall(r'(?:src|href)="([^"#]+)', text):
                 if "://" not in target and not (ROOT / name).parent.joinpath(target).exists():
                     broken.append(f"{name}: {target}")
-    assert broken == []
+    assert set(broken) == made
 
 
 @pytest.mark.parametrize("name", contracts())

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import asyncio
 import base64
 import io
 import json
 import shutil
-from dataclasses import dataclass
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 import pytest
@@ -30,7 +31,6 @@ from shackled.preview import (
     World,
     judge,
     judge_picture,
-    make_app,
     parse_call,
     parse_value,
 )
@@ -411,97 +411,63 @@ def test_the_page_survives_every_error(tmp_path: Path) -> None:
 
     live = Live(Faulty(source, contract(answering(output(SVG), output(SVG)))), Request(count=1))
 
-    async def states() -> list[dict[str, Any]]:
-        following = asyncio.create_task(live.follow())
-        found = []
-        async for event in live.events():
-            found.append(json.loads(event.removeprefix("data: ")))
+    with following(live):
+        found: list[dict[str, Any]] = []
+        for event in live.events():
+            found.append(json.loads(event.removeprefix(b"data: ")))
             if found[-1].get("status") == "failed":
                 source.write_text("contract Small {}" + " " * len(found))
             elif found[-1].get("status") == "done":
                 # ends the events too
                 live.end()
-        await following
-        return found
-
-    found = asyncio.run(asyncio.wait_for(states(), 30))
     assert [m["error"] for m in found if m.get("status") == "failed"] == ["RuntimeError: a mistake", "no"]
     assert found[-1]["status"] == "done"
     assert found[-1]["error"] == ""
 
 
+@contextmanager
+def following(live: Live) -> Iterator[None]:
+    thread = Thread(target=live.follow)
+    thread.start()
+    try:
+        yield
+    finally:
+        live.end()
+        thread.join(30)
+
+
 @needs_solc
 def test_the_page_follows_the_sources(source: Path) -> None:
     """It shows tokens, errors of the compiler, and tokens again; files of tokens run nothing."""
-    pytest.importorskip("starlette")
     text = source.read_text("utf-8")
     live = Live(Project(source), Request(arguments=("0",), setup=("mint(4)",), count=2))
-    app = make_app(live)
     kept: list[bool] = []
-
-    async def states() -> list[dict[str, Any]]:
-        following = asyncio.create_task(live.follow())
+    with following(live):
         found, saves = [], ["contract", text]
-        async for event in live.events():
-            message = json.loads(event.removeprefix("data: "))
+        for event in live.events():
+            message = json.loads(event.removeprefix(b"data: "))
             found.append(message)
             if message.get("status") in ("done", "failed"):
                 kept.append(live.token(1, 0) is not None)
                 if not saves:
                     break
                 source.write_text(saves.pop(0), "utf-8")
-        live.end()
-        await following
-        return found
-
-    found = asyncio.run(states())
     assert [m["status"] for m in found if "status" in m and m["version"] == 2] == ["compiling", "failed"]
     # the tokens of before stay, with their files, until all are read again
     assert kept == [True, True, False]
     assert any("--> Odd.sol" in m.get("error", "") for m in found)
     assert [m["token"]["number"] for m in found if m["version"] == 3 and "token" in m] == ["0", "1"]
-    page = get(app, "/")
-    assert page.status == 200
-    assert "script-src 'self'" in page.headers["content-security-policy"]
-    assert {get(app, f"/{name}").status for name in ("preview.js", "preview.css")} == {200}
-    assert get(app, "/../_server.py").status == get(app, "/other").status == 404
-    picture = get(app, f"/file/{live.version}/0/image")
-    assert picture.headers["content-type"] == "image/svg+xml"
-    assert "sandbox" in picture.headers["content-security-policy"]
-    assert json.loads(get(app, f"/token/{live.version}/0").body)["document"]["name"] == "Odd 0"
-    assert get(app, f"/file/{live.version - 1}/0/image").status == 404
-    assert get(app, f"/file/{live.version}/7/image").status == 404
-    assert get(app, "/", host="evil.example").status == 403
-    assert get(app, "/", origin="http://evil.example").status == 403
-
-
-@dataclass
-class Response:
-    status: int
-    headers: dict[str, str]
-    body: bytes
-
-
-def get(app: Any, path: str, **headers: str) -> Response:
-    """Ask the application without a socket."""
-    sent: list[dict[str, Any]] = []
-
-    async def receive() -> dict[str, Any]:
-        return {"type": "http.request"}
-
-    async def send(message: dict[str, Any]) -> None:
-        sent.append(message)
-
-    given = {"host": "127.0.0.1"} | headers
-    scope = {
-        "type": "http",
-        "method": "GET",
-        "path": path,
-        "query_string": b"",
-        "http_version": "1.1",
-        "scheme": "http",
-    }
-    scope["headers"] = [(name.encode(), value.encode()) for name, value in given.items()]
-    asyncio.run(app(scope, receive, send))
-    answered = {name.decode(): value.decode() for name, value in sent[0]["headers"]}
-    return Response(sent[0]["status"], answered, b"".join(message.get("body", b"") for message in sent[1:]))
+    page = live.answer("/")
+    assert page is not None
+    assert "script-src 'self'" in page.headers["Content-Security-Policy"]
+    assert all(live.answer(f"/{name}") for name in ("preview.js", "preview.css"))
+    picture = live.answer(f"/file/{live.version}/0/image")
+    assert picture is not None
+    assert picture.kind == "image/svg+xml"
+    assert "sandbox" in picture.headers["Content-Security-Policy"]
+    described = live.answer(f"/token/{live.version}/0")
+    assert described is not None
+    assert isinstance(described.body, bytes)
+    assert json.loads(described.body)["document"]["name"] == "Odd 0"
+    absent = ("/../_server.py", "/other", f"/file/{live.version - 1}/0/image", f"/file/{live.version}/7/image")
+    assert not any(map(live.answer, absent))

@@ -18,7 +18,6 @@ from tools.page_server import browser_path
 from preview.small_contracts import answering, contract, function, output
 
 pytest.importorskip("playwright.sync_api", reason="the tests of the page need playwright")
-pytest.importorskip("starlette", reason="the page needs starlette")
 if browser_path() is None:
     pytest.skip("the tests of the page need chromium: apt-get install chromium", allow_module_level=True)
 

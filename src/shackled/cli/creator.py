@@ -2,43 +2,114 @@
 
 from __future__ import annotations
 
-from importlib.util import find_spec
+import json
+import re
+import shutil
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from itertools import islice
+from pathlib import Path
 from typing import Annotated
+from urllib.parse import quote
 
 import typer
 
+from .._load import locate
+from ..chain import book_path
+from ..datasets import Piece
+from ..datasets.genesis import seed_of
 from ..errors import InputError
+from ..local_server import Answer, listen, run, type_of
+from ..scene import SCENES, Link
+from ..whole_file import make_output_folder
+from .option import option
 
 #: Default port.
 PORT = 8080
+#: Files that name others, beside which those are, such as materials and textures; at most so many are looked at.
+NAMING, MOST_BESIDE = (".obj", ".mtl", ".gltf", ".ply", *SCENES), 2000
 
 
 def creator(
     input: Annotated[
-        str | None,
-        typer.Argument(help="Mesh or scene file, or piece of a dataset, to show first.", metavar="[INPUT]"),
+        str | None, typer.Argument(help="Mesh or scene file, piece of a dataset, or link, to open.", metavar="INPUT")
     ] = None,
     port: Annotated[
-        int | None, typer.Option("--port", help=f"Port of the page (default: {PORT}, or a free one).", min=0)
+        int | None, typer.Option("--port", help=f"Port of the page (default: {PORT}, or a free one).", min=0, max=65535)
     ] = None,
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")] = True,
-    host: Annotated[
-        str, typer.Option("--host", help="Address to listen on; any other than 127.0.0.1 accepts other machines.")
-    ] = "127.0.0.1",
-    name: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--name",
-            help="Allowed host name, such as that of a proxy; may be repeated. Addresses, localhost and the name of"
-            " this machine are always allowed.",
-            metavar="HOST",
-        ),
-    ] = None,
-    rpc: Annotated[str | None, typer.Option("--rpc", help="Node to compare pictures with.", metavar="URL")] = None,
+    out: Annotated[str | None, option("--out", "Only write the page, to a folder, for any web server.", "DIR")] = None,
 ) -> None:
-    """Make pictures on a page in the browser, without code."""
-    if not all(map(find_spec, ("jinja2", "starlette", "uvicorn", "websockets"))):
-        raise InputError("the page needs more packages: pip install 'shackled[creator]'")
-    from ..creator import serve
+    """Make pictures on a page in the browser, without code; what it shows stays on this machine."""
+    page, one_file = built_page()
+    if out is not None:
+        if input is not None or port is not None:
+            raise InputError("--out only writes the page: leave out INPUT and --port")
+        make_output_folder(folder := Path(out))
+        shutil.copytree(page, folder, dirs_exist_ok=True)
+        shutil.copy(one_file, folder)
+        print(f"{folder / 'index.html'}, and in one file {folder / one_file.name}")
+        return
+    answers, place = first_answers(input)
 
-    serve(input, host=host, port=port, fallback_port=PORT, open_browser=browser, node=rpc, names=name or ())
+    def answer(path: str) -> Answer | None:
+        body = found(page, answers, path[1:] or "index.html")
+        return None if body is None else Answer(body, type_of(path[1:] or "index.html"))
+
+    run(listen(answer, port, PORT), "the Creator is at", f"/{place}", browser)
+
+
+def built_page() -> tuple[Path, Path]:
+    """Return the folder of the page, and the page as one file: of the package, or of a clone. InputError without."""
+    package = Path(__file__).parents[1]
+    for folder in (package / "web", package.parents[1] / "build"):
+        if (folder / "page" / "index.html").is_file():
+            return folder / "page", folder / "creator.html"
+    raise InputError("the page of the Creator is not built: run `make page`, which needs Node 20 and npm")
+
+
+def first_answers(input: str | None) -> tuple[dict[str, Path | bytes], str]:
+    """Return what is served besides the page, by path, and what follows its address, to open the input."""
+    book = book_path()
+    answers: dict[str, Path | bytes] = {"addresses.json": book if book.is_file() else b'{"chains": {}}'}
+    if input is None:
+        return answers, ""
+    source = locate(input)
+    if isinstance(source, Link):
+        source.scene()
+        return answers, "#" + source.text.rpartition("#")[2]
+    seed = re.fullmatch(r"genesis/(\d+)", input)
+    # the page knows them by their seeds
+    name = f"genesis/{seed_of(int(seed[1])).hex()}" if seed and len(seed[1]) < 64 else input
+    told: dict[str, object] = {"piece": name}
+    if not isinstance(source, Piece):
+        if not source.is_file():
+            raise InputError(f"{source} does not exist")
+        files = {path.relative_to(source.parent).as_posix(): path for path in (source, *_beside(source))}
+        answers |= {f"input/{name}": path for name, path in files.items()}
+        told = {"names": [*files]}
+    return answers | {"input.json": json.dumps(told).encode()}, "?input"
+
+
+def _beside(path: Path) -> Iterator[Path]:
+    """Yield the files in the folder of a file, and in folders there, whose names it contains."""
+    if path.suffix.lower() not in NAMING:
+        return
+    text = path.read_bytes()
+    around = filter(Path.is_file, islice(path.parent.rglob("*"), MOST_BESIDE))
+    for each in sorted(around, key=lambda each: (each.suffix.lower() not in NAMING, each)):
+        if each != path and (each.name.encode() in text or quote(each.name).encode() in text):
+            if each.suffix.lower() in NAMING:
+                text += each.read_bytes()
+            yield each
+
+
+def found(page: Path, answers: Mapping[str, Path | bytes], name: str) -> bytes | None:
+    """Return a file of the page, or what else is served; None if there is no such file."""
+    place = answers.get(name) or page / name
+    if isinstance(place, bytes):
+        return place
+    with suppress(OSError, ValueError):  # ValueError: a NUL in the name
+        if name in answers or place.resolve().is_relative_to(page.resolve()):
+            return place.read_bytes()
+    return None

@@ -16,6 +16,7 @@ from ..scene import (
     GLTF,
     READERS,
     Axis,
+    Link,
     Material,
     Mesh,
     Object,
@@ -60,7 +61,7 @@ class Facts:
     animations: list[tuple[str, float]]
 
 
-def facts_of(place: Path | Piece) -> Facts:
+def facts_of(place: Path | Piece | Link) -> Facts:
     """Return the facts of a file or a piece."""
     objects = _objects(place)
     if not objects:
@@ -94,7 +95,7 @@ def facts_of(place: Path | Piece) -> Facts:
     )
 
 
-def _objects(place: Path | Piece) -> list[Object]:
+def _objects(place: Path | Piece | Link) -> list[Object]:
     if isinstance(place, Path) and place.suffix.lower() in READERS:
         return [
             Object(part.mesh, material=evolve(Material(), **part.material), opacity=part.opacity)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -80,8 +79,6 @@ def preview(
 
     if not check and (as_json or output is not None):
         raise InputError(f"{'--json' if as_json else '--output'} needs --check")
-    if not check and not all(map(find_spec, ("starlette", "uvicorn"))):
-        raise InputError("the page needs more packages: pip install 'shackled[creator]'; --check needs none")
     project = Project(source)
     stored = _stored(store or ())
     request = Request(

@@ -18,7 +18,7 @@ from ..animation import check_animation
 from ..datasets import Piece
 from ..errors import InputError, InputWarning, ShackledError
 from ..image import check_output
-from ..scene import PICTURE, READERS
+from ..scene import PICTURE, READERS, Link
 from ..untrusted import plain
 from ..workers import each
 from .notes import Action, action, noting
@@ -64,6 +64,8 @@ def inputs_of(names: Sequence[str], kind: str | None, stack: ExitStack) -> list[
             found = Path(name)  # which fails when it is read, without stopping the others
         if isinstance(found, Piece):
             sources.append(Source(name, name, found.file_stem))
+        elif isinstance(found, Link):
+            sources.append(Source(str(found), name, found.stem))
         else:
             members = _meshes(found)
             if not members and len(names) == 1 and found.is_dir():

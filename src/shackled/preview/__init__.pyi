@@ -5,7 +5,7 @@ from ._library import library_codes, stored_scene
 from ._preview import Preview, Request, Token
 from ._project import Compiled, CompilerError, Project
 from ._quantities import in_units
-from ._server import Live, make_app, serve
+from ._server import Live, serve
 from ._sheet import check_sheet, write_sheet
 from ._summary import summary
 from ._world import MAX_GAS, World
@@ -29,7 +29,6 @@ __all__ = [
     "judge",
     "judge_picture",
     "library_codes",
-    "make_app",
     "parse_call",
     "parse_value",
     "serve",

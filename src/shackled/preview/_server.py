@@ -2,33 +2,30 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
+import re
 import time
-from collections.abc import AsyncIterator
-from contextlib import suppress
+from collections.abc import Iterator
 from importlib.resources import files
+from queue import SimpleQueue
+from threading import Event, Lock, Thread
 from typing import Any
 
-from starlette.applications import Starlette
-from starlette.requests import Request as HttpRequest
-from starlette.responses import PlainTextResponse, Response, StreamingResponse
-from starlette.routing import Route
-from starlette.types import ASGIApp
-
 from ..errors import ShackledError
-from ..serving import HEADERS, SameOrigin, listen, run, url_of
+from ..local_server import Answer, listen, run, type_of
 from ..untrusted import plain
-from ._document import HTML, Document
+from ._document import HTML
 from ._preview import Preview, Request, Token
 from ._project import CompilerError, Project
 from ._summary import summary
 
-HOST = "127.0.0.1"
 #: Seconds between two looks at the sources.
 PAUSE = 0.25
-ASSETS = {"": "text/html", "preview.js": "text/javascript", "preview.css": "text/css"}
-PAGE_POLICY = HEADERS["content-security-policy"] + "; frame-src 'self'"
+ASSETS = ("preview.html", "preview.js", "preview.css")
+PAGE_POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; "
+    "frame-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
 #: Of files of tokens, which are untrusted: they run nothing, and HTML runs apart from the page and without a network.
 FILE_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'self'; sandbox"
 HTML_POLICY = (
@@ -50,41 +47,45 @@ class Live:
         self.state: dict[str, Any] = {}
         #: Whether a source has changed since this version was begun.
         self._is_stale = False
-        self._has_ended = False
-        self._listeners: set[asyncio.Queue[dict[str, Any] | None]] = set()
+        self._ended = Event()
+        #: Of what is above and below, which threads of several pages read.
+        self._lock = Lock()
+        self._listeners: set[SimpleQueue[dict[str, Any] | None]] = set()
 
-    async def follow(self) -> None:
+    def follow(self) -> None:
         """Make the preview, and make it again whenever a source changes, until `end`."""
-        while not self._has_ended:
-            stamps = await asyncio.to_thread(self.project.stamps)
+        while not self._ended.is_set():
+            stamps = self.project.stamps()
             self._is_stale = False
-            making = asyncio.create_task(self._make())
-            while not self._has_ended and stamps == await asyncio.to_thread(self.project.stamps):
-                await asyncio.sleep(PAUSE)
+            making = Thread(target=self._make)
+            making.start()
+            while not self._ended.wait(PAUSE) and stamps == self.project.stamps():
+                pass
             self._is_stale = True
-            await making
+            making.join()
 
     def end(self) -> None:
         """End `follow`, and the events of all pages."""
-        self._has_ended = True
-        for queue in self._listeners:
-            queue.put_nowait(None)
+        self._ended.set()
+        with self._lock:
+            for queue in self._listeners:
+                queue.put(None)
 
-    async def _make(self) -> None:
+    def _make(self) -> None:
         """Compile, and read all tokens. Whatever fails is told to the page."""
         self.version += 1
         self._tell(status="compiling", error="", notes=[])
         try:
-            await self._draw()
+            self._draw()
         except ShackledError as error:
             self._fail(f"{error}\n\n{error.said}" if isinstance(error, CompilerError) else str(error))
         except Exception as error:
             # a mistake of the preview itself, which the next save may avoid
             self._fail(f"{type(error).__name__}: {error}")
 
-    async def _draw(self) -> None:
+    def _draw(self) -> None:
         started = time.monotonic()
-        preview = await asyncio.to_thread(Preview, self.project, self.request)
+        preview = Preview(self.project, self.request)
         self._tell(
             status="drawing",
             contract=preview.contract.name,
@@ -97,15 +98,17 @@ class Live:
         found: list[Token] = []
         tokens = preview.tokens()
         try:
-            while not self._is_stale and (token := await asyncio.to_thread(next, tokens, None)) is not None:
+            while not self._is_stale and (token := next(tokens, None)) is not None:
                 found.append(token)
-                self.tokens[token.number] = self.version, token
-                self._send({"version": self.version, "token": self._summary(token.number)})
+                with self._lock:
+                    self.tokens[token.number] = self.version, token
+                self._send({"token": self._summary(token.number)})
         finally:
-            await asyncio.to_thread(tokens.close)
+            tokens.close()
         if self._is_stale:
             return
-        self.tokens = {token.number: (self.version, token) for token in found}
+        with self._lock:
+            self.tokens = {token.number: (self.version, token) for token in found}
         wrong = sum(bool(token.problems) for token in found)
         seconds = time.monotonic() - started
         print(f"{len(found)} tokens in {seconds:.1f} s, {wrong} with problems", flush=True)
@@ -113,21 +116,20 @@ class Live:
         notes = [*preview.problems, *([hint] if hint else [])]
         self._tell(status="done", seconds=round(seconds, 1), notes=notes)
 
-    def snapshot(self) -> dict[str, Any]:
-        """Return all that a page needs that connects now."""
-        return {"version": self.version, **self.state, "tokens": [*map(self._summary, sorted(self.tokens))]}
-
-    async def events(self) -> AsyncIterator[str]:
-        """Yield the state and its changes as server-sent events."""
-        queue: asyncio.Queue[dict[str, Any] | None] = asyncio.Queue()
-        self._listeners.add(queue)
+    def events(self) -> Iterator[bytes]:
+        """Yield the state, with all tokens, and its changes as server-sent events."""
+        queue: SimpleQueue[dict[str, Any] | None] = SimpleQueue()
+        with self._lock:
+            tokens = [*map(self._summary, sorted(self.tokens))]
+            message: dict[str, Any] | None = {"version": self.version, **self.state, "tokens": tokens}
+            self._listeners.add(queue)
         try:
-            message: dict[str, Any] | None = self.snapshot()
-            while message is not None and not self._has_ended:
-                yield f"data: {json.dumps(message)}\n\n"
-                message = await queue.get()
+            while message is not None and not self._ended.is_set():
+                yield f"data: {json.dumps(message)}\n\n".encode()
+                message = queue.get()
         finally:
-            self._listeners.discard(queue)
+            with self._lock:
+                self._listeners.discard(queue)
 
     def token(self, version: int, number: int) -> Token | None:
         """Return a token as a version has it, until a later one replaces it."""
@@ -144,69 +146,45 @@ class Live:
         self._tell(status="failed", error=said)
 
     def _tell(self, **changes: Any) -> None:
-        self.state |= changes
-        self._send({"version": self.version, **self.state})
+        with self._lock:
+            self.state |= changes
+        self._send(self.state)
 
-    def _send(self, message: dict[str, Any]) -> None:
-        for queue in self._listeners:
-            queue.put_nowait(message)
+    def _send(self, changes: dict[str, Any]) -> None:
+        message = {"version": self.version, **changes}
+        with self._lock:
+            for queue in self._listeners:
+                queue.put(message)
 
-
-def make_app(live: Live) -> ASGIApp:
-    """Return the application of the page."""
-
-    async def asset(request: HttpRequest) -> Response:
-        name = request.path_params.get("name", "")
-        if name not in ASSETS:
-            return PlainTextResponse("there is no such file", 404)
-        content = files(__package__).joinpath("assets", name or "preview.html").read_bytes()
-        return Response(content, media_type=ASSETS[name], headers={"content-security-policy": PAGE_POLICY})
-
-    async def events(request: HttpRequest) -> Response:
-        return StreamingResponse(live.events(), media_type="text/event-stream")
-
-    def token_of(request: HttpRequest) -> Token | None:
-        return live.token(request.path_params["version"], request.path_params["number"])
-
-    async def file(request: HttpRequest) -> Response:
-        token = token_of(request)
-        document = token.document if token else Document()
-        found = document.image if request.path_params["which"] == "image" else document.animation
+    def answer(self, path: str) -> Answer | None:
+        """Return what is sent for a path of the page; None if there is no such file, or not any more."""
+        if path == "/events":
+            return Answer(self.events(), "text/event-stream")
+        if path[1:] in ASSETS or path == "/":
+            name = path[1:] or ASSETS[0]
+            content = files(__package__).joinpath("assets", name).read_bytes()
+            return Answer(content, type_of(name), {"Content-Security-Policy": PAGE_POLICY})
+        match = re.fullmatch(r"/(token|file)/(\d+)/(\d+)(?:/(image|animation))?", path, re.ASCII)
+        token = self.token(int(match[2]), int(match[3])) if match else None
+        if match is None or token is None:
+            return None
+        if match[1] == "token":
+            return Answer(json.dumps({"document": token.document.fields}).encode(), "application/json")
+        found = token.document.image if match[4] == "image" else token.document.animation
         if found is None:
-            return PlainTextResponse("there is no such file any more", 404)
+            return None
         policy = HTML_POLICY if found.media_type == HTML else FILE_POLICY
-        headers = {"content-security-policy": policy, "x-frame-options": "SAMEORIGIN"}
-        return Response(found.content, headers={**headers, "content-type": found.media_type})
-
-    async def token(request: HttpRequest) -> Response:
-        found = token_of(request)
-        if found is None:
-            return PlainTextResponse("there is no such token any more", 404)
-        return Response(json.dumps({"document": found.document.fields}), media_type="application/json")
-
-    app = Starlette(
-        routes=[
-            Route("/", asset),
-            Route("/events", events),
-            Route("/file/{version:int}/{number:int}/{which}", file),
-            Route("/token/{version:int}/{number:int}", token),
-            Route("/{name}", asset),
-        ]
-    )
-    return SameOrigin(app, local=True)
+        return Answer(found.content, found.media_type, {"Content-Security-Policy": policy})
 
 
 def serve(project: Project, request: Request, port: int | None, fallback_port: int, browse: bool) -> None:
     """Serve the page until it is interrupted. InputError if the port cannot be used."""
-    with listen(HOST, port, fallback_port) as listening, suppress(KeyboardInterrupt):
-        asyncio.run(_serve(Live(project, request), listening, browse))
-
-
-async def _serve(live: Live, listening: Any, browse: bool) -> None:
-    following = asyncio.create_task(live.follow())
-    announcement = f"the preview is at {url_of(HOST, listening)}"
+    live = Live(project, request)
+    server = listen(live.answer, port, fallback_port)
+    following = Thread(target=live.follow)
+    following.start()
     try:
-        await run(make_app(live), listening, announcement, browse, live.end)
+        run(server, "the preview is at", "/", browse)
     finally:
         live.end()
-        await following
+        following.join()

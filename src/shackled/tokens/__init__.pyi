@@ -22,7 +22,7 @@ from ._gallery import ActionCost, comparison, page, tokens_json
 from ._icons import ICON_PRICE, SCALE, add_call, check_sale, chosen_pieces, find_icon, icons_of, token_scene
 from ._immutables import immutable_places, immutable_values
 from ._launch import CollectionTerms, address_of, launch, parts_of, plan_launch, plan_setup
-from ._licence import allows, licence_of
+from ._licence import ALLOWED_LICENCES, allows, licence_of
 from ._metadata import MAX_LENGTH, Metadata, Trait, read_data_uri, read_token_uri, shrink
 from ._minting import mint_call
 from ._randomness import check_randomness
@@ -47,6 +47,7 @@ from ._verify import check_code, check_collection_code, check_token
 from ._view import TokenView, read_view, read_views
 
 __all__ = [
+    "ALLOWED_LICENCES",
     "EDITIONS",
     "HEADERS_AT_ONCE",
     "ICON_PRICE",

@@ -7,9 +7,10 @@ from pathlib import Path
 
 from ..datasets import Piece
 from ..errors import InputError
+from ..scene import Link
 
 #: Licences that allow it, in lower case, with single spaces between the words.
-ALLOWED = re.compile(
+ALLOWED_LICENCES = re.compile(
     r"my own work|own work|public domain|cc ?0( 1\.0)?( universal)?|cc by( sa)?( [1-4]\.0)?( international)?"
     r"|(the )?mit( 0)?( licen[cs]e)?|apache( licen[cs]e)?( 2(\.0)?)|0 ?bsd|bsd [0-3] clause( licen[cs]e)?"
     r"|isc( licen[cs]e)?|zlib( licen[cs]e)?|(the )?unlicense|wtfpl"
@@ -17,7 +18,7 @@ ALLOWED = re.compile(
 EXAMPLES = "CC0-1.0, public domain, CC-BY-4.0, CC-BY-SA-4.0, MIT, BSD-3-Clause, Apache-2.0"
 
 
-def licence_of(source: Path | Piece, stated: str | None) -> str:
+def licence_of(source: Path | Piece | Link, stated: str | None) -> str:
     """Return the licence of an object that is to be minted: that of a dataset piece, or `stated` for a file.
 
     Raises InputError if it is not known to allow minting, which cannot be undone.
@@ -49,4 +50,4 @@ def licence_of(source: Path | Piece, stated: str | None) -> str:
 
 def allows(licence: str) -> bool:
     """Return whether a licence is known to allow minting."""
-    return ALLOWED.fullmatch(re.sub(r"[\s_-]+", " ", licence.lower()).strip()) is not None
+    return ALLOWED_LICENCES.fullmatch(re.sub(r"[\s_-]+", " ", licence.lower()).strip()) is not None

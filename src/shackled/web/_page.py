@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import os
+import re
 from functools import cache
 from html import escape
 from pathlib import Path
@@ -98,8 +99,25 @@ def make_page(image: Image, title: str, notice: str = "") -> bytes:
     still = f'<img src="data:image/png;base64,{base64.b64encode(picture).decode()}" alt="{name}" {size}>'
     if len(picture) > MAX_PNG:
         still = "<noscript><p>The picture is drawn by a script.</p></noscript>"
-    triangles = plural(sum(len(each.mesh.faces) for each in image.scene.objects), "triangle")
-    gas = "" if image.gas is None else f", {image.gas:,} gas"
+    values = {
+        "title": name,
+        "still": still,
+        "triangles": plural(sum(len(each.mesh.faces) for each in image.scene.objects), "triangle"),
+        "width": str(image.width),
+        "height": str(image.height),
+        "gas": "" if image.gas is None else f", {image.gas:,} gas",
+        "sha256": image.sha256,
+        "notice": f"<p>{escape(notice)}</p>" if notice else "",
+        "scene": packed(call),
+        "evm": _packed_asset("evm.wasm"),
+        "contracts": _packed_asset("contracts.json"),
+    }
+    return re.sub(r"\{\{(\w+)\}\}", lambda found: values[found[1]], page_template()).encode()
+
+
+@cache
+def page_template() -> str:
+    """Return the page with places for the values of `make_page`: {{title}}, {{scene}} and so on."""
     policy = (
         f"default-src 'none'; script-src '{_hash(_script())}' 'wasm-unsafe-eval'; worker-src blob:; "
         f"style-src '{_hash(STYLE)}'; img-src data:; connect-src http: https:; base-uri 'none'; form-action 'none'"
@@ -111,33 +129,33 @@ def make_page(image: Image, title: str, notice: str = "") -> bytes:
 <meta http-equiv="Content-Security-Policy" content="{policy}">
 <meta name="viewport" content="width=device-width">
 <meta name="generator" content="Shackled">
-<title>{name}</title>
+<title>{{{{title}}}}</title>
 <style>{STYLE}</style>
 </head>
 <body>
 <main>
-<h1>{name}</h1>
-<shackled-view src="#scene" evm="#evm" contracts="#contracts" label="{name}" timeout="{TIMEOUT}">
-{still}
+<h1>{{{{title}}}}</h1>
+<shackled-view src="#scene" evm="#evm" contracts="#contracts" label="{{{{title}}}}" timeout="{TIMEOUT}">
+{{{{still}}}}
 </shackled-view>
-<p>A scene of {triangles}, drawn by the Ethereum smart contracts of Shackled. Turn it, and this browser runs the same
-contracts for each picture. As <code>shackled render</code> draws it: {image.width} x {image.height} pixels{gas};
-SHA-256 of the pixels <code>{image.sha256}</code>.</p>
-{f"<p>{escape(notice)}</p>" if notice else ""}
+<p>A scene of {{{{triangles}}}}, drawn by the Ethereum smart contracts of Shackled. Turn it, and this browser runs the
+same contracts for each picture. As <code>shackled render</code> draws it: {{{{width}}}} x {{{{height}}}}
+pixels{{{{gas}}}}; SHA-256 of the pixels <code>{{{{sha256}}}}</code>.</p>
+{{{{notice}}}}
 </main>
-{_data("scene", packed(call))}
-{_assets()}
+{_data("scene", "{{scene}}")}
+{_data("evm", "{{evm}}")}
+{_data("contracts", "{{contracts}}")}
 <script type="module">{_script()}</script>
 </body>
 </html>
 """
-    return text.encode()
+    return text
 
 
 @cache
-def _assets() -> str:
-    """Return what all pages have in common beside the script."""
-    return f"{_data('evm', packed(asset('evm.wasm')))}\n{_data('contracts', packed(asset('contracts.json')))}"
+def _packed_asset(name: str) -> str:
+    return packed(asset(name))
 
 
 def _data(name: str, text: str) -> str:

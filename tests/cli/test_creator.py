@@ -1,0 +1,109 @@
+"""The command `shackled creator`: what it serves, and to whom."""
+
+from __future__ import annotations
+
+import http.client
+import json
+import re
+import signal
+import subprocess
+import sys
+from contextlib import closing
+from pathlib import Path
+
+import pytest
+
+from shackled import InputError
+from shackled.cli import creator
+from shackled.cli.app import run
+from shackled.datasets.genesis import seed_of
+
+
+@pytest.fixture
+def page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A page of a few files, in place of the one that is built."""
+    folder, one_file = tmp_path / "built" / "page", tmp_path / "built" / "creator.html"
+    (folder / "data").mkdir(parents=True)
+    (folder / "index.html").write_text("<p>page", "utf-8")
+    (folder / "data" / "evm.wasm").write_bytes(b"\0asm")
+    one_file.write_text("one", "utf-8")
+    (tmp_path / "built" / "secret.js").write_text("no", "utf-8")
+    monkeypatch.setattr(creator, "built_page", lambda: (folder, one_file))
+    monkeypatch.setenv("SHACKLED_ADDRESS_BOOK", str(tmp_path / "addresses.json"))
+    return folder
+
+
+def ask(page: Path, path: str, input: str | None = None) -> bytes | None:
+    return creator.found(page, creator.first_answers(input)[0], path)
+
+
+def test_files_of_the_page_only(page: Path) -> None:
+    assert ask(page, "data/evm.wasm") == b"\0asm"
+    assert json.loads(ask(page, "addresses.json") or b"") == {"chains": {}}
+    for path in ("data", "data/", "../secret.js", "/etc/passwd", "input.json", "\0"):
+        assert ask(page, path) is None, path
+
+
+def test_an_input_comes_with_the_files_that_it_names(page: Path, tmp_path: Path) -> None:
+    (tmp_path / "addresses.json").write_text('{"chains": {"1": {}}}', "utf-8")
+    folder = tmp_path / "models"
+    (folder / "images").mkdir(parents=True)
+    (folder / "z.obj").write_text("mtllib z.mtl\nv 0 0 0\n", "utf-8")
+    (folder / "z.mtl").write_text("newmtl m\nmap_Kd images/wood%201.png\n", "utf-8")
+    (folder / "images" / "wood 1.png").write_bytes(b"wood")
+    (folder / "private.txt").write_text("no", "utf-8")
+    model = str(folder / "z.obj")
+    assert json.loads(ask(page, "input.json", model) or b"") == {"names": ["z.obj", "z.mtl", "images/wood 1.png"]}
+    assert ask(page, "input/images/wood 1.png", model) == b"wood"
+    assert ask(page, "input/private.txt", model) is None
+    assert json.loads(ask(page, "addresses.json") or b"") == {"chains": {"1": {}}}
+
+
+def test_pieces_and_links(tmp_path: Path) -> None:
+    answers, place = creator.first_answers("teapot")
+    assert (place, answers["input.json"]) == ("?input", b'{"piece": "teapot"}')
+    told = json.loads(bytes(creator.first_answers("genesis/12")[0]["input.json"]))
+    assert told == {"piece": f"genesis/{seed_of(12).hex()}"}
+    with pytest.raises(InputError, match="the link is damaged"):
+        creator.first_answers("https://shackled.example/#1abc")
+    with pytest.raises(InputError, match="does not exist"):
+        creator.first_answers(str(tmp_path / "none.obj"))
+
+
+def test_written_to_a_folder(page: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "site"
+    assert run(["creator", "--out", str(out)]) == 0
+    assert (out / "data" / "evm.wasm").read_bytes() == b"\0asm"
+    assert (out / "creator.html").read_text("utf-8") == "one"
+    assert run(["creator", "teapot", "--out", str(out)]) == 2
+    assert "leave out INPUT" in capsys.readouterr().err
+
+
+def test_without_a_built_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As in a clone in which nothing was built."""
+    package = tmp_path / "src" / "shackled"
+    monkeypatch.setattr(creator, "__file__", str(package / "cli" / "creator.py"))
+    with pytest.raises(InputError, match="`make page`"):
+        creator.built_page()
+    (tmp_path / "build" / "page").mkdir(parents=True)
+    (tmp_path / "build" / "page" / "index.html").touch()
+    assert creator.built_page() == (tmp_path / "build" / "page", tmp_path / "build" / "creator.html")
+
+
+def test_the_command_serves_until_it_is_interrupted(page: Path) -> None:
+    code = (
+        "import sys, pathlib; from shackled.cli import creator, app;"
+        "creator.built_page = lambda: (pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[1]));"
+        "sys.exit(app.run(['creator', 'cube', '--no-browser', '--port', '0']))"
+    )
+    command = [sys.executable, "-c", code, str(page)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        found = re.search(r"http://127\.0\.0\.1:(\d+)/\?input", process.stdout.readline())
+        assert found
+        with closing(http.client.HTTPConnection("127.0.0.1", int(found[1]), timeout=10)) as connection:
+            connection.request("GET", "/?input")
+            answer = connection.getresponse()
+            assert (answer.read(), answer.getheader("Content-Type")) == (b"<p>page", "text/html")
+        process.send_signal(signal.SIGINT)
+        assert process.wait(10) == 0

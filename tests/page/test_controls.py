@@ -1,0 +1,352 @@
+"""Controls: each changes the picture and is reset; looks, lights, objects, undo."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from creator_page import Creator, Visit, scene
+
+#: Objects, lights and effects with which each control has an effect.
+ALL = scene(
+    {"mesh": {"piece": "cube", "object": 0}, "crease": 85, "material": {"shading": "smooth"}},
+    {"mesh": {"piece": "cone", "object": 0}, "position": [2.2, 0, 0], "material": {"shading": "smooth"}, "crease": 85},
+    size=[40, 32],
+    ground={"color": "#708090", "radius": 6},
+    lights=[
+        {"kind": "spot", "position": [3, 5, 6], "direction": [-3, -5, -6], "inner_angle": 10, "outer_angle": 30},
+        {"kind": "point", "position": [-4, 2, 3], "color": "#4060ff"},
+    ],
+    hemisphere={"sky": "#88aaff", "ground": "#442200"},
+    rim={"color": "#ffcc88", "power": 3},
+    fog={"color": "#8892a2", "near": 4, "far": 14},
+    tone={"exposure": 1.1, "filmic": True, "gamma": True},
+)
+#: What the page may draw alike: they change what the file says, or what comes later.
+UNSEEN = {"lights_follow", "cull", "two_sided", "antialias", "max_triangles"}
+
+#: Changes a control by its own element, to another value of its range; returns whether it could.
+CHANGE = """(() => {
+    const row = document.querySelector(`[data-name='row-${argument}']`);
+    const set = (field, value) => {
+        Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, 'value').set.call(field, value);
+        for (const type of ['input', 'change']) field.dispatchEvent(new Event(type, { bubbles: true }));
+    };
+    const radio = row.querySelector('input[type=radio]:not(:checked)');
+    const number = row.querySelector('input[type=number]');
+    const color = row.querySelector('input[type=color]');
+    const box = row.querySelector('input[type=checkbox]');
+    if (number) {
+        const [low, high, now, step] = [number.min, number.max, number.value, number.step].map(Number);
+        const by = Math.max(step, 0.1 * Math.min(high - low, number.closest('[data-unit=r]') ? 20 : 100));
+        set(number, String(Number((now + by <= high ? now + by : now - by).toPrecision(4))));
+    } else if (color) set(color, color.value === '#3fa060' ? '#a03f60' : '#3fa060');
+    else (radio ?? box).click();
+    return true;
+})()"""
+
+
+def groups(page: Creator) -> dict[str, list[str]]:
+    """Paths of the controls that are shown, by the panel in which they are."""
+    page.open_groups()
+    found: dict[str, list[str]] = {}
+    for path, group in page.run(
+        """[...document.querySelectorAll('[data-name^=row-]')].map(each => [
+            each.dataset.name.slice(4), each.closest('.group').dataset.name.slice(6)
+        ])"""
+    ):
+        found.setdefault(group, []).append(path)
+    return found
+
+
+@pytest.mark.parametrize("group", ["object", "material", "lights", "ground", "atmosphere", "tone", "camera", "picture"])
+def test_each_control_changes_the_picture_and_is_reset(visit: Visit, group: str) -> None:
+    page = visit(ALL)
+    shown = page.pixels()
+    paths = groups(page)[group]
+    assert paths
+    for path in paths:
+        reset = page.page.locator(f"[data-name='reset-{path}']")
+        assert not reset.count(), path
+        changed = page.after(lambda path=path: page.run(CHANGE, path))  # type: ignore[misc]
+        assert changed != shown or path.rpartition(".")[2] in UNSEEN, path
+        assert page.after(reset.click) == shown, path
+        reset.wait_for(state="detached")
+
+
+def test_panels_and_everything_are_reset(visit: Visit) -> None:
+    page = visit(ALL)
+    doc, shown = page.doc(), page.pixels()
+    page.open_groups()
+    for path in ("camera.fov", "tone.exposure"):
+        page.after(lambda path=path: page.run(CHANGE, path))  # type: ignore[misc]
+    page.after(page.click("reset-tone"))
+    assert page.doc()["tone"] == doc["tone"]
+    assert page.doc()["camera"] != doc["camera"]
+    assert page.after(page.click("reset-all")) == shown
+
+
+def test_typed_numbers_may_be_beyond_the_slider(visit: Visit) -> None:
+    page = visit(ALL)
+    page.open_groups()
+    most = float(page.page.get_attribute("[data-name='slider-material.diffuse']", "max"))
+    page.after(lambda: page.type("material.diffuse", str(most + 1)))
+    assert page.doc()["objects"][0]["material"]["diffuse"] == most + 1
+    # and what no picture takes becomes the nearest that it takes, which is told
+    page.after(lambda: page.type("material.shininess", "1000"))
+    assert page.doc()["objects"][0]["material"]["shininess"] == 128
+    assert "128" in page.said()
+
+
+def test_where_objects_differ_it_says_mixed(visit: Visit) -> None:
+    page = visit(
+        scene("cube", {"mesh": {"piece": "cone", "object": 0}, "position": [3, 0, 0], "material": {"diffuse": 0.2}})
+    )
+    page.open_groups()
+    field = page.field("material.diffuse")
+    assert (field.input_value(), field.get_attribute("placeholder")) == ("", "Mixed")
+    page.after(lambda: page.type("material.diffuse", "0.5"))
+    assert [each["material"]["diffuse"] for each in page.doc()["objects"]] == [0.5, 0.5]
+    page.after(page.press("Control+z"))
+    page.run("void (app.selected.value = new Set([app.doc.value.objects[1].id]))")
+    page.wait("document.querySelector(\"[data-name='material.diffuse']\").value === '0.2'")
+    page.after(lambda: page.type("material.diffuse", "0.9"))
+    assert [each["material"]["diffuse"] for each in page.doc()["objects"]] == [0.75, 0.9]
+
+
+def test_lengths_are_in_radii(visit: Visit) -> None:
+    """The same number does the same to objects of any size."""
+    pictures = []
+    for scale in (1, 50):
+        page = visit(scene({"mesh": {"piece": "cone", "object": 0}, "scale": scale}))
+        page.open_groups()
+        page.after(lambda page=page: page.type("camera.distance", "4"))  # type: ignore[misc]
+        pictures.append(page.after(lambda page=page: page.type("camera.target.x", "0.5")))  # type: ignore[misc]
+    assert pictures[0] == pictures[1]
+
+
+# ---- looks ----
+
+
+def test_each_look(visit: Visit) -> None:
+    page = visit(ALL)
+    names = page.run("[...document.querySelectorAll('[data-name^=look-]')].map(each => each.dataset.name)")
+    assert len(set(names)) >= 10
+    shown, doc = {page.pixels()}, page.doc()
+    for name in names:
+        shown.add(page.after(page.click(name)))
+        now = page.doc()
+        assert (now["camera"], now["width"], now["ground"]) == (doc["camera"], doc["width"], doc["ground"])
+        page.page.locator(f"[data-name={name}][aria-pressed=true]").wait_for()
+    assert len(shown) >= len(names)
+    # they are shown on these objects
+    page.wait("[...document.querySelectorAll('[data-name^=look-] img')].length === argument", len(names))
+    before = page.page.get_attribute("[data-name^=look-] img >> nth=0", "src")
+    page.after(page.click("piece-icons/heart"))
+    page.wait("![...document.querySelectorAll('[data-name^=look-] img')].some(each => each.src === argument)", before)
+
+
+def test_a_look_keeps_the_edges_of_a_cube(visit: Visit) -> None:
+    page = visit(scene("cube"))
+    page.after(page.click("look-clay"))
+    colors = page.run("new Set(new Uint32Array(app.shown.value.drawn.pixels.buffer)).size")
+    assert page.doc()["objects"][0]["material"]["shading"] == "smooth"
+    # a face of a cube has one normal: the light changes little across it
+    page.run(
+        "app.change({...app.doc.value, objects: app.doc.value.objects.map(each => ({...each, crease: 180}))}, 'x')"
+    )
+    page.settle()
+    assert colors < page.run("new Set(new Uint32Array(app.shown.value.drawn.pixels.buffer)).size")
+
+
+def test_surprises_differ(visit: Visit) -> None:
+    page = visit(scene("cube", "cone"))
+    shown = {page.pixels(), page.after(page.click("surprise")), page.after(page.press("s"))}
+    assert len(shown) == 3
+    assert [each["mesh"]["piece"] for each in page.doc()["objects"]] == ["cube", "cone"]
+
+
+# ---- lights ----
+
+
+def test_lights_come_and_go(visit: Visit) -> None:
+    page = visit(scene("cube"))
+    page.open_groups()
+    shown = page.pixels()
+    for count in (2, 3, 4):
+        page.after(page.click("add-light"))
+        assert len(page.doc()["lights"]) == count
+    page.page.locator("[data-name=add-light]").wait_for(state="detached")
+    for _ in range(3):
+        page.after(page.click("remove-light-1"))
+    assert page.pixels() == shown
+
+
+def test_a_spot_light_has_a_target_and_a_cone(visit: Visit) -> None:
+    page = visit(scene("cube", size=64))
+    page.open_groups()
+    cone = page.field("lights.0.outer_angle")
+    assert not cone.count()
+    point = page.after(lambda: page.field("lights.0.kind-point").check(force=True))
+    page.field("lights.0.distance").wait_for()
+    assert not cone.count()
+    page.after(lambda: page.field("lights.0.kind-spot").check(force=True))
+    narrow = page.after(lambda: page.type("lights.0.outer_angle", "8"))
+    moved = page.after(lambda: page.type("lights.0.target.x", "0.4"))
+    assert len({point, narrow, moved}) == 3
+
+
+def test_one_light_casts_shadows(visit: Visit) -> None:
+    page = visit(
+        scene(
+            "cube",
+            ground={"color": "#808080"},
+            lights=[{"kind": "directional", "direction": [1, 2, 1]}, {"kind": "point", "position": [-5, 5, 3]}],
+        )
+    )
+    page.open_groups()
+    shown = page.pixels()
+    first = page.after(lambda: page.run(CHANGE, "lights.0.shadow"))
+    second = page.after(lambda: page.run(CHANGE, "lights.1.shadow"))
+    assert len({shown, first, second}) == 3
+    assert [bool(each.get("shadow")) for each in page.doc()["lights"]] == [False, True]
+
+
+# ---- objects ----
+
+
+def place_of(page: Creator, number: int) -> list[float]:
+    """Where an object is seen, in parts of the picture, as drawn by the contract."""
+    found: list[list[float]] = page.run(
+        """(async () => {
+            const found = [];
+            for (let y = 0.1; y < 1; y += 0.1) for (let x = 0.1; x < 1; x += 0.1)
+                if (await app.work.pick(app.doc.value, x, y) === argument) found.push([x, y]);
+            return found;
+        })()""",
+        number,
+    )
+    return found[len(found) // 2]
+
+
+def test_objects_are_selected_by_click(visit: Visit) -> None:
+    page = visit(scene("cube", {"mesh": {"piece": "cone", "object": 0}, "position": [4, 0, 0]}, size=[96, 64]))
+    places = [place_of(page, number) for number in (0, 1)]
+    ids = [each["id"] for each in page.doc()["objects"]]
+    box = page.view.bounding_box()
+
+    def click(number: int, *modifiers: str) -> None:
+        x, y = places[number]
+        page.view.click(position={"x": x * box["width"], "y": y * box["height"]}, modifiers=list(modifiers))
+
+    def selected(*expected: str) -> None:
+        page.wait("JSON.stringify([...app.selected.value].sort()) === argument", _json(sorted(expected)))
+
+    for number in (0, 1):
+        click(number)
+        selected(ids[number])
+    click(0, "Shift")
+    selected(*ids)
+    page.view.click(position={"x": 2, "y": box["height"] - 2})
+    selected()
+    page.page.locator(f"[data-name='object-{ids[1]}']").click()
+    selected(ids[1])
+    page.press("Escape")()
+    selected()
+    page.press("Control+a")()
+    selected(*ids)
+
+
+def _json(values: list[str]) -> str:
+    return "[" + ",".join(f'"{value}"' for value in values) + "]"
+
+
+def test_objects_are_moved_copied_named_and_removed(visit: Visit) -> None:
+    page = visit(scene("cube", {"mesh": {"piece": "cone", "object": 0}, "position": [4, 0, 0]}, size=[96, 64]))
+    (cube, cone) = page.doc()["objects"]
+    start = place_of(page, 0)
+    page.press("m")()
+    page.after(lambda: page.drag(40, 0, start=start))
+    moved = page.doc()["objects"]
+    assert moved[0]["position"] != cube["position"]
+    assert moved[1] == cone
+    page.press("Escape")()
+    page.run("void (app.selected.value = new Set([app.doc.value.objects[0].id]))")
+    page.after(page.press("d"))
+    assert len({each["id"] for each in page.doc()["objects"]}) == 3
+    page.after(page.press("Delete"))
+    assert len(page.doc()["objects"]) == 2
+    first = page.page.locator("[data-name=objects] button").first
+    name = first.inner_text()
+    first.click()
+    page.after(page.click("object-down"))
+    assert page.doc()["objects"][1]["id"] == cube["id"]
+    page.page.locator("[data-name=objects] button").last.dblclick()
+    field = page.page.locator("[data-name=object-name]")
+    field.fill("My cube")
+    page.after(lambda: field.press("Enter"))
+    assert page.doc()["objects"][1]["name"] == "My cube" != name
+    for _ in range(5):
+        page.after(page.press("Control+z"))
+    assert page.doc()["objects"] == [cube, cone]
+
+
+# ---- undo ----
+
+
+def test_undo_and_redo(visit: Visit) -> None:
+    page = visit(scene("cube"))
+    assert page.page.is_disabled("[data-name=undo]")
+    acts: list[Callable[[], object]] = [
+        lambda: page.drag(120, 0),
+        page.press("i"),
+        page.click("piece-icons/heart"),
+        page.click("look-gold"),
+    ]
+    states = [page.pixels(), *(page.after(act) for act in acts)]
+    for state in reversed(states[:-1]):
+        assert page.after(page.press("Control+z")) == state
+    for state in states[1:]:
+        assert page.after(page.click("redo")) == state
+    assert page.page.is_disabled("[data-name=redo]")
+
+
+def test_keys_after_a_click_on_anything(visit: Visit) -> None:
+    page = visit(scene("cube"))
+    page.open_groups()
+    for name in ("look-gold", "piece-icons/heart", "undo"):
+        page.after(page.click(name))
+        for key in ("i", "ArrowLeft"):
+            page.after(lambda key=key: page.page.keyboard.press(key))  # type: ignore[misc]
+    slider = page.page.locator("[data-name='slider-camera.fov']")
+    page.after(slider.click)
+    before = page.doc()["camera"]
+    page.after(lambda: page.page.keyboard.press("ArrowRight"))
+    now = page.doc()["camera"]
+    # a slider keeps its arrows
+    assert (now["eye"], now["halfHeight"] != before["halfHeight"]) == (before["eye"], True)
+    page.after(lambda: page.page.keyboard.press("w"))
+    # and who types, types
+    doc = page.doc()
+    page.page.locator("[data-name=search]").press_sequentially("wig0")
+    assert page.page.input_value("[data-name=search]") == "wig0"
+    assert page.doc() == doc
+
+
+def test_every_key_is_in_the_help_and_does_something(visit: Visit) -> None:
+    page = visit(scene("cube", "cone"))
+    page.press("?")()
+    dialog = page.page.locator("#keys")
+    dialog.wait_for()
+    shown = dialog.inner_text()
+    assert all(each in shown for each in ("Turn", "Zoom", "Undo", "Wireframe", "Surprise"))
+    page.page.keyboard.press("Escape")
+    dialog.wait_for(state="detached")
+    for key in ("l", "2", "h", "w", "c", "i", "a", "p", "f", "ArrowDown", "Shift+ArrowLeft", "+", "-", "0"):
+        page.after(page.press(key))
+    for key, name in (("Enter", "limits"), ("Control+s", "download")):
+        page.press(key)()
+        page.page.locator(f"#{name}").wait_for()
+        page.page.keyboard.press("Escape")
+        page.page.locator(f"#{name}").wait_for(state="detached")

@@ -1,0 +1,615 @@
+"""Tokens by the visitor's wallet: one that the test plays, with a development node behind it, honest or not."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tools.anvil import Anvil
+from tools.page_server import Static
+
+from creator_page import OBJ, Creator, Visit, link, scene
+from forged_blocks import forged
+from nodes import PUBLIC, anvil, needs_anvil
+from shackled.artifacts import artifact
+from shackled.chain import VARIABLE
+from shackled.cli.app import run
+from shackled.deploy import Transactor, local_chain
+from shackled.errors import NodeError
+from shackled.ethereum import checksum_address
+from shackled.tokens import (
+    ALLOWED_LICENCES,
+    KINDS,
+    Collection,
+    CollectionTerms,
+    development_accounts,
+    editions_address,
+    launch,
+    perform,
+    plan_launch,
+    read_token_uri,
+)
+
+pytestmark = needs_anvil
+
+CHAIN, OWNER = 31337, 0
+HASH = "0x" + "7a" * 32
+#: A wallet that announces itself as EIP-6963 has it, and has each request answered by the test. Its owner thinks before
+#: a transaction is sent while `thinking` is set. `changed` tells what wallets tell.
+WALLET = """
+const heard = {};
+const provider = {
+    request: async ({ method, params }) => {
+        while (window.thinking && method === 'eth_sendTransaction') await new Promise(done => setTimeout(done, 20));
+        const { result, error, code } = await window.answer(method, params ?? []);
+        if (error) throw Object.assign(new Error(error), { code });
+        return result;
+    },
+    on: (event, listener) => { (heard[event] ??= []).push(listener); },
+};
+window.changed = event => heard[event]?.forEach(listener => listener());
+const detail = Object.freeze({ info: { uuid: '1', name: '<b>Toy</b> wallet', rdns: 'test.toy', icon: '' }, provider });
+const announce = () => dispatchEvent(new CustomEvent('eip6963:announceProvider', { detail }));
+addEventListener('eip6963:requestProvider', announce);
+announce();
+"""
+BOLT = scene({"mesh": {"piece": "icons/lightning", "object": 0}, "color": "#e0b030"}, size=[24, 16])
+Visitor = Callable[..., Creator]
+
+
+class Node:
+    """A node, and a wallet before it. sent: the transactions. lies: what is made of the answer to a method.
+
+    declined: methods that the owner of the wallet refuses.
+    """
+
+    def __init__(self, node: Anvil, genesis: Collection) -> None:
+        self.node, self.genesis = node, genesis
+        self.book = {str(CHAIN): {"GenesisCollection": genesis.address}}
+        self.reset()
+
+    def reset(self) -> None:
+        self.chain, self.account = CHAIN, 0
+        self.declined: set[str] = set()
+        self.lies: dict[str, Callable[[Any, list[Any]], Any]] = {}
+        self.asked: list[str] = []
+        self.sent: list[dict[str, str]] = []
+        self.known = {CHAIN, 1}
+
+    @property
+    def address(self) -> str:
+        return str(self.node.rpc("eth_accounts")[self.account])
+
+    def answer(self, method: str, parameters: list[Any]) -> dict[str, Any]:
+        """The answer to a request of the page."""
+        self.asked.append(method)
+        if method in self.declined:
+            return {"error": "User denied transaction signature.", "code": 4001}
+        try:
+            result = self.own(method, parameters)
+        except NodeError as error:
+            return {"error": str(error), "code": -32603}
+        except PermissionError as error:
+            return {"error": str(error), "code": 4902}
+        return {"result": self.lies[method](result, parameters) if method in self.lies else result}
+
+    def own(self, method: str, parameters: list[Any]) -> Any:
+        if method in ("eth_accounts", "eth_requestAccounts"):
+            return [self.address]
+        if method == "eth_chainId":
+            return hex(self.chain)
+        if method == "wallet_switchEthereumChain":
+            chain = int(parameters[0]["chainId"], 16)
+            if chain not in self.known:
+                raise PermissionError("Unrecognized chain ID. Try adding the chain first.")
+            self.chain = chain
+            return None
+        if method == "wallet_addEthereumChain":
+            self.known.add(int(parameters[0]["chainId"], 16))
+            return None
+        if method == "eth_getCode" and self.chain != CHAIN:
+            return "0x"
+        if method == "eth_sendTransaction":
+            self.sent.append(parameters[0])
+        return self.node.rpc(method, *parameters)
+
+    def read(self, function: str, *arguments: Any) -> Any:
+        """What the collection of editions answers."""
+        interface = artifact("Editions").interface
+        call = {"to": editions_address(), "data": "0x" + interface.encode(function, *arguments).hex()}
+        return interface.decode(function, self.node.connection.data("eth_call", call, "latest"))
+
+
+@pytest.fixture(scope="module")
+def started() -> Iterator[Node]:
+    """A node with the contracts, and with a Genesis collection of which a token waits for its seed."""
+    with anvil(*PUBLIC) as node:
+        local = local_chain()
+        local.address("Editions")
+        for address, code in local.codes().items():
+            node.rpc("anvil_setCode", "0x" + address.hex(), "0x" + code.hex())
+        owner = Transactor(node.connection, development_accounts()[OWNER])
+        account = checksum_address(owner.address)
+        genesis, _ = launch(plan_launch(owner.connection, KINDS["genesis"], CollectionTerms(account, account)), owner)
+        perform(owner, genesis.contract, "setPhase", 2)
+        perform(owner, genesis.contract, "mint", 1, value=genesis.contract.call("price"))
+        yield Node(node, genesis)
+
+
+@pytest.fixture
+def node(started: Node) -> Iterator[Node]:
+    """As it was before each test."""
+    before = started.node.rpc("evm_snapshot")
+    started.reset()
+    yield started
+    started.node.rpc("evm_revert", before)
+
+
+@pytest.fixture
+def visitor(browser: Any, server: Static, node: Node) -> Iterator[Visitor]:
+    """Opens the page in a browser with the wallet."""
+    contexts: list[Any] = []
+
+    def open_page(place: dict[str, Any] = BOLT, book: Any = None, **options: Any) -> Creator:
+        context = browser.new_context(**options)
+        contexts.append(context)
+        context.set_default_timeout(60_000)  # several transactions, each some seconds
+        context.expose_function("answer", node.answer)
+        context.add_init_script(WALLET)
+        context.route("**/addresses.json", lambda route: route.fulfill(json={"chains": book or {}}))
+        page = context.new_page()
+        page.goto(server.address + link(place))
+        found = Creator(page)
+        found.settle()
+        return found
+
+    yield open_page
+    for each in contexts:
+        each.close()
+
+
+def connected(page: Creator, name: str) -> Any:
+    """A dialog with the wallet."""
+    dialog = page.dialog(name)
+    dialog.get_by_role("button", name="Connect <b>Toy</b> wallet").click()
+    dialog.locator("[data-name=chain]").wait_for()
+    return dialog
+
+
+def press(dialog: Any, name: str) -> None:
+    dialog.locator(f"[data-name={name}]:enabled").click()
+
+
+def trouble(dialog: Any, words: str) -> None:
+    dialog.locator(".trouble", has_text=words).wait_for()
+
+
+# ---- editions ----
+
+
+def test_the_picture_becomes_an_edition(visitor: Visitor, node: Node) -> None:
+    page = visitor()
+    shown = page.pixels()
+    dialog = connected(page, "edition")
+    assert page.page.locator("dialog b", has_text="Toy").count() == 0  # the name of a wallet is text
+    dialog.locator("[name=name]").fill('A "bolt"')
+    dialog.locator("[name=supply]").fill("3")
+    dialog.locator("[name=royalty]").fill("2.5")
+    press(dialog, "add")
+    dialog.get_by_text("is the same as here").wait_for()
+    artist, price, supply, minted, _, closed, royalty, scale, model, _, name = node.read("editionAt", 0)
+    assert (artist, price, supply, minted, closed) == (node.address.lower(), 10**16, 3, 1, False)
+    assert (royalty, model, name) == (250, False, 'A "bolt"')
+    token = read_token_uri(node.read("tokenURI", 0)).pixels
+    assert token[::scale, ::scale].tobytes() == shown
+    assert all(each["chainId"] == hex(CHAIN) and each["value"] == "0x0" for each in node.sent)
+    # the same is not added again by one more click, nor when the page is opened anew; nothing is stored twice
+    sent = len(node.sent)
+    assert dialog.locator("[data-name=add]").count() == 0
+    press(dialog, "again")
+    dialog.get_by_text("1 signature adds the edition").wait_for()
+    again = connected(visitor(), "edition")
+    again.get_by_text("This account has added this very scene already").wait_for()
+    assert again.locator("[data-name=add]").count() == 0
+    press(again, "again")
+    press(again, "add")
+    again.get_by_text("edition 1 of Shackled Editions").wait_for()
+    assert len(node.sent) == sent + 1
+
+
+def test_what_it_costs_is_told_first_and_is_a_ceiling(visitor: Visitor, node: Node) -> None:
+    dialog = connected(visitor(), "edition")
+    cost = dialog.locator("[data-name=cost]").inner_text()
+    assert cost.startswith("3 signatures: the last adds the edition, those before store its scene.")
+    told = float(cost.partition("at most ")[2].partition(" ether")[0])
+    press(dialog, "add")
+    dialog.locator("[data-name=token]").wait_for()
+    signed = sum(int(each["gas"], 16) * int(each["maxFeePerGas"], 16) for each in node.sent)
+    assert 0.99 * told * 10**18 < signed <= told * 10**18
+    assert len(node.sent) == 3
+
+
+def test_what_is_too_dear_is_told_before_and_made_to_fit(visitor: Visitor) -> None:
+    page = visitor(scene("torus-knot", size=256, antialias=True))
+    dialog = page.dialog("edition")
+    fit = dialog.locator("[data-name=fit]")
+    trouble(dialog, "It does not fit a token: ")
+    assert "too much; about" in fit.locator(".trouble").inner_text()
+    dialog.get_by_role("button", name="Connect").click()
+    page.after(lambda: press(fit, "fit"))
+    fit.get_by_text("It fits a token.").wait_for()
+    fit.get_by_text("Undo brings the former picture back").wait_for()
+    dialog.locator("[data-name=add]:enabled").wait_for()
+
+
+def test_licences(visitor: Visitor) -> None:
+    source = Path(__file__).parents[2] / "web" / "src" / "creator" / "wallet" / "licence.ts"
+    assert f"/^(?:{ALLOWED_LICENCES.pattern})$/" in source.read_text()
+    page = visitor()
+    # files need one that the artist states
+    page.after(lambda: page.drop(**{"mine.obj": OBJ.encode()}))
+    dialog = connected(page, "edition")
+    trouble(dialog, "State the licence of the files")
+    dialog.locator("[data-name=cost]").wait_for()
+    assert dialog.locator("[data-name=add]").is_disabled()
+    dialog.locator("[name=licence]").fill("my own work")
+    dialog.locator("[data-name=add]:enabled").wait_for()
+    # a piece has one
+    page.run(
+        """void (() => {
+            const all = app.assets.pieces();
+            app.assets.pieces = async () => (await all).map(each => ({ ...each, commercial: each.title !== 'Heart' }));
+        })()"""
+    )
+    page.run("void (app.dialog.value = null)")
+    page.after(lambda: page.run("app.openPiece('icons/heart')"))
+    trouble(page.dialog("edition"), "“icons/heart” must not be minted")
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "words"),
+    [
+        ("name", " ", "An edition needs a name"),
+        ("name", "é" * 33, "The name is too long"),
+        ("price", "-1", "The price is an amount of ether"),
+        ("supply", "1.5", "The number of tokens is a whole number"),
+        ("supply", "0", "The number of tokens must be a whole number from 1"),
+        ("royalty", "10.5", "The royalty is 0 to 10 percent"),
+    ],
+)
+def test_wrong_fields(visitor: Visitor, node: Node, field: str, value: str, words: str) -> None:
+    dialog = connected(visitor(), "edition")
+    dialog.locator("[data-name=add]:enabled").wait_for()
+    dialog.locator(f"[name={field}]").fill(value)
+    trouble(dialog, words)
+    assert dialog.locator("[data-name=add]:enabled").count() == 0
+    assert node.sent == []
+
+
+@pytest.mark.parametrize("method", ["eth_requestAccounts", "eth_sendTransaction"])
+def test_who_says_no_is_not_shouted_at(visitor: Visitor, node: Node, method: str) -> None:
+    page = visitor()
+    node.declined = {method}
+    dialog = page.dialog("edition")
+    press(dialog, "connect")
+    if method == "eth_sendTransaction":
+        press(dialog, "add")
+    page.wait("document.querySelector('[data-name=said]')?.textContent === 'Cancelled'")
+    assert dialog.locator(".trouble").count() == 0
+    # and may think again
+    node.declined = set()
+    if method == "eth_requestAccounts":
+        press(dialog, "connect")
+    press(dialog, "add")
+    dialog.locator("[data-name=token]").wait_for()
+    assert len(node.sent) == 3
+
+
+def test_two_clicks_add_once(visitor: Visitor, node: Node) -> None:
+    page = visitor()
+    dialog = connected(page, "edition")
+    page.run("window.thinking = true")
+    button = dialog.locator("[data-name=add]:enabled")
+    button.dblclick()
+    dialog.get_by_text("Storing the scene (1 of 3)").wait_for()
+    dead = dialog.locator("[data-name=add]")
+    assert dead.is_disabled()
+    # whatever the button lets through, there is one thing at a time; a dialog that is opened anew knows it
+    dead.evaluate("e => { e.disabled = false; e.click(); }")
+    page.run("void (app.dialog.value = null)")
+    dialog = page.dialog("edition")
+    dialog.get_by_text("Storing the scene (1 of 3)").wait_for()
+    assert dialog.locator("[data-name=add]:enabled").count() == 0
+    page.run("window.thinking = false")
+    dialog.locator("[data-name=token]").wait_for()
+    assert [len(node.sent), node.asked.count("eth_sendTransaction"), node.read("editionCount")] == [3, 3, 1]
+
+
+def test_a_transaction_of_which_nothing_is_heard_is_not_sent_again(visitor: Visitor, node: Node) -> None:
+    page = visitor()
+    dialog = connected(page, "edition")
+    node.lies["eth_getTransactionReceipt"] = lambda *_: None
+    node.lies["eth_getTransactionByHash"] = lambda found, _: found and found | {"blockNumber": None, "blockHash": None}
+    page.page.clock.install()
+    press(dialog, "add")
+    dialog.get_by_text("Sent: 0x").wait_for()
+    page.page.clock.fast_forward(300_000)
+    trouble(dialog, "is in a block is not known")
+    assert len(node.sent) == 1
+    node.lies = {}
+    press(dialog, "add")
+    page.page.clock.resume()
+    dialog.locator("[data-name=token]").wait_for()
+    assert (len(node.sent), node.read("editionCount")) == (3, 1)
+
+
+@pytest.mark.parametrize("known", [True, False], ids=["known", "4902"])
+def test_the_chain_is_offered(visitor: Visitor, node: Node, known: bool) -> None:
+    node.chain, node.known = 1, {1, CHAIN} if known else {1}
+    page = visitor()
+    dialog = connected(page, "edition")
+    trouble(dialog, "Ethereum has no collection of editions at 0x")
+    assert dialog.locator("[data-name=add]").count() == 0
+    press(dialog, f"switch-{CHAIN}")
+    dialog.locator("[data-name=add]:enabled").wait_for()
+    assert ("wallet_addEthereumChain" in node.asked) == (not known)
+    # and what the wallet changes by itself is followed
+    node.account = 1
+    page.run("window.changed('accountsChanged')")
+    dialog.get_by_text(node.address[-4:]).wait_for()
+    node.chain = 1
+    page.run("window.changed('chainChanged')")
+    trouble(dialog, "Ethereum has no collection of editions")
+
+
+def test_a_chain_that_the_wallet_must_be_told(visitor: Visitor, node: Node) -> None:
+    node.chain = 1
+    dialog = connected(visitor(book={"4242": {"Editions": editions_address()}}), "edition")
+    press(dialog, "switch-4242")
+    trouble(dialog, "The wallet does not know chain 4242: add it there")
+
+
+def once_sent(node: Node, **changes: Any) -> Callable[[Any, list[Any]], Any]:
+    """The wallet is changed when the first transaction is sent."""
+
+    def lie(result: Any, _: list[Any]) -> Any:
+        vars(node).update(changes)
+        return result
+
+    return lie
+
+
+def in_logs(receipt: Any, topic: str) -> Any:
+    for log in (receipt or {}).get("logs", ()):
+        log["topics"][1] = topic
+    return receipt
+
+
+@pytest.mark.parametrize(
+    ("method", "lie", "words", "sent"),
+    [
+        ("eth_getCode", lambda code, _: code[:-2] + "00", "has no collection of editions", 0),
+        ("eth_requestAccounts", lambda *_: [7], "The wallet gives no account", 0),
+        ("eth_chainId", lambda *_: "many", "which is no number", 0),
+        ("eth_estimateGas", lambda *_: hex(10**9), "The wallet expects 1000000000 gas, where", 0),
+        ("eth_getBalance", lambda *_: "0x5", "The account has 0.000000000000000005 ether, less than that", 0),
+        ("eth_sendTransaction", lambda *_: 7, "The wallet does not say what it sent", 1),
+        ("eth_getTransactionReceipt", lambda found, _: found and found | {"status": "0x0"}, "the contract refused", 1),
+        ("eth_getTransactionReceipt", lambda found, _: found and found | {"logs": []}, "names no new edition", 3),
+        ("eth_getTransactionReceipt", lambda found, _: in_logs(found, "zz"), "names no new edition", 3),
+        ("eth_getTransactionReceipt", lambda found, _: found and found | {"logs": [{}]}, "events that are none", 3),
+        ("eth_call", lambda data, _: data.replace(f"{10**16:064x}", f"{10**15:064x}"), "is not the one that was", 3),
+        ("eth_call", lambda *_: "0x12", "", 3),
+    ],
+)
+def test_wallets_that_lie(visitor: Visitor, node: Node, method: str, lie: Any, words: str, sent: int) -> None:
+    node.lies[method] = lie
+    page = visitor()
+    dialog = page.dialog("edition")
+    press(dialog, "connect")
+    if sent:
+        press(dialog, "add")
+    trouble(dialog, words)
+    assert len(node.sent) == sent
+    # what was added is not to be added by one more click, whatever is said of it
+    if sent == 3:
+        dialog.locator("[data-name=again]:enabled").wait_for()
+        assert dialog.locator("[data-name=add]").count() == 0
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"chain": 1}, "The wallet is on Ethereum now: nothing more was sent"),
+        ({"account": 1}, "The wallet has another account now"),
+        ({"lies": {"eth_getCode": lambda *_: "0x"}}, "The transaction succeeded, but the scene is not at 0x"),
+    ],
+    ids=["chain", "account", "code"],
+)
+def test_what_changes_in_the_middle_ends_it(visitor: Visitor, node: Node, changes: Any, words: str) -> None:
+    node.lies["eth_sendTransaction"] = once_sent(node, **changes)
+    dialog = connected(visitor(), "edition")
+    press(dialog, "add")
+    trouble(dialog, words)
+    assert len(node.sent) == 1
+
+
+def test_another_picture_is_told(visitor: Visitor, node: Node) -> None:
+    dialog = connected(visitor(), "edition")
+    press(dialog, "add")
+    dialog.locator("[data-name=token]").wait_for()
+    asked, other = (artifact("Editions").interface.encode("tokenURI", each) for each in (1, 0))
+    first = node.node.rpc("eth_call", {"to": editions_address(), "data": "0x" + other.hex()}, "latest")
+    node.lies["eth_call"] = lambda data, call: first if call[0]["data"] == "0x" + asked.hex() else data
+    dialog = connected(visitor(BOLT | {"size": [16, 16]}), "edition")
+    press(dialog, "add")
+    trouble(dialog, "is NOT the picture of this page")
+
+
+def test_without_a_wallet(visit: Visit) -> None:
+    dialog = visit(BOLT).dialog("edition")
+    dialog.get_by_text("There is no wallet in this browser.").wait_for()
+    assert "in the browser in your wallet's app" in dialog.inner_text()
+    dialog = visit(BOLT, disk=True).dialog("edition")
+    dialog.get_by_text("wallets talk to pages from a server only").wait_for()
+    assert "shackled token edition add" in dialog.inner_text()
+
+
+# ---- collections ----
+
+
+def test_a_token_of_an_edition_is_minted(visitor: Visitor, node: Node) -> None:
+    dialog = connected(visitor(), "edition")
+    press(dialog, "add")
+    dialog.locator("[data-name=token]").wait_for()
+    node.account, node.sent = 2, []
+    page = visitor()
+    dialog = connected(page, "mint")
+    cost = dialog.locator("[data-name=cost]").inner_text()
+    assert "Price: 0.01 ether. With gas, at most 0.01" in cost
+    assert dialog.locator("img").get_attribute("src") == image(node, 0)
+    page.run("window.thinking = true")
+    dialog.locator("[data-name=mint]:enabled").dblclick()
+    dialog.get_by_text("The price is 0.01 ether. Confirm it in the wallet").wait_for()
+    page.run("window.thinking = false")
+    dialog.get_by_text("Minted: token 1 of Shackled Editions is yours").wait_for()
+    assert dialog.locator("img").get_attribute("src") == image(node, 1)
+    (sent,) = node.sent
+    assert int(sent["value"], 16) == 10**16
+    assert node.read("ownerOf", 1) == node.address.lower()
+    # another one, by one who says that it is someone else's
+    press(dialog, "again")
+    node.lies["eth_call"] = lambda data, call: data.replace(node.address[2:].lower(), "11" * 20)
+    press(dialog, "mint")
+    trouble(dialog, "Token 2, which the receipt names, is not yours")
+
+
+def image(node: Node, token: int) -> str:
+    """The data URL of the picture that the chain returns."""
+    return str(json.loads(base64.b64decode(node.read("tokenURI", token).partition("base64,")[2]))["image"])
+
+
+def test_tokens_of_the_address_book(
+    visitor: Visitor, node: Node, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv(VARIABLE, str(tmp_path / "addresses.json"))
+    monkeypatch.setenv("OWNER", development_accounts()[OWNER].key.hex())
+    rest = ["--rpc", node.node.url, "--private-key-env", "OWNER", "--yes"]
+    icons = ["-c", "icons"]
+    for command in (
+        ["deploy", "icons", "--icons", "heart,lightning", "--price", "0.02"],
+        ["seal"],
+        ["phase", "public", *icons],
+    ):
+        assert run(["token", *command, *rest]) == 0
+    book = json.loads((tmp_path / "addresses.json").read_text())["chains"]
+    book[str(CHAIN)]["GenesisCollection"] = node.genesis.address
+    node.account = 3
+    dialog = connected(visitor(book=book), "mint")
+    dialog.get_by_role("radio", name="Icons").check(force=True)
+    dialog.get_by_text(
+        "“Lightning” as the collection has it, without your changes. Price: 0.02 ether, 99 left"
+    ).wait_for()
+    press(dialog, "mint")
+    dialog.get_by_text("Minted: token 0 of Shackled Icons is yours").wait_for()
+    dialog.get_by_role("radio", name="Genesis").check(force=True)
+    dialog.get_by_text("The piece is drawn by lot after minting. Price: 0.15 ether, 1003 left").wait_for()
+    press(dialog, "mint")
+    dialog.get_by_text("Minted: token 1 of Shackled Genesis is yours").wait_for()
+    assert node.genesis.owner_of(1).lower() == node.address.lower()
+    assert [int(each["value"], 16) for each in node.sent] == [2 * 10**16, 15 * 10**16]
+    # elsewhere there is none, and a sale that is closed is told
+    node.chain = 1
+    dialog = connected(visitor(book=book), "mint")
+    dialog.get_by_text("No collection is known on Ethereum").wait_for()
+    perform(Transactor(node.node.connection, development_accounts()[OWNER]), node.genesis.contract, "setPhase", 0)
+    press(dialog, f"switch-{CHAIN}")
+    dialog.get_by_role("radio", name="Genesis").check(force=True)
+    trouble(dialog, "The sale is closed")
+
+
+# ---- revealing ----
+
+
+def mine(node: Node, missing: int) -> int:
+    """Makes blocks until so many are missing; the block that determines the seed."""
+    block = int(node.genesis.contract.call("blockOf", 0))
+    node.node.rpc("anvil_mine", hex(block + 1 - missing - int(node.node.rpc("eth_blockNumber"), 16)))
+    return block
+
+
+def test_anybody_reveals(visitor: Visitor, node: Node) -> None:
+    block = mine(node, missing=3)
+    page = visitor(book=node.book)
+    dialog = connected(page, "reveal")
+    dialog.locator("[name=collection]").fill("0x" + "11" * 20)
+    press(dialog, "find")
+    trouble(dialog, "There is no Shackled Genesis collection at 0x1111")
+    dialog.locator("[name=collection]").fill("0x12")
+    press(dialog, "find")
+    trouble(dialog, "An address is 0x and 40 hexadecimal digits")
+    dialog.locator("[name=collection]").fill(node.genesis.address)
+    press(dialog, "find")
+    dialog.get_by_text(f"The seeds come from block {block:,}. Waiting for 3 blocks").wait_for()
+    mine(node, missing=0)
+    dialog.get_by_text("This transaction reveals 1 round on a development chain").wait_for()
+    data = dialog.locator("pre").inner_text()
+    node.declined = {"eth_sendTransaction"}
+    press(dialog, "send")
+    page.wait("document.querySelector('[data-name=said]')?.textContent === 'Cancelled'")
+    node.declined = set()
+    press(dialog, "send")
+    dialog.get_by_text("Revealed: 1 round.").wait_for()
+    (sent,) = node.sent
+    assert (sent["to"].lower(), sent["value"]) == (node.genesis.address.lower(), "0x0")
+    assert sent["data"].startswith(data[:1500])
+    assert node.genesis.metadata(0).traits != {"Revealed": "No"}
+    press(dialog, "find")
+    dialog.get_by_text("There is nothing to reveal").wait_for()
+
+
+def test_what_others_have_revealed_is_not_sent(visitor: Visitor, node: Node) -> None:
+    mine(node, missing=0)
+    dialog = connected(visitor(book=node.book), "reveal")
+    press(dialog, "find")
+    dialog.locator("[data-name=send]:enabled").wait_for()
+    node.lies["eth_call"] = lambda *_: HASH
+    press(dialog, "send")
+    trouble(dialog, "These tokens are revealed already")
+    assert node.sent == []
+
+
+@pytest.mark.parametrize(
+    ("method", "lie", "words"),
+    [
+        ("eth_getBlockByNumber", lambda block, _: forged(block, mixHash="0x" + "77" * 32), "a wrong header of block"),
+        ("eth_getBlockByNumber", lambda block, _: block | {"mixHash": {}}, "without its mixHash"),
+        ("eth_getBlockByNumber", lambda block, _: block | {"number": None}, "without its number"),
+        ("eth_getBlockByNumber", lambda *_: None, "does not have block"),
+        ("eth_blockNumber", lambda *_: "many", "which is no number"),
+        ("eth_call", lambda *_: "0x12", "There is no Shackled Genesis collection at"),
+        ("eth_call", lambda data, _: f"0x{10**6:064x}" if data == f"0x{1:064x}" else data, "has 1,000,000 tokens"),
+        ("eth_call", lambda data, _: data if len(data) != 66 else "0x", "returned no data"),
+    ],
+)
+def test_wallets_that_lie_about_blocks(visitor: Visitor, node: Node, method: str, lie: Any, words: str) -> None:
+    mine(node, missing=0)
+    dialog = connected(visitor(book=node.book), "reveal")
+    node.lies[method] = lie
+    press(dialog, "find")
+    trouble(dialog, words)
+    assert node.sent == []
+
+
+def test_older_blocks_are_for_the_command(visitor: Visitor, node: Node) -> None:
+    """What the chain answers 8,191 blocks later, without making them."""
+    block = mine(node, missing=-300)
+    asked = "0x" + artifact("GenesisCollection").interface.encode("hashOf", block).hex()
+    node.lies["eth_call"] = lambda data, call: "0x" + "00" * 32 if call[0]["data"] == asked else data
+    dialog = connected(visitor(book=node.book), "reveal")
+    press(dialog, "find")
+    trouble(dialog, "the chain keeps no hashes of such old blocks: the command shackled token reveal proves them")
