@@ -22,6 +22,10 @@ export class Speed {
     add(pixels: number, milliseconds: number): void {
         const before = this.#seen.get(pixels) ?? Infinity;
         this.#seen.set(pixels, Math.min(milliseconds, OUTLIER * before));
+        // more pixels take no longer than each of these does: what was slower then, is not now
+        for (const [size, known] of this.#seen) {
+            if (size > pixels) this.#seen.set(size, Math.min(known, (milliseconds * size) / pixels));
+        }
     }
 
     /** Return how long a picture will take, in milliseconds; 0 if none was drawn yet. */
