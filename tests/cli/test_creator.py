@@ -34,7 +34,7 @@ def page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def ask(page: Path, path: str, input: str | None = None) -> bytes | None:
-    return creator.found(page, creator.first_answers(input)[0], path)
+    return creator.found(page, creator.first_answers(input, page)[0], path)
 
 
 def test_files_of_the_page_only(page: Path) -> None:
@@ -59,15 +59,20 @@ def test_an_input_comes_with_the_files_that_it_names(page: Path, tmp_path: Path)
     assert json.loads(ask(page, "addresses.json") or b"") == {"chains": {"1": {}}}
 
 
-def test_pieces_and_links(tmp_path: Path) -> None:
-    answers, place = creator.first_answers("teapot")
-    assert (place, answers["input.json"]) == ("?input", b'{"piece": "teapot"}')
-    told = json.loads(bytes(creator.first_answers("genesis/12")[0]["input.json"]))
+def test_pieces_and_links(page: Path, tmp_path: Path) -> None:
+    (page / "data" / "pieces").mkdir()
+    (page / "data" / "pieces" / "icons-heart.gz").write_bytes(b"")
+    answers, place = creator.first_answers("icons/heart", page)
+    assert (place, answers["input.json"]) == ("?input", b'{"piece": "icons/heart"}')
+    # one that the page lacks is a scene file
+    assert json.loads(ask(page, "input.json", "cube") or b"") == {"names": ["cube.json"]}
+    assert json.loads(ask(page, "input/cube.json", "cube") or b"")["size"] == [256, 256]
+    told = json.loads(ask(page, "input.json", "genesis/12") or b"")
     assert told == {"piece": f"genesis/{seed_of(12).hex()}"}
     with pytest.raises(InputError, match="the link is damaged"):
-        creator.first_answers("https://shackled.example/#1abc")
+        creator.first_answers("https://shackled.example/#1abc", page)
     with pytest.raises(InputError, match="does not exist"):
-        creator.first_answers(str(tmp_path / "none.obj"))
+        creator.first_answers(str(tmp_path / "none.obj"), page)
 
 
 def test_written_to_a_folder(page: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -14,13 +14,13 @@ from urllib.parse import quote
 
 import typer
 
-from .._load import locate
+from .._load import load, locate
 from ..chain import book_path
 from ..datasets import Piece
 from ..datasets.genesis import seed_of
 from ..errors import InputError
 from ..local_server import Answer, listen, run, type_of
-from ..scene import SCENES, Link
+from ..scene import SCENES, Link, encode_scene_file
 from ..whole_file import make_output_folder
 from .option import option
 
@@ -50,7 +50,7 @@ def creator(
         shutil.copy(one_file, folder)
         print(f"{folder / 'index.html'}, and in one file {folder / one_file.name}")
         return
-    answers, place = first_answers(input)
+    answers, place = first_answers(input, page)
 
     def answer(path: str) -> Answer | None:
         body = found(page, answers, path[1:] or "index.html")
@@ -68,8 +68,11 @@ def built_page() -> tuple[Path, Path]:
     raise InputError("the page of the Creator is not built: run `make page`, which needs Node 20 and npm")
 
 
-def first_answers(input: str | None) -> tuple[dict[str, Path | bytes], str]:
-    """Return what is served besides the page, by path, and what follows its address, to open the input."""
+def first_answers(input: str | None, page: Path) -> tuple[dict[str, Path | bytes], str]:
+    """Return what is served besides the page, by path, and what follows its address, to open the input.
+
+    page: its folder; a piece that is not in there is served as a scene file.
+    """
     book = book_path()
     answers: dict[str, Path | bytes] = {"addresses.json": book if book.is_file() else b'{"chains": {}}'}
     if input is None:
@@ -82,7 +85,12 @@ def first_answers(input: str | None) -> tuple[dict[str, Path | bytes], str]:
     # the page knows them by their seeds
     name = f"genesis/{seed_of(int(seed[1])).hex()}" if seed and len(seed[1]) < 64 else input
     told: dict[str, object] = {"piece": name}
-    if not isinstance(source, Piece):
+    packed = page / "data" / "pieces" / f"{name.replace('/', '-')}.gz"
+    if isinstance(source, Piece) and not name.startswith("genesis/") and not packed.is_file():
+        file = f"{source.name.rpartition('/')[2]}.json"
+        answers[f"input/{file}"] = encode_scene_file(load(source.name))
+        told = {"names": [file]}
+    elif not isinstance(source, Piece):
         if not source.is_file():
             raise InputError(f"{source} does not exist")
         files = {path.relative_to(source.parent).as_posix(): path for path in (source, *_beside(source))}
