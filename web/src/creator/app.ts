@@ -72,6 +72,8 @@ export class App {
     /** A document of which files are missing: it is shown when they were opened. */
     #waiting: Document | null = null;
     readonly #steps = signal(0);
+    /** Ends the reading of files when others are opened: the last are shown. */
+    #opening = new AbortController();
     #toast = 0;
 
     constructor(
@@ -133,7 +135,9 @@ export class App {
     async open(files: readonly File[]): Promise<void> {
         if (!files.length) return;
         const what = files.length === 1 ? (files[0] as File).name : `${files.length} files`;
-        await this.run(`Reading ${what}`, async (signal) => {
+        this.#opening.abort();
+        this.#opening = new AbortController();
+        const read = async (signal: AbortSignal): Promise<void> => {
             if (files.reduce((sum, { size }) => sum + size, 0) > MOST_BYTES) {
                 throw new InputError("All files together may have up to 100 MB");
             }
@@ -144,8 +148,11 @@ export class App {
             const { width, height } = this.doc.peek();
             const draco = (): Promise<Uint8Array> => this.assets.bytes("draco.wasm");
             const options = { size: Math.max(width, height, LEAST_SIDE), library: this.meshes, draco, signal };
-            await this.take(await readFiles(await Promise.all(given), options));
-        });
+            const opened = await readFiles(await Promise.all(given), options);
+            signal.throwIfAborted();
+            await this.take(opened);
+        };
+        await this.run(`Reading ${what}`, read, this.#opening);
     }
 
     /** Show what was opened elsewhere, and say what is not as in its file. */
@@ -160,6 +167,7 @@ export class App {
 
     /** Open a piece of a dataset, or of Genesis by its number or seed: "genesis/7". add: as further objects of the scene. */
     async openPiece(name: string, add = false): Promise<void> {
+        if (!add) this.#opening.abort();
         await this.run("Opening", async () => this.#open(await this.meshes.piece(name), add));
     }
 
@@ -226,8 +234,8 @@ export class App {
     async run<T>(
         what: string,
         work: (signal: AbortSignal, progress: (part: number) => void) => Promise<T>,
+        abort = new AbortController(),
     ): Promise<T | undefined> {
-        const abort = new AbortController();
         let mine: Busy = { what, cancel: () => abort.abort() };
         this.busy.value = mine;
         const progress = (part: number): void => {
