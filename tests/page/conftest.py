@@ -15,9 +15,9 @@ from creator_page import PATIENCE, Creator, Visit, link
 ALONE = "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    """Chromium, without any network."""
+    """Chromium, without any network. Of a module: while it runs, no other test can use a loop of asyncio."""
     sync_api = pytest.importorskip("playwright.sync_api", reason="the tests of the page need playwright")
     if browser_path() is None:
         pytest.skip("the tests of the page need chromium: apt-get install chromium")
