@@ -25,11 +25,11 @@ def scene(*objects: dict[str, Any] | str, size: Any = 48, **keys: Any) -> dict[s
     return {"size": size, **keys, "objects": given}
 
 
-def link(content: dict[str, Any]) -> str:
-    """The link of a scene file."""
+def link(content: Any, address: str = "") -> str:
+    """The link of a scene file. address: of the page."""
     packer = zlib.compressobj(9, zlib.DEFLATED, -15)
     packed = packer.compress(json.dumps(content).encode()) + packer.flush()
-    return "#1" + base64.urlsafe_b64encode(packed).decode().rstrip("=")
+    return f"{address}#1{base64.urlsafe_b64encode(packed).decode().rstrip('=')}"
 
 
 class Creator:

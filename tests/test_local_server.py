@@ -11,7 +11,7 @@ from threading import Thread
 import pytest
 
 from shackled import InputError
-from shackled.local_server import Answer, listen, type_of
+from shackled.local_server import Answer, is_trusted, listen, type_of
 
 
 @pytest.fixture(scope="module")
@@ -61,6 +61,13 @@ def test_requests_of_other_sites_are_refused(port: int) -> None:
     ]
     for headers in allowed:
         assert ask(port, "/a", **headers)[0] == 200, headers
+
+
+def test_the_usual_port_is_left_out() -> None:
+    for host, is_own in (("127.0.0.1", True), ("localhost", True), ("evil.example", False), ("127.0.0.1:8080", False)):
+        headers = Message()
+        headers["Host"], headers["Origin"] = host, f"http://{host}"
+        assert is_trusted(headers, 80) == is_own
 
 
 def test_a_port_that_is_taken(port: int) -> None:

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import functools
-import http.server
-import threading
 from pathlib import Path
 
 import pytest
 from mkdocs.commands.build import build
 from mkdocs.config import load_config
-from tools.page_server import ARGUMENTS, browser_path
+from tools.page_server import ARGUMENTS, browser_path, static
 
 from shackled import render
 
@@ -53,19 +50,11 @@ def test_pictures_with_a_scene_are_turned(site: Path) -> None:
 @pytest.mark.skipif(browser_path() is None, reason="needs chromium: apt-get install chromium")
 def test_in_chromium(site: Path) -> None:
     playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright")
-
-    class Handler(http.server.SimpleHTTPRequestHandler):
-        def log_message(self, *_: object) -> None:
-            pass
-
-    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Handler, directory=site)) as server:
-        threading.Thread(target=server.serve_forever, daemon=True).start()
-        with playwright.sync_playwright() as driver:
-            browser = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
-            tab = browser.new_page()
-            tab.goto(f"http://127.0.0.1:{server.server_port}/pictures/")
-            tab.wait_for_function("() => document.querySelector('shackled-view').picture")
-            found = tab.evaluate("document.querySelector('shackled-view').picture.sha256")
-            browser.close()
-        server.shutdown()
+    with static(site) as served, playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
+        tab = browser.new_page()
+        tab.goto(f"{served.address}pictures/")
+        tab.wait_for_function("() => document.querySelector('shackled-view').picture")
+        found = tab.evaluate("document.querySelector('shackled-view').picture.sha256")
+        browser.close()
     assert found == render("icons/crown", (48, 40)).sha256

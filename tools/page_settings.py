@@ -56,10 +56,9 @@ def settings() -> list[dict[str, Any]]:
 
 def look(preset: Preset) -> dict[str, Any]:
     """Return a preset as a JSON object."""
-    surface = {"shading", "ambient", "diffuse", "specular", "shininess"}
     return {
         **{name: getattr(preset, name) for name in ("name", "title", "help", "wireframe", "invert")},
-        "material": {name: value for name, value in preset.settings.items() if name in surface},
+        "material": {name: value for name, value in preset.settings.items() if hasattr(preset.material, name)},
         "color": _hex(preset.color) if preset.color else None,
         "lamps": [{"azimuth": e.azimuth, "elevation": e.elevation, "color": _hex(e.color)} for e in preset.lamps],
         "background": {side: _hex(getattr(preset.background, side)) for side in ("top", "bottom")},

@@ -92,7 +92,7 @@ class _Handler(BaseHTTPRequestHandler):
 
     def do_GET(self) -> None:
         """Answer a request."""
-        is_own = _is_own(self.headers, self.connection.getsockname()[1])
+        is_own = is_trusted(self.headers, self.connection.getsockname()[1])
         found = self.find(unquote(self.path.partition("?")[0])) if is_own else None
         status = 403 if not is_own else 404 if found is None else 200
         answer = found or Answer(b"", "text/plain")
@@ -113,13 +113,14 @@ class _Handler(BaseHTTPRequestHandler):
         """Print nothing."""
 
 
-def _is_own(headers: Message, port: int) -> bool:
+def is_trusted(headers: Message, port: int) -> bool:
     """Return whether a request is of our page, of the user or of a program, and not of a page of another site.
 
     Under another host name, it could be of an attacker's page, whose name resolves to this machine. Links of other
     sites may lead here, in a window of its own.
     """
-    hosts = [f"{name}:{port}" for name in (HOST, "localhost")]
+    # browsers leave out the usual port
+    hosts = [f"{name}:{port}".removesuffix(":80") for name in (HOST, "localhost")]
     if headers.get("Host", "").lower() not in hosts:
         return False
     origin = headers.get("Origin")

@@ -20,7 +20,7 @@ interface Case {
     /** Fields of the document, and of all its objects. */
     changes: Partial<Document>;
     item: Partial<Document["objects"][number]>;
-    /** Whether its meshes are those of an opened file. licence: of that. */
+    /** Whether its meshes are those of an opened file. */
     opened: boolean;
     link: string;
     most?: number;

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import base64
 import json
-import zlib
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from creator_page import link
 from shackled import InputError, Mesh, Scene, load, render
 from shackled.cli.app import run
 from shackled.scene import creased
@@ -24,12 +23,6 @@ def read(tmp_path: Path, document: dict[str, Any]) -> Scene:
     path = tmp_path / "scene.json"
     path.write_text(json.dumps(document), "utf-8")
     return load(path)
-
-
-def link(document: Any, address: str = "") -> str:
-    squeezer = zlib.compressobj(9, zlib.DEFLATED, -15)
-    packed = squeezer.compress(json.dumps(document).encode()) + squeezer.flush()
-    return f"{address}#1{base64.urlsafe_b64encode(packed).rstrip(b'=').decode()}"
 
 
 def same(one: Mesh, other: Mesh) -> bool:

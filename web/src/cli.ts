@@ -10,6 +10,7 @@ import { sceneOf, type Document, type MeshRef, type Meshes, type StoredMesh } fr
 import { applyLook, LOOKS } from "./creator/looks.js";
 import { withScene } from "./creator/work/encoders.js";
 import { InputError } from "./errors.js";
+import { toHex } from "./evm/bytes.js";
 import { decodeImagesBy } from "./files/images.js";
 import { decodeInNode } from "./files/node.js";
 import { readFiles, type Opened } from "./files/read.js";
@@ -51,8 +52,12 @@ decodeImagesBy(decodeInNode);
 try {
     await main(process.argv.slice(2));
 } catch (error) {
-    const { code = "", message } = error as Error & { code?: string };
-    if (!(error instanceof InputError) && !code.startsWith("ERR_PARSE_ARGS") && (error as Error).name !== "CallError")
+    const { code, message } = error as Error & { code?: unknown };
+    if (
+        !(error instanceof InputError) &&
+        !String(code).startsWith("ERR_PARSE_ARGS") &&
+        (error as Error).name !== "CallError"
+    )
         throw error;
     console.error(message);
     process.exitCode = 2;
@@ -68,8 +73,13 @@ async function main(given: string[]): Promise<void> {
     if (!output && !json) throw new InputError("An output is missing: -o poster.png");
     const isFolder =
         inputs.length > 1 || output?.endsWith("/") || statSync(output ?? "", { throwIfNoEntry: false })?.isDirectory();
-    for (const input of inputs) {
-        const path = output && isFolder ? join(output, `${basename(input).replace(/\.[^.]*$/, "")}.png`) : output;
+    const paths = inputs.map((input) =>
+        output && isFolder ? join(output, `${basename(input).replace(/\.[^.]*$/, "")}.png`) : output,
+    );
+    const twice = output && paths.find((path, at) => paths.indexOf(path) < at);
+    if (twice) throw new InputError(`Two inputs would be written to ${twice}: give them other names, or one by one.`);
+    for (const [at, input] of inputs.entries()) {
+        const path = paths[at];
         try {
             const opened = await open(input, values);
             if (!json) for (const note of opened.notes) console.error(note);
@@ -157,7 +167,7 @@ function changed(given: Document, meshes: Meshes, values: Values): Document {
         const colors = String(values.background)
             .split(",")
             .map((each) => check.color(each.trim(), "--background"));
-        const [top, bottom = top] = colors.map((color) => `#${Buffer.from(color).toString("hex")}`);
+        const [top, bottom = top] = colors.map((color) => toHex(color, "#"));
         doc = { ...doc, background: { top, bottom } };
     }
     const [azimuth, elevation] = [numberOf(values, "azimuth"), numberOf(values, "elevation", -90, 90)];

@@ -7,7 +7,10 @@ import { strToU8, zipSync } from "fflate";
 import { MeshoptEncoder } from "meshoptimizer/encoder";
 import { encode } from "../src/index.js";
 import { sceneOf } from "../src/creator/document.js";
+import type { Image, Picture } from "../src/files/images.js";
+import { PLAIN, partsOf } from "../src/files/parts.js";
 import { readFiles, type Given, type Opened } from "../src/files/read.js";
+import type { Source } from "../src/files/source.js";
 
 const CUBE = ["v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"]
     .concat(["f 4 3 2 1\n", "f 5 6 7 8\n", "f 1 2 6 5\n", "f 2 3 7 6\n", "f 3 4 8 7\n", "f 4 1 5 8\n"])
@@ -197,4 +200,47 @@ for (const [given, wanted] of WRONG) {
 test("reading ends when it is cancelled", async () => {
     const { signal } = { signal: AbortSignal.abort() };
     await assert.rejects(readFiles([text("a.obj", CUBE)], { size: 64, signal }), { name: "AbortError" });
+});
+
+test("surfaces are one mesh where their images and the use of these are the same, and an image counts once", () => {
+    const pixels = Uint8Array.from({ length: 4 * 256 * 256 }, (_, at) => (97 * at) % 256);
+    const [one, other]: Image[] = [pixels, pixels].map((each) => ({ width: 256, height: 256, pixels: each }));
+    const picture: Picture = {
+        image: one,
+        name: "t.png",
+        hasAlpha: false,
+        filter: "bilinear",
+        wraps: ["repeat", "repeat"],
+        cutoff: 0,
+    };
+    const pictures = [
+        picture,
+        { ...picture },
+        { ...picture, hasAlpha: true },
+        { ...picture, hasAlpha: true, cutoff: 9 },
+        { ...picture, image: other },
+        { ...picture },
+    ];
+    const corner = [0, 0, 0, 1, 0, 0, 0, 1, 0];
+    const count = pictures.length;
+    const parts = partsOf(
+        {
+            positions: Float64Array.from(pictures.flatMap((_, at) => corner.map((x) => x + at))),
+            faces: Uint32Array.from({ length: 3 * count }, (_, at) => at),
+            colors: new Uint8Array(12 * count).fill(255),
+            uvs: Float64Array.from(pictures.flatMap(() => [0, 0, 1, 0, 0, 1])),
+            surface: pictures.map((_, at) => at),
+            surfaces: pictures.map((each) => ({ ...PLAIN, picture: each })),
+        },
+        { tell: assert.fail } as unknown as Source,
+    );
+    assert.deepEqual(
+        parts.map(({ mesh, texture }) => [mesh.faces.length / 3, texture?.width, texture?.cutoff, !!texture?.alpha]),
+        [
+            [3, 256, 0, false],
+            [1, 256, 0, true],
+            [1, 256, 9, true],
+            [1, 256, 0, false],
+        ],
+    );
 });

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from attrs import field, frozen
+from attrs import Factory, field, frozen
 from attrs.converters import optional
 
 from .. import checks
@@ -38,7 +38,6 @@ class Preset:
     """
 
     name: str
-    title: str
     help: str
     material: Material
     lamps: Sequence[Lamp]
@@ -47,6 +46,7 @@ class Preset:
     ambient_light: Color = field(default=WHITE, converter=checks.color)
     wireframe: bool = False
     invert: bool = False
+    title: str = field(default=Factory(lambda self: self.name.title(), takes_self=True))
 
     @property
     def settings(self) -> dict[str, Any]:
@@ -68,7 +68,6 @@ class Preset:
 PRESETS = (
     Preset(
         "studio",
-        "Studio",
         "Its own colours under one soft white light.",
         Material("smooth", 0.32, 0.72, 0.25, 24),
         [Lamp(-30, 42)],
@@ -76,7 +75,6 @@ PRESETS = (
     ),
     Preset(
         "clay",
-        "Clay",
         "Terracotta on warm paper.",
         Material("smooth", 0.3, 0.8, 0.12, 8),
         [Lamp(-38, 50)],
@@ -86,7 +84,6 @@ PRESETS = (
     ),
     Preset(
         "gold",
-        "Gold",
         "Polished metal in the dark.",
         Material("smooth", 0.22, 0.62, 0.95, 34),
         [Lamp(-35, 45, "#fff3d6"), Lamp(60, 10, "#ff9a3c")],
@@ -96,7 +93,6 @@ PRESETS = (
     ),
     Preset(
         "neon",
-        "Neon",
         "Cyan from the left, magenta from the right.",
         Material("smooth", 0.12, 0.85, 0.8, 40),
         [Lamp(-70, 15, "#00e5ff"), Lamp(70, 10, "#ff2bd6")],
@@ -106,7 +102,6 @@ PRESETS = (
     ),
     Preset(
         "noir",
-        "Noir",
         "One hard light from the side on black.",
         Material("smooth", 0.03, 1, 0.6, 30),
         [Lamp(-75, 25)],
@@ -115,7 +110,6 @@ PRESETS = (
     ),
     Preset(
         "sunset",
-        "Sunset",
         "A low orange sun against a violet sky.",
         Material("flat", 0.34, 0.9, 0.35, 16),
         [Lamp(-60, 12, "#ff9b54"), Lamp(80, 40, "#5a63c8")],
@@ -124,7 +118,6 @@ PRESETS = (
     ),
     Preset(
         "facets",
-        "Facets",
         "Every triangle is visible, as in a cut gem.",
         Material("flat", 0.2, 0.75, 0.85, 12),
         [Lamp(-40, 50), Lamp(65, -5, "#7d8cff")],
@@ -133,7 +126,6 @@ PRESETS = (
     ),
     Preset(
         "blueprint",
-        "Blueprint",
         "White lines on blue.",
         Material("unlit"),
         [],
@@ -143,15 +135,15 @@ PRESETS = (
     ),
     Preset(
         "xray",
-        "X-ray",
         "Light and dark are swapped.",
         Material("smooth", 0.1, 0.9, 0.2, 10),
         [Lamp(0, 0)],
         ("#f4f1ea", "#ffffff"),
         color="#f2e6dc",
         invert=True,
+        title="X-ray",
     ),
-    Preset("flat", "Unlit", "Unlit colours; lowest gas.", Material("unlit"), [], ("#f4f1ea", "#f4f1ea")),
+    Preset("flat", "Unlit colours; lowest gas.", Material("unlit"), [], ("#f4f1ea", "#f4f1ea"), title="Unlit"),
 )
 
 

@@ -11,6 +11,7 @@ import { History } from "./history.js";
 import type { MeshStore } from "./library.js";
 import { linkOf } from "./link.js";
 import { withPiece } from "./objects.js";
+import { capital } from "./parts.js";
 import { MissingFiles } from "./save.js";
 import { autosave } from "./things.js";
 import { calm } from "./ui/calm.js";
@@ -72,7 +73,7 @@ export class App {
     /** A document of which files are missing: it is shown when they were opened. */
     #waiting: Document | null = null;
     readonly #steps = signal(0);
-    /** Ends the reading of files when others are opened: the last are shown. */
+    /** Ends the opening of files or a piece when others are opened: the last are shown. */
     #opening = new AbortController();
     #toast = 0;
 
@@ -135,8 +136,6 @@ export class App {
     async open(files: readonly File[]): Promise<void> {
         if (!files.length) return;
         const what = files.length === 1 ? (files[0] as File).name : `${files.length} files`;
-        this.#opening.abort();
-        this.#opening = new AbortController();
         const read = async (signal: AbortSignal): Promise<void> => {
             if (files.reduce((sum, { size }) => sum + size, 0) > MOST_BYTES) {
                 throw new InputError("All files together may have up to 100 MB");
@@ -152,7 +151,13 @@ export class App {
             signal.throwIfAborted();
             await this.take(opened);
         };
-        await this.run(`Reading ${what}`, read, this.#opening);
+        await this.run(`Reading ${what}`, read, this.#openNext());
+    }
+
+    /** End what is being opened, for what is opened now. */
+    #openNext(): AbortController {
+        this.#opening.abort();
+        return (this.#opening = new AbortController());
     }
 
     /** Show what was opened elsewhere, and say what is not as in its file. */
@@ -167,19 +172,18 @@ export class App {
 
     /** Open a piece of a dataset, or of Genesis by its number or seed: "genesis/7". add: as further objects of the scene. */
     async openPiece(name: string, add = false): Promise<void> {
-        if (!add) this.#opening.abort();
-        await this.run("Opening", async () => this.#open(await this.meshes.piece(name), add));
-    }
-
-    async openGenesis(seed: bigint, add = false): Promise<void> {
-        await this.openPiece(`genesis/${seed.toString(16).padStart(64, "0")}`, add);
+        const open = async (signal: AbortSignal): Promise<void> => {
+            const piece = await this.meshes.piece(name);
+            signal.throwIfAborted();
+            await this.#open(piece, add);
+        };
+        await this.run("Opening", open, add ? new AbortController() : this.#openNext());
     }
 
     async #open(piece: Document, add: boolean): Promise<void> {
         const now = this.doc.peek();
         const { width, height, antialias } = now;
         if (!add) return this.openDocument({ ...piece, width, height, antialias }, `Open ${piece.title}`);
-        await this.meshes.need(piece);
         this.addObjects(fitted(withPiece(now, piece, this.meshes), this.meshes), `Add ${piece.title}`);
     }
 
@@ -260,12 +264,12 @@ export class App {
     /** Show an error. */
     fail(error: unknown): void {
         if (error instanceof Cancelled) return;
+        if (error instanceof MissingFiles) this.#waiting = error.document;
         this.#say(this.sentence(error), "error");
     }
 
     /** Return what an error says, for an artist. */
     sentence(error: unknown): string {
-        if (error instanceof MissingFiles) this.#waiting = error.document;
         if (error instanceof InputError || error instanceof CallError) return capital(error.message);
         console.error(error);
         return `Something went wrong: ${error instanceof Error ? error.message : String(error)}`;
@@ -306,8 +310,4 @@ export class App {
             this.#say("The browser does not allow the page to copy: select the text and copy it", "error");
         }
     }
-}
-
-function capital(text: string): string {
-    return text.slice(0, 1).toUpperCase() + text.slice(1);
 }

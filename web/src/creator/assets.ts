@@ -2,7 +2,6 @@
 
 import { fetchBytes } from "../evm/assets.js";
 import { inflate, isGzip } from "../evm/bytes.js";
-import { InputError } from "../errors.js";
 import { unpackPiece } from "./packed.js";
 
 const MAX_ASSET = 1 << 26;
@@ -61,16 +60,13 @@ export class PageAssets {
         return new TextDecoder().decode(await this.bytes(name));
     }
 
-    /** The pieces that piece() knows. */
+    /** The pieces that there are. */
     pieces(): Promise<PieceEntry[]> {
         return this.json("pieces.json");
     }
 
-    /** A piece as the value of a scene file with its meshes inside, as `shackled.load(name)` stages it. */
+    /** One of them as the value of a scene file with its meshes inside, as `shackled.load(name)` stages it. */
     async piece(name: string): Promise<Record<string, unknown>> {
-        if (!(await this.pieces()).some((each) => each.name === name)) {
-            throw new InputError(`There is no piece “${name}”`);
-        }
         return unpackPiece(await this.bytes(`pieces/${name.replace("/", "-")}`));
     }
 }

@@ -46,7 +46,7 @@ const TURN = 180;
 const MARGIN = 0.06;
 /** How deep, in radii from the middle, the target of a camera may lie. */
 const NEAR = 1.5;
-export const RANGES = {
+const RANGES = {
     elevation: [-90, 90],
     distance: [0.01, 1000],
     target: [-1000, 1000],
@@ -90,6 +90,11 @@ export function outside({ middle, radius }: Frame, point: Vector): Vector {
     return add(middle as Vector, times(radius, point));
 }
 
+/** Return a target, in radii from the middle, as people set it. */
+export function aimed(target: Vector): Vector {
+    return target.map((x) => tidy(clamped(x, ...RANGES.target))) as Vector;
+}
+
 /**
  * Return a camera as an orbit about its target or, where that is far from the objects and so only a direction, about the
  * point of its line of sight that is as deep as the middle.
@@ -112,9 +117,7 @@ export function orbitOf(camera: View, frame: Frame): Orbit {
         elevation: tidy(elevation),
         roll: tidy(degrees(Math.atan2(dot(own.up, level.right), dot(own.up, level.up)))),
         distance: tidy(clamped(depth / frame.radius, ...RANGES.distance)),
-        target: inside(frame, subtract(eye, times(depth, own.back))).map((x) =>
-            tidy(clamped(x, ...RANGES.target)),
-        ) as Vector,
+        target: aimed(inside(frame, subtract(eye, times(depth, own.back)))),
         projection: camera.projection,
         fov: tidy(clamped(degrees(2 * Math.atan(slope)), ...RANGES.fov)),
     };
@@ -173,7 +176,7 @@ export function panned(doc: Document, dx: number, dy: number): Document {
     const { right, up } = axesOf(doc.camera);
     const height = 2 * orbit.distance * Math.tan(radians(orbit.fov) / 2);
     const target = add(orbit.target, times(height, subtract(times(dy, up), times(dx, right))));
-    return withCamera(doc, { target: target.map((x) => tidy(clamped(x, ...RANGES.target))) as Vector });
+    return withCamera(doc, { target: aimed(target) });
 }
 
 /** Move the camera so that the sphere about objects just fills the picture; it keeps its direction. */
@@ -185,7 +188,7 @@ export function fitted(doc: Document, meshes: Meshes, selection: Selection = new
     const needed = projection === "perspective" ? 1 / Math.sin(half) : 1 / Math.tan(half);
     const distance = (radius / doc.frame.radius) * needed * (1 + MARGIN);
     return withCamera(doc, {
-        target: inside(doc.frame, middle as Vector).map((x) => tidy(clamped(x, ...RANGES.target))) as Vector,
+        target: aimed(inside(doc.frame, middle as Vector)),
         distance: tidy(clamped(distance, ...RANGES.distance)),
     });
 }

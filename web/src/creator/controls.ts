@@ -6,7 +6,7 @@ import { PROJECTIONS } from "../scene/staging.js";
 import { resetCamera } from "./camera.js";
 import type { Document, Meshes } from "./document.js";
 import { around, changed, chosen, clamped, tidy, type Selection } from "./measure.js";
-import { PARTS, camel, settingsOf, type Part, type Scope, type Value } from "./parts.js";
+import { PARTS, camel, capital, settingsOf, type Part, type Scope, type Value } from "./parts.js";
 import { SETTINGS, type Setting } from "./settings.js";
 
 export { MIXED, type Value } from "./parts.js";
@@ -103,11 +103,11 @@ function traitsOf({ name, kind, low, high, unit, choices, text }: Setting): Trai
 }
 
 function labelled(words: readonly string[]): [string, string][] {
-    return words.map((word) => [word, capital(word)]);
+    return words.map((word) => [word, titled(word)]);
 }
 
-function capital(word: string): string {
-    return word.charAt(0).toUpperCase() + word.slice(1).replaceAll("_", " ");
+function titled(name: string): string {
+    return capital(name.replaceAll("_", " "));
 }
 
 /** The largest number where there is no other. */
@@ -139,7 +139,7 @@ const OBJECT: readonly Row[] = [
 ];
 const AUTOMATIC: readonly Row[] = settingsOf("material", "object", "tone", "scene")
     .toSorted((a, b) => rank(a.name) - rank(b.name))
-    .map(({ name, part }) => [`${part}.${name}`, MORE[name]?.label ?? capital(name)]);
+    .map(({ name, part }) => [`${part}.${name}`, MORE[name]?.label ?? titled(name)]);
 const CREASE: Row = ["object.crease", "Crease", { none: "by shape" }];
 const OTHERS: readonly Row[] = [
     [

@@ -3,9 +3,9 @@
 import { add, dot, length, subtract, times, unit, type Vector } from "../scene/arithmetic.js";
 import { LIGHT_KINDS, MAX_LIGHTS } from "../scene/checked.js";
 import type { DirectionalLight, Light, PointLight, SpotLight } from "../scene/types.js";
-import { anglesOf, axesAt, axesOf, inside, orbitOf, outside } from "./camera.js";
+import { aimed, anglesOf, axesAt, axesOf, inside, orbitOf, outside } from "./camera.js";
 import type { Document, Frame } from "./document.js";
-import { around, clamped, tidied, tidy } from "./measure.js";
+import { around, tidied, tidy } from "./measure.js";
 
 /**
  * A light: angles in degrees, to the right of the front (+z) and above the horizon, lengths in radii. distance: of point
@@ -34,9 +34,8 @@ export const LAMP: Lamp = {
     outerAngle: 45,
     shadow: false,
 };
-/** The ranges of distances and targets. */
-export const DISTANCES = [0, 1000] as const;
-const TARGETS = [-1000, 1000] as const;
+/** The most radii of a distance. */
+const FARTHEST = 1000;
 /** Places of new lights, in degrees to the right of the viewer and above the horizon; the first free one is taken. */
 const PLACES = [
     [45, 30],
@@ -53,7 +52,7 @@ export function lampOf(light: Light, frame: Frame): Lamp {
     const lamp: Lamp = { ...LAMP, kind: light.kind, color: light.color as string, shadow: light.shadow ?? false };
     if (light.kind === "directional") return { ...lamp, ...anglesIn(light.direction as Vector) };
     const place = inside(frame, light.position as Vector);
-    const distance = tidy(clamped(length(place), ...DISTANCES));
+    const distance = tidy(Math.min(length(place), FARTHEST));
     const at = { ...lamp, ...(distance ? anglesIn(place) : { azimuth: 0, elevation: 0 }), distance };
     if (light.kind === "point") return at;
     const { innerAngle = LAMP.innerAngle, outerAngle = LAMP.outerAngle } = light;
@@ -65,8 +64,7 @@ export function lampOf(light: Light, frame: Frame): Lamp {
         Math.abs(length(direction) - 1) < 1e-9
             ? times(ahead > 0 ? ahead : 1, toward)
             : times(1 / frame.radius, direction);
-    const target = add(place, beam).map((x) => tidy(clamped(x, ...TARGETS))) as Vector;
-    return { ...at, target, innerAngle, outerAngle };
+    return { ...at, target: aimed(add(place, beam)), innerAngle, outerAngle };
 }
 
 function anglesIn(direction: Vector): { azimuth: number; elevation: number } {

@@ -91,7 +91,7 @@ export class MeshStore implements Library {
 }
 
 /** Return the seed of a piece of the collection Genesis, by its number from 0 to 1023. */
-export async function seedOf(number: number): Promise<bigint> {
+async function seedOf(number: number): Promise<bigint> {
     const { keccak_256 } = await import("@noble/hashes/sha3.js");
     const digest = keccak_256(new TextEncoder().encode(`shackled-${number}`));
     return digest.reduce((seed, byte) => (seed << 8n) | BigInt(byte), 0n);

@@ -129,7 +129,6 @@ async function ownOf(doc: Document, meshes: MeshStore): Promise<Document> {
 
 async function first(meshes: MeshStore): Promise<Start> {
     const piece = await meshes.piece(FIRST.piece);
-    await meshes.need(piece);
     return { doc: { ...piece, width: FIRST.side, height: FIRST.side, antialias: true }, isFirst: true };
 }
 

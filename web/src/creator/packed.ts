@@ -39,7 +39,8 @@ function unpackMesh(mesh: PackedMesh, reader: Reader): Record<string, unknown> {
     return table;
 }
 
-function rows(numbers: ArrayLike<number>, width: number): number[][] {
+/** Return rows of so many numbers each. */
+export function rows(numbers: ArrayLike<number>, width: number): number[][] {
     const all = Array.from(numbers);
     return Array.from({ length: all.length / width }, (_, row) => all.slice(row * width, (row + 1) * width));
 }

@@ -1,6 +1,6 @@
 // The parts of a document that controls read and write, by keys. Lengths are in radii of its frame.
 
-import { add, multiply, subtract, type Quaternion, type Vector } from "../scene/arithmetic.js";
+import { add, dot, multiply, subtract, type Quaternion, type Vector } from "../scene/arithmetic.js";
 import { MAX_LIGHTS } from "../scene/checked.js";
 import type { Light } from "../scene/types.js";
 import { axesOf, inside, orbitOf, outside, resetCamera, withCamera } from "./camera.js";
@@ -35,6 +35,11 @@ function missing(key: string): Value {
 /** Return a name of Python as one of JavaScript. */
 export function camel(name: string): string {
     return name.replace(/_(.)/g, (_, letter: string) => letter.toUpperCase());
+}
+
+/** Return a text that begins with a capital letter. */
+export function capital(text: string): string {
+    return text.slice(0, 1).toUpperCase() + text.slice(1);
 }
 
 /** What is read or written. */
@@ -94,8 +99,7 @@ const EFFECTS = {
     rim: () => ({ color: "#ffffff", power: 3 }),
     /** As deep as the objects. */
     fog: ({ camera, frame, background }: Document) => {
-        const [place, { back }] = [inside(frame, camera.eye as Vector), axesOf(camera)];
-        const depth = Math.max(1, place[0] * back[0] + place[1] * back[1] + place[2] * back[2]);
+        const depth = Math.max(1, dot(inside(frame, camera.eye as Vector), axesOf(camera).back));
         return { color: background.bottom, near: (depth - 1) * frame.radius, far: (depth + 1) * frame.radius };
     },
     ground: ({ background: { bottom: color } }: Document) => ({

@@ -20,7 +20,6 @@ import { simplify } from "../scene/simplify.js";
 import { Table, snake } from "../scene/table.js";
 import type { Light, Scene } from "../scene/types.js";
 import { isClosed } from "../scene/winding.js";
-import { camel } from "./parts.js";
 import {
     isSimplified,
     withoutNulls,
@@ -31,6 +30,8 @@ import {
     type StoredMesh,
 } from "./document.js";
 import { boundsOfPoints } from "./measure.js";
+import { rows } from "./packed.js";
+import { camel } from "./parts.js";
 import { SETTINGS } from "./settings.js";
 
 /** What is known of a scene. */
@@ -235,15 +236,11 @@ function objectTable(
 }
 
 function meshTable({ positions, faces, colors, normals, uvs, opacities }: Mesh): object {
-    const rows = (numbers: ArrayLike<number>, width = 3): number[][] =>
-        Array.from({ length: numbers.length / width }, (_, row) =>
-            Array.from({ length: width }, (_, at) => numbers[width * row + at] as number),
-        );
     return {
-        positions: rows(positions),
-        faces: rows(faces),
-        colors: rows(colors),
-        ...(normals && { normals: rows(normals) }),
+        positions: rows(positions, 3),
+        faces: rows(faces, 3),
+        colors: rows(colors, 3),
+        ...(normals && { normals: rows(normals, 3) }),
         ...(uvs && { uvs: rows(uvs, 2) }),
         ...(opacities && { opacities: [...opacities] }),
     };

@@ -72,15 +72,9 @@ export async function keepThing(document: Document, picture: Blob | null, name =
     return put({ id, name, changed: Date.now(), document, picture });
 }
 
-/** Return one of my things, with the meshes of files that are in it. */
-export async function openThing(id: string): Promise<{ document: Document; meshes: Map<string, StoredMesh> }> {
-    const { document } = await thingOf(id);
-    const meshes = new Map<string, StoredMesh>();
-    for (const key of filesOf(document)) {
-        const mesh = await keptMesh(key);
-        if (mesh) meshes.set(key, mesh);
-    }
-    return { document, meshes };
+/** Return the document of one of my things. */
+export async function openThing(id: string): Promise<Document> {
+    return (await thingOf(id)).document;
 }
 
 export async function renameThing(id: string, name: string): Promise<void> {
@@ -97,8 +91,8 @@ export async function removeThing(id: string): Promise<void> {
 }
 
 /** Keep the document at which one is. */
-export async function autosave(document: Document, picture: Blob | null = null): Promise<void> {
-    await put({ id: LAST, name: document.title, changed: Date.now(), document, picture });
+export async function autosave(document: Document): Promise<void> {
+    await put({ id: LAST, name: document.title, changed: Date.now(), document, picture: null });
 }
 
 /** Return the document at which one was last; null if there is none. Meshes that nothing refers to are removed. */

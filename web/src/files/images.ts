@@ -65,15 +65,11 @@ export async function imageOf(bytes: Uint8Array, name: string, { tell }: Source)
 }
 
 /** Return the picture that a file names; undefined, with a note, if it cannot be read. */
-export async function pictureBeside(
-    source: Source,
-    name: string,
-    wrap: Texture["wrap"] = "repeat",
-): Promise<Picture | undefined> {
+export async function pictureBeside(source: Source, name: string): Promise<Picture | undefined> {
     const file = fileBeside(source, name);
     if (!file) source.tell(`the texture ${baseOf(name)} is left out: it is not among the files that were given`);
     const image = file && (await imageOf(file.bytes, baseOf(name), source));
-    return image && { image, name, hasAlpha: false, filter: "bilinear", wraps: [wrap, wrap], cutoff: 0 };
+    return image && { image, name, hasAlpha: false, filter: "bilinear", wraps: ["repeat", "repeat"], cutoff: 0 };
 }
 
 /** Return whether an image is not opaque everywhere. */

@@ -11,8 +11,11 @@ export function decodeInNode(bytes: Uint8Array): Image {
         return { width, height, pixels: Uint8Array.from(data) };
     }
     const png = decode(bytes);
-    const { width, height, depth, palette } = png;
-    const data = palette ? convertIndexedToRgb(png) : png.data;
+    const { width, height, depth } = png;
+    // greys of less than a byte are packed as numbers of colours are
+    const grey = (_: unknown, level: number): number[] => Array<number>(3).fill((255 * level) / (2 ** depth - 1));
+    const palette = png.palette ?? (depth < 8 ? Array.from({ length: 2 ** depth }, grey) : undefined);
+    const data = palette ? convertIndexedToRgb({ ...png, palette }) : png.data;
     const channels = data.length / (width * height);
     const level = (pixel: number, channel: number): number =>
         data[channels * pixel + channel] >> (depth === 16 ? 8 : 0);

@@ -5,7 +5,7 @@ import { MTLLoader } from "three/examples/jsm/loaders/MTLLoader.js";
 import { OBJLoader } from "three/examples/jsm/loaders/OBJLoader.js";
 import { InputError } from "../errors.js";
 import type { Vector } from "../scene/arithmetic.js";
-import { pictureBeside } from "./images.js";
+import { pictureBeside, type Picture } from "./images.js";
 import { GREY, PLAIN, toByte, toLinear, type Triangles } from "./parts.js";
 import { earsOf } from "./polygons.js";
 import { baseOf, fileBeside, plural, textOf, type Source } from "./source.js";
@@ -51,7 +51,8 @@ export async function readObj(source: Source): Promise<Triangles> {
     const looks = new Map<string, Shown>();
     const meshes = root.children.filter((each): each is Mesh => (each as Mesh).isMesh);
     const names = new Set(meshes.flatMap(({ material }) => [material].flat().map(({ name }) => name)));
-    for (const name of names) looks.set(name, await lookOf(materials[name], source));
+    const pictures = new Map<string, Picture | undefined>();
+    for (const name of names) looks.set(name, await lookOf(materials[name], source, pictures));
     const missing = [...names].filter((name) => name && !materials[name]);
     if (missing.length && Object.keys(materials).length)
         tell(`materials that no file has, drawn in light grey: ${missing.slice(0, 5).join(", ")}`);
@@ -106,8 +107,12 @@ function cutPolygons(text: string): string {
     });
 }
 
-/** Return how a material looks, undefined for none, which is light grey. */
-async function lookOf(own: Record<string, string | number[]> | undefined, source: Source): Promise<Shown> {
+/** Return how a material looks, undefined for none, which is light grey. pictures: those that were read, by their names. */
+async function lookOf(
+    own: Record<string, string | number[]> | undefined,
+    source: Source,
+    pictures: Map<string, Picture | undefined>,
+): Promise<Shown> {
     const bytes = (key: string, or: number): number[] => {
         const levels = (own?.[key] as number[] | undefined) ?? [or, or, or];
         // one number is all of them
@@ -132,8 +137,9 @@ async function lookOf(own: Record<string, string | number[]> | undefined, source
         else if (option === "clamp") wrap = words.includes("on") ? "clamp" : "repeat";
         else source.tell(`the option -${option} of a texture is left out`);
     }
-    const picture = map ? await pictureBeside(source, map, wrap) : undefined;
+    if (map && !pictures.has(map)) pictures.set(map, await pictureBeside(source, map));
+    const picture = pictures.get(map);
     if (!picture) return { surface, factor };
     const matrix = new Matrix3(scale[0], 0, offset[0], 0, -scale[1], 1 - offset[1], 0, 0, 1);
-    return { surface: { ...surface, picture }, factor: [1, 1, 1], matrix };
+    return { surface: { ...surface, picture: { ...picture, wraps: [wrap, wrap] } }, factor: [1, 1, 1], matrix };
 }

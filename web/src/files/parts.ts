@@ -5,6 +5,7 @@ import { cross, length, subtract, type Vector } from "../scene/arithmetic.js";
 import type { Mesh, Texture } from "../scene/checked.js";
 import type { Rgb } from "../scene/checks.js";
 import { cornerNormals } from "../scene/normals.js";
+import { rowsOf } from "../scene/topology.js";
 import { weld } from "../scene/weld.js";
 import { isPlain, textureOf, tint, type Picture } from "./images.js";
 import { plural, type Source } from "./source.js";
@@ -58,7 +59,7 @@ export function partsOf(
     { positions, faces, colors, normals, uvs, surface, surfaces }: Triangles,
     source: Source,
 ): Part[] {
-    const pictures = new Set(surfaces.flatMap(({ picture }) => picture ?? [])).size;
+    const images = [...new Set(surfaces.map(({ picture }) => picture?.image))];
     const groups = new Map<string, Group>();
     const lists = surfaces.map((): number[] => []);
     const areas = Float64Array.from({ length: faces.length / 3 }, (_, triangle) =>
@@ -82,26 +83,20 @@ export function partsOf(
             kind.picture = undefined;
         }
         const isClear = list.some((triangle) => [3, 7, 11].some((at) => colors[12 * triangle + at] < 255));
-        const key = JSON.stringify([
-            kind.picture?.name,
-            kind.opacity,
-            kind.emission,
-            kind.unlit,
-            kind.twoSided,
-            isClear,
-        ]);
+        const { picture, ...plain } = kind;
+        const shown = picture && { ...picture, image: images.indexOf(picture.image) };
+        const key = JSON.stringify([shown, plain, isClear]);
         const group: Group = groups.get(key) ?? { own: [], surface: kind, gloss: [0, 0, 0] };
         groups.set(key, group);
         const area = list.reduce((sum, triangle) => sum + areas[triangle], 0);
         if (gloss) group.gloss = group.gloss.map((sum, at) => sum + area * [...gloss, 1][at]);
         for (const triangle of list) group.own.push(triangle);
     });
+    const pictures = new Set([...groups.values()].flatMap(({ surface: { picture } }) => picture?.image ?? [])).size;
     return [...groups.values()].map(({ own, surface: { picture, ...kind }, gloss: [rough, metal, known] }) => {
-        const of = <T extends Float64Array | Uint8Array | Uint32Array>(table: T, width: number): T => {
-            const found = new (table.constructor as new (length: number) => T)(own.length * 3 * width);
-            own.forEach((row, at) => found.set(table.subarray(3 * row * width, 3 * (row + 1) * width), 3 * at * width));
-            return found;
-        };
+        const triangles = Uint32Array.from(own);
+        const of = <T extends Float64Array | Uint8Array | Uint32Array>(table: T, width: number): T =>
+            rowsOf(table, triangles, 3 * width);
         const corners = of(faces, 1);
         const shown = picture && uvs && textureOf(picture, of(uvs, 2), pictures, source);
         const table = {

@@ -9,7 +9,7 @@ import { readOff } from "./off.js";
 import { partsOf, type Part, type Triangles } from "./parts.js";
 import { readPly } from "./ply.js";
 import { readScene } from "./scenes.js";
-import { baseOf, extensionOf, type Given, type Source } from "./source.js";
+import { baseOf, extensionOf, titleOf, type Given, type Source } from "./source.js";
 import { staged, type Model } from "./staging.js";
 
 export type { Given } from "./source.js";
@@ -129,7 +129,7 @@ async function openMeshes(sources: Source[], { size, maxTriangles, signal, onPro
 }
 
 /** Return the parts of a mesh file. */
-export async function readMesh(source: Source): Promise<Part[]> {
+async function readMesh(source: Source): Promise<Part[]> {
     if (!source.bytes.length) throw new InputError("it is empty");
     return partsOf(await READERS[extensionOf(source.name)](source), source);
 }
@@ -179,10 +179,6 @@ function unpacked(files: readonly Given[]): Given[] {
             );
         }
     });
-}
-
-function titleOf({ name }: Given): string {
-    return baseOf(name).replace(/\.[^.]*$/, "");
 }
 
 function namesOf(files: readonly Given[]): string {

@@ -9,7 +9,7 @@ import { parseJson } from "../scene/file.js";
 import { shadedMesh } from "../scene/normals.js";
 import { hides, imageOf, textureOf } from "./images.js";
 import type { Part } from "./parts.js";
-import { baseOf, extensionOf, fileBeside, plural, textOf, type Given, type Source } from "./source.js";
+import { baseOf, extensionOf, fileBeside, plural, textOf, titleOf, type Given, type Source } from "./source.js";
 
 type Keys = Record<string, unknown>;
 
@@ -24,7 +24,7 @@ export async function readScene(
     library: Library | undefined,
     read: (source: Source) => Promise<Part[]>,
 ): Promise<Made> {
-    const about = { title: baseOf(source.name).replace(/\.[^.]*$/, ""), notice: "", licence: "" };
+    const about = { title: titleOf(source), notice: "", licence: "" };
     const text = textOf(source.bytes);
     const table = (extensionOf(source.name) === ".toml" ? plain(tomlOf(text)) : parseJson(text)) as Keys;
     const own = new Map<string, StoredMesh>();

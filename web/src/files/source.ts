@@ -29,6 +29,11 @@ export function baseOf(name: string): string {
     return name.replaceAll("\\", "/").replace(/.*\//, "");
 }
 
+/** Return the name of a file without folders and extension. */
+export function titleOf({ name }: Given): string {
+    return baseOf(name).replace(/\.[^.]*$/, "");
+}
+
 /** Return the extension of a name in small letters, with its dot. */
 export function extensionOf(name: string): string {
     return /\.[^./]+$/.exec(name)?.[0].toLowerCase() ?? "";

@@ -2,12 +2,12 @@
 
 import { boundsOfPoints } from "../creator/measure.js";
 import { InputError } from "../errors.js";
-import { add, boundsOf, cross, dot, fromEuler, length, rowOf, subtract, times } from "../scene/arithmetic.js";
+import { boundsOf, cross, dot, fromEuler, length, rowOf, subtract, times } from "../scene/arithmetic.js";
 import type { Quaternion, Vector } from "../scene/arithmetic.js";
 import { worldPositions, type Mesh, type SceneObject } from "../scene/checked.js";
 import { cornerNormals, creased, isFlat, withoutNormals } from "../scene/normals.js";
 import { loadSimplifier, reduced, simplify } from "../scene/simplify.js";
-import { frame, halfHeightOf, viewAxes, type Viewpoint } from "../scene/staging.js";
+import { frame, halfHeightOf, keyLight, type Viewpoint } from "../scene/staging.js";
 import type { Scene } from "../scene/types.js";
 import { rowsOf } from "../scene/topology.js";
 import { rgbaOf, weld } from "../scene/weld.js";
@@ -63,11 +63,10 @@ export async function staged(
     const flatness = Math.max(1 - (2 * y) / (Math.max(x, z) || 1), 0);
     const elevation = ELEVATION + flatness * (FLAT_ELEVATION - ELEVATION);
     const view: Viewpoint = { ...LENS, azimuth: AZIMUTH, elevation };
-    const toward = viewAxes(AZIMUTH, elevation).map((axis, at) => times(KEY_LIGHT[at], axis));
     const scene: Scene = {
         objects,
         camera: frame(points, view),
-        lights: [{ kind: "directional", direction: toward.reduce(add), color: [255, 243, 226] }],
+        lights: [{ ...keyLight(view, KEY_LIGHT), color: [255, 243, 226] }],
         background: isLight(objects) ? DARK_BACKGROUND : LIGHT_BACKGROUND,
         ambientLight: [232, 240, 255],
         antialias: true,

@@ -127,8 +127,10 @@ function extensions(scene: CheckedScene): Uint8Array {
         content.set(opacities.map((each) => rint(255 * each)));
         made.push(record(records.OPACITIES_OF, index, new DataView(content.buffer)));
     });
+    let rule: number | undefined;
     scene.lights.forEach(({ shadow }, index) => {
-        if (shadow) made.push(record(records.SHADOW, index, new DataView(words([shadowRule(scene)]).buffer)));
+        if (!shadow) return;
+        made.push(record(records.SHADOW, index, new DataView(words([(rule ??= shadowRule(scene))]).buffer)));
     });
     scene.objects.forEach(({ fade }, index) => {
         if (!fade) return;

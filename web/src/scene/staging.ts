@@ -46,10 +46,9 @@ export function viewAxes(azimuth: number, elevation: number): [Vector, Vector, V
 }
 
 /** Return a light that stays where it is for the viewer, wherever the viewer stands. */
-export function keyLight(view: Viewpoint): DirectionalLight {
-    const [right, up, back] = viewAxes(view.azimuth, view.elevation);
-    const direction = add(add(times(KEY_LIGHT[0], right), times(KEY_LIGHT[1], up)), times(KEY_LIGHT[2], back));
-    return { kind: "directional", direction };
+export function keyLight({ azimuth, elevation }: Viewpoint, toward = KEY_LIGHT): DirectionalLight {
+    const parts = viewAxes(azimuth, elevation).map((axis, at) => times(toward[at], axis));
+    return { kind: "directional", direction: parts.reduce(add) };
 }
 
 /** Return the camera of a view, as near as all points, three numbers each, fit the picture. */

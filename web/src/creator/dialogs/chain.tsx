@@ -71,7 +71,8 @@ function Node({ app, subject, contracts }: Pick<TabProps, "app" | "subject"> & {
     const [said, say] = useState<{ same: boolean; words: string } | null>(null);
     const task = useTask();
     const scene = subject.value;
-    const ask = (): void => {
+    const ask = (event: Event): void => {
+        event.preventDefault();
         if (!scene || !contracts) return;
         say(null);
         task.start(async (signal) => {
@@ -88,15 +89,11 @@ function Node({ app, subject, contracts }: Pick<TabProps, "app" | "subject"> & {
             });
         });
     };
-    const submit = (event: Event): void => {
-        event.preventDefault();
-        ask();
-    };
     const off = !scene || !contracts || task.part !== null;
     return (
         <section>
             <h3>Draw it on a node</h3>
-            <form class="linkline" onSubmit={submit}>
+            <form class="linkline" onSubmit={ask}>
                 <input
                     class="field"
                     type="url"

@@ -7,14 +7,10 @@ import type { Document } from "../document.js";
 import { neededGas } from "../programs/cast.js";
 import { titleOf } from "../programs/subject.js";
 import { LIMITS, type Limit } from "../settings.js";
-import { intrinsicGas } from "../work/calls.js";
-import { TRANSACTION_GAS } from "../work/protocol.js";
+import { MAX_TRANSACTION, intrinsicGas, isRelayed } from "../work/calls.js";
+import { CALL_GAS, TRANSACTION_GAS } from "../work/protocol.js";
 import type { EditionTerms, Quote, Stage } from "../work/work.js";
 import { Button, Pixels, Progress, Trouble, count, drawnOf, gasWords, useMade, useTask, type Made } from "./parts.js";
-
-/** The largest transaction that nodes relay, in bytes (four slots of 32 KiB), and what it has besides its data. */
-const MAX_TRANSACTION = 4 * 32 * 1024;
-const ENVELOPE = 512;
 
 interface Fit {
     title: string;
@@ -52,20 +48,12 @@ export function Limits({ app }: { app: App }) {
 function Fits({ app, doc }: { app: App; doc: Document }) {
     const fits = useMade((signal) => fitsOf(app, doc, signal), [doc]);
     const token = useMade((signal) => tokenOf(app, doc, signal), [doc]);
-    const task = useTask();
-    const [said, say] = useState("");
+    const fit = useFit(app, doc);
     const small = fits.value?.filter((each) => !each.fits) ?? [];
-    const make = (limit: "transaction" | "edition" | "call"): void =>
-        task.start(async (signal, onProgress) => {
-            const fitted = await app.work.fit(doc, limit, { signal, onProgress });
-            if (signal.aborted) return;
-            say(changesOf(doc, fitted));
-            app.change(fitted, "Make it fit");
-        });
     const wanted = [
         ["edition", "Make it fit a token", token.value?.fits === false],
         ["transaction", "Make it fit a transaction", small.some(({ kind }) => kind === "transaction")],
-        ["call", "Make it fit a read call", small.some(({ kind, gas }) => kind === "call" && gas <= 50_000_000)],
+        ["call", "Make it fit a read call", small.some(({ kind, gas }) => kind === "call" && gas <= CALL_GAS)],
     ] as const;
     return (
         <section>
@@ -92,16 +80,35 @@ function Fits({ app, doc }: { app: App; doc: Document }) {
                 {wanted.map(
                     ([limit, words, isWanted]) =>
                         isWanted && (
-                            <Button key={limit} name={`fit-${limit}`} off={task.part !== null} does={() => make(limit)}>
+                            <Button key={limit} name={`fit-${limit}`} off={fit.off} does={() => fit.make(limit)}>
                                 {words}
                             </Button>
                         ),
                 )}
             </div>
-            <Progress task={task} what="Trying sizes and triangles" />
-            {said && <p role="status">{said}</p>}
+            {fit.shown}
         </section>
     );
+}
+
+/** What makes a document fit, and how far that is or what it changed. */
+export function useFit(app: App, doc: Document) {
+    const task = useTask();
+    const [said, say] = useState("");
+    const make = (limit: "transaction" | "edition" | "call", terms?: EditionTerms | null): void =>
+        task.start(async (signal, onProgress) => {
+            const fitted = await app.work.fit(doc, limit, { ...(terms && { terms }), signal, onProgress });
+            if (signal.aborted) return;
+            say(changesOf(doc, fitted));
+            app.change(fitted, "Make it fit");
+        });
+    const shown = (
+        <>
+            <Progress task={task} what="Trying sizes and triangles" />
+            {said && <p role="status">{said}</p>}
+        </>
+    );
+    return { make, shown, off: task.part !== null };
 }
 
 /** Whether a token of an edition with this picture fits. */
@@ -228,7 +235,7 @@ async function fitsOf(app: App, doc: Document, signal: AbortSignal): Promise<Fit
         firsts.map(async (first) => {
             const { kind, gas } = first;
             const limits = LIMITS.filter((other) => isLike(first, other));
-            const tooLong = kind === "transaction" && call.length + ENVELOPE > MAX_TRANSACTION;
+            const tooLong = kind === "transaction" && !isRelayed(call);
             // a call must be given a little more than it uses: how much, only the call itself can tell
             const close = needed > gas && intrinsic + drawn.gas <= gas;
             const fits =
@@ -254,7 +261,7 @@ function termsOf(doc: Document): EditionTerms {
 }
 
 /** Say what is different in a document that was made to fit. */
-export function changesOf(before: Document, after: Document): string {
+function changesOf(before: Document, after: Document): string {
     const words: string[] = [];
     if (before.antialias && !after.antialias) words.push("without anti-aliasing");
     if (before.width !== after.width || before.height !== after.height)

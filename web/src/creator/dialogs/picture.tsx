@@ -2,11 +2,11 @@
 
 import { useEffect, useState } from "preact/hooks";
 import { isLocal, stemOf, titleOf } from "../programs/subject.js";
+import { MAX_FILE_SIDE } from "../work/protocol.js";
 import { addressOf, type TabProps } from "./download.js";
 import { Button, Choices, Pixels, Progress, count, gasWords, useTask } from "./parts.js";
 
-/** The largest PNG, in pixels a side, and the largest one that is offered first. */
-const MAX_PNG = 4096;
+/** The largest PNG that is offered first, in pixels a side. */
 const COMMON = 1024;
 const SCALES = [1, 2, 3, 4, 5, 6, 7, 8];
 /** Pixels of all pictures of a turntable, and the side to which they are enlarged. */
@@ -30,7 +30,7 @@ export function PictureTab(props: TabProps) {
 
 function Png({ app, doc, drawn }: TabProps) {
     const longest = Math.max(doc.width, doc.height);
-    const scales = SCALES.filter((scale) => scale === 1 || scale * longest <= MAX_PNG);
+    const scales = SCALES.filter((scale) => scale === 1 || scale * longest <= MAX_FILE_SIDE);
     const [scale, choose] = useState(Math.max(...scales.filter((each) => each === 1 || each * longest <= COMMON)));
     const [transparent, setTransparent] = useState(false);
     const [ready, setReady] = useState<File | null>(null);

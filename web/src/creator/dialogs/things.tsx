@@ -5,7 +5,7 @@ import type { App } from "../app.js";
 import { titleOf } from "../programs/subject.js";
 import { duplicateThing, keepThing, openThing, removeThing, renameThing, things, type Thing } from "../things.js";
 import { IconButton } from "../ui/icons.js";
-import { Progress, Trouble, useMade, useTask } from "./parts.js";
+import { Button, Progress, Trouble, useMade, useTask } from "./parts.js";
 
 /** Pixels of the longer side of a picture on a card. */
 const SIDE = 160;
@@ -39,15 +39,9 @@ export function Things({ app }: { app: App }) {
     return (
         <>
             <section class="scales">
-                <button
-                    type="button"
-                    class="button main"
-                    data-name="keep"
-                    disabled={task.part !== null}
-                    onClick={() => change(keep)}
-                >
+                <Button name="keep" look="main" off={task.part !== null} does={() => change(keep)}>
                     Keep the present picture
-                </button>
+                </Button>
                 <p class="quiet">
                     Kept in this browser only, with files that you opened. Save a scene file to have it elsewhere.
                 </p>
@@ -62,9 +56,7 @@ export function Things({ app }: { app: App }) {
                         thing={thing}
                         open={() =>
                             task.start(async () => {
-                                const { document, meshes } = await openThing(thing.id);
-                                app.meshes.put(meshes);
-                                await app.openDocument(document, `Open ${thing.name}`);
+                                await app.openDocument(await openThing(thing.id), `Open ${thing.name}`);
                                 app.dialog.value = null;
                             })
                         }

@@ -61,11 +61,8 @@ function settings(scene: Scene): Record<string, unknown> {
 }
 
 function lightOf({ shadow, ...light }: Light): Expression {
-    if (light.kind === "directional") {
-        const { direction: vector, ...own } = light;
-        return call("Light", { ...own, vector, shadow: shadow || undefined });
-    }
-    const { position: vector, ...own } = light;
+    const place = light.kind === "directional" ? "direction" : "position";
+    const { [place]: vector, ...own } = light as Record<string, unknown>;
     return call("Light", { ...own, vector, shadow: shadow || undefined });
 }
 

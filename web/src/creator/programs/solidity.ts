@@ -1,6 +1,9 @@
 // A picture as a contract in Solidity, which holds the scene and calls the renderer with it.
 
+import { toHex } from "../../evm/bytes.js";
+import { SHADINGS } from "../../scene/checked.js";
 import { WORD } from "../../scene/encode.js";
+import { OBJECT_WORDS, Reader } from "../../scene/reader.js";
 import { linkLines, notices, oneLine, originOf, stemOf, titleOf, type Subject } from "./subject.js";
 
 /** Bytes of meshes and extensions that a contract holds beside its code (EIP-170: 24,576), and what each object adds. */
@@ -14,7 +17,6 @@ const OWN = "MIT";
 const FREE: Record<string, string> = { MIT: "MIT", CC0: "CC0-1.0", "CC0-1.0": "CC0-1.0" };
 const UNLICENSED = "UNLICENSED";
 const KINDS = ["directional", "point or spot"];
-const SHADINGS = ["unlit", "flat", "smooth"];
 const PROJECTIONS = ["perspective", "orthographic"];
 const IMPORTED = ["Background", "Camera", "Canvas", "Fixed", "IRenderer", "Light", "Material", "Object", "Picture"];
 const TAKEN = [...IMPORTED, "Quaternion", "Scene", "Vector"];
@@ -135,23 +137,18 @@ interface Read {
 
 /** Read a call that `encode` made. */
 function readScene(call: Uint8Array): Read {
-    const view = new DataView(call.buffer, call.byteOffset);
-    const word = (place: number): bigint => view.getBigInt64(place + WORD - 8);
+    const reader = new Reader(call);
     const words = (place: number, count: number): bigint[] =>
-        Array.from({ length: count }, (_, at) => word(place + WORD * at));
-    const to = (place: number, from: number): number => from + Number(word(place));
-    const bytes = (place: number): Uint8Array => call.subarray(place + WORD, place + WORD + Number(word(place)));
-    const start = to(4, 4);
-    const lights = to(start + 18 * WORD, start);
-    const objects = to(start + 19 * WORD, start);
+        Array.from({ length: count }, (_, at) => reader.view.getBigInt64(place + WORD * (at + 1) - 8));
+    const bytes = (place: number, size: number): Uint8Array => call.subarray(place, place + size);
     return {
-        words: words(start, 18),
-        lights: Array.from({ length: Number(word(lights)) }, (_, index) => words(lights + WORD * (1 + 5 * index), 5)),
-        objects: Array.from({ length: Number(word(objects)) }, (_, index) => {
-            const object = to(objects + WORD * (1 + index), objects + WORD);
-            return { mesh: bytes(to(object, object)), words: words(object + WORD, 14) };
-        }),
-        extensions: bytes(to(start + 20 * WORD, start)),
+        words: words(reader.field(0), 18),
+        lights: reader.lights().map((place) => words(place, 5)),
+        objects: reader.objects().map(({ place, mesh, size }) => ({
+            mesh: bytes(mesh, size),
+            words: words(place + WORD, OBJECT_WORDS - 1),
+        })),
+        extensions: bytes(...reader.array(reader.field(20), reader.field(0), 1)),
     };
 }
 
@@ -215,8 +212,7 @@ function bodyOf({ words, lights, objects, extensions }: Read, inside: boolean, n
 
 /** Return bytes as literals, which the compiler concatenates. */
 function hexLines(bytes: Uint8Array): string[] {
-    const digits = Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
-    return (digits.match(new RegExp(`.{1,${DIGITS}}`, "g")) ?? [""]).map((line) => `        hex"${line}"`);
+    return (toHex(bytes, "").match(new RegExp(`.{1,${DIGITS}}`, "g")) ?? [""]).map((line) => `        hex"${line}"`);
 }
 
 function vector(words: readonly bigint[], from: number): string {

@@ -76,7 +76,12 @@ export class Drawing {
             if (full && drawing !== doc && (predicted ?? 0) > INTERRUPT) abort?.abort();
             return;
         }
-        if (this.#given === doc || (seen?.doc === doc && !seen.draft)) return;
+        if (this.#given === doc) return;
+        if (seen?.doc === doc && !seen.draft) {
+            // such as after undo of what could not be drawn, which redo tries again
+            this.#given = this.problem.value = null;
+            return;
+        }
         const size: Size = [doc.width, doc.height];
         const moving = this.#held || performance.now() - this.#movedAt < REST;
         // what was slow before, when nothing was compiled or the machine was busy, may be fast now
@@ -99,7 +104,8 @@ export class Drawing {
     async #draw(doc: Document, full: boolean, [width, height]: Size): Promise<void> {
         const abort = new AbortController();
         const pixels = width * height;
-        const predicted = this.#speed.predict(pixels) * (full && doc.antialias ? ANTIALIASING : 1);
+        const samples = full && doc.antialias ? ANTIALIASING : 1;
+        const predicted = this.#speed.predict(pixels) * samples;
         const flight = { doc, full, abort, predicted };
         this.#flight = flight;
         const busy = setTimeout(() => {
@@ -108,7 +114,6 @@ export class Drawing {
         try {
             const options = { width, height, lane: "picture" as const, signal: abort.signal };
             const drawn: Drawn = await this.#app.work.draw(doc, full ? options : { ...options, antialias: false });
-            const samples = full && doc.antialias ? ANTIALIASING : 1;
             this.#last = [pixels, drawn.milliseconds / samples];
             this.#speed.add(...this.#last);
             const exact = full || (width === doc.width && height === doc.height && !doc.antialias);

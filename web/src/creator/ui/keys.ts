@@ -1,11 +1,12 @@
 // The keys of the page, and what they do.
 
+import { toHex } from "../../evm/bytes.js";
 import type { App } from "../app.js";
 import { fitted, panned, resetCamera, turned, zoomed } from "../camera.js";
-import { controlOf, type Control } from "../controls.js";
+import { MIXED, controlOf, type Control, type Value } from "../controls.js";
 import type { Document, Item } from "../document.js";
 import { LOOKS, applyLook, lookOf, surprise } from "../looks.js";
-import { chosen } from "../measure.js";
+import { chosen, type Selection } from "../measure.js";
 import { duplicated, removed } from "../objects.js";
 import { tool } from "./state.js";
 
@@ -27,16 +28,13 @@ export function fit(app: App): void {
 }
 
 export function surpriseMe(app: App): void {
-    app.change(surprise(app.doc.value, app.meshes, Math.random), "Surprise");
+    app.change(surprise(app.doc.value, app.meshes), "Surprise");
 }
 
 /** Open a random piece of Genesis. */
 export function anyGenesis(app: App, add = false): Promise<void> {
-    const bytes = crypto.getRandomValues(new Uint8Array(32));
-    return app.openGenesis(
-        bytes.reduce((seed, byte) => (seed << 8n) | BigInt(byte), 0n),
-        add,
-    );
+    const seed = toHex(crypto.getRandomValues(new Uint8Array(32)), "");
+    return app.openPiece(`genesis/${seed}`, add);
 }
 
 export function remove(app: App): void {
@@ -76,13 +74,17 @@ function cycle(path: string): (app: App) => void {
     };
 }
 
-/** Return what changes a number of the selected objects. */
+/** Return what changes a number of the selected objects, of each by itself where they differ. */
 function nudge(path: string, change: (value: number) => number): (app: App) => void {
     return (app) => {
         const { doc, selected, meshes } = app;
         const of = controlOf(path) as Control;
-        const value = Number(of.read(doc.value, selected.value, meshes)) || 0;
-        app.change(of.write(doc.value, selected.value, change(value), meshes), of.label, path);
+        const read = (made: Document, ids: Selection): Value => of.read(made, ids, meshes);
+        const isMixed = read(doc.value, selected.value) === MIXED;
+        const each = isMixed ? chosen(doc.value, selected.value).map(({ id }) => new Set([id])) : [selected.value];
+        const put = (made: Document, ids: Selection): Document =>
+            of.write(made, ids, change(Number(read(made, ids))), meshes);
+        app.change(each.reduce(put, doc.value), of.label, path);
     };
 }
 

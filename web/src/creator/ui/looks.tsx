@@ -58,21 +58,14 @@ function drawLooks(app: App, pictures: Signal<Pictures>): () => void {
     const draw = async (): Promise<void> => {
         if (!seen || seen.draft) return;
         const doc = seen.doc;
+        const width = Math.round(SIDE * Math.min(1, doc.width / doc.height));
+        const height = Math.round(SIDE * Math.min(1, doc.height / doc.width));
+        const options = { width, height, antialias: true, lane: "background" as const, signal: stop.signal };
         const made: Record<string, string> = {};
         const replace = Object.keys(pictures.peek()).length > 0;
         try {
             for (const { name } of LOOKS) {
-                const of = applyLook(doc, name);
-                const [width, height] = [SIDE, SIDE].map((side, axis) =>
-                    Math.round(side * Math.min(1, axis ? doc.height / doc.width : doc.width / doc.height)),
-                );
-                const options = {
-                    width: width as number,
-                    height: height as number,
-                    antialias: true,
-                    lane: "background" as const,
-                };
-                made[name] = urlOf(await app.work.draw(of, { ...options, signal: stop.signal }));
+                made[name] = urlOf(await app.work.draw(applyLook(doc, name), options));
                 if (stop.signal.aborted) return;
                 if (!replace) pictures.value = { ...made };
             }

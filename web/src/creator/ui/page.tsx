@@ -3,6 +3,7 @@
 import { signal, useSignalEffect } from "@preact/signals";
 import type { ComponentType } from "preact";
 import { useEffect } from "preact/hooks";
+import { InputError } from "../../errors.js";
 import type { App } from "../app.js";
 import { Header, Seldom } from "./header.js";
 import { Choices } from "./icons.js";
@@ -119,8 +120,9 @@ const MOST_FILES = 1000;
 async function filesIn(entries: readonly FileSystemEntry[]): Promise<File[]> {
     const found: File[] = [];
     const read = async (entry: FileSystemEntry): Promise<void> => {
-        if (found.length >= MOST_FILES) return;
         if (entry.isFile) {
+            if (found.length >= MOST_FILES)
+                throw new InputError(`The folder has more than ${MOST_FILES} files: drop those of one model`);
             const file = await new Promise<File>((resolve, reject) =>
                 (entry as FileSystemFileEntry).file(resolve, reject),
             );

@@ -8,6 +8,7 @@ import { CONTROLS, GROUPS, lightControls, resetGroup, type Control } from "../co
 import type { Document } from "../document.js";
 import { addLight, onDisc, removeLight } from "../lamps.js";
 import { chosen } from "../measure.js";
+import { capital } from "../parts.js";
 import { Button, Choices, IconButton } from "./icons.js";
 import { dragsLight } from "./lamp_drag.js";
 import { Looks } from "./looks.js";
@@ -200,8 +201,4 @@ function summary(app: App, doc: Document, name: Group): string {
         default:
             return "";
     }
-}
-
-function capital(word: string): string {
-    return word.slice(0, 1).toUpperCase() + word.slice(1);
 }

@@ -6,6 +6,7 @@ import { useId, useLayoutEffect, useRef } from "preact/hooks";
 import type { App } from "../app.js";
 import { MIXED, type Control, type Value } from "../controls.js";
 import type { Document } from "../document.js";
+import { capital } from "../parts.js";
 import { Icon } from "./icons.js";
 
 /** Units as they are shown in fields. */
@@ -136,7 +137,7 @@ function Field({ app, of, value, label, id }: Shape) {
         }
     };
     const unit = UNITS[of.unit] ?? of.unit;
-    const none = of.none.length > 6 ? "Auto" : of.none.slice(0, 1).toUpperCase() + of.none.slice(1);
+    const none = of.none.length > 6 ? "Auto" : capital(of.none);
     return (
         <span class="number" data-unit={unit || undefined}>
             <input
@@ -174,7 +175,7 @@ function Color({ app, of, value, label, id }: Shape) {
                 type="text"
                 id={id}
                 value={isColor ? value : ""}
-                placeholder={value === MIXED ? "Mixed" : of.none.slice(0, 1).toUpperCase() + of.none.slice(1)}
+                placeholder={value === MIXED ? "Mixed" : capital(of.none)}
                 autocomplete="off"
                 spellcheck={false}
                 maxLength={32}

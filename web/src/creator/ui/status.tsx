@@ -5,14 +5,16 @@ import type { App } from "../app.js";
 import { LIMITS } from "../settings.js";
 import type { Drawn } from "../work/work.js";
 
-/** Gas of a request besides that of its execution, and bytes of the largest transaction that nodes relay: bounds. */
+/** Gas of a request besides that of its execution, the least gas of a byte (EIP-7623), and the largest transaction: bounds. */
 const BASE = 21_000;
 const BYTE = 16;
+const FLOOR = 40;
 const MOST_BYTES = 130_000;
 
 /** Return where a picture fits, in a few words, and the most demanding place of these. The dialog of limits is exact. */
-export function whereItFits(drawn: Drawn): { text: string; place: "transaction" | "call" | "none" } {
-    const gas = drawn.gas + BASE + BYTE * drawn.calldata;
+function whereItFits(drawn: Drawn): { text: string; place: "transaction" | "call" | "none" } {
+    // a call passes on all but one 64th of the gas that is left (EIP-150)
+    const gas = BASE + Math.max((drawn.gas * 64) / 63 + BYTE * drawn.calldata, FLOOR * drawn.calldata);
     const calls = LIMITS.filter(({ kind }) => kind === "call");
     const nodes = calls.filter((limit) => gas <= limit.gas).map(({ node }) => node);
     if (!nodes.length) return { text: "Fits no usual node: take fewer pixels or triangles", place: "none" };

@@ -4,8 +4,8 @@ import { signal } from "@preact/signals";
 import { useRef, useState } from "preact/hooks";
 import type { Address } from "viem";
 import type { App } from "../app.js";
-import { changesOf, tokenWords } from "../dialogs/limits.js";
-import { Button, Pixels, Progress, Trouble, count, gasWords, useMade, useTask, wordsOf } from "../dialogs/parts.js";
+import { tokenWords, useFit } from "../dialogs/limits.js";
+import { Button, Pixels, Trouble, count, gasWords, useMade, wordsOf } from "../dialogs/parts.js";
 import type { Document } from "../document.js";
 import { titleOf } from "../programs/subject.js";
 import { TRANSACTION_GAS } from "../work/protocol.js";
@@ -129,16 +129,8 @@ function useQuote(app: App, doc: Document, fields: Fields) {
 /** Whether a token of this fits, by how much not, and what would. */
 function Fit(props: { app: App; doc: Document; quote: Quote | null; terms: EditionTerms | null; error: string }) {
     const { app, doc, quote, terms, error } = props;
-    const task = useTask();
-    const [said, say] = useState("");
+    const fit = useFit(app, doc);
     const drawn = app.shown.value?.doc === doc ? app.shown.value.drawn : null;
-    const fit = (): void =>
-        task.start(async (signal, onProgress) => {
-            const fitted = await app.work.fit(doc, "edition", { ...(terms && { terms }), signal, onProgress });
-            if (signal.aborted) return;
-            say(changesOf(doc, fitted));
-            app.change(fitted, "Make it fit");
-        });
     const sides = [doc.width, doc.height].map((side) => side * (quote?.scale ?? 1)).join(" × ");
     return (
         <section class="take" data-name="fit">
@@ -156,13 +148,12 @@ function Fit(props: { app: App; doc: Document; quote: Quote | null; terms: Editi
                 {quote && !quote.fits && (
                     <>
                         <Trouble text={`It does not fit a token: ${tokenWords(quote, doc, drawn?.gas ?? 0)}.`} />
-                        <Button name="fit" look="main" off={task.part !== null} does={fit}>
+                        <Button name="fit" look="main" off={fit.off} does={() => fit.make("edition", terms)}>
                             Make it fit
                         </Button>
                     </>
                 )}
-                <Progress task={task} what="Trying sizes and triangles" />
-                {said && <p role="status">{said}</p>}
+                {fit.shown}
                 {quote?.fits && (
                     <p class="quiet">
                         Up to {quote.storing.length + 1} signatures, {gasWords(quote.gas)}, {count(quote.stored)} bytes

@@ -159,7 +159,13 @@ export async function send(from: Session, call: Call, fees: Fees, tell: Tell): P
     const { to, data, gas, value = 0n } = call;
     const key = [chain, account, to, data, value].join();
     let hash = open.get(key);
-    if (hash && !(await client.request({ method: "eth_getTransactionByHash", params: [hash] }))) hash = undefined;
+    if (hash && !(await client.request({ method: "eth_getTransactionByHash", params: [hash] }))) {
+        // another node may know it still: only the visitor can tell
+        open.delete(key);
+        throw new InputError(
+            `The node of the wallet does not know the transaction ${hash} any more: go on only if it is gone in the wallet, too`,
+        );
+    }
     if (!hash) {
         // the most that was told is what is signed: if it does not suffice any more, nothing is
         if ((await feesOf(from)).max > 2n * fees.max)

@@ -21,6 +21,10 @@ export const SELECTORS = {
 } as const;
 export type Helper = keyof typeof SELECTORS;
 
+/** The largest transaction that nodes relay, in bytes (four slots of 32 KiB), and what it has besides its data. */
+export const MAX_TRANSACTION = 4 * 32 * 1024;
+const ENVELOPE = 512;
+
 /** The selector of a call, and the offset of its only argument, before a struct. */
 const BEFORE_STRUCT = 4 + WORD;
 
@@ -56,6 +60,11 @@ export function word(value: bigint | number): Uint8Array<ArrayBuffer> {
 /** Return the address in a word that a contract returned. */
 export function addressIn(output: Uint8Array): Uint8Array<ArrayBuffer> {
     return output.slice(12, WORD);
+}
+
+/** Return whether nodes relay a transaction with this data. */
+export function isRelayed(data: Uint8Array): boolean {
+    return data.length + ENVELOPE <= MAX_TRANSACTION;
 }
 
 /** Return the gas of a transaction before its execution, by the rules of Cancun. */

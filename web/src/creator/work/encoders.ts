@@ -8,10 +8,8 @@ import { encode } from "../../scene/encode.js";
 import type { Scene } from "../../scene/types.js";
 import { SELECTORS, callOf, structOf } from "./calls.js";
 import type { Machine } from "./machine.js";
-import type { Film, Format, Requests } from "./protocol.js";
+import { MAX_FILE_SIDE, type Film, type Format, type Requests } from "./protocol.js";
 
-/** The largest number of pixels a side of a file. */
-export const MAX_FILE_SIDE = 4096;
 /** The most bytes of the chunk with the scene in a PNG file, and the most characters of its text. */
 const MAX_CHUNK = 64 * 1024;
 const MAX_TEXT = 2 ** 20;

@@ -4,16 +4,11 @@ import { InputError } from "../../errors.js";
 import { encode } from "../../scene/encode.js";
 import type { Scene } from "../../scene/types.js";
 import type { Document, Meshes } from "../document.js";
-import { floorGas, intrinsicGas } from "./calls.js";
+import { floorGas, intrinsicGas, isRelayed } from "./calls.js";
 import type { Machine } from "./machine.js";
-import { Cancelled, TRANSACTION_GAS, type EditionTerms, type Limit, type Options } from "./protocol.js";
+import { CALL_GAS, Cancelled, TRANSACTION_GAS, type EditionTerms, type Limit, type Options } from "./protocol.js";
 import { quoteOf } from "./quote.js";
 
-/** The read call of most nodes, in gas: src/shackled/gas/limits.toml. */
-const CALL_GAS = 50_000_000;
-/** The largest transaction that nodes relay, and what it has besides its data, in bytes. */
-const MAX_TRANSACTION = 4 * 32 * 1024;
-const ENVELOPE = 512;
 /** Longest sides of the canvas: the least that is good enough, and the least at all. */
 const GOOD_SIDE = 128;
 const LEAST_SIDE = 64;
@@ -29,7 +24,7 @@ export function fitsIn(machine: Machine, scene: Scene, limit: Limit, terms = TER
     if (limit === "edition") return quoteOf(machine, scene, terms).fits;
     const call = encode(scene);
     if (limit === "call") return machine.suffices(call, CALL_GAS - intrinsicGas(call));
-    const isSmall = call.length + ENVELOPE <= MAX_TRANSACTION && floorGas(call) <= TRANSACTION_GAS;
+    const isSmall = isRelayed(call) && floorGas(call) <= TRANSACTION_GAS;
     return isSmall && machine.suffices(call, TRANSACTION_GAS - intrinsicGas(call));
 }
 

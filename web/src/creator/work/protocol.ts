@@ -87,6 +87,10 @@ export interface Quote {
 
 /** The largest transaction on Ethereum (EIP-7825), in gas. */
 export const TRANSACTION_GAS = 1 << 24;
+/** The read call of most nodes, in gas: src/shackled/gas/limits.toml. */
+export const CALL_GAS = 50_000_000;
+/** The largest number of pixels a side of a file. */
+export const MAX_FILE_SIDE = 4096;
 
 /** Further contracts, in the form of contracts.json. */
 export type More = Pick<Contracts, "errors"> & { contracts: Record<string, { address: string; code: string }> };
