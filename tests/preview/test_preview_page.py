@@ -81,6 +81,12 @@ def address(server: subprocess.Popen[str]) -> str:
     return next(filter(None, (re.search(r"http://\S+", line) for line in server.stdout)))[0]
 
 
+def pictures_are_there(page: Any) -> None:
+    """Have all pictures loaded: what a save replaces while it is on its way is rightly not found."""
+    page.evaluate("for (const each of document.images) each.loading = 'eager'")
+    page.wait_for_function("() => [...document.images].every((each) => each.complete && each.naturalWidth)")
+
+
 def test_the_page_through_saves_until_the_end(folder: Path, server: subprocess.Popen[str], browser: Any) -> None:
     faults: list[str] = []
     page = browser.new_page(viewport={"width": 700, "height": 500})
@@ -114,6 +120,7 @@ def test_the_page_through_saves_until_the_end(folder: Path, server: subprocess.P
         }"""
     )
     first = page.locator("#media img").get_attribute("src")
+    pictures_are_there(page)
     (folder / "Small.sol").write_text("contract Small {} // second")
     page.wait_for_function("before => document.querySelector('#media img').getAttribute('src') !== before", arg=first)
     done.wait_for()
@@ -127,8 +134,7 @@ def test_the_page_through_saves_until_the_end(folder: Path, server: subprocess.P
     assert page.locator("#tokens.old .token").count() == COUNT
     cards.nth(3).click()
     page.locator("#details[open]").wait_for()
-    shown = "[...document.images].filter((each) => each.offsetParent)"
-    page.wait_for_function(f"() => {shown}.every((each) => each.complete)")
+    pictures_are_there(page)
     (folder / "Small.sol").write_text("contract Small {}   // first")
     done.wait_for()
     assert page.locator("#tokens.old").count() == 0

@@ -29,7 +29,8 @@ export function Sheet(props: {
         };
     }, []);
     const close = (): void => {
-        if (app.dialog.value === name) app.dialog.value = null;
+        // the event of a dialog that is gone must not close one that was opened since
+        if (dialog.current && app.dialog.value === name) app.dialog.value = null;
     };
     const beside = ({ target }: MouseEvent): void => void (target === dialog.current && close());
     const [id, look] = [`${name}-title`, props.wide ? "wide" : ""];
