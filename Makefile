@@ -105,8 +105,8 @@ gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens
 	$(BIN)/python -m benchmarks.icons
 	$(BIN)/python -m benchmarks.motion
 
-golden: $(DEV) ## write tests/golden.json: digests of pixels, and gas, of 300 small scenes
-	$(BIN)/python tests/golden.py --write
+golden: $(DEV) ## write tests/support/golden.json: digests of pixels, and gas, of 300 small scenes
+	$(BIN)/python tests/support/golden.py --write
 
 bench: $(DEV) opengl ## measure: the tables of benchmarks/, those of the README, of docs/antialiasing.md, gas.md and library.md
 	$(BIN)/python -m benchmarks

@@ -29,6 +29,7 @@ from shackled.datasets import pieces
 from . import shared
 from .antialiasing import PAGE
 
+sys.path.insert(0, str(ROOT / "tests" / "support"))
 sys.path.insert(0, str(ROOT / "tests"))
 from conformance import opengl
 from conformance.world import World, background, before_camera

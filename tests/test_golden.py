@@ -1,4 +1,4 @@
-"""No pixel and no gas of tests/golden.json may change unnoticed."""
+"""No pixel and no gas of tests/support/golden.json may change unnoticed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from shackled.scene import render_call
 def test_pixels_and_gas() -> None:
     new = golden.take()
     changed = golden.differences(golden.recorded(), new)
-    title = f"{len(changed)} of {len(new)} scenes differ from tests/golden.json; if this is meant, run `make golden`:"
+    title = f"{len(changed)} of {len(new)} scenes differ from golden.json; if this is meant, run `make golden`:"
     assert not changed, "\n  ".join([title, *changed])
 
 

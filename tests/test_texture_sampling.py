@@ -64,7 +64,7 @@ def by_opengl(texture: Texture, u: float, v: float) -> NDArray[np.float64]:
 @needs_compiler
 def test_the_contract_is_opengl() -> None:
     world = World()
-    probe = world.deploy(compile_example("tests/TextureProbe.sol")[0])
+    probe = world.deploy(compile_example("tests/support/TextureProbe.sol")[0])
     for shape, filter, wrap in product(SHAPES, FILTERS, WRAPS):
         texture = texture_of(*shape, filter, wrap)
         places = places_of(texture).tolist()

@@ -243,7 +243,7 @@ def by_rules() -> str | None:
 
 
 def by_golden() -> str | None:
-    """Compare the digests of pixels, and the errors, of tests/golden.json; not the gas."""
+    """Compare the digests of pixels, and the errors, of tests/support/golden.json; not the gas."""
     import golden
 
     old, new = golden.recorded(), golden.take()
@@ -279,7 +279,7 @@ def run(file: str, judge: str) -> None:
 def killer(file: Path, judge: str) -> str | None:
     """Return what a judge finds of a mutant, in a process of its own."""
     command = [sys.executable, "-m", "tools.mutants", "--run", str(file), judge]
-    paths = os.pathsep.join([str(ROOT), str(ROOT / "tests"), str(ROOT / "src")])
+    paths = os.pathsep.join(map(str, [ROOT, ROOT / "tests", ROOT / "tests" / "support", ROOT / "src"]))
     # one thread each: the arrays are small
     environment = os.environ | {"PYTHONPATH": paths, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     try:

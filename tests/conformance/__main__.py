@@ -17,7 +17,8 @@ import time
 from pathlib import Path
 
 if __package__ in (None, ""):
-    sys.path[:0] = [str(Path(__file__).parents[1])]
+    TESTS = Path(__file__).parents[1]
+    sys.path[:0] = [str(TESTS), str(TESTS / "support")]
 
 import numpy as np
 

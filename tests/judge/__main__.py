@@ -3,7 +3,7 @@
     make conformance
     python tests/judge --count 1000 --seed 1      the random scenes of these seeds
     python tests/judge --only shadows             one kind; `meshes` are the models of ../shared/meshes/decimated
-    python tests/judge --only tame close          scenes of tests/random_scenes.py, which are `make fuzz`
+    python tests/judge --only tame close          scenes of tests/support/random_scenes.py, which are `make fuzz`
 
 A wrong pixel is printed with its scene, what is drawn and what would be right. The exit code is 1 then.
 """
@@ -19,7 +19,8 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 if __package__ in (None, ""):
-    sys.path[:0] = [str(Path(__file__).parents[n]) for n in (1, 2)]
+    TESTS = Path(__file__).parents[1]
+    sys.path[:0] = [str(each) for each in (TESTS, TESTS / "support", TESTS.parent)]
 
 from benchmarks.shared import FOLDER
 

@@ -327,7 +327,7 @@ KINDS: dict[str, Callable[[Rng], Scene]] = {
     "cards": _cards,
     "mixed": _mixed,
 }
-#: Kinds of tests/random_scenes.py: materials and numbers up to the bounds of the contracts.
+#: Kinds of tests/support/random_scenes.py: materials and numbers up to the bounds of the contracts.
 EXTREMES: tuple[Kind, ...] = ("tame", "close")
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-WEB = Path(__file__).resolve().parents[1] / "web"
+WEB = Path(__file__).resolve().parents[2] / "web"
 ESBUILD = WEB / "node_modules" / ".bin" / "esbuild"
 needs_web = pytest.mark.skipif(not ESBUILD.exists() or not shutil.which("node"), reason="needs Node, and `npm ci`")
 

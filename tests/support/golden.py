@@ -1,7 +1,7 @@
 """What the contracts return for 300 small scenes of every kind: digests of pixels and files, and gas.
 
-    python tests/golden.py            tells what differs from golden.json
-    python tests/golden.py --write    and writes it there
+    python tests/support/golden.py            tells what differs from golden.json
+    python tests/support/golden.py --write    and writes it there
 
 A change of pixels shows in the diff of golden.json as a change of gas does; a refactoring leaves the file alone. The
 name of a scene is all that it is made from: its words are changes of a random scene, whose seed is the whole name.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Texture} from "../contracts/src/effects/Texture.sol";
+import {Texture} from "../../contracts/src/effects/Texture.sol";
 
 /// @notice Samples textures.
 contract TextureProbe {
