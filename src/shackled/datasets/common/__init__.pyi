@@ -1,6 +1,6 @@
 from ._clean import MAX_TRIANGLES, capped, clean, creased, placed, prepare, reduce, without_crumbs
 from ._cornell_box import EYE, HEIGHT, cornell_box
-from ._fetch import checksum, fetch, take
+from ._fetch import checksum, download, fetch, take
 from ._models import Model, find, model, models, pieces
 
 __all__ = [
@@ -13,6 +13,7 @@ __all__ = [
     "clean",
     "cornell_box",
     "creased",
+    "download",
     "fetch",
     "find",
     "model",
