@@ -30,7 +30,7 @@ COMMANDS = {
     "mint": ("token", "mint", "2"),
     "deploy": ("deploy", "--contracts", "Original"),
     "reveal": ("token", "reveal"),
-    "store": ("mint", "triangle.obj", "--licence", "MIT", "--size", "8"),
+    "store": ("store", "triangle.obj", "--licence", "MIT", "--size", "8"),
 }
 
 
