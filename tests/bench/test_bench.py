@@ -228,7 +228,7 @@ def test_engines_agree(tmp_path: Path) -> None:
     assert all(float(row["seconds"]) > 0 for row in rows)
 
 
-@pytest.mark.skipif(find_anvil() is None, reason="anvil is not installed: npm ci in contracts/")
+@pytest.mark.node
 def test_a_node_draws_the_same_for_the_same_gas() -> None:
     with AnvilChain(str(find_anvil())) as node:
         scene = scenes.cube(16)
@@ -236,7 +236,7 @@ def test_a_node_draws_the_same_for_the_same_gas() -> None:
         assert node.count(scene) == open_chain().count(scene)
 
 
-@pytest.mark.skipif(find_anvil() is None, reason="anvil is not installed: npm ci in contracts/")
+@pytest.mark.node
 def test_a_node_is_one_more_engine() -> None:
     with AnvilChain(str(find_anvil())) as chain:
         chain.address("Renderer")
