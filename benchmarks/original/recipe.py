@@ -25,7 +25,8 @@ from numpy.typing import NDArray
 
 from shackled import InputError
 from shackled.bench.scenes import cube, equal_triangles
-from shackled.datasets.common import Model, checksum, download
+from shackled.datasets.common._fetch import checksum, download
+from shackled.datasets.common._models import Model
 from shackled.scene import from_euler, rotate
 
 from .documents import Document, document, genesis_document, scene_document

@@ -14,10 +14,11 @@ from benchmarks.original import recipe
 from benchmarks.original.documents import call_data, document
 
 from shackled import InputError
-from shackled.bench import call, cost, original
+from shackled.bench import call, original
+from shackled.bench._measure import cost
 from shackled.chain import RevmChain
 from shackled.ethereum import to_hex
-from shackled.scene import original_scene
+from shackled.scene._files.original import original_scene
 
 #: The interface of the original: a token that leaves the work to a library.
 STAND_IN = """
