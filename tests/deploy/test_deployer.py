@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 from eth_account import Account
-from tools.anvil import Anvil
 
-from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, result, serving
+from nodes import KEY, Node, Reply, anvil, failure, forward, result, serving
 from proxies import Liar
 from shackled.artifacts import RENDERER, artifact
 from shackled.chain import AddressBook, Connection
@@ -42,22 +40,16 @@ def book(tmp_path: Path) -> AddressBook:
     return AddressBook(tmp_path / "addresses.json")
 
 
-@pytest.fixture
-def node() -> Iterator[Anvil]:
-    with anvil() as running:
-        yield running
-
-
 @pytest.fixture(scope="module")
 def wanted() -> list[Deployment]:
     return deployments()
 
 
-def parts(node: Anvil, book: AddressBook) -> tuple[Deployer, Transactor]:
+def parts(node: Node, book: AddressBook) -> tuple[Deployer, Transactor]:
     return Deployer(node.connection, book), Transactor(node.connection, Account.from_key(KEY))
 
 
-def code(node: Anvil, address: bytes) -> bytes:
+def code(node: Node, address: bytes) -> bytes:
     return node.connection.data("eth_getCode", "0x" + address.hex(), "latest")
 
 
@@ -114,8 +106,7 @@ def test_the_transaction_that_deploys_the_proxy() -> None:
     assert COST == 10**16
 
 
-@needs_anvil
-def test_deploying(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
+def test_deploying(node: Node, book: AddressBook, wanted: list[Deployment]) -> None:
     deployer, transactor = parts(node, book)
     plan = deployer.plan(wanted)
     assert missing(plan) == list(STANDARD)
@@ -138,8 +129,7 @@ def test_deploying(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> 
     assert node.rpc("eth_getTransactionCount", "0x" + transactor.address.hex(), "latest") == nonce
 
 
-@needs_anvil
-def test_the_price_that_was_told_is_kept(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
+def test_the_price_that_was_told_is_kept(node: Node, book: AddressBook, wanted: list[Deployment]) -> None:
     deployer, transactor = parts(node, book)
     plan = deployer.plan(wanted)
     receipts = deployer.execute(plan, transactor)
@@ -147,7 +137,6 @@ def test_the_price_that_was_told_is_kept(node: Anvil, book: AddressBook, wanted:
     assert 0 < sum(receipt.fee for receipt in receipts) <= plan.cost
 
 
-@needs_anvil
 def test_a_chain_without_the_proxy(book: AddressBook, wanted: list[Deployment]) -> None:
     with anvil(*NO_PROXY, "--chain-id", "4321") as node:
         deployer, transactor = parts(node, book)
@@ -164,7 +153,6 @@ def test_a_chain_without_the_proxy(book: AddressBook, wanted: list[Deployment]) 
         assert book.entries(4321).keys() == set(RENDERER)
 
 
-@needs_anvil
 def test_a_proxy_whose_signer_has_something_already(book: AddressBook, wanted: list[Deployment]) -> None:
     with anvil(*NO_PROXY) as node:
         node.rpc("anvil_setBalance", "0x" + SIGNER.hex(), hex(COST // 4))
@@ -176,7 +164,6 @@ def test_a_proxy_whose_signer_has_something_already(book: AddressBook, wanted: l
         assert code(node, wanted[0].address) == wanted[0].code
 
 
-@needs_anvil
 def test_a_node_that_refuses_the_published_transaction(book: AddressBook, wanted: list[Deployment]) -> None:
     """Nothing is paid before it says so."""
 
@@ -196,7 +183,6 @@ def test_a_node_that_refuses_the_published_transaction(book: AddressBook, wanted
         assert code(bare, PROXY) == PROXY_CODE
 
 
-@needs_anvil
 def test_chains_that_cannot_have_the_contracts(book: AddressBook, wanted: list[Deployment]) -> None:
     with anvil("--hardfork", "shanghai") as old, pytest.raises(WrongChainError, match="they need the rules of Cancun"):
         Deployer(old.connection, book).plan(wanted)
@@ -208,8 +194,7 @@ def test_chains_that_cannot_have_the_contracts(book: AddressBook, wanted: list[D
             Deployer(small.connection, book).plan(wanted)
 
 
-@needs_anvil
-def test_going_on_where_it_stopped(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
+def test_going_on_where_it_stopped(node: Node, book: AddressBook, wanted: list[Deployment]) -> None:
     deployer, transactor = parts(node, book)
     plan = deployer.plan(wanted)
 
@@ -227,8 +212,7 @@ def test_going_on_where_it_stopped(node: Anvil, book: AddressBook, wanted: list[
     assert deployer.plan(wanted).missing == []
 
 
-@needs_anvil
-def test_anything_else_in_the_place(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
+def test_anything_else_in_the_place(node: Node, book: AddressBook, wanted: list[Deployment]) -> None:
     deployer, _ = parts(node, book)
     node.rpc("anvil_setCode", "0x" + wanted[len(RENDERER) - 1].address.hex(), "0x00")
     with pytest.raises(TransactionError, match="is not that of Renderer"):
@@ -239,8 +223,7 @@ def test_anything_else_in_the_place(node: Anvil, book: AddressBook, wanted: list
         deployer.plan(wanted)
 
 
-@needs_anvil
-def test_an_account_with_too_little(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
+def test_an_account_with_too_little(node: Node, book: AddressBook, wanted: list[Deployment]) -> None:
     deployer = Deployer(node.connection, book)
     poor = Transactor(node.connection, Account.create())
     with pytest.raises(TransactionError, match=r"^the account 0x\w+ has 0 ether on chain 31337, and .* are needed"):
@@ -248,8 +231,7 @@ def test_an_account_with_too_little(node: Anvil, book: AddressBook, wanted: list
     assert not book.path.exists()
 
 
-@needs_anvil
-def test_any_creation_code(node: Anvil, book: AddressBook) -> None:
+def test_any_creation_code(node: Node, book: AddressBook) -> None:
     """Such as that of a collection."""
     deployer, transactor = parts(node, book)
     # leaves a contract of one byte: PUSH1 1 PUSH0 RETURN
@@ -262,7 +244,6 @@ def test_any_creation_code(node: Anvil, book: AddressBook) -> None:
     assert deployer.is_deployed(own)
 
 
-@needs_anvil
 def test_hosts_whose_nodes_are_not_in_step(book: AddressBook, wanted: list[Deployment]) -> None:
     """Each answer but every third comes from a node that has not heard of the last block."""
     count = 0
@@ -286,7 +267,6 @@ def test_hosts_whose_nodes_are_not_in_step(book: AddressBook, wanted: list[Deplo
         ]
 
 
-@needs_anvil
 def test_limits_follow_the_estimates_of_the_node(book: AddressBook, wanted: list[Deployment]) -> None:
     """A fork may count gas otherwise: seven times as much for code, say."""
     lies = {"eth_estimateGas": lambda gas, _: hex(7 * int(gas, 16))}
@@ -301,9 +281,8 @@ def test_limits_follow_the_estimates_of_the_node(book: AddressBook, wanted: list
         assert before - Transactor(node.connection, Account.from_key(KEY)).balance() <= plan.ceiling
 
 
-@needs_anvil
 def test_a_node_that_estimates_only_what_can_be_done_now(
-    node: Anvil, book: AddressBook, wanted: list[Deployment]
+    node: Node, book: AddressBook, wanted: list[Deployment]
 ) -> None:
     """The renderer needs the engine, which is not there yet: its gas is taken to be as dear as that of the others."""
 
@@ -327,7 +306,6 @@ def test_a_node_that_estimates_only_what_can_be_done_now(
     ]
 
 
-@needs_anvil
 def test_a_chain_on_which_the_published_transaction_has_too_little_gas(
     book: AddressBook, wanted: list[Deployment]
 ) -> None:
@@ -351,7 +329,6 @@ def test_a_chain_on_which_the_published_transaction_has_too_little_gas(
             assert transactor.balance() == before
 
 
-@needs_anvil
 def test_a_proxy_that_is_too_dear_now(book: AddressBook, wanted: list[Deployment]) -> None:
     with anvil(*NO_PROXY, "--base-fee", str(300 * 10**9)) as node:
         deployer, transactor = parts(node, book)

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from nodes import anvil, needs_anvil
+from commands import Shackled
+from nodes import Node, anvil
 from shackled.chain import VARIABLE
 from shackled.cli.app import run
-from tokens.on_a_node import Node, Shackled
 
 
 def test_the_demo_plays_both_collections_through(node: Node, tmp_path: Path, shackled: Shackled) -> None:
@@ -41,7 +41,6 @@ def test_the_demo_plays_both_collections_through(node: Node, tmp_path: Path, sha
     assert "http" not in text.replace("http-equiv", "")
 
 
-@needs_anvil
 @pytest.mark.parametrize(
     ("options", "said"),
     [

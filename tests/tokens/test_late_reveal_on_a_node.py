@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from nodes import anvil, needs_anvil
+from nodes import anvil
 from proxies import Liar
 from shackled.chain import VARIABLE
 from shackled.cli.app import run
@@ -29,7 +29,6 @@ from shackled.tokens import (
 )
 
 
-@needs_anvil
 def test_an_old_block_is_proven_by_the_headers_after_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
