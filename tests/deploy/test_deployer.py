@@ -9,16 +9,12 @@ from typing import Any
 import pytest
 from eth_account import Account
 
-from nodes import KEY, Node, Reply, anvil, failure, forward, result, serving
+from nodes import KEY, Node, Reply, anvil, failure, forward, needs_anvil, result, serving
 from proxies import Liar
 from shackled.artifacts import RENDERER, artifact
 from shackled.chain import AddressBook, Connection
 from shackled.deploy import (
     CONTRACTS,
-    COST,
-    PROXY_CODE,
-    SIGNED,
-    SIGNER,
     STANDARD,
     Deployer,
     Deployment,
@@ -28,6 +24,8 @@ from shackled.deploy import (
     deployments,
     local_chain,
 )
+from shackled.deploy._contract import PROXY_CODE
+from shackled.deploy._proxy import COST, SIGNED, SIGNER
 from shackled.errors import ChainError, InputError, TransactionError, WrongChainError
 from shackled.ethereum import PROXY, SALT, checksum_address, create2_address, keccak256, parse_address
 
@@ -137,6 +135,7 @@ def test_the_price_that_was_told_is_kept(node: Node, book: AddressBook, wanted: 
     assert 0 < sum(receipt.fee for receipt in receipts) <= plan.cost
 
 
+@needs_anvil
 def test_a_chain_without_the_proxy(book: AddressBook, wanted: list[Deployment]) -> None:
     with anvil(*NO_PROXY, "--chain-id", "4321") as node:
         deployer, transactor = parts(node, book)
@@ -153,6 +152,7 @@ def test_a_chain_without_the_proxy(book: AddressBook, wanted: list[Deployment]) 
         assert book.entries(4321).keys() == set(RENDERER)
 
 
+@needs_anvil
 def test_a_proxy_whose_signer_has_something_already(book: AddressBook, wanted: list[Deployment]) -> None:
     with anvil(*NO_PROXY) as node:
         node.rpc("anvil_setBalance", "0x" + SIGNER.hex(), hex(COST // 4))
@@ -164,6 +164,7 @@ def test_a_proxy_whose_signer_has_something_already(book: AddressBook, wanted: l
         assert code(node, wanted[0].address) == wanted[0].code
 
 
+@needs_anvil
 def test_a_node_that_refuses_the_published_transaction(book: AddressBook, wanted: list[Deployment]) -> None:
     """Nothing is paid before it says so."""
 
@@ -183,6 +184,7 @@ def test_a_node_that_refuses_the_published_transaction(book: AddressBook, wanted
         assert code(bare, PROXY) == PROXY_CODE
 
 
+@needs_anvil
 def test_chains_that_cannot_have_the_contracts(book: AddressBook, wanted: list[Deployment]) -> None:
     with anvil("--hardfork", "shanghai") as old, pytest.raises(WrongChainError, match="they need the rules of Cancun"):
         Deployer(old.connection, book).plan(wanted)
@@ -244,6 +246,7 @@ def test_any_creation_code(node: Node, book: AddressBook) -> None:
     assert deployer.is_deployed(own)
 
 
+@needs_anvil
 def test_hosts_whose_nodes_are_not_in_step(book: AddressBook, wanted: list[Deployment]) -> None:
     """Each answer but every third comes from a node that has not heard of the last block."""
     count = 0
@@ -267,6 +270,7 @@ def test_hosts_whose_nodes_are_not_in_step(book: AddressBook, wanted: list[Deplo
         ]
 
 
+@needs_anvil
 def test_limits_follow_the_estimates_of_the_node(book: AddressBook, wanted: list[Deployment]) -> None:
     """A fork may count gas otherwise: seven times as much for code, say."""
     lies = {"eth_estimateGas": lambda gas, _: hex(7 * int(gas, 16))}
@@ -306,6 +310,7 @@ def test_a_node_that_estimates_only_what_can_be_done_now(
     ]
 
 
+@needs_anvil
 def test_a_chain_on_which_the_published_transaction_has_too_little_gas(
     book: AddressBook, wanted: list[Deployment]
 ) -> None:
@@ -329,6 +334,7 @@ def test_a_chain_on_which_the_published_transaction_has_too_little_gas(
             assert transactor.balance() == before
 
 
+@needs_anvil
 def test_a_proxy_that_is_too_dear_now(book: AddressBook, wanted: list[Deployment]) -> None:
     with anvil(*NO_PROXY, "--base-fee", str(300 * 10**9)) as node:
         deployer, transactor = parts(node, book)

@@ -11,14 +11,16 @@ from typing import Any
 import pytest
 from eth_account import Account
 
-from nodes import KEY, Node, Reply, anvil, failure, forward, result, serving
+from nodes import KEY, Node, Reply, anvil, failure, forward, needs_anvil, result, serving
 from proxies import Liar
 from shackled.artifacts import artifact
 from shackled.chain import Connection
-from shackled.deploy import FIELDS, ORACLE, Call, Fees, Quote, Transactor, make_quotes
+from shackled.deploy import Call, Fees, Quote, Transactor, make_quotes
+from shackled.deploy._quote import FIELDS, ORACLE
 from shackled.errors import ChainError, NodeError, NodeUnreachableError, TransactionError
 from shackled.ethereum import ETHER, GWEI, PROXY, to_hex, word
 
+pytestmark = needs_anvil
 SOMEONE = b"\x77" * 20
 
 

@@ -11,7 +11,7 @@ from PIL import Image as PillowImage
 from PIL import ImageSequence
 
 import shackled
-from nodes import anvil
+from nodes import anvil, needs_anvil
 from shackled import InputError, Nodes, Processes, load
 from shackled.cli.app import run
 from shackled.studio import make_apng, make_glb
@@ -67,6 +67,7 @@ def test_a_model(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["export", "icons/lightning", "-o", str(tmp_path / "b.glb"), "--title", "A"]) == 2
 
 
+@needs_anvil
 def test_on_a_node() -> None:
     with anvil() as node:
         made = make_glb(SCENE, Nodes(node.url))

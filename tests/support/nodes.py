@@ -20,8 +20,8 @@ from web3 import HTTPProvider, Web3
 from shackled.artifacts import artifact
 
 ANVIL = find_anvil()
-MISSING = "anvil is not installed: npm ci in contracts/"
-needs_anvil = pytest.mark.skipif(ANVIL is None, reason=MISSING)
+#: Skipped without anvil: see tests/conftest.py. Tests that use the fixture `node` have this mark.
+needs_anvil = pytest.mark.node
 
 #: Of the first account that anvil gives ether to, as its documentation has it. It is worth nothing anywhere else.
 KEY = "0xac0974bec39a17e36ba4a6b4d238ff944bacb478cbed5efcae784d7bf4f2ff80"
@@ -56,9 +56,8 @@ class Node(Anvil):
 
 
 def anvil(*options: str) -> Node:
-    """A node, to be used as a context; several may run at once. Without an anvil, the test is skipped."""
-    if ANVIL is None:
-        pytest.skip(MISSING)
+    """A node, to be used as a context; several may run at once. Tests that call this have the mark of needs_anvil."""
+    assert ANVIL is not None
     return Node(ANVIL, *options)
 
 

@@ -11,7 +11,7 @@ from commands import Said, Shackled
 from nodes import Node
 from shackled.chain import VARIABLE
 from shackled.cli.app import run
-from shackled.tokens import development_accounts
+from shackled.tokens._demo import development_accounts
 
 
 @pytest.fixture(scope="module")

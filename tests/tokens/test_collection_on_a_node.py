@@ -22,15 +22,9 @@ from shackled.cli.app import run
 from shackled.deploy import local_chain
 from shackled.errors import ChainError, NodeError, RevertError
 from shackled.ethereum import checksum_address
-from shackled.tokens import (
-    Contract,
-    check_collection_code,
-    check_token,
-    development_accounts,
-    immutable_places,
-    open_collection,
-    read_allow_list,
-)
+from shackled.tokens import Contract, check_collection_code, check_token, open_collection, read_allow_list
+from shackled.tokens._demo import development_accounts
+from shackled.tokens._immutables import immutable_places
 
 OWNER, ALICE, BOB, CAROL = range(4)
 PRICE = 2 * 10**17

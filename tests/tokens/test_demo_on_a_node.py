@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from commands import Shackled
-from nodes import Node, anvil
+from nodes import Node, anvil, needs_anvil
 from shackled.chain import VARIABLE
 from shackled.cli.app import run
 
@@ -41,6 +41,7 @@ def test_the_demo_plays_both_collections_through(node: Node, tmp_path: Path, sha
     assert "http" not in text.replace("http-equiv", "")
 
 
+@needs_anvil
 @pytest.mark.parametrize(
     ("options", "said"),
     [

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from nodes import KEY, Node, anvil
+from nodes import KEY, Node, anvil, needs_anvil
 from proxies import Liar
 from shackled.chain import VARIABLE, Connection
 from shackled.cli.app import run
@@ -61,6 +61,7 @@ def test_chains_that_cannot_draw_seeds(layer_2: Node, lies: Any, words: str) -> 
         check_randomness(Connection(url), any_chain=True)
 
 
+@needs_anvil
 def test_a_chain_without_blocks_is_taken() -> None:
     with anvil() as node:
         check_randomness(node.connection)
