@@ -24,7 +24,7 @@ from shackled.errors import ChainError, NodeError, RevertError
 from shackled.ethereum import checksum_address
 from shackled.tokens import Contract, check_collection_code, check_token, open_collection, read_allow_list
 from shackled.tokens._demo import development_accounts
-from shackled.tokens._immutables import immutable_places
+from shackled.tokens._launch import immutable_places
 
 OWNER, ALICE, BOB, CAROL = range(4)
 PRICE = 2 * 10**17
