@@ -1,4 +1,4 @@
-"""Deploying on real nodes: at addresses that are known before, for the gas that was told, once."""
+"""Deploying on real nodes: at addresses that are known before, for the gas that was quoted, once."""
 
 from __future__ import annotations
 
@@ -125,13 +125,13 @@ def test_deploying(node: Node, book: AddressBook, wanted: list[Deployment]) -> N
     assert missing(plan) == list(STANDARD)
     assert plan.steps[0].name == "deployment proxy"
     assert all(code(node, each.address) == b"" for each in wanted)
-    told: list[tuple[str, int]] = []
+    reported: list[tuple[str, int]] = []
     receipts = deployer.execute(
-        plan, transactor, lambda step, done: told.append((step.name, sum(each.gas for each in done)))
+        plan, transactor, lambda step, done: reported.append((step.name, sum(each.gas for each in done)))
     )
     assert_deployed(node, wanted)
     # gas is known before, exactly
-    assert told == [(each.name, each.gas) for each in wanted]
+    assert reported == [(each.name, each.gas) for each in wanted]
     assert plan.gas == sum(receipt.gas for receipt in receipts)
     assert book.entries(31337) == {each.name: each.address for each in wanted}
     # the second time there is nothing to do
@@ -142,7 +142,7 @@ def test_deploying(node: Node, book: AddressBook, wanted: list[Deployment]) -> N
     assert node.rpc("eth_getTransactionCount", "0x" + transactor.address.hex(), "latest") == nonce
 
 
-def test_the_price_that_was_told_is_kept(node: Node, book: AddressBook, wanted: list[Deployment]) -> None:
+def test_the_price_that_was_quoted_is_kept(node: Node, book: AddressBook, wanted: list[Deployment]) -> None:
     deployer, transactor = parts(node, book)
     plan = deployer.plan(wanted)
     receipts = deployer.execute(plan, transactor)

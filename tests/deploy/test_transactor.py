@@ -115,7 +115,7 @@ def test_what_is_signed_is_what_was_quoted(node: Node) -> None:
         ({"eth_estimateGas": lambda gas, _: "0x" + 20_000 * "9"}, "an invalid number"),
     ],
 )
-def test_odd_answers_are_told_before_anything_is_sent(node: Node, lies: Any, words: str) -> None:
+def test_odd_answers_are_reported_before_anything_is_sent(node: Node, lies: Any, words: str) -> None:
     before = node.rpc("eth_blockNumber")
     with Liar(lies).before(node.url) as url, pytest.raises(ChainError, match=words):
         transactor(url).send(quoted(transactor(url)))
@@ -138,7 +138,7 @@ def test_odd_events_of_a_transaction_that_succeeded(node: Node, logs: Any) -> No
 
 @pytest.mark.parametrize("receipt", ["zz", {}, {"status": "0x1"}, {"status": "0x" + 99 * "1"}])
 def test_what_is_no_receipt(node: Node, receipt: Any) -> None:
-    """The transaction was sent all the same, which is told."""
+    """The transaction was sent all the same, which is reported."""
     lies = {"eth_getTransactionReceipt": lambda right, _: receipt}
     words = r"^the transaction 0x\w{64} was sent, check what became of it before .*: .*an invalid receipt"
     with Liar(lies).before(node.url) as url, pytest.raises(NodeError, match=words):
@@ -155,7 +155,7 @@ def test_a_refusal_without_a_reason(node: Node) -> None:
         quoted(transactor(node.url), PROXY, bytes(32) + bytes.fromhex("5f5ffd"))
 
 
-def test_what_is_waited_for_is_told(node: Node, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_waited_for_is_reported(node: Node, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("shackled.deploy._transactor.DELAY", 0.0)
     asked, reported = count(), list[str]()
     with replying(node.url, eth_getTransactionReceipt=lambda _: result(None) if next(asked) < 4 else None) as url:
@@ -251,7 +251,7 @@ def test_a_transaction_that_is_in_no_block() -> None:
 
 
 def test_a_transaction_that_was_replaced() -> None:
-    """It is told long before the patience ends."""
+    """It is reported long before the patience ends."""
     with anvil("--no-mining") as node:
 
         def replace_it(request: dict[str, Any]) -> Reply:
