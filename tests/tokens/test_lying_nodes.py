@@ -125,7 +125,7 @@ def pay(
     if not yes:
         liar.lying = False
         patch.setattr("sys.stdin", Terminal())
-        patch.setattr("typer.confirm", agree)
+        patch.setattr("click.confirm", agree)
     before = balance(node)
     with liar.before(node.url) as url:
         code = run([*arguments, "--rpc", url, "--private-key-env", "KEY", *(["--yes"] if yes else [])])
