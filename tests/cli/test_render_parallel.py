@@ -19,7 +19,7 @@ from PIL import Image as PillowImage
 from nodes import anvil, needs_anvil
 from shackled.chain import Drawing
 from shackled.cli.app import run
-from shackled.parallel import draw_part
+from shackled.parallel._backends import draw_part
 from shackled.whole_file import write_whole
 
 PATIENCE = 60

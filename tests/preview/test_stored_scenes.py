@@ -13,7 +13,9 @@ from shackled.chain import RevmChain
 from shackled.cli.app import run
 from shackled.ethereum import checksum_address
 from shackled.library import items
-from shackled.preview import Preview, Project, Request, World, library_codes, stored_scene
+from shackled.preview import Preview, Project, Request, stored_scene
+from shackled.preview._library import library_codes
+from shackled.preview._world import World
 
 
 @pytest.fixture

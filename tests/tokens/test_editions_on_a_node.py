@@ -18,7 +18,8 @@ from shackled.chain import Connection
 from shackled.cli.app import run
 from shackled.errors import InputError, NodeError
 from shackled.ethereum import to_hex
-from shackled.tokens import EDITIONS, OPEN, Collection, EditionTerms, editions_address, editions_of, parts_of
+from shackled.tokens import EDITIONS, OPEN, Collection, EditionTerms, editions_of, parts_of
+from shackled.tokens._editions import editions_address
 from tokens.on_a_node import Node, Shackled
 
 ROOT = Path(__file__).resolve().parents[2]
