@@ -66,7 +66,7 @@ types: $(DEV) ## types of the Python code
 
 contracts: $(DEV) $(NODE) ## whether the compiled contracts are those of the sources
 	$(BIN)/python tools/build_contracts.py --check
-	$(BIN)/python tools/build_package.py --check
+	$(BIN)/python -m tools.build_package --check
 
 evm-check: $(DEV) ## whether the compiled EVM is that of the sources
 	$(BIN)/python tools/build_evm.py --check
@@ -89,11 +89,11 @@ build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bund
 	$(BIN)/python tools/build_contracts.py
 	$(BIN)/python tools/library.py
 	$(BIN)/python tools/build_contracts.py --group library
-	$(BIN)/python tools/build_package.py
+	$(BIN)/python -m tools.build_package
 	$(BIN)/python tools/build_web.py
 
 npm: $(DEV) ## the npm package for contract authors, in build/npm
-	$(BIN)/python tools/build_package.py
+	$(BIN)/python -m tools.build_package
 
 evm: $(DEV) ## compile the EVM of evm/ into src/shackled/evm, with the compiler that src/shackled/evm/evm.json names
 	$(BIN)/python tools/build_evm.py
