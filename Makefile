@@ -13,7 +13,7 @@ ifndef CHECKS
 .NOTPARALLEL:
 endif
 .DEFAULT_GOAL := help
-.PHONY: help browser opengl demo page creator test lint types contracts evm evm-check web docs unit verify build npm gas golden bench paper fuzz models mutants conformance pictures clean
+.PHONY: help browser opengl demo page creator test lint types contracts evm evm-check web docs unit verify build npm release-check gas golden bench paper fuzz models mutants conformance pictures clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -94,6 +94,9 @@ build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bund
 
 npm: $(DEV) ## the npm package for contract authors, in build/npm
 	$(BIN)/python -m tools.build_package
+
+release-check: $(DEV) $(NODE) page ## build what would be published into build/release, and use it in fresh environments
+	$(BIN)/python -m tools.release_check
 
 evm: $(DEV) ## compile the EVM of evm/ into src/shackled/evm, with the compiler that src/shackled/evm/evm.json names
 	$(BIN)/python tools/build_evm.py
