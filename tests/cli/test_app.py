@@ -104,6 +104,42 @@ def test_closed_outputs() -> None:
     assert json.loads(done.stdout)["lit_pixels"] == 0
 
 
+@pytest.mark.parametrize(
+    ("arguments", "meant"),
+    [
+        (["mint", "icons/die"], "command mint: it is store, which mints no token; `shackled token mint` does"),
+        (["render", "shape.obj", "--chain", "revm"], "option --chain: it is --evm"),
+        (["gas", "shape.obj", "--chain=revm"], "option --chain: it is --evm"),
+        (["stages", "shape.obj", "--chain", "revm", "-o", "out"], "option --chain: it is --evm"),
+        (["render", "shape.obj", "--width", "64"], "option --width: it is --size"),
+        (["render", "shape.obj", "--fps", "24"], "option --fps: it is --duration"),
+        (["render", "shape.obj", "--alpha"], "option --alpha: it is --transparent"),
+        (["turntable", "shape.obj"], "command turntable: it is render INPUT --turntable FRAMES"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
+)
+def test_other_words_name_the_right_ones(
+    arguments: list[str], meant: str, capsys: pytest.CaptureFixture[str], folder: Path
+) -> None:
+    assert run_command(arguments) == 2
+    assert capsys.readouterr() == ("", f"shackled: no such {meant}\n")
+    assert [each.name for each in folder.iterdir()] == ["shape.obj"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [(["deploy", "--chain", "1"], "--chain-id"), (["token", "turntable"], "'turntable'")],
+    ids=str,
+)
+def test_words_that_mean_something_else_are_left(
+    arguments: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run_command(arguments) == 2
+    message = capsys.readouterr().err
+    assert said in message
+    assert "it is" not in message
+
+
 def test_help_in_short(capsys: pytest.CaptureFixture[str]) -> None:
     for command in ([], ["render"], ["token", "mint"]):
         assert run_command([*command, "-h"]) == 0

@@ -148,7 +148,7 @@ def test_several_inputs(capsys: pytest.CaptureFixture[str]) -> None:
         ("export", ["-o", "a.glb"]),
         ("gas", ["--profile", "a.svg"]),
         ("stages", ["-o", "stages"]),
-        ("mint", ["--calldata", "a.json", "--licence", "my own work", "--rpc", "http://127.0.0.1:9"]),
+        ("store", ["--calldata", "a.json", "--licence", "my own work", "--rpc", "http://127.0.0.1:9"]),
     ],
     ids=lambda value: value if isinstance(value, str) else value[-1],
 )

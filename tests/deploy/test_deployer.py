@@ -17,10 +17,6 @@ from shackled.artifacts import RENDERER, artifact
 from shackled.chain import AddressBook, Connection
 from shackled.deploy import (
     CONTRACTS,
-    COST,
-    PROXY_CODE,
-    SIGNED,
-    SIGNER,
     STANDARD,
     Deployer,
     Deployment,
@@ -30,6 +26,8 @@ from shackled.deploy import (
     deployments,
     local_chain,
 )
+from shackled.deploy._contract import PROXY_CODE
+from shackled.deploy._proxy import COST, SIGNED, SIGNER
 from shackled.errors import ChainError, InputError, TransactionError, WrongChainError
 from shackled.ethereum import PROXY, SALT, checksum_address, create2_address, keccak256, parse_address
 

@@ -16,7 +16,8 @@ from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, result, serv
 from proxies import Liar
 from shackled.artifacts import artifact
 from shackled.chain import Connection
-from shackled.deploy import FIELDS, ORACLE, Call, Fees, Quote, Transactor, make_quotes
+from shackled.deploy import Call, Fees, Quote, Transactor, make_quotes
+from shackled.deploy._quote import FIELDS, ORACLE
 from shackled.errors import ChainError, NodeError, NodeUnreachableError, TransactionError
 from shackled.ethereum import ETHER, GWEI, PROXY, to_hex, word
 

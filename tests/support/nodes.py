@@ -17,7 +17,8 @@ import requests
 from tools.anvil import Anvil, find_anvil
 
 ANVIL = find_anvil()
-needs_anvil = pytest.mark.skipif(ANVIL is None, reason="anvil is not installed: npm ci in contracts/")
+#: Skipped without anvil: see tests/conftest.py. Tests that use the fixture `node` have this mark.
+needs_anvil = pytest.mark.node
 
 #: Of the first account that anvil gives ether to, as its documentation has it. It is worth nothing anywhere else.
 KEY = "0xac0974bec39a17e36ba4a6b4d238ff944bacb478cbed5efcae784d7bf4f2ff80"

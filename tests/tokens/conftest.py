@@ -10,7 +10,7 @@ import pytest
 from nodes import ANVIL, PUBLIC, anvil
 from shackled.chain import VARIABLE
 from shackled.cli.app import run
-from shackled.tokens import development_accounts
+from shackled.tokens._demo import development_accounts
 from tokens.on_a_node import Node, Said, Shackled
 
 

@@ -21,15 +21,9 @@ from shackled.cli.app import run
 from shackled.deploy import local_chain
 from shackled.errors import ChainError, NodeError, RevertError
 from shackled.ethereum import checksum_address
-from shackled.tokens import (
-    Contract,
-    check_collection_code,
-    check_token,
-    development_accounts,
-    immutable_places,
-    open_collection,
-    read_allow_list,
-)
+from shackled.tokens import Contract, check_collection_code, check_token, open_collection, read_allow_list
+from shackled.tokens._demo import development_accounts
+from shackled.tokens._immutables import immutable_places
 from tokens.on_a_node import Node, Shackled
 
 OWNER, ALICE, BOB, CAROL = range(4)

@@ -18,7 +18,8 @@ from shackled.chain import Connection
 from shackled.cli.app import run
 from shackled.errors import InputError, NodeError
 from shackled.ethereum import to_hex
-from shackled.tokens import EDITIONS, OPEN, Collection, EditionTerms, editions_address, editions_of, parts_of
+from shackled.tokens import EDITIONS, OPEN, Collection, EditionTerms, editions_of, parts_of
+from shackled.tokens._editions import editions_address
 from tokens.on_a_node import Node, Shackled
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -51,7 +52,7 @@ def test_the_whole_way_of_editions(
     shackled("deploy", "--contracts", "Editions", "--yes", user=OWNER)
     contract = node.contract("Editions", editions_address())
     assert contract.functions.name().call() == EDITIONS.title
-    pointer = pointer_of(shackled("mint", "triangle.obj", "--licence", "MIT", "--size", 8, "--yes", user=ALICE))
+    pointer = pointer_of(shackled("store", "triangle.obj", "--licence", "MIT", "--size", 8, "--yes", user=ALICE))
 
     # what cannot be drawn is told before anything is asked
     said = shackled(*edition, "add", node.accounts[9], "Ghost", "--price", 0, "--yes", user=ALICE, expect=1)
@@ -124,7 +125,7 @@ def test_the_whole_way_of_editions(
         assert "its code differs from the compiled contract" in said.error
 
     # a token larger than wallets like, with a model, is right all the same
-    large = pointer_of(shackled("mint", "triangle.obj", "--licence", "MIT", "--size", 280, "--yes", user=ALICE))
+    large = pointer_of(shackled("store", "triangle.obj", "--licence", "MIT", "--size", 280, "--yes", user=ALICE))
     shackled(*edition, "add", large, "Large", "--scale", 8, "--model", "--price", 0, "--yes", user=ALICE)
     assert "WRONG" not in shackled("token", "verify", 4, "-c", "editions").out
 

@@ -13,7 +13,8 @@ from shackled.chain import VARIABLE, AddressBook
 from shackled.cli.app import run
 from shackled.deploy import Transactor
 from shackled.ethereum import checksum_address
-from shackled.tokens import KINDS, Collection, CollectionTerms, development_accounts, icons_of, launch, plan_launch
+from shackled.tokens import KINDS, Collection, CollectionTerms, icons_of, launch, plan_launch
+from shackled.tokens._demo import development_accounts
 
 pytestmark = needs_anvil
 KIND = KINDS["icons"]

@@ -51,12 +51,12 @@ def test_the_whole_way_of_icons(node: Node, address: str, tmp_path: Path, shackl
     said = shackled("token", "phase", "public", *icons, user=OWNER, expect=1)
     assert "the owner has to seal the collection first" in said.error
     said = shackled("token", "add", "heart", "--yes", user=OWNER, expect=2)
-    assert "icons/heart is not on the chain yet; run: shackled mint icons/heart" in said.error
+    assert "icons/heart is not on the chain yet; run: shackled store icons/heart" in said.error
     # nor is anything added that cannot be drawn
     said = shackled("token", "add", "Ghost", contract.functions.studio().call(), "--yes", user=OWNER, expect=1)
     assert "do not belong to that address" in said.error
     assert contract.functions.iconCount().call() == 2
-    shackled("mint", "icons/heart", "--yes", user=ALICE)
+    shackled("store", "icons/heart", "--yes", user=ALICE)
     said = shackled("token", "add", "heart", "--price", "0.01", "--supply", 3, "--yes", user=ALICE, expect=1)
     assert "only the owner may do this" in said.error
     shackled("token", "add", "heart", "--price", "0.01", "--supply", 3, "--yes", user=OWNER)

@@ -17,16 +17,9 @@ from proxies import Liar
 from shackled.chain import VARIABLE, Connection
 from shackled.cli.app import run
 from shackled.deploy import Transactor
-from shackled.tokens import (
-    KINDS,
-    CollectionTerms,
-    development_accounts,
-    launch,
-    perform,
-    plan_launch,
-    plan_storage,
-    store,
-)
+from shackled.tokens import KINDS, CollectionTerms, launch, plan_launch, plan_storage, store
+from shackled.tokens._contract import perform
+from shackled.tokens._demo import development_accounts
 
 ETHER, GWEI = 10**18, 10**9
 USER = 3
@@ -37,7 +30,7 @@ COMMANDS = {
     "mint": ("token", "mint", "2"),
     "deploy": ("deploy", "--contracts", "Original"),
     "reveal": ("token", "reveal"),
-    "store": ("mint", "triangle.obj", "--licence", "MIT", "--size", "8"),
+    "store": ("store", "triangle.obj", "--licence", "MIT", "--size", "8"),
 }
 
 

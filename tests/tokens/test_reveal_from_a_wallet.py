@@ -16,15 +16,9 @@ from shackled.cli.app import run
 from shackled.deploy import Transactor
 from shackled.errors import RevertError
 from shackled.ethereum import encode_header
-from shackled.tokens import (
-    KINDS,
-    Collection,
-    CollectionTerms,
-    development_accounts,
-    launch,
-    perform,
-    plan_launch,
-)
+from shackled.tokens import KINDS, Collection, CollectionTerms, launch, plan_launch
+from shackled.tokens._contract import perform
+from shackled.tokens._demo import development_accounts
 from tokens.on_a_node import Node, Shackled
 
 OWNER, WALLET = 0, 5

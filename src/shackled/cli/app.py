@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -22,12 +23,12 @@ from .gas import gas
 from .genesis import genesis
 from .info import info
 from .library import library
-from .mint import mint
 from .notes import noting, with_strict
-from .option import with_options
+from .option import MEANT, with_options
 from .preview import preview
 from .render import render
 from .stages import stages
+from .store import store
 from .token import token
 
 #: The exit code with which typer reports a keyboard interrupt.
@@ -45,7 +46,7 @@ app.command()(bench)
 app.command()(genesis)
 app.command()(with_strict(stages))
 app.command()(deploy)
-app.command()(with_strict(mint))
+app.command()(with_strict(store))
 app.command()(creator)
 app.command()(with_strict(preview))
 app.add_typer(datasets, name="datasets")
@@ -97,9 +98,20 @@ def _run(arguments: Sequence[str] | None) -> int:
         # usage errors, whose class depends on the version of typer
         if not hasattr(error, "format_message"):
             raise
-        message, code = error.format_message(), getattr(error, "exit_code", 2)
+        message, code = _meant(error) or error.format_message(), getattr(error, "exit_code", 2)
         # a group without a command has printed its help, and has no message
         return _fail(message, code) if message else int(code)
+
+
+def _meant(error: Any) -> str | None:
+    """Return what a usage error with another word for a command or an option says; None for other errors."""
+    wrong = getattr(error, "option_name", None)
+    if wrong is not None:
+        right, known = MEANT.get(wrong), {name for each in error.ctx.command.params for name in each.opts}
+        return f"no such option {wrong}: it is {right}" if right in known else None
+    command = re.match(r"No such command '(\w+)'", error.format_message())
+    right = MEANT.get(command[1]) if command is not None and error.ctx.parent is None else None
+    return None if command is None or right is None else f"no such command {command[1]}: it is {right}"
 
 
 def _drop_output() -> None:

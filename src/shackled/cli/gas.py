@@ -29,9 +29,9 @@ def gas(
     input: Annotated[str, typer.Argument(help="Mesh file, scene file, or name of a piece.", metavar="INPUT")],
     *,
     look: dict[str, Any],
-    chain: Annotated[
+    evm: Annotated[
         str | None,
-        option("--chain", f"EVM to measure in: {', '.join(EVMS)}; default: revm.", "NAME"),
+        option("--evm", f"EVM to measure in: {', '.join(EVMS)}; default: revm.", "NAME"),
     ] = None,
     rpc: Annotated[
         str | None,
@@ -85,7 +85,7 @@ def gas(
     for name, given in (("--profile", path is not None), ("--opcodes", opcodes)):
         if given and not stages:
             raise InputError(f"{name} and --no-stages exclude each other: give one of them")
-    place = counting(open_chain(chain))
+    place = counting(open_chain(evm))
     node = _open_node(rpc, address, rpc_timeout)
     scene = load_with(input, look, fit)
     with Progress(quiet=as_json) as progress:

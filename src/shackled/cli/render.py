@@ -100,9 +100,9 @@ def render(
             "--one-call", "Make the whole animated PNG in one call of a contract, as for a token.", None, "Turntable"
         ),
     ] = False,
-    chain: Annotated[
+    evm: Annotated[
         str | None,
-        option("--chain", f"EVM to draw in: {', '.join(CHAINS)}; default: revm.", "NAME", "Where"),
+        option("--evm", f"EVM to draw in: {', '.join(CHAINS)}; default: revm.", "NAME", "Where"),
     ] = None,
     jobs: Annotated[
         int | None,
@@ -173,9 +173,9 @@ def render(
         if transparent:
             for extension in extensions:
                 check_alpha(extension, FILMS if are_films else FORMATS)
-        if (chain is not None or cluster is not None) and _from_environment(context, "rpc"):
+        if (evm is not None or cluster is not None) and _from_environment(context, "rpc"):
             rpc = None  # options override the environment
-        on = _on(chain, jobs, rpc or (), address, rpc_timeout, cluster, verify)
+        on = _on(evm, jobs, rpc or (), address, rpc_timeout, cluster, verify)
         sides = None if tile is None else parse_sides(tile, "--tile")
         where_of(on, gas_limit, sides)
         for name, given in (
@@ -186,8 +186,8 @@ def render(
         ):
             if fit is not None and given is not None:
                 raise InputError(f"--fit and {name} exclude each other: give one of them")
-        if chain is not None:
-            open_chain(chain)
+        if evm is not None:
+            open_chain(evm)
         if scene and one_call:
             raise InputError("--scene and --one-call exclude each other: the contract's file has no scene")
         if transparent and one_call:
@@ -204,7 +204,7 @@ def render(
 
 
 def _on(
-    chain: str | None,
+    evm: str | None,
     jobs: int | None,
     rpc: Sequence[str],
     address: str | None,
@@ -217,20 +217,20 @@ def _on(
         raise InputError("--verify needs --rpc or --cluster")
     if rpc and cluster is not None:
         raise InputError("--rpc and --cluster exclude each other: give one of them")
-    if rpc and chain is not None:
-        raise InputError("--rpc and --chain exclude each other: give one of them")
-    if chain is not None and "://" in chain:
-        raise InputError(f"--chain is the name of an EVM: give --rpc for the node {chain!r:.60}")
+    if rpc and evm is not None:
+        raise InputError("--rpc and --evm exclude each other: give one of them")
+    if evm is not None and "://" in evm:
+        raise InputError(f"--evm is the name of an EVM: give --rpc for the node {evm!r:.60}")
     for name, value in (("--address", address), ("--rpc-timeout", timeout)):
         if value is not None and not rpc:
             raise InputError(f"{name} needs --rpc")
     if cluster is not None:
         if cluster != LOCAL and ":" not in cluster:
             raise InputError(f"--cluster must be {LOCAL} or an address such as tcp://host:8786, not {cluster!r}")
-        return Cluster(None if cluster == LOCAL else cluster, jobs, chain, verify)
+        return Cluster(None if cluster == LOCAL else cluster, jobs, evm, verify)
     if rpc:
         return Nodes(*rpc, address=address, timeout=timeout, jobs=1 if jobs is None else jobs, verify=verify)
-    return chain if jobs is None else Processes(jobs, chain)
+    return evm if jobs is None else Processes(jobs, evm)
 
 
 def _from_environment(context: typer.Context, parameter: str) -> bool:

@@ -20,16 +20,16 @@ def stages(
     output: Annotated[str, typer.Option("--output", "-o", help="Folder for the pictures.", metavar="DIR")],
     *,
     look: dict[str, Any],
-    chain: Annotated[
+    evm: Annotated[
         str | None,
-        typer.Option("--chain", help=f"EVM to draw in: {', '.join(CHAINS)}; default: revm.", metavar="NAME"),
+        typer.Option("--evm", help=f"EVM to draw in: {', '.join(CHAINS)}; default: revm.", metavar="NAME"),
     ] = None,
 ) -> None:
     """Draw the result of each stage of the pipeline: six pictures, and a strip of all."""
     from ..stages import draw_stages, strip
 
     folder = check_output_folder(Path(output))
-    made = draw_stages(load_with(input, look), open_chain(chain))
+    made = draw_stages(load_with(input, look), open_chain(evm))
     pictures = {stage.name: PillowImage.fromarray(stage.pixels) for stage in made} | {"strip": strip(made)}
     make_output_folder(folder)
     for name, picture in pictures.items():

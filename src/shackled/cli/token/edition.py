@@ -61,7 +61,7 @@ class EditionsOptions(NodeOptions):
 @with_groups
 def add(
     pointer: Annotated[
-        str, typer.Argument(help="Address of the stored scene, from `shackled mint`.", metavar="POINTER")
+        str, typer.Argument(help="Address of the stored scene, from `shackled store`.", metavar="POINTER")
     ],
     name: Annotated[str, typer.Argument(help="Name of the edition, 1 to 64 bytes.", metavar="NAME")],
     which: EditionsOptions,

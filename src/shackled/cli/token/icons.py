@@ -20,7 +20,7 @@ def add(
     which: IconsOptions,
     payer: TokenPayerOptions,
     pointer: Annotated[
-        str | None, typer.Argument(help="Address of the stored scene, from `shackled mint`.", metavar="[POINTER]")
+        str | None, typer.Argument(help="Address of the stored scene, from `shackled store`.", metavar="[POINTER]")
     ] = None,
     price: Annotated[str, option("--price", "Price of a token, in ether.", "ETHER")] = "0.02",
     supply: Annotated[int, option("--supply", "Number of tokens.", "N")] = 100,
@@ -42,7 +42,7 @@ def add(
         piece = pieces[0]
         storage = plan_storage(collection.connection, [SceneToStore(piece.name, token_scene(piece))])
         if storage.missing:
-            raise InputError(f"{piece.name} is not on the chain yet; run: shackled mint {piece.name}")
+            raise InputError(f"{piece.name} is not on the chain yet; run: shackled store {piece.name}")
         name, place = piece.title, storage.pointers[0]
     arguments = (name, place, SCALE, wei, supply, reserve)
     # fails before the confirmation if the scene cannot be drawn

@@ -96,7 +96,7 @@ def list_(which: CollectionOptions, as_json: Json = False) -> None:
 @with_groups
 def picture(
     pointer: Annotated[
-        str, typer.Argument(help="Address of the stored scene, from `shackled mint`.", metavar="POINTER")
+        str, typer.Argument(help="Address of the stored scene, from `shackled store`.", metavar="POINTER")
     ],
     node: NodeOptions,
     output: Annotated[

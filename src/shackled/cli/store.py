@@ -1,4 +1,4 @@
-"""shackled mint"""
+"""shackled store"""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from .progress import LateBar
 
 
 @with_groups
-def mint(
+def store(
     input: Annotated[str, typer.Argument(help="A dataset piece, or a mesh or scene file.", metavar="INPUT")],
     node: NodeOptions,
     payer: PayerOptions,
@@ -47,7 +47,7 @@ def mint(
     calldata: Calldata = None,
     as_json: Annotated[bool, option("--json", "Print one JSON object instead of text.")] = False,
 ) -> None:
-    """Store an object on a chain, so that any contract can draw it (mints no token).
+    """Store an object on a chain; any contract can then draw it.
 
     Prints the price first; cannot be undone.
     """
@@ -57,7 +57,8 @@ def mint(
     from ..deploy import current_fees
     from ..image import check_output
     from ..scene import ALL, READERS
-    from ..tokens import SceneToStore, licence_of, plan_storage, read_back, store, token_scene
+    from ..tokens import SceneToStore, licence_of, plan_storage, read_back, token_scene
+    from ..tokens import store as send
 
     if calldata is not None and output is not None:
         raise InputError(
@@ -105,7 +106,7 @@ def mint(
             return
         transactor = payer.transactor(connection)
         payer.confirm(transactor)
-        gas = sum(receipt.gas for receipt in store(storage, transactor, print_step))
+        gas = sum(receipt.gas for receipt in send(storage, transactor, print_step))
     else:
         print_note(f"{input} is on chain {connection.chain_id} already: nothing was sent")
     image = read_back(connection, storage.studio, pointer, wanted)
