@@ -109,7 +109,7 @@ def pay(node: Node, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.Monk
 
         if not yes:
             monkeypatch.setattr("sys.stdin", Terminal())
-            monkeypatch.setattr("typer.confirm", agree)
+            monkeypatch.setattr("click.confirm", agree)
         before = balance(node)
         with liar.before(node.url) as url:
             code = run([*arguments, "--rpc", url, "--private-key-env", "KEY", *(["--yes"] if yes else [])])
