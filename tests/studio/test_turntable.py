@@ -25,7 +25,8 @@ from shackled.artifacts import artifact
 from shackled.chain import open_chain
 from shackled.ethereum import word
 from shackled.scene import encode_scene, fit, from_euler, pack, rotate
-from shackled.studio import scene_struct, store_scene
+from shackled.studio import store_scene
+from shackled.studio._storage import scene_struct
 
 SPIN = "(uint256,uint256,uint256,(int256,int256,int256),bool)"
 CHANGES = "(uint256,(int256,int256,int256,int256),uint256,(uint256,uint256),uint256,(uint256,uint256))"
