@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import settings
 from tools.page_server import ARGUMENTS, browser_path
 
-from nodes import ANVIL
+from nodes import ANVIL, PUBLIC, Node, anvil
 
 # The same examples each time, so that a change fails for what it changed; `make fuzz` looks for new ones.
 settings.register_profile("same", derandomize=True)
@@ -29,15 +30,67 @@ def _address_book(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
         yield
 
 
+#: Files and folders whose tests take more than about five seconds of one processor together: all are slow.
+SLOW = (
+    "cli/test_app.py",
+    "cli/test_render_parallel.py",
+    "cli/test_several.py",
+    "cli/test_streams.py",
+    "conformance",
+    "evm",
+    "judge",
+    "package",
+    "parallel/test_cluster.py",
+    "parallel/test_job.py",
+    "parallel/test_strips.py",
+    "scene/test_canvas.py",
+    "scene/test_decode.py",
+    "scene/test_restored.py",
+    "test_antialiasing.py",
+    "test_docs.py",
+    "test_examples.py",
+    "test_golden.py",
+    "test_open_edges.py",
+    "test_properties.py",
+    "test_random_scenes.py",
+    "test_runs.py",
+    "test_shading_accuracy.py",
+    "test_smooth_light.py",
+    "test_tile_culling.py",
+    "test_tile_gas.py",
+    "test_workers.py",
+    "tokens/test_icons_gas.py",
+    "tokens/test_token_docs.py",
+)
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark tests by the fixtures that they use. Tests with the mark "node" are skipped where there is no anvil."""
+    """Mark tests by their file and the fixtures that they use. Tests of a node are skipped where there is no anvil."""
+    slow = [Path(__file__).parent / each for each in SLOW]
     for item in items:
+        if any(item.path.is_relative_to(each) for each in slow):
+            item.add_marker("slow")
         fixtures: list[str] = getattr(item, "fixturenames", [])
-        for name in {"browser", "node"}.intersection(fixtures):
-            item.add_marker(name)
+        for name in {"browser", "node", "running_node"}.intersection(fixtures):
+            item.add_marker(name.removeprefix("running_"))
         if ANVIL is None and item.get_closest_marker("node"):
             item.add_marker(pytest.mark.skip(reason="anvil is not installed: npm ci in contracts/"))
+
+
+@pytest.fixture(scope="module")
+def running_node(request: pytest.FixtureRequest) -> Iterator[Node]:
+    """An anvil for the tests of a file, which may set NODE_OPTIONS to options of its command line."""
+    with anvil(*getattr(request.module, "NODE_OPTIONS", PUBLIC)) as started:
+        yield started
+
+
+@pytest.fixture
+def node(running_node: Node) -> Iterator[Node]:
+    """The anvil of the file; what a test does to its chain is undone after it."""
+    before = running_node.rpc("evm_snapshot")
+    yield running_node
+    running_node.rpc("evm_revert", before)
 
 
 @pytest.fixture(scope="module")

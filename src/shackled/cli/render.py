@@ -6,9 +6,9 @@ import io
 import sys
 from collections.abc import Sequence
 from contextlib import ExitStack, redirect_stderr
-from typing import Annotated, Any
+from typing import Annotated
 
-import typer
+import click
 
 from .._on import VERIFY, Cluster, Nodes, On, Processes, where_of
 from ..animation import DURATION, check_duration
@@ -17,8 +17,8 @@ from ..chain import CHAINS, PATIENCE, open_chain
 from ..errors import InputError
 from ..image import FORMATS, check_alpha, one_of
 from ..scene import PICTURE
-from .look_options import FIT, with_look
-from .option import option, parse_sides
+from .look_options import FIT, Look, parse_sides
+from .option import argument, option
 from .picture import Task, render_to
 from .progress import JobProgress
 from .several import inputs_of, outputs_of, render_all
@@ -28,16 +28,11 @@ from .streams import FORMATS as KINDS
 LOCAL = "local"
 
 
-@with_look
 def render(
-    context: typer.Context,
+    context: click.Context,
     inputs: Annotated[
         list[str],
-        typer.Argument(
-            help="Mesh or scene files, names of pieces, folders of mesh files, or - for standard input.",
-            metavar="INPUT",
-            show_default=False,
-        ),
+        argument("Mesh or scene files, names of pieces, folders of mesh files, or - for standard input.", "INPUT"),
     ],
     output: Annotated[
         str | None,
@@ -116,13 +111,12 @@ def render(
     ] = None,
     rpc: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
             "--rpc",
-            help="Node to render on, with or without deployed contracts; may be repeated to share the work.",
-            metavar="URL",
+            "Node to render on, with or without deployed contracts; may be repeated to share the work.",
+            "URL",
+            "Where",
             envvar="SHACKLED_RPC",
-            show_default=False,
-            rich_help_panel="Where",
         ),
     ] = None,
     address: Annotated[str | None, option("--address", "Address of a deployed renderer.", "ADDRESS", "Where")] = None,
@@ -152,7 +146,7 @@ def render(
         ),
     ] = None,
     *,
-    look: dict[str, Any],
+    look: Look,
 ) -> None:
     """Render mesh files, scene files or pieces of datasets."""
     with ExitStack() as stack:
@@ -233,6 +227,6 @@ def _on(
     return evm if jobs is None else Processes(jobs, evm)
 
 
-def _from_environment(context: typer.Context, parameter: str) -> bool:
+def _from_environment(context: click.Context, parameter: str) -> bool:
     source = context.get_parameter_source(parameter)
     return source is not None and source.name == "ENVIRONMENT"

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from ..errors import InputError
 from ..image import FORMATS, one_of
 from .chain_options import (
@@ -17,17 +15,16 @@ from .chain_options import (
     print_price,
     print_step,
     wallet_calls,
-    with_groups,
     write_calls,
 )
-from .option import option, parse_size
+from .look_options import parse_size
+from .option import argument, option
 from .output import print_line, print_note
 from .progress import LateBar
 
 
-@with_groups
 def store(
-    input: Annotated[str, typer.Argument(help="A dataset piece, or a mesh or scene file.", metavar="INPUT")],
+    input: Annotated[str, argument("A dataset piece, or a mesh or scene file.", "INPUT")],
     node: NodeOptions,
     payer: PayerOptions,
     licence: Annotated[
