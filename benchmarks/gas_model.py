@@ -9,7 +9,6 @@ benchmarks/README.md. A model that does not fit one picture, such as one with mo
 
 from __future__ import annotations
 
-import json
 import sys
 import warnings
 from collections.abc import Iterable, Iterator
@@ -27,6 +26,7 @@ from shackled.datasets.common import shapes
 from shackled.errors import InputWarning
 from shackled.scene import LookOptions, Mesh
 
+from . import read_figures, write_figures
 from .workload import workload_of
 
 FILE = Path(__file__).with_name("gas_model.json")
@@ -158,14 +158,14 @@ def text(figures: dict[str, Any]) -> str:
 
 def recorded() -> dict[str, Any]:
     """Return the figures of gas_model.json."""
-    figures: dict[str, Any] = json.loads(FILE.read_text("utf-8"))
+    figures: dict[str, Any] = read_figures(FILE)
     return figures
 
 
 def main() -> int:
     """Measure, print and write the figures."""
     figures = {name: measure(look) for name, look in LOOKS.items()}
-    FILE.write_text(json.dumps(figures, indent=1) + "\n", "utf-8")
+    write_figures(FILE, figures)
     print(text(figures))
     made = {"gas_model": text(figures)}
     return update({PAGE: made.get}, "python -m benchmarks.gas_model")

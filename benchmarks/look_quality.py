@@ -9,7 +9,6 @@ so much smaller that it needs the same gas. Rewrites look_quality.json and its t
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -28,6 +27,8 @@ from shackled.scene import Hemisphere, fit, render_call
 sys.path.insert(0, str(ROOT / "tests" / "support"))
 sys.path.insert(0, str(ROOT / "tests"))
 from judge import render as in_float64
+
+from . import flip, read_figures, write_figures
 
 FILE = Path(__file__).with_name("look_quality.json")
 PAGE = ROOT / "benchmarks" / "README.md"
@@ -76,20 +77,18 @@ LOOKS: dict[str, tuple[Callable[[str], Scene], dict[str, Callable[[Scene], Scene
 
 
 def truth(scene: Scene) -> Pixels:
-    """Return the picture in float64, (H, W, 3), from 0 to 1."""
+    """Return the picture in float64, (H, W, 3), from 0 to 255."""
     large = evolve(scene, width=FINER * scene.width, height=FINER * scene.height)
     exact = in_float64(render_call(fit(large))).exact
-    return np.asarray(exact.reshape(scene.height, FINER, scene.width, FINER, 3).mean(axis=(1, 3)) / 255)
+    return np.asarray(exact.reshape(scene.height, FINER, scene.width, FINER, 3).mean(axis=(1, 3)))
 
 
 def drawn(scene: Scene, right: Pixels) -> tuple[int, float]:
     """Return the gas of a scene, and the FLIP of its picture, enlarged as browsers do."""
-    from flip_evaluator import evaluate
-
     image = render(scene)
     assert image.gas is not None
-    seen = np.asarray(image.to_pil().convert("RGB").resize((SIDE, SIDE), PillowImage.Resampling.BICUBIC)) / 255
-    return image.gas, float(evaluate(right.astype(np.float32), seen.astype(np.float32), "LDR", applyMagma=False)[1])
+    seen = image.to_pil().convert("RGB").resize((SIDE, SIDE), PillowImage.Resampling.BICUBIC)
+    return image.gas, flip(right, np.asarray(seen))
 
 
 def measure(piece: str) -> dict[str, list[float]]:
@@ -119,14 +118,14 @@ def text(figures: dict[str, dict[str, list[float]]]) -> str:
 
 def recorded() -> dict[str, Any]:
     """Return the figures of look_quality.json."""
-    figures: dict[str, Any] = json.loads(FILE.read_text("utf-8"))
+    figures: dict[str, Any] = read_figures(FILE)
     return figures
 
 
 def main() -> int:
     """Measure, print and write the figures."""
     figures = {piece: measure(piece) for piece in PIECES}
-    FILE.write_text(json.dumps(figures, indent=1) + "\n", "utf-8")
+    write_figures(FILE, figures)
     print(text(figures))
     made = {"look_quality": text(figures)}
     return update({PAGE: made.get}, "python -m benchmarks.look_quality")

@@ -68,12 +68,8 @@ def turned_cube(size: int, material: Material = GLOSSY, lights: Sequence[Light] 
 
 def square(divisions: int, size: int, material: Material = GLOSSY, lights: Sequence[Light] = (SUN,)) -> Scene:
     """Make a square in front of the camera, of 2 * divisions^2 triangles."""
-    return before_camera(square_mesh(divisions), size, material, lights)
-
-
-def before_camera(mesh: Mesh, size: int, material: Material = GLOSSY, lights: Sequence[Light] = (SUN,)) -> Scene:
-    """Place a mesh in front of the default camera."""
-    return Scene([Object(mesh, (0, 0, -DISTANCE), material=material)], Camera(), lights, NIGHT, width=size, height=size)
+    placed = Object(square_mesh(divisions), (0, 0, -DISTANCE), material=material)
+    return Scene([placed], Camera(), lights, NIGHT, width=size, height=size)
 
 
 def cube_mesh(half: int = 500) -> Mesh:
