@@ -1,6 +1,8 @@
 """A 3D renderer whose every computation runs inside Ethereum smart contracts."""
 
+from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
+from typing import Any
 
 from attrs import evolve as replace
 
@@ -26,6 +28,7 @@ from .scene import (
     euler,
 )
 from .web import export, view
+from .words import INSTEAD
 
 try:
     __version__ = version("shackled")
@@ -65,6 +68,18 @@ __all__ = [
     "turntable",
     "view",
 ]
+
+
+#: Packages that are imported when they are first named, as `shackled.gas`.
+_PACKAGES = ("artifacts", "bench", "deploy", "ethereum", "gas", "library", "parallel", "preview", "studio", "tokens")
+
+
+def __getattr__(name: str) -> Any:
+    """Import a package when it is named; say what there is in place of what there is not."""
+    if name in _PACKAGES:
+        return import_module(f".{name}", __name__)
+    hint = f"; {INSTEAD[name]}" if name in INSTEAD else ""
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}{hint}", name=name)
 
 
 def __dir__() -> list[str]:
