@@ -1,7 +1,6 @@
 """A 3D renderer whose every computation runs inside Ethereum smart contracts."""
 
 from importlib import import_module
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 from attrs import evolve as replace
@@ -9,6 +8,7 @@ from attrs import evolve as replace
 from ._load import load
 from ._on import Cluster, Nodes, Processes
 from ._render import animate, render, turntable
+from ._version import __version__
 from .animation import Animation
 from .errors import ChainError, InputError, OutputError, RenderError, ShackledError
 from .image import Image
@@ -29,11 +29,6 @@ from .scene import (
 )
 from .web import export, view
 from .words import INSTEAD
-
-try:
-    __version__ = version("shackled")
-except PackageNotFoundError:  # from a source tree that was not installed
-    __version__ = "0+unknown"
 
 __all__ = [
     "Animation",

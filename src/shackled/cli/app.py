@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from .. import __version__
+from .._version import __version__
 from ..errors import InputError, InputWarning, ShackledError
 from ..untrusted import plain
 from .bench import bench
