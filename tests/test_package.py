@@ -121,7 +121,7 @@ def _of_the_package(path: Path, for_types: bool) -> Iterator[str]:
             yield from (".".join([*base, *filter(None, [node.module]), alias.name]) for alias in node.names)
 
 
-FACES = [path.parent for path in sorted(PACKAGE.rglob("__init__.pyi"))]
+FACES = [path.parent for path in sorted(PACKAGE.rglob("__init__.pyi")) if path.parent != PACKAGE]
 
 
 @pytest.mark.parametrize("package", FACES, ids=lambda path: path.relative_to(PACKAGE).as_posix())
@@ -146,7 +146,7 @@ def test_a_package_exports_only_what_others_need(package: Path) -> None:
     """The documentation names it, or another package uses it, or a package inside this one."""
     name = ".".join(package.relative_to(PACKAGE.parent).parts)
     files = [path for each in ("docs", "examples", "benchmarks") for path in (ROOT / each).rglob("*.py")]
-    files += [path for path in PACKAGE.rglob("*.py") if path.parent != package]
+    files += [PACKAGE / "__init__.pyi", *(path for path in PACKAGE.rglob("*.py") if path.parent != package)]
     used = {each for path in files for each in of_the_package(path)}
     texts = [path.read_text() for path in [*files, *(ROOT / "docs").rglob("*.md")]]
     for text in texts:
@@ -166,7 +166,7 @@ def test_no_imports_form_a_circle() -> None:
         ".".join([*folder.relative_to(PACKAGE.parent).parts, alias.name]): ".".join(
             [*folder.relative_to(PACKAGE.parent).parts, str(node.module)]
         )
-        for folder in FACES
+        for folder in [PACKAGE, *FACES]
         for node in ast.parse((folder / "__init__.pyi").read_text()).body
         if isinstance(node, ast.ImportFrom)
         for alias in node.names

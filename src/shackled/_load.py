@@ -49,6 +49,9 @@ Thing = str | os.PathLike[str] | Piece | Mesh | Object | Scene | Sequence[Any] |
 #: Between pieces that stand in a row: a part of the width of the widest.
 GAP = 0.2
 
+#: `shackled.replace`: a scene, or a part of one, with other values of some fields.
+replace = evolve
+
 
 @with_words
 def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack[LookOptions]) -> Scene:

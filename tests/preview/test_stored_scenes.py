@@ -62,7 +62,7 @@ def test_scenes_of_the_author(
 ) -> None:
     codes = stored_scene("icons/diamond")
     pointer = list(codes)[-1]
-    # that of the library, and of `shackled mint`
+    # that of the library, and of `shackled store`
     assert pointer == next(each.pointer for each in items() if each.name == "diamond")
     assert pointer in World(contract(answering(output(SVG))), stored=codes).codes
     monkeypatch.setenv("PATH", str(tmp_path))

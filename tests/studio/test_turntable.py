@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 from PIL import ImageSequence
 from tools.ledger import World, call_data
-from tools.page_server import browser_path
 from tools.png_code import SIGNATURE, encode_png
 
 from evms import Ours, pyevm_call, pyrevm_call
@@ -298,7 +297,6 @@ def word_of(address: bytes) -> bytes:
     return address.rjust(32, b"\0")
 
 
-@pytest.mark.skipif(browser_path() is None, reason="needs chromium")
 def test_chromium_plays_it(browser: Any, tmp_path: Path) -> None:
     png = animate(load("icons/diamond", size=32), frames=5, delay=40, hold=True)
     page = browser.new_page()

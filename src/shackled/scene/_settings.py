@@ -199,7 +199,7 @@ _GROUPS: dict[str, list[Setting]] = {
             (1, math.inf),
         ),
         Setting("background", "background", "scene", "Colour of the background, or those of its top and bottom."),
-        Setting("invert", "flag", "scene", "Replace each value v by 255 - v."),
+        Setting("invert", "flag", "scene", "Invert all colours, including the background."),
         Setting("antialias", "flag", "scene", "Smooth the edges with four samples per pixel."),
     ],
     "Camera": [
