@@ -117,7 +117,7 @@ def with_words(function: Callable[P, R]) -> Callable[P, R]:
         if "thing" in named:
             if {"vertices", "faces"} <= given.keys():
                 given["thing"] = (given.pop("vertices"), given.pop("faces"))
-            elif len(args) > 1 and getattr(args[1], "ndim", 0) == 2:
+            elif len(args) > 1 and _is_rows(args[0]) and _is_rows(args[1]):
                 args = ((args[0], args[1]), *args[2:])
         if "transparent" in named and str(given.get("background")).strip().lower() == "transparent":
             given = {**given, "background": None, "transparent": True}
@@ -128,6 +128,13 @@ def with_words(function: Callable[P, R]) -> Callable[P, R]:
         return function(*args, **given)
 
     return understanding
+
+
+def _is_rows(value: Any) -> bool:
+    """Return whether a value is a table, such as the vertices or the faces of a mesh."""
+    if isinstance(value, str) or not hasattr(value, "__len__"):
+        return False
+    return len(value) > 0 and hasattr(value, "__getitem__") and hasattr(value[0], "__len__")
 
 
 def milliseconds(fps: float) -> int:

@@ -379,11 +379,7 @@ def test_scenes_are_saved(tmp_path: Any) -> None:
         ),
         (lambda: Object(MESH, rotation=(1, 2, "x")), "the rotation of an object must be 3 numbers, not (1, 2, 'x')"),
         (
-            lambda: render(np.eye(3), np.eye(3)),  # type: ignore[arg-type]
-            "`size` must be one number or (width, height); vertices and faces are one argument",
-        ),
-        (
-            lambda: render(CORNERS, FACES),  # type: ignore[arg-type]
+            lambda: render(MESH, FACES),  # type: ignore[arg-type]
             "`size` must be one number or (width, height); vertices and faces are one argument",
         ),
         (lambda: render("cube", rotate=np.zeros((9, 9))), "`rotate` must be x, y, z in degrees, a quaternion x, y, "),
