@@ -132,9 +132,10 @@ def with_words(function: Callable[P, R]) -> Callable[P, R]:
 
 def _is_rows(value: Any) -> bool:
     """Return whether a value is a table, such as the vertices or the faces of a mesh."""
-    if isinstance(value, str) or not hasattr(value, "__len__"):
+    try:
+        return not isinstance(value, str) and hasattr(value[0], "__len__")
+    except (TypeError, LookupError):
         return False
-    return len(value) > 0 and hasattr(value, "__getitem__") and hasattr(value[0], "__len__")
 
 
 def milliseconds(fps: float) -> int:
