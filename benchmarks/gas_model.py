@@ -22,6 +22,7 @@ from tools.pages import ROOT, update
 
 from shackled import InputError, Scene, load
 from shackled.bench import gas, table
+from shackled.bench._report import wrapped
 from shackled.datasets.common import shapes
 from shackled.errors import InputWarning
 from shackled.scene import LookOptions, Mesh
@@ -145,9 +146,11 @@ def text(figures: dict[str, Any]) -> str:
     for name, each in figures.items():
         fit, held = np.abs(each["fit"]), np.abs(list(each["held out"].values()))
         shares = np.median(fit), np.median(held), held.max()
-        lines.append([name, *(f"{value:,.0f}" for value in each["coefficients"]), *(f"{x:.0%}" for x in shares)])
+        lines.append(
+            [name, *(f"{round(value) + 0:,}" for value in each["coefficients"]), *(f"{x:.0%}" for x in shares)]
+        )
     head = ["gas of", "a picture", *COUNTS]
-    return (
+    return wrapped(
         f"Fitted to {len(first['fit'])} pictures of generated meshes; predicted are {len(first['held out'])} models of"
         f" the packages {', '.join(HELD_OUT)} at {SIDES[1]} x {SIDES[1]} pixels. Rows and tested pixels are those of"
         " all drawn triangles; a triangle is curved if the normals of its corners differ, and as large a share of the"

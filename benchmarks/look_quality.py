@@ -22,6 +22,7 @@ from tools.pages import ROOT, update
 
 from shackled import Rim, Scene, Tone, load, render
 from shackled.bench import table
+from shackled.bench._report import wrapped
 from shackled.scene import Hemisphere, fit, render_call
 
 sys.path.insert(0, str(ROOT / "tests" / "support"))
@@ -108,12 +109,17 @@ def measure(piece: str) -> dict[str, list[float]]:
 
 def text(figures: dict[str, dict[str, list[float]]]) -> str:
     """Return the means over the pieces as Markdown."""
-    lines = []
+    lines, dear = [], []
     for name in next(iter(figures.values())):
         share, flip, smaller = np.mean([each[name] for each in figures.values()], axis=0)
+        if flip < smaller:
+            dear.append(name)
         lines.append([name, f"{share:.0%}", f"{flip:.4f}", f"{smaller:.4f}"])
     head = ["look: left out", "gas", "FLIP", "FLIP of the whole look, smaller, for this gas"]
-    return f"Means of {', '.join(figures)}, {SIDE} x {SIDE} pixels.\n\n" + table(head, lines)
+    return wrapped(
+        f"Means of {', '.join(figures)}, {SIDE} x {SIDE} pixels. To spend less gas, one loses less by leaving a part out"
+        f" than by a smaller canvas for {' and '.join(dear) or 'no part'}.\n\n" + table(head, lines)
+    )
 
 
 def recorded() -> dict[str, Any]:
