@@ -1,12 +1,11 @@
-from ._backends import Backend, ChainBackend, Part, ProcessBackend, Verifier, draw_part
+from ._backends import Backend, ChainBackend, Part, ThreadBackend, Verifier, draw_part, limited
 from ._cluster import ClusterBackend
 from ._counter import Counter, strips
-from ._estimate import estimate
+from ._estimate import estimate, is_large
 from ._job import COMPARED_GAS, choose_verifier, plan, render_frames
 from ._scheduler import FAILURES, Listener, Outline, Scheduler
 from ._store import PLAN, PartStore, folder_of, remove_parts
 from ._tiles import SMALLEST, area, covers, cut, grid, halves
-from ._where import Where
 
 __all__ = [
     "COMPARED_GAS",
@@ -21,10 +20,9 @@ __all__ = [
     "Outline",
     "Part",
     "PartStore",
-    "ProcessBackend",
     "Scheduler",
+    "ThreadBackend",
     "Verifier",
-    "Where",
     "area",
     "choose_verifier",
     "covers",
@@ -34,6 +32,8 @@ __all__ = [
     "folder_of",
     "grid",
     "halves",
+    "is_large",
+    "limited",
     "plan",
     "remove_parts",
     "render_frames",
