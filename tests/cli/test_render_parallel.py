@@ -185,8 +185,8 @@ def interruptible() -> Iterator[None]:
 @pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
 @pytest.mark.parametrize(
     ("inputs", "kind"),
-    [(["teapot"], signal.SIGINT), (["teapot", "cube"], signal.SIGINT)],
-    ids=["threads", "processes"],
+    [(["teapot"], signal.SIGINT), (["teapot", "cube"], signal.SIGINT), (["teapot", "cube"], signal.SIGKILL)],
+    ids=["threads", "processes", "killed"],
 )
 def test_nothing_runs_on(inputs: list[str], kind: signal.Signals) -> None:
     """Ctrl-C ends threads, and the processes of several inputs, which also end if the command is killed."""
