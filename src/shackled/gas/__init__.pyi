@@ -2,13 +2,11 @@ from ._exact import KEPT, Limit, counting, floor_gas, limits, margin, measure, n
 from ._fits import Fit, fit_of, fits_of, headline
 from ._fitting import FITS, Fitted, fit_scene
 from ._flame_graph import MARGIN, WIDTH, flame_graph
-from ._function_sizes import function_sizes
 from ._profile import KINDS, STACK, Profile, profile
 from ._report import GasReport, make_report
 from ._runs import BAND_PIXELS, engine_calls
 from ._search import FIRST_LIMIT, SearchStep, search, suffices
-from ._source_map import source_map
-from ._speedscope import speedscope
+from ._source_map import instruction_sources, source_map
 from ._stages import STAGES
 from ._trace import CallFrame, places, trace
 
@@ -36,8 +34,8 @@ __all__ = [
     "fits_of",
     "flame_graph",
     "floor_gas",
-    "function_sizes",
     "headline",
+    "instruction_sources",
     "limits",
     "make_report",
     "margin",
@@ -48,7 +46,6 @@ __all__ = [
     "render_call",
     "search",
     "source_map",
-    "speedscope",
     "suffices",
     "trace",
 ]

@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 
 from tools import build_contracts
+from tools.function_sizes import function_sizes
 
 from shackled.artifacts import artifact, contracts
-from shackled.gas import function_sizes
 
 
 def test_bytes_are_counted_for_their_function() -> None:

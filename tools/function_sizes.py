@@ -7,7 +7,7 @@ from collections import Counter
 from itertools import pairwise
 from typing import Any
 
-from ._source_map import instruction_sources
+from shackled.gas import instruction_sources
 
 
 def function_sizes(code: bytes, entries: str, sources: dict[str, Any]) -> Counter[str]:
