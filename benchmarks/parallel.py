@@ -22,7 +22,10 @@ from shackled._on import Place, place_of
 from shackled.bench import gas, millions, table
 from shackled.chain import open_chain
 from shackled.datasets import require
-from shackled.parallel import Backend, Listener, Part, Scheduler, ThreadBackend, grid
+from shackled.parallel import Listener
+from shackled.parallel._backends import Backend, Part, ThreadBackend
+from shackled.parallel._scheduler import Scheduler
+from shackled.parallel._tiles import grid
 from shackled.scene import Rectangle, full_turn
 
 from . import Section, shared

@@ -4,16 +4,22 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import settings
 from tools.page_server import ARGUMENTS, browser_path
 
+from nodes import ANVIL, PUBLIC, Node, anvil
+
 # The same examples each time, so that a change fails for what it changed; `make fuzz` looks for new ones.
 settings.register_profile("same", derandomize=True)
 settings.register_profile("new", derandomize=False)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
+
+#: Chromium finds no host by name, and no address but this machine's.
+ALONE = "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -24,12 +30,76 @@ def _address_book(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
         yield
 
 
+#: Files and folders whose tests take more than about five seconds of one processor together: all are slow.
+SLOW = (
+    "cli/test_app.py",
+    "cli/test_render_parallel.py",
+    "cli/test_several.py",
+    "cli/test_streams.py",
+    "conformance",
+    "evm",
+    "judge",
+    "package",
+    "parallel/test_cluster.py",
+    "parallel/test_job.py",
+    "parallel/test_strips.py",
+    "scene/test_canvas.py",
+    "scene/test_decode.py",
+    "scene/test_restored.py",
+    "test_antialiasing.py",
+    "test_docs.py",
+    "test_examples.py",
+    "test_golden.py",
+    "test_open_edges.py",
+    "test_properties.py",
+    "test_random_scenes.py",
+    "test_runs.py",
+    "test_shading_accuracy.py",
+    "test_smooth_light.py",
+    "test_tile_culling.py",
+    "test_tile_gas.py",
+    "test_workers.py",
+    "tokens/test_icons_gas.py",
+    "tokens/test_token_docs.py",
+)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark tests by their file and the fixtures that they use. Tests of a node are skipped where there is no anvil."""
+    slow = [Path(__file__).parent / each for each in SLOW]
+    for item in items:
+        if any(item.path.is_relative_to(each) for each in slow):
+            item.add_marker("slow")
+        fixtures: list[str] = getattr(item, "fixturenames", [])
+        for name in {"browser", "node", "running_node"}.intersection(fixtures):
+            item.add_marker(name.removeprefix("running_"))
+        if ANVIL is None and item.get_closest_marker("node"):
+            item.add_marker(pytest.mark.skip(reason="anvil is not installed: npm ci in contracts/"))
+
+
+@pytest.fixture(scope="module")
+def running_node(request: pytest.FixtureRequest) -> Iterator[Node]:
+    """An anvil for the tests of a file, which may set NODE_OPTIONS to options of its command line."""
+    with anvil(*getattr(request.module, "NODE_OPTIONS", PUBLIC)) as started:
+        yield started
+
+
+@pytest.fixture
+def node(running_node: Node) -> Iterator[Node]:
+    """The anvil of the file; what a test does to its chain is undone after it."""
+    before = running_node.rpc("evm_snapshot")
+    yield running_node
+    running_node.rpc("evm_revert", before)
+
+
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    """Chromium, for tests that skip where it is not installed."""
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as driver:
-        chromium = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
+    """Chromium, which finds no host but this machine. Of a module: beside it, no test can use a loop of asyncio."""
+    sync_api = pytest.importorskip("playwright.sync_api", reason="the tests of pages need playwright")
+    if browser_path() is None:
+        pytest.skip("the tests of pages need chromium: apt-get install chromium")
+    with sync_api.sync_playwright() as driver:
+        chromium = driver.chromium.launch(executable_path=browser_path(), args=[*ARGUMENTS, ALONE])
         yield chromium
         chromium.close()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 
 from tools import build_contracts
-from tools.function_sizes import function_sizes
+from tools.build_contracts import function_sizes
 
 from shackled.artifacts import artifact, contracts
 

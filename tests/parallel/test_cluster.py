@@ -15,7 +15,8 @@ from nodes import Reply, serving
 from shackled import ChainError, Cluster, InputError, Processes, Scene, load
 from shackled._on import Bounds
 from shackled.chain import Drawing
-from shackled.parallel import ClusterBackend, Listener, render_frames
+from shackled.parallel import Listener, render_frames
+from shackled.parallel._cluster import ClusterBackend
 from shackled.scene import Rectangle, full_turn
 
 pytest.importorskip("distributed")

@@ -12,7 +12,9 @@ import shackled
 from shackled import Scene, load
 from shackled._on import Bounds, Embedded, is_one_call
 from shackled.chain import ContractChain, open_chain
-from shackled.parallel import ChainBackend, estimate, plan
+from shackled.parallel._backends import ChainBackend
+from shackled.parallel._estimate import estimate
+from shackled.parallel._job import plan
 from shackled.scene import Rectangle
 
 

@@ -15,8 +15,13 @@ from compiler import needs_compiler
 from shackled import Mesh, RenderError, Texture
 from shackled.artifacts import artifact
 from shackled.image import decode_bmp
-from shackled.scene import Viewpoint, frame, is_closed, pack, pack_texture, read_call, unpack
-from shackled.studio import scene_struct, split_mesh
+from shackled.scene import is_closed, pack
+from shackled.scene._decode import read_call
+from shackled.scene._packed_mesh import unpack
+from shackled.scene._packed_texture import pack_texture
+from shackled.scene._staging import Viewpoint, frame
+from shackled.studio._compact_mesh import split_mesh
+from shackled.studio._storage import scene_struct
 
 SCENE_STRUCT = scene_struct()
 ONE = 1 << 32
@@ -379,7 +384,7 @@ def test_cameras_fit_objects(world: World, probe: bytes, tenths: int, toward: tu
 
 
 def test_objects_are_placed_in_boxes(world: World, probe: bytes) -> None:
-    """As large as they fit, in the middle; those whose mesh is stored by the bounds that are told."""
+    """As large as they fit, in the middle; those whose mesh is stored by the bounds that are given."""
     mesh = pack(Mesh([[0, 0, 0], [400, 0, 0], [0, 100, 300]], [[0, 1, 2]]))
     room = [90, 10, -10, -10, 110, 70]
     signature = "placed(bytes,int256[3][2],int256[6])"

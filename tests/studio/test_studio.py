@@ -20,8 +20,10 @@ from shackled import Background, Camera, ChainError, Light, Material, Mesh, Obje
 from shackled.chain import revert_error
 from shackled.datasets import teapot
 from shackled.image import decode_bmp
-from shackled.scene import Shading, from_euler
-from shackled.studio import scene_struct, store_scene
+from shackled.scene import from_euler
+from shackled.scene._material import Shading
+from shackled.studio import store_scene
+from shackled.studio._storage import scene_struct
 
 SCENE_STRUCT = scene_struct()
 POT = Mesh(np.round(np.asarray(teapot(3).positions) * 100), teapot(3).faces)
@@ -118,7 +120,7 @@ def test_extensions_are_kept_with_the_scene(world: World) -> None:
     assert (drawn != render(SCENE).pixels).any()
     struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
     assert len(struct[7]) == 45 + 9
-    # what a newer contract may know is told when it is drawn
+    # what a newer contract may know is reported when it is drawn
     newer = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*struct[:7], b"\x0e\0\0\0\1" + bytes(32))).hex()
     with pytest.raises(RenderError, match=r"UnknownExtension\(kind=14, index=0\)"):
         world.call("Studio", "check(address)", newer)

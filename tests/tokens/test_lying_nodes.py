@@ -1,4 +1,4 @@
-"""Nodes that lie about prices: what is paid is never above what was told, or nothing is sent."""
+"""Nodes that lie about prices: what is paid is never above what was quoted, or nothing is sent."""
 
 from __future__ import annotations
 
@@ -10,26 +10,20 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tools.anvil import Anvil
 
-from nodes import ANVIL, anvil
+from nodes import Node
 from proxies import Liar
 from shackled.chain import VARIABLE, Connection
 from shackled.cli.app import run
 from shackled.deploy import Transactor
-from shackled.tokens import (
-    KINDS,
-    CollectionTerms,
-    development_accounts,
-    launch,
-    perform,
-    plan_launch,
-    plan_storage,
-    store,
-)
+from shackled.tokens import KINDS, CollectionTerms, launch, plan_launch, plan_storage, store
+from shackled.tokens._contract import perform
+from shackled.tokens._demo import development_accounts
 
 ETHER, GWEI = 10**18, 10**9
 USER = 3
+#: Runs a command, with lies of the node.
+Pay = Callable[..., tuple[int, int, str, str]]
 TRIANGLE = "v 0 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\n"
 
 #: Everything that costs something, with the contracts there that it needs.
@@ -37,7 +31,7 @@ COMMANDS = {
     "mint": ("token", "mint", "2"),
     "deploy": ("deploy", "--contracts", "Original"),
     "reveal": ("token", "reveal"),
-    "store": ("mint", "triangle.obj", "--licence", "MIT", "--size", "8"),
+    "store": ("store", "triangle.obj", "--licence", "MIT", "--size", "8"),
 }
 
 
@@ -59,45 +53,39 @@ GAS = {"eth_estimateGas": lambda gas, _: hex(1000 * int(gas, 16))}
 JUMP = {"eth_getBlockByNumber": latest(lambda block: block | {"baseFeePerGas": DEAR})}
 
 
-@pytest.fixture(scope="module")
-def node(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Anvil]:
-    """A collection whose sale is open, with a token that can be revealed, and the Studio."""
-    if ANVIL is None:
-        pytest.skip("anvil is not installed: npm ci in contracts/")
-    with anvil() as started, pytest.MonkeyPatch.context() as patch:
+@pytest.fixture(scope="module", autouse=True)
+def _contracts(running_node: Node, tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Deploy a collection whose sale is open, with a token that can be revealed, and the Studio."""
+    with pytest.MonkeyPatch.context() as patch:
         patch.setenv(VARIABLE, str(tmp_path_factory.mktemp("book") / "addresses.json"))
         patch.setenv("KEY", development_accounts()[USER].key.hex())
-        owner = Transactor(started.connection, development_accounts()[0])
+        owner = Transactor(running_node.connection, development_accounts()[0])
         terms = CollectionTerms("0x" + owner.address.hex(), "0x" + owner.address.hex())
-        collection, _ = launch(plan_launch(started.connection, KINDS["genesis"], terms), owner)
+        collection, _ = launch(plan_launch(running_node.connection, KINDS["genesis"], terms), owner)
         perform(owner, collection.contract, "setPhase", 2)
         perform(owner, collection.contract, "mint", 1, value=collection.contract.call("price"))
-        started.rpc("anvil_mine", hex(200))
-        store(plan_storage(started.connection, []), owner)
-        started.rpc("anvil_setNextBlockBaseFeePerGas", hex(GWEI))
-        started.rpc("anvil_mine", "0x1")
-        yield started
+        running_node.rpc("anvil_mine", hex(200))
+        store(plan_storage(running_node.connection, []), owner)
+        running_node.rpc("anvil_setNextBlockBaseFeePerGas", hex(GWEI))
+        running_node.rpc("anvil_mine", "0x1")
+        yield
 
 
 @pytest.fixture(autouse=True)
-def fresh(node: Anvil, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Each test finds the same chain."""
+def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("triangle.obj").write_text(TRIANGLE)
-    before = node.rpc("evm_snapshot")
-    yield
-    node.rpc("evm_revert", before)
 
 
-def balance(node: Anvil) -> int:
+def balance(node: Node) -> int:
     return Connection(node.url).number("eth_getBalance", str(development_accounts()[USER].address), "latest")
 
 
 def ceiling(said: str) -> int:
-    """The most that was told, in wei."""
+    """The most that was quoted, in wei."""
     found = re.findall(r"at most ([\d.]+) ether in total", said) or re.findall(r"total.* ([\d.]+)\s*$", said, re.M)
-    (told,) = found
-    return int(Decimal(told) * ETHER)
+    (most,) = found
+    return int(Decimal(most) * ETHER)
 
 
 class Terminal(io.StringIO):
@@ -105,41 +93,37 @@ class Terminal(io.StringIO):
         return True
 
 
-def pay(
-    node: Anvil,
-    liar: Liar,
-    arguments: tuple[str, ...],
-    capsys: pytest.CaptureFixture[str],
-    patch: pytest.MonkeyPatch,
-    yes: bool = False,
-) -> tuple[int, int, str, str]:
-    """Runs a command. Without `yes` the node lies as soon as the price was told and agreed to.
+@pytest.fixture
+def pay(node: Node, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Pay:
+    """Runs a command. Without `yes` the node lies as soon as the price was quoted and agreed to.
 
-    The code, what was paid, all that was said, and the last line on stderr.
+    Returns the code, what was paid, all that was said, and the last line on stderr.
     """
 
-    def agree(*_: Any, **__: Any) -> bool:
-        liar.lying = True
-        return True
+    def run_it(lies: Any, *arguments: str, yes: bool = False) -> tuple[int, int, str, str]:
+        liar = Liar(lies, lying=yes)
 
-    if not yes:
-        liar.lying = False
-        patch.setattr("sys.stdin", Terminal())
-        patch.setattr("typer.confirm", agree)
-    before = balance(node)
-    with liar.before(node.url) as url:
-        code = run([*arguments, "--rpc", url, "--private-key-env", "KEY", *(["--yes"] if yes else [])])
-    said = capsys.readouterr()
-    assert "Traceback" not in said.err
-    return code, before - balance(node), said.out + said.err, (said.err.splitlines() or [""])[-1]
+        def agree(*_: Any, **__: Any) -> bool:
+            liar.lying = True
+            return True
+
+        if not yes:
+            monkeypatch.setattr("sys.stdin", Terminal())
+            monkeypatch.setattr("click.confirm", agree)
+        before = balance(node)
+        with liar.before(node.url) as url:
+            code = run([*arguments, "--rpc", url, "--private-key-env", "KEY", *(["--yes"] if yes else [])])
+        said = capsys.readouterr()
+        assert "Traceback" not in said.err
+        return code, before - balance(node), said.out + said.err, (said.err.splitlines() or [""])[-1]
+
+    return run_it
 
 
 @pytest.mark.parametrize("lies", [TIP, NO_BASE], ids=["tip", "no base"])
 @pytest.mark.parametrize("what", COMMANDS)
-def test_later_fees_change_nothing(
-    node: Anvil, what: str, lies: Any, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    code, paid, said, _ = pay(node, Liar(lies), COMMANDS[what], capsys, monkeypatch)
+def test_later_fees_change_nothing(pay: Pay, what: str, lies: Any) -> None:
+    code, paid, said, _ = pay(lies, *COMMANDS[what])
     assert code == 0, said
     assert 0 < paid <= ceiling(said)
 
@@ -150,10 +134,8 @@ def test_later_fees_change_nothing(
     ids=["gas", "base"],
 )
 @pytest.mark.parametrize("what", COMMANDS)
-def test_whoever_wants_more_than_was_told_gets_nothing(
-    node: Anvil, what: str, lies: Any, words: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    code, paid, said, error = pay(node, Liar(lies), COMMANDS[what], capsys, monkeypatch)
+def test_whoever_wants_more_than_was_quoted_gets_nothing(pay: Pay, what: str, lies: Any, words: str) -> None:
+    code, paid, said, error = pay(lies, *COMMANDS[what])
     assert (code, paid) == (1, 0), said
     assert re.search(rf"^shackled: .*{words}.*run the command again", error)
 
@@ -168,63 +150,49 @@ def test_whoever_wants_more_than_was_told_gets_nothing(
     ids=["tip", "no base", "gas"],
 )
 @pytest.mark.parametrize("what", COMMANDS)
-def test_a_first_price_that_is_a_lie_is_refused_unasked(
-    node: Anvil, what: str, lies: Any, words: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    code, paid, said, error = pay(node, Liar(lies), COMMANDS[what], capsys, monkeypatch, yes=True)
+def test_a_first_price_that_is_a_lie_is_refused_unasked(pay: Pay, what: str, lies: Any, words: str) -> None:
+    code, paid, said, error = pay(lies, *COMMANDS[what], yes=True)
     assert (code, paid) == (1, 0), said
     assert re.search(rf"^shackled: .*{words}.*--max-fee", error)
 
 
 @pytest.mark.parametrize("what", COMMANDS)
-def test_a_price_that_is_named_is_the_most(
-    node: Anvil, what: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    arguments = (*COMMANDS[what], "--max-fee", "50")
-    code, paid, said, _ = pay(node, Liar(TIP), arguments, capsys, monkeypatch, yes=True)
+def test_a_price_that_is_named_is_the_most(pay: Pay, what: str) -> None:
+    code, paid, said, _ = pay(TIP, *COMMANDS[what], "--max-fee", "50", yes=True)
     assert code == 0, said
     assert paid <= ceiling(said)
 
 
-def test_a_price_above_the_one_that_is_named_is_not_paid(
-    node: Anvil, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_price_above_the_one_that_is_named_is_not_paid(pay: Pay) -> None:
     for lies in (JUMP, NO_BASE):
-        arguments = (*COMMANDS["mint"], "--max-fee", "50")
-        code, paid, _, error = pay(node, Liar(lies), arguments, capsys, monkeypatch, yes=True)
+        code, paid, _, error = pay(lies, *COMMANDS["mint"], "--max-fee", "50", yes=True)
         assert (code, paid) == (1, 0)
         assert "a unit of gas costs 2,000,000 gwei now, more than the 50 of --max-fee" in error
 
 
-def test_an_event_without_topics_hides_no_token(
-    node: Anvil, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_event_without_topics_hides_no_token(pay: Pay) -> None:
     odd = {"address": "0x" + "12" * 20, "topics": [], "data": "0x"}
     lies = {"eth_getTransactionReceipt": lambda receipt, _: receipt | {"logs": [odd, *receipt["logs"]]}}
-    code, paid, said, _ = pay(node, Liar(lies), COMMANDS["mint"], capsys, monkeypatch, yes=True)
+    code, paid, said, _ = pay(lies, *COMMANDS["mint"], yes=True)
     assert (code, paid > 0) == (0, True), said
     assert "minted #1, #2" in said
 
 
 @pytest.mark.parametrize("odd", ["zz", {}, {"number": "0x1"}, None])
-def test_blocks_that_are_none_reveal_nothing(
-    node: Anvil, odd: Any, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_blocks_that_are_none_reveal_nothing(pay: Pay, odd: Any) -> None:
     lies = {"eth_getBlockByNumber": lambda block, parameters: block if parameters[0] == "latest" else odd}
-    code, paid, said, error = pay(node, Liar(lies), COMMANDS["reveal"], capsys, monkeypatch, yes=True)
+    code, paid, said, error = pay(lies, *COMMANDS["reveal"], yes=True)
     assert (code, paid) in ((1, 0), (2, 0)), said
     assert re.search("does not have block|an invalid block|returned no parentHash of block", error)
 
 
-def test_fields_that_are_none_reveal_nothing(
-    node: Anvil, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_fields_that_are_none_reveal_nothing(pay: Pay) -> None:
     for odd in ("zz", 1.5, -5, [300], 7):
         lies: dict[str, Any] = {
             "eth_getBlockByNumber": lambda block, parameters, odd=odd: (
                 block if parameters[0] == "latest" else block | {"gasUsed": odd}
             )
         }
-        code, paid, said, error = pay(node, Liar(lies), COMMANDS["reveal"], capsys, monkeypatch, yes=True)
+        code, paid, said, error = pay(lies, *COMMANDS["reveal"], yes=True)
         assert (code, paid) in ((1, 0), (2, 0)), said
         assert re.search("invalid fields|has the hash", error)

@@ -3,38 +3,31 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from commands import Shackled
 from forged_blocks import forged
+from nodes import Node
 from proxies import Liar
-from shackled.chain import Connection
 from shackled.cli.app import run
 from shackled.deploy import Transactor
 from shackled.errors import RevertError
 from shackled.ethereum import encode_header
-from shackled.tokens import (
-    KINDS,
-    Collection,
-    CollectionTerms,
-    development_accounts,
-    launch,
-    perform,
-    plan_launch,
-)
-from tokens.on_a_node import Node, Shackled
+from shackled.tokens import KINDS, Collection, CollectionTerms, launch, plan_launch
+from shackled.tokens._contract import perform
+from shackled.tokens._demo import development_accounts
 
 OWNER, WALLET = 0, 5
 
 
 @pytest.fixture(scope="module")
-def collection(node: Node) -> Collection:
+def collection(running_node: Node, users: list[str]) -> Collection:
     """A collection with a token of round 0, minted in the last block."""
-    owner = Transactor(Connection(node.url), development_accounts()[OWNER])
-    terms = CollectionTerms(node.accounts[OWNER], node.accounts[OWNER])
+    owner = Transactor(running_node.connection, development_accounts()[OWNER])
+    terms = CollectionTerms(running_node.accounts[OWNER], running_node.accounts[OWNER])
     made, _ = launch(plan_launch(owner.connection, KINDS["genesis"], terms), owner)
     perform(owner, made.contract, "setPhase", 2)
     perform(owner, made.contract, "mint", 1, value=made.contract.call("price"))
@@ -42,12 +35,8 @@ def collection(node: Node) -> Collection:
 
 
 @pytest.fixture(autouse=True)
-def fresh(node: Node, collection: Collection, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Each test finds the same chain, and a folder of its own."""
+def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    before = node.rpc("evm_snapshot")
-    yield
-    node.rpc("evm_revert", before)
 
 
 def mine_until(node: Node, collection: Collection, missing: int) -> int:
@@ -98,12 +87,12 @@ def test_with_json_only_json_is_printed(node: Node, collection: Collection, shac
     said = shackled("token", "reveal", "--calldata", "calls.json", "--json")
     assert json.loads(said.out) == json.loads(Path("calls.json").read_text())
     said = shackled("token", "reveal", "--json", "--yes", user=WALLET)
-    told = json.loads(said.out)
-    receipt = node.web3.eth.get_transaction_receipt(told["transactions"][0])
-    assert (told["rounds"], told["gas"]) == ([0], receipt["gasUsed"])
+    reported = json.loads(said.out)
+    receipt = node.web3.eth.get_transaction_receipt(reported["transactions"][0])
+    assert (reported["rounds"], reported["gas"]) == ([0], receipt["gasUsed"])
 
 
-def test_a_block_to_come_is_told_or_waited_for(
+def test_a_block_to_come_is_reported_or_waited_for(
     node: Node, collection: Collection, shackled: Shackled, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for missing, words in ((3, "3 more blocks"), (1, "1 more block")):
@@ -145,7 +134,7 @@ def test_a_node_that_lies_about_blocks_gets_nothing_written(
     for lies in (
         forging(mixHash="0x" + "77" * 32),
         forging(extraData="0x00"),
-        {"eth_getBlockByNumber": lambda told, asked: told if asked[0] == "latest" else parent},
+        {"eth_getBlockByNumber": lambda block, asked: block if asked[0] == "latest" else parent},
     ):
         with Liar(lies).before(node.url) as url:
             assert run(["token", "reveal", "--calldata", "calls.json", "--rpc", url]) == 1
@@ -161,9 +150,9 @@ def test_a_node_that_lies_about_the_hash_too_is_caught_by_the_simulation(
 ) -> None:
     block = mine_until(node, collection, 0)
     lies = forging(mixHash="0x" + "77" * 32)
-    told = lies["eth_getBlockByNumber"](node.rpc("eth_getBlockByNumber", hex(block), False), [hex(block), False])
+    reported = lies["eth_getBlockByNumber"](node.rpc("eth_getBlockByNumber", hex(block), False), [hex(block), False])
     asked = "0x" + collection.contract.interface.encode("hashOf", block).hex()
-    lies["eth_call"] = lambda answer, parameters: told["hash"] if parameters[0]["data"] == asked else answer
+    lies["eth_call"] = lambda answer, parameters: reported["hash"] if parameters[0]["data"] == asked else answer
     with Liar(lies).before(node.url) as url:
         assert run(["token", "reveal", "--calldata", "calls.json", "--rpc", url]) == 1
     assert "header" in capsys.readouterr().err.splitlines()[-1]

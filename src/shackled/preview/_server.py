@@ -17,7 +17,7 @@ from ..untrusted import plain
 from ._document import HTML
 from ._preview import Preview, Request, Token
 from ._project import CompilerError, Project
-from ._summary import summary
+from ._report import summary
 
 #: Seconds between two looks at the sources.
 PAUSE = 0.25
@@ -72,7 +72,7 @@ class Live:
                 queue.put(None)
 
     def _make(self) -> None:
-        """Compile, and read all tokens. Whatever fails is told to the page."""
+        """Compile, and read all tokens. Whatever fails is shown on the page."""
         self.version += 1
         self._tell(status="compiling", error="", notes=[])
         try:
