@@ -197,7 +197,7 @@ class Cluster:
         return [ClusterBackend(self.address, jobs, self.evm, gas_limit, self.verify is not None)]
 
 
-#: Where calls run: in the EVM of this name, in this EVM, or in one of these.
+#: Where calls run: in the EVM of this name, at the node of this address, in this EVM, or in one of these.
 On = str | Chain | Processes | Nodes | Cluster
 #: The same, as `place_of` returns it.
 Place = Embedded | Processes | Nodes | Cluster
@@ -206,7 +206,7 @@ Place = Embedded | Processes | Nodes | Cluster
 def place_of(on: On | Place | None) -> Place:
     """Return where calls run. InputError if `on` is something else."""
     if isinstance(on, str) and "://" in on:
-        raise InputError(f"`on` must be Nodes({on!r:.60}) for a node, not its address alone")
+        on = Nodes(on)
     if on is None or isinstance(on, str):
         return Embedded(None if on is None else check_chain(on, "`on`"))
     if isinstance(on, Processes):
