@@ -31,13 +31,15 @@ from tools.pages import ROOT, update
 
 from shackled import load
 from shackled.chain import EmbeddedChain, open_chain
-from shackled.deploy import PROXY_CODE, Deployment, deployments
+from shackled.deploy import Deployment, deployments
+from shackled.deploy._contract import PROXY_CODE
 from shackled.errors import ChainError
 from shackled.ethereum import PROXY
 from shackled.evm import Instance, Status
 from shackled.library import items
 from shackled.scene import fit, pack
-from shackled.studio import STUDIO, StoreTransaction, quantize, store_mesh
+from shackled.studio import STUDIO, StoreTransaction
+from shackled.studio._storage import quantize, store_mesh
 
 PAGE = ROOT / "docs" / "studio.md"
 

@@ -120,7 +120,7 @@ def starts() -> str:
 
 def start(command: tuple[str, ...], chain: str, cache: Path) -> None:
     """Render in a new process, with this folder as the user's cache."""
-    program = [str(Path(sys.executable).with_name("shackled")), "render", *command, "--chain", chain]
+    program = [str(Path(sys.executable).with_name("shackled")), "render", *command, "--evm", chain]
     output = ["-o", str(cache.with_suffix(".png"))]
     subprocess.run(
         [*program, *output], env=os.environ | {"XDG_CACHE_HOME": str(cache)}, check=True, capture_output=True

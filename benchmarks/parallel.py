@@ -21,7 +21,10 @@ from shackled import Scene
 from shackled.bench import gas, millions, table
 from shackled.chain import open_chain
 from shackled.datasets import require
-from shackled.parallel import Backend, Listener, Part, ProcessBackend, Scheduler, Where, grid
+from shackled.parallel import Listener, Where
+from shackled.parallel._backends import Backend, Part, ProcessBackend
+from shackled.parallel._scheduler import Scheduler
+from shackled.parallel._tiles import grid
 from shackled.scene import Rectangle, full_turn
 
 from . import Section, shared

@@ -23,7 +23,9 @@ from shackled.datasets import require, teapot
 from shackled.datasets.genesis import generate_on_chain, picture_on_chain, seed_of
 from shackled.image import encode_bmp
 from shackled.scene import fit, pack, stage
-from shackled.studio import compact, quantize, store_mesh, store_scene
+from shackled.studio import store_scene
+from shackled.studio._compact_mesh import compact
+from shackled.studio._storage import quantize, store_mesh
 
 from .snapshot import changes
 

@@ -16,7 +16,8 @@ from tools.pages import ROOT, update
 
 from shackled import Camera, Light, Material, Mesh, Object, Scene, Texture, Tone, load, render
 from shackled.chain import EmbeddedChain, open_chain
-from shackled.scene import FILTERS, pack_texture
+from shackled.scene._packed_texture import pack_texture
+from shackled.scene._texture import FILTERS
 from shackled.studio import store_scene
 
 PAGE = ROOT / "docs" / "light.md"

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 import judge
 from pictures import UNLIT, call_data, counts, covered, draw, on_pixel_grid, pixel_grid_camera, soup, unlit_scene
 from shackled import Camera, Light, Material, Mesh, Object, Scene
-from shackled.scene import Shading, vertex_normals
+from shackled.scene import vertex_normals
+from shackled.scene._material import Shading
 
 Array = NDArray[np.float64]
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from pictures import draw
 from shackled import Camera, Light, Material, Mesh, Object, Scene, Tone
-from shackled.scene import Rectangle, Shading, fit
+from shackled.scene import Rectangle, fit
+from shackled.scene._material import Shading
 
 Array = NDArray[np.float64]
 Rng = np.random.Generator

@@ -14,14 +14,14 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import click
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
 from PIL import ImageSequence
 from tools.docs.contract_reference import MARK, filled
-from typer.main import get_command
-from typer.testing import CliRunner
 
 import shackled
 from animated_gltf import write
@@ -83,9 +83,10 @@ def test_the_commands_of_a_page_exist(page: Path) -> None:
     """With the options that are shown."""
     for line in re.findall(r"^(?:\$ )?(?:\.venv/bin/)?(shackled [a-z].*)$", page.read_text("utf-8"), re.MULTILINE):
         words = shlex.split(line, comments=True)[1:]
-        command = get_command(app)
-        while words and hasattr(command, "commands"):
-            command = command.commands[words.pop(0)]
+        command: click.Command | None = app
+        while words and isinstance(command, click.Group):
+            command = command.get_command(click.Context(command), words.pop(0))
+        assert command is not None, line
         known = {option for parameter in command.params for option in (*parameter.opts, *parameter.secondary_opts)}
         assert {word for word in words if word.startswith("-")} - {"--help"} <= known, line
 

@@ -14,9 +14,10 @@ import judge
 from pictures import chain, counts, draw, dynamic
 from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, RenderError, Scene, render
 from shackled.artifacts import artifact
-from shackled.chain import engines
+from shackled.chain._node import engines
 from shackled.image import decode_bmp
-from shackled.scene import ONE, Rectangle, encode, encode_scene, extensions, fit, render_call
+from shackled.scene import Rectangle, encode, encode_scene, fit, render_call
+from shackled.scene._codec import ONE, extensions
 
 CORNERS = [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
 QUADS = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]

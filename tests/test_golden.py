@@ -5,8 +5,8 @@ from __future__ import annotations
 import golden
 from pictures import chain
 from shackled.artifacts import artifact
-from shackled.chain import engines
-from shackled.gas import engine_calls
+from shackled.chain._node import engines
+from shackled.gas._runs import engine_calls
 from shackled.scene import render_call
 
 

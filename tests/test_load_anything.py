@@ -32,7 +32,8 @@ from shackled import (
     replace,
 )
 from shackled.datasets import require
-from shackled.scene import SETTINGS, Hemisphere, LookOptions, look_at, read_mesh, rotate, signed_volume, write_obj
+from shackled.scene import SETTINGS, Hemisphere, LookOptions, look_at, read_mesh, rotate, write_obj
+from shackled.scene._staging import signed_volume
 
 BALL = trimesh.creation.icosphere(subdivisions=1)
 MESH = Mesh(BALL.vertices, BALL.faces)

@@ -21,7 +21,8 @@ from shackled.artifacts import artifact
 from shackled.chain import Connection, ContractChain, open_chain
 from shackled.datasets import teapot
 from shackled.ethereum import intrinsic_gas
-from shackled.scene import LIGHTS, PROJECTIONS, SHADINGS, Rectangle, encode, extensions, fit, pack
+from shackled.scene import SHADINGS, Rectangle, encode, fit, pack
+from shackled.scene._codec import LIGHTS, PROJECTIONS, extensions
 
 PATIENCE = 30
 GAS_LIMIT = 1_000_000_000

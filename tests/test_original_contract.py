@@ -16,7 +16,7 @@ from pictures import Pixels, chain, dynamic
 from shackled import RenderError, Scene
 from shackled.artifacts import artifact
 from shackled.image import decode_bmp
-from shackled.scene import original_scene
+from shackled.scene._files.original import original_scene
 
 CUBE: dict[str, Any] = {
     "canvasDim": 40,

@@ -114,15 +114,16 @@ def _of_the_package(path: Path) -> Iterator[str]:
             yield from (".".join([*base, *filter(None, [node.module]), alias.name]) for alias in node.names)
 
 
-FACES = [path.parent for path in sorted(PACKAGE.rglob("__init__.pyi"))]
+FACES = [path.parent for path in sorted(PACKAGE.rglob("__init__.pyi")) if path.parent != PACKAGE]
 
 
 @pytest.mark.parametrize("package", FACES, ids=lambda path: path.relative_to(PACKAGE).as_posix())
 def test_others_import_only_what_a_package_exports(package: Path) -> None:
+    """What is developed with the package, such as its tests, may import its private modules."""
     name = ".".join(package.relative_to(PACKAGE.parent).parts)
     face = import_module(name)
     assert all(hasattr(face, each) for each in face.__all__)
-    folders = [PACKAGE, *(ROOT / each for each in ("tests", "benchmarks", "tools", "examples"))]
+    folders = [PACKAGE, ROOT / "examples"]
     files = [path for folder in folders for path in sorted(folder.rglob("*.py")) if not path.is_relative_to(package)]
     private = [
         f"{path.relative_to(ROOT)}: {imported}"
@@ -131,6 +132,23 @@ def test_others_import_only_what_a_package_exports(package: Path) -> None:
         if imported.startswith(f"{name}._")
     ]
     assert not private
+
+
+@pytest.mark.parametrize("package", FACES, ids=lambda path: path.relative_to(PACKAGE).as_posix())
+def test_a_package_exports_only_what_others_need(package: Path) -> None:
+    """The documentation names it, or another package uses it, or a package inside this one."""
+    name = ".".join(package.relative_to(PACKAGE.parent).parts)
+    files = [path for each in ("tools/docs", "examples", "benchmarks") for path in (ROOT / each).rglob("*.py")]
+    files += [path for path in PACKAGE.rglob("*.py") if path.parent != package]
+    used = {each for path in files for each in of_the_package(path)}
+    texts = [path.read_text() for path in [*files, *(ROOT / "docs").rglob("*.md")]]
+    for text in texts:
+        used |= {f"{name}.{each}" for each in re.findall(rf"(?<!\w){package.name}\.(\w+)", text)}
+        for line in re.findall(rf"from {re.escape(name)} import ([^\n]*)", text):
+            used |= {f"{name}.{each}" for each in re.findall(r"\w+", line)}
+    if package.parent.name == "datasets":  # which imports its packages by their names
+        used |= {f"{name}.{each}" for each in ("find", "pieces")}
+    assert {f"{name}.{each}" for each in import_module(name).__all__} <= used
 
 
 def test_every_platform_needs_the_same() -> None:

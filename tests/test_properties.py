@@ -19,7 +19,8 @@ from conformance.neighbours import around, interior
 from judge import render
 from pictures import call, call_data
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
-from shackled.scene import Rectangle, Shading, fit, vertex_normals
+from shackled.scene import Rectangle, fit, vertex_normals
+from shackled.scene._material import Shading
 
 Integers = NDArray[np.int64]
 Array = NDArray[np.float64]

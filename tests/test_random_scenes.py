@@ -19,7 +19,8 @@ from random_scenes import KINDS, Kind, broken_call, random_case
 from shackled import Camera, Light, Material, Mesh, Object, RenderError, Scene, load
 from shackled.artifacts import artifact
 from shackled.image import decode_bmp
-from shackled.scene import Rectangle, original_scene, rotate
+from shackled.scene import Rectangle, rotate
+from shackled.scene._files.original import original_scene
 
 SEEDS = 100
 #: One in so many wild scenes may be wrong somewhere: their numbers are as large or as small as any may be.

@@ -39,11 +39,9 @@ from shackled import (
     load,
 )
 from shackled.artifacts import artifact
-from shackled.gas import engine_calls
+from shackled.gas._runs import engine_calls
 from shackled.image import decode_bmp
 from shackled.scene import (
-    FILTERS,
-    WRAPS,
     Hemisphere,
     Rectangle,
     Texture,
@@ -51,11 +49,13 @@ from shackled.scene import (
     encode,
     encode_scene,
     encode_scene_file,
-    extensions,
     fit,
     render_call,
 )
-from shackled.studio import quantize, store_scene
+from shackled.scene._codec import extensions
+from shackled.scene._texture import FILTERS, WRAPS
+from shackled.studio import store_scene
+from shackled.studio._storage import quantize
 
 #: In the order of their numbers, from 1. From LONG on, sizes are in words.
 KINDS = (

@@ -14,16 +14,8 @@ from pictures import chain, draw
 from shackled import Camera, Ground, InputError, Light, Material, Mesh, Object, RenderError, Scene, load
 from shackled.artifacts import artifact
 from shackled.datasets.common import shapes
-from shackled.scene import (
-    Rectangle,
-    decode,
-    encode_scene,
-    encode_scene_file,
-    extensions,
-    fit,
-    painted,
-    render_call,
-)
+from shackled.scene import Rectangle, decode, encode_scene, encode_scene_file, fit, painted, render_call
+from shackled.scene._codec import extensions
 
 SIZE = 40
 

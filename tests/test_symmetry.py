@@ -22,7 +22,8 @@ from pictures import (
 from shackled import Camera, Light, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
 from shackled.datasets import teapot
-from shackled.scene import from_euler, multiply, rotate, vertex_normals
+from shackled.scene import from_euler, rotate, vertex_normals
+from shackled.scene._rotation import multiply
 from test_fill_rule import edge_functions
 
 Array = NDArray[np.float64]

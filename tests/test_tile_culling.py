@@ -14,7 +14,8 @@ from made_scenes import flat, teapot_scene
 from pictures import call, call_data, chain, covered, draw, dynamic
 from shackled import Background, Camera, Material, Mesh, Object, RenderError, Scene, load
 from shackled.image import decode_bmp
-from shackled.parallel import grid, strips
+from shackled.parallel._counter import strips
+from shackled.parallel._tiles import grid
 from shackled.scene import Rectangle, fit
 
 SIDE, ACROSS = 80, 4

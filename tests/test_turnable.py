@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 from mkdocs.commands.build import build
 from mkdocs.config import load_config
-from tools.page_server import ARGUMENTS, browser_path, static
+from tools.page_server import static
 
 from shackled import render
 
@@ -47,14 +48,9 @@ def test_pictures_with_a_scene_are_turned(site: Path) -> None:
     assert "<script" not in (site / "index.html").read_text()
 
 
-@pytest.mark.skipif(browser_path() is None, reason="needs chromium: apt-get install chromium")
-def test_in_chromium(site: Path) -> None:
-    playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright")
-    with static(site) as served, playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
-        tab = browser.new_page()
+def test_in_chromium(site: Path, browser: Any) -> None:
+    with static(site) as served, browser.new_page() as tab:
         tab.goto(f"{served.address}pictures/")
         tab.wait_for_function("() => document.querySelector('shackled-view').picture")
         found = tab.evaluate("document.querySelector('shackled-view').picture.sha256")
-        browser.close()
     assert found == render("icons/crown", (48, 40)).sha256

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from pictures import draw
 from shackled import Camera, Light, Material, Mesh, Object, Scene
-from shackled.scene import MOST_TWO_SIDED, Hemisphere, Texture, fit, look_at, vertex_normals
+from shackled.scene import Hemisphere, Texture, fit, look_at, vertex_normals
+from shackled.scene._look import MOST_TWO_SIDED
 
 LOOKS: dict[str, tuple[dict[str, Any], dict[str, Any], dict[str, Any]]] = {
     # fields of the material, of the object, of the scene

@@ -35,7 +35,7 @@ from typing import Any
 
 from shackled.artifacts import OUTPUTS as OUTPUTS
 from shackled.artifacts import source as text_of
-from shackled.gas import function_sizes
+from shackled.gas._function_sizes import function_sizes
 
 ROOT = Path(__file__).resolve().parent.parent
 CONTRACTS = ROOT / "contracts"

@@ -28,10 +28,12 @@ from PIL import Image, ImageOps
 
 from shackled import load
 from shackled.artifacts import artifact
-from shackled.datasets import Piece, draw, find, pieces, table
+from shackled.datasets import Piece, find, pieces
+from shackled.datasets._drawing import draw, table
 from shackled.ethereum import to_hex
 from shackled.scene import encode_scene_file, vertex_normals
-from shackled.web import asset, page_template
+from shackled.web import asset
+from shackled.web._page import page_template
 from tools.build_web import WEB, code_of
 
 ROOT = Path(__file__).resolve().parent.parent

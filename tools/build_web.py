@@ -21,7 +21,9 @@ from typing import Any
 from shackled.artifacts import RENDERER, artifact
 from shackled.chain import EmbeddedChain, open_chain
 from shackled.ethereum import SOLIDITY_ERRORS, to_hex
-from shackled.gas import STAGES, places, source_map
+from shackled.gas import STAGES
+from shackled.gas._source_map import source_map
+from shackled.gas._trace import places
 
 ROOT = Path(__file__).resolve().parent.parent
 WEB = ROOT / "web"

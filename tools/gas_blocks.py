@@ -20,7 +20,9 @@ from typing import Any
 from shackled import load
 from shackled.artifacts import artifact
 from shackled.errors import ShackledError
-from shackled.gas import CallFrame, render_call, source_map, trace
+from shackled.gas import render_call
+from shackled.gas._source_map import source_map
+from shackled.gas._trace import CallFrame, trace
 
 #: JUMPDEST begins a basic block; STOP, JUMP, JUMPI, RETURN, REVERT and INVALID end one.
 JUMPDEST, ENDS = 0x5B, {0x00, 0x56, 0x57, 0xF3, 0xFD, 0xFE}

@@ -9,7 +9,8 @@ import pytest
 from eth_abi.abi import decode, encode
 
 from shackled.artifacts import artifact
-from shackled.chain import EmbeddedChain, open_chain, pyrevm_error
+from shackled.chain import EmbeddedChain, open_chain
+from shackled.chain._embedded import pyrevm_error
 from shackled.ethereum import intrinsic_gas, to_hex
 
 GAS = 2_000_000_000

@@ -13,7 +13,8 @@ from typing import Any
 
 from shackled.checks import Color
 from shackled.gas import limits
-from shackled.scene import PRESETS, SETTINGS, Preset
+from shackled.scene import PRESETS, SETTINGS
+from shackled.scene._presets import Preset
 
 FILE = Path(__file__).resolve().parent.parent / "web" / "src" / "creator" / "settings.ts"
 HEAD = """// Written by tools/page_settings.py from the tables of the Python package.

@@ -9,7 +9,9 @@ import argparse
 from pathlib import Path
 
 from shackled.checks import Color
-from shackled.scene import ONE, PRESETS, Preset
+from shackled.scene import PRESETS
+from shackled.scene._codec import ONE
+from shackled.scene._presets import Preset
 
 FILE = Path(__file__).resolve().parent.parent / "contracts" / "src" / "building" / "Presets.sol"
 

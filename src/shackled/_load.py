@@ -48,6 +48,9 @@ Thing = str | os.PathLike[str] | Piece | Mesh | Object | Scene | Sequence[Any] |
 #: Between pieces that stand in a row: a part of the width of the widest.
 GAP = 0.2
 
+#: `shackled.replace`: a scene, or a part of one, with other values of some fields.
+replace = evolve
+
 
 def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack[LookOptions]) -> Scene:
     """Return the scene of a file, a piece of a dataset, a mesh, arrays, or an object of trimesh.

@@ -16,27 +16,18 @@ import shackled
 from original_scenes import document, mesh_keys
 from shackled import InputError, Scene
 from shackled.artifacts import artifact
-from shackled.bench import (
-    CODE_SIZES,
-    EXPERIMENTS,
-    ExperimentReport,
-    Runner,
-    call_renderer,
-    cost,
-    fits,
-    open_engines,
-    original,
-    original_gas,
-    scenes,
-    time_engine,
-    wrapped,
-)
-from shackled.chain import DEFAULT_GAS_LIMIT, SENDER, EmbeddedChain, open_chain
+from shackled.bench import EXPERIMENTS, Runner, call_renderer, fits, original, original_gas, scenes
+from shackled.bench._engines import open_engines, time_engine
+from shackled.bench._measure import cost
+from shackled.bench._original import CODE_SIZES
+from shackled.bench._report import ExperimentReport, wrapped
+from shackled.chain import DEFAULT_GAS_LIMIT, EmbeddedChain, open_chain
+from shackled.chain._embedded import SENDER
 from shackled.cli.app import run
 from shackled.datasets import require
 from shackled.deploy import STANDARD
 from shackled.ethereum import to_hex
-from shackled.scene import original_scene
+from shackled.scene._files.original import original_scene
 
 SLOW = ("engines",)
 
@@ -237,7 +228,7 @@ def test_engines_agree(tmp_path: Path) -> None:
     assert all(float(row["seconds"]) > 0 for row in rows)
 
 
-@pytest.mark.skipif(find_anvil() is None, reason="anvil is not installed: npm ci in contracts/")
+@pytest.mark.node
 def test_a_node_draws_the_same_for_the_same_gas() -> None:
     with AnvilChain(str(find_anvil())) as node:
         scene = scenes.cube(16)
@@ -245,7 +236,7 @@ def test_a_node_draws_the_same_for_the_same_gas() -> None:
         assert node.count(scene) == open_chain().count(scene)
 
 
-@pytest.mark.skipif(find_anvil() is None, reason="anvil is not installed: npm ci in contracts/")
+@pytest.mark.node
 def test_a_node_is_one_more_engine() -> None:
     with AnvilChain(str(find_anvil())) as chain:
         chain.address("Renderer")

@@ -17,7 +17,8 @@ from typing import Any
 import pytest
 
 from nodes import Reply, failure, free_port, result, serving
-from shackled.chain import Connection, retry_after, revert_data
+from shackled.chain import Connection
+from shackled.chain._failures import retry_after, revert_data
 from shackled.errors import (
     ChainError,
     InputError,

@@ -17,16 +17,8 @@ from tools.anvil import Anvil
 from nodes import PUBLIC, Reply, anvil, failure, forward, needs_anvil, result, serving, without_overrides
 from shackled import Background, Camera, Light, Material, Mesh, Nodes, Object, Scene, render
 from shackled.artifacts import RENDERER, artifact
-from shackled.chain import (
-    MAX_INIT_CODE,
-    VARIABLE,
-    AddressBook,
-    Drawing,
-    EmbeddedChain,
-    NodeChain,
-    open_chain,
-    open_node,
-)
+from shackled.chain import VARIABLE, AddressBook, Drawing, EmbeddedChain, NodeChain, open_chain, open_node
+from shackled.chain._node import MAX_INIT_CODE
 from shackled.datasets import teapot
 from shackled.errors import (
     InputError,

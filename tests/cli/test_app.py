@@ -14,6 +14,7 @@ from typing import NoReturn
 import pytest
 
 from shackled import cli
+from shackled.cli.app import LINES, app
 from shackled.cli.app import run as run_command
 from shackled.cli.option import with_options
 
@@ -71,7 +72,7 @@ STARTUP = """
 import sys
 class Stop:
     def find_spec(self, name, *_):
-        if name == "numpy":
+        if name == "click":
             raise KeyboardInterrupt
 sys.meta_path.insert(0, Stop())
 from shackled_command import main
@@ -83,6 +84,31 @@ def test_stopped_while_the_package_is_read_in() -> None:
     """That is before the package can do anything about it."""
     told = subprocess.run([sys.executable, "-c", STARTUP], capture_output=True, text=True, timeout=60)
     assert (told.returncode, told.stdout, told.stderr) == (1, "", "shackled: stopped\n")
+
+
+LOADED = """
+import sys
+from shackled.cli.app import run
+code = run({arguments})
+print(sorted(set(sys.modules) & {{"numpy", "wasmtime", "PIL", "rich", "shackled.cli.render", "shackled.scene"}}))
+sys.exit(code)
+"""
+
+
+@pytest.mark.parametrize("arguments", [["--help"], [], ["--version"], ["--completion", "bash"]], ids=" ".join)
+def test_help_loads_no_command(arguments: list[str]) -> None:
+    told = subprocess.run(
+        [sys.executable, "-c", LOADED.format(arguments=arguments)], capture_output=True, text=True, timeout=60
+    )
+    assert (told.returncode, told.stderr) == (0, "")
+    assert told.stdout.splitlines()[-1] == "[]"
+
+
+def test_every_command_can_be_loaded() -> None:
+    found = dict(app.commands_below())
+    assert {"shackled render", "shackled token edition mint", "shackled datasets list"} <= found.keys()
+    for name, line in LINES.items():
+        assert " ".join((found[f"shackled {name}"].help or "").split()).startswith(line)
 
 
 @pytest.mark.skipif(not shutil.which("sh"), reason="there is no sh here")
@@ -102,6 +128,42 @@ def test_closed_outputs() -> None:
     # what belongs to stderr does not come to stdout
     done = told("render", "shape.obj", "--near", "1e30", "--size", "8", "--json", "2>&-")
     assert json.loads(done.stdout)["lit_pixels"] == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "meant"),
+    [
+        (["mint", "icons/die"], "command mint: it is store, which mints no token; `shackled token mint` does"),
+        (["render", "shape.obj", "--chain", "revm"], "option --chain: it is --evm"),
+        (["gas", "shape.obj", "--chain=revm"], "option --chain: it is --evm"),
+        (["stages", "shape.obj", "--chain", "revm", "-o", "out"], "option --chain: it is --evm"),
+        (["render", "shape.obj", "--width", "64"], "option --width: it is --size"),
+        (["render", "shape.obj", "--fps", "24"], "option --fps: it is --duration"),
+        (["render", "shape.obj", "--alpha"], "option --alpha: it is --transparent"),
+        (["turntable", "shape.obj"], "command turntable: it is render INPUT --turntable FRAMES"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
+)
+def test_other_words_name_the_right_ones(
+    arguments: list[str], meant: str, capsys: pytest.CaptureFixture[str], folder: Path
+) -> None:
+    assert run_command(arguments) == 2
+    assert capsys.readouterr() == ("", f"shackled: no such {meant}\n")
+    assert [each.name for each in folder.iterdir()] == ["shape.obj"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [(["deploy", "--chain", "1"], "--chain-id"), (["token", "turntable"], "'turntable'")],
+    ids=str,
+)
+def test_words_that_mean_something_else_are_left(
+    arguments: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run_command(arguments) == 2
+    message = capsys.readouterr().err
+    assert said in message
+    assert "it is" not in message
 
 
 def test_help_in_short(capsys: pytest.CaptureFixture[str]) -> None:

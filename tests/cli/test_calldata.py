@@ -10,7 +10,7 @@ from shackled.cli.app import run
 
 COMMANDS = {
     "deploy": ("deploy",),
-    "mint": ("mint", "icons/die"),
+    "store": ("store", "icons/die"),
     "library": ("library", "store", "cube"),
     "reveal": ("token", "reveal"),
 }

@@ -8,8 +8,8 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 from typing import Any
 
+import click
 import pytest
-import typer
 
 from nodes import anvil, needs_anvil
 from shackled import load, render
@@ -97,8 +97,11 @@ def test_the_look_is_that_of_render(capsys: pytest.CaptureFixture[str], options:
 
 
 def test_the_options_of_a_look_are_the_same_everywhere() -> None:
-    commands = typer.main.get_command(app).commands  # type: ignore[attr-defined]
-    options = {name: {o for p in commands[name].params for o in p.opts} for name in ("render", "gas", "stages")}
+    options = {}
+    for name in ("render", "gas", "stages"):
+        command = app.get_command(click.Context(app), name)
+        assert command is not None
+        options[name] = {option for parameter in command.params for option in parameter.opts}
     look = {option_of(setting).partition("/")[0] for setting in SETTINGS}
     assert len(look) > 20
     for given in options.values():
@@ -156,7 +159,7 @@ def test_opcodes(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_mistakes_are_told_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
     Path("folder.svg").mkdir()
-    assert "use one of revm, pyrevm, pyevm" in error(capsys, 2, "--chain", "reference")
+    assert "use one of revm, pyrevm, pyevm" in error(capsys, 2, "--evm", "reference")
     assert ".json or .svg" in error(capsys, 2, "--profile", "flame.png")
     assert "does not exist" in error(capsys, 2, "--profile", "nowhere/flame.svg")
     assert "is a folder" in error(capsys, 2, "--profile", "folder.svg")

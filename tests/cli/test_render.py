@@ -110,7 +110,7 @@ def test_every_chain_makes_the_same_picture(capsys: pytest.CaptureFixture[str]) 
     reports = {}
     installed = [chain for chain, module in CHAINS.items() if find_spec(module)]
     for chain in installed:
-        assert run(["render", "shape.obj", "--size", "16", "--json", "--chain", chain]) == 0
+        assert run(["render", "shape.obj", "--size", "16", "--json", "--evm", chain]) == 0
         reports[chain] = json.loads(capsys.readouterr().out)
     assert len({report["sha256"] for report in reports.values()}) == 1
     assert len({report["lit_pixels"] for report in reports.values()}) == 1
@@ -228,8 +228,8 @@ WRONG = [
     (["render", "shape.obj", "--size", "3000"], "from 1 to 2048 pixels a side"),
     (["render", "shape.obj", "--size", "big"], "WIDTHxHEIGHT"),
     (["render", "shape.obj", "--size", "-5"], "--size"),
-    (["render", "shape.obj", "--chain", "moon"], "--chain must be one of revm, pyrevm, pyevm, not 'moon'"),
-    (["render", "shape.obj", "--chain", "reference"], "is gone: use one of revm, pyrevm, pyevm"),
+    (["render", "shape.obj", "--evm", "moon"], "--evm must be one of revm, pyrevm, pyevm, not 'moon'"),
+    (["render", "shape.obj", "--evm", "reference"], "is gone: use one of revm, pyrevm, pyevm"),
     (["render", "shape.obj", "--rotate", "1,2"], "--rotate must be three numbers"),
     (["render", "shape.obj", "--rotate", "nan,0,0"], "finite"),
     (["render", "shape.obj", "--eye", "a,b,c"], "--eye must be three numbers"),

@@ -19,7 +19,7 @@ from PIL import Image as PillowImage
 from nodes import anvil, needs_anvil
 from shackled.chain import Drawing
 from shackled.cli.app import run
-from shackled.parallel import draw_part
+from shackled.parallel._backends import draw_part
 from shackled.whole_file import write_whole
 
 PATIENCE = 60
@@ -91,7 +91,7 @@ def test_nodes_as_they_are(capsys: pytest.CaptureFixture[str], monkeypatch: pyte
         both = report(capsys, "--rpc", first.url, "--rpc", second.url, "--jobs", "2", "--tile", "48x3")
         monkeypatch.setenv("SHACKLED_RPC", f"{first.url} {second.url}")
         variable = report(capsys)
-        assert str(report(capsys, "--chain", "revm")["chain"]).startswith("embedded")
+        assert str(report(capsys, "--evm", "revm")["chain"]).startswith("embedded")
         assert run(["render", "teapot", "-o", "teapot.png", "--rpc", first.url]) == 0
     keys = ("sha256", "triangles", "lit_pixels")
     assert {tuple(each[key] for key in keys) for each in (whole, there, both, variable)} == {
@@ -115,17 +115,17 @@ def test_nodes_as_they_are(capsys: pytest.CaptureFixture[str], monkeypatch: pyte
         (["--jobs", "0"], "--jobs must be a whole number from 1 to 256, not 0"),
         (["--gas-limit", "-1"], "--gas-limit must be a whole number of gas from 1"),
         (["--rpc", "localhost:8545"], "--rpc must be the address of a node"),
-        (["--rpc", "http://127.0.0.1:1", "--chain", "revm"], "--rpc and --chain exclude each other"),
+        (["--rpc", "http://127.0.0.1:1", "--evm", "revm"], "--rpc and --evm exclude each other"),
         (["--rpc", "http://127.0.0.1:1", "--cluster", "local"], "--rpc and --cluster exclude each other"),
         (["--cluster", "teapot"], "--cluster must be local or an address such as tcp://host:8786, not 'teapot'"),
         (
-            ["--chain", "http://127.0.0.1:1"],
-            "--chain is the name of an EVM: give --rpc for the node 'http://127.0.0.1:1'",
+            ["--evm", "http://127.0.0.1:1"],
+            "--evm is the name of an EVM: give --rpc for the node 'http://127.0.0.1:1'",
         ),
         (["--rpc-timeout", "5"], "--rpc-timeout needs --rpc"),
         (["--verify", "all"], "--verify needs --rpc or --cluster"),
         (["--rpc", "http://127.0.0.1:1", "--verify", "most"], "--verify must be one of all, some, none, not 'most'"),
-        (["--chain", "reference", "--jobs", "2"], "is gone: use one of revm, pyrevm, pyevm"),
+        (["--evm", "reference", "--jobs", "2"], "is gone: use one of revm, pyrevm, pyevm"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, list) else "",
 )

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from shackled import Camera, Light, Material, Scene
-from shackled.scene import near_plane, vertex_normals
+from shackled.scene import vertex_normals
+from shackled.scene._fit import near_plane
 
 Array = NDArray[np.float64]
 

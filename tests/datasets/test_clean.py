@@ -10,22 +10,23 @@ import numpy as np
 import pytest
 
 from shackled import Mesh
-from shackled.datasets.common import (
+from shackled.datasets.common import model as find_model
+from shackled.datasets.common import take
+from shackled.datasets.common._clean import (
     MAX_TRIANGLES,
     capped,
-    checksum,
     clean,
     creased,
     placed,
     prepare,
     reduce,
-    take,
     without_crumbs,
 )
-from shackled.datasets.common import model as find_model
+from shackled.datasets.common._fetch import checksum
 from shackled.datasets.common.shapes import cylinder, icosphere, joined, torus
 from shackled.errors import InputError
-from shackled.scene import FORCEFUL, components, is_closed, signed_volume, simplify
+from shackled.scene import FORCEFUL, components, is_closed, simplify
+from shackled.scene._staging import signed_volume
 
 SHARED = Path(os.environ.get("SHACKLED_SHARED", Path(__file__).resolve().parents[3] / "shared"))
 

@@ -11,8 +11,11 @@ from attrs import evolve
 import shackled
 from shackled import Mesh
 from shackled.datasets import Piece
-from shackled.datasets.common import EYE, HEIGHT, builtin, cornell_box, find, models, shapes
-from shackled.scene import is_closed, signed_volume
+from shackled.datasets.common import builtin, models, shapes
+from shackled.datasets.common._cornell_box import EYE, HEIGHT, cornell_box
+from shackled.datasets.common._models import find
+from shackled.scene import is_closed
+from shackled.scene._staging import signed_volume
 
 CLOSED = {
     "tetrahedron": (shapes.tetrahedron, 4, 8 * 3**0.5 / 27),

@@ -15,20 +15,8 @@ from PIL import Image as PillowImage
 
 import shackled
 from shackled.cli.app import run
-from shackled.datasets import (
-    DATASETS,
-    Piece,
-    PieceCost,
-    cost,
-    draw,
-    draw_all,
-    find,
-    page,
-    pieces,
-    require,
-    sheet,
-    table,
-)
+from shackled.datasets import DATASETS, Piece, PieceCost, cost, draw_all, find, page, pieces, require, sheet
+from shackled.datasets._drawing import draw, table
 from shackled.datasets.common import models
 from shackled.errors import InputError
 from shackled.scene import Mesh, write_obj

@@ -21,7 +21,9 @@ import pytest
 import shackled
 from shackled.cli.app import run
 from shackled.datasets import PieceCost, cost, find
-from shackled.datasets.common import Model, checksum, fetch, take
+from shackled.datasets.common import fetch, take
+from shackled.datasets.common._fetch import checksum
+from shackled.datasets.common._models import Model
 from shackled.datasets.common.shapes import icosphere
 from shackled.errors import FetchError, InputError
 from shackled.scene import write_obj

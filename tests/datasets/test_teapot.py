@@ -3,9 +3,10 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from shackled.datasets import patches, teapot
+from shackled.datasets import teapot
+from shackled.datasets._teapot import patches
 from shackled.errors import InputError
-from shackled.scene import signed_volume
+from shackled.scene._staging import signed_volume
 
 
 def test_patches_are_those_of_newell() -> None:

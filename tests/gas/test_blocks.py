@@ -14,7 +14,8 @@ from tools.gas_blocks import blocks, functions
 from shackled import load
 from shackled.artifacts import artifact
 from shackled.datasets.genesis import seed_of
-from shackled.gas import render_call, trace
+from shackled.gas import render_call
+from shackled.gas._trace import trace
 
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -7,7 +7,7 @@ import json
 from tools import build_contracts
 
 from shackled.artifacts import artifact, contracts
-from shackled.gas import function_sizes
+from shackled.gas._function_sizes import function_sizes
 
 
 def test_bytes_are_counted_for_their_function() -> None:

@@ -12,21 +12,10 @@ from shackled import Scene, load
 from shackled.artifacts import artifact, source
 from shackled.chain import ContractChain, open_chain
 from shackled.deploy import STANDARD
-from shackled.gas import (
-    KINDS,
-    MARGIN,
-    STAGES,
-    WIDTH,
-    CallFrame,
-    Profile,
-    flame_graph,
-    measure,
-    profile,
-    render_call,
-    source_map,
-    speedscope,
-    trace,
-)
+from shackled.gas import KINDS, STAGES, Profile, flame_graph, measure, profile, render_call, speedscope
+from shackled.gas._flame_graph import MARGIN, WIDTH
+from shackled.gas._source_map import source_map
+from shackled.gas._trace import CallFrame, trace
 
 NAMES = ("smooth", "clipped, wires, inverted", "empty")
 

@@ -11,19 +11,10 @@ from shackled import InputError, RenderError, Scene
 from shackled.artifacts import artifact
 from shackled.chain import ContractChain, open_chain
 from shackled.errors import OutOfGasError
-from shackled.gas import (
-    FIRST_LIMIT,
-    KEPT,
-    SearchStep,
-    engine_calls,
-    floor_gas,
-    margin,
-    measure,
-    needed_for,
-    render_call,
-    search,
-    suffices,
-)
+from shackled.gas import SearchStep, margin, measure, render_call, search, suffices
+from shackled.gas._exact import KEPT, floor_gas, needed_for
+from shackled.gas._runs import engine_calls
+from shackled.gas._search import FIRST_LIMIT
 
 NAMES = ("smooth", "clipped, wires, inverted", "empty")
 

@@ -14,7 +14,10 @@ from random_scenes import Kind, random_case
 from shackled import Background, Camera, Fog, Light, Material, Mesh, Object, Rim, Scene, Texture, Tone, load
 from shackled.datasets import Piece, pieces, require
 from shackled.datasets.common import shapes
-from shackled.scene import FILTERS, WRAPS, Hemisphere, Shading, rotate, signed_volume, vertex_normals
+from shackled.scene import Hemisphere, rotate, vertex_normals
+from shackled.scene._material import Shading
+from shackled.scene._staging import signed_volume
+from shackled.scene._texture import FILTERS, WRAPS
 
 Array = NDArray[np.float64]
 Rng = np.random.Generator

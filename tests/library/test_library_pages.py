@@ -13,6 +13,7 @@ from eth_abi.abi import decode, encode
 from PIL import Image as PillowImage
 from tools.docs import draw_library
 from tools.docs.draw_library import COLUMNS, LABEL, SIDE, Shelf
+from tools.pages import IMAGES
 
 from compiler import needs_compiler
 from shackled import render
@@ -37,7 +38,7 @@ def objects_of(scene: bytes) -> list[Any]:
 
 
 def test_the_contact_sheet(shelf: Shelf) -> None:
-    with PillowImage.open(draw_library.IMAGES / "library.png") as opened:
+    with PillowImage.open(IMAGES / "library.png") as opened:
         sheet = np.asarray(opened.convert("RGB"))
     assert sheet.shape == (-(-len(items()) // COLUMNS) * (SIDE + LABEL), COLUMNS * SIDE, 3)
     for number, item in enumerate(items()):
@@ -81,7 +82,7 @@ def test_scenes_of_the_example(shelf: Shelf) -> None:
 
 @needs_compiler
 def test_the_picture_of_the_example() -> None:
-    with PillowImage.open(draw_library.IMAGES / "library-pedestal.png") as kept:
+    with PillowImage.open(IMAGES / "library-pedestal.png") as kept:
         difference = np.abs(np.asarray(draw_library.example_picture()).astype(int) - np.asarray(kept))
     assert difference.mean() < 0.5, "run python -m tools.docs.draw_library"
 
@@ -120,7 +121,8 @@ def test_a_site_of_ones_own(shelf: Shelf) -> None:
 
 
 def test_the_page_shows_the_code_of_the_example() -> None:
-    page = (ROOT / "docs" / "studio.md").read_text("utf-8").partition("\n## The library\n")[2].partition("\n## web3:")[0]
+    page = (ROOT / "docs" / "studio.md").read_text("utf-8")
+    page = page.partition("\n## The library\n")[2].partition("\n## web3:")[0]
     code = (ROOT / draw_library.EXAMPLE).read_text("utf-8")
     statements = {line.strip() for line in code.splitlines()}
     shown = re.findall(r"^```solidity\n(.*?)^```", page, re.M | re.S)

@@ -7,31 +7,16 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tools.page_server import ARGUMENTS, ONE, PAGE, Static, browser_path, static
+from tools.page_server import ONE, PAGE, Static, static
 
 from creator_page import PATIENCE, Creator, Visit, link
-
-#: No name of a host is found, and no address but this machine's.
-ALONE = "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    """Chromium, without any network. Of a module: while it runs, no other test can use a loop of asyncio."""
-    sync_api = pytest.importorskip("playwright.sync_api", reason="the tests of the page need playwright")
-    if browser_path() is None:
-        pytest.skip("the tests of the page need chromium: apt-get install chromium")
-    if not PAGE.exists():
-        pytest.skip("the page is not built: make page")
-    with sync_api.sync_playwright() as driver:
-        chromium = driver.chromium.launch(executable_path=browser_path(), args=[*ARGUMENTS, ALONE])
-        yield chromium
-        chromium.close()
 
 
 @pytest.fixture(scope="session")
 def server() -> Iterator[Static]:
     """The page as files."""
+    if not PAGE.exists():
+        pytest.skip("the page is not built: make page")
     with static() as served:
         yield served
 

@@ -15,7 +15,10 @@ from numpy.typing import NDArray
 from node_scripts import bundled, needs_web
 from shackled.datasets import pieces
 from shackled.errors import InputWarning
-from shackled.scene import Mesh, Object, creased, is_closed, signed_volume, weld, wound
+from shackled.scene import Mesh, Object, is_closed, weld
+from shackled.scene._crease import creased
+from shackled.scene._staging import signed_volume
+from shackled.scene._winding import wound
 
 FUNCTIONS = ("creased", "wound", "closed", "simplified")
 

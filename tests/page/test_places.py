@@ -91,6 +91,7 @@ def tab() -> Iterator[Tab]:
         yield found
 
 
+@pytest.mark.browser
 @pytest.mark.parametrize("disk", [False, True], ids=["server", "disk"])
 def test_firefox(tab: Tab, server: Static, tmp_path: Path, disk: bool) -> None:
     settled = "(a => a?.shown.value && a.shown.value.doc === a.doc.value && !a.busy.value)(globalThis.shackledApp)"

@@ -25,7 +25,8 @@ from shackled import load, render
 from shackled.artifacts import RENDERER
 from shackled.chain import EmbeddedChain, returned_bytes
 from shackled.gas import render_call
-from shackled.scene import encode_scene_file, extensions, fit, pack
+from shackled.scene import encode_scene_file, fit, pack
+from shackled.scene._codec import extensions
 
 LOCAL, LINK = "http://127.0.0.1:8000/creator.html#1abc", "https://pictures.example/creator/#1abc"
 LOOK = {

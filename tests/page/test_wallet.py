@@ -21,18 +21,12 @@ from shackled.cli.app import run
 from shackled.deploy import Transactor, local_chain
 from shackled.errors import NodeError
 from shackled.ethereum import checksum_address
-from shackled.tokens import (
-    ALLOWED_LICENCES,
-    KINDS,
-    Collection,
-    CollectionTerms,
-    development_accounts,
-    editions_address,
-    launch,
-    perform,
-    plan_launch,
-    read_token_uri,
-)
+from shackled.tokens import KINDS, Collection, CollectionTerms, launch, plan_launch
+from shackled.tokens._contract import perform
+from shackled.tokens._demo import development_accounts
+from shackled.tokens._editions import editions_address
+from shackled.tokens._icons import ALLOWED_LICENCES
+from shackled.tokens._metadata import read_token_uri
 
 pytestmark = needs_anvil
 

@@ -28,8 +28,10 @@ from shackled.evm import Instance
 from shackled.scene import decode, encode_scene_file, full_turn, render_call
 from shackled.stages import draw_stages
 from shackled.studio import STUDIO, make_apng, make_glb, store_scene
-from shackled.tokens import EDITIONS, MAX_SCALE, EditionTerms, add_gas
-from shackled.web import asset, make_page, page_template
+from shackled.tokens import EDITIONS, EditionTerms, add_gas
+from shackled.tokens._editions import MAX_SCALE
+from shackled.web import asset
+from shackled.web._page import make_page, page_template
 
 SCRIPT = Path(__file__).with_name("work.ts")
 TERMS = {"name": "Tea", "price": "1000", "supply": None, "royalty": 500, "copies": 1, "model": False}

@@ -14,7 +14,8 @@ from attrs import evolve
 from nodes import Reply, serving
 from shackled import ChainError, InputError, Scene, load
 from shackled.chain import Drawing
-from shackled.parallel import ClusterBackend, Listener, Where, render_frames
+from shackled.parallel import Listener, Where, render_frames
+from shackled.parallel._cluster import ClusterBackend
 from shackled.scene import Rectangle, full_turn
 
 pytest.importorskip("distributed")

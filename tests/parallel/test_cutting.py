@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from shackled.parallel import SMALLEST, area, covers, cut, grid, halves
+from shackled.parallel._tiles import SMALLEST, area, covers, cut, grid, halves
 from shackled.scene import Rectangle
 
 SIDES = st.integers(1, 300) | st.sampled_from([1024, 2047, 2048])

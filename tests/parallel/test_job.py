@@ -15,19 +15,11 @@ from attrs import evolve
 import shackled
 from shackled import Camera, ChainError, Cluster, Ground, Image, InputError, Nodes, Processes, Scene, load
 from shackled.chain import RevmChain, open_chain
-from shackled.parallel import (
-    COMPARED_GAS,
-    ChainBackend,
-    Part,
-    PartStore,
-    ProcessBackend,
-    Where,
-    choose_verifier,
-    draw_part,
-    estimate,
-    plan,
-    render_frames,
-)
+from shackled.parallel import Where, render_frames
+from shackled.parallel._backends import ChainBackend, Part, ProcessBackend, draw_part
+from shackled.parallel._estimate import estimate
+from shackled.parallel._job import COMPARED_GAS, choose_verifier, plan
+from shackled.parallel._store import PartStore
 from shackled.scene import Rectangle
 
 SCENE = evolve(load("teapot"), width=96, height=70)

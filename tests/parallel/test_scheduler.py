@@ -22,7 +22,11 @@ from shackled.errors import (
     TooLargeError,
     WrongChainError,
 )
-from shackled.parallel import FAILURES, Backend, Listener, Part, PartStore, Scheduler, Verifier, area, cut, draw_part
+from shackled.parallel import Listener
+from shackled.parallel._backends import Backend, Part, Verifier, draw_part
+from shackled.parallel._scheduler import FAILURES, Scheduler
+from shackled.parallel._store import PartStore
+from shackled.parallel._tiles import area, cut
 from shackled.scene import Rectangle
 
 SIDE = 40

@@ -10,18 +10,10 @@ from attrs import evolve
 from shackled import InputError, RenderError, Scene, load
 from shackled.chain import Drawing, open_chain
 from shackled.errors import TooLargeError
-from shackled.parallel import (
-    PLAN,
-    Listener,
-    Part,
-    PartStore,
-    Where,
-    cut,
-    draw_part,
-    folder_of,
-    remove_parts,
-    render_frames,
-)
+from shackled.parallel import Listener, Where, folder_of, remove_parts, render_frames
+from shackled.parallel._backends import Part, draw_part
+from shackled.parallel._store import PLAN, PartStore
+from shackled.parallel._tiles import cut
 from shackled.scene import Rectangle, full_turn
 
 SCENE = evolve(load("cube"), width=32, height=20)

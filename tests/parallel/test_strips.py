@@ -11,7 +11,10 @@ from attrs import evolve
 import shackled
 from shackled import Scene, load
 from shackled.chain import ContractChain, open_chain
-from shackled.parallel import ChainBackend, Where, estimate, plan
+from shackled.parallel import Where
+from shackled.parallel._backends import ChainBackend
+from shackled.parallel._estimate import estimate
+from shackled.parallel._job import plan
 from shackled.scene import Rectangle
 
 

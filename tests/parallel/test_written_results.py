@@ -11,7 +11,7 @@ from benchmarks.parallel import GRIDS, SIDES
 
 from shackled.bench import gas
 from shackled.datasets import require
-from shackled.parallel import grid
+from shackled.parallel._tiles import grid
 
 FIGURES = json.loads((Path(__file__).parents[2] / "benchmarks" / "parallel.json").read_text("utf-8"))
 

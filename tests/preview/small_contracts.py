@@ -7,7 +7,8 @@ from typing import Any
 
 from eth_abi.abi import encode
 
-from shackled.preview import Compiled, Project
+from shackled.preview import Project
+from shackled.preview._project import Compiled
 
 RETURN, REVERT = 0xF3, 0xFD
 #: An endless loop, and memory that costs more gas than one transaction may take.

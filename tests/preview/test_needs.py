@@ -9,7 +9,7 @@ from urllib.parse import quote
 
 import pytest
 
-from shackled.preview import judge, judge_picture
+from shackled.preview._document import judge, judge_picture
 
 XMLNS = "xmlns='http://www.w3.org/2000/svg' xmlns:xlink='http://www.w3.org/1999/xlink'"
 LOGO = "https://example.org/a.png"

@@ -20,20 +20,12 @@ from PIL import Image as PillowImage
 from preview.small_contracts import SVG, Made, answering, contract, function, output
 from shackled.cli.app import run
 from shackled.errors import InputError
-from shackled.preview import (
-    MAX_GAS,
-    Compiled,
-    CompilerError,
-    Live,
-    Preview,
-    Project,
-    Request,
-    World,
-    judge,
-    judge_picture,
-    parse_call,
-    parse_value,
-)
+from shackled.preview import CompilerError, Preview, Project, Request
+from shackled.preview._arguments import parse_call, parse_value
+from shackled.preview._document import judge, judge_picture
+from shackled.preview._project import Compiled
+from shackled.preview._server import Live
+from shackled.preview._world import MAX_GAS, World
 
 HERE = Path(__file__).resolve().parent
 MODULES = HERE.parents[1] / "contracts" / "node_modules"

@@ -13,13 +13,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tools.page_server import browser_path
 
 from preview.small_contracts import answering, contract, function, output
-
-pytest.importorskip("playwright.sync_api", reason="the tests of the page need playwright")
-if browser_path() is None:
-    pytest.skip("the tests of the page need chromium: apt-get install chromium", allow_module_level=True)
 
 PATIENCE = 60_000
 COUNT = 60

@@ -11,7 +11,10 @@ import pytest
 from preview.small_contracts import DEAR, ENDLESS, REVERT, SVG, Made, answering, contract, function, output
 from shackled.ethereum import keccak256, word
 from shackled.evm import Answer
-from shackled.preview import Call, Compiled, Preview, Request, Token, World, folded, in_units
+from shackled.preview import Preview, Request, Token, folded
+from shackled.preview._arguments import Call
+from shackled.preview._project import Compiled
+from shackled.preview._world import World, in_units
 
 PANIC = bytes.fromhex("4e487b71")
 SUPPLY = function("totalSupply", output="uint256")

@@ -13,7 +13,9 @@ from shackled.chain import RevmChain
 from shackled.cli.app import run
 from shackled.ethereum import checksum_address
 from shackled.library import items
-from shackled.preview import Preview, Project, Request, World, library_codes, stored_scene
+from shackled.preview import Preview, Project, Request, stored_scene
+from shackled.preview._library import library_codes
+from shackled.preview._world import World
 
 
 @pytest.fixture
@@ -60,7 +62,7 @@ def test_scenes_of_the_author(
 ) -> None:
     codes = stored_scene("icons/diamond")
     pointer = list(codes)[-1]
-    # that of the library, and of `shackled mint`
+    # that of the library, and of `shackled store`
     assert pointer == next(each.pointer for each in items() if each.name == "diamond")
     assert pointer in World(contract(answering(output(SVG))), stored=codes).codes
     monkeypatch.setenv("PATH", str(tmp_path))

@@ -8,7 +8,7 @@ import struct
 
 import pytest
 
-from shackled.scene import cosine, sine, tangent
+from shackled.scene._arithmetic import cosine, sine, tangent
 
 #: Hundredths of degrees.
 ANGLES = [number / 100 for number in range(-18_000, 36_001, 9)]

@@ -14,19 +14,9 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from shackled import Background, Camera, Fog, InputError, Light, Material, Mesh, Object, Scene
-from shackled.scene import (
-    EXACT_SIZES,
-    MAX_COORDINATE,
-    ONE,
-    Projection,
-    Rectangle,
-    encode,
-    extensions,
-    fit,
-    pack,
-    rotate,
-    vertex_normals,
-)
+from shackled.scene import Projection, Rectangle, encode, fit, pack, rotate, vertex_normals
+from shackled.scene._codec import ONE, extensions
+from shackled.scene._fit import EXACT_SIZES, MAX_COORDINATE
 
 SELECTOR = b"\x12\x34\x56\x78"
 TRIANGLE = Mesh([[0, 0, 0], [1000, 0, 0], [0, 1000, 0]], [[0, 1, 2]], [[1, 2, 3], [4, 5, 6], [255, 0, 128]])

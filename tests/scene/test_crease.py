@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from shackled import Material, Mesh, Object, Scene, load, render
 from shackled.datasets.common import shapes
-from shackled.scene import creased, simplify_scene, stage
+from shackled.scene import simplify_scene, stage
+from shackled.scene._crease import creased
 
 
 def made(mesh: trimesh.Trimesh) -> Mesh:

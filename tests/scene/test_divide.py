@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from shackled import Image, Material, Mesh, Object, Scene, Texture, load, render
 from shackled.datasets.common import shapes
-from shackled.scene import creased, decode, fit, look_at, render_call
+from shackled.scene import decode, fit, look_at, render_call
+from shackled.scene._crease import creased
 
 MOST = 65_535
 

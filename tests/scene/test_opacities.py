@@ -18,18 +18,9 @@ import shackled
 from pictures import draw
 from shackled import Camera, InputError, Light, Material, Mesh, Object, Scene, Texture, load
 from shackled.datasets.common import shapes
-from shackled.scene import (
-    creased,
-    decode,
-    extensions,
-    fit,
-    objects_of,
-    part_of,
-    read_model,
-    render_call,
-    simplify,
-    weld,
-)
+from shackled.scene import decode, fit, objects_of, part_of, read_model, render_call, simplify, weld
+from shackled.scene._codec import extensions
+from shackled.scene._crease import creased
 
 CORNERS = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
 FACES = [[0, 1, 2], [0, 2, 3]]

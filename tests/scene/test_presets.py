@@ -9,7 +9,8 @@ import pytest
 from attrs import evolve
 
 from shackled import Camera, InputError, Light, Scene, load, render
-from shackled.scene import PRESETS, Preset, stage
+from shackled.scene import PRESETS, stage
+from shackled.scene._presets import Preset
 
 NAMES = [preset.name for preset in PRESETS]
 

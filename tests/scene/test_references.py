@@ -12,7 +12,7 @@ import pytest
 from creator_page import link
 from shackled import InputError, Mesh, Scene, load, render
 from shackled.cli.app import run
-from shackled.scene import creased
+from shackled.scene._crease import creased
 
 TEAPOT = {"piece": "teapot", "object": 0}
 SMOOTH = {"shading": "smooth"}

@@ -29,17 +29,10 @@ from shackled import (
     render,
 )
 from shackled.errors import InputError
-from shackled.scene import (
-    FILTERS,
-    MAX_COORDINATE,
-    WRAPS,
-    Hemisphere,
-    decode,
-    fit_factor,
-    read_scene,
-    render_call,
-    write_scene,
-)
+from shackled.scene import Hemisphere, decode, read_scene, render_call
+from shackled.scene._files.scene_file import write_scene
+from shackled.scene._fit import MAX_COORDINATE, fit_factor
+from shackled.scene._texture import FILTERS, WRAPS
 
 Floats = NDArray[np.float64]
 Rng = np.random.Generator

@@ -3,7 +3,8 @@ import pytest
 from numpy.typing import NDArray
 
 from shackled.errors import InputError
-from shackled.scene import from_axis_angle, from_euler, multiply, rotate
+from shackled.scene import from_euler, rotate
+from shackled.scene._rotation import from_axis_angle, multiply
 
 X, Y, Z = np.eye(3)
 

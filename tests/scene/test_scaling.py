@@ -12,15 +12,8 @@ import pytest
 from attrs import evolve
 
 from shackled import Light, Material, Mesh, Object, Scene, Texture, load
-from shackled.scene import (
-    components,
-    creased,
-    decode,
-    encode_scene_file,
-    full_turn,
-    render_call,
-    simplify_scene,
-)
+from shackled.scene import components, decode, encode_scene_file, full_turn, render_call, simplify_scene
+from shackled.scene._crease import creased
 
 #: How many times as much is asked for, and how many times as many calls that may take, which is 64 where each object
 #: looks at all others.

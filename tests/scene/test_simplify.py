@@ -5,7 +5,8 @@ import pytest
 
 from shackled.datasets import teapot
 from shackled.errors import InputError
-from shackled.scene import Mesh, is_closed, signed_volume, simplify
+from shackled.scene import Mesh, is_closed, simplify
+from shackled.scene._staging import signed_volume
 
 
 def sphere(rings: int = 24) -> Mesh:

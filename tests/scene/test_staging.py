@@ -4,16 +4,8 @@ from numpy.typing import NDArray
 
 from shackled import load
 from shackled.errors import InputError
-from shackled.scene import (
-    Light,
-    Material,
-    Mesh,
-    Scene,
-    is_closed,
-    painted,
-    signed_volume,
-    stage,
-)
+from shackled.scene import Light, Material, Mesh, Scene, is_closed, painted, stage
+from shackled.scene._staging import signed_volume
 
 CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
 SIDES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]

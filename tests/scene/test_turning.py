@@ -9,7 +9,8 @@ from attrs import evolve
 from pictures import chain
 from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, Scene, load
 from shackled.image import decode_bmp
-from shackled.scene import FILLED, from_euler, full_turn, middle, rotate, turn
+from shackled.scene import from_euler, full_turn, rotate
+from shackled.scene._turning import FILLED, middle, turn
 
 #: A bar that points at the viewer: turned, it is much wider.
 BAR = Mesh(

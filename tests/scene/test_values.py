@@ -212,7 +212,7 @@ def test_whole_numbers_in_floats_are_faces() -> None:
 
 def test_a_dark_mesh_of_a_scene_file_stays_dark(tmp_path: Any) -> None:
     """Its colours are whole numbers, none above 1."""
-    from shackled.scene import write_scene
+    from shackled.scene._files.scene_file import write_scene
 
     dark = scene(objects=[Object(Mesh(CORNERS, FACES, [(1, 0, 1), (0, 0, 0), (1, 1, 1)]))])
     write_scene(dark, tmp_path / "dark.json")

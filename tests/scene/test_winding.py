@@ -11,7 +11,8 @@ import trimesh
 
 from shackled import Mesh, Object, load
 from shackled.errors import InputWarning
-from shackled.scene import is_closed, signed_volume
+from shackled.scene import is_closed
+from shackled.scene._staging import signed_volume
 
 BALL = trimesh.creation.icosphere(subdivisions=2)
 SHEET = np.array([[-2, -2, -2], [-2, -2, 2], [2, -2, 2], [2, -2, -2]], dtype=float)

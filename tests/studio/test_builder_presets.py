@@ -12,8 +12,9 @@ from tools.ledger import World, call_data
 from compiler import needs_compiler
 from shackled import Mesh, load
 from shackled.artifacts import artifact
-from shackled.scene import PRESETS, Scene, checked_look, fit, look_at, pack, read_call
-from shackled.studio import scene_struct
+from shackled.scene import PRESETS, Scene, checked_look, fit, look_at, pack
+from shackled.scene._decode import read_call
+from shackled.studio._storage import scene_struct
 
 #: Of cosines and of coefficients, in Q32, after two roundings.
 NEAR = 2**-28

@@ -27,7 +27,9 @@ from shackled.chain import EmbeddedChain, open_chain
 from shackled.datasets import pieces, teapot
 from shackled.ethereum import word
 from shackled.scene import encode_scene, fit, from_euler, pack, rotate
-from shackled.studio import compact, scene_struct, store_mesh, store_scene
+from shackled.studio import store_scene
+from shackled.studio._compact_mesh import compact
+from shackled.studio._storage import scene_struct, store_mesh
 
 MODULES = Path(__file__).resolve().parents[2] / "web" / "node_modules"
 HERE = Path(__file__).resolve().parent

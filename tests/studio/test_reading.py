@@ -10,15 +10,8 @@ from shackled import Mesh, Scene
 from shackled.chain import Connection
 from shackled.errors import VerificationError
 from shackled.scene import Object, fit
-from shackled.studio import (
-    SCENE,
-    compress_zeros,
-    encode_with_pointers,
-    expand_zeros,
-    storage_address,
-    stored_codes,
-    stored_meshes,
-)
+from shackled.studio import storage_address, stored_codes
+from shackled.studio._storage import SCENE, compress_zeros, encode_with_pointers, expand_zeros, stored_meshes
 
 runs = st.lists(st.tuples(st.sampled_from([0, 255, 1, 200]), st.integers(1, 300)), max_size=8)
 

@@ -15,8 +15,13 @@ from compiler import needs_compiler
 from shackled import Mesh, RenderError, Texture
 from shackled.artifacts import artifact
 from shackled.image import decode_bmp
-from shackled.scene import Viewpoint, frame, is_closed, pack, pack_texture, read_call, unpack
-from shackled.studio import scene_struct, split_mesh
+from shackled.scene import is_closed, pack
+from shackled.scene._decode import read_call
+from shackled.scene._packed_mesh import unpack
+from shackled.scene._packed_texture import pack_texture
+from shackled.scene._staging import Viewpoint, frame
+from shackled.studio._compact_mesh import split_mesh
+from shackled.studio._storage import scene_struct
 
 SCENE_STRUCT = scene_struct()
 ONE = 1 << 32

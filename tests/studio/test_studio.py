@@ -20,8 +20,10 @@ from shackled import Background, Camera, ChainError, Light, Material, Mesh, Obje
 from shackled.chain import revert_error
 from shackled.datasets import teapot
 from shackled.image import decode_bmp
-from shackled.scene import Shading, from_euler
-from shackled.studio import scene_struct, store_scene
+from shackled.scene import from_euler
+from shackled.scene._material import Shading
+from shackled.studio import store_scene
+from shackled.studio._storage import scene_struct
 
 SCENE_STRUCT = scene_struct()
 POT = Mesh(np.round(np.asarray(teapot(3).positions) * 100), teapot(3).faces)

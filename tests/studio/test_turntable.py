@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 from PIL import ImageSequence
 from tools.ledger import World, call_data
-from tools.page_server import browser_path
 from tools.png_code import SIGNATURE, encode_png
 
 from evms import Ours, pyevm_call, pyrevm_call
@@ -26,7 +25,8 @@ from shackled.artifacts import artifact
 from shackled.chain import open_chain
 from shackled.ethereum import word
 from shackled.scene import encode_scene, fit, from_euler, pack, rotate
-from shackled.studio import scene_struct, store_scene
+from shackled.studio import store_scene
+from shackled.studio._storage import scene_struct
 
 SPIN = "(uint256,uint256,uint256,(int256,int256,int256),bool)"
 CHANGES = "(uint256,(int256,int256,int256,int256),uint256,(uint256,uint256),uint256,(uint256,uint256))"
@@ -297,7 +297,6 @@ def word_of(address: bytes) -> bytes:
     return address.rjust(32, b"\0")
 
 
-@pytest.mark.skipif(browser_path() is None, reason="needs chromium")
 def test_chromium_plays_it(browser: Any, tmp_path: Path) -> None:
     png = animate(load("icons/diamond", size=32), frames=5, delay=40, hold=True)
     page = browser.new_page()

@@ -9,7 +9,8 @@ from tools.ledger import World
 
 from shackled import Mesh, RenderError
 from shackled.scene import pack
-from shackled.studio import compact, scene_struct
+from shackled.studio._compact_mesh import compact
+from shackled.studio._storage import scene_struct
 
 ONE = 1 << 32
 SCENE_STRUCT = scene_struct()

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from shackled.chain import SENDER, PyEvmChain
+from shackled.chain._embedded import SENDER, PyEvmChain
 from shackled.ethereum import intrinsic_gas, to_hex
 from shackled.evm import Answer, Instance, Status
 

@@ -34,22 +34,10 @@ from shackled.datasets import require
 from shackled.datasets.genesis import seed_of
 from shackled.errors import ChainError
 from shackled.image import encode_bmp
-from shackled.scene import (
-    FILTERS,
-    LIGHT_KINDS,
-    WRAPS,
-    Background,
-    Fog,
-    Ground,
-    Hemisphere,
-    Rectangle,
-    Rim,
-    Shading,
-    encode,
-    from_axis_angle,
-    multiply,
-    resize,
-)
+from shackled.scene import LIGHT_KINDS, Background, Fog, Ground, Hemisphere, Rectangle, Rim, encode, resize
+from shackled.scene._material import Shading
+from shackled.scene._rotation import from_axis_angle, multiply
+from shackled.scene._texture import FILTERS, WRAPS
 from shackled.studio import ANIMATE, store_scene
 
 FILE = Path(__file__).with_name("golden.json")

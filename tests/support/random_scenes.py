@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 
 from conformance.world import World, before_camera, project
 from shackled.scene import (
-    FILTERS,
-    WRAPS,
     Background,
     Camera,
     Fog,
@@ -24,12 +22,13 @@ from shackled.scene import (
     Rectangle,
     Rim,
     Scene,
-    Shading,
     Texture,
     Tone,
     rotate,
     vertex_normals,
 )
+from shackled.scene._material import Shading
+from shackled.scene._texture import FILTERS, WRAPS
 
 Array = NDArray[np.float64]
 Rng = np.random.Generator

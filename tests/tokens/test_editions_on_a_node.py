@@ -11,15 +11,16 @@ import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
-from nodes import needs_anvil
+from commands import Shackled
+from nodes import Node
 from proxies import Liar
 from shackled.artifacts import artifact
 from shackled.chain import Connection
 from shackled.cli.app import run
 from shackled.errors import InputError, NodeError
 from shackled.ethereum import to_hex
-from shackled.tokens import EDITIONS, OPEN, Collection, EditionTerms, editions_address, editions_of, parts_of
-from tokens.on_a_node import Node, Shackled
+from shackled.tokens import EDITIONS, OPEN, Collection, EditionTerms, editions_of, parts_of
+from shackled.tokens._editions import editions_address
 
 ROOT = Path(__file__).resolve().parents[2]
 OWNER, ALICE, BOB = range(3)
@@ -33,9 +34,9 @@ def pointer_of(said: Any) -> str:
     return found[1]
 
 
-@needs_anvil
 def test_the_whole_way_of_editions(
     node: Node,
+    users: list[str],
     tmp_path: Path,
     shackled: Shackled,
     monkeypatch: pytest.MonkeyPatch,
@@ -51,7 +52,7 @@ def test_the_whole_way_of_editions(
     shackled("deploy", "--contracts", "Editions", "--yes", user=OWNER)
     contract = node.contract("Editions", editions_address())
     assert contract.functions.name().call() == EDITIONS.title
-    pointer = pointer_of(shackled("mint", "triangle.obj", "--licence", "MIT", "--size", 8, "--yes", user=ALICE))
+    pointer = pointer_of(shackled("store", "triangle.obj", "--licence", "MIT", "--size", 8, "--yes", user=ALICE))
 
     # what cannot be drawn is told before anything is asked
     said = shackled(*edition, "add", node.accounts[9], "Ghost", "--price", 0, "--yes", user=ALICE, expect=1)
@@ -124,14 +125,14 @@ def test_the_whole_way_of_editions(
         assert "its code differs from the compiled contract" in said.error
 
     # a token larger than wallets like, with a model, is right all the same
-    large = pointer_of(shackled("mint", "triangle.obj", "--licence", "MIT", "--size", 280, "--yes", user=ALICE))
+    large = pointer_of(shackled("store", "triangle.obj", "--licence", "MIT", "--size", 280, "--yes", user=ALICE))
     shackled(*edition, "add", large, "Large", "--scale", 8, "--model", "--price", 0, "--yes", user=ALICE)
     assert "WRONG" not in shackled("token", "verify", 4, "-c", "editions").out
 
     # nodes that lie: about the edition that was added, about its price, about gas
     def lied(lies: dict[str, Any], *arguments: Any, user: int, expect: int = 1) -> str:
         with Liar(lies).before(node.url) as url:
-            code = run([*map(str, (*edition, *arguments)), "--rpc", url, "--private-key-env", node.keys[user]])
+            code = run([*map(str, (*edition, *arguments)), "--rpc", url, "--private-key-env", users[user]])
         said = capsys.readouterr()
         assert (code, "Traceback" in said.err) == (expect, False), said
         return said.err.strip().splitlines()[-1]
@@ -162,7 +163,7 @@ def test_the_whole_way_of_editions(
     assert "only its artist" in said.error
     before = node.balance(node.accounts[9])
     with Liar({"eth_call": dearer}).before(node.url) as url:
-        key = ("--private-key-env", node.keys[ALICE])
+        key = ("--private-key-env", users[ALICE])
         assert not run([*edition, "withdraw", "--to", node.accounts[9], "--yes", "--rpc", url, *key])
     captured = capsys.readouterr()
     assert "send 0.04 ether of" in captured.err

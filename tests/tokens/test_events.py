@@ -8,7 +8,8 @@ import pytest
 
 from shackled.errors import VerificationError
 from shackled.ethereum import keccak256, to_hex, word
-from shackled.tokens import Edition, added_number, minted_tokens, withdrawn
+from shackled.tokens import added_number, minted_tokens, withdrawn
+from shackled.tokens._editions import Edition
 
 HERE, ELSEWHERE = "0x" + "aB" * 20, "0x" + "cd" * 20
 ADDED = "EditionAdded(uint256,address,address,string,uint256,bool,uint256,uint256,uint256)"

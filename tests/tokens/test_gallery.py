@@ -7,7 +7,9 @@ from html.parser import HTMLParser
 import numpy as np
 from PIL import Image as PillowImage
 
-from shackled.tokens import ActionCost, Metadata, TokenView, Trait, comparison, page, tokens_json
+from shackled.tokens import comparison
+from shackled.tokens._metadata import Metadata, Trait
+from shackled.tokens._view import ActionCost, TokenView, page, tokens_json
 
 
 def shown(number: int, **changes: str) -> TokenView:

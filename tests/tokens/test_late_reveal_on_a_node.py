@@ -15,18 +15,10 @@ from shackled.chain import VARIABLE
 from shackled.cli.app import run
 from shackled.deploy import Receipt, Transactor
 from shackled.ethereum import checksum_address
-from shackled.tokens import (
-    HEADERS_AT_ONCE,
-    KINDS,
-    KNOWN_BLOCKS_BEFORE,
-    CollectionTerms,
-    development_accounts,
-    hidden_rounds,
-    launch,
-    perform,
-    plan_launch,
-    reveal_calls,
-)
+from shackled.tokens import KINDS, CollectionTerms, hidden_rounds, launch, plan_launch, reveal_calls
+from shackled.tokens._contract import perform
+from shackled.tokens._demo import development_accounts
+from shackled.tokens._reveal import HEADERS_AT_ONCE, KNOWN_BLOCKS_BEFORE
 
 
 @needs_anvil

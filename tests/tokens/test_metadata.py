@@ -10,7 +10,8 @@ import pytest
 from PIL import Image as PillowImage
 
 from shackled.errors import VerificationError
-from shackled.tokens import MAX_LENGTH, read_data_uri, read_token_uri, shrink
+from shackled.tokens import MAX_LENGTH, read_data_uri
+from shackled.tokens._metadata import read_token_uri, shrink
 
 PIXELS = np.arange(48, dtype=np.uint8).reshape(4, 4, 3)
 

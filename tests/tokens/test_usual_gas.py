@@ -17,7 +17,8 @@ from shackled.deploy import local_chain
 from shackled.ethereum import checksum_address, intrinsic_gas
 from shackled.studio import STUDIO
 from shackled.studio import store_scene as keep
-from shackled.tokens import USUAL_GAS, add_call
+from shackled.tokens import add_call
+from shackled.tokens._contract import USUAL_GAS
 
 
 def test_the_usual_gas_of_each_function() -> None:

@@ -28,18 +28,10 @@ from shackled import Fog, Ground, InputError, Light, Mesh, Object, Rim, Scene, T
 from shackled.artifacts import artifact
 from shackled.datasets import pieces
 from shackled.image import decode_bmp
-from shackled.scene import (
-    Hemisphere,
-    Rectangle,
-    decode,
-    encode,
-    encode_scene_file,
-    from_axis_angle,
-    multiply,
-    original_scene,
-    render_call,
-    turn,
-)
+from shackled.scene import Hemisphere, Rectangle, decode, encode, encode_scene_file, render_call
+from shackled.scene._files.original import original_scene
+from shackled.scene._rotation import from_axis_angle, multiply
+from shackled.scene._turning import turn
 
 SCRIPT = Path(__file__).with_name("calls.mjs")
 BUNDLE = files("shackled") / "web" / "shackled.js"

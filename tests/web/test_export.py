@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tools.page_server import ARGUMENTS, browser_path
 
 import shackled
 from firefox import firefox, firefox_path
@@ -49,15 +48,11 @@ def check_turn(turn: dict[str, float]) -> None:
     assert turn["elevation"] > 0
 
 
-@pytest.mark.skipif(browser_path() is None, reason="needs chromium: apt-get install chromium")
-def test_in_chromium(page: tuple[Path, str]) -> None:
-    playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright")
+def test_in_chromium(page: tuple[Path, str], browser: Any) -> None:
     path, sha256 = page
     faults: list[str] = []
     asked: list[str] = []
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
-        tab = browser.new_page()
+    with browser.new_page() as tab:
         tab.on("pageerror", lambda error: faults.append(str(error)))
         tab.on("console", lambda message: faults.append(message.text))
         tab.on("request", lambda request: asked.append(request.url.partition(":")[0]))
@@ -71,7 +66,6 @@ def test_in_chromium(page: tuple[Path, str]) -> None:
         tab.mouse.up()
         check_turn(tab.evaluate(f"{VIEW}.turn"))
         until(tab, f"{SHA256} !== '{sha256}'")
-        browser.close()
     assert not faults
     assert set(asked) <= {"file", "data", "blob"}
 
@@ -85,6 +79,7 @@ def until(tab: Any, condition: str) -> None:
     raise AssertionError(condition)
 
 
+@pytest.mark.browser
 @pytest.mark.skipif(firefox_path() is None, reason="needs Firefox: apt-get install firefox-esr")
 def test_in_firefox(page: tuple[Path, str]) -> None:
     path, sha256 = page

@@ -16,7 +16,6 @@ from typing import Any
 import pytest
 from benchmarks.view import page as html
 from tools.anvil import AnvilChain, find_anvil
-from tools.page_server import browser_path
 
 from nodes import Reply, anvil, needs_anvil, result, serving
 from shackled import Image, Scene, load, render
@@ -27,10 +26,6 @@ from shackled.gas import profile
 from shackled.scene import encode, encode_scene_file, render_call
 from shackled.studio import store_scene
 from shackled.web import asset
-
-playwright = pytest.importorskip("playwright.sync_api", reason="the tests of the element need playwright")
-if browser_path() is None:
-    pytest.skip("the tests of the element need chromium: apt-get install chromium", allow_module_level=True)
 
 PATIENCE = 60
 #: All that a page with the element needs; the page of a site needs less, since its scripts are files.
@@ -319,8 +314,10 @@ def test_a_turn_given_with_the_scene(show: Opener) -> None:
 
 
 def test_what_is_no_turn(show: Opener) -> None:
+    from playwright.sync_api import Error
+
     view = show()
-    with pytest.raises(playwright.Error, match="turn must consist of numbers"):
+    with pytest.raises(Error, match="turn must consist of numbers"):
         view.run("(view.turn = {azimuth: NaN}, null)")
     view.after(view.press("ArrowLeft"))
 

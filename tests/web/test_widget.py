@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tools.page_server import ARGUMENTS, browser_path
 
 from shackled import load, render
 from shackled.scene import render_call
@@ -57,9 +56,7 @@ def test_a_notebook_shows_the_widget(notebook: Any) -> None:
     assert buffers["_call"] == render_call(load("icons/crown", size=(48, 40)))
 
 
-@pytest.mark.skipif(browser_path() is None, reason="needs chromium: apt-get install chromium")
-def test_the_widget_in_chromium(notebook: Any, tmp_path: Path) -> None:
-    playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright")
+def test_the_widget_in_chromium(notebook: Any, tmp_path: Path, browser: Any) -> None:
     (output,) = notebook.cells[0].outputs
     model = notebook.metadata.widgets[STATE]["state"][output.data[WIDGET]["model_id"]]
     data = {
@@ -69,9 +66,7 @@ def test_the_widget_in_chromium(notebook: Any, tmp_path: Path) -> None:
     }
     path = tmp_path / "page.html"
     path.write_text(PAGE.replace("DATA", json.dumps(data).replace("<", "\\u003c")), "utf-8")
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
-        tab = browser.new_page()
+    with browser.new_page() as tab:
         faults: list[str] = []
         tab.on("pageerror", lambda error: faults.append(str(error)))
         tab.goto(path.as_uri())
@@ -79,8 +74,7 @@ def test_the_widget_in_chromium(notebook: Any, tmp_path: Path) -> None:
         assert tab.evaluate("document.querySelector('shackled-view').picture.sha256") == (
             render("icons/crown", (48, 40)).sha256
         )
-        browser.close()
-        assert not faults
+    assert not faults
 
 
 def test_without_anywidget() -> None:

@@ -11,7 +11,7 @@ import json
 import shlex
 import sys
 
-from typer.testing import CliRunner
+from click.testing import CliRunner
 
 from shackled.cli.app import app
 from tools.pages import DOCS, IMAGES, update

@@ -3,66 +3,128 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Any
 
-import typer
+import click
+from click.shell_completion import get_completion_class
 
-from .. import __version__
 from ..errors import InputError, InputWarning, ShackledError
 from ..untrusted import plain
-from .bench import bench
-from .creator import creator
-from .datasets import datasets
-from .deploy import deploy
-from .export import export
-from .gas import gas
-from .genesis import genesis
-from .info import info
-from .library import library
-from .mint import mint
-from .notes import noting, with_strict
-from .option import with_options
-from .preview import preview
-from .render import render
-from .stages import stages
-from .token import token
+from .command import CommandGroup
+from .notes import noting
+from .option import MEANT, with_options
 
-#: The exit code with which typer reports a keyboard interrupt.
-INTERRUPTED = 130
-
-app = typer.Typer(
-    pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
+datasets = CommandGroup(
+    "datasets",
+    {name: f"datasets:{name}" for name in ("list", "fetch", "showcase", "gallery")},
+    "List, fetch and show the pieces of the datasets.",
 )
-app.command()(with_strict(render))
-app.command()(with_strict(export))
-app.command()(with_strict(info))
-app.command()(with_strict(gas))
-app.command()(bench)
-app.command()(genesis)
-app.command()(with_strict(stages))
-app.command()(deploy)
-app.command()(with_strict(mint))
-app.command()(creator)
-app.command()(with_strict(preview))
-app.add_typer(datasets, name="datasets")
-app.add_typer(library, name="library")
-app.add_typer(token, name="token")
+library = CommandGroup(
+    "library",
+    {name: f"library:{name}" for name in ("list", "store")},
+    "List and store the library: icons and common objects that any contract can draw.",
+)
+edition = CommandGroup(
+    "edition",
+    {name: f"token.edition:{name}" for name in ("add", "mint", "list", "close", "withdraw")},
+    "Add scenes of your own to the collection Editions, and mint them.",
+)
+token = CommandGroup(
+    "token",
+    {
+        "deploy": "token.deploy:deploy",
+        **{name: f"token.icons:{name}" for name in ("add", "seal")},
+        **{name: f"token.allow_list:{name}" for name in ("allow-list", "permit")},
+        "phase": "token.owner:phase",
+        **{name: f"token.sale:{name}" for name in ("mint", "reveal")},
+        **{name: f"token.show:{name}" for name in ("show", "list", "verify", "picture")},
+        "transfer": "token.sale:transfer",
+        **{name: f"token.owner:{name}" for name in ("withdraw", "royalty", "transfer-ownership", "accept-ownership")},
+        "demo": "token.deploy:demo",
+        "edition": edition,
+    },
+    "Deploy and use collections of tokens whose pictures are rendered on chain.",
+)
+#: How the help of each command begins, which is that of its function, so that none is loaded to list them.
+LINES = {
+    "render": "Render mesh files, scene files or pieces of datasets.",
+    "export": "Write a scene as an interactive HTML page of one file, which needs no network, or as a .glb model.",
+    "info": "Tell what a file holds, what of it is left out, and what its pictures cost.",
+    "gas": "Measure the gas of a picture: exactly, by binary search, by stage and by line, and compare it with limits.",
+    "bench": "Run the experiments of the Shackled paper: gas against canvas, triangles, culling and more.",
+    "genesis": "Generate Genesis pieces from seeds in the contract, or render the whole collection.",
+    "stages": "Draw the result of each stage of the pipeline: six pictures, and a strip of all.",
+    "deploy": "Deploy the contracts, at the same addresses on every chain.",
+    "store": "Store an object on a chain; any contract can then draw it.",
+    "creator": "Make pictures on a page in the browser, without code; what it shows stays on this machine.",
+    "preview": "Show the tokens of a Solidity contract on a page that follows its sources, with the gas of each.",
+}
 
 
-@app.callback(invoke_without_command=True)
-def shackled(
-    context: typer.Context,
-    version: Annotated[bool, typer.Option("--version", help="Print the version and exit.")] = False,
-) -> None:
-    """Render 3D scenes with Ethereum smart contracts."""
-    if version:
+GROUPS = (datasets, library, token)
+
+
+class Root(CommandGroup):
+    """The command itself, which lists its commands without loading them."""
+
+    strict = frozenset({"render", "export", "info", "gas", "stages", "store", "preview"})
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the first lines of the help of all commands."""
+        with formatter.section("Commands"):
+            formatter.write_dl([*LINES.items(), *((each.name or "", each.help or "") for each in GROUPS)])
+
+
+def _version(context: click.Context, _: click.Parameter, value: bool) -> None:
+    if value:
+        from .. import __version__
+
         print(f"shackled {__version__}")
-    elif context.invoked_subcommand is None:
+        context.exit()
+
+
+def _completion(context: click.Context, _: click.Parameter, value: str | None) -> None:
+    if value is not None:
+        kind = get_completion_class(value)
+        assert kind is not None
+        print(kind(app, {}, "shackled", "_SHACKLED_COMPLETE").source())
+        context.exit()
+
+
+def _help() -> None:
+    context = click.get_current_context()
+    if context.invoked_subcommand is None:
         print(context.get_help())
+
+
+app = Root(
+    "shackled",
+    {**{name: f"{name}:{name}" for name in LINES}, **{str(each.name): each for each in GROUPS}},
+    "Render 3D scenes with Ethereum smart contracts.",
+    callback=_help,
+    params=[
+        click.Option(
+            ["--version"],
+            is_flag=True,
+            is_eager=True,
+            expose_value=False,
+            callback=_version,
+            help="Print the version and exit.",
+        ),
+        click.Option(
+            ["--completion"],
+            type=click.Choice(["bash", "zsh", "fish"]),
+            is_eager=True,
+            expose_value=False,
+            callback=_completion,
+            help='Print what lets a shell complete commands and options, as in: eval "$(shackled --completion bash)".',
+        ),
+    ],
+)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
@@ -73,10 +135,10 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 def _run(arguments: Sequence[str] | None) -> int:
     try:
-        code = app(args=arguments, standalone_mode=False, prog_name="shackled")
+        code = app.main(arguments, "shackled", standalone_mode=False)
         # at the end of the interpreter, a failure to write could not be reported
         sys.stdout.flush()
-        return _fail("stopped", 1) if code == INTERRUPTED else int(code or 0)
+        return int(code or 0)
     except ExceptionGroup as group:
         # of several inputs; the others were rendered
         for error in group.exceptions:
@@ -86,20 +148,26 @@ def _run(arguments: Sequence[str] | None) -> int:
         return _fail(error, 2)
     except ShackledError as error:
         return _fail(error, 1)
-    except (KeyboardInterrupt, typer.Abort):
+    except (KeyboardInterrupt, click.Abort):
         return _fail("stopped", 1)
+    except click.ClickException as error:
+        return _fail(_meant(error) or error.format_message(), error.exit_code)
     except OSError as error:
         # for instance, the disk to which the output is redirected is full
         _drop_output()
         where = f"{error.filename}: " if error.filename else ""
         return _fail(f"{where}{error.strerror or repr(error)}", 1)
-    except Exception as error:
-        # usage errors, whose class depends on the version of typer
-        if not hasattr(error, "format_message"):
-            raise
-        message, code = error.format_message(), getattr(error, "exit_code", 2)
-        # a group without a command has printed its help, and has no message
-        return _fail(message, code) if message else int(code)
+
+
+def _meant(error: click.ClickException) -> str | None:
+    """Return what a usage error with another word for a command or an option says; None for other errors."""
+    context: Any = getattr(error, "ctx", None)
+    if isinstance(error, click.NoSuchOption) and context is not None:
+        right, known = MEANT.get(error.option_name), {name for each in context.command.params for name in each.opts}
+        return f"no such option {error.option_name}: it is {right}" if right in known else None
+    command = re.match(r"No such command '(\w+)'", error.format_message())
+    right = MEANT.get(command[1]) if command is not None and context.parent is None else None
+    return None if command is None or right is None else f"no such command {command[1]}: it is {right}"
 
 
 def _drop_output() -> None:

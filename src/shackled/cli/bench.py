@@ -5,27 +5,24 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from ..errors import InputError
 from ..whole_file import check_output_folder
+from .option import argument, option
 
 
 def bench(
     names: Annotated[
         list[str] | None,
-        typer.Argument(help="Experiments to run; all by default. Without -o they are listed.", metavar="[NAME]..."),
+        argument("Experiments to run; all by default. Without -o they are listed.", "[NAME]..."),
     ] = None,
-    output: Annotated[
-        str | None, typer.Option("--output", "-o", help="Folder for CSV files, plots and tables.", metavar="DIR")
-    ] = None,
-    everything: Annotated[bool, typer.Option("--all", help="Run all experiments.")] = False,
-    quick: Annotated[bool, typer.Option("--quick", help="Use a few small scenes, as a smoke test.")] = False,
+    output: Annotated[str | None, option("-o --output", "Folder for CSV files, plots and tables.", "DIR")] = None,
+    everything: Annotated[bool, option("--all", "Run all experiments.")] = False,
+    quick: Annotated[bool, option("--quick", "Use a few small scenes, as a smoke test.")] = False,
     processes: Annotated[
         int | None,
-        typer.Option("--processes", min=1, help="Number of processes; one per core by default.", metavar="N"),
+        option("--processes", "Number of processes; one per core by default.", "N", min=1),
     ] = None,
-    rpc: Annotated[str | None, typer.Option("--rpc", help="Node that `engines` measures, too.", metavar="URL")] = None,
+    rpc: Annotated[str | None, option("--rpc", "Node that `engines` measures, too.", "URL")] = None,
 ) -> None:
     """Run the experiments of the Shackled paper: gas against canvas, triangles, culling and more."""
     from ..bench import EXPERIMENTS, Runner, check_names, check_plots

@@ -5,14 +5,13 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields, is_dataclass
-from functools import cached_property, wraps
-from inspect import Parameter, Signature, signature
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
+import click
 
 from ..chain import PATIENCE, Connection
 from ..checks import number
@@ -109,7 +108,7 @@ class SignerOptions:
         if password is None:
             if not sys.stdin.isatty():
                 raise InputError(f"there is no terminal to ask for the password of {self.account}: set {PASSWORD}")
-            password = typer.prompt(plain(f"password of {self.account}"), hide_input=True, err=True)
+            password = click.prompt(plain(f"password of {self.account}"), hide_input=True, err=True)
         return keystore_account(self.account, password)
 
 
@@ -135,7 +134,7 @@ class PayerOptions(SignerOptions):
     def confirm(self, transactor: Transactor, quotes: Sequence[Quote] = ()) -> None:
         """Print the price of transactions, and ask for consent unless --yes was given.
 
-        InputError if there is no terminal to ask at, typer.Abort for no.
+        InputError if there is no terminal to ask at, click.Abort for no.
         """
         if quotes:
             print_price(quotes)
@@ -143,34 +142,8 @@ class PayerOptions(SignerOptions):
             return
         if not sys.stdin.isatty():
             raise InputError("nothing was sent: there is no terminal to ask for consent; --yes sends without asking")
-        if not typer.confirm(plain(f"Send from {checksum_address(transactor.address)}?"), err=True):
-            raise typer.Abort
-
-
-def with_groups(command: Callable[..., None]) -> Callable[..., None]:
-    """Return the command with the options of each group, a dataclass of options, in place of its parameter."""
-    groups: dict[str, Any] = {}
-    parameters: list[Parameter] = []
-    for each in signature(command, eval_str=True).parameters.values():
-        if is_dataclass(each.annotation):
-            groups[each.name] = each.annotation
-            hints = get_type_hints(each.annotation, include_extras=True)
-            for field in fields(each.annotation):
-                parameter = Parameter(field.name, Parameter.KEYWORD_ONLY, default=field.default)
-                parameters.append(parameter.replace(annotation=hints[field.name]))
-        else:
-            parameters.append(each.replace(kind=Parameter.KEYWORD_ONLY))
-
-    @wraps(command)
-    def whole(**values: Any) -> None:
-        for name, group in groups.items():
-            values[name] = group(**{field.name: values.pop(field.name) for field in fields(group)})
-        command(**values)
-
-    # typer reads both
-    whole.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
-    whole.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
-    return whole
+        if not click.confirm(plain(f"Send from {checksum_address(transactor.address)}?"), err=True):
+            raise click.Abort
 
 
 def parse_max_fee(gwei: float | None) -> int | None:

@@ -12,8 +12,6 @@ from pathlib import Path
 from typing import Annotated
 from urllib.parse import quote
 
-import typer
-
 from .._load import load, locate
 from ..chain import book_path
 from ..datasets import Piece
@@ -22,7 +20,7 @@ from ..errors import InputError
 from ..local_server import Answer, listen, run, type_of
 from ..scene import SCENES, Link, encode_scene_file
 from ..whole_file import make_output_folder
-from .option import option
+from .option import argument, option
 
 #: Default port.
 PORT = 8080
@@ -31,13 +29,11 @@ NAMING, MOST_BESIDE = (".obj", ".mtl", ".gltf", ".ply", *SCENES), 2000
 
 
 def creator(
-    input: Annotated[
-        str | None, typer.Argument(help="Mesh or scene file, piece of a dataset, or link, to open.", metavar="INPUT")
-    ] = None,
+    input: Annotated[str | None, argument("Mesh or scene file, piece of a dataset, or link, to open.", "INPUT")] = None,
     port: Annotated[
-        int | None, typer.Option("--port", help=f"Port of the page (default: {PORT}, or a free one).", min=0, max=65535)
+        int | None, option("--port", f"Port of the page (default: {PORT}, or a free one).", min=0, max=65535)
     ] = None,
-    browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")] = True,
+    browser: Annotated[bool, option("--browser/--no-browser", "Open the page in the browser.")] = True,
     out: Annotated[str | None, option("--out", "Only write the page, to a folder, for any web server.", "DIR")] = None,
 ) -> None:
     """Make pictures on a page in the browser, without code; what it shows stays on this machine."""

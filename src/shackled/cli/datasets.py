@@ -11,7 +11,6 @@ from itertools import groupby
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
 from rich.console import Console
 from rich.progress import (
     BarColumn,
@@ -26,27 +25,25 @@ from ..checks import choice
 from ..datasets import DATASETS, Piece, PieceCost, cost, figures, pieces
 from ..errors import InputError
 from ..values import plural
+from .option import argument, option
 
 CONSOLE = Console(stderr=True)
 
 #: Number of Genesis pieces in a gallery without --all.
 GENESIS_SHOWN = 48
 
-datasets = typer.Typer(no_args_is_help=True, help="List, fetch and show the pieces of the datasets.")
-
 
 def _check_dataset(name: str | None) -> str | None:
     return name if name is None else choice(name, "the dataset", tuple(DATASETS))
 
 
-@datasets.command("list")
 def list_(
     dataset: Annotated[
         str | None,
-        typer.Argument(help=f"{', '.join(DATASETS)}; all by default.", metavar="DATASET", show_default=False),
+        argument(f"{', '.join(DATASETS)}; all by default.", "DATASET"),
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print a list of JSON objects.")] = False,
-    every: Annotated[bool, typer.Option("--all", help="List each Genesis piece.")] = False,
+    as_json: Annotated[bool, option("--json", "Print a list of JSON objects.")] = False,
+    every: Annotated[bool, option("--all", "List each Genesis piece.")] = False,
 ) -> None:
     """List the pieces with their triangles, gas at 128 x 128, and licence."""
     wanted = _check_dataset(dataset)
@@ -102,20 +99,17 @@ def _summary(rows: Sequence[tuple[Piece, PieceCost]]) -> tuple[str, str, str, st
     )
 
 
-@datasets.command()
 def fetch(
-    names: Annotated[
-        list[str], typer.Argument(help="Names of models, as in `shackled datasets list`.", metavar="NAME...")
-    ],
+    names: Annotated[list[str], argument("Names of models, as in `shackled datasets list`.", "NAME...")],
     own: Annotated[
         Path | None,
-        typer.Option("--from", help="Local mesh file or archive to use instead of a download.", metavar="FILE"),
+        option("--from", "Local mesh file or archive to use instead of a download.", "FILE"),
     ] = None,
     cache: Annotated[
         Path | None,
-        typer.Option("--cache", help="Cache folder; $SHACKLED_CACHE or that of the system by default.", metavar="DIR"),
+        option("--cache", "Cache folder; $SHACKLED_CACHE or that of the system by default.", "DIR"),
     ] = None,
-    again: Annotated[bool, typer.Option("--again", help="Prepare models again even if they are in the cache.")] = False,
+    again: Annotated[bool, option("--again", "Prepare models again even if they are in the cache.")] = False,
 ) -> None:
     """Download third-party models, clean and simplify them, and keep the result."""
     from ..datasets import VARIABLE
@@ -159,13 +153,12 @@ def _download_bar(name: str) -> Iterator[Any]:
         yield lambda here, whole: bar.update(task, completed=here, total=whole, visible=True)
 
 
-@datasets.command()
 def showcase(
     names: Annotated[
         list[str] | None,
-        typer.Argument(help="Scenes, such as glass; all by default.", metavar="[NAME]...", show_default=False),
+        argument("Scenes, such as glass; all by default.", "[NAME]..."),
     ] = None,
-    output: Annotated[Path, typer.Option("-o", "--output", help="Output folder.", metavar="DIR")] = Path("showcase"),
+    output: Annotated[Path, option("-o --output", "Output folder.", "DIR")] = Path("showcase"),
 ) -> None:
     """Render the scenes of the showcase into a folder, with a page (index.html) and a contact sheet (sheet.png)."""
     from ..datasets.showcase import draw_showcase
@@ -183,20 +176,17 @@ def showcase(
     print(f"{output / 'index.html'}: {plural(len(chosen), 'scene')}")
 
 
-@datasets.command()
 def gallery(
     outputs: Annotated[
         list[Path] | None,
-        typer.Option("-o", "--output", help="Output file, .html or .png; can be repeated.", metavar="FILE"),
+        option("-o --output", "Output file, .html or .png; can be repeated.", "FILE"),
     ] = None,
     dataset: Annotated[
         str | None,
-        typer.Argument(help=f"{', '.join(DATASETS)}; all by default.", metavar="DATASET", show_default=False),
+        argument(f"{', '.join(DATASETS)}; all by default.", "DATASET"),
     ] = None,
-    every: Annotated[bool, typer.Option("--all", help=f"Show all Genesis pieces instead of {GENESIS_SHOWN}.")] = False,
-    jobs: Annotated[
-        int | None, typer.Option("--jobs", help="Number of worker processes; one per core by default.", min=1)
-    ] = None,
+    every: Annotated[bool, option("--all", f"Show all Genesis pieces instead of {GENESIS_SHOWN}.")] = False,
+    jobs: Annotated[int | None, option("--jobs", "Number of worker processes; one per core by default.", min=1)] = None,
 ) -> None:
     """Render all pieces into a self-contained HTML page or a contact sheet. Finished drawings are cached."""
     from ..datasets import draw_all, page, sheet

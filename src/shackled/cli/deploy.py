@@ -18,7 +18,6 @@ from .chain_options import (
     print_rollup_fee,
     print_step,
     wallet_calls,
-    with_groups,
     write_calls,
 )
 from .option import option
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
     from ..deploy import Deployment, Plan, Receipt
 
 
-@with_groups
 def deploy(
     node: NodeOptions,
     payer: PayerOptions,

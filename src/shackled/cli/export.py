@@ -8,8 +8,6 @@ import time
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
-
 from .._load import locate
 from ..datasets import Piece
 from ..errors import InputError
@@ -18,8 +16,8 @@ from ..studio import make_glb
 from ..web import check_page
 from ..web import export as write_page
 from ..whole_file import check_output_file
-from .look_options import load_with, with_look
-from .option import option
+from .look_options import Look, load_with
+from .option import argument, option
 from .progress import LateBar
 
 #: Bytes of a page, and gas of its picture, above which a note is printed.
@@ -27,9 +25,8 @@ LARGE = 1_500_000
 SLOW = 2_000_000_000
 
 
-@with_look
 def export(
-    input: Annotated[str, typer.Argument(help="Mesh file, scene file, or name of a piece.", metavar="INPUT")],
+    input: Annotated[str, argument("Mesh file, scene file, or name of a piece.", "INPUT")],
     output: Annotated[
         str | None,
         option("-o --output", "File to write: a page, .html, or a model, .glb. Named after INPUT by default.", "FILE"),
@@ -39,7 +36,7 @@ def export(
     ] = None,
     as_json: Annotated[bool, option("--json", "Print a JSON object instead of text.")] = False,
     *,
-    look: dict[str, Any],
+    look: Look,
 ) -> None:
     """Write a scene as an interactive HTML page of one file, which needs no network, or as a .glb model.
 

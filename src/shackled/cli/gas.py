@@ -7,16 +7,14 @@ import math
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
-
 from ..chain import CHAINS, PATIENCE, NodeChain, open_chain, open_node
 from ..errors import InputError
 from ..gas import STAGES, Profile, counting, flame_graph, make_report, render_call, speedscope
 from ..whole_file import check_output_file, write_output
 from .gas_progress import Progress
 from .gas_tables import print_opcodes, print_profile, print_report
-from .look_options import FIT, load_with, with_look
-from .option import option
+from .look_options import FIT, Look, load_with
+from .option import argument, option
 
 #: The chains that count gas.
 EVMS = tuple(CHAINS)
@@ -24,24 +22,17 @@ EVMS = tuple(CHAINS)
 FORMATS = (".json", ".svg")
 
 
-@with_look
 def gas(
-    input: Annotated[str, typer.Argument(help="Mesh file, scene file, or name of a piece.", metavar="INPUT")],
+    input: Annotated[str, argument("Mesh file, scene file, or name of a piece.", "INPUT")],
     *,
-    look: dict[str, Any],
-    chain: Annotated[
+    look: Look,
+    evm: Annotated[
         str | None,
-        option("--chain", f"EVM to measure in: {', '.join(EVMS)}; default: revm.", "NAME"),
+        option("--evm", f"EVM to measure in: {', '.join(EVMS)}; default: revm.", "NAME"),
     ] = None,
     rpc: Annotated[
         str | None,
-        typer.Option(
-            "--rpc",
-            help="Node that also counts the gas, and runs the search.",
-            metavar="URL",
-            envvar="SHACKLED_RPC",
-            show_default=False,
-        ),
+        option("--rpc", "Node that also counts the gas, and runs the search.", "URL", envvar="SHACKLED_RPC"),
     ] = None,
     address: Annotated[str | None, option("--address", "Address of a renderer on the node's chain.", "ADDRESS")] = None,
     rpc_timeout: Annotated[
@@ -85,7 +76,7 @@ def gas(
     for name, given in (("--profile", path is not None), ("--opcodes", opcodes)):
         if given and not stages:
             raise InputError(f"{name} and --no-stages exclude each other: give one of them")
-    place = counting(open_chain(chain))
+    place = counting(open_chain(evm))
     node = _open_node(rpc, address, rpc_timeout)
     scene = load_with(input, look, fit)
     with Progress(quiet=as_json) as progress:

@@ -6,48 +6,35 @@ import json
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from ..datasets.genesis import GenesisPiece
 from ..errors import InputError
 from ..image import FORMATS, one_of
 from ..scene import PICTURE
+from .option import argument, option
 
 
 def genesis(
     seeds: Annotated[
         list[str] | None,
-        typer.Argument(help="Seeds of 64 hexadecimal digits, or numbers from 0 to 1023.", metavar="SEED"),
+        argument("Seeds of 64 hexadecimal digits, or numbers from 0 to 1023.", "SEED"),
     ] = None,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print a JSON object per line: seed, traits, mesh, colours.")
-    ] = False,
+    as_json: Annotated[bool, option("--json", "Print a JSON object per line: seed, traits, mesh, colours.")] = False,
     output: Annotated[
         str | None,
-        typer.Option(
-            "-o", "--output", help=f"Output file for the picture of one SEED: {one_of(FORMATS)}.", metavar="FILE"
-        ),
+        option("-o --output", f"Output file for the picture of one SEED: {one_of(FORMATS)}.", "FILE"),
     ] = None,
     sheet: Annotated[
         str | None,
-        typer.Option("--sheet", help="Output file for all 1024 pieces in one picture, .png.", metavar="FILE"),
+        option("--sheet", "Output file for all 1024 pieces in one picture, .png.", "FILE"),
     ] = None,
-    count: Annotated[
-        int | None, typer.Option("--count", help="Number of pieces.", metavar="N", rich_help_panel="Sheet")
-    ] = None,
+    count: Annotated[int | None, option("--count", "Number of pieces.", "N", "Sheet")] = None,
     size: Annotated[
         int | None,
-        typer.Option("--size", help="Pixels per piece, 128 by default.", metavar="N", rich_help_panel="Sheet"),
+        option("--size", "Pixels per piece, 128 by default.", "N", "Sheet"),
     ] = None,
     workers: Annotated[
         int | None,
-        typer.Option(
-            "--jobs",
-            help="Number of worker processes; one per core by default.",
-            metavar="N",
-            min=1,
-            rich_help_panel="Sheet",
-        ),
+        option("--jobs", "Number of worker processes; one per core by default.", "N", "Sheet", min=1),
     ] = None,
 ) -> None:
     """Generate Genesis pieces from seeds in the contract, or render the whole collection.

@@ -9,7 +9,6 @@ from contextlib import ExitStack, nullcontext
 from dataclasses import asdict, dataclass
 from typing import Annotated, Any
 
-import typer
 from attrs import evolve
 
 from .._load import is_model, load, locate
@@ -19,7 +18,7 @@ from ..gas import headline
 from ..scene import Scene, as_shown
 from ..values import listed, plural
 from .facts import Facts, facts_of
-from .option import option, with_options
+from .option import argument, option, with_options
 from .output import print_line
 from .picture import Source, fits_of_made
 from .progress import LateBar
@@ -33,11 +32,7 @@ SIDES = (128, 256, 512)
 def info(
     inputs: Annotated[
         list[str],
-        typer.Argument(
-            help="Mesh or scene files, names of pieces, folders of mesh files, or - for standard input.",
-            metavar="INPUT",
-            show_default=False,
-        ),
+        argument("Mesh or scene files, names of pieces, folders of mesh files, or - for standard input.", "INPUT"),
     ],
     gas: Annotated[bool, option("--gas/--no-gas", "Draw it, to count the gas of pictures and where they fit.")] = True,
     kind: Annotated[

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-import typer
-
 from ..errors import InputError
 from ..ethereum import checksum_address
 from .chain_options import (
@@ -17,20 +15,13 @@ from .chain_options import (
     print_price,
     print_step,
     wallet_calls,
-    with_groups,
     write_calls,
 )
-from .option import option
+from .option import argument, option
 from .output import print_line, print_note, print_table
 from .progress import LateBar
 
-library = typer.Typer(
-    no_args_is_help=True, help="List and store the library: icons and common objects that any contract can draw."
-)
 
-
-@library.command("list")
-@with_groups
 def list_(
     node: NodeOptions,
     as_json: Annotated[bool, option("--json", "Print one JSON object instead of a table.")] = False,
@@ -76,14 +67,10 @@ def _row(item: dict[str, Any]) -> list[str]:
     return [*row, "yes" if item["stored"] else "no"] if "stored" in item else row
 
 
-@library.command()
-@with_groups
 def store(
     node: NodeOptions,
     payer: PayerOptions,
-    names: Annotated[
-        list[str] | None, typer.Argument(help="Items to store; default: all.", metavar="[NAME]...")
-    ] = None,
+    names: Annotated[list[str] | None, argument("Items to store; default: all.", "[NAME]...")] = None,
     calldata: Calldata = None,
     as_json: Annotated[bool, option("--json", "Print one JSON object instead of text.")] = False,
 ) -> None:

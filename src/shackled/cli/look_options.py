@@ -1,21 +1,107 @@
-"""The options of a look, generated from the table of settings, for all commands that render."""
+"""The options of a look, generated from the table of settings, for all commands that render, and their values."""
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Callable
-from functools import wraps
-from inspect import Parameter, Signature, signature
+from inspect import Parameter
 from typing import Annotated, Any
 
 from .._frames import load_frames
 from .._load import load, load_picture, locate
 from ..datasets import Piece
-from ..scene import ALL, SETTINGS, Kind, Scene, Setting, checked_look
-from .option import OPTIONS, option, parse_color_and, parse_colors, parse_light, parse_size, parse_vector
+from ..errors import InputError
+from ..scene import (
+    ALL,
+    INNER_ANGLE,
+    LIGHT_KINDS,
+    MAX_SIDE,
+    SETTINGS,
+    WHITE,
+    Kind,
+    Light,
+    Scene,
+    Setting,
+    checked_look,
+)
+from .command import COMMON
+from .option import option
 from .progress import LateBar
 
-#: The type of a value for typer, its metavar, and its converter.
+
+def parse_sides(text: str, name: str) -> tuple[int, int]:
+    """Return width and height of "128" or "320x200"."""
+    match = re.fullmatch(r"(\d{1,9})(?:[xX](\d{1,9}))?", text)
+    if not match:
+        raise InputError(f"{name} must be a side such as 128 or WIDTHxHEIGHT such as 320x200, not {text!r}")
+    return int(match[1]), int(match[2] or match[1])
+
+
+def parse_size(text: str, name: str = "--size") -> tuple[int, int]:
+    """Return width and height of a picture, as `parse_sides`."""
+    width, height = parse_sides(text, name)
+    if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
+        raise InputError(f"{name} must be from 1 to {MAX_SIDE} pixels a side, not {text!r}")
+    return width, height
+
+
+def parse_vector(text: str, name: str) -> tuple[float, float, float]:
+    """Return the three numbers of "x,y,z"."""
+    try:
+        x, y, z = (float(part) for part in text.split(","))
+    except ValueError:
+        raise InputError(f"{name} must be three numbers x,y,z such as 0,1.5,-2, not {text!r}") from None
+    return x, y, z
+
+
+def parse_colors(text: str, name: str) -> str | tuple[str, str]:
+    """Return the colour of "#rrggbb" or a name, or two, the upper one first, separated by a comma."""
+    parts = [part.strip() for part in text.split(",")]
+    if len(parts) > 2:
+        raise InputError(f"{name} must be one colour or two, #rrggbb,#rrggbb, not {text!r}")
+    return parts[0] if len(parts) == 1 else (parts[0], parts[1])
+
+
+def parse_color_and(numbers: tuple[str, ...], text: str, name: str) -> str | tuple[Any, ...]:
+    """Return the colour of "#rrggbb" or a name, with these numbers after it, separated by commas, or alone."""
+    color, *given = (part.strip() for part in text.split(","))
+    try:
+        values = [int(part) if part.isdigit() else float(part) for part in given]
+    except ValueError:
+        values = [0.0] * (len(numbers) + 1)
+    if values and len(values) != len(numbers):
+        raise InputError(f"{name} must be a colour, or #rrggbb,{','.join(numbers)}, not {text!r}")
+    return (color, *values) if values else color
+
+
+def parse_light(text: str) -> Light:
+    """Return the light of "directional:x,y,z", "point:x,y,z", "spot:x,y,z:x,y,z:outer" or "...:inner,outer".
+
+    A colour may follow, as ":#rrggbb" or ":name".
+    """
+    kind, *rest = text.split(":")
+    needed = 3 if kind == "spot" else 1
+    if kind not in LIGHT_KINDS or not needed <= len(rest) <= needed + 1:
+        raise InputError(
+            "--light must be directional:x,y,z, point:x,y,z or spot:position:direction:angle, and may end in :#rrggbb, "
+            f"not {text!r}"
+        )
+    color = rest[needed] if len(rest) > needed else WHITE
+    vector = parse_vector(rest[0], "--light")
+    if kind != "spot":
+        return Light(kind, vector, color)
+    angles = rest[2].split(",")
+    try:
+        inner, outer = [*([INNER_ANGLE] if len(angles) == 1 else []), *map(float, angles)]
+    except ValueError:
+        raise InputError(
+            f"--light spot needs its outer angle in degrees, or inner,outer, between which it fades, not {rest[2]!r}"
+        ) from None
+    return Light(kind, vector, color, parse_vector(rest[1], "--light"), inner, outer)
+
+
+#: The type of a value for click, its metavar, and its converter.
 _KINDS: dict[Kind, tuple[Any, str | None, Callable[[Any, str], Any]]] = {
     "size": (str, "SIZE", parse_size),
     "whole": (int, "N", lambda value, name: value),
@@ -47,33 +133,28 @@ _MORE = {
 }
 
 
-#: Inputs, and the options that are needed most, which help lists first; those of a look without the title of a group.
-COMMON = (
-    *("input", "inputs", "output"),
-    *("size", "background", "color", "azimuth", "elevation", "max_triangles", "turntable"),
-)
+class LookGroup:
+    """The options of a look."""
 
+    def parameters(self) -> list[Parameter]:
+        """Return a parameter for each setting."""
+        return [_parameter(each) for each in SETTINGS]
 
-def with_look(command: Callable[..., None]) -> Callable[..., None]:
-    """Return the command with the options of a look in place of its parameter `look`."""
-    given = signature(command, eval_str=True).parameters.values()
-    parameters: list[Parameter] = []
-    for each in given:
-        parameters += map(_parameter, SETTINGS) if each.name == "look" else [each.replace(kind=Parameter.KEYWORD_ONLY)]
-    parameters.sort(key=lambda each: COMMON.index(each.name) if each.name in COMMON else len(COMMON))
-
-    @wraps(command)
-    def whole(**values: Any) -> None:
+    def take(self, values: dict[str, Any]) -> dict[str, Any]:
+        """Return the settings that were given, by name. `--background none` is --transparent where that exists."""
         if "transparent" in values and (values["background"] or "").strip().lower() == "none":
             values |= {"background": None, "transparent": True}
-        look = _look({setting.name: values.pop(setting.name) for setting in SETTINGS})
-        command(**values, look=look)
+        given = {setting: values.pop(setting.name) for setting in SETTINGS}
+        look = {
+            setting.name: _KINDS[setting.kind][2](value, option_of(setting))
+            for setting, value in given.items()
+            if value is not None
+        }
+        checked_look(look)
+        return look
 
-    # typer reads both
-    whole.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
-    whole.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
-    return whole
 
+Look = Annotated[dict[str, Any], LookGroup()]
 
 #: The option of commands that can make a picture fit.
 FIT = option(
@@ -115,18 +196,8 @@ def option_of(setting: Setting) -> str:
     return setting.option or f"--{setting.name.replace('_', '-')}"
 
 
-# messages of the library also name keywords of a look
-OPTIONS.update({setting.name: option_of(setting).partition("/")[0] for setting in SETTINGS})
-
-
-def _look(values: dict[str, Any]) -> dict[str, Any]:
-    look: dict[str, Any] = {}
-    for setting in SETTINGS:
-        value = values[setting.name]
-        if value is not None:
-            look[setting.name] = _KINDS[setting.kind][2](value, option_of(setting))
-    checked_look(look)
-    return look
+#: The options of settings, which messages of the library name, by the names of these.
+LOOK = {setting.name: option_of(setting).partition("/")[0] for setting in SETTINGS}
 
 
 def _parameter(setting: Setting) -> Parameter:

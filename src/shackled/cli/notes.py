@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import wraps
-from inspect import Parameter, signature
-from typing import Annotated, Any, Literal, cast
+from typing import Any, Literal, cast
+
+import click
 
 from ..errors import InputWarning
 from ..untrusted import plain
-from .option import option, with_options
+from .option import Option, with_options
 
 #: What becomes of notes, as `warnings` calls it.
 Action = Literal["always", "error", "ignore"]
-
-_STRICT = option("--strict", "Stop with an error where a part of a file would be left out or changed.", None, "Files")
 
 
 @contextmanager
@@ -44,20 +42,17 @@ def action() -> Action:
     return cast(Action, found)
 
 
-def with_strict(command: Callable[..., None]) -> Callable[..., None]:
-    """Return the command with the option --strict."""
-    given = signature(command, eval_str=True)
-    strict = Parameter("strict", Parameter.KEYWORD_ONLY, default=False, annotation=Annotated[bool, _STRICT])
+def _stop(context: click.Context, _: click.Parameter, value: bool) -> None:
+    if value:
+        context.with_resource(noting("error"))
 
-    @wraps(command)
-    def whole(strict: bool, **values: Any) -> None:
-        with noting("error" if strict else action()):
-            command(**values)
 
-    # typer reads both
-    parameters = [*given.parameters.values(), strict]
-    whole.__signature__ = given.replace(  # type: ignore[attr-defined]
-        parameters=[each.replace(kind=Parameter.KEYWORD_ONLY) for each in parameters]
-    )
-    whole.__annotations__ = {each.name: each.annotation for each in parameters}
-    return whole
+#: The option of commands that read files.
+STRICT = Option(
+    ["--strict"],
+    "Files",
+    is_flag=True,
+    expose_value=False,
+    callback=_stop,
+    help="Stop with an error where a part of a file would be left out or changed.",
+)

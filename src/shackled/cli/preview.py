@@ -6,13 +6,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ..errors import InputError, VerificationError
 from ..ethereum import checksum_address
 from ..untrusted import plain
 from .chain_options import print_json
-from .option import option
+from .option import argument, option
 from .output import print_line, print_note, print_table
 from .progress import LateBar
 
@@ -26,7 +24,7 @@ MAX_GAS = 1 << 24
 
 
 def preview(
-    source: Annotated[Path, typer.Argument(help="Solidity file of the contract.", metavar="FILE")],
+    source: Annotated[Path, argument("Solidity file of the contract.", "FILE")],
     contract: Annotated[
         str | None, option("--contract", "Contract of the file; default: the only one with tokenURI.", "NAME")
     ] = None,

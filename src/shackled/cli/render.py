@@ -6,9 +6,9 @@ import io
 import sys
 from collections.abc import Sequence
 from contextlib import ExitStack, redirect_stderr
-from typing import Annotated, Any
+from typing import Annotated
 
-import typer
+import click
 
 from .._on import VERIFY, Cluster, Nodes, On, Processes, where_of
 from ..animation import DURATION, check_duration
@@ -17,8 +17,8 @@ from ..chain import CHAINS, PATIENCE, open_chain
 from ..errors import InputError
 from ..image import FORMATS, check_alpha, one_of
 from ..scene import PICTURE
-from .look_options import FIT, with_look
-from .option import option, parse_sides
+from .look_options import FIT, Look, parse_sides
+from .option import argument, option
 from .picture import Task, render_to
 from .progress import JobProgress
 from .several import inputs_of, outputs_of, render_all
@@ -28,16 +28,11 @@ from .streams import FORMATS as KINDS
 LOCAL = "local"
 
 
-@with_look
 def render(
-    context: typer.Context,
+    context: click.Context,
     inputs: Annotated[
         list[str],
-        typer.Argument(
-            help="Mesh or scene files, names of pieces, folders of mesh files, or - for standard input.",
-            metavar="INPUT",
-            show_default=False,
-        ),
+        argument("Mesh or scene files, names of pieces, folders of mesh files, or - for standard input.", "INPUT"),
     ],
     output: Annotated[
         str | None,
@@ -100,9 +95,9 @@ def render(
             "--one-call", "Make the whole animated PNG in one call of a contract, as for a token.", None, "Turntable"
         ),
     ] = False,
-    chain: Annotated[
+    evm: Annotated[
         str | None,
-        option("--chain", f"EVM to draw in: {', '.join(CHAINS)}; default: revm.", "NAME", "Where"),
+        option("--evm", f"EVM to draw in: {', '.join(CHAINS)}; default: revm.", "NAME", "Where"),
     ] = None,
     jobs: Annotated[
         int | None,
@@ -116,13 +111,12 @@ def render(
     ] = None,
     rpc: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
             "--rpc",
-            help="Node to render on, with or without deployed contracts; may be repeated to share the work.",
-            metavar="URL",
+            "Node to render on, with or without deployed contracts; may be repeated to share the work.",
+            "URL",
+            "Where",
             envvar="SHACKLED_RPC",
-            show_default=False,
-            rich_help_panel="Where",
         ),
     ] = None,
     address: Annotated[str | None, option("--address", "Address of a deployed renderer.", "ADDRESS", "Where")] = None,
@@ -152,7 +146,7 @@ def render(
         ),
     ] = None,
     *,
-    look: dict[str, Any],
+    look: Look,
 ) -> None:
     """Render mesh files, scene files or pieces of datasets."""
     with ExitStack() as stack:
@@ -173,9 +167,9 @@ def render(
         if transparent:
             for extension in extensions:
                 check_alpha(extension, FILMS if are_films else FORMATS)
-        if (chain is not None or cluster is not None) and _from_environment(context, "rpc"):
+        if (evm is not None or cluster is not None) and _from_environment(context, "rpc"):
             rpc = None  # options override the environment
-        on = _on(chain, jobs, rpc or (), address, rpc_timeout, cluster, verify)
+        on = _on(evm, jobs, rpc or (), address, rpc_timeout, cluster, verify)
         sides = None if tile is None else parse_sides(tile, "--tile")
         where_of(on, gas_limit, sides)
         for name, given in (
@@ -186,8 +180,8 @@ def render(
         ):
             if fit is not None and given is not None:
                 raise InputError(f"--fit and {name} exclude each other: give one of them")
-        if chain is not None:
-            open_chain(chain)
+        if evm is not None:
+            open_chain(evm)
         if scene and one_call:
             raise InputError("--scene and --one-call exclude each other: the contract's file has no scene")
         if transparent and one_call:
@@ -204,7 +198,7 @@ def render(
 
 
 def _on(
-    chain: str | None,
+    evm: str | None,
     jobs: int | None,
     rpc: Sequence[str],
     address: str | None,
@@ -217,22 +211,22 @@ def _on(
         raise InputError("--verify needs --rpc or --cluster")
     if rpc and cluster is not None:
         raise InputError("--rpc and --cluster exclude each other: give one of them")
-    if rpc and chain is not None:
-        raise InputError("--rpc and --chain exclude each other: give one of them")
-    if chain is not None and "://" in chain:
-        raise InputError(f"--chain is the name of an EVM: give --rpc for the node {chain!r:.60}")
+    if rpc and evm is not None:
+        raise InputError("--rpc and --evm exclude each other: give one of them")
+    if evm is not None and "://" in evm:
+        raise InputError(f"--evm is the name of an EVM: give --rpc for the node {evm!r:.60}")
     for name, value in (("--address", address), ("--rpc-timeout", timeout)):
         if value is not None and not rpc:
             raise InputError(f"{name} needs --rpc")
     if cluster is not None:
         if cluster != LOCAL and ":" not in cluster:
             raise InputError(f"--cluster must be {LOCAL} or an address such as tcp://host:8786, not {cluster!r}")
-        return Cluster(None if cluster == LOCAL else cluster, jobs, chain, verify)
+        return Cluster(None if cluster == LOCAL else cluster, jobs, evm, verify)
     if rpc:
         return Nodes(*rpc, address=address, timeout=timeout, jobs=1 if jobs is None else jobs, verify=verify)
-    return chain if jobs is None else Processes(jobs, chain)
+    return evm if jobs is None else Processes(jobs, evm)
 
 
-def _from_environment(context: typer.Context, parameter: str) -> bool:
+def _from_environment(context: click.Context, parameter: str) -> bool:
     source = context.get_parameter_source(parameter)
     return source is not None and source.name == "ENVIRONMENT"

@@ -4,32 +4,31 @@ from __future__ import annotations
 
 import io
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
-import typer
 from PIL import Image as PillowImage
 
 from ..chain import CHAINS, open_chain
 from ..whole_file import check_output_folder, make_output_folder, write_output
-from .look_options import load_with, with_look
+from .look_options import Look, load_with
+from .option import argument, option
 
 
-@with_look
 def stages(
-    input: Annotated[str, typer.Argument(help="Mesh file, scene file, or name of a piece.", metavar="INPUT")],
-    output: Annotated[str, typer.Option("--output", "-o", help="Folder for the pictures.", metavar="DIR")],
+    input: Annotated[str, argument("Mesh file, scene file, or name of a piece.", "INPUT")],
+    output: Annotated[str, option("-o --output", "Folder for the pictures.", "DIR")],
     *,
-    look: dict[str, Any],
-    chain: Annotated[
+    look: Look,
+    evm: Annotated[
         str | None,
-        typer.Option("--chain", help=f"EVM to draw in: {', '.join(CHAINS)}; default: revm.", metavar="NAME"),
+        option("--evm", f"EVM to draw in: {', '.join(CHAINS)}; default: revm.", "NAME"),
     ] = None,
 ) -> None:
     """Draw the result of each stage of the pipeline: six pictures, and a strip of all."""
     from ..stages import draw_stages, strip
 
     folder = check_output_folder(Path(output))
-    made = draw_stages(load_with(input, look), open_chain(chain))
+    made = draw_stages(load_with(input, look), open_chain(evm))
     pictures = {stage.name: PillowImage.fromarray(stage.pixels) for stage in made} | {"strip": strip(made)}
     make_output_folder(folder)
     for name, picture in pictures.items():

@@ -1,8 +1,8 @@
-from ._drawing import SIZE, VARIABLE, PieceCost, Thumbnail, cache_folder, cost, draw, draw_all, keep, table
+from ._drawing import SIZE, VARIABLE, PieceCost, Thumbnail, cache_folder, cost, draw_all, keep
 from ._find import DATASETS, find, pieces, require
 from ._gallery import figures, page, sheet
 from ._piece import Piece
-from ._teapot import patches, teapot
+from ._teapot import teapot
 
 __all__ = [
     "DATASETS",
@@ -13,16 +13,13 @@ __all__ = [
     "Thumbnail",
     "cache_folder",
     "cost",
-    "draw",
     "draw_all",
     "figures",
     "find",
     "keep",
     "page",
-    "patches",
     "pieces",
     "require",
     "sheet",
-    "table",
     "teapot",
 ]

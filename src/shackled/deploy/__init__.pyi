@@ -1,19 +1,20 @@
 from ._account import environment_account, keystore_account, read_keystore
-from ._contract import CONTRACTS, PROXY_CODE, STANDARD, Deployment, deployment, deployments, in_order, local_chain
+from ._contract import (
+    CONTRACTS,
+    STANDARD,
+    Deployment,
+    deployment,
+    deployments,
+    in_order,
+    local_chain,
+    write_verification,
+)
 from ._deployer import Deployer, DeploymentStep, Plan, create
-from ._proxy import COST, SIGNED, SIGNER
-from ._quote import FIELDS, ORACLE, Call, Fees, Quote, current_fees, make_quotes
+from ._quote import Call, Fees, Quote, current_fees, make_quotes
 from ._transactor import Receipt, Transactor
-from ._verification import write_verification
 
 __all__ = [
     "CONTRACTS",
-    "COST",
-    "FIELDS",
-    "ORACLE",
-    "PROXY_CODE",
-    "SIGNED",
-    "SIGNER",
     "STANDARD",
     "Call",
     "Deployer",

@@ -1,41 +1,15 @@
-from ._backends import Backend, ChainBackend, Part, ProcessBackend, Verifier, draw_part
-from ._cluster import ClusterBackend
-from ._counter import Counter, strips
-from ._estimate import estimate
-from ._job import COMPARED_GAS, choose_verifier, plan, render_frames
-from ._scheduler import FAILURES, Listener, Outline, Scheduler
-from ._store import PLAN, PartStore, folder_of, remove_parts
-from ._tiles import SMALLEST, area, covers, cut, grid, halves
+from ._counter import Counter
+from ._job import render_frames
+from ._scheduler import Listener, Outline
+from ._store import folder_of, remove_parts
 from ._where import Where
 
 __all__ = [
-    "COMPARED_GAS",
-    "FAILURES",
-    "PLAN",
-    "SMALLEST",
-    "Backend",
-    "ChainBackend",
-    "ClusterBackend",
     "Counter",
     "Listener",
     "Outline",
-    "Part",
-    "PartStore",
-    "ProcessBackend",
-    "Scheduler",
-    "Verifier",
     "Where",
-    "area",
-    "choose_verifier",
-    "covers",
-    "cut",
-    "draw_part",
-    "estimate",
     "folder_of",
-    "grid",
-    "halves",
-    "plan",
     "remove_parts",
     "render_frames",
-    "strips",
 ]

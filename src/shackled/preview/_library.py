@@ -24,7 +24,7 @@ DIGEST = 32
 def stored_scene(input: str) -> dict[bytes, bytes]:
     """Return the code of the contracts in which the Studio stores a scene, by address; the last is the scene itself.
 
-    input: a piece of a dataset, a mesh or a scene file. The scene is that of `shackled mint`.
+    input: a piece of a dataset, a mesh or a scene file. The scene is that of `shackled store`.
     """
     source = locate(input)
     is_mesh = not isinstance(source, Piece) and source.suffix.lower() in READERS

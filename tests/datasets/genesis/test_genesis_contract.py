@@ -25,21 +25,13 @@ from original_scenes import genesis_document
 from shackled import Light, render
 from shackled.artifacts import artifact
 from shackled.chain import ContractChain, open_chain
-from shackled.datasets.genesis import (
-    COUNT,
-    GenesisPiece,
-    call,
-    decode_piece,
-    find,
-    generate,
-    parse_seed,
-    picture_on_chain,
-    pieces,
-    seed_of,
-)
+from shackled.datasets.genesis import COUNT, GenesisPiece, generate, parse_seed, picture_on_chain, seed_of
+from shackled.datasets.genesis._collection import find, pieces
+from shackled.datasets.genesis._contract import call, decode_piece
 from shackled.errors import InputError, RenderError
 from shackled.ethereum import keccak256
-from shackled.scene import encode, original_scene
+from shackled.scene import encode
+from shackled.scene._files.original import original_scene
 
 SOURCES = Path(__file__).resolve().parents[3] / "contracts" / "src" / "genesis"
 VECTORS = Path(__file__).with_name("pieces.json")

@@ -2,9 +2,11 @@ import numpy as np
 import pytest
 
 from shackled import Scene, render
-from shackled.datasets.icons import ICONS, IconModel, find
 from shackled.datasets.icons import pieces as icons
-from shackled.scene import Mesh, is_closed, signed_volume
+from shackled.datasets.icons._collection import ICONS, find
+from shackled.datasets.icons._icon import IconModel
+from shackled.scene import Mesh, is_closed
+from shackled.scene._staging import signed_volume
 
 #: EIP-7825.
 TRANSACTION_GAS = 2**24

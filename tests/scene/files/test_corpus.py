@@ -12,7 +12,8 @@ import pytest
 from PIL import Image
 
 from shackled.errors import InputError
-from shackled.scene import DEFAULT_COLOR, read_mesh
+from shackled.scene import read_mesh
+from shackled.scene._mesh import DEFAULT_COLOR
 
 SQUARE = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0))
 TRIANGLES = ((0, 1, 2), (0, 2, 3))

@@ -12,7 +12,8 @@ import pytest
 from PIL import Image
 
 from shackled.errors import InputWarning
-from shackled.scene import DEFAULT_COLOR, Texture, read_model
+from shackled.scene import Texture, read_model
+from shackled.scene._mesh import DEFAULT_COLOR
 
 RED, BLUE, GREY, WHITE = (255, 0, 0), (0, 0, 255), DEFAULT_COLOR, (255, 255, 255)
 CORNERS = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"

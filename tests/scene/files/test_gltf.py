@@ -12,7 +12,9 @@ from PIL import Image
 
 from shackled import load
 from shackled.errors import InputError, InputWarning
-from shackled.scene import DEFAULT_COLOR, MESH_STAGING, TEXTURED, Mesh, read_mesh, read_model
+from shackled.scene import MESH_STAGING, Mesh, read_mesh, read_model
+from shackled.scene._files.model import TEXTURED
+from shackled.scene._mesh import DEFAULT_COLOR
 
 POINTS = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
 

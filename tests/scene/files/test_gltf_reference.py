@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 import gltf_reader
 from shackled.errors import InputWarning
-from shackled.scene import DEFAULT_COLOR, read_mesh
+from shackled.scene import read_mesh
+from shackled.scene._mesh import DEFAULT_COLOR
 
 Values = NDArray[Any]
 

@@ -5,7 +5,9 @@ import pytest
 from PIL import Image
 
 from shackled.errors import InputError, InputWarning
-from shackled.scene import DEFAULT_COLOR, TEXTURED, Mesh, read_mesh, write_obj
+from shackled.scene import Mesh, read_mesh, write_obj
+from shackled.scene._files.model import TEXTURED
+from shackled.scene._mesh import DEFAULT_COLOR
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from shackled.errors import InputError
-from shackled.scene import DEFAULT_COLOR, Mesh, read_mesh
+from shackled.scene import Mesh, read_mesh
+from shackled.scene._mesh import DEFAULT_COLOR
 
 SQUARE = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
 

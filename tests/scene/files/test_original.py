@@ -6,7 +6,9 @@ import pytest
 from original_scenes import LIGHT, documents, wrong_documents
 from shackled import Scene
 from shackled.errors import InputError
-from shackled.scene import DEFAULT_HALF_HEIGHT, original_scene, rotate
+from shackled.scene import rotate
+from shackled.scene._camera import DEFAULT_HALF_HEIGHT
+from shackled.scene._files.original import original_scene
 
 
 def document(**changes: Any) -> dict[str, Any]:

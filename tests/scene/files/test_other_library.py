@@ -12,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from shackled.scene import DEFAULT_COLOR, Mesh, read_mesh, write_obj
+from shackled.scene import Mesh, read_mesh, write_obj
+from shackled.scene._mesh import DEFAULT_COLOR
 
 Array = NDArray[np.float64]
 Polygons = list[list[int]]

@@ -15,7 +15,8 @@ from PIL import Image as PillowImage
 from PIL.PngImagePlugin import PngInfo
 
 from shackled import Image, InputError, Mesh, Scene, load, render
-from shackled.scene import LONGEST_TEXT, read_scene, render_call, scene_chunk, stage
+from shackled.scene import read_scene, render_call, scene_chunk, stage
+from shackled.scene._files.picture import LONGEST_TEXT
 
 SCENE = load("icons/coin", 24)
 CALL = b"0x" + render_call(SCENE).hex().encode()

@@ -7,7 +7,8 @@ import pytest
 from PIL import Image
 
 from shackled.errors import InputError, InputWarning
-from shackled.scene import DEFAULT_COLOR, Mesh, read_mesh, read_model
+from shackled.scene import Mesh, read_mesh, read_model
+from shackled.scene._mesh import DEFAULT_COLOR
 
 SQUARE = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0))
 

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from shackled.errors import InputError
-from shackled.scene import cut, fans
+from shackled.scene._files.polygons import cut, fans
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,10 @@ import pytest
 
 from shackled import Background, Camera, Fog, Light, Material, Mesh, Object, Rim, Scene, Tone, load
 from shackled.errors import InputError
-from shackled.scene import BACKGROUND, DEFAULT_HALF_HEIGHT, Hemisphere, rotate, write_scene
+from shackled.scene import Hemisphere, rotate
+from shackled.scene._camera import DEFAULT_HALF_HEIGHT
+from shackled.scene._files.scene_file import write_scene
+from shackled.scene._staging import BACKGROUND
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 

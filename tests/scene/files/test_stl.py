@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from shackled.errors import InputError
-from shackled.scene import DEFAULT_COLOR, Mesh, read_mesh
+from shackled.scene import Mesh, read_mesh
+from shackled.scene._mesh import DEFAULT_COLOR
 
 POINTS = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
 ASCII_STL = "solid s\nfacet normal 0 0 1\nouter loop\n{}endloop\nendfacet\nendsolid s\n"

@@ -7,22 +7,19 @@ import time
 from pathlib import Path
 from typing import Annotated
 
-import typer
+import click
 
 from ...checks import number
 from ...errors import InputError
-from ..chain_options import SignerOptions, parse_checksum_address, with_groups
-from ..option import option
+from ..chain_options import SignerOptions, parse_checksum_address
+from ..option import argument, option
 from ..output import print_line
 from .options import MAX_NUMBER, CollectionOptions, TokenPayerOptions
 
 
-@with_groups
 def allow_list(
-    context: typer.Context,
-    file: Annotated[
-        Path, typer.Argument(help="Lines of account,quantity, or an OpenZeppelin tree as JSON.", metavar="FILE")
-    ],
+    context: click.Context,
+    file: Annotated[Path, argument("Lines of account,quantity, or an OpenZeppelin tree as JSON.", "FILE")],
     which: CollectionOptions,
     payer: TokenPayerOptions,
     output: Annotated[
@@ -52,12 +49,11 @@ def allow_list(
     print_line(f"{collection.name} has this allow list now; {receipt.gas:,} gas")
 
 
-@with_groups
 def permit(
-    who: Annotated[str, typer.Argument(help="The account that may mint.", metavar="ACCOUNT")],
+    who: Annotated[str, argument("The account that may mint.", "ACCOUNT")],
     which: CollectionOptions,
     signing: SignerOptions,
-    quantity: Annotated[int, typer.Argument(help="Number of tokens in all.", metavar="N", min=1, max=MAX_NUMBER)] = 1,
+    quantity: Annotated[int, argument("Number of tokens in all.", "N", min=1, max=MAX_NUMBER)] = 1,
     output: Annotated[Path | None, option("-o --output", "File to write; default: print it.", "FILE")] = None,
     days: Annotated[float, option("--days", "Days until it expires.", "DAYS", min=0)] = 30,
 ) -> None:

@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ...checks import choice, number
 from ...errors import InputError
 from ...ethereum import parse_ether
@@ -22,18 +20,16 @@ from ..chain_options import (
     parse_max_fee,
     print_json,
     print_step,
-    with_groups,
 )
-from ..option import option
+from ..option import argument, option
 from ..output import print_line, print_note, print_table
 
 if TYPE_CHECKING:
     from ...deploy import DeploymentStep, Receipt
 
 
-@with_groups
 def deploy(
-    collection: Annotated[str, typer.Argument(help="genesis or icons.", metavar="COLLECTION")],
+    collection: Annotated[str, argument("genesis or icons.", "COLLECTION")],
     node: NodeOptions,
     payer: PayerOptions,
     price: Annotated[

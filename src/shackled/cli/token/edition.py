@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ...checks import number
 from ...errors import VerificationError
 from ...ethereum import amount, ether, parse_ether
 from ...tokens import OPEN
 from ...values import plural
-from ..chain_options import Json, NodeOptions, parse_checksum_address, print_json, with_groups
-from ..option import option
+from ..chain_options import Json, NodeOptions, parse_checksum_address, print_json
+from ..option import argument, option
 from ..output import print_line, print_table
 from ..progress import LateBar
 from .options import MAX_NUMBER, TokenPayerOptions
@@ -21,9 +19,7 @@ from .options import MAX_NUMBER, TokenPayerOptions
 if TYPE_CHECKING:
     from ...tokens import Collection
 
-edition = typer.Typer(no_args_is_help=True, help="Add scenes of your own to the collection Editions, and mint them.")
-
-Number = Annotated[int, typer.Argument(help="Number of the edition.", metavar="EDITION", min=0, max=MAX_NUMBER)]
+Number = Annotated[int, argument("Number of the edition.", "EDITION", min=0, max=MAX_NUMBER)]
 
 
 @dataclass(frozen=True)
@@ -57,13 +53,9 @@ class EditionsOptions(NodeOptions):
         return "" if self.collection is None else f" -c {self.collection}"
 
 
-@edition.command()
-@with_groups
 def add(
-    pointer: Annotated[
-        str, typer.Argument(help="Address of the stored scene, from `shackled mint`.", metavar="POINTER")
-    ],
-    name: Annotated[str, typer.Argument(help="Name of the edition, 1 to 64 bytes.", metavar="NAME")],
+    pointer: Annotated[str, argument("Address of the stored scene, from `shackled store`.", "POINTER")],
+    name: Annotated[str, argument("Name of the edition, 1 to 64 bytes.", "NAME")],
     which: EditionsOptions,
     payer: TokenPayerOptions,
     price: Annotated[str, option("--price", "Price of a token, in ether; may be 0.", "ETHER")],
@@ -108,13 +100,11 @@ def add(
     print_line(f"anyone can mint it: shackled token edition mint {added.number}{which.again}")
 
 
-@edition.command()
-@with_groups
 def mint(
     edition: Number,
     which: EditionsOptions,
     payer: TokenPayerOptions,
-    quantity: Annotated[int, typer.Argument(help="Number of tokens, 1 to 100.", metavar="N", min=1, max=100)] = 1,
+    quantity: Annotated[int, argument("Number of tokens, 1 to 100.", "N", min=1, max=100)] = 1,
     as_json: Json = False,
 ) -> None:
     """Mint tokens of an edition. Prints the price first."""
@@ -136,8 +126,6 @@ def mint(
     print_line(f"view it: shackled token show {numbers[0] if numbers else 'ID'}{place} -o FILE.png")
 
 
-@edition.command("list")
-@with_groups
 def list_(
     which: EditionsOptions,
     artist: Annotated[str | None, option("--artist", "Only the editions of this account.", "ADDRESS")] = None,
@@ -179,8 +167,6 @@ def list_(
         print_table(("edition", "name", "ether", "supply", "minted", "sale", "to withdraw", "artist", "scene"), rows)
 
 
-@edition.command()
-@with_groups
 def close(edition: Number, which: EditionsOptions, payer: TokenPayerOptions) -> None:
     """Close an edition: no more tokens can be minted. Cannot be undone. For its artist."""
     from ...tokens import edition_at
@@ -192,14 +178,10 @@ def close(edition: Number, which: EditionsOptions, payer: TokenPayerOptions) -> 
     print_line(f"edition {edition} is closed; {receipt.gas:,} gas")
 
 
-@edition.command()
-@with_groups
 def withdraw(
     which: EditionsOptions,
     payer: TokenPayerOptions,
-    editions: Annotated[
-        list[int] | None, typer.Argument(help="Editions; default: all of yours.", metavar="[EDITION]...", min=0)
-    ] = None,
+    editions: Annotated[list[int] | None, argument("Editions; default: all of yours.", "[EDITION]...", min=0)] = None,
     to: Annotated[str | None, option("--to", "Receiver; default: you.", "ADDRESS")] = None,
 ) -> None:
     """Withdraw the proceeds of your editions."""

@@ -4,24 +4,19 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from ...errors import InputError
 from ...ethereum import parse_ether
-from ..chain_options import parse_checksum_address, with_groups
-from ..option import option
+from ..chain_options import parse_checksum_address
+from ..option import argument, option
 from ..output import print_line
 from .options import IconsOptions, TokenPayerOptions
 
 
-@with_groups
 def add(
-    name: Annotated[str, typer.Argument(help="A dataset piece; with POINTER, the name of the icon.", metavar="NAME")],
+    name: Annotated[str, argument("A dataset piece; with POINTER, the name of the icon.", "NAME")],
     which: IconsOptions,
     payer: TokenPayerOptions,
-    pointer: Annotated[
-        str | None, typer.Argument(help="Address of the stored scene, from `shackled mint`.", metavar="[POINTER]")
-    ] = None,
+    pointer: Annotated[str | None, argument("Address of the stored scene, from `shackled store`.", "[POINTER]")] = None,
     price: Annotated[str, option("--price", "Price of a token, in ether.", "ETHER")] = "0.02",
     supply: Annotated[int, option("--supply", "Number of tokens.", "N")] = 100,
     reserve: Annotated[int, option("--reserve", "Number of these tokens reserved for the team.", "N")] = 1,
@@ -42,7 +37,7 @@ def add(
         piece = pieces[0]
         storage = plan_storage(collection.connection, [SceneToStore(piece.name, token_scene(piece))])
         if storage.missing:
-            raise InputError(f"{piece.name} is not on the chain yet; run: shackled mint {piece.name}")
+            raise InputError(f"{piece.name} is not on the chain yet; run: shackled store {piece.name}")
         name, place = piece.title, storage.pointers[0]
     arguments = (name, place, SCALE, wei, supply, reserve)
     # fails before the confirmation if the scene cannot be drawn
@@ -52,7 +47,6 @@ def add(
     print_line(f"{name} is added; {receipt.gas:,} gas")
 
 
-@with_groups
 def seal(which: IconsOptions, payer: TokenPayerOptions) -> None:
     """Seal the set of icons; required before the sale. Cannot be undone. For the owner."""
     from ...tokens import icons_of

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from ...checks import choice, number
 from ...errors import InputError
 from ...ethereum import checksum_address, ether
-from ..chain_options import parse_checksum_address, with_groups
-from ..option import option
+from ..chain_options import parse_checksum_address
+from ..option import argument, option
 from ..output import print_line
 from .options import PHASES, CollectionOptions, TokenPayerOptions
 
 
-@with_groups
 def phase(
-    to: Annotated[str, typer.Argument(help=", ".join(PHASES) + ".", metavar="PHASE")],
+    to: Annotated[str, argument(", ".join(PHASES) + ".", "PHASE")],
     which: CollectionOptions,
     payer: TokenPayerOptions,
 ) -> None:
@@ -28,7 +25,6 @@ def phase(
     print_line(f"{collection.name} is {collection.state().phase_name}; {receipt.gas:,} gas")
 
 
-@with_groups
 def withdraw(
     which: CollectionOptions,
     payer: TokenPayerOptions,
@@ -47,9 +43,8 @@ def withdraw(
     print_line(f"{ether(withdrawn(receipt.logs, collection.address))} sent to {receiver}; {receipt.gas:,} gas")
 
 
-@with_groups
 def royalty(
-    percent: Annotated[float, typer.Argument(help="Share of the price of resales, 0 to 10.", metavar="PERCENT")],
+    percent: Annotated[float, argument("Share of the price of resales, 0 to 10.", "PERCENT")],
     which: CollectionOptions,
     payer: TokenPayerOptions,
     receiver: Annotated[str | None, option("--receiver", "Receiver; default: unchanged.", "ADDRESS")] = None,
@@ -64,9 +59,8 @@ def royalty(
     print_line(f"royalties are {parts / 100:g} % for {address}; {receipt.gas:,} gas")
 
 
-@with_groups
 def transfer_ownership(
-    to: Annotated[str, typer.Argument(help="The new owner.", metavar="ADDRESS")],
+    to: Annotated[str, argument("The new owner.", "ADDRESS")],
     which: CollectionOptions,
     payer: TokenPayerOptions,
 ) -> None:
@@ -77,7 +71,6 @@ def transfer_ownership(
     print_line(f"{address} can accept it: shackled token accept-ownership; {receipt.gas:,} gas")
 
 
-@with_groups
 def accept_ownership(which: CollectionOptions, payer: TokenPayerOptions) -> None:
     """Accept the ownership of a collection that was offered to you."""
     collection = which.open()

@@ -6,8 +6,6 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ...errors import InputError
 from ...ethereum import checksum_address, to_hex
 from ...values import plural
@@ -18,10 +16,9 @@ from ..chain_options import (
     parse_checksum_address,
     print_json,
     print_price,
-    with_groups,
     write_calls,
 )
-from ..option import option
+from ..option import argument, option
 from ..output import print_line, print_note
 from .options import MAX_NUMBER, AnyCollectionOptions, CollectionOptions, TokenPayerOptions
 
@@ -35,11 +32,10 @@ PAUSE = 4.0
 SAFE_TRANSFER = "safeTransferFrom(address,address,uint256)"
 
 
-@with_groups
 def mint(
     which: CollectionOptions,
     payer: TokenPayerOptions,
-    quantity: Annotated[int, typer.Argument(help="Number of tokens.", metavar="N", min=1, max=MAX_NUMBER)] = 1,
+    quantity: Annotated[int, argument("Number of tokens.", "N", min=1, max=MAX_NUMBER)] = 1,
     allow_list: Annotated[
         Path | None, option("--allow-list", "The allow list that the owner published, with your account.", "FILE")
     ] = None,
@@ -84,7 +80,6 @@ def mint(
         print_line(f"block {block:,} determines the seeds; then anyone can reveal them: shackled token reveal")
 
 
-@with_groups
 def reveal(
     which: CollectionOptions,
     payer: TokenPayerOptions,
@@ -181,10 +176,9 @@ def _print_pasting(quotes: list[Quote], path: Path) -> None:
     print_line(f"data   {to_hex(call.data)}")
 
 
-@with_groups
 def transfer(
-    token_id: Annotated[int, typer.Argument(help="Number of the token.", metavar="ID", min=0, max=MAX_NUMBER)],
-    to: Annotated[str, typer.Argument(help="The new owner.", metavar="ADDRESS")],
+    token_id: Annotated[int, argument("Number of the token.", "ID", min=0, max=MAX_NUMBER)],
+    to: Annotated[str, argument("The new owner.", "ADDRESS")],
     which: AnyCollectionOptions,
     payer: TokenPayerOptions,
 ) -> None:

@@ -6,24 +6,22 @@ from itertools import chain
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
-
 from ...animation import DURATION
 from ...errors import InputError, VerificationError
 from ...ethereum import amount, ether
 from ...image import check_output, one_of
 from ...tokens import EDITIONS
 from ...whole_file import check_output_file, write_output
-from ..chain_options import Json, NodeOptions, parse_checksum_address, print_json, with_groups
-from ..option import option, parse_size
+from ..chain_options import Json, NodeOptions, parse_checksum_address, print_json
+from ..look_options import parse_size
+from ..option import argument, option
 from ..output import print_line, print_table
 from ..progress import LateBar
 from .options import MAX_NUMBER, PHASES, AnyCollectionOptions, CollectionOptions
 
 
-@with_groups
 def show(
-    token_id: Annotated[int, typer.Argument(help="Number of the token.", metavar="ID", min=0, max=MAX_NUMBER)],
+    token_id: Annotated[int, argument("Number of the token.", "ID", min=0, max=MAX_NUMBER)],
     which: AnyCollectionOptions,
     output: Annotated[
         Path | None, option("-o --output", "File for the picture; unchanged if it has the token's format.", "FILE")
@@ -55,7 +53,6 @@ def show(
         print_line(f"{key:{width}}  {value}")
 
 
-@with_groups
 def list_(which: CollectionOptions, as_json: Json = False) -> None:
     """List the tokens with owners and traits, and the state of the collection."""
     from ...tokens import icons_of, read_views
@@ -93,11 +90,8 @@ def list_(which: CollectionOptions, as_json: Json = False) -> None:
     print_table(("token", "owner", "revealed", *traits), [each.row(traits) for each in views])
 
 
-@with_groups
 def picture(
-    pointer: Annotated[
-        str, typer.Argument(help="Address of the stored scene, from `shackled mint`.", metavar="POINTER")
-    ],
+    pointer: Annotated[str, argument("Address of the stored scene, from `shackled store`.", "POINTER")],
     node: NodeOptions,
     output: Annotated[
         Path, option("-o --output", "Output file: a picture, .png or .svg, or a 3D model, .glb.", "FILE")
@@ -143,10 +137,9 @@ def picture(
     print_line(f"{output}: {len(content):,} bytes" + ("" if gas is None else f", {gas:,} gas"))
 
 
-@with_groups
 def verify(
     which: AnyCollectionOptions,
-    numbers: Annotated[list[int] | None, typer.Argument(help="Tokens; default: all.", metavar="[ID]...")] = None,
+    numbers: Annotated[list[int] | None, argument("Tokens; default: all.", "[ID]...")] = None,
 ) -> None:
     """Compare the code, the seeds and the pictures of a collection with those computed here."""
     from ...deploy import local_chain

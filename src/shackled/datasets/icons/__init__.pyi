@@ -1,4 +1,6 @@
-from ._collection import ICONS, find, pieces
-from ._icon import IconModel
+from ._collection import find, pieces
 
-__all__ = ["ICONS", "IconModel", "find", "pieces"]
+__all__ = [
+    "find",
+    "pieces",
+]

@@ -58,8 +58,8 @@ function drawLooks(app: App, pictures: Signal<Pictures>): () => void {
     const draw = async (): Promise<void> => {
         if (!seen || seen.draft) return;
         const doc = seen.doc;
-        const width = Math.round(SIDE * Math.min(1, doc.width / doc.height));
-        const height = Math.round(SIDE * Math.min(1, doc.height / doc.width));
+        const width = Math.max(1, Math.round(SIDE * Math.min(1, doc.width / doc.height)));
+        const height = Math.max(1, Math.round(SIDE * Math.min(1, doc.height / doc.width)));
         const options = { width, height, antialias: true, lane: "background" as const, signal: stop.signal };
         const made: Record<string, string> = {};
         const replace = Object.keys(pictures.peek()).length > 0;

@@ -131,10 +131,13 @@ function mover(app: App, from: Spot): (to: Spot, event: PointerEvent) => void {
         const selection = ids as ReadonlySet<string>;
         const { middle } = sphereOf(chosen(start, selection)[0] as Item, app.meshes);
         const by = dragged(start, middle as Vector, from, to, upright);
+        const before = new Map(start.objects.map(({ id, position }) => [id, position as Vector]));
         const moved = (item: Item): Item => {
-            return { ...item, position: tidied(add(item.position as Vector, by), start.frame.radius) };
+            const position = add(before.get(item.id) ?? (item.position as Vector), by);
+            return { ...item, position: tidied(position, start.frame.radius) };
         };
-        app.change(changed(start, selection, moved), "Move", "Move");
+        // what else changes meanwhile, such as the zoom, stays
+        app.change(changed(app.doc.peek(), selection, moved), "Move", "Move");
     };
     const found = (index: number): void => {
         const hit = start.objects[index];

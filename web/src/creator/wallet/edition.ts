@@ -6,14 +6,13 @@ import { InputError } from "../../errors.js";
 import type { App } from "../app.js";
 import type { Document } from "../document.js";
 import { oneLine } from "../programs/subject.js";
+import { OPEN_SUPPLY } from "../work/protocol.js";
 import type { EditionTerms, Quote } from "../work/work.js";
 import { EDITIONS } from "./abi.js";
 import { chainName } from "./chains.js";
 import { eventsOf, isSame, mintedIn, type Token } from "./tokens.js";
 import { check, estimate, feesOf, send, type Call, type Fees, type Session, type Tell } from "./wallet.js";
 
-/** The supply of an edition without limit, as the contract has it. */
-const OPEN = 2 ** 32 - 1;
 const MAX_ROYALTY = 10;
 /** Hundredths of what is needed that a limit has, and how many times more than counted here a node may expect. */
 const MARGIN = 105n;
@@ -142,7 +141,7 @@ export async function add(app: App, { session, doc, terms, quote, calls, fees }:
     if (number === undefined) throw new InputError("The transaction succeeded, but its receipt names no new edition");
     const found = await readContract(client, { address, abi: EDITIONS, functionName: "editionAt", args: [number] });
     const has = [found.name, found.price, found.supply, found.royalty, found.scale, found.model];
-    const wanted = [terms.name, terms.price, terms.supply ?? OPEN, terms.royalty, quote.scale, terms.model];
+    const wanted = [terms.name, terms.price, terms.supply ?? OPEN_SUPPLY, terms.royalty, quote.scale, terms.model];
     const isMine = isAddressEqual(found.artist, account) && isAddressEqual(found.scene, scene);
     if (!isMine || has.join() !== wanted.join()) {
         throw new InputError(`Edition ${number}, which the receipt names, is not the one that was sent`);

@@ -16,7 +16,7 @@ import { allows, rightsOf } from "./licence.js";
 import { Act, Chains, Said, TokenView, WalletLine, atMost, ether, job, perform } from "./parts.js";
 import { plainly, session } from "./wallet.js";
 
-const COMMAND = "shackled mint SCENE.json --licence LICENCE; shackled token edition add POINTER NAME --price 0.01";
+const COMMAND = "shackled store SCENE.json --licence LICENCE; shackled token edition add POINTER NAME --price 0.01";
 const LICENCE =
     "State the licence of the files: my own work, CC0, CC BY, MIT or another that allows to sell changed copies.";
 /** Milliseconds after the last key until the token is drawn anew. */

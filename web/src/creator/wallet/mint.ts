@@ -5,7 +5,7 @@ import { getCode, readContract } from "viem/actions";
 import { InputError } from "../../errors.js";
 import type { App } from "../app.js";
 import { oneLine, titleOf } from "../programs/subject.js";
-import type { More } from "../work/protocol.js";
+import { OPEN_SUPPLY, type More } from "../work/protocol.js";
 import { EDITIONS, GENESIS, ICONS, TOKENS } from "./abi.js";
 import { addressBook } from "./chains.js";
 import { ether, short } from "./parts.js";
@@ -25,7 +25,6 @@ const PHASES = ["closed", "open for the allow list", "open for all"];
 /** The most icons or editions that are offered, the last ones; and how many are read at once. */
 const MOST = 1000;
 const AT_ONCE = 16;
-const OPEN = 2n ** 32n - 1n;
 
 /** A collection on the chain of the wallet. kinds: what can be minted, null where all tokens are of one kind. */
 export interface Shop {
@@ -139,7 +138,7 @@ const WARES: Record<Shop["contract"], (client: Client, address: Address, number:
         ]);
         const data = encodeFunctionData({ abi: EDITIONS, functionName: "mint", args: [number, 1n] });
         const [words, { image }] = [`“${oneLine(name)}” by ${short(artist)}.`, metadataOf(uri)];
-        return { phase: 2, price, left: left && BigInt(supply) === OPEN ? null : left, words, image, data };
+        return { phase: 2, price, left: left && Number(supply) === OPEN_SUPPLY ? null : left, words, image, data };
     },
 };
 

@@ -95,7 +95,7 @@ function NoWallet({ app, command }: { app: App; command: string }) {
                 <Act name="copy-page" look="small" off={isFile} does={() => void app.copy(location.href)}>
                     Copy the address
                 </Act>
-                <Act name="save-scene" look="small" does={() => void save()}>
+                <Act name="save-scene" look="small" does={() => void save().catch((error: unknown) => app.fail(error))}>
                     Save the scene
                 </Act>
             </div>

@@ -87,6 +87,8 @@ export interface Quote {
 
 /** The largest transaction on Ethereum (EIP-7825), in gas. */
 export const TRANSACTION_GAS = 1 << 24;
+/** The supply of an edition without a limit. */
+export const OPEN_SUPPLY = 2 ** 32 - 1;
 /** The read call of most nodes, in gas: src/shackled/gas/limits.toml. */
 export const CALL_GAS = 50_000_000;
 /** The largest number of pixels a side of a file. */

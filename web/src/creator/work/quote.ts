@@ -10,12 +10,18 @@ import type { Scene, SceneObject } from "../../scene/types.js";
 import { SELECTORS, addressIn, callOf, intrinsicGas, structOf, word, type Argument } from "./calls.js";
 import { compact, compressZeros, vertexOrder } from "./compact.js";
 import type { Machine } from "./machine.js";
-import { TRANSACTION_GAS, type EditionTerms, type Quote, type StoreCall, type TokenUri } from "./protocol.js";
+import {
+    OPEN_SUPPLY,
+    TRANSACTION_GAS,
+    type EditionTerms,
+    type Quote,
+    type StoreCall,
+    type TokenUri,
+} from "./protocol.js";
 
 /** The largest side of the picture in a `tokenURI` if that of the scene is smaller, in pixels. */
 const SIDE = 512;
 const MAX_SCALE = 8;
-const OPEN = 2 ** 32 - 1;
 const MAX_NAME = 64;
 const MAX_ROYALTY = 1000;
 const MAX_COPIES = 100;
@@ -48,7 +54,7 @@ export function quoteOf(machine: Machine, scene: Scene, terms: EditionTerms): Qu
         SELECTORS.Editions.add,
         { bytes: name },
         { address: pointer },
-        ...[scale, Number(model), price, supply ?? OPEN, royalty, copies],
+        ...[scale, Number(model), price, supply ?? OPEN_SUPPLY, royalty, copies],
     );
     const intrinsic = intrinsicGas(add);
     const adding = attempt(evm, collection, add, TRANSACTION_GAS - intrinsic - RESERVE);
@@ -82,7 +88,7 @@ function checkedTerms({ name, price, supply, royalty, copies }: EditionTerms): U
         [bytes.length > 0, "An edition needs a name"],
         [bytes.length <= MAX_NAME, `The name is too long: ${MAX_NAME} letters are possible, fewer with accents`],
         [price >= 0n && price < 2n ** 96n, "The price is not possible"],
-        [supply === null || whole(supply, 1, OPEN), "The number of tokens must be a whole number from 1"],
+        [supply === null || whole(supply, 1, OPEN_SUPPLY), "The number of tokens must be a whole number from 1"],
         [whole(royalty, 0, MAX_ROYALTY), `The royalty must be 0 to ${MAX_ROYALTY / 100} %`],
         [whole(copies, 0, most), `The artist can receive 0 to ${most} tokens`],
     ];

@@ -1,10 +1,8 @@
-"""shackled mint"""
+"""shackled store"""
 
 from __future__ import annotations
 
 from typing import Annotated
-
-import typer
 
 from ..errors import InputError
 from ..image import FORMATS, one_of
@@ -17,17 +15,16 @@ from .chain_options import (
     print_price,
     print_step,
     wallet_calls,
-    with_groups,
     write_calls,
 )
-from .option import option, parse_size
+from .look_options import parse_size
+from .option import argument, option
 from .output import print_line, print_note
 from .progress import LateBar
 
 
-@with_groups
-def mint(
-    input: Annotated[str, typer.Argument(help="A dataset piece, or a mesh or scene file.", metavar="INPUT")],
+def store(
+    input: Annotated[str, argument("A dataset piece, or a mesh or scene file.", "INPUT")],
     node: NodeOptions,
     payer: PayerOptions,
     licence: Annotated[
@@ -47,7 +44,7 @@ def mint(
     calldata: Calldata = None,
     as_json: Annotated[bool, option("--json", "Print one JSON object instead of text.")] = False,
 ) -> None:
-    """Store an object on a chain, so that any contract can draw it (mints no token).
+    """Store an object on a chain; any contract can then draw it.
 
     Prints the price first; cannot be undone.
     """
@@ -57,7 +54,8 @@ def mint(
     from ..deploy import current_fees
     from ..image import check_output
     from ..scene import ALL, READERS
-    from ..tokens import SceneToStore, licence_of, plan_storage, read_back, store, token_scene
+    from ..tokens import SceneToStore, licence_of, plan_storage, read_back, token_scene
+    from ..tokens import store as send
 
     if calldata is not None and output is not None:
         raise InputError(
@@ -105,7 +103,7 @@ def mint(
             return
         transactor = payer.transactor(connection)
         payer.confirm(transactor)
-        gas = sum(receipt.gas for receipt in store(storage, transactor, print_step))
+        gas = sum(receipt.gas for receipt in send(storage, transactor, print_step))
     else:
         print_note(f"{input} is on chain {connection.chain_id} already: nothing was sent")
     image = read_back(connection, storage.studio, pointer, wanted)

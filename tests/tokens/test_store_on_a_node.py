@@ -13,11 +13,12 @@ import pytest
 from PIL import Image as PillowImage
 from PIL import ImageSequence
 
+from commands import Shackled
+from nodes import Node
 from shackled import load, render
 from shackled.cli.app import run
 from shackled.datasets import require
 from shackled.tokens import token_scene
-from tokens.on_a_node import Node, Shackled
 
 OWNER, ALICE, BOB = range(3)
 PRICE = 10**16
@@ -26,10 +27,10 @@ TRIANGLE = "v 0 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\n"
 
 
 @pytest.fixture(scope="module", autouse=True)
-def _contracts(node: Node, tmp_path_factory: pytest.TempPathFactory) -> None:
+def _contracts(running_node: Node, users: list[str], tmp_path_factory: pytest.TempPathFactory) -> None:
     """Deploy the contracts, so that no test depends on what was deployed by those before."""
     chosen = ["--contracts", "Studio", "--standard-json", str(tmp_path_factory.mktemp("sources")), "--yes"]
-    assert run(["deploy", *chosen, "--rpc", node.url, "--private-key-env", node.keys[OWNER]]) == 0
+    assert run(["deploy", *chosen, "--rpc", running_node.url, "--private-key-env", users[OWNER]]) == 0
 
 
 def pixels(picture: bytes) -> np.ndarray:
@@ -39,7 +40,7 @@ def pixels(picture: bytes) -> np.ndarray:
 def test_a_wallet_sends_the_transactions(node: Node, tmp_path: Path, shackled: Shackled) -> None:
     """What --calldata writes stores the object, sent by an account that the command never sees."""
     path = tmp_path / "calls.json"
-    said = shackled("mint", "icons/die", "--calldata", path)
+    said = shackled("store", "icons/die", "--calldata", path)
     assert "nothing was sent" in said.err
     document = json.loads(path.read_text())
     assert int(document["chainId"], 16) == node.web3.eth.chain_id
@@ -48,14 +49,14 @@ def test_a_wallet_sends_the_transactions(node: Node, tmp_path: Path, shackled: S
         call = {key: each[key] for key in ("to", "value", "data", "gas")}
         digest = node.rpc("eth_sendTransaction", {"from": node.web3.eth.accounts[BOB], **call})
         assert node.web3.eth.wait_for_transaction_receipt(digest)["status"] == 1
-    minted = json.loads(shackled("mint", "icons/die", "--json").out)
+    minted = json.loads(shackled("store", "icons/die", "--json").out)
     assert minted["gas"] == 0
     assert minted["pointer"] in said.out
 
 
 def test_an_object_is_put_on_chain_once(node: Node, tmp_path: Path, shackled: Shackled) -> None:
     picture = tmp_path / "bell.png"
-    said = shackled("mint", "icons/bell", "-o", picture, "--json", "--yes", user=ALICE)
+    said = shackled("store", "icons/bell", "-o", picture, "--json", "--yes", user=ALICE)
     minted = json.loads(said.out)
     assert "storing it:" in said.err
     assert 0 < minted["gas"] <= 1_700_000
@@ -65,7 +66,7 @@ def test_an_object_is_put_on_chain_once(node: Node, tmp_path: Path, shackled: Sh
     (draw,) = (f for f in studio.all_functions() if f.abi_element_identifier == "render(address)")
     assert draw(minted["pointer"]).call() == render(token_scene(require("icons/bell"))).bmp
     # the same again costs nothing, and needs no account
-    said = shackled("mint", "icons/bell", "--json")
+    said = shackled("store", "icons/bell", "--json")
     assert json.loads(said.out) | {"output": None} == minted | {"gas": 0, "output": None}
     assert "nothing was sent" in said.err
     large = tmp_path / "large.png"
@@ -92,10 +93,10 @@ def test_an_object_is_put_on_chain_once(node: Node, tmp_path: Path, shackled: Sh
 def test_a_file_is_put_on_chain_with_its_licence(tmp_path: Path, shackled: Shackled) -> None:
     mesh, picture = tmp_path / "own.obj", tmp_path / "own.png"
     mesh.write_text(TRIANGLE)
-    assert "yourself, and state it with --licence" in shackled("mint", mesh, "--yes", user=ALICE, expect=2).error
-    said = shackled("mint", mesh, "--licence", "CC BY-NC 4.0", "--yes", user=ALICE, expect=2)
+    assert "yourself, and state it with --licence" in shackled("store", mesh, "--yes", user=ALICE, expect=2).error
+    said = shackled("store", mesh, "--licence", "CC BY-NC 4.0", "--yes", user=ALICE, expect=2)
     assert "is not known to allow commercial use" in said.error
-    shackled("mint", mesh, "--licence", "my own work", "--size", "40x20", "-o", picture, "--yes", user=ALICE)
+    shackled("store", mesh, "--licence", "my own work", "--size", "40x20", "-o", picture, "--yes", user=ALICE)
     np.testing.assert_array_equal(pixels(picture.read_bytes()), render(mesh, (40, 20), antialias=False).pixels)
 
 
@@ -109,7 +110,7 @@ def test_what_one_contract_cannot_hold_is_kept_in_parts(tmp_path: Path, shackled
             lines += [f"f {a} {a + 1} {a + side + 1}", f"f {a} {a + side + 1} {a + side}"]
     mesh, picture = tmp_path / "rocks.obj", tmp_path / "rocks.png"
     mesh.write_text("\n".join(lines))
-    said = shackled("mint", mesh, "--licence", "MIT", "--size", 48, "-o", picture, "--yes", user=ALICE)
+    said = shackled("store", mesh, "--licence", "MIT", "--size", 48, "-o", picture, "--yes", user=ALICE)
     assert "mesh 1, part 2 of" in said.err
     assert "mesh 1, joined" in said.err
     np.testing.assert_array_equal(pixels(picture.read_bytes()), render(load(mesh, antialias=False), 48).pixels)
@@ -117,7 +118,7 @@ def test_what_one_contract_cannot_hold_is_kept_in_parts(tmp_path: Path, shackled
 
 def test_fewer_bits_are_cheaper(shackled: Shackled) -> None:
     def price(*options: object) -> int:
-        said = shackled("mint", "icons/trophy", *options, user=ALICE, expect=2)
+        said = shackled("store", "icons/trophy", *options, user=ALICE, expect=2)
         assert "there is no terminal to ask" in said.error
         return int(said.err.partition("storing it: ")[2].partition(" gas")[0].replace(",", ""))
 
@@ -125,7 +126,7 @@ def test_fewer_bits_are_cheaper(shackled: Shackled) -> None:
 
 
 def test_the_price_is_known_before_an_account_is_named(shackled: Shackled) -> None:
-    said = shackled("mint", "icons/trophy", expect=2)
+    said = shackled("store", "icons/trophy", expect=2)
     assert re.search(r"price: about .* for gas \(.* estimated by the node, .*\); at most .* ether in total", said.err)
     assert "nothing was sent: name an account" in said.error
 
@@ -133,14 +134,14 @@ def test_the_price_is_known_before_an_account_is_named(shackled: Shackled) -> No
 @pytest.mark.parametrize(
     ("arguments", "code", "said"),
     [
-        (("mint", "bunny", "--yes"), 2, "bunny must not be minted: its licence (Stanford 3D Scanning Repository"),
-        (("mint", "suzanne", "--yes"), 2, "suzanne must not be minted"),
-        (("mint", "icons/heart", "--licence", "MIT"), 2, "--licence is for files"),
-        (("mint", "icons/rocket"), 2, "nothing was sent: name an account"),
-        (("mint", "icons/none"), 2, "there is no piece 'icons/none'"),
-        (("mint", "icons/rocket", "--chain-id", 5), 1, "belongs to chain 31337, not to chain 5"),
-        (("mint", "icons/rocket", "--position-bits", 3), 2, "4 to 16 bits"),
-        (("mint", "icons/rocket", "-o", "a.txt"), 2, "must end in one of"),
+        (("store", "bunny", "--yes"), 2, "bunny must not be minted: its licence (Stanford 3D Scanning Repository"),
+        (("store", "suzanne", "--yes"), 2, "suzanne must not be minted"),
+        (("store", "icons/heart", "--licence", "MIT"), 2, "--licence is for files"),
+        (("store", "icons/rocket"), 2, "nothing was sent: name an account"),
+        (("store", "icons/none"), 2, "there is no piece 'icons/none'"),
+        (("store", "icons/rocket", "--chain-id", 5), 1, "belongs to chain 31337, not to chain 5"),
+        (("store", "icons/rocket", "--position-bits", 3), 2, "4 to 16 bits"),
+        (("store", "icons/rocket", "-o", "a.txt"), 2, "must end in one of"),
         (("token", "picture", "0x" + "12" * 20, "-o", "a.gif"), 2, "must end in .png"),
         (("token", "deploy", "icons", "--icons", "nothing"), 2, "there is no piece 'nothing'"),
         (("token", "deploy", "icons", "--icons", "heart,heart"), 2, "icons/heart is named twice"),
