@@ -8,7 +8,6 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator
 from importlib import import_module
-from importlib.util import find_spec
 from types import TracebackType
 from typing import TypeVar
 
@@ -97,9 +96,3 @@ class Runner:
             results[place] = result
             self._progress.advance(task)
         return [results[place] for place in range(len(items))]
-
-
-def check_plots() -> None:
-    """Raise InputError if plots cannot be drawn."""
-    if find_spec("matplotlib") is None:
-        raise InputError("the plots need matplotlib, which is not installed: pip install 'shackled[bench]'")
