@@ -14,7 +14,7 @@ from statistics import fmean
 from tools.pages import update
 
 from shackled.artifacts import RENDERER
-from shackled.bench import DEPLOYMENT_GAS, original, original_gas
+from shackled.bench import DEPLOYMENT_GAS, EXPERIMENTS, original, original_gas
 from shackled.bench._report import wrapped
 from shackled.bench.scenes import cube
 from shackled.ethereum import intrinsic_gas
@@ -35,8 +35,13 @@ HEADLINE = tuple(f"obj_{name}_cull" for name in (*SOURCES, "armadillo", "beast",
 MINT_GAS = 124_000
 
 
-def content(name: str) -> str:
-    """Return the text between the marks of that name: of an experiment, without its title."""
+def content(name: str) -> str | None:
+    """Return the text between the marks of that name: of an experiment, without its title.
+
+    None for the measurements of this folder, which write their own.
+    """
+    if name not in (*EXPERIMENTS, "repeated"):
+        return None
     if name == "repeated":
         return wrapped(repeated())
     path = RESULTS / f"{name}.md"
