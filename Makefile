@@ -130,6 +130,11 @@ bench: $(DEV) opengl ## measure, and write the tables of benchmarks/, of the REA
 	$(BIN)/python -m benchmarks.shadows
 	$(BIN)/python -m benchmarks.seeds
 	$(BIN)/python -m benchmarks.deployment
+	$(BIN)/python -m benchmarks.gas_model
+	$(BIN)/python -m benchmarks.ray_marcher
+	$(BIN)/python -m benchmarks.money
+	$(BIN)/python -m benchmarks.look_quality
+	$(BIN)/python -m benchmarks.client_workload
 	$(BIN)/python -m tools.readme
 
 paper: $(DEV) $(NODE) ## repeat the experiments of the paper: benchmarks/results, benchmarks/README.md
