@@ -2,7 +2,7 @@
 
     python -m benchmarks.icons
 
-measures everything, rewrites icons.json, the table of docs/icons.md, and the list of the icons whose tokens are
+measures everything, rewrites icons.json, the table of docs/datasets.md, and the list of the icons whose tokens are
 antialiased: src/shackled/tokens/antialiased.json.
 """
 
@@ -24,7 +24,7 @@ from shackled.tokens import SCALE
 from . import read_figures, write_figures
 
 FILE = Path(__file__).with_name("icons.json")
-PAGE = ROOT / "docs" / "icons.md"
+PAGE = ROOT / "docs" / "datasets.md"
 LIST = ROOT / "src" / "shackled" / "tokens" / "antialiased.json"
 
 #: The gas of a transaction (EIP-7825), which some nodes give a call, too.
@@ -97,7 +97,7 @@ def main() -> int:
     print(table(figures))
     write_figures(FILE, figures)
     write_figures(LIST, fitting(figures))
-    return update({PAGE: lambda _: table(figures)}, "python -m benchmarks.icons")
+    return update({PAGE: {"icons": table(figures)}.get}, "python -m benchmarks.icons")
 
 
 if __name__ == "__main__":
