@@ -8,6 +8,9 @@
 
 Needs Node and `npm ci` in contracts/. The compiler is npm's solc, a JavaScript build: the same bytes on every machine.
 
+The compiler's answers are kept in the cache folder of the user, by its version and its whole input: what was compiled
+before is not compiled again.
+
 What writes prints the functions that have more bytes than before. One that is larger than its text explains has copies:
 the optimizer makes one for each literal argument (see ZERO_SLOT in contracts/src/words/Memory.sol).
 
@@ -19,6 +22,7 @@ its bytes.
 from __future__ import annotations
 
 import argparse
+import fcntl
 import hashlib
 import json
 import os
@@ -27,15 +31,20 @@ import subprocess
 import sys
 import tempfile
 import tomllib
+from bisect import bisect_right
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+from platformdirs import user_cache_path
+
 from shackled.artifacts import OUTPUTS as OUTPUTS
 from shackled.artifacts import source as text_of
-from shackled.gas._function_sizes import function_sizes
+from shackled.gas._source_map import instruction_sources
+from shackled.whole_file import write_whole
 
 ROOT = Path(__file__).resolve().parent.parent
 CONTRACTS = ROOT / "contracts"
@@ -184,6 +193,25 @@ def run_compiler(request: str) -> dict[str, Any]:
     return dict(result)
 
 
+def kept_answer(request: str) -> dict[str, Any]:
+    """Return the compiler's answer, which is kept. A process that asks for the same waits for the first."""
+    compiler = (LIBRARIES / "solc" / "package.json").read_text("utf-8")
+    path = user_cache_path("shackled", appauthor=False) / f"solc-answer-{digest(compiler + request)[:32]}.json"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.with_suffix(".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not path.is_file():
+            write_whole(path, json.dumps(run_compiler(request)).encode())
+    answer: dict[str, Any] = json.loads(path.read_bytes())
+    return answer
+
+
+def compile_once(request: dict[str, Any]) -> dict[str, Any]:
+    """Return the contracts that the compiler makes of an input, by source and name: see `kept_answer`."""
+    contracts: dict[str, Any] = kept_answer(_text(request))["contracts"]
+    return contracts
+
+
 def build(groups: Sequence[str] = tuple(GROUPS)) -> dict[str, str]:
     """Return the text of every artifact file of these groups, by name."""
     files: dict[str, str] = {}
@@ -205,7 +233,7 @@ def build_group(group: str) -> tuple[dict[str, str], dict[str, Any]]:
     if (size := len(_text(asked))) > MAX_INPUT_SIZE:
         raise SystemExit(f"the compiler's input of {group} has {size:,} bytes, more than {MAX_INPUT_SIZE:,}")
     files: dict[str, str] = {}
-    answer = run_compiler(_text(with_maps(asked)))
+    answer = kept_answer(_text(with_maps(asked)))
     for source, contracts in answer["contracts"].items():
         for name, output in contracts.items():
             metadata = json.loads(output["metadata"])
@@ -357,6 +385,29 @@ def sizes(files: dict[str, str]) -> dict[str, Counter[str]]:
         for name, mapped in maps.get("contracts", {}).items()
         if (text := files.get(f"{name}.json"))
     }
+
+
+def function_sizes(code: bytes, entries: str, sources: dict[str, Any]) -> Counter[str]:
+    """Return the number of bytes of each function.
+
+    Those in no function, such as of constants, are counted for their file, and those without a source for `compiler`.
+    Functions within inline assembly belong to the function around them.
+
+    entries: the compiler's source map of the code. sources: by its numbers, each with a `name` and its `functions`:
+    name, first byte, and number of bytes, as in source-maps.json.
+    """
+    ordered: dict[int, tuple[str, list[list[Any]], list[int]]] = {}
+    for key, source in sources.items():
+        functions = sorted(source["functions"], key=lambda function: int(function[1]))
+        ordered[int(key)] = source["name"], functions, [begin for _, begin, _ in functions]
+    counted: Counter[str] = Counter()
+    instructions = [(at, number, begin) for at, number, begin, _, _ in instruction_sources(code, entries)]
+    for (at, number, begin), (end, _, _) in pairwise([*instructions, (len(code), -1, 0)]):
+        file, functions, begins = ordered.get(number, ("compiler", [], []))
+        # the last one that begins at or before it
+        name, first, length = functions[bisect_right(begins, begin) - 1] if functions else (file, 0, 0)
+        counted[name if first <= begin < first + length else file] += end - at
+    return counted
 
 
 def risen(before: dict[str, Counter[str]], after: dict[str, Counter[str]]) -> list[str]:
