@@ -1,6 +1,6 @@
 from ._allow_list import read_allow_list
 from ._collection import EDITIONS, KINDS, Collection, open_collection
-from ._contract import Contract, minted_tokens, plan, withdrawn
+from ._contract import Contract, ContractCall, minted_tokens, plan, withdrawn
 from ._demo import run_demo
 from ._editions import (
     OPEN,
@@ -18,7 +18,6 @@ from ._launch import CollectionTerms, address_of, launch, parts_of, plan_launch,
 from ._metadata import MAX_LENGTH, read_data_uri
 from ._minting import mint_call, sign_allowance
 from ._reveal import (
-    RevealCall,
     Round,
     check_randomness,
     hidden_rounds,
@@ -41,8 +40,8 @@ __all__ = [
     "Collection",
     "CollectionTerms",
     "Contract",
+    "ContractCall",
     "EditionTerms",
-    "RevealCall",
     "Round",
     "SceneToStore",
     "add_call",
