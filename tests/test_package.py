@@ -34,6 +34,10 @@ CONSTRAINTS = ROOT / "tools" / "constraints.txt"
 EXTRA_OF = {
     "bench": "bench",
     "chain/_embedded.py": "pyevm pyrevm",
+    "deploy/_account.py": "chain",
+    "deploy/_transactor.py": "chain",
+    "cli/chain_options.py": "chain",
+    "tokens/": "chain",
     "mp4.py": "mp4",
     "parallel/_cluster.py": "cluster",
     "scene/_files/gltf/draco.py": "draco",
@@ -139,7 +143,7 @@ def test_a_package_exports_only_what_others_need(package: Path) -> None:
     """The documentation names it, or another package uses it, or a package inside this one."""
     name = ".".join(package.relative_to(PACKAGE.parent).parts)
     files = [path for each in ("docs", "examples", "benchmarks") for path in (ROOT / each).rglob("*.py")]
-    files += [path for path in PACKAGE.rglob("*.py") if path.parent != package]
+    files += [PACKAGE / "__init__.pyi", *(path for path in PACKAGE.rglob("*.py") if path.parent != package)]
     used = {each for path in files for each in of_the_package(path)}
     texts = [path.read_text() for path in [*files, *(ROOT / "docs").rglob("*.md")]]
     for text in texts:

@@ -104,6 +104,38 @@ def test_help_loads_no_command(arguments: list[str]) -> None:
     assert told.stdout.splitlines()[-1] == "[]"
 
 
+WITHOUT = """
+import sys
+class Without:
+    def find_spec(self, name, *_):
+        if name.partition(".")[0] in {"eth_account", "eth_abi", "eth_utils", "eth_typing", "rlp", "pydantic"}:
+            raise ModuleNotFoundError(name)
+sys.meta_path.insert(0, Without())
+from shackled.cli.app import run
+"""
+
+
+def test_what_works_without_the_extra_chain(folder: Path) -> None:
+    commands = [
+        ["render", "shape.obj", "--size", "8", "-o", "a.png"],
+        ["render", "shape.obj", "--size", "8", "--turntable", "2", "--one-call", "-o", "b.png"],
+        ["export", "shape.obj", "-o", "c.glb"],
+        ["export", "shape.obj", "--size", "8", "-o", "d.html"],
+        ["gas", "shape.obj", "--size", "8", "--json"],
+        ["genesis", "7", "-o", "e.png"],
+        ["datasets", "list", "icons"],
+        ["info", "shape.obj"],
+    ]
+    signed = ["--rpc", "http://127.0.0.1:9", "--private-key-env", "KEY"]
+    needing = [["deploy", *signed], ["store", "icons/die", *signed], ["library", "store", *signed]]
+    code = f"{WITHOUT}\nassert [run(each) for each in {commands}] == [0] * {len(commands)}"
+    code += f"\nassert [run(each) for each in {needing}] == [2] * {len(needing)}"
+    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    line = "shackled: an account that signs needs a package that is not installed: pip install 'shackled[chain]'"
+    assert (told.returncode, told.stderr.splitlines()[-3:]) == (0, [line] * 3)
+    assert sorted(path.name[0] for path in folder.iterdir()) == [*"abcdes"]
+
+
 def test_every_command_can_be_loaded() -> None:
     found = dict(app.commands_below())
     assert {"shackled render", "shackled token edition mint", "shackled datasets list"} <= found.keys()

@@ -67,6 +67,7 @@ def store(
     source = locate(input)
     terms = licence_of(source, licence)
     node.check()
+    payer.check()
     # a token is drawn by nodes of all kinds, of which many allow a call too little gas for antialiased meshes
     is_mesh = not isinstance(source, Piece) and source.suffix.lower() in READERS
     thing = (token_scene(source) if pixels is None else source.make()) if isinstance(source, Piece) else source

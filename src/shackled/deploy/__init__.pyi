@@ -1,4 +1,4 @@
-from ._account import environment_account, keystore_account, read_keystore
+from ._account import environment_account, keystore_account, read_keystore, signer_class
 from ._contract import CONTRACTS, STANDARD, Deployment, deployment, deployments, in_order, local_chain
 from ._deployer import Deployer, DeploymentStep, Plan, create
 from ._quote import Call, Fees, Quote, current_fees, make_quotes
@@ -27,5 +27,6 @@ __all__ = [
     "local_chain",
     "make_quotes",
     "read_keystore",
+    "signer_class",
     "write_verification",
 ]

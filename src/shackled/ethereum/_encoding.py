@@ -27,7 +27,6 @@ def word(value: int | bytes) -> bytes:
 
 def keccak256(data: bytes) -> bytes:
     """Return the Keccak-256 hash of data, 32 bytes."""
-    # eth_utils takes 0.1 s to import
     return keccak.new(digest_bits=256, data=data).digest()
 
 
@@ -47,9 +46,10 @@ def create2_address(creation: bytes, salt: bytes = SALT, creator: bytes = PROXY)
 
 def checksum_address(address: bytes) -> str:
     """Write an address with the checksum of EIP-55, which is in its capitals."""
-    from eth_utils.address import to_checksum_address
-
-    return str(to_checksum_address(address))
+    digits = address.hex()
+    marks = keccak256(digits.encode()).hex()
+    capital = (each.upper() if mark > "7" else each for each, mark in zip(digits, marks, strict=False))
+    return f"0x{''.join(capital)}"
 
 
 def parse_address(text: str, name: str) -> bytes:

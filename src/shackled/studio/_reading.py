@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..chain import Connection
 from ..errors import VerificationError
-from ..ethereum import checksum_address
+from ..ethereum import checksum_address, decode_values
 from ._storage import PARTS, POINTED, SCENE, scene_struct, storage_address
 
 #: The parts of a list have at most this many bytes together (Storage.sol).
@@ -50,14 +50,11 @@ def stored_codes(connection: Connection, studio: bytes, pointer: bytes) -> dict[
 
 def stored_meshes(data: bytes) -> list[bytes]:
     """Return the field `mesh` of each object of a stored scene. Raises VerificationError if the bytes are invalid."""
-    from eth_abi.abi import decode
-    from eth_abi.exceptions import DecodingError
-
     if data[:1] != bytes([SCENE]):
         raise VerificationError("the stored bytes are not a scene")
     try:
-        (struct,) = decode([scene_struct()], expand_zeros(data[1:]))
-    except (DecodingError, IndexError, OverflowError) as error:
+        (struct,) = decode_values([scene_struct()], expand_zeros(data[1:]))
+    except (ValueError, IndexError) as error:
         raise VerificationError(f"the stored bytes are not a complete scene: {error}") from None
     *_, objects, _ = struct
     return [each[0] for each in objects]

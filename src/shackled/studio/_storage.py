@@ -11,7 +11,7 @@ from attrs import evolve
 from ..artifacts import artifact
 from ..chain import ContractChain, open_chain
 from ..errors import InputError
-from ..ethereum import create2_address, intrinsic_gas, word
+from ..ethereum import create2_address, decode_values, encode_values, intrinsic_gas, word
 from ..scene import Object, Scene, encode_scene, fit, pack, rotate
 from ._compact_mesh import compact, vertex_order
 
@@ -137,17 +137,15 @@ def quantize(o: Object, bits: int) -> Object:
 
 def encode_with_pointers(scene: Scene, pointers: Sequence[bytes]) -> bytes:
     """Encode the struct of a scene that `fit` made, with pointers in place of its meshes."""
-    from eth_abi.abi import decode, encode
-
     kind = scene_struct()
-    (struct,) = decode([kind], word(32) + encode_scene(scene))
+    (struct,) = decode_values([kind], word(32) + encode_scene(scene))
     *others, objects, extensions = struct
     pointed = [(bytes([POINTED]) + pointer, *o[1:]) for o, pointer in zip(objects, pointers, strict=True)]
-    return encode([kind], [(*others, pointed, extensions)])[32:]
+    return encode_values([kind], [(*others, pointed, extensions)])[32:]
 
 
 def scene_struct() -> str:
-    """Return the ABI type of the contracts' struct Scene, for eth_abi."""
+    """Return the ABI type of the contracts' struct Scene."""
     return artifact(STUDIO).interface.parameter_type("storeScene")
 
 
