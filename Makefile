@@ -13,7 +13,7 @@ ifndef CHECKS
 .NOTPARALLEL:
 endif
 .DEFAULT_GOAL := help
-.PHONY: help browser opengl demo page creator test lint types contracts evm evm-check web docs unit verify build npm gas golden bench paper fuzz models mutants conformance pictures clean
+.PHONY: help browser opengl demo page creator test lint types contracts evm evm-check web docs unit verify build npm release-check gas golden bench paper fuzz models mutants conformance pictures clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -66,7 +66,7 @@ types: $(DEV) ## types of the Python code
 
 contracts: $(DEV) $(NODE) ## whether the compiled contracts are those of the sources
 	$(BIN)/python tools/build_contracts.py --check
-	$(BIN)/python tools/build_package.py --check
+	$(BIN)/python -m tools.build_package --check
 
 evm-check: $(DEV) ## whether the compiled EVM is that of the sources
 	$(BIN)/python tools/build_evm.py --check
@@ -89,11 +89,14 @@ build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bund
 	$(BIN)/python tools/build_contracts.py
 	$(BIN)/python tools/library.py
 	$(BIN)/python tools/build_contracts.py --group library
-	$(BIN)/python tools/build_package.py
+	$(BIN)/python -m tools.build_package
 	$(BIN)/python tools/build_web.py
 
 npm: $(DEV) ## the npm package for contract authors, in build/npm
-	$(BIN)/python tools/build_package.py
+	$(BIN)/python -m tools.build_package
+
+release-check: $(DEV) $(NODE) page ## build what would be published into build/release, and use it in fresh environments
+	$(BIN)/python -m tools.release_check
 
 evm: $(DEV) ## compile the EVM of evm/ into src/shackled/evm, with the compiler that src/shackled/evm/evm.json names
 	$(BIN)/python tools/build_evm.py

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import settings
 from tools.page_server import ARGUMENTS, browser_path
 
-from nodes import ANVIL
+from nodes import ANVIL, PUBLIC, Node, anvil
 
 # The same examples each time, so that a change fails for what it changed; `make fuzz` looks for new ones.
 settings.register_profile("same", derandomize=True)
@@ -34,10 +34,25 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark tests by the fixtures that they use. Tests with the mark "node" are skipped where there is no anvil."""
     for item in items:
         fixtures: list[str] = getattr(item, "fixturenames", [])
-        for name in {"browser", "node"}.intersection(fixtures):
-            item.add_marker(name)
+        for name in {"browser", "node", "running_node"}.intersection(fixtures):
+            item.add_marker(name.removeprefix("running_"))
         if ANVIL is None and item.get_closest_marker("node"):
             item.add_marker(pytest.mark.skip(reason="anvil is not installed: npm ci in contracts/"))
+
+
+@pytest.fixture(scope="module")
+def running_node(request: pytest.FixtureRequest) -> Iterator[Node]:
+    """An anvil for the tests of a file, which may set NODE_OPTIONS to options of its command line."""
+    with anvil(*getattr(request.module, "NODE_OPTIONS", PUBLIC)) as started:
+        yield started
+
+
+@pytest.fixture
+def node(running_node: Node) -> Iterator[Node]:
+    """The anvil of the file; what a test does to its chain is undone after it."""
+    before = running_node.rpc("evm_snapshot")
+    yield running_node
+    running_node.rpc("evm_revert", before)
 
 
 @pytest.fixture(scope="module")

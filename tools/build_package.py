@@ -1,11 +1,13 @@
-"""Make the npm package for contract authors, shackled-contracts, in build/npm.
+"""Make the npm packages: shackled-contracts, for contract authors, in build/npm, and shackled in build/npm-web.
 
-    python tools/build_package.py            writes contracts/src/Addresses.sol and the folder build/npm
-    python tools/build_package.py --check    writes nothing; fails if contracts/src/Addresses.sol is not up to date
+    python -m tools.build_package            writes contracts/src/Addresses.sol and the folder build/npm
+    python -m tools.build_package --web      writes the folder build/npm-web
+    python -m tools.build_package --check    writes nothing; fails if contracts/src/Addresses.sol is not up to date
 
-Run `npm pack` or `npm publish` in build/npm afterwards. The folder contains the sources of contracts/src, the files of
-contracts/npm, docs/contract-authors.md as README, and files generated from the compiled contracts: artifacts, ABIs with
-types, addresses, the code for the Foundry fixture, and what verify.js makes the compiler's input of.
+Run `npm pack` in these folders afterwards. build/npm contains the sources of contracts/src, the files of contracts/npm,
+docs/contract-authors.md as README, and files generated from the compiled contracts: artifacts, ABIs with types,
+addresses, the code for the Foundry fixture, and what verify.js makes the compiler's input of. build/npm-web contains
+what web/package.json lists. The addresses of the project are those of pyproject.toml.
 """
 
 from __future__ import annotations
@@ -14,6 +16,7 @@ import argparse
 import json
 import re
 import shutil
+import subprocess
 import sys
 from pathlib import Path
 from typing import Any
@@ -21,6 +24,7 @@ from typing import Any
 from shackled.artifacts import artifact, source, standard_input
 from shackled.deploy import CONTRACTS, Deployment, deployments
 from shackled.ethereum import checksum_address
+from tools.addresses import for_an_index, with_addresses
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCES = ROOT / "contracts" / "src"
@@ -32,6 +36,8 @@ NOTICES = ("LICENSE", "THIRD-PARTY-NOTICES", "SECURITY.md")
 ARTIFACTS = ROOT / "src" / "shackled" / "artifacts"
 ADDRESSES = SOURCES / "Addresses.sol"
 PACKAGE = ROOT / "build" / "npm"
+WEB = ROOT / "web"
+WEB_PACKAGE = ROOT / "build" / "npm-web"
 
 #: Artifacts of contracts without an address of their own: ABI and bytecode only.
 WITHOUT_ADDRESS = ("GenesisCollection", "IconsCollection")
@@ -143,8 +149,9 @@ def package_files() -> dict[str, bytes]:
     for path in WRITTEN.rglob("*"):
         if path.is_file():
             files[path.relative_to(WRITTEN).as_posix()] = path.read_bytes()
-    # pages that are not in the package cannot be linked
-    readme = re.sub(r"\[([^\]]+)\]\([\w-]+\.md[^)]*\)", r"\1", README.read_text("utf-8"))
+    manifest = json.loads(files["package.json"])
+    files["package.json"] = _json(with_addresses(manifest, "contracts")).encode()
+    readme = for_an_index(README.read_text("utf-8"), "docs")
     files["README.md"] = readme.replace("# For contract authors", "# Shackled for contract authors", 1).encode()
     return files | {name: (ROOT / "contracts" / name).read_bytes() for name in NOTICES}
 
@@ -156,6 +163,20 @@ def build(folder: Path = PACKAGE) -> None:
     for name, content in package_files().items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_bytes(content)
+
+
+def build_web(folder: Path = WEB_PACKAGE) -> None:
+    """Bundle web/, and write its package into a folder, whose content is replaced."""
+    subprocess.run(["npm", "run", "--silent", "build"], cwd=WEB, check=True)
+    manifest = json.loads((WEB / "package.json").read_text("utf-8"))
+    for name in ("scripts", "devDependencies", "prettier"):
+        del manifest[name]
+    shutil.rmtree(folder, ignore_errors=True)
+    for name in ("dist", "src"):
+        shutil.copytree(WEB / name, folder / name, ignore=shutil.ignore_patterns("tests"))
+    shutil.copy(WEB / "LICENSE", folder)
+    (folder / "package.json").write_text(_json(with_addresses(manifest, "web")), "utf-8")
+    (folder / "README.md").write_text(for_an_index((WEB / "README.md").read_text("utf-8"), "web"), "utf-8")
 
 
 def _constant(name: str) -> str:
@@ -177,9 +198,13 @@ def _type(value: Any) -> str:
 
 def main() -> int:
     """Build the package, or check the generated source."""
-    parser = argparse.ArgumentParser(description="Make the npm package shackled-contracts in build/npm.")
+    parser = argparse.ArgumentParser(description="Make the npm packages, in build/npm and build/npm-web.")
+    parser.add_argument("--web", action="store_true", help="make the package of web/ instead of that of the contracts")
     parser.add_argument("--check", action="store_true", help="write nothing; fail if Addresses.sol is not up to date")
     options = parser.parse_args()
+    if options.web:
+        build_web()
+        return report(WEB_PACKAGE)
     text = addresses(deployments(CONTRACTS))
     if options.check:
         if not ADDRESSES.is_file() or ADDRESSES.read_text("utf-8") != text:
@@ -188,8 +213,13 @@ def main() -> int:
         return 0
     ADDRESSES.write_text(text, "utf-8", newline="\n")
     build()
-    size = sum(path.stat().st_size for path in PACKAGE.rglob("*") if path.is_file())
-    print(f"{PACKAGE.relative_to(ROOT)}: {size:,} bytes; `npm pack` in it makes the package")
+    return report(PACKAGE)
+
+
+def report(folder: Path) -> int:
+    """Print the size of a package; return 0."""
+    size = sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
+    print(f"{folder.relative_to(ROOT)}: {size:,} bytes; `npm pack` in it makes the package")
     return 0
 
 

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 from eth_account import Account
-from tools.anvil import Anvil
 
-from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, result, serving
+from nodes import KEY, Node, Reply, anvil, failure, forward, needs_anvil, result, serving
 from proxies import Liar
 from shackled.artifacts import RENDERER, artifact
 from shackled.chain import AddressBook, Connection
@@ -40,22 +38,16 @@ def book(tmp_path: Path) -> AddressBook:
     return AddressBook(tmp_path / "addresses.json")
 
 
-@pytest.fixture
-def node() -> Iterator[Anvil]:
-    with anvil() as running:
-        yield running
-
-
 @pytest.fixture(scope="module")
 def wanted() -> list[Deployment]:
     return deployments()
 
 
-def parts(node: Anvil, book: AddressBook) -> tuple[Deployer, Transactor]:
+def parts(node: Node, book: AddressBook) -> tuple[Deployer, Transactor]:
     return Deployer(node.connection, book), Transactor(node.connection, Account.from_key(KEY))
 
 
-def code(node: Anvil, address: bytes) -> bytes:
+def code(node: Node, address: bytes) -> bytes:
     return node.connection.data("eth_getCode", "0x" + address.hex(), "latest")
 
 
@@ -112,8 +104,7 @@ def test_the_transaction_that_deploys_the_proxy() -> None:
     assert COST == 10**16
 
 
-@needs_anvil
-def test_deploying(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
+def test_deploying(node: Node, book: AddressBook, wanted: list[Deployment]) -> None:
     deployer, transactor = parts(node, book)
     plan = deployer.plan(wanted)
     assert missing(plan) == list(STANDARD)
@@ -136,8 +127,7 @@ def test_deploying(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> 
     assert node.rpc("eth_getTransactionCount", "0x" + transactor.address.hex(), "latest") == nonce
 
 
-@needs_anvil
-def test_the_price_that_was_told_is_kept(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
+def test_the_price_that_was_told_is_kept(node: Node, book: AddressBook, wanted: list[Deployment]) -> None:
     deployer, transactor = parts(node, book)
     plan = deployer.plan(wanted)
     receipts = deployer.execute(plan, transactor)
@@ -206,8 +196,7 @@ def test_chains_that_cannot_have_the_contracts(book: AddressBook, wanted: list[D
             Deployer(small.connection, book).plan(wanted)
 
 
-@needs_anvil
-def test_going_on_where_it_stopped(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
+def test_going_on_where_it_stopped(node: Node, book: AddressBook, wanted: list[Deployment]) -> None:
     deployer, transactor = parts(node, book)
     plan = deployer.plan(wanted)
 
@@ -225,8 +214,7 @@ def test_going_on_where_it_stopped(node: Anvil, book: AddressBook, wanted: list[
     assert deployer.plan(wanted).missing == []
 
 
-@needs_anvil
-def test_anything_else_in_the_place(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
+def test_anything_else_in_the_place(node: Node, book: AddressBook, wanted: list[Deployment]) -> None:
     deployer, _ = parts(node, book)
     node.rpc("anvil_setCode", "0x" + wanted[len(RENDERER) - 1].address.hex(), "0x00")
     with pytest.raises(TransactionError, match="is not that of Renderer"):
@@ -237,8 +225,7 @@ def test_anything_else_in_the_place(node: Anvil, book: AddressBook, wanted: list
         deployer.plan(wanted)
 
 
-@needs_anvil
-def test_an_account_with_too_little(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
+def test_an_account_with_too_little(node: Node, book: AddressBook, wanted: list[Deployment]) -> None:
     deployer = Deployer(node.connection, book)
     poor = Transactor(node.connection, Account.create())
     with pytest.raises(TransactionError, match=r"^the account 0x\w+ has 0 ether on chain 31337, and .* are needed"):
@@ -246,8 +233,7 @@ def test_an_account_with_too_little(node: Anvil, book: AddressBook, wanted: list
     assert not book.path.exists()
 
 
-@needs_anvil
-def test_any_creation_code(node: Anvil, book: AddressBook) -> None:
+def test_any_creation_code(node: Node, book: AddressBook) -> None:
     """Such as that of a collection."""
     deployer, transactor = parts(node, book)
     # leaves a contract of one byte: PUSH1 1 PUSH0 RETURN
@@ -299,9 +285,8 @@ def test_limits_follow_the_estimates_of_the_node(book: AddressBook, wanted: list
         assert before - Transactor(node.connection, Account.from_key(KEY)).balance() <= plan.ceiling
 
 
-@needs_anvil
 def test_a_node_that_estimates_only_what_can_be_done_now(
-    node: Anvil, book: AddressBook, wanted: list[Deployment]
+    node: Node, book: AddressBook, wanted: list[Deployment]
 ) -> None:
     """The renderer needs the engine, which is not there yet: its gas is taken to be as dear as that of the others."""
 

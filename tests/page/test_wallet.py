@@ -25,7 +25,7 @@ from shackled.tokens import KINDS, Collection, CollectionTerms, launch, plan_lau
 from shackled.tokens._contract import perform
 from shackled.tokens._demo import development_accounts
 from shackled.tokens._editions import editions_address
-from shackled.tokens._licence import ALLOWED_LICENCES
+from shackled.tokens._icons import ALLOWED_LICENCES
 from shackled.tokens._metadata import read_token_uri
 
 pytestmark = needs_anvil

@@ -14,8 +14,7 @@ from shackled.evm import Answer
 from shackled.preview import Preview, Request, Token, folded
 from shackled.preview._arguments import Call
 from shackled.preview._project import Compiled
-from shackled.preview._quantities import in_units
-from shackled.preview._world import World
+from shackled.preview._world import World, in_units
 
 PANIC = bytes.fromhex("4e487b71")
 SUPPLY = function("totalSupply", output="uint256")

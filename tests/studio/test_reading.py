@@ -11,8 +11,7 @@ from shackled.chain import Connection
 from shackled.errors import VerificationError
 from shackled.scene import Object, fit
 from shackled.studio import storage_address, stored_codes
-from shackled.studio._reading import expand_zeros, stored_meshes
-from shackled.studio._storage import SCENE, compress_zeros, encode_with_pointers
+from shackled.studio._storage import SCENE, compress_zeros, encode_with_pointers, expand_zeros, stored_meshes
 
 runs = st.lists(st.tuples(st.sampled_from([0, 255, 1, 200]), st.integers(1, 300)), max_size=8)
 

@@ -15,6 +15,9 @@ from typing import Any
 import pytest
 import requests
 from tools.anvil import Anvil, find_anvil
+from web3 import HTTPProvider, Web3
+
+from shackled.artifacts import artifact
 
 ANVIL = find_anvil()
 #: Skipped without anvil: see tests/conftest.py. Tests that use the fixture `node` have this mark.
@@ -26,10 +29,36 @@ KEY = "0xac0974bec39a17e36ba4a6b4d238ff944bacb478cbed5efcae784d7bf4f2ff80"
 PUBLIC = ("--gas-limit", "50000000")
 
 
-def anvil(*options: str) -> Anvil:
-    """A node, to be used as a context; several may run at once."""
+class Node(Anvil):
+    """An anvil, with what tests ask of it."""
+
+    @property
+    def accounts(self) -> list[str]:
+        """Those to which it gives ether."""
+        return [str(account) for account in self.web3.eth.accounts]
+
+    @property
+    def web3(self) -> Web3:
+        """web3.py, which knows nothing of ours."""
+        return Web3(HTTPProvider(self.url, {"timeout": 60}, exception_retry_configuration=None))
+
+    def contract(self, name: str, address: str) -> Any:
+        """A contract of ours as web3.py sees it."""
+        return self.web3.eth.contract(address=Web3.to_checksum_address(address), abi=artifact(name).abi)
+
+    def mine(self, blocks: int) -> None:
+        """Make so many blocks."""
+        self.rpc("anvil_mine", hex(blocks))
+
+    def balance(self, account: str | bytes) -> int:
+        """In wei."""
+        return int(self.web3.eth.get_balance(Web3.to_checksum_address(account)))
+
+
+def anvil(*options: str) -> Node:
+    """A node, to be used as a context; several may run at once. Tests that call this have the mark of needs_anvil."""
     assert ANVIL is not None
-    return Anvil(ANVIL, *options)
+    return Node(ANVIL, *options)
 
 
 @dataclass(frozen=True)

@@ -6,90 +6,37 @@ from functools import cache
 from typing import Any
 
 import numpy as np
+from benchmarks.original.documents import (
+    LIGHT,
+    TRIANGLE,
+    WHITE,
+    Document,
+    call_data,
+    document,
+    genesis_document,
+    mesh_keys,
+    scene_document,
+)
 
 from shackled import Mesh
-from shackled.artifacts import artifact
 from shackled.bench import scenes
 from shackled.datasets import require
-from shackled.datasets.genesis import generate, seed_of
 
-Document = dict[str, Any]
-
-WHITE = [255, 255, 255]
-TRIANGLE = {
-    "verts": [[-700, -700, 0], [700, -700, 0], [0, 700, 0]],
-    "faces": [[0, 1, 2]],
-    "cols": [[255, 0, 0], [0, 255, 0], [0, 0, 255]],
-}
-LIGHT = {
-    "applyLighting": True,
-    "lightAmbiPower": 0,
-    "lightDiffPower": 2000,
-    "lightSpecPower": 3000,
-    "inverseShininess": 10,
-    "lightPos": [-50, 0, 0],
-    "lightColSpec": WHITE,
-    "lightColDiff": WHITE,
-    "lightColAmbi": WHITE,
-}
-#: Its keys in the order of the struct.
-LIGHTING_KEYS = [
-    "applyLighting",
-    "lightAmbiPower",
-    "lightDiffPower",
-    "lightSpecPower",
-    "inverseShininess",
-    "lightPos",
-    "lightColSpec",
-    "lightColDiff",
-    "lightColAmbi",
+__all__ = [
+    "LIGHT",
+    "call_data",
+    "document",
+    "documents",
+    "genesis_document",
+    "mesh_keys",
+    "object_keys",
+    "wrong_documents",
 ]
+
 #: Where light comes from.
 DIRECTIONS = {"left": [-50, 0, 0], "above": [0, 50, 0], "behind the eye": [0, 0, 50], "behind": [30, 0, -40]}
 #: Built-in pieces of one object, of about 1,000 triangles.
 OBJECTS = ("teapot", "torus", "torus-knot", "spring", "superellipsoid", "seashell", "uv-sphere")
-
-
-def document(side: int = 64, light: dict[str, Any] | None = None, **changes: Any) -> Document:
-    """One triangle before the eye, unlit unless `light` says how, with these keys changed."""
-    return {
-        "canvasDim": side,
-        **TRIANGLE,
-        "objPosition": [0, 0, -2500],
-        "objScale": 1,
-        "backgroundColor": [[0, 0, 40], [0, 0, 160]],
-        "lightingParams": LIGHT | {"applyLighting": light is not None} | (light or {}),
-        "perspCamera": True,
-        "backfaceCulling": True,
-        "invert": False,
-        "wireframe": False,
-        **changes,
-    }
-
-
-def call_data(document: Document, svg: bool = False) -> bytes:
-    """A call of `render` of the original's interface."""
-    keys = {**document.get("renderParams", {}), **document}
-    lighting = {"applyLighting": False, **keys.get("lightingParams", {})}
-    white = dict.fromkeys(("lightColSpec", "lightColDiff", "lightColAmbi"), [255] * 3)
-    defaults: dict[str, Any] = {"lightPos": [0] * 3, **white}
-    given = (
-        keys["faces"],
-        keys["verts"],
-        keys["cols"],
-        keys.get("objPosition", [0, 0, 0]),
-        keys.get("objScale", 1),
-        keys.get("backgroundColor", [[0] * 3] * 2),
-        tuple(lighting.get(key, defaults.get(key, 0)) for key in LIGHTING_KEYS),
-        *(bool(keys.get(key, default)) for key, default in (("perspCamera", True), ("backfaceCulling", True))),
-        *(bool(keys.get(key, False)) for key in ("invert", "wireframe")),
-    )
-    return artifact("Original").interface.encode("render", given, document["canvasDim"], svg)
-
-
-def mesh_keys(mesh: Mesh) -> dict[str, Any]:
-    """The keys of a mesh with whole coordinates."""
-    return {"verts": mesh.positions.astype(int).tolist(), "faces": mesh.faces.tolist(), "cols": mesh.colors.tolist()}
 
 
 def object_keys(name: str, radius: int = 800) -> dict[str, Any]:
@@ -107,22 +54,6 @@ def object_document(name: str, side: int = 128) -> Document:
     """A built-in piece under a light from above."""
     light = {"lightPos": [-20, 20, 30], "lightDiffPower": 500, "lightSpecPower": 1500}
     return document(side, light, **object_keys(name))
-
-
-def genesis_document(number: int, side: int = 128) -> Document:
-    """A piece of the collection as the original drew it."""
-    piece = generate(seed_of(number))
-    return document(
-        side,
-        {},
-        verts=list(map(list, piece.verts)),
-        faces=list(map(list, piece.faces)),
-        cols=list(map(list, piece.cols)),
-        backgroundColor=list(map(list, piece.background)),
-        backfaceCulling=piece.culling,
-        invert=piece.invert,
-        wireframe=piece.wireframe,
-    )
 
 
 def quads(count: int = 1, gap: int = 10) -> dict[str, Any]:
@@ -153,12 +84,9 @@ def documents() -> dict[str, Document]:
     found = {f"genesis {number}": genesis_document(number) for number in (*range(12), 21)}
     for side in (8, 32, 128):
         for projection in ("perspective", "orthographic"):
-            (cube,) = scenes.cube(side, projection).objects
-            place = {"objPosition": cube.position.astype(int).tolist(), "perspCamera": projection == "perspective"}
-            found[f"cube {projection} {side}"] = document(side, {}, **mesh_keys(cube.mesh), **place)
+            found[f"cube {projection} {side}"] = scene_document(scenes.cube(side, projection))
     for count in (1, 7, 16):
-        (row,) = scenes.equal_triangles(count).objects
-        found[f"{count} triangles"] = document(128, {}, **mesh_keys(row.mesh))
+        found[f"{count} triangles"] = scene_document(scenes.equal_triangles(count))
     for name, direction in DIRECTIONS.items():
         found[f"diffuse from {name}"] = document(64, {"lightPos": direction, "lightSpecPower": 0}, **ball)
         found[f"highlight from {name}"] = document(64, {"lightPos": direction, "lightDiffPower": 0}, **ball)

@@ -14,7 +14,7 @@ from eth_account import Account
 from shackled.errors import InputError
 from shackled.ethereum import keccak256
 from shackled.tokens import sign_allowance
-from shackled.tokens._allowance import read_allowance
+from shackled.tokens._minting import read_allowance
 
 PERMISSION = {
     "account": "0x3C44CdDdB6a900fa2b585dd299e03d12FA4293BC",

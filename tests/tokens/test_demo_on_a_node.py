@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from nodes import anvil, needs_anvil
+from commands import Shackled
+from nodes import Node, anvil, needs_anvil
 from shackled.chain import VARIABLE
 from shackled.cli.app import run
-from tokens.on_a_node import Node, Shackled
 
 
 def test_the_demo_plays_both_collections_through(node: Node, tmp_path: Path, shackled: Shackled) -> None:

@@ -20,11 +20,10 @@ from hypothesis import strategies as st
 from tools.tokens.stage import Stage, icon_scene, stage, store_scene
 from tools.tokens.world import ETHER, GAS, ZERO, Contract, Receipt, Refused, World, keccak
 
+from adversaries import adversary
 from shackled import render
 from shackled.tokens import read_data_uri
-from tokens.adversaries import adversary
-from tokens.refused import refused
-from tokens.show import document, pixels, traits
+from token_checks import document, pixels, refused, traits
 
 OPEN = 2**32 - 1
 PRICE = ETHER // 10

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
-from nodes import needs_anvil
+from commands import Shackled
+from nodes import Node
 from proxies import Liar
 from shackled.artifacts import artifact
 from shackled.chain import Connection
@@ -20,7 +21,6 @@ from shackled.errors import InputError, NodeError
 from shackled.ethereum import to_hex
 from shackled.tokens import EDITIONS, OPEN, Collection, EditionTerms, editions_of, parts_of
 from shackled.tokens._editions import editions_address
-from tokens.on_a_node import Node, Shackled
 
 ROOT = Path(__file__).resolve().parents[2]
 OWNER, ALICE, BOB = range(3)
@@ -34,9 +34,9 @@ def pointer_of(said: Any) -> str:
     return found[1]
 
 
-@needs_anvil
 def test_the_whole_way_of_editions(
     node: Node,
+    users: list[str],
     tmp_path: Path,
     shackled: Shackled,
     monkeypatch: pytest.MonkeyPatch,
@@ -132,7 +132,7 @@ def test_the_whole_way_of_editions(
     # nodes that lie: about the edition that was added, about its price, about gas
     def lied(lies: dict[str, Any], *arguments: Any, user: int, expect: int = 1) -> str:
         with Liar(lies).before(node.url) as url:
-            code = run([*map(str, (*edition, *arguments)), "--rpc", url, "--private-key-env", node.keys[user]])
+            code = run([*map(str, (*edition, *arguments)), "--rpc", url, "--private-key-env", users[user]])
         said = capsys.readouterr()
         assert (code, "Traceback" in said.err) == (expect, False), said
         return said.err.strip().splitlines()[-1]
@@ -163,7 +163,7 @@ def test_the_whole_way_of_editions(
     assert "only its artist" in said.error
     before = node.balance(node.accounts[9])
     with Liar({"eth_call": dearer}).before(node.url) as url:
-        key = ("--private-key-env", node.keys[ALICE])
+        key = ("--private-key-env", users[ALICE])
         assert not run([*edition, "withdraw", "--to", node.accounts[9], "--yes", "--rpc", url, *key])
     captured = capsys.readouterr()
     assert "send 0.04 ether of" in captured.err

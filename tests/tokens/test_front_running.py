@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tools.anvil import Anvil
 
-from nodes import anvil, needs_anvil
+from nodes import Node
 from shackled.chain import VARIABLE, AddressBook
 from shackled.cli.app import run
 from shackled.deploy import Transactor
@@ -16,24 +14,21 @@ from shackled.ethereum import checksum_address
 from shackled.tokens import KINDS, Collection, CollectionTerms, icons_of, launch, plan_launch
 from shackled.tokens._demo import development_accounts
 
-pytestmark = needs_anvil
 KIND = KINDS["icons"]
 
 
-@pytest.fixture
-def node(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Anvil]:
+@pytest.fixture(autouse=True)
+def _environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(VARIABLE, str(tmp_path / "addresses.json"))
     monkeypatch.setenv("KEY", development_accounts()[0].key.hex())
-    with anvil() as started:
-        yield started
 
 
-def transactors(node: Anvil) -> tuple[Transactor, Transactor, CollectionTerms]:
+def transactors(node: Node) -> tuple[Transactor, Transactor, CollectionTerms]:
     owner, other = (Transactor(node.connection, account) for account in development_accounts()[:2])
     return owner, other, CollectionTerms(checksum_address(owner.address), checksum_address(owner.address))
 
 
-def test_the_owner_goes_on(node: Anvil, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_owner_goes_on(node: Node, capsys: pytest.CaptureFixture[str]) -> None:
     _, other, terms = transactors(node)
     plan = plan_launch(node.connection, KIND, terms)
     launch(plan, other)
@@ -55,7 +50,7 @@ def test_the_owner_goes_on(node: Anvil, capsys: pytest.CaptureFixture[str]) -> N
     assert node.rpc("eth_blockNumber") == blocks
 
 
-def test_between_the_price_and_the_transaction(node: Anvil) -> None:
+def test_between_the_price_and_the_transaction(node: Node) -> None:
     owner, other, terms = transactors(node)
     plan = plan_launch(node.connection, KIND, terms)
     launch(plan_launch(node.connection, KIND, terms), other)

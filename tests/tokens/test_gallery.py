@@ -8,9 +8,8 @@ import numpy as np
 from PIL import Image as PillowImage
 
 from shackled.tokens import comparison
-from shackled.tokens._gallery import ActionCost, page, tokens_json
 from shackled.tokens._metadata import Metadata, Trait
-from shackled.tokens._view import TokenView
+from shackled.tokens._view import ActionCost, TokenView, page, tokens_json
 
 
 def shown(number: int, **changes: str) -> TokenView:

@@ -11,22 +11,24 @@ import pytest
 from PIL import Image as PillowImage
 from web3.exceptions import ContractCustomError
 
+from commands import Shackled
+from nodes import Node
 from shackled.chain import AddressBook
 from shackled.cli.app import run
 from shackled.datasets.genesis import generate_on_chain, picture_on_chain
 from shackled.ethereum import checksum_address
 from shackled.tokens import parts_of
-from tokens.on_a_node import Node, Shackled
 
 OWNER, ALICE, BOB, CAROL = range(4)
 PRICE = 2 * 10**17
 
 
 @pytest.fixture(scope="module")
-def address(node: Node, allow_list: Path) -> str:
+def address(running_node: Node, users: list[str], allow_list: Path) -> str:
     """The collection: 12 tokens are for sale, the other 1,012 kept."""
     sale = ["--price", "0.2", "--reserve", "1012", "--royalty", "7.5", "--allow-list", str(allow_list)]
-    sale += ["--signer", node.accounts[OWNER], "--yes", "--rpc", node.url, "--private-key-env", node.keys[OWNER]]
+    sale += ["--signer", running_node.accounts[OWNER], "--rpc", running_node.url]
+    sale += ["--private-key-env", users[OWNER], "--yes"]
     assert run(["token", "deploy", "genesis", *sale]) == 0
     found = AddressBook().find(31337, "GenesisCollection")
     assert found is not None

@@ -21,11 +21,10 @@ from tools.tokens.merkle import leaf
 from tools.tokens.stage import ALLOW_LIST, CLOSED, ICONS, LIMIT, PUBLIC, Stage, icon_scene, stage, store_scene
 from tools.tokens.world import ETHER, GAS, ZERO, Contract, Refused, keccak
 
+from adversaries import adversary
 from shackled import render
 from shackled.image import decode_bmp
-from tokens.adversaries import adversary
-from tokens.refused import refused
-from tokens.show import document, pixels, traits
+from token_checks import document, pixels, refused, traits
 
 #: How descriptions end.
 INDEPENDENT = "Not by the authors of the Shackled contracts of 2021, nor endorsed by them."

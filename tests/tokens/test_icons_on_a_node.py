@@ -11,13 +11,14 @@ import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
+from commands import Shackled
+from nodes import Node
 from shackled import render
 from shackled.chain import AddressBook
 from shackled.cli.app import run
 from shackled.datasets import require
 from shackled.ethereum import checksum_address
 from shackled.tokens import parts_of, token_scene
-from tokens.on_a_node import Node, Shackled
 
 OWNER, ALICE, BOB = range(3)
 PRICE = 10**16
@@ -26,10 +27,11 @@ TRIANGLE = "v 0 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\n"
 
 
 @pytest.fixture(scope="module")
-def address(node: Node) -> str:
+def address(running_node: Node, users: list[str]) -> str:
     """The collection, which is not sealed: two icons, one a common object; 3 tokens of each, of which 1 is kept."""
     sale = ["--icons", "diamond,tetrahedron", "--price", "0.01", "--supply", "3", "--reserve", "1", "--yes"]
-    assert run(["token", "deploy", "icons", *sale, "--rpc", node.url, "--private-key-env", node.keys[OWNER]]) == 0
+    account = ["--rpc", running_node.url, "--private-key-env", users[OWNER]]
+    assert run(["token", "deploy", "icons", *sale, *account]) == 0
     found = AddressBook().find(31337, "IconsCollection")
     assert found is not None
     return checksum_address(found)

@@ -4,7 +4,7 @@ import pytest
 
 from shackled.artifacts import artifact
 from shackled.errors import VerificationError
-from shackled.tokens._immutables import immutable_places, immutable_values
+from shackled.tokens._launch import immutable_places, immutable_values
 
 VALUE = bytes(range(32))
 

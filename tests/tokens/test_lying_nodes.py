@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tools.anvil import Anvil
 
-from nodes import ANVIL, anvil
+from nodes import Node
 from proxies import Liar
 from shackled.chain import VARIABLE, Connection
 from shackled.cli.app import run
@@ -52,37 +51,31 @@ GAS = {"eth_estimateGas": lambda gas, _: hex(1000 * int(gas, 16))}
 JUMP = {"eth_getBlockByNumber": latest(lambda block: block | {"baseFeePerGas": DEAR})}
 
 
-@pytest.fixture(scope="module")
-def node(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Anvil]:
-    """A collection whose sale is open, with a token that can be revealed, and the Studio."""
-    if ANVIL is None:
-        pytest.skip("anvil is not installed: npm ci in contracts/")
-    with anvil() as started, pytest.MonkeyPatch.context() as patch:
+@pytest.fixture(scope="module", autouse=True)
+def _contracts(running_node: Node, tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Deploy a collection whose sale is open, with a token that can be revealed, and the Studio."""
+    with pytest.MonkeyPatch.context() as patch:
         patch.setenv(VARIABLE, str(tmp_path_factory.mktemp("book") / "addresses.json"))
         patch.setenv("KEY", development_accounts()[USER].key.hex())
-        owner = Transactor(started.connection, development_accounts()[0])
+        owner = Transactor(running_node.connection, development_accounts()[0])
         terms = CollectionTerms("0x" + owner.address.hex(), "0x" + owner.address.hex())
-        collection, _ = launch(plan_launch(started.connection, KINDS["genesis"], terms), owner)
+        collection, _ = launch(plan_launch(running_node.connection, KINDS["genesis"], terms), owner)
         perform(owner, collection.contract, "setPhase", 2)
         perform(owner, collection.contract, "mint", 1, value=collection.contract.call("price"))
-        started.rpc("anvil_mine", hex(200))
-        store(plan_storage(started.connection, []), owner)
-        started.rpc("anvil_setNextBlockBaseFeePerGas", hex(GWEI))
-        started.rpc("anvil_mine", "0x1")
-        yield started
+        running_node.rpc("anvil_mine", hex(200))
+        store(plan_storage(running_node.connection, []), owner)
+        running_node.rpc("anvil_setNextBlockBaseFeePerGas", hex(GWEI))
+        running_node.rpc("anvil_mine", "0x1")
+        yield
 
 
 @pytest.fixture(autouse=True)
-def fresh(node: Anvil, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Each test finds the same chain."""
+def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("triangle.obj").write_text(TRIANGLE)
-    before = node.rpc("evm_snapshot")
-    yield
-    node.rpc("evm_revert", before)
 
 
-def balance(node: Anvil) -> int:
+def balance(node: Node) -> int:
     return Connection(node.url).number("eth_getBalance", str(development_accounts()[USER].address), "latest")
 
 
@@ -99,7 +92,7 @@ class Terminal(io.StringIO):
 
 
 def pay(
-    node: Anvil,
+    node: Node,
     liar: Liar,
     arguments: tuple[str, ...],
     capsys: pytest.CaptureFixture[str],
@@ -130,7 +123,7 @@ def pay(
 @pytest.mark.parametrize("lies", [TIP, NO_BASE], ids=["tip", "no base"])
 @pytest.mark.parametrize("what", COMMANDS)
 def test_later_fees_change_nothing(
-    node: Anvil, what: str, lies: Any, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    node: Node, what: str, lies: Any, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     code, paid, said, _ = pay(node, Liar(lies), COMMANDS[what], capsys, monkeypatch)
     assert code == 0, said
@@ -144,7 +137,7 @@ def test_later_fees_change_nothing(
 )
 @pytest.mark.parametrize("what", COMMANDS)
 def test_whoever_wants_more_than_was_told_gets_nothing(
-    node: Anvil, what: str, lies: Any, words: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    node: Node, what: str, lies: Any, words: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     code, paid, said, error = pay(node, Liar(lies), COMMANDS[what], capsys, monkeypatch)
     assert (code, paid) == (1, 0), said
@@ -162,7 +155,7 @@ def test_whoever_wants_more_than_was_told_gets_nothing(
 )
 @pytest.mark.parametrize("what", COMMANDS)
 def test_a_first_price_that_is_a_lie_is_refused_unasked(
-    node: Anvil, what: str, lies: Any, words: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    node: Node, what: str, lies: Any, words: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     code, paid, said, error = pay(node, Liar(lies), COMMANDS[what], capsys, monkeypatch, yes=True)
     assert (code, paid) == (1, 0), said
@@ -171,7 +164,7 @@ def test_a_first_price_that_is_a_lie_is_refused_unasked(
 
 @pytest.mark.parametrize("what", COMMANDS)
 def test_a_price_that_is_named_is_the_most(
-    node: Anvil, what: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    node: Node, what: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     arguments = (*COMMANDS[what], "--max-fee", "50")
     code, paid, said, _ = pay(node, Liar(TIP), arguments, capsys, monkeypatch, yes=True)
@@ -180,7 +173,7 @@ def test_a_price_that_is_named_is_the_most(
 
 
 def test_a_price_above_the_one_that_is_named_is_not_paid(
-    node: Anvil, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    node: Node, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for lies in (JUMP, NO_BASE):
         arguments = (*COMMANDS["mint"], "--max-fee", "50")
@@ -190,7 +183,7 @@ def test_a_price_above_the_one_that_is_named_is_not_paid(
 
 
 def test_an_event_without_topics_hides_no_token(
-    node: Anvil, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    node: Node, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     odd = {"address": "0x" + "12" * 20, "topics": [], "data": "0x"}
     lies = {"eth_getTransactionReceipt": lambda receipt, _: receipt | {"logs": [odd, *receipt["logs"]]}}
@@ -201,7 +194,7 @@ def test_an_event_without_topics_hides_no_token(
 
 @pytest.mark.parametrize("odd", ["zz", {}, {"number": "0x1"}, None])
 def test_blocks_that_are_none_reveal_nothing(
-    node: Anvil, odd: Any, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    node: Node, odd: Any, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     lies = {"eth_getBlockByNumber": lambda block, parameters: block if parameters[0] == "latest" else odd}
     code, paid, said, error = pay(node, Liar(lies), COMMANDS["reveal"], capsys, monkeypatch, yes=True)
@@ -210,7 +203,7 @@ def test_blocks_that_are_none_reveal_nothing(
 
 
 def test_fields_that_are_none_reveal_nothing(
-    node: Anvil, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    node: Node, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for odd in ("zz", 1.5, -5, [300], 7):
         lies: dict[str, Any] = {

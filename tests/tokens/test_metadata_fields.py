@@ -19,7 +19,7 @@ from tools.tokens.stage import ICONS, Stage, icon_scene, stage, store_scene
 from tools.tokens.world import ETHER, Contract, Refused
 
 from shackled.datasets.genesis import generate, seed_of
-from tokens.show import document, pixels
+from token_checks import document, pixels
 
 ADDRESS = r"0x[0-9a-f]{40}"
 #: The types of arguments by the length of their text; others are numbers.

@@ -2,32 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
-from tools.anvil import Anvil
 
-from nodes import KEY, anvil, needs_anvil
+from nodes import KEY, Node, anvil, needs_anvil
 from proxies import Liar
 from shackled.chain import VARIABLE, Connection
 from shackled.cli.app import run
 from shackled.errors import InputError, TransactionError
 from shackled.tokens import check_randomness
 
-pytestmark = needs_anvil
+NODE_OPTIONS = ("--chain-id", "42161")
 
 
-@pytest.fixture(scope="module")
-def layer_2() -> Iterator[Anvil]:
-    with anvil("--chain-id", "42161") as node:
-        node.rpc("anvil_mine", hex(20))
-        yield node
+@pytest.fixture
+def layer_2(node: Node) -> Node:
+    node.mine(20)
+    return node
 
 
 def test_unknown_chains_are_refused_unless_they_are_asked_for(
-    layer_2: Anvil, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    layer_2: Node, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv(VARIABLE, str(tmp_path / "addresses.json"))
     monkeypatch.setenv("SOME_KEY", KEY)
@@ -58,12 +55,13 @@ def lie(change: dict[str, Any]) -> Any:
     ],
     ids=["constant", "none", "header", "hash"],
 )
-def test_chains_that_cannot_draw_seeds(layer_2: Anvil, lies: Any, words: str) -> None:
+def test_chains_that_cannot_draw_seeds(layer_2: Node, lies: Any, words: str) -> None:
     check_randomness(layer_2.connection, any_chain=True)
     with Liar(lies).before(layer_2.url) as url, pytest.raises(TransactionError, match=words):
         check_randomness(Connection(url), any_chain=True)
 
 
+@needs_anvil
 def test_a_chain_without_blocks_is_taken() -> None:
     with anvil() as node:
         check_randomness(node.connection)

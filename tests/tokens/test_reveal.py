@@ -12,8 +12,8 @@ pytest.importorskip("pyrevm", reason="a chain with state needs it")
 from tools.tokens.stage import PRICE, Stage, stage
 from tools.tokens.world import ETHER, HISTORY, HISTORY_LENGTH, Refused, keccak
 
-from tokens.adversaries import adversary
-from tokens.refused import refused
+from adversaries import adversary
+from token_checks import refused
 
 ROUND, DELAY = 32, 128
 

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from commands import Shackled
 from forged_blocks import forged
+from nodes import Node
 from proxies import Liar
-from shackled.chain import Connection
 from shackled.cli.app import run
 from shackled.deploy import Transactor
 from shackled.errors import RevertError
@@ -19,16 +19,15 @@ from shackled.ethereum import encode_header
 from shackled.tokens import KINDS, Collection, CollectionTerms, launch, plan_launch
 from shackled.tokens._contract import perform
 from shackled.tokens._demo import development_accounts
-from tokens.on_a_node import Node, Shackled
 
 OWNER, WALLET = 0, 5
 
 
 @pytest.fixture(scope="module")
-def collection(node: Node) -> Collection:
+def collection(running_node: Node, users: list[str]) -> Collection:
     """A collection with a token of round 0, minted in the last block."""
-    owner = Transactor(Connection(node.url), development_accounts()[OWNER])
-    terms = CollectionTerms(node.accounts[OWNER], node.accounts[OWNER])
+    owner = Transactor(running_node.connection, development_accounts()[OWNER])
+    terms = CollectionTerms(running_node.accounts[OWNER], running_node.accounts[OWNER])
     made, _ = launch(plan_launch(owner.connection, KINDS["genesis"], terms), owner)
     perform(owner, made.contract, "setPhase", 2)
     perform(owner, made.contract, "mint", 1, value=made.contract.call("price"))
@@ -36,12 +35,8 @@ def collection(node: Node) -> Collection:
 
 
 @pytest.fixture(autouse=True)
-def fresh(node: Node, collection: Collection, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Each test finds the same chain, and a folder of its own."""
+def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    before = node.rpc("evm_snapshot")
-    yield
-    node.rpc("evm_revert", before)
 
 
 def mine_until(node: Node, collection: Collection, missing: int) -> int:

@@ -16,8 +16,8 @@ from tools.tokens.merkle import leaf, pair, proof_of, root_of
 from tools.tokens.stage import ALLOW_LIST, CLOSED, LIMIT, PRICE, PUBLIC, RESERVE, Stage, stage
 from tools.tokens.world import ETHER, ZERO, Contract, Refused, account, keccak
 
-from tokens.adversaries import adversary
-from tokens.refused import refused
+from adversaries import adversary
+from token_checks import refused
 
 KEY = keccak(b"who signs")
 SIGNER = Account.from_key(KEY).address

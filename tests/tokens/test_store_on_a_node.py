@@ -13,11 +13,12 @@ import pytest
 from PIL import Image as PillowImage
 from PIL import ImageSequence
 
+from commands import Shackled
+from nodes import Node
 from shackled import load, render
 from shackled.cli.app import run
 from shackled.datasets import require
 from shackled.tokens import token_scene
-from tokens.on_a_node import Node, Shackled
 
 OWNER, ALICE, BOB = range(3)
 PRICE = 10**16
@@ -26,10 +27,10 @@ TRIANGLE = "v 0 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\n"
 
 
 @pytest.fixture(scope="module", autouse=True)
-def _contracts(node: Node, tmp_path_factory: pytest.TempPathFactory) -> None:
+def _contracts(running_node: Node, users: list[str], tmp_path_factory: pytest.TempPathFactory) -> None:
     """Deploy the contracts, so that no test depends on what was deployed by those before."""
     chosen = ["--contracts", "Studio", "--standard-json", str(tmp_path_factory.mktemp("sources")), "--yes"]
-    assert run(["deploy", *chosen, "--rpc", node.url, "--private-key-env", node.keys[OWNER]]) == 0
+    assert run(["deploy", *chosen, "--rpc", running_node.url, "--private-key-env", users[OWNER]]) == 0
 
 
 def pixels(picture: bytes) -> np.ndarray:

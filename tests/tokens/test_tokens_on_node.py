@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
 from eth_abi.abi import encode
-from web3 import HTTPProvider, Web3
+from web3 import Web3
 
-from nodes import anvil, needs_anvil
+from nodes import Node
 from shackled.artifacts import artifact
 from shackled.ethereum import encode_header
-from tokens.show import document, traits
+from token_checks import document, traits
 
 PRICE = 10**17
 
 
 @pytest.fixture(scope="module")
-def w3() -> Iterator[Web3]:
-    with anvil() as node:
-        yield Web3(HTTPProvider(node.url, {"timeout": 120}, exception_retry_configuration=None))
+def w3(running_node: Node) -> Web3:
+    return running_node.web3
 
 
 def deploy(w3: Web3, name: str, *arguments: Any) -> Any:
@@ -38,7 +36,6 @@ def metadata(w3: Web3) -> str:
     return str(deploy(w3, "GenesisMetadata", *parts).address)
 
 
-@needs_anvil
 @pytest.mark.parametrize("delay", [1, 2, 255, 256, 257, 400])
 def test_reveal_on_a_node(w3: Web3, metadata: str, delay: int) -> None:
     owner, alice, bob = (w3.eth.accounts[number] for number in range(3))

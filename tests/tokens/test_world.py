@@ -14,11 +14,10 @@ from tools.tokens.world import HISTORY, HISTORY_LENGTH, ZERO, Contract, World, a
 from web3 import Web3
 from web3.types import Wei
 
-from nodes import needs_anvil
+from nodes import Node
 from shackled.artifacts import artifact
 from shackled.datasets.genesis import seed_of
 from shackled.ethereum import encode_header
-from tokens.on_a_node import Node
 
 PRICE = 10**17
 
@@ -72,7 +71,6 @@ def both(node: Node) -> Both:
     return Both(node)
 
 
-@needs_anvil
 def test_transactions_cost_what_a_node_says(both: Both) -> None:
     """Deployments too, and those of which a part is paid back or whose data costs more than what they do."""
     owner, alice, bob, carol = both.node.accounts[:4]
@@ -105,7 +103,6 @@ def test_transactions_cost_what_a_node_says(both: Both) -> None:
     both.send(genesis, "reveal", [0], [both.header(block)], sender=bob)
 
 
-@needs_anvil
 def test_pictures_cost_what_a_node_says(both: Both) -> None:
     renderer = both.deploy("Renderer", *map(both.deploy, artifact("Renderer").parts))
     metadata = both.deploy("GenesisMetadata", both.deploy("Genesis", renderer), both.deploy("PngEncoder"))

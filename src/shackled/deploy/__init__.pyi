@@ -1,9 +1,17 @@
 from ._account import environment_account, keystore_account, read_keystore, signer_class
-from ._contract import CONTRACTS, STANDARD, Deployment, deployment, deployments, in_order, local_chain
+from ._contract import (
+    CONTRACTS,
+    STANDARD,
+    Deployment,
+    deployment,
+    deployments,
+    in_order,
+    local_chain,
+    write_verification,
+)
 from ._deployer import Deployer, DeploymentStep, Plan, create
 from ._quote import Call, Fees, Quote, current_fees, make_quotes
 from ._transactor import Receipt, Transactor
-from ._verification import write_verification
 
 __all__ = [
     "CONTRACTS",

@@ -1,14 +1,18 @@
-"""Contracts that can be deployed, with what is known before the deployment: address, code, gas."""
+"""Contracts that can be deployed: address, code and gas before the deployment, and files that verify their sources."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
 
-from ..artifacts import artifact
+from ..artifacts import artifact, standard_input
 from ..chain import EmbeddedChain, open_chain
 from ..errors import ChainError, InputError
-from ..ethereum import PROXY, SALT, create2_address, intrinsic_gas
+from ..ethereum import PROXY, SALT, checksum_address, create2_address, intrinsic_gas
+from ..whole_file import make_output_folder, write_output
 
 #: The contracts that `shackled deploy` deploys by default; each follows those that it calls.
 STANDARD = (
@@ -114,3 +118,41 @@ def local_chain() -> EmbeddedChain:
     kind = type(open_chain(None))
     assert issubclass(kind, EmbeddedChain)
     return kind()
+
+
+SUMMARY = "contracts.json"
+
+
+def write_verification(folder: Path, chain_id: int, deployed: Sequence[Deployment]) -> dict[str, str]:
+    """Write the compiler's input as standard JSON, and a list of contracts with addresses and constructor arguments.
+
+    Every source is in the input as text, since explorers refuse those that it only names. Returns the contracts that
+    are left out, since a source of theirs is not installed, and why.
+
+    Raises InputError or OutputError if the folder cannot be written to.
+    """
+    contracts, inputs, left_out = [], {}, {}
+    artifacts = files("shackled.artifacts")
+    for each in deployed:
+        built = json.loads(artifacts.joinpath(f"{each.name}.json").read_text("utf-8"))
+        # one input for each group of contracts that are compiled together
+        name = f"standard-input-{built['group']}.json"
+        try:
+            inputs[name] = json.dumps(standard_input(built["group"]), indent=1).encode() + b"\n"
+        except InputError as error:
+            left_out[each.name] = str(error)
+            continue
+        contracts.append(
+            {
+                "name": f"{built['source']}:{each.name}",
+                "address": checksum_address(each.address),
+                "compiler": built["compiler"],
+                "standardInput": name,
+                "constructorArguments": each.creation[len(built["bytecode"]) // 2 :].hex(),
+            }
+        )
+    summary = json.dumps({"chainId": chain_id, "contracts": contracts}, indent=2) + "\n"
+    make_output_folder(folder)
+    for name, data in {**inputs, SUMMARY: summary.encode()}.items():
+        write_output(folder / name, data)
+    return left_out

@@ -5,13 +5,13 @@ from ._encoding import (
     SALT,
     checksum_address,
     create2_address,
+    encode_header,
     intrinsic_gas,
     keccak256,
     parse_address,
     to_hex,
     word,
 )
-from ._header import encode_header
 
 __all__ = [
     "ETHER",

@@ -1,10 +1,8 @@
-from ._findings import folded
 from ._library import stored_scene
 from ._preview import Preview, Request, Token
 from ._project import CompilerError, Project
+from ._report import check_sheet, folded, summary, write_sheet
 from ._server import serve
-from ._sheet import check_sheet, write_sheet
-from ._summary import summary
 
 __all__ = [
     "CompilerError",

@@ -8,14 +8,13 @@ import re
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
 from ..ethereum import keccak256
-from ._freshness import changed_source
 
 #: Files in the folder of a project, the most telling first.
 MARKS = ("foundry.toml", "hardhat.config.js", "hardhat.config.ts", "hardhat.config.cjs", "remappings.txt")
@@ -310,3 +309,21 @@ def _shown(said: subprocess.CompletedProcess[str]) -> str:
     """Return what a compiler says, without the places in its own program, or that it says nothing."""
     text = "\n".join(line for line in said.stdout.splitlines() if not line.startswith("    at ")).strip()
     return text or f"{Path(said.args[0]).name} failed, and says nothing (exit code {said.returncode})"
+
+
+def changed_source(root: Path, hashes: Mapping[str, str], artifact: Path, source: str) -> str | None:
+    """Return the name of a source that an artifact was not made of as it is now; None if there is none.
+
+    root: folder of the project, below which sources are named. hashes: Keccak-256 of each source as it was compiled, by
+    its name; they decide. Where that of `source`, the file of the contract, is missing, the times of the files decide.
+    Sources that are not below the project are not compared.
+    """
+    for name, expected in hashes.items():
+        path = root / name
+        if path.is_file():
+            content = path.read_bytes()
+            # forge compiles with the ends of lines of Unix
+            if expected not in {f"0x{keccak256(each).hex()}" for each in (content, content.replace(b"\r\n", b"\n"))}:
+                return name
+    is_older = source not in hashes and artifact.stat().st_mtime_ns < (root / source).stat().st_mtime_ns
+    return source if is_older else None

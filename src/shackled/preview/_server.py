@@ -17,7 +17,7 @@ from ..untrusted import plain
 from ._document import HTML
 from ._preview import Preview, Request, Token
 from ._project import CompilerError, Project
-from ._summary import summary
+from ._report import summary
 
 #: Seconds between two looks at the sources.
 PAUSE = 0.25

@@ -1,6 +1,5 @@
 from ._files import ContractFile, make_apng, make_glb
-from ._reading import stored_codes
-from ._storage import ANIMATE, STUDIO, StoreTransaction, storage_address, store_scene
+from ._storage import ANIMATE, STUDIO, StoreTransaction, storage_address, store_scene, stored_codes
 
 __all__ = [
     "ANIMATE",

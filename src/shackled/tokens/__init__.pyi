@@ -1,7 +1,6 @@
 from ._allow_list import read_allow_list
-from ._allowance import sign_allowance
 from ._collection import EDITIONS, KINDS, Collection, open_collection
-from ._contract import Contract, plan
+from ._contract import Contract, minted_tokens, plan, withdrawn
 from ._demo import run_demo
 from ._editions import (
     OPEN,
@@ -14,18 +13,23 @@ from ._editions import (
     open_editions,
     withdraw_gas,
 )
-from ._events import minted_tokens, withdrawn
-from ._gallery import comparison
-from ._icons import ICON_PRICE, SCALE, add_call, check_sale, chosen_pieces, find_icon, icons_of, token_scene
+from ._icons import ICON_PRICE, SCALE, add_call, check_sale, chosen_pieces, find_icon, icons_of, licence_of, token_scene
 from ._launch import CollectionTerms, address_of, launch, parts_of, plan_launch, plan_setup
-from ._licence import licence_of
 from ._metadata import MAX_LENGTH, read_data_uri
-from ._minting import mint_call
-from ._randomness import check_randomness
-from ._reveal import RevealCall, Round, hidden_rounds, latest_block, price_calls, price_wallet_calls, reveal_calls
+from ._minting import mint_call, sign_allowance
+from ._reveal import (
+    RevealCall,
+    Round,
+    check_randomness,
+    hidden_rounds,
+    latest_block,
+    price_calls,
+    price_wallet_calls,
+    reveal_calls,
+)
 from ._storage import SceneToStore, plan_storage, read_back, store
 from ._verify import check_code, check_collection_code, check_token
-from ._view import read_view, read_views
+from ._view import comparison, read_view, read_views
 
 __all__ = [
     "EDITIONS",

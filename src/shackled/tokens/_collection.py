@@ -10,9 +10,8 @@ from typing import Any
 from ..chain import GAS_LEFT, Connection, describe_revert, read_all
 from ..errors import ChainError, InputError, NodeError, OutOfGasError, RevertError
 from ..ethereum import checksum_address, to_hex
-from ._contract import Contract
+from ._contract import PHASES, Contract
 from ._metadata import MAX_LENGTH, Metadata, read_token_uri
-from ._reverts import PHASES
 
 #: Maximum size in bytes of the `tokenURI` of an edition: a call of 2^24 gas cannot return more.
 LONGEST = 3_000_000

@@ -14,25 +14,25 @@ from ..errors import InputError, VerificationError
 from ..ethereum import ETHER, checksum_address, ether
 from ..whole_file import make_output_folder, write_output
 from ._allow_list import make_allow_list
-from ._allowance import sign_allowance
 from ._collection import KINDS, Collection
 from ._contract import perform
-from ._gallery import (
+from ._icons import ICON_PRICE, SCALE, add_call, chosen_pieces, icons_of, token_scene
+from ._launch import CollectionTerms, launch, plan_launch
+from ._metadata import read_token_uri
+from ._minting import MintCall, mint_call, sign_allowance
+from ._reveal import hidden_rounds, latest_block, reveal_calls
+from ._storage import SceneToStore, plan_storage, store
+from ._verify import check_code, check_token
+from ._view import (
     ORIGINAL_MINT_1,
     ORIGINAL_MINT_5,
     ORIGINAL_TOKEN_URI,
     ActionCost,
+    TokenView,
     page,
     tokens_json,
+    view_of,
 )
-from ._icons import ICON_PRICE, SCALE, add_call, chosen_pieces, icons_of, token_scene
-from ._launch import CollectionTerms, launch, plan_launch
-from ._metadata import read_token_uri
-from ._minting import MintCall, mint_call
-from ._reveal import hidden_rounds, latest_block, reveal_calls
-from ._storage import SceneToStore, plan_storage, store
-from ._verify import check_code, check_token
-from ._view import TokenView, view_of
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount

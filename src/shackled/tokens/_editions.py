@@ -14,8 +14,7 @@ from ..errors import InputError, NodeError, OutOfGasError, RenderError, Verifica
 from ..ethereum import amount, checksum_address, ether, intrinsic_gas
 from ..studio import STUDIO
 from ._collection import EDITIONS, Collection
-from ._contract import USUAL_GAS
-from ._events import find_events
+from ._contract import USUAL_GAS, find_events
 from ._icons import SCALE
 from ._launch import MAX_ROYALTY
 from ._metadata import MAX_LENGTH

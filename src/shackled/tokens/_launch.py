@@ -1,4 +1,4 @@
-"""Deployment of a collection, of the contracts that it calls, and its setup before the sale."""
+"""Deployment of a collection, of the contracts that it calls, and its setup before the sale; its immutable values."""
 
 from __future__ import annotations
 
@@ -24,12 +24,11 @@ from ..deploy import (
     in_order,
     make_quotes,
 )
-from ..errors import InputError
+from ..errors import InputError, VerificationError
 from ..ethereum import PROXY, checksum_address, create2_address, ether, word
 from ._collection import Collection, CollectionKind
 from ._contract import call_of
 from ._icons import add_call, icons_of
-from ._immutables import immutable_values
 
 MAX_PER_TRANSACTION = 100
 #: In hundredths of a percent.
@@ -220,3 +219,36 @@ def plan_setup(
     wanted += [(f"{each[0]}: added", add_call(interface, launch.address, each, codes)) for each in missing]
     quotes = make_quotes(connection, [call for _, call in wanted], fees, known)
     return [SetupStep(what, quote) for (what, _), quote in zip(wanted, quotes, strict=True)]
+
+
+PUSH1, PUSH32 = 0x60, 0x7F
+#: What the compiler pushes in place of an immutable value; it pushes 32 zeros nowhere else.
+EMPTY = bytes(32)
+
+
+def immutable_places(runtime: bytes) -> list[int]:
+    """Return the offsets of immutable values, of 32 bytes each, in the runtime code of an artifact."""
+    places, at = [], 0
+    while at < len(runtime):
+        operation = runtime[at]
+        at += 1
+        if PUSH1 <= operation <= PUSH32:
+            size = operation - PUSH1 + 1
+            if size == 32 and runtime[at : at + 32] == EMPTY:
+                places.append(at)
+            at += size
+    return places
+
+
+def immutable_values(code: bytes, runtime: bytes) -> set[bytes]:
+    """Return the immutable values of deployed code. Raises VerificationError if it differs elsewhere from `runtime`."""
+    places = immutable_places(runtime)
+    masked = bytearray(code)
+    for place in places:
+        masked[place : place + 32] = EMPTY
+    if len(code) != len(runtime):
+        raise VerificationError(f"its code has {len(code):,} bytes, not {len(runtime):,}")
+    if bytes(masked) != runtime:
+        at = next(at for at, (one, other) in enumerate(zip(masked, runtime, strict=True)) if one != other)
+        raise VerificationError(f"its code differs from the compiled contract at byte {at:,}")
+    return {code[place : place + 32] for place in places}

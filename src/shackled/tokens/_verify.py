@@ -19,8 +19,7 @@ from ..studio import STUDIO, stored_codes
 from ._collection import EDITIONS, Collection, CollectionKind
 from ._editions import Edition, edition_at
 from ._icons import CollectionIcon, icon_at
-from ._immutables import immutable_places, immutable_values
-from ._launch import CollectionTerms, creation_code, parts_of
+from ._launch import CollectionTerms, creation_code, immutable_places, immutable_values, parts_of
 from ._metadata import Metadata, read_data_uri, shrink
 
 #: The type of the EIP-712 domain of permissions.

@@ -13,7 +13,7 @@ from tools.tokens.world import Built
 
 from compiler import MISSING, SOLC
 
-FOLDER = Path(__file__).with_name("contracts")
+FOLDER = Path(__file__).parents[1] / "tokens" / "contracts"
 
 
 @cache

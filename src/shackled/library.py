@@ -9,13 +9,13 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..datasets import pieces
-from ..datasets.common import models
-from ..deploy import deployments
-from ..errors import InputError
-from ..scene import Material, Scene, fit
-from ..studio import STUDIO, StoreTransaction, store_scene
-from ..tokens import token_scene
+from .datasets import pieces
+from .datasets.common import models
+from .deploy import deployments
+from .errors import InputError
+from .scene import Material, Scene, fit
+from .studio import STUDIO, StoreTransaction, store_scene
+from .tokens import token_scene
 
 #: Built-in pieces that are not one solid object, or not an object of which scenes are made.
 LEFT_OUT = {"cornell-box", "first-render", "wireframe-cube", "wireframe-icosphere"}

@@ -1,15 +1,19 @@
-"""Reading what a token shows, as a marketplace does."""
+"""What a token shows, read as a marketplace does; and transactions that a contract refuses."""
 
 from __future__ import annotations
 
 import base64
 import io
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
+from tools.tokens.world import Refused
 
 
 def document(uri: str) -> dict[str, Any]:
@@ -35,3 +39,13 @@ def traits(found: dict[str, Any]) -> dict[str, Any]:
     """The attributes by their names; each is a name with a value."""
     assert all(set(each) - {"display_type"} == {"trait_type", "value"} for each in found["attributes"])
     return {each["trait_type"]: each["value"] for each in found["attributes"]}
+
+
+@contextmanager
+def refused(name: str, *values: Any) -> Iterator[None]:
+    """Expect an error of a contract by its name, with these values if any are given."""
+    with pytest.raises(Refused) as caught:
+        yield
+    assert caught.value.name == name, caught.value
+    if values:
+        assert caught.value.values == values
