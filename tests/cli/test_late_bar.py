@@ -3,26 +3,25 @@
 from __future__ import annotations
 
 import io
+import sys
 import threading
 import time
-from typing import Any
 
 import pytest
-from rich.console import Console
 
-from shackled.cli import progress
 from shackled.cli.progress import LateBar
 
 
-@pytest.fixture
-def screen(monkeypatch: pytest.MonkeyPatch) -> io.StringIO:
+class Terminal(io.StringIO):
     """What a terminal is told."""
-    text = io.StringIO()
 
-    def terminal(**_: Any) -> Console:
-        return Console(file=text, force_terminal=True, width=80)
+    def isatty(self) -> bool:
+        return True
 
-    monkeypatch.setattr(progress, "Console", terminal)
+
+def terminal(monkeypatch: pytest.MonkeyPatch) -> io.StringIO:
+    text = Terminal()
+    monkeypatch.setattr(sys, "stderr", text)
     return text
 
 
@@ -33,20 +32,26 @@ def wait_for(screen: io.StringIO, words: str) -> None:
     assert words in screen.getvalue()
 
 
-def test_what_is_quick_has_no_bar(screen: io.StringIO) -> None:
+def test_what_is_quick_has_no_bar(monkeypatch: pytest.MonkeyPatch) -> None:
+    screen = terminal(monkeypatch)
     with LateBar("rendering", 30):
         pass
     assert screen.getvalue() == ""
 
 
-def test_what_is_slow_has_one(screen: io.StringIO) -> None:
+def test_what_is_slow_has_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    screen = terminal(monkeypatch)
     with LateBar("rendering", 0.01) as bar:
         wait_for(screen, "rendering")
         assert "%" not in screen.getvalue()
+        time.sleep(0.11)
         bar.set(3, 4)
         wait_for(screen, "75%")
         bar.print("a warning")
-        wait_for(screen, "a warning")
+        wait_for(screen, "a warning\n")
+    # nothing of it is left
+    *_, last = screen.getvalue().rstrip("\r").split("\r")
+    assert last.strip() == ""
     # its thread has ended too
     assert not [thread for thread in threading.enumerate() if isinstance(thread, threading.Timer)]
 

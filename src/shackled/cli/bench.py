@@ -8,6 +8,7 @@ from typing import Annotated
 from ..errors import InputError
 from ..whole_file import check_output_folder
 from .option import argument, option
+from .progress import LateBar
 
 
 def bench(
@@ -37,6 +38,7 @@ def bench(
         raise InputError("the experiments need an output folder: -o DIR")
     folder = check_output_folder(Path(output))
     check_plots()
-    with Runner(quick, processes, rpc) as runner:
+    with LateBar("measuring") as bar:
+        runner = Runner(quick, processes, rpc, lambda label, done, total: bar.set(done, total, label))
         written = [path for name in chosen for path in runner.run(name).save(name, folder)]
     print("\n".join(str(path) for path in written))

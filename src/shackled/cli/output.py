@@ -24,16 +24,11 @@ def print_note(text: str) -> None:
 
 def print_table(head: Sequence[str], rows: Sequence[Sequence[str]], *, to_stderr: bool = False) -> None:
     """Print a table, never shortened. Columns with numbers and sizes, except the first, are aligned to the right."""
-    from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
-
-    stream = sys.stderr if to_stderr else sys.stdout
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    for number, title in enumerate(head):
-        is_number = number > 0 and any(re.fullmatch(NUMBER, row[number]) for row in rows)
-        table.add_column(Text(plain(title)), justify="right" if is_number else "left")
-    for row in rows:
-        table.add_row(*(Text(plain(cell)) for cell in row))
-    # a narrow terminal breaks lines: in a narrow table, addresses and prices would lose digits
-    Console(file=stream, width=1000).print(table)
+    shown = [[plain(cell) for cell in row] for row in (head, *rows)]
+    columns = []
+    for number, cells in enumerate(zip(*shown, strict=True)):
+        is_number = number > 0 and any(re.fullmatch(NUMBER, cell) for cell in cells[1:])
+        width = max(map(len, cells))
+        columns.append([cell.rjust(width) if is_number else cell.ljust(width) for cell in cells])
+    for row in zip(*columns, strict=True):
+        print("  ".join(row).rstrip(), file=sys.stderr if to_stderr else sys.stdout, flush=True)
