@@ -12,8 +12,11 @@ WEB := web/node_modules/.package-lock.json
 ifndef CHECKS
 .NOTPARALLEL:
 endif
+# Compiled modules are kept: without them each process that the tests start compiles all that it imports, and pytest
+# the tests, which takes as long as they do to be collected.
+unexport PYTHONDONTWRITEBYTECODE
 .DEFAULT_GOAL := help
-.PHONY: help browser opengl demo page creator test lint types contracts evm evm-check web docs unit verify build npm release-check gas golden bench paper fuzz models mutants conformance pictures clean
+.PHONY: help browser opengl demo page creator check test lint types contracts evm evm-check web docs fast unit verify build npm release-check gas golden bench paper fuzz models mutants conformance pictures clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -52,6 +55,9 @@ creator: page ## open that page in the browser
 
 # ---- everything that must hold ----
 
+check: lint $(DEV) ## what takes little time, for each edit: style, types, and the tests without the marks slow, browser, node
+	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory types fast
+
 # the tests wait for nodes and browsers much of the time, in which the other checks run
 test: lint $(DEV) $(NODE) browser opengl ## all checks and tests
 	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory contracts types unit evm-check web docs
@@ -79,6 +85,9 @@ web: $(DEV) $(NODE) ## types, style and tests of the TypeScript package, and whe
 
 docs: $(DEV) page ## the documentation, in site/, with the Creator in site/creator/
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
+
+fast: $(DEV)
+	$(BIN)/pytest -n 2 --dist worksteal -m "not slow and not browser and not node"
 
 unit: $(DEV) $(NODE) page browser opengl ## the tests, the gas snapshot among them
 	$(BIN)/pytest -n 2 --dist worksteal

@@ -6,7 +6,7 @@ import json
 import sys
 from pathlib import Path
 
-from . import cost, linearity, stages
+from . import cost, stages
 
 FOLDER = Path(__file__).parent
 RESULTS, FIGURES = FOLDER / "results.md", FOLDER / "results.json"
@@ -16,7 +16,7 @@ def main() -> int:
     """Make the tables."""
     written = ["# Benchmarks\n\nMade by `python -m benchmarks`. Gas is exact: the same on every machine.\n"]
     data = {}
-    for part in (cost.section, linearity.section, stages.section):
+    for part in (cost.section, stages.section):
         section = part()
         written.append(f"## {section.title}\n\n{section.text}\n")
         print(written[-1], flush=True)

@@ -23,7 +23,7 @@ from shackled.bench import gas
 from shackled.gas import KINDS, profile
 from shackled.scene._material import Shading
 
-from . import antialiasing, collection_cost, cost, shared
+from . import antialiasing, cost, shared
 from .scenes import SECOND_LIGHT, staged_teapot
 
 FILE = Path(__file__).with_name("looks.json")
@@ -97,7 +97,7 @@ def take() -> Figures:
     figures["wires"] = gas(staged_teapot("unlit", 128, wireframe=True, antialias=True))
     if shared.is_there():
         figures |= table_figures()
-    (dearest, _), (mean, worst) = collection_cost.piece_rows(), collection_cost.genesis_rows()
+    (dearest, _), (mean, worst) = cost.piece_rows(), cost.genesis_rows()
     return figures | {"dearest piece": dearest.gas, "tokenURI, mean": mean.gas, "tokenURI, dearest": worst.gas}
 
 

@@ -14,16 +14,21 @@ from statistics import fmean
 from tools.pages import update
 
 from shackled.artifacts import RENDERER
-from shackled.bench import DEPLOYMENT_GAS, original_gas
+from shackled.bench import DEPLOYMENT_GAS, original, original_gas
+from shackled.bench._report import wrapped
 from shackled.bench.scenes import cube
 from shackled.ethereum import intrinsic_gas
 from shackled.scene import encode
 
 from . import energy
+from .original.recipe import SOURCES, digests
 
 ROOT = Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "benchmarks" / "results"
 PAGES = (ROOT / "benchmarks" / "README.md", ROOT / "docs" / "energy.md")
+
+#: The models in the first row of the cost table.
+HEADLINE = tuple(f"obj_{name}_cull" for name in (*SOURCES, "armadillo", "beast", "benchy", "fertility", "max-planck"))
 
 #: Of one piece, by the original's token.
 MINT_GAS = 124_000
@@ -33,6 +38,8 @@ def content(name: str) -> str:
     """Return the text between the marks of that name: of an experiment without its title, or estimates."""
     if name == "energy":
         return estimates()
+    if name == "repeated":
+        return wrapped(repeated())
     path = RESULTS / f"{name}.md"
     if not path.exists():
         raise SystemExit(f"there is no {path.relative_to(ROOT)}: run `shackled bench --all -o benchmarks/results`")
@@ -58,6 +65,23 @@ def estimates() -> str:
             "a piece of Genesis, on average": round(fmean(int(row["gas"]) for row in rows("genesis"))),
             "picture of a cube, 512 x 512": cubes[512],
         },
+    )
+
+
+def repeated() -> str:
+    """Say which rows of original.csv can be measured again."""
+    known, anew = original(), digests()
+    others = sorted(known.keys() - anew.keys())
+    models = sorted({name.removesuffix("_cull").removesuffix("_nocull") for name in others if name.endswith("cull")})
+    headline = [name for name in others if name in HEADLINE]
+    return (
+        f"{len(anew)} of the {len(known)} scenes can be made again to the last number; a digest of each is in"
+        " [scenes.json](original/scenes.json). Among them are all cubes, all triangles, all pieces of Genesis, and"
+        f" {len(HEADLINE) - len(headline)} of the {len(HEADLINE)} models in the first row of the README's table."
+        f" **Not repeatable from here**: the other {len(others)} scenes, of which no public file, or no way to reduce"
+        f" it, is known: {', '.join(name for name in others if not name.endswith('cull'))}, and with or without culling"
+        f" {', '.join(models)}. [results.md](results.md) has the means of all models of the table, and of those that"
+        " can be made again."
     )
 
 

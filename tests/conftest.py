@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -29,10 +30,47 @@ def _address_book(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
         yield
 
 
+#: Files and folders whose tests take more than about five seconds of one processor together: all are slow.
+SLOW = (
+    "cli/test_app.py",
+    "cli/test_render_parallel.py",
+    "cli/test_several.py",
+    "cli/test_streams.py",
+    "conformance",
+    "evm",
+    "judge",
+    "package",
+    "parallel/test_cluster.py",
+    "parallel/test_job.py",
+    "parallel/test_strips.py",
+    "scene/test_canvas.py",
+    "scene/test_decode.py",
+    "scene/test_restored.py",
+    "test_antialiasing.py",
+    "test_docs.py",
+    "test_examples.py",
+    "test_golden.py",
+    "test_open_edges.py",
+    "test_properties.py",
+    "test_random_scenes.py",
+    "test_runs.py",
+    "test_shading_accuracy.py",
+    "test_smooth_light.py",
+    "test_tile_culling.py",
+    "test_tile_gas.py",
+    "test_workers.py",
+    "tokens/test_icons_gas.py",
+    "tokens/test_token_docs.py",
+)
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark tests by the fixtures that they use. Tests with the mark "node" are skipped where there is no anvil."""
+    """Mark tests by their file and the fixtures that they use. Tests of a node are skipped where there is no anvil."""
+    slow = [Path(__file__).parent / each for each in SLOW]
     for item in items:
+        if any(item.path.is_relative_to(each) for each in slow):
+            item.add_marker("slow")
         fixtures: list[str] = getattr(item, "fixturenames", [])
         for name in {"browser", "node", "running_node"}.intersection(fixtures):
             item.add_marker(name.removeprefix("running_"))

@@ -14,8 +14,7 @@ from benchmarks import stages
 from benchmarks.scenes import cubes, staged_teapot
 from benchmarks.workload import workload_of
 
-from shackled.bench import EXPERIMENTS, fits, gas, squares
-from shackled.bench import cubes as linear_cubes
+from shackled.bench import EXPERIMENTS, _linear, fits, gas
 from shackled.chain import open_chain
 from shackled.gas import STAGES
 
@@ -24,7 +23,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 @pytest.mark.parametrize("look", ["unlit", "matte"])
 def test_gas_is_linear_in_triangles_and_pixels(look: str) -> None:
-    scenes = squares(look) + linear_cubes(look)
+    scenes = _linear.squares(look) + _linear.cubes(look)
     triangles = np.array([scene.triangles for scene in scenes], float)
     pixels = np.array([scene.width * scene.height for scene in scenes], float)
     found = fits.fit([triangles, pixels], np.array([gas(scene) for scene in scenes], float))

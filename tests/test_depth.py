@@ -156,6 +156,7 @@ def test_depths_a_thousandth_apart(distance: float) -> None:
     assert (picture == draw(evolve(scene, objects=things[::-1]))).all()
 
 
+@pytest.mark.slow
 def test_a_face_whose_depths_differ_by_more_than_their_precision() -> None:
     """One corner is at a distance of 2^-10, the others at 2^22; a wall at 2^21 is in front of the far edge."""
     rng = np.random.default_rng(11)

@@ -15,6 +15,7 @@ def measured() -> snapshot.Snapshot:
 
 @pytest.mark.filterwarnings("default")
 @pytest.mark.parametrize("group", ["contracts", "scenes", "unit costs", "scenes of the cost table"])
+@pytest.mark.slow
 def test_no_figure_rises(group: str, measured: snapshot.Snapshot) -> None:
     if group not in measured:
         pytest.skip(shared.SKIPPED)

@@ -1,4 +1,4 @@
-"""Accounts: from keystores and environment variables; whatever is wrong with them, no key is told."""
+"""Accounts: from keystores and environment variables; whatever is wrong with them, no key is shown."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def test_a_key_in_place_of_a_name(slip: str, tmp_path: Path, monkeypatch: pytest
         assert slip[4:12] not in str(wrong.value)
 
 
-def test_names_of_keystores_are_told() -> None:
+def test_names_of_keystores_are_reported() -> None:
     """As geth and foundry make them."""
     for name in (
         "UTC--2016-03-22T12-57-55.920751759Z--7ef5a6135f1fd6a02593eedc869c6d41d934aef8",

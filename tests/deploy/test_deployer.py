@@ -1,15 +1,17 @@
-"""Deploying on real nodes: at addresses that are known before, for the gas that was told, once."""
+"""Deploying on real nodes: at addresses that are known before, for the gas that was quoted, once."""
 
 from __future__ import annotations
 
 import json
+from contextlib import AbstractContextManager
+from itertools import count
 from pathlib import Path
 from typing import Any
 
 import pytest
 from eth_account import Account
 
-from nodes import KEY, Node, Reply, anvil, failure, forward, needs_anvil, result, serving
+from nodes import KEY, Node, Reply, anvil, failure, forward, needs_anvil, replying, result
 from proxies import Liar
 from shackled.artifacts import RENDERER, artifact
 from shackled.chain import AddressBook, Connection
@@ -27,7 +29,7 @@ from shackled.deploy import (
 from shackled.deploy._contract import PROXY_CODE
 from shackled.deploy._proxy import COST, SIGNED, SIGNER
 from shackled.errors import ChainError, InputError, TransactionError, WrongChainError
-from shackled.ethereum import PROXY, SALT, checksum_address, create2_address, keccak256, parse_address
+from shackled.ethereum import PROXY, SALT, checksum_address, create2_address, keccak256, parse_address, to_hex
 
 #: A chain without the proxy.
 NO_PROXY = ("--disable-default-create2-deployer",)
@@ -49,6 +51,19 @@ def parts(node: Node, book: AddressBook) -> tuple[Deployer, Transactor]:
 
 def code(node: Node, address: bytes) -> bytes:
     return node.connection.data("eth_getCode", "0x" + address.hex(), "latest")
+
+
+def assert_deployed(node: Node, wanted: list[Deployment]) -> None:
+    assert [code(node, each.address) for each in wanted] == [each.code for each in wanted]
+
+
+def refusing_the_published(node: Node, words: str) -> AbstractContextManager[str]:
+    """A node in front of another, that refuses the published transaction with these words."""
+    signed = to_hex(SIGNED)
+    return replying(
+        node.url,
+        eth_sendRawTransaction=lambda request: failure(words) if request["params"] == [signed] else None,
+    )
 
 
 def missing(plan: Plan) -> list[str]:
@@ -110,13 +125,13 @@ def test_deploying(node: Node, book: AddressBook, wanted: list[Deployment]) -> N
     assert missing(plan) == list(STANDARD)
     assert plan.steps[0].name == "deployment proxy"
     assert all(code(node, each.address) == b"" for each in wanted)
-    told: list[tuple[str, int]] = []
+    reported: list[tuple[str, int]] = []
     receipts = deployer.execute(
-        plan, transactor, lambda step, done: told.append((step.name, sum(each.gas for each in done)))
+        plan, transactor, lambda step, done: reported.append((step.name, sum(each.gas for each in done)))
     )
-    assert [code(node, each.address) for each in wanted] == [each.code for each in wanted]
+    assert_deployed(node, wanted)
     # gas is known before, exactly
-    assert told == [(each.name, each.gas) for each in wanted]
+    assert reported == [(each.name, each.gas) for each in wanted]
     assert plan.gas == sum(receipt.gas for receipt in receipts)
     assert book.entries(31337) == {each.name: each.address for each in wanted}
     # the second time there is nothing to do
@@ -127,7 +142,7 @@ def test_deploying(node: Node, book: AddressBook, wanted: list[Deployment]) -> N
     assert node.rpc("eth_getTransactionCount", "0x" + transactor.address.hex(), "latest") == nonce
 
 
-def test_the_price_that_was_told_is_kept(node: Node, book: AddressBook, wanted: list[Deployment]) -> None:
+def test_the_price_that_was_quoted_is_kept(node: Node, book: AddressBook, wanted: list[Deployment]) -> None:
     deployer, transactor = parts(node, book)
     plan = deployer.plan(wanted)
     receipts = deployer.execute(plan, transactor)
@@ -146,9 +161,7 @@ def test_a_chain_without_the_proxy(book: AddressBook, wanted: list[Deployment]) 
         deployer.execute(plan, transactor)
         assert before - transactor.balance() <= plan.cost
         assert code(node, PROXY) == PROXY_CODE
-        assert [code(node, each.address) for each in wanted[: len(RENDERER)]] == [
-            each.code for each in wanted[: len(RENDERER)]
-        ]
+        assert_deployed(node, wanted[: len(RENDERER)])
         assert book.entries(4321).keys() == set(RENDERER)
 
 
@@ -167,13 +180,8 @@ def test_a_proxy_whose_signer_has_something_already(book: AddressBook, wanted: l
 @needs_anvil
 def test_a_node_that_refuses_the_published_transaction(book: AddressBook, wanted: list[Deployment]) -> None:
     """Nothing is paid before it says so."""
-
-    def answer(request: dict[str, Any]) -> Reply:
-        if request["method"] == "eth_sendRawTransaction" and request["params"][0] == "0x" + SIGNED.hex():
-            return failure("only replay-protected (EIP-155) transactions allowed over RPC")
-        return forward(bare.url, request)
-
-    with anvil(*NO_PROXY) as bare, serving(answer) as url:
+    refusal = "only replay-protected (EIP-155) transactions allowed over RPC"
+    with anvil(*NO_PROXY) as bare, refusing_the_published(bare, refusal) as url:
         transactor = Transactor(Connection(url), Account.from_key(KEY))
         deployer, before = Deployer(transactor.connection, book), transactor.balance()
         with pytest.raises(TransactionError, match=r"refuses transactions without a chain id.*another node"):
@@ -246,28 +254,21 @@ def test_any_creation_code(node: Node, book: AddressBook) -> None:
     assert deployer.is_deployed(own)
 
 
-@needs_anvil
-def test_hosts_whose_nodes_are_not_in_step(book: AddressBook, wanted: list[Deployment]) -> None:
+def test_hosts_whose_nodes_are_not_in_step(node: Node, book: AddressBook, wanted: list[Deployment]) -> None:
     """Each answer but every third comes from a node that has not heard of the last block."""
-    count = 0
-    with anvil() as node:
+    numbers = count()
 
-        def answer(request: dict[str, Any]) -> Reply:
-            nonlocal count
-            count += 1
-            method, parameters = request["method"], request["params"]
-            if count % 3 and method in ("eth_getCode", "eth_getTransactionCount"):
-                latest = int(node.rpc("eth_blockNumber"), 16)
-                request = request | {"params": [parameters[0], hex(max(0, latest - 1))]}
-            return forward(node.url, request)
+    def late(request: dict[str, Any]) -> Reply | None:
+        if next(numbers) % 3 == 2:
+            return None
+        latest = int(node.rpc("eth_blockNumber"), 16)
+        return forward(node.url, request | {"params": [request["params"][0], hex(max(0, latest - 1))]})
 
-        with serving(answer) as url:
-            connection = Connection(url)
-            deployer, transactor = Deployer(connection, book), Transactor(connection, Account.from_key(KEY))
-            deployer.execute(deployer.plan(wanted[: len(RENDERER)]), transactor)
-        assert [code(node, each.address) for each in wanted[: len(RENDERER)]] == [
-            each.code for each in wanted[: len(RENDERER)]
-        ]
+    with replying(node.url, eth_getCode=late, eth_getTransactionCount=late) as url:
+        connection = Connection(url)
+        deployer, transactor = Deployer(connection, book), Transactor(connection, Account.from_key(KEY))
+        deployer.execute(deployer.plan(wanted[: len(RENDERER)]), transactor)
+    assert_deployed(node, wanted[: len(RENDERER)])
 
 
 @needs_anvil
@@ -290,24 +291,20 @@ def test_a_node_that_estimates_only_what_can_be_done_now(
 ) -> None:
     """The renderer needs the engine, which is not there yet: its gas is taken to be as dear as that of the others."""
 
-    def answer(request: dict[str, Any]) -> Reply:
-        if request["method"] != "eth_estimateGas":
-            return forward(node.url, request)
+    def estimate(request: dict[str, Any]) -> Reply | None:
         if len(request["params"]) > 2:
             return failure("too many arguments, want at most 2", -32602)
         reply = json.loads(forward(node.url, request).body)
-        return result(hex(5 * int(reply["result"], 16))) if "result" in reply else forward(node.url, request)
+        return result(hex(5 * int(reply["result"], 16))) if "result" in reply else None
 
-    with serving(answer) as url:
+    with replying(node.url, eth_estimateGas=estimate) as url:
         deployer = Deployer(Connection(url), book)
         engine, *_, renderer = deployer.plan(wanted[: len(RENDERER)]).quotes
         assert engine.estimate is not None
         assert renderer.estimate is None
         assert 5 * renderer.call.gas <= renderer.gas <= 6 * renderer.call.gas
         deployer.execute(deployer.plan(wanted[: len(RENDERER)]), Transactor(Connection(url), Account.from_key(KEY)))
-    assert [code(node, each.address) for each in wanted[: len(RENDERER)]] == [
-        each.code for each in wanted[: len(RENDERER)]
-    ]
+    assert_deployed(node, wanted[: len(RENDERER)])
 
 
 @needs_anvil
@@ -319,14 +316,8 @@ def test_a_chain_on_which_the_published_transaction_has_too_little_gas(
     with anvil(*NO_PROXY) as bare, Liar(lies).before(bare.url) as url:
         with pytest.raises(TransactionError, match=words):
             Deployer(Connection(url), book).plan(wanted)
-
         # a node that says so only when the transaction is there
-        def answer(request: dict[str, Any]) -> Reply:
-            if request["method"] == "eth_sendRawTransaction" and request["params"][0] == "0x" + SIGNED.hex():
-                return failure("intrinsic gas too low: have 100000, want 214898")
-            return forward(bare.url, request)
-
-        with serving(answer) as other:
+        with refusing_the_published(bare, "intrinsic gas too low: have 100000, want 214898") as other:
             transactor = Transactor(Connection(other), Account.from_key(KEY))
             deployer, before = Deployer(transactor.connection, book), transactor.balance()
             with pytest.raises(TransactionError, match="has 100,000 gas, which is too little for the node"):

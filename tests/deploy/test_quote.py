@@ -157,7 +157,7 @@ def test_an_estimate_of_less_than_half_is_of_a_contract_that_is_not_there() -> N
     assert [quote.estimate for quote in node.quotes(call(1), call(2))] == [50_000, None]
 
 
-def test_contracts_that_will_be_there_are_told_to_the_node() -> None:
+def test_the_node_is_given_the_contracts_that_will_be_there() -> None:
     node = Estimates({"0x01": 150_000})
     (quote,) = node.quotes(call(1, needs=True))
     assert quote.estimate == 150_000

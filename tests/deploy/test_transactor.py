@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
 from contextlib import AbstractContextManager
 from dataclasses import replace
+from itertools import count
 from typing import Any
 
 import pytest
 from eth_account import Account
 
-from nodes import KEY, Node, Reply, anvil, failure, forward, needs_anvil, result, serving
+from nodes import KEY, Node, Reply, anvil, failure, forward, needs_anvil, replying, result, serving
 from proxies import Liar
 from shackled.artifacts import artifact
 from shackled.chain import Connection
@@ -39,11 +39,7 @@ def blind(payer: Transactor, to: bytes | None, data: bytes, gas: int) -> Quote:
 
 def without_estimates(node: Node) -> AbstractContextManager[str]:
     """A node in front of another, that says of everything that it takes 21,000 gas."""
-
-    def answer(request: dict[str, Any]) -> Reply:
-        return result("0x5208") if request["method"] == "eth_estimateGas" else forward(node.url, request)
-
-    return serving(answer)
+    return replying(node.url, eth_estimateGas=result("0x5208"))
 
 
 def balance(node: Node, address: bytes) -> int:
@@ -79,30 +75,23 @@ def test_fees_of_a_chain_with_eip_1559(node: Node) -> None:
     assert (int(sent["type"], 16), int(sent["maxPriorityFeePerGas"], 16)) == (2, 5)
 
 
-@pytest.fixture
-def own_node() -> Iterator[Node]:
-    """One whose prices may be changed."""
-    with anvil() as running:
-        yield running
-
-
-def test_headroom_for_a_base_fee_that_rises(own_node: Node) -> None:
-    """It may double between the quote and the block; beyond that nothing is sent."""
-    node = own_node
-    payer, base = transactor(node.url), 100 * GWEI
-    node.rpc("anvil_setNextBlockBaseFeePerGas", hex(base))
-    node.rpc("evm_mine")
-    quote, owned = quoted(payer, value=1), payer.balance()
-    node.rpc("anvil_setNextBlockBaseFeePerGas", hex(19 * base // 10))
-    receipt = payer.send(quote)
-    assert receipt.fee > quote.gas * base
-    assert owned - payer.balance() <= quote.ceiling
-    quote, owned = quoted(payer, value=1), payer.balance()
-    node.rpc("anvil_setNextBlockBaseFeePerGas", hex(10 * base))
-    node.rpc("evm_mine")
-    with pytest.raises(TransactionError, match=r"^the price of gas has risen to 1,000 gwei, .* was not sent"):
-        payer.send(quote)
-    assert payer.balance() == owned
+def test_headroom_for_a_base_fee_that_rises() -> None:
+    """It may double between the quote and the block; beyond that nothing is sent. Prices are not undone."""
+    with anvil() as node:
+        payer, base = transactor(node.url), 100 * GWEI
+        node.rpc("anvil_setNextBlockBaseFeePerGas", hex(base))
+        node.rpc("evm_mine")
+        quote, owned = quoted(payer, value=1), payer.balance()
+        node.rpc("anvil_setNextBlockBaseFeePerGas", hex(19 * base // 10))
+        receipt = payer.send(quote)
+        assert receipt.fee > quote.gas * base
+        assert owned - payer.balance() <= quote.ceiling
+        quote, owned = quoted(payer, value=1), payer.balance()
+        node.rpc("anvil_setNextBlockBaseFeePerGas", hex(10 * base))
+        node.rpc("evm_mine")
+        with pytest.raises(TransactionError, match=r"^the price of gas has risen to 1,000 gwei, .* was not sent"):
+            payer.send(quote)
+        assert payer.balance() == owned
 
 
 def test_what_is_signed_is_what_was_quoted(node: Node) -> None:
@@ -126,7 +115,7 @@ def test_what_is_signed_is_what_was_quoted(node: Node) -> None:
         ({"eth_estimateGas": lambda gas, _: "0x" + 20_000 * "9"}, "an invalid number"),
     ],
 )
-def test_odd_answers_are_told_before_anything_is_sent(node: Node, lies: Any, words: str) -> None:
+def test_odd_answers_are_reported_before_anything_is_sent(node: Node, lies: Any, words: str) -> None:
     before = node.rpc("eth_blockNumber")
     with Liar(lies).before(node.url) as url, pytest.raises(ChainError, match=words):
         transactor(url).send(quoted(transactor(url)))
@@ -149,7 +138,7 @@ def test_odd_events_of_a_transaction_that_succeeded(node: Node, logs: Any) -> No
 
 @pytest.mark.parametrize("receipt", ["zz", {}, {"status": "0x1"}, {"status": "0x" + 99 * "1"}])
 def test_what_is_no_receipt(node: Node, receipt: Any) -> None:
-    """The transaction was sent all the same, which is told."""
+    """The transaction was sent all the same, which is reported."""
     lies = {"eth_getTransactionReceipt": lambda right, _: receipt}
     words = r"^the transaction 0x\w{64} was sent, check what became of it before .*: .*an invalid receipt"
     with Liar(lies).before(node.url) as url, pytest.raises(NodeError, match=words):
@@ -157,12 +146,7 @@ def test_what_is_no_receipt(node: Node, receipt: Any) -> None:
 
 
 def test_no_suggestion_of_a_tip(node: Node) -> None:
-    def answer(request: dict[str, Any]) -> Reply:
-        if request["method"] == "eth_maxPriorityFeePerGas":
-            return failure("the method does not exist", -32601)
-        return forward(node.url, request)
-
-    with serving(answer) as url:
+    with replying(node.url, eth_maxPriorityFeePerGas=failure("the method does not exist", -32601)) as url:
         assert transactor(url).fees().tip == 10**9
 
 
@@ -171,22 +155,14 @@ def test_a_refusal_without_a_reason(node: Node) -> None:
         quoted(transactor(node.url), PROXY, bytes(32) + bytes.fromhex("5f5ffd"))
 
 
-def test_what_is_waited_for_is_told(node: Node, monkeypatch: pytest.MonkeyPatch) -> None:
-    def answer(request: dict[str, Any]) -> Reply:
-        if request["method"] == "eth_getTransactionReceipt":
-            asked.append(request["params"][0])
-            if len(asked) < 5:
-                return result(None)
-        return forward(node.url, request)
-
+def test_what_is_waited_for_is_reported(node: Node, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("shackled.deploy._transactor.DELAY", 0.0)
-    asked: list[str] = []
-    told: list[str] = []
-    with serving(answer) as url:
+    asked, reported = count(), list[str]()
+    with replying(node.url, eth_getTransactionReceipt=lambda _: result(None) if next(asked) < 4 else None) as url:
         payer = transactor(url)
-        payer.on_delay = told.append
+        payer.on_delay = reported.append
         receipt = payer.send(quoted(payer, value=1))
-    assert told == [f"waiting for the transaction {receipt.hash} to be mined"]
+    assert reported == [f"waiting for the transaction {receipt.hash} to be mined"]
 
 
 def test_too_little_ether(node: Node) -> None:
@@ -239,12 +215,8 @@ def test_a_contract_without_gas(node: Node) -> None:
     ],
 )
 def test_what_nodes_say(node: Node, said: str, words: str) -> None:
-    def answer(request: dict[str, Any]) -> Reply:
-        if request["method"] == "eth_sendRawTransaction":
-            return failure(said)
-        return forward(node.url, request)
-
-    with serving(answer) as url, pytest.raises(TransactionError, match=words) as error:
+    refusing = replying(node.url, eth_sendRawTransaction=failure(said))
+    with refusing as url, pytest.raises(TransactionError, match=words) as error:
         transactor(url).send(quoted(transactor(url)))
     assert KEY[2:] not in str(error.value)
     assert "\n" not in str(error.value)
@@ -254,15 +226,12 @@ def test_an_answer_that_was_lost(node: Node) -> None:
     """The transaction came through all the same: it is followed, not sent twice."""
     sent = []
 
-    def answer(request: dict[str, Any]) -> Reply:
-        reply = forward(node.url, request)
-        if request["method"] == "eth_sendRawTransaction":
-            sent.append(request)
-            return Reply(reply.body, cut=5)
-        return reply
+    def lose(request: dict[str, Any]) -> Reply:
+        sent.append(request)
+        return replace(forward(node.url, request), cut=5)
 
     before = balance(node, SOMEONE)
-    with serving(answer) as url:
+    with replying(node.url, eth_sendRawTransaction=lose) as url:
         payer = transactor(url)
         payer.send(quoted(payer, value=3))
     assert balance(node, SOMEONE) - before == 3
@@ -282,38 +251,30 @@ def test_a_transaction_that_is_in_no_block() -> None:
 
 
 def test_a_transaction_that_was_replaced() -> None:
-    """It is told long before the patience ends."""
+    """It is reported long before the patience ends."""
     with anvil("--no-mining") as node:
 
-        def answer(request: dict[str, Any]) -> Reply:
+        def replace_it(request: dict[str, Any]) -> Reply:
             reply = forward(node.url, request)
-            if request["method"] == "eth_sendRawTransaction":
-                other = {"chainId": 31337, "nonce": 0, "gas": 21_000, "to": "0x" + "66" * 20, "value": 1}
-                other |= {"maxFeePerGas": 900 * GWEI, "maxPriorityFeePerGas": 90 * GWEI, "type": 2}
-                signed = Account.from_key(KEY).sign_transaction(other)
-                node.rpc("eth_sendRawTransaction", "0x" + bytes(signed.raw_transaction).hex())
-                node.rpc("evm_mine")
+            other = {"chainId": 31337, "nonce": 0, "gas": 21_000, "to": "0x" + "66" * 20, "value": 1}
+            other |= {"maxFeePerGas": 900 * GWEI, "maxPriorityFeePerGas": 90 * GWEI, "type": 2}
+            signed = Account.from_key(KEY).sign_transaction(other)
+            node.rpc("eth_sendRawTransaction", "0x" + bytes(signed.raw_transaction).hex())
+            node.rpc("evm_mine")
             return reply
 
         started = time.monotonic()
         words = r"^the transaction 0x\w{64} was replaced: another one of .* the same nonce, 0, was mined, .* again$"
-        with serving(answer) as url, pytest.raises(TransactionError, match=words):
+        proxy = replying(node.url, eth_sendRawTransaction=replace_it)
+        with proxy as url, pytest.raises(TransactionError, match=words):
             transactor(url, patience=60).send(quoted(transactor(node.url)))
         assert time.monotonic() - started < 20
 
 
 def test_a_receipt_that_comes_after_the_nonce(node: Node) -> None:
     """A host's nodes may know different blocks for a while: that is no replacement."""
-    asked = 0
-
-    def answer(request: dict[str, Any]) -> Reply:
-        nonlocal asked
-        asked += request["method"] == "eth_getTransactionReceipt"
-        if request["method"] == "eth_getTransactionReceipt" and asked < 7:
-            return result(None)
-        return forward(node.url, request)
-
-    with serving(answer) as url:
+    asked = count()
+    with replying(node.url, eth_getTransactionReceipt=lambda _: result(None) if next(asked) < 6 else None) as url:
         assert transactor(url).send(quoted(transactor(url), value=1)).gas == 21_000
 
 
@@ -330,9 +291,8 @@ def oracle(node: Node, code: bytes) -> None:
         node.rpc("anvil_setStorageAt", to_hex(ORACLE), hex(slot), to_hex(word(value)))
 
 
-def test_fees_of_a_rollup_are_quoted(own_node: Node) -> None:
+def test_fees_of_a_rollup_are_quoted(node: Node) -> None:
     """Those which its oracle tells, twice; and nothing is sent when they have more than that."""
-    node = own_node
     plain = quoted(transactor(node.url), data=b"\1\2\3", value=5)
     assert (plain.rollup_fee, plain.fees.is_rollup) == (0, False)
     oracle(node, ORACLE_CODE)
@@ -353,12 +313,12 @@ def test_fees_of_a_rollup_are_quoted(own_node: Node) -> None:
     assert node.rpc("eth_blockNumber") == sent
 
 
-def test_a_rollup_that_tells_no_bound(own_node: Node) -> None:
-    oracle(own_node, bytes.fromhex("5f5ffd"))
-    quote = quoted(transactor(own_node.url), value=5)
+def test_a_rollup_that_tells_no_bound(node: Node) -> None:
+    oracle(node, bytes.fromhex("5f5ffd"))
+    quote = quoted(transactor(node.url), value=5)
     assert quote.rollup_fee is None
     assert quote.ceiling == quote.gas * quote.fees.most + 5
-    transactor(own_node.url).send(quote)
+    transactor(node.url).send(quote)
 
 
 def test_the_size_of_a_transaction_without_its_data() -> None:

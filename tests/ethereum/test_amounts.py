@@ -30,7 +30,7 @@ def test_what_is_no_amount_is_refused(text: str) -> None:
         parse_ether(text, "--price")
 
 
-def test_amounts_are_told() -> None:
+def test_amounts_in_words() -> None:
     assert [ether(wei) for wei in (0, 1, 15 * 10**16, 10**18)] == [
         "0 ether",
         "0.000000000000000001 ether",

@@ -160,7 +160,7 @@ def test_pages_that_have_all_they_need(content: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("content", "kind", "is_told"),
+    ("content", "kind", "is_declared"),
     [
         ("<p>\u201c\u2014".encode(), "data:text/html", False),
         ("<p>\u201c\u2014".encode(), "data:text/html;charset=UTF-8", True),
@@ -171,9 +171,9 @@ def test_pages_that_have_all_they_need(content: str) -> None:
         (b"<p>&mdash;", "data:text/html", True),
     ],
 )
-def test_character_encodings_of_pages(content: bytes, kind: str, is_told: bool) -> None:
+def test_character_encodings_of_pages(content: bytes, kind: str, is_declared: bool) -> None:
     line = "animation_url has letters beyond ASCII but no charset: begin its head with <meta charset='utf-8'>"
-    assert of_page(content, kind) == ([] if is_told else [line])
+    assert of_page(content, kind) == ([] if is_declared else [line])
 
 
 def test_models_that_load_from_outside() -> None:

@@ -384,7 +384,7 @@ def test_cameras_fit_objects(world: World, probe: bytes, tenths: int, toward: tu
 
 
 def test_objects_are_placed_in_boxes(world: World, probe: bytes) -> None:
-    """As large as they fit, in the middle; those whose mesh is stored by the bounds that are told."""
+    """As large as they fit, in the middle; those whose mesh is stored by the bounds that are given."""
     mesh = pack(Mesh([[0, 0, 0], [400, 0, 0], [0, 100, 300]], [[0, 1, 2]]))
     room = [90, 10, -10, -10, 110, 70]
     signature = "placed(bytes,int256[3][2],int256[6])"

@@ -26,7 +26,7 @@ pytestmark = needs_compiler
 
 
 class Probe:
-    """The contract that makes meshes as it is told."""
+    """The contract that makes meshes as it is asked."""
 
     def __init__(self) -> None:
         self.world = World()

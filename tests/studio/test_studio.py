@@ -120,7 +120,7 @@ def test_extensions_are_kept_with_the_scene(world: World) -> None:
     assert (drawn != render(SCENE).pixels).any()
     struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
     assert len(struct[7]) == 45 + 9
-    # what a newer contract may know is told when it is drawn
+    # what a newer contract may know is reported when it is drawn
     newer = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*struct[:7], b"\x0e\0\0\0\1" + bytes(32))).hex()
     with pytest.raises(RenderError, match=r"UnknownExtension\(kind=14, index=0\)"):
         world.call("Studio", "check(address)", newer)

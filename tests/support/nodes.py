@@ -8,7 +8,7 @@ import socket
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -142,6 +142,17 @@ def serving(answer: Callable[[dict[str, Any]], Reply]) -> Iterator[str]:
         server.shutdown()
         server.server_close()
         thread.join()
+
+
+def replying(target: str, **replies: Reply | Callable[[dict[str, Any]], Reply | None]) -> AbstractContextManager[str]:
+    """A node in front of another, with replies of its own to some methods, or from a request; None passes it on."""
+
+    def answer(request: dict[str, Any]) -> Reply:
+        reply = replies.get(request["method"])
+        own = reply if reply is None or isinstance(reply, Reply) else reply(request)
+        return forward(target, request) if own is None else own
+
+    return serving(answer)
 
 
 @contextmanager

@@ -9,8 +9,9 @@ import pytest
 
 from commands import Said, Shackled
 from nodes import Node
-from shackled.chain import VARIABLE
+from shackled.chain import VARIABLE, AddressBook
 from shackled.cli.app import run
+from shackled.ethereum import checksum_address
 from shackled.tokens._demo import development_accounts
 
 
@@ -32,6 +33,17 @@ def allow_list(running_node: Node, tmp_path_factory: pytest.TempPathFactory) -> 
     path = tmp_path_factory.mktemp("list") / "friends.csv"
     path.write_text(f"account,quantity\n{running_node.accounts[1]},2\n{running_node.accounts[9]},7\n")
     return path
+
+
+@pytest.fixture(scope="module")
+def genesis(running_node: Node, users: list[str], allow_list: Path) -> str:
+    """The address of a closed Genesis collection: 12 tokens are for sale, the other 1,012 kept."""
+    sale = ["--price", "0.2", "--reserve", "1012", "--royalty", "7.5", "--allow-list", str(allow_list)]
+    sale += ["--signer", running_node.accounts[0], "--rpc", running_node.url]
+    assert run(["token", "deploy", "genesis", *sale, "--private-key-env", users[0], "--yes"]) == 0
+    found = AddressBook().find(31337, "GenesisCollection")
+    assert found is not None
+    return checksum_address(found)
 
 
 @pytest.fixture

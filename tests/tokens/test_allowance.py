@@ -1,4 +1,4 @@
-"""Permissions in files: what is none is told in one line."""
+"""Permissions in files: what is none is reported in one line."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def test_a_permission_is_read(tmp_path: Path) -> None:
         {"account": "0x12"},
     ],
 )
-def test_what_is_none_is_told_in_one_line(tmp_path: Path, change: dict[str, str]) -> None:
+def test_what_is_none_is_reported_in_one_line(tmp_path: Path, change: dict[str, str]) -> None:
     path = tmp_path / "bob.json"
     path.write_text(json.dumps(PERMISSION | change))
     with pytest.raises(InputError, match=r"^[^\n]*bob\.json[^\n]*$"):

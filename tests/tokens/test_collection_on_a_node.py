@@ -21,7 +21,6 @@ from shackled.chain import AddressBook, Connection
 from shackled.cli.app import run
 from shackled.deploy import local_chain
 from shackled.errors import ChainError, NodeError, RevertError
-from shackled.ethereum import checksum_address
 from shackled.tokens import Contract, check_collection_code, check_token, open_collection, read_allow_list
 from shackled.tokens._demo import development_accounts
 from shackled.tokens._launch import immutable_places
@@ -31,17 +30,11 @@ PRICE = 2 * 10**17
 
 
 @pytest.fixture(scope="module")
-def address(running_node: Node, users: list[str], allow_list: Path) -> str:
+def address(running_node: Node, genesis: str) -> str:
     """The collection, closed, with one token."""
-    sale = ["--price", "0.2", "--reserve", "1012", "--royalty", "7.5", "--allow-list", str(allow_list)]
-    sale += ["--signer", running_node.accounts[OWNER], "--rpc", running_node.url]
-    sale += ["--private-key-env", users[OWNER], "--yes"]
-    assert run(["token", "deploy", "genesis", *sale]) == 0
-    found = AddressBook().find(31337, "GenesisCollection")
-    assert found is not None
-    contract, accounts = running_node.contract("GenesisCollection", checksum_address(found)), running_node.accounts
+    contract, accounts = running_node.contract("GenesisCollection", genesis), running_node.accounts
     contract.functions.mintReserve(accounts[ALICE], 1).transact({"from": accounts[OWNER]})
-    return checksum_address(found)
+    return genesis
 
 
 def test_nothing_is_deployed_that_is_not_needed(node: Node, address: str) -> None:
@@ -76,7 +69,7 @@ def test_the_same_collection_is_not_deployed_twice(node: Node, address: str, sha
     }
 
 
-def test_costs_are_told_and_nothing_is_sent_unasked(node: Node, address: str, shackled: Shackled) -> None:
+def test_costs_are_reported_and_nothing_is_sent_unasked(node: Node, address: str, shackled: Shackled) -> None:
     before = node.web3.eth.block_number
     said = shackled("token", "deploy", "genesis", "--salt", "5", user=OWNER, expect=2)
     words = r"price: about .* for gas \(.* estimated by the node, .* counted locally\); at most .* ether in total"
@@ -108,7 +101,7 @@ def test_costs_are_told_and_nothing_is_sent_unasked(node: Node, address: str, sh
         (("deploy", "genesis", "--allow-list", "none.csv"), 2, "the allow list none.csv cannot be read"),
     ],
 )
-def test_mistakes_are_told_in_one_line(
+def test_mistakes_are_reported_in_one_line(
     address: str, shackled: Shackled, arguments: tuple[object, ...], code: int, said: str
 ) -> None:
     result = shackled("token", *arguments, expect=code)
@@ -136,7 +129,7 @@ def test_without_a_signer_nobody_permits(node: Node, address: str, shackled: Sha
     assert said.error.startswith("shackled: the collection accepts no permissions yet")
 
 
-def test_a_phase_that_there_is_not_is_told(node: Node, address: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_phase_that_there_is_not_is_reported(node: Node, address: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Contracts of strangers may say anything."""
     collection = open_collection(Connection(node.url), address)
     ask = collection.contract.call
@@ -185,7 +178,7 @@ def test_a_keystore_signs_too(
     assert "open for all" in shackled("token", "phase", "public", "--account", keystore, "--yes").out
 
 
-def test_a_wrong_price_is_told_in_words(node: Node, address: str) -> None:
+def test_a_wrong_price_is_reported_in_words(node: Node, address: str) -> None:
     collection = open_collection(Connection(node.url), address)
     node.contract("GenesisCollection", address).functions.setPhase(2).transact({"from": node.accounts[OWNER]})
     with pytest.raises(RevertError, match=r"^the price is 0.2 ether, but 0.15 ether was sent$"):

@@ -14,11 +14,8 @@ pytest.importorskip("pyrevm", reason="a chain with state needs it")
 import copy
 
 import numpy as np
-from eth_abi.abi import encode
-from hypothesis import example, given, settings
-from hypothesis import strategies as st
 from tools.tokens.stage import Stage, icon_scene, stage, store_scene
-from tools.tokens.world import ETHER, GAS, ZERO, Contract, Receipt, Refused, World, keccak
+from tools.tokens.world import ETHER, GAS, ZERO, Contract, Receipt, Refused, World
 
 from adversaries import adversary
 from shackled import render
@@ -120,11 +117,6 @@ def test_nobody_owns_it(show: Show) -> None:
 @pytest.mark.parametrize(
     ("change", "error"),
     [
-        ({"name": ""}, ("NameLength", 0, 64)),
-        ({"name": "x" * 65}, ("NameLength", 65, 64)),
-        ({"name": "x" * 100_000}, ("NameLength", 100_000, 64)),
-        ({"scale": 0}, ("PixelScaleOutOfRange", 0, 8)),
-        ({"scale": 9}, ("PixelScaleOutOfRange", 9, 8)),
         ({"supply": 0}, ("NoSupply",)),
         ({"royalty": 1001}, ("Royalty", 1001, 1000)),
         ({"supply": OPEN, "copies": 101}, ("Quantity", 101, 100)),
@@ -142,42 +134,6 @@ def test_limits_are_allowed(show: Show) -> None:
     assert show.editions.call("left", 1) == 0
     show.add(name="x", price=0, supply=1, royalty=0, copies=1)
     assert show.editions.call("editionOf", 100) == 2
-
-
-def put(show: Show, function: str, value: Any) -> str:
-    """Has the studio keep something; its pointer."""
-    studio = show.s.studio
-    _, call = studio.encode(function, (value,))
-    return "0x" + show.world.run(show.bob, studio.address, call, 0, GAS, True, studio.abi).output[12:32].hex()
-
-
-def test_what_cannot_be_drawn_is_refused(show: Show) -> None:
-    canvas, *others, objects, more = show.s.studio.call("scene(address)", show.scene)
-    mesh, position, *rest = objects[0]
-
-    def kept(canvas: Any = canvas, mesh: Any = mesh, position: Any = position) -> str:
-        return put(show, "storeScene", (canvas, *others, [(mesh, position, *rest)], more))
-
-    cases: list[tuple[str, str]] = [
-        (NOBODY, "NothingKept"),
-        (show.alice, "NothingKept"),
-        (show.s.renderer.address, "NothingKept"),
-        # parts that may come when it is sold, or never
-        (put(show, "storePart", b"\x13" + 20 * b"\x12"), "NothingKept"),
-        (put(show, "storePart", b"\1" + bytes(4)), "NotAScene"),
-        # the mark of a scene, without one behind it
-        (put(show, "storePart", b"\x20"), "NotAScene"),
-        (put(show, "storePart", b"\x20" + 64 * b"\xff"), "NotAScene"),
-        (put(show, "storePart", show.world.of(show.scene).code[1:-64]), "NotAScene"),
-        (kept(canvas=(2049, 128)), "CanvasSize"),
-        (kept(position=(2**59, 0, 0)), "PositionOutOfRange"),
-        (kept(mesh=b"\x12" + 20 * b"\x12"), "NothingKept"),
-        (kept(mesh=mesh[:-2] + b"\xff\xff"), "IndexOutOfRange"),
-    ]
-    for scene, error in cases:
-        with refused(error):
-            show.add(scene=scene)
-    assert show.editions.call("editionCount") == 1
 
 
 def test_what_takes_too_much_gas_to_draw_is_refused(show: Show) -> None:
@@ -249,62 +205,6 @@ def test_the_same_scene_can_be_added_by_others(show: Show) -> None:
     """Or an account that sees it first could keep the artist from adding it."""
     show.add(show.bob)
     assert [show.editions.call("editionAt", edition)[0] for edition in range(2)] == [show.alice, show.bob]
-
-
-# ---- names ----
-
-
-names = st.text(st.characters(codec="utf-8"), min_size=1, max_size=64).filter(lambda name: len(name.encode()) <= 64)
-
-
-@settings(max_examples=10, deadline=None)
-@given(names)
-@example('","image":"x')
-@example('"')
-@example("\\")
-@example("\n\r\t\x00\x1f\x7f")
-@example("</script> é 😀")
-def test_every_name_is_valid_json(shared: Show, name: str) -> None:
-    with shared.world.attempt():
-        shared.add(name=name, copies=1)
-        found = document(shared.editions.call("tokenURI", 0))
-    assert list(found) == ["name", "description", "external_url", "attributes", "image"]
-    assert found["name"] == f"{name} #0"
-
-
-@settings(max_examples=40, deadline=None)
-@given(
-    st.lists(
-        st.sampled_from([b"a", "é".encode(), "😀".encode(), b"\xed\xa0\x80", b"\xc0\xaf", b"\xf4\x90", b"\x80"]),
-        min_size=1,
-        max_size=4,
-    ).map(b"".join)
-)
-@example(b"caf\xe9\xff")
-@example(b"\xe0\x80\x80")
-@example(b"\xf0\x80\x80\x80")
-@example(b"\xf4\x90\x80\x80")
-@example(b"\xf8\x90\x80\x80")
-@example(b"\xc3a")
-@example(b"\xe2\x82a")
-@example(b"\xe2\x82")
-def test_names_are_text(shared: Show, name: bytes) -> None:
-    """Python's decoder says which bytes are UTF-8, and where they are not."""
-    signature = b"add(string,address,uint8,bool,uint96,uint32,uint16,uint32)"
-    kinds = ["bytes", "address", "uint8", "bool", "uint96", "uint32", "uint16", "uint32"]
-    data = keccak(signature)[:4] + encode(kinds, [name, shared.scene, 1, False, 0, 1, 0, 0])
-
-    def run() -> None:
-        shared.world.run(shared.alice, shared.editions.address, data, 0, GAS, False, shared.editions.abi)
-
-    try:
-        name.decode()
-    except UnicodeDecodeError as error:
-        # Python tells the first byte of the broken character
-        with refused("NameNotUtf8", error.start):
-            run()
-    else:
-        run()
 
 
 # ---- what tokens show ----
@@ -534,8 +434,3 @@ def test_long_answers_do_not_make_a_withdrawal_dear(show: Show) -> None:
     gas = show.editions.send("withdraw", [0], bomb, sender=show.alice).gas
     alone = show.world.run(show.bob, bomb.address, b"", 0, 10**8, False, []).gas
     assert gas < alone + 50_000
-
-
-def test_a_collection_needs_a_studio(shared: Show) -> None:
-    with refused("NoStudio", shared.alice):
-        shared.world.deploy("Editions", shared.alice)

@@ -54,7 +54,7 @@ def test_the_whole_way_of_editions(
     assert contract.functions.name().call() == EDITIONS.title
     pointer = pointer_of(shackled("store", "triangle.obj", "--licence", "MIT", "--size", 8, "--yes", user=ALICE))
 
-    # what cannot be drawn is told before anything is asked
+    # what cannot be drawn is reported before anything is asked
     said = shackled(*edition, "add", node.accounts[9], "Ghost", "--price", 0, "--yes", user=ALICE, expect=1)
     assert said.error == f"shackled: nothing is stored at {node.accounts[9]}"
     said = shackled(*edition, "add", pointer, "x" * 65, "--price", 0, "--yes", user=ALICE, expect=2)
@@ -147,15 +147,15 @@ def test_the_whole_way_of_editions(
         return answer.replace(f"{PRICE:064x}", f"{2 * PRICE:064x}") if parameters[0]["data"] == selector else answer
 
     count = contract.functions.editionCount().call()
-    told = lied({"eth_getTransactionReceipt": renumbered}, "add", pointer, "Mine", *open_sale, user=BOB)
-    assert "edition 0, which the receipt" in told
-    assert told.endswith("does not match the terms")
+    reported = lied({"eth_getTransactionReceipt": renumbered}, "add", pointer, "Mine", *open_sale, user=BOB)
+    assert "edition 0, which the receipt" in reported
+    assert reported.endswith("does not match the terms")
     assert contract.functions.editionCount().call() == count + 1
     many = {"eth_estimateGas": lambda gas, _: hex(1000 * int(gas, 16))}
     assert "more than 10 times as much" in lied(many, "add", pointer, "Mine", *open_sale, user=BOB)
     shackled(*edition, "add", pointer, "Expensive", *sale, user=BOB)
-    told = lied({"eth_call": dearer}, "mint", 0, 1, "--yes", user=ALICE)
-    assert told == "shackled: the price is 0.01 ether, but 0.02 ether was sent"
+    reported = lied({"eth_call": dearer}, "mint", 0, 1, "--yes", user=ALICE)
+    assert reported == "shackled: the price is 0.01 ether, but 0.02 ether was sent"
     assert contract.functions.totalSupply().call() == 6
 
     # the artist has the ether, and closes

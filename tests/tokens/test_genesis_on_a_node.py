@@ -13,33 +13,18 @@ from web3.exceptions import ContractCustomError
 
 from commands import Shackled
 from nodes import Node
-from shackled.chain import AddressBook
-from shackled.cli.app import run
 from shackled.datasets.genesis import generate_on_chain, picture_on_chain
-from shackled.ethereum import checksum_address
 from shackled.tokens import parts_of
 
 OWNER, ALICE, BOB, CAROL = range(4)
 PRICE = 2 * 10**17
 
 
-@pytest.fixture(scope="module")
-def address(running_node: Node, users: list[str], allow_list: Path) -> str:
-    """The collection: 12 tokens are for sale, the other 1,012 kept."""
-    sale = ["--price", "0.2", "--reserve", "1012", "--royalty", "7.5", "--allow-list", str(allow_list)]
-    sale += ["--signer", running_node.accounts[OWNER], "--rpc", running_node.url]
-    sale += ["--private-key-env", users[OWNER], "--yes"]
-    assert run(["token", "deploy", "genesis", *sale]) == 0
-    found = AddressBook().find(31337, "GenesisCollection")
-    assert found is not None
-    return checksum_address(found)
-
-
 def test_the_whole_way_of_tokens(
-    node: Node, address: str, allow_list: Path, tmp_path: Path, shackled: Shackled
+    node: Node, genesis: str, allow_list: Path, tmp_path: Path, shackled: Shackled
 ) -> None:
     """One test, since each step needs those before."""
-    contract = node.contract("GenesisCollection", address)
+    contract = node.contract("GenesisCollection", genesis)
 
     said = shackled("token", "mint", "--yes", user=CAROL, expect=1)
     assert said.error == "shackled: the sale is closed; for this it must be open for all"
@@ -106,7 +91,7 @@ def test_the_whole_way_of_tokens(
     assert as_json["document"] == document
     assert as_json["owner"] == node.accounts[CAROL]
 
-    # the gas that is told is that of a transaction
+    # the gas that is reported is that of a transaction
     sent = contract.functions.tokenURI(4).transact({"from": node.accounts[OWNER]})
     used = node.web3.eth.wait_for_transaction_receipt(sent)["gasUsed"]
     data = bytes.fromhex(contract.encode_abi("tokenURI", [4])[2:])

@@ -59,7 +59,7 @@ def test_an_old_block_is_proven_by_the_headers_after_it(
         for number in (rounds[0].block, rounds[1].block + 3, rounds[1].block):
             parent = node.rpc("eth_getBlockByNumber", hex(number - 1), False)
             lies: dict[str, Any] = {
-                "eth_getBlockByNumber": lambda told, asked, n=number, p=parent: p if asked[0] == hex(n) else told
+                "eth_getBlockByNumber": lambda block, asked, n=number, p=parent: p if asked[0] == hex(n) else block
             }
             with Liar(lies).before(node.url) as url:
                 assert run(["token", "reveal", "--rpc", url, "--calldata", "other.json"]) == 1

@@ -1,4 +1,4 @@
-"""Nodes that lie about prices: what is paid is never above what was told, or nothing is sent."""
+"""Nodes that lie about prices: what is paid is never above what was quoted, or nothing is sent."""
 
 from __future__ import annotations
 
@@ -22,6 +22,8 @@ from shackled.tokens._demo import development_accounts
 
 ETHER, GWEI = 10**18, 10**9
 USER = 3
+#: Runs a command, with lies of the node.
+Pay = Callable[..., tuple[int, int, str, str]]
 TRIANGLE = "v 0 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\n"
 
 #: Everything that costs something, with the contracts there that it needs.
@@ -80,10 +82,10 @@ def balance(node: Node) -> int:
 
 
 def ceiling(said: str) -> int:
-    """The most that was told, in wei."""
+    """The most that was quoted, in wei."""
     found = re.findall(r"at most ([\d.]+) ether in total", said) or re.findall(r"total.* ([\d.]+)\s*$", said, re.M)
-    (told,) = found
-    return int(Decimal(told) * ETHER)
+    (most,) = found
+    return int(Decimal(most) * ETHER)
 
 
 class Terminal(io.StringIO):
@@ -91,41 +93,37 @@ class Terminal(io.StringIO):
         return True
 
 
-def pay(
-    node: Node,
-    liar: Liar,
-    arguments: tuple[str, ...],
-    capsys: pytest.CaptureFixture[str],
-    patch: pytest.MonkeyPatch,
-    yes: bool = False,
-) -> tuple[int, int, str, str]:
-    """Runs a command. Without `yes` the node lies as soon as the price was told and agreed to.
+@pytest.fixture
+def pay(node: Node, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Pay:
+    """Runs a command. Without `yes` the node lies as soon as the price was quoted and agreed to.
 
-    The code, what was paid, all that was said, and the last line on stderr.
+    Returns the code, what was paid, all that was said, and the last line on stderr.
     """
 
-    def agree(*_: Any, **__: Any) -> bool:
-        liar.lying = True
-        return True
+    def run_it(lies: Any, *arguments: str, yes: bool = False) -> tuple[int, int, str, str]:
+        liar = Liar(lies, lying=yes)
 
-    if not yes:
-        liar.lying = False
-        patch.setattr("sys.stdin", Terminal())
-        patch.setattr("click.confirm", agree)
-    before = balance(node)
-    with liar.before(node.url) as url:
-        code = run([*arguments, "--rpc", url, "--private-key-env", "KEY", *(["--yes"] if yes else [])])
-    said = capsys.readouterr()
-    assert "Traceback" not in said.err
-    return code, before - balance(node), said.out + said.err, (said.err.splitlines() or [""])[-1]
+        def agree(*_: Any, **__: Any) -> bool:
+            liar.lying = True
+            return True
+
+        if not yes:
+            monkeypatch.setattr("sys.stdin", Terminal())
+            monkeypatch.setattr("click.confirm", agree)
+        before = balance(node)
+        with liar.before(node.url) as url:
+            code = run([*arguments, "--rpc", url, "--private-key-env", "KEY", *(["--yes"] if yes else [])])
+        said = capsys.readouterr()
+        assert "Traceback" not in said.err
+        return code, before - balance(node), said.out + said.err, (said.err.splitlines() or [""])[-1]
+
+    return run_it
 
 
 @pytest.mark.parametrize("lies", [TIP, NO_BASE], ids=["tip", "no base"])
 @pytest.mark.parametrize("what", COMMANDS)
-def test_later_fees_change_nothing(
-    node: Node, what: str, lies: Any, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    code, paid, said, _ = pay(node, Liar(lies), COMMANDS[what], capsys, monkeypatch)
+def test_later_fees_change_nothing(pay: Pay, what: str, lies: Any) -> None:
+    code, paid, said, _ = pay(lies, *COMMANDS[what])
     assert code == 0, said
     assert 0 < paid <= ceiling(said)
 
@@ -136,10 +134,8 @@ def test_later_fees_change_nothing(
     ids=["gas", "base"],
 )
 @pytest.mark.parametrize("what", COMMANDS)
-def test_whoever_wants_more_than_was_told_gets_nothing(
-    node: Node, what: str, lies: Any, words: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    code, paid, said, error = pay(node, Liar(lies), COMMANDS[what], capsys, monkeypatch)
+def test_whoever_wants_more_than_was_quoted_gets_nothing(pay: Pay, what: str, lies: Any, words: str) -> None:
+    code, paid, said, error = pay(lies, *COMMANDS[what])
     assert (code, paid) == (1, 0), said
     assert re.search(rf"^shackled: .*{words}.*run the command again", error)
 
@@ -154,63 +150,49 @@ def test_whoever_wants_more_than_was_told_gets_nothing(
     ids=["tip", "no base", "gas"],
 )
 @pytest.mark.parametrize("what", COMMANDS)
-def test_a_first_price_that_is_a_lie_is_refused_unasked(
-    node: Node, what: str, lies: Any, words: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    code, paid, said, error = pay(node, Liar(lies), COMMANDS[what], capsys, monkeypatch, yes=True)
+def test_a_first_price_that_is_a_lie_is_refused_unasked(pay: Pay, what: str, lies: Any, words: str) -> None:
+    code, paid, said, error = pay(lies, *COMMANDS[what], yes=True)
     assert (code, paid) == (1, 0), said
     assert re.search(rf"^shackled: .*{words}.*--max-fee", error)
 
 
 @pytest.mark.parametrize("what", COMMANDS)
-def test_a_price_that_is_named_is_the_most(
-    node: Node, what: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    arguments = (*COMMANDS[what], "--max-fee", "50")
-    code, paid, said, _ = pay(node, Liar(TIP), arguments, capsys, monkeypatch, yes=True)
+def test_a_price_that_is_named_is_the_most(pay: Pay, what: str) -> None:
+    code, paid, said, _ = pay(TIP, *COMMANDS[what], "--max-fee", "50", yes=True)
     assert code == 0, said
     assert paid <= ceiling(said)
 
 
-def test_a_price_above_the_one_that_is_named_is_not_paid(
-    node: Node, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_price_above_the_one_that_is_named_is_not_paid(pay: Pay) -> None:
     for lies in (JUMP, NO_BASE):
-        arguments = (*COMMANDS["mint"], "--max-fee", "50")
-        code, paid, _, error = pay(node, Liar(lies), arguments, capsys, monkeypatch, yes=True)
+        code, paid, _, error = pay(lies, *COMMANDS["mint"], "--max-fee", "50", yes=True)
         assert (code, paid) == (1, 0)
         assert "a unit of gas costs 2,000,000 gwei now, more than the 50 of --max-fee" in error
 
 
-def test_an_event_without_topics_hides_no_token(
-    node: Node, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_event_without_topics_hides_no_token(pay: Pay) -> None:
     odd = {"address": "0x" + "12" * 20, "topics": [], "data": "0x"}
     lies = {"eth_getTransactionReceipt": lambda receipt, _: receipt | {"logs": [odd, *receipt["logs"]]}}
-    code, paid, said, _ = pay(node, Liar(lies), COMMANDS["mint"], capsys, monkeypatch, yes=True)
+    code, paid, said, _ = pay(lies, *COMMANDS["mint"], yes=True)
     assert (code, paid > 0) == (0, True), said
     assert "minted #1, #2" in said
 
 
 @pytest.mark.parametrize("odd", ["zz", {}, {"number": "0x1"}, None])
-def test_blocks_that_are_none_reveal_nothing(
-    node: Node, odd: Any, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_blocks_that_are_none_reveal_nothing(pay: Pay, odd: Any) -> None:
     lies = {"eth_getBlockByNumber": lambda block, parameters: block if parameters[0] == "latest" else odd}
-    code, paid, said, error = pay(node, Liar(lies), COMMANDS["reveal"], capsys, monkeypatch, yes=True)
+    code, paid, said, error = pay(lies, *COMMANDS["reveal"], yes=True)
     assert (code, paid) in ((1, 0), (2, 0)), said
     assert re.search("does not have block|an invalid block|returned no parentHash of block", error)
 
 
-def test_fields_that_are_none_reveal_nothing(
-    node: Node, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_fields_that_are_none_reveal_nothing(pay: Pay) -> None:
     for odd in ("zz", 1.5, -5, [300], 7):
         lies: dict[str, Any] = {
             "eth_getBlockByNumber": lambda block, parameters, odd=odd: (
                 block if parameters[0] == "latest" else block | {"gasUsed": odd}
             )
         }
-        code, paid, said, error = pay(node, Liar(lies), COMMANDS["reveal"], capsys, monkeypatch, yes=True)
+        code, paid, said, error = pay(lies, *COMMANDS["reveal"], yes=True)
         assert (code, paid) in ((1, 0), (2, 0)), said
         assert re.search("invalid fields|has the hash", error)

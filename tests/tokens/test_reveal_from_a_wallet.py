@@ -87,12 +87,12 @@ def test_with_json_only_json_is_printed(node: Node, collection: Collection, shac
     said = shackled("token", "reveal", "--calldata", "calls.json", "--json")
     assert json.loads(said.out) == json.loads(Path("calls.json").read_text())
     said = shackled("token", "reveal", "--json", "--yes", user=WALLET)
-    told = json.loads(said.out)
-    receipt = node.web3.eth.get_transaction_receipt(told["transactions"][0])
-    assert (told["rounds"], told["gas"]) == ([0], receipt["gasUsed"])
+    reported = json.loads(said.out)
+    receipt = node.web3.eth.get_transaction_receipt(reported["transactions"][0])
+    assert (reported["rounds"], reported["gas"]) == ([0], receipt["gasUsed"])
 
 
-def test_a_block_to_come_is_told_or_waited_for(
+def test_a_block_to_come_is_reported_or_waited_for(
     node: Node, collection: Collection, shackled: Shackled, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for missing, words in ((3, "3 more blocks"), (1, "1 more block")):
@@ -134,7 +134,7 @@ def test_a_node_that_lies_about_blocks_gets_nothing_written(
     for lies in (
         forging(mixHash="0x" + "77" * 32),
         forging(extraData="0x00"),
-        {"eth_getBlockByNumber": lambda told, asked: told if asked[0] == "latest" else parent},
+        {"eth_getBlockByNumber": lambda block, asked: block if asked[0] == "latest" else parent},
     ):
         with Liar(lies).before(node.url) as url:
             assert run(["token", "reveal", "--calldata", "calls.json", "--rpc", url]) == 1
@@ -150,9 +150,9 @@ def test_a_node_that_lies_about_the_hash_too_is_caught_by_the_simulation(
 ) -> None:
     block = mine_until(node, collection, 0)
     lies = forging(mixHash="0x" + "77" * 32)
-    told = lies["eth_getBlockByNumber"](node.rpc("eth_getBlockByNumber", hex(block), False), [hex(block), False])
+    reported = lies["eth_getBlockByNumber"](node.rpc("eth_getBlockByNumber", hex(block), False), [hex(block), False])
     asked = "0x" + collection.contract.interface.encode("hashOf", block).hex()
-    lies["eth_call"] = lambda answer, parameters: told["hash"] if parameters[0]["data"] == asked else answer
+    lies["eth_call"] = lambda answer, parameters: reported["hash"] if parameters[0]["data"] == asked else answer
     with Liar(lies).before(node.url) as url:
         assert run(["token", "reveal", "--calldata", "calls.json", "--rpc", url]) == 1
     assert "header" in capsys.readouterr().err.splitlines()[-1]

@@ -151,7 +151,9 @@ def test_the_price_is_known_before_an_account_is_named(shackled: Shackled) -> No
         (("token", "mint", "--icon", "heart", "-c", "genesis"), 2, "the address book has no genesis collection"),
     ],
 )
-def test_mistakes_are_told_in_one_line(shackled: Shackled, arguments: tuple[object, ...], code: int, said: str) -> None:
+def test_mistakes_are_reported_in_one_line(
+    shackled: Shackled, arguments: tuple[object, ...], code: int, said: str
+) -> None:
     result = shackled(*arguments, expect=code)
     assert said in result.error
     assert len(result.err.strip().splitlines()) <= 4

@@ -62,7 +62,8 @@ def run(runner: Runner) -> ExperimentReport:
         axes.margins(y=0.02)
         axes.grid(axis="y", visible=False)
         axes.set(xlabel="gas, millions    (* looks different without culling)")
-        axes.legend()
+        # above the bars, not on them
+        axes.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2)
 
     head = [field.name for field in fields(Pair)]
     return ExperimentReport(

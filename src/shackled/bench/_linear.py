@@ -13,7 +13,7 @@ from ._original import original
 from ._plots import FOURTH, OURS, THIRD
 from ._report import ExperimentReport, table
 from ._runner import Runner
-from .fits import Column, fit, line
+from .fits import Column, fit, line, quadratic_share
 from .scenes import GLOSSY, MATTE, SUN, UNLIT, cube, equal_triangles, square, turned_cube
 
 if TYPE_CHECKING:
@@ -90,29 +90,39 @@ def columns_of(rows: list[Row], *series: str) -> tuple[str, Column, Column, Colu
 
 def _text(rows: list[Row]) -> str:
     lines = []
-    for name in ("tris", "cube_persp"):
+    for name, kind in (("tris", "equal triangles"), ("cube_persp", "cubes")):
         found = sorted((f for key, f in original().items() if key.startswith(f"{name}_")), key=lambda f: f.gas)
         gas = np.array([f.gas for f in found], float)
         if name == "tris":
-            lines.append(line("original: equal triangles", ("triangles",), fit([[f.triangles for f in found]], gas)))
+            x, quantity = np.array([f.triangles for f in found], float), "triangles"
         else:
-            lines.append(line("original: cubes", ("pixels",), fit([[f.canvas**2 for f in found]], gas)))
+            x, quantity = np.array([f.canvas**2 for f in found], float), "pixels"
+        lines.append(_fitted(f"original: {kind}", {quantity: x}, gas))
     _, triangles, _, gas = columns_of(rows, "equal triangles")
-    lines.append(line("ours: equal triangles", ("triangles",), fit([triangles], gas)))
+    lines.append(_fitted("ours: equal triangles", {"triangles": triangles}, gas))
     _, _, pixels, gas = columns_of(rows, "cubes of the original")
-    lines.append(line("ours: cubes", ("pixels",), fit([pixels], gas)))
+    lines.append(_fitted("ours: cubes", {"pixels": pixels}, gas))
     for look in LOOKS:
         _, triangles, _, gas = columns_of(rows, f"{look} squares")
-        lines.append(line(f"ours: {look} squares", ("triangles",), fit([triangles], gas)))
+        lines.append(_fitted(f"ours: {look} squares", {"triangles": triangles}, gas))
         _, _, pixels, gas = columns_of(rows, f"{look} cubes")
-        lines.append(line(f"ours: {look} cubes", ("pixels",), fit([pixels], gas)))
+        lines.append(_fitted(f"ours: {look} cubes", {"pixels": pixels}, gas))
         _, triangles, pixels, gas = columns_of(rows, f"{look} squares", f"{look} cubes")
-        lines.append(line(f"ours: {look}, all", ("triangles", "pixels"), fit([triangles, pixels], gas)))
+        lines.append(_fitted(f"ours: {look}, all", {"triangles": triangles, "pixels": pixels}, gas))
     counts = [row[1] for row in rows if row[0] == "unlit squares"]
     return (
-        "R2 says what share of the differences a straight line explains. The first four rows are the same scenes on"
-        f" both engines. Squares: one of fixed size, cut into {min(counts):,} to {max(counts):,} triangles at"
-        f" {SQUARE_SIDE} x {SQUARE_SIDE} pixels. Matte: without highlights. Highlights are computed for single"
-        " pixels of large triangles and for the vertices of small ones, so that a glossy square cut finer first needs"
-        " more gas, then less, then more again, and lies on no line.\n\n" + table(["scenes", "gas", "R2"], lines)
+        "R2 says what share of the differences a straight line explains. Square: the share that a term with the square"
+        " of the triangles, or of the pixels, takes in the gas of the largest scene, if the fit may use such a term."
+        " The first four rows are the same scenes on both engines. Squares: one of fixed size, cut into"
+        f" {min(counts):,} to {max(counts):,} triangles at {SQUARE_SIDE} x {SQUARE_SIDE} pixels. Matte: without"
+        " highlights. Highlights are computed for single pixels of large triangles and for the vertices of small ones,"
+        " so that a glossy square cut finer first needs more gas, then less, then more again, and lies on no line.\n\n"
+        + table(["scenes", "gas", "R2", "square"], lines)
     )
+
+
+def _fitted(name: str, columns: dict[str, Column], gas: Column) -> list[str]:
+    """Return the row of a fit; a term with a square is tried where there is one quantity."""
+    x = list(columns.values())
+    square = f"{quadratic_share(x, gas):+.2%}" if len(x) == 1 else ""
+    return [*line(name, list(columns), fit(x, gas)), square]

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from PIL import Image as PillowImage
 
 from ..whole_file import make_output_folder, write_output
+from ._plots import can_plot, plot
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -37,14 +38,13 @@ class ExperimentReport:
     pictures: Mapping[str, PillowImage.Image] = field(default_factory=dict)
 
     def save(self, name: str, folder: Path) -> list[Path]:
-        """Write NAME.csv, NAME.md, NAME.png and the pictures; return their paths."""
-        from ._plots import plot
-
+        """Write NAME.csv, NAME.md, the pictures, and NAME.png if matplotlib is installed; return their paths."""
         files = {
             f"{name}.csv": self.csv().encode(),
             f"{name}.md": f"# {self.title}\n\n{wrapped(self.text)}\n".encode(),
-            f"{name}.png": plot(self.draw, self.shape),
         }
+        if can_plot():
+            files[f"{name}.png"] = plot(self.draw, self.shape)
         for end, picture in self.pictures.items():
             stream = io.BytesIO()
             picture.save(stream, "png", optimize=True)

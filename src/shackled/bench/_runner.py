@@ -8,7 +8,6 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator
 from importlib import import_module
-from importlib.util import find_spec
 from typing import TypeVar
 
 from ..errors import InputError
@@ -82,9 +81,3 @@ class Runner:
             if self._show is not None:
                 self._show(label, len(results), len(items))
         return [results[place] for place in range(len(items))]
-
-
-def check_plots() -> None:
-    """Raise InputError if plots cannot be drawn."""
-    if find_spec("matplotlib") is None:
-        raise InputError("the plots need matplotlib, which is not installed: pip install 'shackled[bench]'")

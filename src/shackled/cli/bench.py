@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -26,7 +27,7 @@ def bench(
     rpc: Annotated[str | None, option("--rpc", "Node that `engines` measures, too.", "URL")] = None,
 ) -> None:
     """Run the experiments of the Shackled paper: gas against canvas, triangles, culling and more."""
-    from ..bench import EXPERIMENTS, Runner, check_names, check_plots
+    from ..bench import EXPERIMENTS, Runner, can_plot, check_names
 
     if not names and not everything and output is None:
         print("\n".join(f"{name:10} {text}" for name, text in EXPERIMENTS.items()))
@@ -37,7 +38,8 @@ def bench(
     if output is None:
         raise InputError("the experiments need an output folder: -o DIR")
     folder = check_output_folder(Path(output))
-    check_plots()
+    if not can_plot():
+        print("no plots: they need matplotlib (pip install 'shackled[bench]')", file=sys.stderr)
     with LateBar("measuring") as bar:
         runner = Runner(quick, processes, rpc, lambda label, done, total: bar.set(done, total, label))
         written = [path for name in chosen for path in runner.run(name).save(name, folder)]

@@ -72,8 +72,8 @@ def svg_problems(root: ElementTree.Element, content: bytes, key: str) -> list[st
 def html_problems(content: bytes, key: str, media_type: str) -> list[str]:
     """Return what a page needs that it does not have, each in one line. media_type: with its parameters."""
     found = _outside(_addresses(_Page(content).elements), key, "the page")
-    is_told = "charset=" in media_type.lower() or content.startswith((b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff"))
-    if not (content.isascii() or is_told or CHARSET.search(content[:HEAD])):
+    is_declared = "charset=" in media_type.lower() or content.startswith((b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff"))
+    if not (content.isascii() or is_declared or CHARSET.search(content[:HEAD])):
         found.append(f"{key} has letters beyond ASCII but no charset: begin its head with <meta charset='utf-8'>")
     return found
 

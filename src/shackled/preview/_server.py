@@ -72,7 +72,7 @@ class Live:
                 queue.put(None)
 
     def _make(self) -> None:
-        """Compile, and read all tokens. Whatever fails is told to the page."""
+        """Compile, and read all tokens. Whatever fails is shown on the page."""
         self.version += 1
         self._tell(status="compiling", error="", notes=[])
         try:
