@@ -15,8 +15,8 @@ from click.shell_completion import get_completion_class
 from ..errors import InputError, InputWarning, ShackledError
 from ..untrusted import plain
 from .command import CommandGroup
-from .notes import noting
 from .option import MEANT, with_options
+from .output import noting
 
 datasets = CommandGroup(
     "datasets",
@@ -25,7 +25,7 @@ datasets = CommandGroup(
 )
 library = CommandGroup(
     "library",
-    {name: f"library:{name}" for name in ("list", "store")},
+    {"list": "store:list", "store": "store:store_items"},
     "List and store the library: icons and common objects that any contract can draw.",
 )
 edition = CommandGroup(
@@ -37,9 +37,7 @@ token = CommandGroup(
     "token",
     {
         "deploy": "token.deploy:deploy",
-        **{name: f"token.icons:{name}" for name in ("add", "seal")},
-        **{name: f"token.allow_list:{name}" for name in ("allow-list", "permit")},
-        "phase": "token.owner:phase",
+        **{name: f"token.owner:{name}" for name in ("add", "seal", "allow-list", "permit", "phase")},
         **{name: f"token.sale:{name}" for name in ("mint", "reveal")},
         **{name: f"token.show:{name}" for name in ("show", "list", "verify", "picture")},
         "transfer": "token.sale:transfer",
@@ -103,7 +101,11 @@ def _help() -> None:
 
 app = Root(
     "shackled",
-    {**{name: f"{name}:{name}" for name in LINES}, **{str(each.name): each for each in GROUPS}},
+    {
+        **{name: f"{name}:{name}" for name in LINES},
+        "stages": "render:stages",
+        **{str(each.name): each for each in GROUPS},
+    },
     "Render 3D scenes with Ethereum smart contracts.",
     callback=_help,
     params=[

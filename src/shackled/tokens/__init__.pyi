@@ -27,7 +27,7 @@ from ._reveal import (
     price_wallet_calls,
     reveal_calls,
 )
-from ._storage import SceneToStore, plan_storage, read_back, store
+from ._storage import SceneToStore, StoragePlan, plan_storage, read_back, store
 from ._verify import check_code, check_collection_code, check_token
 from ._view import comparison, read_view, read_views
 
@@ -45,6 +45,7 @@ __all__ = [
     "RevealCall",
     "Round",
     "SceneToStore",
+    "StoragePlan",
     "add_call",
     "add_gas",
     "added_number",
