@@ -158,7 +158,10 @@ def effects() -> dict[str, list[Image]]:
         width=192,
         height=192,
     )
-    lamps = [Light.directional((-1, 0.3, 0.5), "#ff5a3c"), Light.directional((1, 0.3, 0.5), "#3c7bff")]
+    lamps = [
+        Light.directional(toward=(-1, 0.3, 0.5), color="#ff5a3c"),
+        Light.directional(toward=(1, 0.3, 0.5), color="#3c7bff"),
+    ]
     lit = pot(
         6,
         192,
@@ -178,7 +181,7 @@ def effects() -> dict[str, list[Image]]:
             for mesh, color, x, z, scale in solids
         ],
         Camera.perspective((0, 3.6, 7.0), (0.1, 0.3, 0.2), fov=36),
-        Light.directional((-1, 1.1, 0.35)),
+        Light.directional(toward=(-1, 1.1, 0.35)),
         "#e9e4da",
         width=192,
         height=192,

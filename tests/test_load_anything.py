@@ -224,19 +224,12 @@ def test_the_keywords_are_those_of_the_table() -> None:
     for setting in SETTINGS:
         assert setting.text.endswith(".")
         assert setting.text[0].isupper()
-    with pytest.raises(TypeError, match=r"^'colour' is not a keyword of a look; did you mean color\?$"):
-        render(MESH, colour="red")  # type: ignore[call-arg]
     for name, instead in {
         "lights_": "did you mean lights?",
-        "shadows": "did you mean shadow?",
-        "rotation": "did you mean rotate?",
-        "material": "`color`, `shading`, ",
         "texture": "`color`, `shading`, ",
         "width": "`size` is the side in pixels, or (width, height)",
-        "resolution": "`size` is ",
-        "camera": "`eye`, `target`, `up` and `fov` place the camera, `use_camera` takes that of a glTF "
-        "file; or render a Scene with a Camera",
-        "fps": "`duration` of a turntable ",
+        "camera": "`eye`, `target`, `up` and `fov` place the camera, `use_camera` takes that of a glTF file",
+        "fps": "`duration` is ",
         "alpha": "`transparent` of render leaves out the background",
         "depth": "depths are not returned",
     }.items():
@@ -411,7 +404,6 @@ def test_looks_in_other_words() -> None:
         ({"rotate": (1, 2, float("nan"))}, "`rotate` must be 3 finite numbers, not (1, 2, nan)"),
         ({"rotate": (0, 0, 0, 0)}, "`rotate` must not be the zero quaternion"),
         ({"lights": "white"}, "the lights of a scene must be a Light or a list of these, not 'white'"),
-        ({"background": "transparent"}, "`background` is a colour: give `transparent` for a picture without a backg"),
         ({"cull": "yes"}, "`cull` must be True or False, not 'yes'"),
         ({"animation": "Walk"}, "`animation` is for what is read of one glTF file"),
         ({"time": 1}, "`time` is for what is read of one glTF file"),

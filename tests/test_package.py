@@ -9,6 +9,7 @@ import sys
 import tomllib
 from collections.abc import Iterator
 from functools import cache
+from graphlib import TopologicalSorter
 from importlib import import_module
 from importlib.metadata import packages_distributions
 from pathlib import Path
@@ -103,14 +104,20 @@ def test_meshes_are_simplified_where_there_are_wheels() -> None:
 
 
 @cache
-def of_the_package(path: Path) -> list[str]:
-    """Return the modules of the package that a file imports, and the names that it takes from them, all absolute."""
-    return list(_of_the_package(path))
+def of_the_package(path: Path, for_types: bool = True) -> list[str]:
+    """Return the modules of the package that a file imports, and the names that it takes from them, all absolute.
+
+    for_types: also those that only checkers of types import.
+    """
+    return list(_of_the_package(path, for_types))
 
 
-def _of_the_package(path: Path) -> Iterator[str]:
+def _of_the_package(path: Path, for_types: bool) -> Iterator[str]:
     here = path.relative_to(PACKAGE.parent).with_suffix("").parts[:-1] if path.is_relative_to(PACKAGE) else ()
-    for node in ast.walk(ast.parse(path.read_text())):
+    tree = ast.parse(path.read_text())
+    if not for_types:
+        tree.body = [node for node in tree.body if not ast.unparse(node).startswith("if TYPE_CHECKING:")]
+    for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
@@ -153,6 +160,28 @@ def test_a_package_exports_only_what_others_need(package: Path) -> None:
     if package.parent.name == "datasets":  # which imports its packages by their names
         used |= {f"{name}.{each}" for each in ("find", "pieces")}
     assert {f"{name}.{each}" for each in import_module(name).__all__} <= used
+
+
+def test_no_imports_form_a_circle() -> None:
+    """Of modules of the package, late imports included. A name of a package stands for the module that has it."""
+    modules = {".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts): path for path in PACKAGE.rglob("*.py")}
+    modules = {name.removesuffix(".__init__"): path for name, path in modules.items()}
+    homes = {
+        ".".join([*folder.relative_to(PACKAGE.parent).parts, alias.name]): ".".join(
+            [*folder.relative_to(PACKAGE.parent).parts, str(node.module)]
+        )
+        for folder in [PACKAGE, *FACES]
+        for node in ast.parse((folder / "__init__.pyi").read_text()).body
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+    }
+    graph = {}
+    for name, path in modules.items():
+        found = {homes.get(each, each) for each in of_the_package(path, for_types=False)}
+        needed = {each if each in modules else each.rpartition(".")[0] for each in found}
+        graph[name] = needed & modules.keys() - {name}
+    assert "shackled.scene._mesh" in graph["shackled.scene._scene"]
+    TopologicalSorter(graph).prepare()  # raises an error that names the circle
 
 
 def test_every_platform_needs_the_same() -> None:

@@ -26,7 +26,7 @@ LOOKS: dict[str, tuple[dict[str, Any], dict[str, Any], dict[str, Any]]] = {
     "effects": ({"shading": "smooth"}, {}, {"hemisphere": Hemisphere("white", "red")}),
     "effects, flat": ({"shading": "flat"}, {}, {"hemisphere": Hemisphere("white", "red")}),
 }
-LIGHTS = [Light.directional((0.3, 0.5, 1)), Light.point((1, 1, 2), color="orange")]
+LIGHTS = [Light.directional(toward=(0.3, 0.5, 1)), Light.point((1, 1, 2), color="orange")]
 
 
 def sheet(sides: int = 5) -> Mesh:

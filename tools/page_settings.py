@@ -19,7 +19,7 @@ from shackled.scene._presets import Preset
 FILE = Path(__file__).resolve().parent.parent / "web" / "src" / "creator" / "settings.ts"
 HEAD = """// Written by tools/page_settings.py from the tables of the Python package.
 
-/** What can be set: src/shackled/scene/_look.py. `low` and `high` are null where there is none. */
+/** What can be set: src/shackled/scene/_settings.py. `low` and `high` are null where there is none. */
 export type Setting = Readonly<
     Record<"name" | "kind" | "group" | "text" | "unit" | "default", string> &
         Record<"low" | "high", number | null> & { part: string | null; choices: readonly string[] }
@@ -50,7 +50,7 @@ def settings() -> list[dict[str, Any]]:
     names = ("name", "kind", "part", "group", "text", "unit", "choices", "default")
     return [
         {name: getattr(each, name) for name in names}
-        | {key: value if isfinite(value := getattr(each, key)) else None for key in ("low", "high")}
+        | {key: limit if isfinite(limit) else None for key, limit in zip(("low", "high"), each.limits, strict=True)}
         for each in SETTINGS
     ]
 

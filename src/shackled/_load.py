@@ -41,6 +41,7 @@ from .scene import (
     settings_of,
     upright,
 )
+from .words import with_words
 
 #: Input of `load`. `Any`: arrays of vertices and faces, or a mesh or scene of trimesh, an optional package.
 Thing = str | os.PathLike[str] | Piece | Mesh | Object | Scene | Sequence[Any] | Any
@@ -52,6 +53,7 @@ GAP = 0.2
 replace = evolve
 
 
+@with_words
 def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack[LookOptions]) -> Scene:
     """Return the scene of a file, a piece of a dataset, a mesh, arrays, or an object of trimesh.
 

@@ -115,7 +115,7 @@ class Cluster:
     verify: str | None = field(default=None, converter=_verify)
 
 
-#: Where calls run: in the EVM of this name, in this EVM, or in one of these.
+#: Where calls run: in the EVM of this name, at the node of this address, in this EVM, or in one of these.
 On = str | Chain | Processes | Nodes | Cluster
 
 
@@ -124,7 +124,7 @@ def where_of(on: On | None, gas_limit: int | None = None, tile: tuple[int, int] 
     from .parallel import Where
 
     if isinstance(on, str) and "://" in on:
-        raise InputError(f"`on` must be Nodes({on!r:.60}) for a node, not its address alone")
+        on = Nodes(on)
     if on is None or isinstance(on, str):
         return Where(None if on is None else check_chain(on, "`on`"), gas_limit=gas_limit, tile=tile)
     if isinstance(on, Processes):

@@ -18,11 +18,13 @@ from .chain import Chain, open_chain
 from .errors import InputError, warn
 from .image import Image, decode_bmp, uncovered
 from .scene import Background, LookOptions, Scene, full_turn, size_of
+from .words import with_words
 
 if TYPE_CHECKING:
     from .parallel import Counter, Listener, Where
 
 
+@with_words
 def render(
     thing: Thing,
     size: int | tuple[int, int] | None = None,
@@ -39,8 +41,8 @@ def render(
     """Render a picture.
 
     thing, size, look: as in `load`.
-    on: where the calls run: the name of an EVM ("revm", "pyrevm", "pyevm"), `Processes`, `Nodes` or `Cluster`; None
-        for revm, which is always there. The pixels are the same everywhere.
+    on: where the calls run: the name of an EVM ("revm", "pyrevm", "pyevm"), the address of a node, `Processes`, `Nodes`
+        or `Cluster`; None for revm, which is always there. The pixels are the same everywhere.
     gas_limit: gas that a call may use.
     tile: size of the tiles in pixels, one number or (width, height); None chooses it, if tiles are needed at all: for a
         canvas of 1024 x 1024 pixels or more, strips are cheaper, since the memory of the whole costs its square.
@@ -66,6 +68,7 @@ def render(
     return uncovered(black, white, scene)
 
 
+@with_words
 def turntable(
     thing: Thing,
     frames: int = 36,
@@ -107,6 +110,7 @@ def turntable(
     return film(turned, duration, _where(on, gas_limit, tile), listener, keep, transparent)
 
 
+@with_words
 def animate(
     thing: str | os.PathLike[str],
     frames: int = 36,

@@ -6,7 +6,7 @@ import io
 import os
 import tempfile
 import webbrowser
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -39,6 +39,7 @@ from .palette import indexed
 from .scene import PICTURE
 from .values import plural
 from .whole_file import check_output_file, check_output_folder, make_output_folder, write_output
+from .words import Given, Words, milliseconds, words_of
 
 if TYPE_CHECKING:
     from .studio import ContractFile
@@ -59,9 +60,18 @@ def _frames(frames: Iterable[Image | ArrayLike]) -> tuple[Image, ...]:
     return tuple(frame if isinstance(frame, Image) else Image(frame) for frame in frames)
 
 
+def _with_fps(given: Given) -> Given:
+    """Return the fields of an animation, whose duration may be given by the frames in a second."""
+    return {
+        "duration" if name == "fps" else name: milliseconds(value) if name == "fps" else value
+        for name, value in given.items()
+    }
+
+
+@words_of("fps", read=_with_fps)
 @frozen(repr=False)
-class Animation:
-    """Frames as a contract made them, all of one size, repeated endlessly.
+class Animation(Words):
+    """Frames as a contract made them, all of one size, repeated endlessly. They are its members: len, [n] and `for`.
 
     frames: Images, or pixels, (H, W, 3). duration: of each frame in milliseconds, 20..10,000. file: the APNG, if a
     contract made all of it.
@@ -87,6 +97,15 @@ class Animation:
                 Image(np.array(frame.convert("RGB")), made_by=file.made_by) for frame in ImageSequence.Iterator(film)
             ]
         return cls(frames, duration, file)
+
+    def __len__(self) -> int:
+        return len(self.frames)
+
+    def __iter__(self) -> Iterator[Image]:
+        return iter(self.frames)
+
+    def __getitem__(self, number: int) -> Image:
+        return self.frames[number]
 
     def __repr__(self) -> str:
         first = self.frames[0]

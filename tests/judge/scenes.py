@@ -192,7 +192,7 @@ def _models(rng: Rng) -> Scene:
         options["crease"] = rng.uniform(20, 80)
     if options["shading" if "shading" in options else "crease"] != "unlit" and rng.random() < 0.4:
         options |= {"shadow": True, "ground": "tan"}
-        options |= {"lights": Light.directional(_direction(rng) + np.array([0, 1.2, 0]))}
+        options |= {"lights": Light.directional(toward=_direction(rng) + np.array([0, 1.2, 0]))}
     scene = load(name, **options)
     return _effects(rng, scene) if rng.random() < 0.25 else scene
 

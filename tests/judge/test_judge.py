@@ -33,7 +33,7 @@ def one_triangle(look: Material, *lights: Light) -> Scene:
 
 def test_light_at_the_edge_of_a_thin_triangle() -> None:
     """Two of four samples, of 128 and 127."""
-    lit = one_triangle(Material("smooth"), Light.directional((-0.14, 0.97, 0.84)))
+    lit = one_triangle(Material("smooth"), Light.directional(toward=(-0.14, 0.97, 0.84)))
     assert draw(fit(lit))[32, 104, 0] in (63, 64)
     assert judge("thin", lit).faults == []
     assert draw(fit(one_triangle(Material("unlit"))))[32, 104, 0] == 100
@@ -81,7 +81,7 @@ def test_highlight_of_a_wide_triangle() -> None:
         (-1.0626, 1.3077, -0.633), (0.0082, -0.3957, 0.2187), (-0.5361, -2.3816, -0.5222), half_height=0.4662, near=0.02
     )
     thing = Object(mesh, material=Material("smooth", 0.36, 0.79, 0.6, 128), cull=False)
-    scene = Scene([thing], camera, [Light.directional((1.2063, 1.1997, 0.2594))], BLACK, width=128, height=128)
+    scene = Scene([thing], camera, [Light.directional(toward=(1.2063, 1.1997, 0.2594))], BLACK, width=128, height=128)
     verdict = judge("highlight", scene)
     assert verdict.faults == []
     assert verdict.worst <= 8
@@ -131,7 +131,7 @@ def tilted_wire(slope: float, size: int, shininess: int, antialias: bool) -> Sce
     mesh = Mesh(np.array([[0, -1, 0], [0, 1, 0], [-1, 0, -slope]]), [[0, 1, 2]], GREY)
     thing = Object(mesh, material=Material("flat", 0, 0, 1, shininess), cull=False, wireframe=True)
     normal = np.array([-slope, 0, 1]) / np.hypot(slope, 1)
-    light = Light.directional(2 * normal[2] * normal - [0, 0, 1])
+    light = Light.directional(toward=2 * normal[2] * normal - [0, 0, 1])
     camera = Camera((0, 0, 4), (0, 0, 0), half_height=0.5)
     return Scene([thing], camera, [light], BLACK, width=size, height=size, antialias=antialias)
 
@@ -194,7 +194,9 @@ def test_light_of_a_sphere(shading: Shading) -> None:
     white = evolve(sphere, colors=np.full_like(sphere.colors, 255))
     camera = Camera((0, 0, 9), (0, 0, 0), projection="orthographic", half_height=1.25)
     light = np.array([0.6, 0.64, 0.48])
-    scene = Scene([Object(white, material=material)], camera, [Light.directional(light)], BLACK, width=65, height=65)
+    scene = Scene(
+        [Object(white, material=material)], camera, [Light.directional(toward=light)], BLACK, width=65, height=65
+    )
     right = render(call_data("render", fit(scene)))
     x, y = (np.arange(65) - 32) / 32.5 * 1.25, (32 - np.arange(65)) / 32.5 * 1.25
     x, y = np.meshgrid(x, y)

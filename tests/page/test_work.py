@@ -54,7 +54,7 @@ def textured() -> Scene:
     texture = Texture(np.arange(48, dtype=np.uint8).reshape(4, 4, 3) * 5)
     scene = shackled.load("tetrahedron", (40, 32))
     part = Object(mesh, material=Material(texture=texture), cull=False)
-    lights = [Light.directional([1, 2, 2], shadow=True), Light.point([0, 3, 1], (80, 90, 255))]
+    lights = [Light.directional(toward=[1, 2, 2], shadow=True), Light.point([0, 3, 1], (80, 90, 255))]
     return evolve(scene, objects=[part, *scene.objects], lights=lights, ground=Ground("#807060"))
 
 

@@ -136,7 +136,6 @@ def test_the_interface_of_python(tmp_path: Path) -> None:
         ({"gas_limit": 10**30}, "`gas_limit` must be a whole number of gas from 1 to 30,000,000,000"),
         ({"tile": 0}, "sides of a `tile` must be whole numbers from 1"),
         ({"tile": "big"}, r"`tile` must be one number or \(width, height\)"),
-        ({"on": "http://127.0.0.1:1"}, r"`on` must be Nodes\('http://127.0.0.1:1'\) for a node, not its address alone"),
         ({"on": "moon"}, "`on` must be one of revm, pyrevm, pyevm, not 'moon'"),
         ({"on": 5}, "`on` must be one of revm, pyrevm, pyevm, Processes, Nodes or Cluster, not 5"),
     ],

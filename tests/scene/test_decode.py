@@ -72,7 +72,7 @@ def test_every_field() -> None:
             Object(TRIANGLE, material=Material("unlit", 0.25, 0.5, 0)),
         ],
         Camera((0, 0, 4), (0, 0, 0), (0, 2, 0), near=0.25, half_height=0.5),
-        [Light.directional((1, 2, 3), (1, 2, 3)), Light.point((4, 5, 6)), SCENE.lights[0]],
+        [Light.directional(toward=(1, 2, 3), color=(1, 2, 3)), Light.point((4, 5, 6)), SCENE.lights[0]],
         Background((1, 2, 3), (4, 5, 6)),
         (7, 8, 9),
         True,
@@ -138,7 +138,7 @@ def test_scenes_of_every_size(
     eye = np.array(places[3]) * world * min(distance, 1e3)
     near = world * distance if is_near else None
     camera = Camera(eye, (0, 0, 0), (0.01, 1, 0.02), projection, half_height, near)
-    scene = Scene([thing], camera, [light, Light.point(light.vector), Light.directional(places[2])])
+    scene = Scene([thing], camera, [light, Light.point(light.vector), Light.directional(toward=places[2])])
     try:
         call = render_call(scene)
     except InputError:

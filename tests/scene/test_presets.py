@@ -55,7 +55,7 @@ def test_lights_stand_relative_to_the_camera(view: dict[str, object]) -> None:
 
 
 def test_other_settings_change_a_preset() -> None:
-    light = Light.directional((0, 1, 0))
+    light = Light.directional(toward=(0, 1, 0))
     scene = load("icosphere", preset="sunset", crease=180, color="white", lights=light, background="black", shadow=True)
     (thing,) = scene.objects
     assert (thing.material.shading, thing.material.diffuse) == ("smooth", 0.9)

@@ -30,7 +30,7 @@ from shackled import (
 )
 from shackled.errors import InputError
 from shackled.scene import Hemisphere, decode, read_scene, render_call
-from shackled.scene._files.scene_file import write_scene
+from shackled.scene._files.written import write_scene
 from shackled.scene._fit import MAX_COORDINATE, fit_factor
 from shackled.scene._texture import FILTERS, WRAPS
 
@@ -78,7 +78,7 @@ def whole(seed: int) -> Scene:
         if o.fade is None
     ]
     lights = [
-        Light.directional(rng.normal(size=3), rng.integers(0, 256, 3)),
+        Light.directional(toward=rng.normal(size=3), color=rng.integers(0, 256, 3)),
         Light.point(rng.normal(size=3) * 3 * unit, rng.integers(0, 256, 3)),
         Light.spot(rng.normal(size=3) * 3 * unit, rng.normal(size=3) * unit, "tomato", *sorted(rng.uniform(0, 180, 2))),
     ]

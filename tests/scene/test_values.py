@@ -212,7 +212,7 @@ def test_whole_numbers_in_floats_are_faces() -> None:
 
 def test_a_dark_mesh_of_a_scene_file_stays_dark(tmp_path: Any) -> None:
     """Its colours are whole numbers, none above 1."""
-    from shackled.scene._files.scene_file import write_scene
+    from shackled.scene._files.written import write_scene
 
     dark = scene(objects=[Object(Mesh(CORNERS, FACES, [(1, 0, 1), (0, 0, 0), (1, 1, 1)]))])
     write_scene(dark, tmp_path / "dark.json")
@@ -379,11 +379,7 @@ def test_scenes_are_saved(tmp_path: Any) -> None:
         ),
         (lambda: Object(MESH, rotation=(1, 2, "x")), "the rotation of an object must be 3 numbers, not (1, 2, 'x')"),
         (
-            lambda: render(np.eye(3), np.eye(3)),  # type: ignore[arg-type]
-            "`size` must be one number or (width, height); vertices and faces are one argument",
-        ),
-        (
-            lambda: render(CORNERS, FACES),  # type: ignore[arg-type]
+            lambda: render(MESH, FACES),  # type: ignore[arg-type]
             "`size` must be one number or (width, height); vertices and faces are one argument",
         ),
         (lambda: render("cube", rotate=np.zeros((9, 9))), "`rotate` must be x, y, z in degrees, a quaternion x, y, "),

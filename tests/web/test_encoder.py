@@ -460,7 +460,7 @@ def test_what_casts_shadows(tmp_path: Path) -> None:
             half = rng.integers(2, 11) if rng.random() < 0.4 else 12
             parts = [triangles[:half], triangles[half:]][: rng.integers(1, 3)]
             objects += [Object(Mesh(corners * thin, part[:, inside_out]), **place) for part in parts if len(part)]
-        scene = Scene(objects, lights=[evolve(Light.directional((1, 2, 3)), shadow=True)], width=32, height=32)
+        scene = Scene(objects, lights=[evolve(Light.directional(toward=(1, 2, 3)), shadow=True)], width=32, height=32)
         calls.add(f"casters {number}", encode_scene_file(scene).decode(), scene)
     rules = {int.from_bytes(call[-32:], "big") for call in calls.expected}
     assert len(rules) == 2

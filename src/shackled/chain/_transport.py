@@ -14,7 +14,7 @@ from urllib.parse import urlsplit
 import requests
 import urllib3
 
-from .. import __version__
+from .._version import __version__
 from ..errors import NodeError, NodeTimeoutError, NodeUnreachableError
 from ..untrusted import read_json
 from ._failures import http_failure, too_large

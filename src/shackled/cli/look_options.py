@@ -193,11 +193,7 @@ def load_frames_with(input: str, frames: int, look: dict[str, Any]) -> tuple[lis
 
 def option_of(setting: Setting) -> str:
     """Return the option of a setting, such as "--max-triangles" or "--cull/--no-cull"."""
-    return setting.option or f"--{setting.name.replace('_', '-')}"
-
-
-#: The options of settings, which messages of the library name, by the names of these.
-LOOK = {setting.name: option_of(setting).partition("/")[0] for setting in SETTINGS}
+    return setting.option
 
 
 def _parameter(setting: Setting) -> Parameter:

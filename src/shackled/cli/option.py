@@ -113,8 +113,8 @@ def argument(text: str, metavar: str, **more: Any) -> Any:
 def with_options(message: str) -> str:
     """Return a message of the library in one line, with options in place of the parameters that it names."""
     if "`" in message:
-        from .look_options import LOOK
+        from ..scene import SETTINGS
 
-        names = LOOK | OPTIONS
+        names = {setting.name: setting.option.partition("/")[0] for setting in SETTINGS} | OPTIONS
         message = re.sub(r"`(\w+)`", lambda match: names.get(match[1], match[0]), message)
     return " ".join(message.split())

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
-from ..chain import Chain, ContractChain
+from .._load import Thing, load_picture
+from ..chain import Chain, ContractChain, open_chain
 from ..errors import InputError
-from ..scene import Scene
 from ..scene import render_call as render_call
 from ._runs import engine_calls
 
@@ -49,11 +49,13 @@ def counting(chain: Chain) -> ContractChain:
     return chain
 
 
-def measure(scene: Scene, chain: ContractChain) -> ExactGas:
-    """Measure the gas of a render, and of its calls of the engines."""
+def measure(thing: Thing, chain: ContractChain | None = None) -> ExactGas:
+    """Measure the gas of a render, and of its calls of the engines. thing: as in `load`. chain: None for revm."""
+    scene, where = load_picture(thing), chain or open_chain()
+    assert isinstance(where, ContractChain)
     data = render_call(scene)
-    result = chain.call("Renderer", data)
-    gas = [call.result.gas for call in engine_calls(scene, chain)]
+    result = where.call("Renderer", data)
+    gas = [call.result.gas for call in engine_calls(scene, where)]
     return ExactGas(result.gas, result.intrinsic_gas, sum(gas), max(gas), floor_gas(data))
 
 

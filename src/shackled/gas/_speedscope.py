@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .. import __version__
+from .._version import __version__
 from ._profile import LineCost, Profile
 
 SCHEMA = "https://www.speedscope.app/file-format-schema.json"

@@ -12,24 +12,25 @@ from ._files.mesh_file import GLTF, READERS, read_mesh, read_model
 from ._files.model import MeshPart
 from ._files.obj import write_obj
 from ._files.picture import CHUNK, PICTURE, SceneChunk, scene_chunk
-from ._files.scene_file import SCENES, encode_scene_file, read_scene
+from ._files.scene_file import SCENES, read_scene
 from ._files.table import about
-from ._files.weld import weld
+from ._files.written import encode_scene_file
 from ._fit import fit
-from ._from_trimesh import is_trimesh, objects_of, part_of
+from ._from_trimesh import objects_of, part_of
 from ._ground import Ground
 from ._light import INNER_ANGLE, LIGHT_KINDS, WHITE, Light
-from ._look import ALL, SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, settings_of, size_of, stage
+from ._look import look_at, resize, stage
 from ._material import Material
-from ._mesh import Mesh, components, faces_of_all, vertex_normals, without_slivers
+from ._mesh import Mesh, components, faces_of_all, is_trimesh, vertex_normals, weld, without_slivers
 from ._object import Object
 from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack
 from ._presets import PRESETS
 from ._records import ANTIALIAS, LONG_KINDS, RECORD_HEADER
 from ._rotation import euler, from_euler, rotate
-from ._scene import MAX_SIDE, Scene
+from ._scene import Scene
+from ._settings import ALL, SETTINGS, Kind, LookOptions, Setting, checked_look, settings_of, size_of
 from ._simplify import FORCEFUL, GENTLE, simplify, simplify_scene
-from ._staging import MESH_STAGING, contrasting, is_closed, painted, view_axes
+from ._staging import MAX_SIDE, MESH_STAGING, contrasting, is_closed, painted, view_axes
 from ._texture import Texture
 from ._turning import frame_count, full_turn
 from ._upright import Axis, axis_of_file, axis_of_format, base_axis, upright

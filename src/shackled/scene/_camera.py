@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from ..checks import Floats, choice, number, vector
 from ..errors import InputError
 from ..values import Value, array_key, checked, with_names
+from ..words import Given, with_words, words_of
 from ._arithmetic import tangent
 
 Projection = Literal["perspective", "orthographic"]
@@ -32,13 +33,26 @@ def _near(value: float | None) -> float | None:
     return None if value is None else number(value, "the camera's near distance")
 
 
+def _with_fov(given: Given) -> Given:
+    """Return the fields of a camera, whose half height may be given by its field of view."""
+    if "fov" in given:
+        if "half_height" in given:
+            raise InputError("`fov` and `half_height` exclude each other: give one of them")
+        if given.get("projection", "perspective") != "perspective":
+            raise InputError("an orthographic camera has no field of view: give `half_height` instead of `fov`")
+        given["half_height"] = half_height_of(given.pop("fov"))
+    return given
+
+
+@words_of("fov", read=_with_fov)
 @frozen(field_transformer=with_names)
 class Camera(Value):
     """A camera anywhere in a right-handed world with +y up.
 
     eye, target, up: (3,) float. The eye looks at the target; `up` is what appears upward in the picture.
     half_height: half the height of what the picture shows: at distance 1 for a perspective camera (the tangent of half
-        the vertical field of view, 2^-10..2^10), in world units for an orthographic one.
+        the vertical field of view, 2^-10..2^10), in world units for an orthographic one. Also given as `fov`, in
+        degrees, of a perspective camera.
     near: distance of the near plane, before which geometry is clipped. Positive for a perspective camera. None for
         1/1,024 of the farthest distance of an object; an orthographic camera then clips nothing.
     """
@@ -61,6 +75,7 @@ class Camera(Value):
             raise InputError(f"the camera's near distance must be above 0 for a perspective camera, not {self.near!r}")
 
     @classmethod
+    @with_words
     def perspective(
         cls,
         eye: ArrayLike = _EYE,
@@ -72,6 +87,8 @@ class Camera(Value):
     ) -> Camera:
         """Return a perspective camera. fov: its vertical field of view in degrees, 0.2..179.8."""
         return cls(eye, target, up, "perspective", half_height_of(fov), near)
+
+    look_at = perspective
 
     @classmethod
     def orthographic(

@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 
 from ..errors import warn
 from ._arithmetic import dot, length, unit
-from ._files.weld import weld
-from ._mesh import Mesh
+from ._mesh import Mesh, weld
 from ._object import Object
 from ._scene import Scene
 from ._simplify import NEEDED, collapsed, is_possible, proper

@@ -32,7 +32,7 @@ from ._effects import EXPOSURES, Fog, Hemisphere, Rim, Tone
 from ._files.table import about
 from ._fit import MAX_COORDINATE, MAX_SCALE
 from ._ground import Ground
-from ._light import Light
+from ._light import MAX_LIGHTS, Light
 from ._material import COEFFICIENTS, EXPONENTS, Material
 from ._mesh import Mesh
 from ._object import Object
@@ -59,7 +59,8 @@ from ._records import (
     TONE_FILMIC,
     TONE_GAMMA,
 )
-from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
+from ._scene import Scene
+from ._staging import MAX_SIDE
 
 #: Words of a struct Scene before its arrays, of a light, and of an object before its mesh.
 SCENE_WORDS, LIGHT_WORDS, OBJECT_WORDS = 21, 5, 15

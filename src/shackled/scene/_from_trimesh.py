@@ -11,39 +11,10 @@ from numpy.typing import NDArray
 from ..errors import InputError, warn
 from ._files.colors import to_srgb
 from ._files.model import MeshPart, Picture, finite_uvs, is_transparent
-from ._files.weld import weld
 from ._material import Material
-from ._mesh import Mesh
+from ._mesh import is_trimesh, mesh_of, weld
 from ._object import Object
 from ._texture import as_rgb, as_rgba, cutoff_of
-
-
-def is_trimesh(value: object) -> bool:
-    """Return whether a value is an object of trimesh."""
-    # its arrays are its own, too
-    return type(value).__module__.partition(".")[0] == "trimesh" and not isinstance(value, np.ndarray)
-
-
-def mesh_of(value: Any) -> Mesh:
-    """Return the mesh of a trimesh.Trimesh, with the colours of its vertices, faces or texture.
-
-    InputError if it is not a mesh, or empty.
-    """
-    if not is_trimesh(value) or not hasattr(value, "faces") or not hasattr(value, "vertices"):
-        raise InputError(f"a trimesh.Trimesh is needed, not {value!r:.60}")
-    visual: Any = getattr(value, "visual", None)
-    kind = getattr(visual, "kind", None)
-    channels = 4
-    if kind == "texture":
-        # of a texture, or of a material, whose alpha may have no meaning
-        visual, channels = visual.to_color(), 3
-        kind = visual.kind
-    if kind == "face":
-        colors = np.asarray(visual.face_colors, dtype=np.uint8)[..., :channels]
-        return weld(value.vertices, value.faces, np.repeat(colors[:, None], 3, axis=1))
-    if kind != "vertex":
-        return Mesh(value.vertices, value.faces)
-    return Mesh(value.vertices, value.faces, np.asarray(visual.vertex_colors, dtype=np.uint8)[..., :channels])
 
 
 def part_of(value: Any) -> MeshPart:

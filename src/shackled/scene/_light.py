@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Literal, cast
+from collections.abc import Iterable, Mapping
+from typing import Any, Literal, TypeVar, cast
 
 from attrs import field, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import Color, Floats, choice, color, flag, number, optional_vector, vector
+from ..checks import Color, Floats, choice, color, flag, instance, number, optional_vector, vector
 from ..errors import InputError
 from ..values import Value, array_key, checked, with_names
+from ..words import Given, with_words, words_of
 
 LightKind = Literal["directional", "point", "spot"]
 LIGHT_KINDS: tuple[LightKind, ...] = ("directional", "point", "spot")
@@ -18,18 +20,42 @@ LIGHT_KINDS: tuple[LightKind, ...] = ("directional", "point", "spot")
 INNER_ANGLE = 0.0
 OUTER_ANGLE = 45.0
 WHITE = (255, 255, 255)
+#: The most lights of a scene.
+MAX_LIGHTS = 4
+
+Part = TypeVar("Part")
 
 
 def _kind(value: str) -> LightKind:
     return cast(LightKind, choice(value, "the kind of a light", LIGHT_KINDS))
 
 
+_TOWARD = "toward=, the way from the scene to the light, or direction=, the way in which its light travels"
+
+
+def _of_words(given: Given) -> Given:
+    """Return the fields of a light, whose vector may be given by what it is."""
+    is_directional = given.get("kind") == "directional"
+    if is_directional and "position" in given:
+        raise InputError(f"a directional light has no position: give {_TOWARD}")
+    if is_directional and given.get("direction") is not None:
+        given["toward"] = _opposite(given.pop("direction"))
+    name = "toward" if is_directional else "position"
+    return {"vector" if key == name else key: value for key, value in given.items()}
+
+
+def _opposite(direction: ArrayLike) -> Floats:
+    return 0 - vector(direction, "the direction of a light")
+
+
+@words_of("toward", "position", read=_of_words)
 @frozen(field_transformer=with_names)
 class Light(Value):
     """One light; a scene has up to four. `Light.directional`, `Light.point` and `Light.spot` make one of each kind.
 
     kind: "directional", "point", or "spot", a point light that shines into a cone only.
-    vector: (3,) float; the direction toward a directional light (any length but zero), the position of any other.
+    vector: (3,) float; the way from the scene to a directional light (any length but zero), the position of any other.
+        Also given by the names of `Light.directional`, or as `position`.
     color: red, green, blue, 0..255; also given as floats 0..1, "#rrggbb" or a name.
     direction: (3,) float; where a spot light points, any length but zero; others have none.
     inner_angle, outer_angle: of a spot light, in degrees from its direction, 0..180: its light is full up to the inner
@@ -71,16 +97,33 @@ class Light(Value):
             )
 
     @classmethod
-    def directional(cls, toward: ArrayLike, color: ArrayLike | str = WHITE, *, shadow: bool = False) -> Light:
-        """Return a light at infinity. toward: (3,) the direction from the scene to the light."""
-        return cls("directional", toward, color, shadow=shadow)
+    @with_words
+    def directional(
+        cls,
+        *unnamed: object,
+        toward: ArrayLike | None = None,
+        direction: ArrayLike | None = None,
+        color: ArrayLike | str = WHITE,
+        shadow: bool = False,
+    ) -> Light:
+        """Return a light at infinity.
+
+        toward: (3,) the way from the scene to the light. direction: (3,) the way in which its light travels, the
+        opposite. One of them is needed, by its name.
+        """
+        if unnamed or (toward is None) == (direction is None):
+            raise InputError(f"a directional light needs one of {_TOWARD}, by its name")
+        given: Any = {"toward": toward} if direction is None else {"direction": direction}
+        return cls("directional", color=color, shadow=shadow, **given)
 
     @classmethod
+    @with_words
     def point(cls, position: ArrayLike, color: ArrayLike | str = WHITE, *, shadow: bool = False) -> Light:
         """Return a light that shines in all directions from a position, (3,) in the world; it does not fade."""
         return cls("point", position, color, shadow=shadow)
 
     @classmethod
+    @with_words
     def spot(
         cls,
         position: ArrayLike,
@@ -93,3 +136,25 @@ class Light(Value):
     ) -> Light:
         """Return a light that shines from a position into a cone about a direction, (3,) each, angles in degrees."""
         return cls("spot", position, color, direction, inner_angle, outer_angle, shadow)
+
+
+def lights_of(value: Light | Iterable[Light] | None) -> tuple[Light, ...]:
+    """Return lights, given as one or as a list of up to four; None is replaced by the Scene."""
+    if value is None:
+        return value  # type: ignore[return-value]
+    lights = parts_of([value] if isinstance(value, Light) else value, "lights", "a Light")
+    for index, part in enumerate(lights):
+        instance(part, f"lights[{index}] of a scene", Light)
+    if len(lights) > MAX_LIGHTS:
+        raise InputError(f"a scene has up to {MAX_LIGHTS} lights, not {len(lights)}")
+    return tuple(lights)
+
+
+def parts_of(parts: Iterable[Part], name: str, kind: str) -> list[Part]:
+    """Return the parts of a scene, of what should be a list of some kind. InputError if it is none."""
+    try:
+        if not isinstance(parts, str | Mapping):
+            return list(parts)
+    except TypeError:
+        pass
+    raise InputError(f"the {name} of a scene must be {kind} or a list of these, not {parts!r:.60}")

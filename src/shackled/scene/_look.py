@@ -1,34 +1,28 @@
-"""The look of a picture: one table of what can be set, for Python, the command line and scene files."""
+"""Scenes with a look: what settings make of a mesh, the parts of a model, or a scene."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from difflib import get_close_matches
-from typing import Any, Final, Literal, TypedDict, Unpack, cast
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Unpack
 
 import numpy as np
-from attrs import evolve, frozen
-from numpy.typing import ArrayLike
+from attrs import evolve
 
-from ..checks import Color, Floats, choice, color, flag, integer, number, vector, whole
+from ..checks import Color, Floats
 from ..errors import InputError
 from ._arithmetic import dot, length
-from ._background import Background, background_of
-from ._camera import DEFAULT_HALF_HEIGHT, FIELDS_OF_VIEW, Camera, Projection, half_height_of
-from ._crease import CREASES, is_flat, shaded, without_normals
-from ._effects import EXPOSURES, NONE, Fog, Hemisphere, Rim, Tone, fog_or_color, hemisphere_of, rim_of
-from ._ground import Ground, ground_of
-from ._light import Light
-from ._material import COEFFICIENTS, EXPONENTS, SHADINGS, Material, Shading
+from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
+from ._crease import is_flat, shaded, without_normals
+from ._effects import Fog, Tone
+from ._material import Material
 from ._mesh import Mesh
-from ._object import OPACITIES, Object
-from ._presets import PRESETS, preset_of
-from ._rotation import IDENTITY, multiply, rotate, rotation_of
-from ._scene import MAX_SIDE, Scene, lights_of
+from ._object import Object
+from ._presets import preset_of
+from ._rotation import IDENTITY, multiply, rotate
+from ._scene import Scene
+from ._settings import ALL, LookOptions, Setting, checked_look, settings_of, size_of
 from ._staging import (
-    ELEVATIONS,
-    MARGINS,
     MESH_STAGING,
     PLAIN,
     Staging,
@@ -37,490 +31,17 @@ from ._staging import (
     frame,
     is_closed,
     painted_object,
-    placed,
-    to_be_seen,
+    toward_viewer,
 )
 from ._turning import middle, turn
-from ._upright import AXES, Axis, turned_up, upright
+from ._upright import turned_up
 from ._winding import wound
-
-#: What a setting is a field of; "camera" also has settings from which a camera is made, "file" those that say what is
-#: read of a glTF file.
-Part = Literal["scene", "camera", "object", "material", "tone", "file"]
-Kind = Literal[
-    "size",
-    "whole",
-    "count",
-    "number",
-    "vector",
-    "rotation",
-    "flag",
-    "color",
-    "background",
-    "choice",
-    "lights",
-    "hemisphere",
-    "rim",
-    "fog",
-    "ground",
-    "entry",
-]
-
-
-@frozen
-class Setting:
-    """A setting of the look of a picture.
-
-    name: the keyword; the option is --name with dashes, unless `option` is another. low, high: the range of a number.
-    unit: of a number. default: in words, where nothing else in the table says it. part: what it is a field of, in
-    Python and in scene files; None for what only `load` and the command line take.
-    """
-
-    name: str
-    kind: Kind
-    part: Part | None
-    group: str
-    text: str
-    low: float = -np.inf
-    high: float = np.inf
-    unit: str = ""
-    default: str = ""
-    choices: tuple[str, ...] = ()
-    option: str = ""
-
-    def check(self, value: object, name: str) -> Any:
-        """Return the value, converted by the kind of the setting. InputError, with the name, if it cannot be one."""
-        return _CHECKS[self.kind](value, self, name)
-
-    @property
-    def help(self) -> str:
-        """The sentence, with what values may be, and the default."""
-        limits = self.range or ", ".join(self.choices) or self.unit
-        more = "; ".join(filter(None, [limits, f"default: {self.default}" if self.default else ""]))
-        return f"{self.text[:-1]} ({more})." if more else self.text
-
-    @property
-    def values(self) -> str:
-        """What values may be, such as "0.2 to 179.8 degrees" or "a colour"."""
-        words = _WORDS[self.kind]
-        return self.range or ", ".join(self.choices) or (f"{words}, {self.unit}" if self.unit else words)
-
-    @property
-    def range(self) -> str:
-        """Such as "0.2 to 179.8 degrees"; "" where a number may be any, and for what is none."""
-        if not np.isfinite(self.high):
-            return ""
-        return f"{self.low:g} to {self.high:g}{f' {self.unit}' if self.unit else ''}"
-
-
-#: What values of a kind are.
-_WORDS: dict[Kind, str] = {
-    "size": "pixels",
-    "whole": "a whole number",
-    "count": "a whole number, or all",
-    "number": "a number",
-    "vector": "x, y, z",
-    "rotation": "x, y, z",
-    "flag": "true or false",
-    "color": "a colour",
-    "background": "one colour or two",
-    "choice": "a word",
-    "lights": "lights",
-    "hemisphere": "one colour or two, or none",
-    "rim": "a colour, with an exponent from 1 to 16 or without, or none",
-    "fog": "a colour, with two distances or without, or none",
-    "ground": "a colour, or none",
-    "entry": "a name, or a number from 0",
-}
 
 #: Models of more vertices have one side by default: the second records of vertices would take much memory, whose gas is
 #: quadratic.
 MOST_TWO_SIDED = 16384
-
-#: The value of `max_triangles` that leaves meshes as they are.
-ALL: Final = "all"
-
-#: The material of mesh files.
-_SURFACE = MESH_STAGING.material
-
-#: All settings, in the order in which they are shown.
-SETTINGS = (
-    Setting(
-        "size",
-        "size",
-        None,
-        "Canvas",
-        "Width and height of the picture.",
-        1,
-        MAX_SIDE,
-        "pixels",
-        f"the scene's, or {MESH_STAGING.side} for mesh files and pieces of datasets",
-    ),
-    Setting(
-        "max_triangles",
-        "count",
-        None,
-        "Canvas",
-        "Number of triangles to which larger meshes are simplified, or all.",
-        1,
-        default="as many as the canvas shows for mesh files, else all",
-    ),
-    Setting(
-        "background",
-        "background",
-        "scene",
-        "Canvas",
-        "Colour of the background, or those of its top and bottom.",
-        default="light for mesh files, or dark where they are light",
-    ),
-    Setting("invert", "flag", "scene", "Canvas", "Replace each value v by 255 - v.", option="--invert/--no-invert"),
-    Setting(
-        "antialias",
-        "flag",
-        "scene",
-        "Canvas",
-        "Smooth the edges with four samples per pixel.",
-        option="--antialias/--no-antialias",
-    ),
-    Setting(
-        "rotate",
-        "rotation",
-        None,
-        "Camera",
-        "Rotate the scene about x, then y, then z, through its middle.",
-        unit="degrees",
-    ),
-    Setting(
-        "up_axis",
-        "choice",
-        None,
-        "Camera",
-        "Axis of the file that points up in the scene, before `rotate`.",
-        default="z for STL files, else y",
-        choices=AXES,
-    ),
-    Setting("eye", "vector", "camera", "Camera", "Position of the camera."),
-    Setting("target", "vector", "camera", "Camera", "Point at which the camera looks."),
-    Setting("up", "vector", "camera", "Camera", "Direction that points up in the picture."),
-    Setting(
-        "azimuth",
-        "number",
-        "camera",
-        "Camera",
-        "Angle at which the camera stands to the right of the front.",
-        unit="degrees",
-        default=f"{MESH_STAGING.view.azimuth:g} for mesh files",
-    ),
-    Setting(
-        "elevation",
-        "number",
-        "camera",
-        "Camera",
-        "Angle at which the camera stands above the horizon.",
-        *ELEVATIONS,
-        "degrees",
-        f"{MESH_STAGING.view.elevation:g} for mesh files, up to {MESH_STAGING.flat_elevation:g} for flat ones",
-    ),
-    Setting(
-        "margin",
-        "number",
-        "camera",
-        "Camera",
-        "Free border, as a fraction of half the picture.",
-        *MARGINS,
-        default=f"{MESH_STAGING.view.margin:g} for mesh files",
-    ),
-    Setting(
-        "fov",
-        "number",
-        "camera",
-        "Camera",
-        "Vertical field of view of a perspective camera.",
-        *FIELDS_OF_VIEW,
-        "degrees",
-        "30 for mesh files, else about 50",
-    ),
-    Setting(
-        "half_height", "number", "camera", "Camera", "Half the height of the view, in perspective at distance 1.", 0
-    ),
-    Setting("near", "number", "camera", "Camera", "Distance of the near plane; nearer geometry is clipped."),
-    Setting(
-        "orthographic",
-        "flag",
-        None,
-        "Camera",
-        "Use the orthographic projection, or the perspective one.",
-        option="--orthographic/--perspective",
-    ),
-    Setting(
-        "preset",
-        "choice",
-        None,
-        "Light",
-        "Material, colour, lights and background by the name of a look; other settings change it.",
-        choices=tuple(each.name for each in PRESETS),
-    ),
-    Setting(
-        "lights", "lights", "scene", "Light", "Up to four lights, which replace those of the scene.", option="--light"
-    ),
-    Setting(
-        "ambient_light",
-        "color",
-        "scene",
-        "Light",
-        "Colour of the ambient light.",
-        default="bluish white for mesh files, else white",
-    ),
-    Setting(
-        "hemisphere",
-        "hemisphere",
-        "scene",
-        "Light",
-        "Light from the sky above and from the ground below, added to the ambient light.",
-    ),
-    Setting("rim", "rim", "scene", "Light", "Light along the outlines of objects; its exponent sets its width."),
-    Setting(
-        "fog",
-        "fog",
-        "scene",
-        "Light",
-        "Fog that begins at one distance from the eye and hides everything at another.",
-        default="distances of the nearest and the farthest point",
-    ),
-    Setting(
-        "shadow",
-        "flag",
-        None,
-        "Light",
-        "Let objects cast shadows from the first light.",
-        option="--shadow/--no-shadow",
-    ),
-    Setting("ground", "ground", "scene", "Light", "Ground under the objects, which receives shadows."),
-    Setting("exposure", "number", "tone", "Light", "Multiplier of all light.", *EXPOSURES, default="1"),
-    Setting(
-        "filmic",
-        "flag",
-        "tone",
-        "Light",
-        "Compress bright light as film does, instead of clipping it.",
-        option="--filmic/--no-filmic",
-    ),
-    Setting(
-        "gamma",
-        "flag",
-        "tone",
-        "Light",
-        "Add light in linear space instead of as sRGB values.",
-        option="--gamma/--no-gamma",
-    ),
-    Setting(
-        "shading",
-        "choice",
-        "material",
-        "Light",
-        "Kind of shading.",
-        default="by `crease` for mesh files",
-        choices=SHADINGS,
-    ),
-    Setting(
-        "crease",
-        "number",
-        None,
-        "Light",
-        "Compute normals for smooth shading, except across edges of more than this angle.",
-        *CREASES,
-        "degrees",
-        "the normals of the mesh, or by the shape where there are none",
-    ),
-    Setting("smooth", "flag", None, "Light", "Same as --shading smooth.", option="--smooth"),
-    Setting("unlit", "flag", None, "Light", "Same as --shading unlit.", option="--unlit"),
-    Setting(
-        "ambient",
-        "number",
-        "material",
-        "Light",
-        "Share of ambient light.",
-        *COEFFICIENTS,
-        default=f"{_SURFACE.ambient:g} for mesh files",
-    ),
-    Setting(
-        "diffuse",
-        "number",
-        "material",
-        "Light",
-        "Share of diffuse light.",
-        *COEFFICIENTS,
-        default=f"{_SURFACE.diffuse:g} for mesh files",
-    ),
-    Setting(
-        "specular",
-        "number",
-        "material",
-        "Light",
-        "Strength of highlights.",
-        *COEFFICIENTS,
-        default=f"{_SURFACE.specular:g} for mesh files",
-    ),
-    Setting(
-        "shininess",
-        "whole",
-        "material",
-        "Light",
-        "Exponent of highlights: the larger, the smaller they are.",
-        *EXPONENTS,
-        default=f"{_SURFACE.shininess:g} for mesh files",
-    ),
-    Setting("emission", "color", "material", "Surface", "Colour of the light that surfaces emit.", default="black"),
-    Setting("color", "color", "object", "Surface", "One colour for all meshes.", default="their own"),
-    Setting(
-        "cull",
-        "flag",
-        "object",
-        "Surface",
-        "Cull back faces.",
-        default="true for closed parts of mesh files",
-        option="--cull/--no-cull",
-    ),
-    Setting(
-        "two_sided",
-        "flag",
-        "object",
-        "Surface",
-        "Light what is seen from behind as from the front.",
-        default="true for what is not culled of mesh files, up to 16,384 vertices or if the file says so",
-        option="--two-sided/--one-sided",
-    ),
-    Setting("wireframe", "flag", "object", "Surface", "Draw edges only.", option="--wireframe/--filled"),
-    Setting("opacity", "number", "object", "Surface", "Opacity of the objects.", *OPACITIES),
-    Setting(
-        "animation",
-        "entry",
-        "file",
-        "glTF files",
-        "Animation that poses the model.",
-        default="the first if `time` is given, else the pose at rest",
-    ),
-    Setting("time", "number", "file", "glTF files", "Time in the animation.", 0, unit="seconds", default="0"),
-    Setting("use_camera", "entry", "file", "glTF files", "Camera of the file that is taken, with the lights there."),
-)
-
-
-def settings_of(part: Part) -> list[Setting]:
-    """Return the settings that are fields of a part of a scene."""
-    return [setting for setting in SETTINGS if setting.part == part]
-
-
-#: A colour as it is given.
-AnyColor = ArrayLike | str
-
-
-class LookOptions(TypedDict, total=False):
-    """The keywords of a look, but for `size`; what they mean says the table `SETTINGS`. None leaves what there is."""
-
-    max_triangles: int | Literal["all"] | None
-    background: Background | AnyColor | tuple[AnyColor, AnyColor] | None
-    invert: bool | None
-    antialias: bool | None
-    rotate: ArrayLike | None
-    up_axis: Axis | None
-    eye: ArrayLike | None
-    target: ArrayLike | None
-    up: ArrayLike | None
-    azimuth: float | None
-    elevation: float | None
-    margin: float | None
-    fov: float | None
-    half_height: float | None
-    near: float | None
-    orthographic: bool | None
-    preset: str | None
-    lights: Light | Sequence[Light] | None
-    ambient_light: AnyColor | None
-    hemisphere: Hemisphere | AnyColor | tuple[AnyColor, AnyColor] | None
-    rim: Rim | AnyColor | tuple[AnyColor, int] | None
-    fog: Fog | AnyColor | tuple[AnyColor, float, float] | None
-    shadow: bool | None
-    ground: Ground | AnyColor | None
-    exposure: float | None
-    filmic: bool | None
-    gamma: bool | None
-    shading: Shading | None
-    crease: float | None
-    smooth: bool | None
-    unlit: bool | None
-    ambient: float | None
-    diffuse: float | None
-    specular: float | None
-    shininess: int | None
-    emission: AnyColor | None
-    color: AnyColor | None
-    cull: bool | None
-    two_sided: bool | None
-    wireframe: bool | None
-    opacity: float | None
-    animation: str | int | None
-    time: float | None
-    use_camera: str | int | None
-
-
-#: How alike a name must be, from 0 to 1, to be what was meant.
-CLOSE = 0.8
-_SIZE = "`size` is the side in pixels, or (width, height)"
-_SURFACE_WORDS = "`color`, `shading`, `specular` and others set it, or render an Object with a Material"
-#: What to give instead of keywords that other programs have.
-_INSTEAD = {
-    **dict.fromkeys(("width", "height", "resolution", "shape"), _SIZE),
-    **dict.fromkeys(("material", "texture"), _SURFACE_WORDS),
-    "aa": "did you mean antialias?",
-    "alpha": "`transparent` of render leaves out the background, `opacity` is that of the objects",
-    "bg": "did you mean background?",
-    "camera": "`eye`, `target`, `up` and `fov` place the camera, `use_camera` takes that of a glTF "
-    "file; or render a Scene with a Camera",
-    "depth": "depths are not returned",
-    "emissive": "did you mean emission?",
-    "fps": "`duration` of a turntable is the time of a frame in milliseconds",
-    **dict.fromkeys(("output", "path", "filename"), "`save` of what is returned writes it to a file"),
-    "projection": "did you mean orthographic?",
-    "rotation": "did you mean rotate?",
-}
-
-
-def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what is set, each converted by its kind; without what is None.
-
-    InputError names the keyword that is wrong, or two that exclude each other, each in `backticks`.
-    """
-    known = {setting.name: setting for setting in SETTINGS}
-    for name in options:
-        if name not in known:
-            close = get_close_matches(name, known, 1, CLOSE)
-            meant = f"did you mean {close[0]}?" if close else _INSTEAD.get(name, f"known are {', '.join(known)}")
-            raise TypeError(f"{name!r} is not a keyword of a look; {meant}")
-    look = {name: known[name].check(value, f"`{name}`") for name, value in options.items() if value is not None}
-    shadings = {name for name in ("smooth", "unlit") if look.pop(name, False)} | {*filter(None, [look.get("shading")])}
-    if len(shadings) > 1:
-        raise InputError(f"the shading cannot be {' and '.join(sorted(shadings))} at once")
-    if shadings:
-        look["shading"] = shadings.pop()
-    if "preset" in look:
-        preset = preset_of(look["preset"]).settings
-        if "crease" in look:
-            del preset["shading"]
-        look = preset | look
-    if "up_axis" in look:
-        look["rotate"] = multiply(look.get("rotate", IDENTITY), upright(look.pop("up_axis")))
-    if "crease" in look and look.get("shading", "smooth") != "smooth":
-        raise InputError(f"`crease` is for smooth shading, and excludes {look['shading']}")
-    exclude(look, "`{}`".format)
-    return look
-
-
-def exclude(given: Collection[str], quote: Callable[[str], str]) -> None:
-    """Raise an InputError for settings that exclude each other; `quote` makes a name what messages call it."""
-    for pair in _EXCLUSIVE:
-        one, other = (next((name for name in names if name in given), None) for names in pair)
-        if one is not None and other is not None:
-            raise InputError(f"{quote(one)} and {quote(other)} exclude each other: give one of them")
+#: Shadows are in the picture up to where the ground has faded by this part.
+_FADED = 0.5
 
 
 def stage(
@@ -578,7 +99,7 @@ def look_at(
         own = staging.view_of(rotate(rotation, points))
         view = view_of(look, width, height, look.get("orthographic", False), own)
         shaded = [_shaded(each, look) if staging.by_normals else (each, look) for each in parts]
-        scene = placed([each for each, _ in shaded], points, rotation, view, staging, width, height)
+        scene = _placed([each for each, _ in shaded], points, rotation, view, staging, width, height)
         looks = [own_look for _, own_look in shaded]
     chosen = _given(look, settings_of("scene"))
     fog = chosen.pop("fog", scene.fog)
@@ -606,6 +127,34 @@ def look_at(
     from ._simplify import simplify_scene
 
     return simplify_scene(scene, look["max_triangles"], crease)
+
+
+def _placed(
+    objects: Sequence[Object], points: Floats, rotation: Floats, view: Viewpoint, staging: Staging, *size: int
+) -> Scene:
+    """Return a scene of the parts of a model, scaled to a bounding sphere of radius 1 about the origin, and filling the
+    picture.
+
+    objects: meshes with their materials, turned upright, and whether they are culled. The meshes keep their
+    coordinates; the places of the objects do the rest. points: (n, 3), those that are scaled and fill the picture.
+    size: width and height.
+    """
+    with np.errstate(over="ignore"):
+        center = (points.min(axis=0) + points.max(axis=0)) / 2
+        radius = float(length(points - center).max())
+    scale = 1 / radius if radius > 0 else 1.0
+    if not np.isfinite(center).all() or not np.isfinite(radius) or not np.isfinite(scale):
+        raise InputError("the coordinates of the mesh are too large or too small to be scaled")
+    turned = rotate(rotation, (points - center) * scale)
+    position = -rotate(rotation, center * scale)
+    return Scene(
+        [evolve(each, position=position, rotation=multiply(rotation, each.rotation), scale=scale) for each in objects],
+        frame(turned, view),
+        [toward_viewer(direction, color, view) for direction, color in staging.lights],
+        width=size[0],
+        height=size[1],
+        **staging.fields,
+    )
 
 
 def _shaded(o: Object, look: Mapping[str, Any]) -> tuple[Object, Mapping[str, Any]]:
@@ -638,25 +187,6 @@ def resize(scene: Scene, size: int | tuple[int, int]) -> Scene:
     """Return the scene on a canvas of another size; the camera keeps its vertical field of view."""
     width, height = size_of(size)
     return evolve(scene, width=width, height=height)
-
-
-def size_of(value: int | tuple[int, int], name: str = "`size`") -> tuple[int, int]:
-    """Return width and height, of one number or two. InputError for anything else."""
-    try:
-        are_rows = np.ndim(value) > 1
-    except ValueError:  # of different lengths
-        are_rows = True
-    if are_rows:
-        raise InputError(f"{name} must be one number or (width, height); vertices and faces are one argument, in ()")
-    try:
-        side = integer(value)
-        width, height = value if side is None else (side, side)  # type: ignore[misc]
-    except (TypeError, ValueError):
-        raise InputError(f"{name} must be one number or (width, height), not {value!r:.60}") from None
-    sides = integer(width), integer(height)
-    if None in sides:
-        raise InputError(f"{name} must be whole numbers, not {value!r:.60}")
-    return cast(tuple[int, int], sides)
 
 
 def _object(o: Object, look: Mapping[str, Any]) -> Object:
@@ -697,13 +227,13 @@ def _camera(scene: Scene, look: Mapping[str, Any], view: Viewpoint | None, is_fr
     projection: Projection = "orthographic" if orthographic else "perspective"
     chosen = half_height_in(look, orthographic)
     if view is not None:
-        camera = camera if is_framed else frame(to_be_seen(scene), view)
+        camera = camera if is_framed else frame(_to_be_seen(scene), view)
     elif scene.objects and {"azimuth", "elevation", "margin"} & look.keys():
         view = view_of(look, scene.width, scene.height, orthographic)
         if not orthographic and chosen is None:
             own = camera.half_height if camera.projection == projection else DEFAULT_HALF_HEIGHT
             view = evolve(view, half_height=own)
-        camera = frame(to_be_seen(scene), view)
+        camera = frame(_to_be_seen(scene), view)
     camera = evolve(camera, **{name: look[name] for name in ("eye", "target", "up") if name in look})
     half_height, near = camera.half_height, camera.near
     if projection != camera.projection:
@@ -721,6 +251,32 @@ def _camera(scene: Scene, look: Mapping[str, Any], view: Viewpoint | None, is_fr
     )
 
 
+def _to_be_seen(scene: Scene) -> Floats:
+    """Return points, (n, 3), that are in the picture if all of the scene is: its objects, and their shadow on a ground.
+    The ground itself goes on, and fades.
+    """
+    points = scene.world_positions()
+    if scene.ground is None:
+        return points
+    ground = scene.ground.under(points)
+    assert ground.fade is not None
+    inner, outer = ground.fade
+    center, seen = ground.position, [points]
+    reach = inner + _FADED * (outer - inner)
+    for light in scene.lights:
+        if not light.shadow:
+            continue
+        # from each point away from the light, down to the ground
+        away = np.broadcast_to(-light.vector, points.shape) if light.kind == "directional" else points - light.vector
+        drop, height = away[:, 1], points[:, 1] - center[1]
+        falls = (drop < 0) & (height > 0)
+        fallen = points[falls] + away[falls] * (height[falls] / -drop[falls])[:, None]
+        far = fallen - center
+        distances = length(far)
+        seen.append(center + far * (np.minimum(distances, reach) / np.maximum(distances, reach / 2**20))[:, None])
+    return np.concatenate(seen)
+
+
 def half_height_in(look: Mapping[str, Any], orthographic: bool) -> float | None:
     """Return the half height of the view that a look asks for; None if it does not."""
     if "fov" not in look:
@@ -730,55 +286,5 @@ def half_height_in(look: Mapping[str, Any], orthographic: bool) -> float | None:
     return half_height_of(look["fov"])
 
 
-#: Settings that cannot be given together: one of the first and one of the second.
-_EXCLUSIVE = ((("fov",), ("half_height",)), (("azimuth", "elevation", "margin"), ("eye", "target")))
-
-
 def _given(look: Mapping[str, Any], settings: Iterable[Setting]) -> dict[str, Any]:
     return {setting.name: look[setting.name] for setting in settings if setting.name in look}
-
-
-def _background(value: Any, setting: Setting, name: str) -> Background:
-    if isinstance(value, str) and value.strip().lower() == "transparent":
-        raise InputError(f"{name} is a colour: give `transparent` for a picture without a background")
-    return background_of(value)
-
-
-def _entry(value: object, setting: Setting, name: str) -> str | int:
-    number = None if isinstance(value, str) else integer(value)
-    if number is None and not isinstance(value, str):
-        raise InputError(f"{name} must be a name, or a number from 0, not {value!r:.60}")
-    return value if isinstance(value, str) else cast(int, number)
-
-
-def _count(value: object, setting: Setting, name: str) -> int | str:
-    if isinstance(value, str):
-        if value == ALL:
-            return ALL
-        raise InputError(f"{name} must be a whole number, at least {setting.low:g}, or {ALL}, not {value!r:.60}")
-    return whole(value, name, setting.low, setting.high)
-
-
-def _unless_none(made: Callable[[Any, str], Any], value: object, name: str) -> Any:
-    """Return an effect of a value, or None for the word that removes it."""
-    return None if isinstance(value, str) and value.strip().lower() == NONE else made(value, name)
-
-
-_CHECKS: dict[Kind, Callable[[Any, Setting, str], Any]] = {
-    "size": lambda value, setting, name: size_of(value, name),
-    "whole": lambda value, setting, name: whole(value, name, setting.low, setting.high),
-    "count": _count,
-    "number": lambda value, setting, name: number(value, name, setting.low, setting.high),
-    "vector": lambda value, setting, name: vector(value, name),
-    "rotation": lambda value, setting, name: rotation_of(value, name),
-    "flag": lambda value, setting, name: flag(value, name),
-    "color": lambda value, setting, name: color(value, name),
-    "background": _background,
-    "choice": lambda value, setting, name: choice(value, name, setting.choices),
-    "lights": lambda value, setting, name: lights_of(value),
-    "hemisphere": lambda value, setting, name: _unless_none(hemisphere_of, value, name),
-    "rim": lambda value, setting, name: _unless_none(rim_of, value, name),
-    "fog": lambda value, setting, name: _unless_none(fog_or_color, value, name),
-    "ground": lambda value, setting, name: _unless_none(ground_of, value, name),
-    "entry": _entry,
-}

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from typing import Literal, cast
 
 from attrs import field, frozen
 
 from ..checks import Color, choice, color, instance, number, whole
 from ..values import checked, with_names
+from ..words import words_of
 from ._texture import Texture
 
 Shading = Literal["unlit", "flat", "smooth"]
@@ -24,18 +26,21 @@ def _shading(value: str) -> Shading:
 
 
 def _texture(value: Texture | None) -> Texture | None:
+    if isinstance(value, str | os.PathLike):
+        return Texture.open(value)
     if value is not None:
         instance(value, "the texture of a material", Texture)
     return value
 
 
+@words_of()
 @frozen(field_transformer=with_names)
 class Material:
     """Coefficients of Blinn-Phong shading, each 0..4; the exponent `shininess` 1..128, a whole number.
 
     shading: "unlit" shows the vertex colours as they are, "flat" takes the normals of the faces, "smooth" those of the
         vertices.
-    texture: multiplied with the colours of the vertices, or None. It needs a mesh with `uvs`.
+    texture: multiplied with the colours of the vertices, or None; also the path of an image. The mesh needs `uvs`.
     emission: the colour of the light that the surface emits, added to what it reflects; black for none. Other objects
         are not lit by it.
     """

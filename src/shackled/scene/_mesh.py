@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..checks import Floats, Number, channels, fixed, rgba
 from ..errors import InputError
 from ..values import Value, array_key, checked, plural, with_names
+from ..words import words_of
 from ._arithmetic import length
 
 #: Limits of the contracts, which count vertices and faces in 16 bits.
@@ -20,6 +21,8 @@ MAX_FACES = 65535
 
 DEFAULT_COLOR = (200, 200, 200)
 
+#: How many corners are taken at once, so that not all of a large mesh are Python objects at the same time.
+_AT_ONCE = 1 << 16
 #: One colour, or one for each vertex.
 Colors = ArrayLike | str | Sequence[str]
 
@@ -51,6 +54,8 @@ def _uvs(values: ArrayLike | None) -> Floats | None:
 
 def _faces(values: ArrayLike) -> NDArray[np.int64]:
     name = "the faces of a mesh"
+    if np.ndim(values) == 2 and np.shape(values)[1] == 4:
+        values = np.reshape(np.asarray(values)[:, [0, 1, 2, 0, 2, 3]], (-1, 3))
     if isinstance(values, np.ndarray) and values.dtype == np.int64:
         return _rows_of_3(fixed(values, np.int64), name)
     rows = _table(values, name)
@@ -123,11 +128,12 @@ def _rows_of_3(rows: NDArray[Number], name: str) -> NDArray[Number]:
     return rows
 
 
+@words_of()
 @frozen(field_transformer=with_names, repr=False)
 class Mesh(Value):
     """A triangle mesh; counter-clockwise faces are seen from the front.
 
-    positions: (n, 3) float. faces: (m, 3) int, vertex numbers.
+    positions: (n, 3) float; also given as `vertices`. faces: (m, 3) int, vertex numbers; also (m, 4), each cut in two.
     colors: (n, 3), red, green and blue of each vertex, 0..255; None for light grey. Also given as floats 0..1, with an
         alpha, which becomes the opacities, as a list of "#rgb", "#rgba", "#rrggbb", "#rrggbbaa" or names, or as one
         of these for the whole mesh.
@@ -194,8 +200,6 @@ class Mesh(Value):
 
         InputError if it is something else, or empty.
         """
-        from ._from_trimesh import mesh_of
-
         return mesh_of(mesh)
 
     @property
@@ -203,6 +207,11 @@ class Mesh(Value):
         """The colours with the opacities as alpha, (n, 4), 0..255."""
         levels = 255.0 if self.opacities is None else np.rint(self.opacities * 255)[:, None]
         return np.hstack([self.colors, np.broadcast_to(levels, (len(self.colors), 1)).astype(np.uint8)])
+
+    @property
+    def vertices(self) -> Floats:
+        """The positions."""
+        return self.positions
 
     @property
     def triangles(self) -> int:
@@ -266,3 +275,69 @@ def vertex_normals(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> 
     lengths = length(normals)[:, None]
     units: NDArray[np.float64] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
     return units
+
+
+def weld(
+    positions: ArrayLike,
+    faces: ArrayLike,
+    colors: ArrayLike | None = None,
+    normals: ArrayLike | None = None,
+    uvs: ArrayLike | None = None,
+) -> Mesh:
+    """Return a mesh with one vertex for each distinct position, colour, normal and texture coordinate that a face uses.
+
+    positions: (n, 3) float. faces: (m, 3) int, numbers of positions. colors: (m, 3, 3), the colour 0..255 of each
+    corner of each face, or (m, 3, 4) with alpha; None for light grey. normals: (m, 3, 3) float likewise, or None. uvs:
+    (m, 3, 2) float likewise. InputError as in `Mesh`.
+    """
+    checked = Mesh(positions, faces)
+    points, corners = checked.positions, checked.faces
+    parts = [
+        points[corners],
+        *(np.asarray(each, dtype=np.float64) for each in (colors, normals, uvs) if each is not None),
+    ]
+    # + 0.0: no -0.0
+    rows = np.ascontiguousarray(np.concatenate(parts, axis=2).reshape(3 * len(corners), -1) + 0.0)
+    keys = rows.view(np.dtype((np.void, rows.itemsize * rows.shape[1]))).ravel()
+    numbers: dict[Any, int] = {}
+    welded = np.empty(len(rows), dtype=np.int64)
+    for start in range(0, len(rows), _AT_ONCE):
+        part = [numbers.setdefault(key, len(numbers)) for key in keys[start : start + _AT_ONCE].tolist()]
+        welded[start : start + _AT_ONCE] = part
+    unique = rows[np.unique(welded, return_index=True)[1]]
+    columns = iter(np.split(unique, np.cumsum([each.shape[2] for each in parts])[:-1], axis=1))
+    return Mesh(
+        next(columns),
+        welded.reshape(-1, 3),
+        None if colors is None else next(columns).astype(np.uint8),
+        None if normals is None else next(columns),
+        None if uvs is None else next(columns),
+    )
+
+
+def is_trimesh(value: object) -> bool:
+    """Return whether a value is an object of trimesh."""
+    # its arrays are its own, too
+    return type(value).__module__.partition(".")[0] == "trimesh" and not isinstance(value, np.ndarray)
+
+
+def mesh_of(value: Any) -> Mesh:
+    """Return the mesh of a trimesh.Trimesh, with the colours of its vertices, faces or texture.
+
+    InputError if it is not a mesh, or empty.
+    """
+    if not is_trimesh(value) or not hasattr(value, "faces") or not hasattr(value, "vertices"):
+        raise InputError(f"a trimesh.Trimesh is needed, not {value!r:.60}")
+    visual: Any = getattr(value, "visual", None)
+    kind = getattr(visual, "kind", None)
+    channels = 4
+    if kind == "texture":
+        # of a texture, or of a material, whose alpha may have no meaning
+        visual, channels = visual.to_color(), 3
+        kind = visual.kind
+    if kind == "face":
+        colors = np.asarray(visual.face_colors, dtype=np.uint8)[..., :channels]
+        return weld(value.vertices, value.faces, np.repeat(colors[:, None], 3, axis=1))
+    if kind != "vertex":
+        return Mesh(value.vertices, value.faces)
+    return Mesh(value.vertices, value.faces, np.asarray(visual.vertex_colors, dtype=np.uint8)[..., :channels])

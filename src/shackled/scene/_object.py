@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 import numpy as np
-from attrs import field, frozen
+from attrs import evolve, field, frozen
 from numpy.typing import ArrayLike
 
 from ..checks import Floats, flag, instance, number, vector
 from ..errors import InputError
 from ..values import Value, array_key, checked, with_names
+from ..words import Given, words_of
 from ._material import Material
-from ._mesh import Mesh
+from ._mesh import Mesh, is_trimesh, mesh_of
 from ._rotation import ORTHOGONAL, matrix_of, quaternion_of, rotate, rotation_of
 
 #: The range of an opacity.
@@ -20,6 +22,10 @@ OPACITIES = (0, 1)
 
 
 def _mesh(value: Mesh) -> Mesh:
+    if is_trimesh(value):
+        return mesh_of(value)
+    if isinstance(value, str | os.PathLike):
+        raise InputError(f"the mesh of an object must be a shackled.Mesh: shackled.load({value!r:.60}) has objects")
     instance(value, "the mesh of an object", Mesh)
     return value
 
@@ -44,10 +50,31 @@ def _fade(value: ArrayLike | None) -> tuple[float, float] | None:
     return distances
 
 
+def _of_words(given: Given) -> Given:
+    """Return the fields of an object, whose mesh may be given a colour, and whose place a matrix."""
+    if "transform" in given:
+        given |= _place(given.pop("transform"))
+    if "color" in given and "mesh" in given:
+        given["mesh"] = evolve(_mesh(given["mesh"]), colors=given.pop("color"))
+    return given
+
+
+def _place(matrix: ArrayLike) -> Given:
+    """Return position, rotation and scale of a (4, 4) matrix."""
+    m = matrix_of(matrix, 4, "the matrix of an object")
+    lengths = np.linalg.norm(m[:3, :3], axis=0)
+    scale = float(lengths.max())
+    if scale == 0 or (lengths < (1 - ORTHOGONAL) * scale).any() or (m[3] != (0, 0, 0, 1)).any():
+        raise InputError("the matrix of an object must scale all axes alike, and have (0, 0, 0, 1) as its last row")
+    return {"position": m[:3, 3], "rotation": quaternion_of(m[:3, :3] / scale), "scale": scale}
+
+
+@words_of("color", "transform", read=_of_words)
 @frozen(field_transformer=with_names)
 class Object(Value):
     """p = position + rotation(scale * v) for every vertex v of the mesh.
 
+    mesh: also a trimesh.Trimesh. `color` gives it one colour; `transform`, a matrix as in `from_matrix`, its place.
     rotation: a quaternion (x, y, z, w) of any length but zero; the identity is (0, 0, 0, 1). Also given as three angles
         in degrees about x, then y, then z, or as a (3, 3) matrix.
     cull: whether faces that turn away from the viewer are left out. wireframe: draw the edges only, one pixel wide.
@@ -85,12 +112,7 @@ class Object(Value):
 
         The other fields as keywords. InputError for a matrix that shears, mirrors, or scales the axes differently.
         """
-        m = matrix_of(matrix, 4, "the matrix of an object")
-        lengths = np.linalg.norm(m[:3, :3], axis=0)
-        scale = float(lengths.max())
-        if scale == 0 or (lengths < (1 - ORTHOGONAL) * scale).any() or (m[3] != (0, 0, 0, 1)).any():
-            raise InputError("the matrix of an object must scale all axes alike, and have (0, 0, 0, 1) as its last row")
-        return cls(mesh, position=m[:3, 3], rotation=quaternion_of(m[:3, :3] / scale), scale=scale, **fields)
+        return cls(mesh, **_place(matrix), **fields)
 
     @property
     def is_opaque(self) -> bool:

@@ -59,7 +59,9 @@ class Preset:
         """Return the lights for a camera that stands at an azimuth. shadow: whether the first one casts shadows."""
         return [
             Light.directional(
-                view_axes(each.azimuth + azimuth, each.elevation)[2], each.color, shadow=shadow and number == 0
+                toward=view_axes(each.azimuth + azimuth, each.elevation)[2],
+                color=each.color,
+                shadow=shadow and number == 0,
             )
             for number, each in enumerate(self.lamps)
         ]

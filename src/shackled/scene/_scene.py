@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
-from typing import TypeVar
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 from attrs import field, frozen
@@ -13,49 +13,25 @@ from numpy.typing import ArrayLike
 from ..checks import Color, Floats, color, flag, instance, integer
 from ..errors import InputError
 from ..values import checked, plural, with_names
+from ..words import Words, words_of
 from ._background import Background, background_of
 from ._camera import Camera
 from ._effects import Fog, Hemisphere, Rim, Tone, fog_of, hemisphere_of, rim_of, tone_of
+from ._files.written import write_scene
 from ._ground import Ground, ground_of
-from ._light import WHITE, Light
-from ._mesh import Mesh
+from ._light import WHITE, Light, lights_of, parts_of
+from ._mesh import Mesh, is_trimesh
 from ._object import Object
-
-MAX_SIDE = 2048
-MAX_LIGHTS = 4
-#: Width and height of a picture, in pixels, where none are given.
-DEFAULT_SIDE = 128
-
-Part = TypeVar("Part")
+from ._staging import DEFAULT_SIDE, MAX_SIDE, staged
 
 
 def _objects(value: Object | Mesh | Iterable[Object | Mesh]) -> tuple[Object, ...]:
-    parts = _list([value] if isinstance(value, Object | Mesh) else value, "objects", "an Object, a Mesh")
-    objects = [Object(part) if isinstance(part, Mesh) else part for part in parts]
+    given: Any = [value] if isinstance(value, Object | Mesh) or is_trimesh(value) else value
+    parts: list[Any] = parts_of(given, "objects", "an Object, a Mesh")
+    objects = [Object(part) if isinstance(part, Mesh) or is_trimesh(part) else part for part in parts]
     for number, part in enumerate(objects):
         instance(part, f"objects[{number}] of a scene", Object)
     return tuple(objects)
-
-
-def lights_of(value: Light | Iterable[Light] | None) -> tuple[Light, ...]:
-    """Return lights, given as one or as a list of up to four; None is replaced by the Scene."""
-    if value is None:
-        return value  # type: ignore[return-value]
-    lights = _list([value] if isinstance(value, Light) else value, "lights", "a Light")
-    for number, part in enumerate(lights):
-        instance(part, f"lights[{number}] of a scene", Light)
-    if len(lights) > MAX_LIGHTS:
-        raise InputError(f"a scene has up to {MAX_LIGHTS} lights, not {len(lights)}")
-    return tuple(lights)
-
-
-def _list(parts: Iterable[Part], name: str, kind: str) -> list[Part]:
-    try:
-        if not isinstance(parts, str | Mapping):
-            return list(parts)
-    except TypeError:
-        pass
-    raise InputError(f"the {name} of a scene must be {kind} or a list of these, not {parts!r:.60}")
 
 
 def _camera(value: Camera | None) -> Camera:
@@ -75,8 +51,9 @@ def _side(value: int, name: str = "side") -> int:
     return side
 
 
+@words_of()
 @frozen(field_transformer=with_names, repr=False)
-class Scene:
+class Scene(Words):
     """Objects, drawn in their order with one depth buffer, seen by a camera.
 
     objects: also a Mesh in place of an Object, or one alone.
@@ -116,8 +93,6 @@ class Scene:
         camera, background = Camera(), Background()
         lights: tuple[Light, ...] = ()
         if self.objects and self.camera is None and self.lights is None and self.background is None:
-            from ._staging import staged
-
             with np.errstate(over="ignore", invalid="ignore"):
                 points = self.world_positions()
             camera, lights, background = staged(points, self.width, self.height)
@@ -147,8 +122,6 @@ class Scene:
 
         InputError where the path is wrong, OutputError where the disk is full or fails.
         """
-        from ._files.scene_file import write_scene
-
         write_scene(self, path)
 
     def __repr__(self) -> str:

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from ..checks import integer
 from ..errors import InputError
 from ._crease import smoothed
-from ._files.weld import weld
-from ._mesh import Mesh, components
+from ._mesh import Mesh, components, weld
 from ._object import Object
 from ._scene import Scene
 

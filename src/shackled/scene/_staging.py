@@ -21,10 +21,11 @@ from ._light import WHITE, Light
 from ._material import Material
 from ._mesh import Mesh, faces_of_all
 from ._object import Object
-from ._rotation import multiply, rotate
-from ._scene import DEFAULT_SIDE, Scene
 
 BACKGROUND = Background((46, 54, 72), (136, 146, 162))
+
+#: The most pixels along a side of a picture, and how many it has where none are given.
+MAX_SIDE, DEFAULT_SIDE = 2048, 128
 
 #: Toward the light, in the directions right, up and toward the viewer. Contracts are fastest with one white light.
 KEY_LIGHT = (-0.4, 0.7, 0.8)
@@ -46,8 +47,6 @@ DARK_BACKGROUND = Background((16, 19, 25), (58, 64, 75))
 _LIGHT, _LIGHT_UNLIT = 215.0, 115.0
 #: Shares of red, green and blue in brightness.
 _LUMA = np.array([0.2126, 0.7152, 0.0722])
-#: Shadows are in the picture up to where the ground has faded by this part.
-_FADED = 0.5
 
 
 @frozen(field_transformer=with_names)
@@ -126,34 +125,6 @@ MESH_STAGING = Staging(
 )
 
 
-def placed(
-    objects: Sequence[Object], points: Floats, rotation: Floats, view: Viewpoint, staging: Staging, *size: int
-) -> Scene:
-    """Return a scene of the parts of a model, scaled to a bounding sphere of radius 1 about the origin, and filling the
-    picture.
-
-    objects: meshes with their materials, turned upright, and whether they are culled. The meshes keep their
-    coordinates; the places of the objects do the rest. points: (n, 3), those that are scaled and fill the picture.
-    size: width and height.
-    """
-    with np.errstate(over="ignore"):
-        center = (points.min(axis=0) + points.max(axis=0)) / 2
-        radius = float(length(points - center).max())
-    scale = 1 / radius if radius > 0 else 1.0
-    if not np.isfinite(center).all() or not np.isfinite(radius) or not np.isfinite(scale):
-        raise InputError("the coordinates of the mesh are too large or too small to be scaled")
-    turned = rotate(rotation, (points - center) * scale)
-    position = -rotate(rotation, center * scale)
-    return Scene(
-        [evolve(each, position=position, rotation=multiply(rotation, each.rotation), scale=scale) for each in objects],
-        frame(turned, view),
-        [_light(direction, color, view) for direction, color in staging.lights],
-        width=size[0],
-        height=size[1],
-        **staging.fields,
-    )
-
-
 def staged(points: NDArray[np.float64], width: int, height: int) -> tuple[Camera, tuple[Light], Background]:
     """Return the camera, the light and the background with which points of the world, (n, 3), fill a picture.
 
@@ -221,38 +192,13 @@ def contrasting(objects: Sequence[Object]) -> Background:
     return DARK_BACKGROUND if 2 * light > total else LIGHT_BACKGROUND
 
 
-def to_be_seen(scene: Scene) -> Floats:
-    """Return points, (n, 3), that are in the picture if all of the scene is: its objects, and their shadow on a ground.
-    The ground itself goes on, and fades.
-    """
-    points = scene.world_positions()
-    if scene.ground is None:
-        return points
-    ground = scene.ground.under(points)
-    assert ground.fade is not None
-    inner, outer = ground.fade
-    center, seen = ground.position, [points]
-    reach = inner + _FADED * (outer - inner)
-    for light in scene.lights:
-        if not light.shadow:
-            continue
-        # from each point away from the light, down to the ground
-        away = np.broadcast_to(-light.vector, points.shape) if light.kind == "directional" else points - light.vector
-        drop, height = away[:, 1], points[:, 1] - center[1]
-        falls = (drop < 0) & (height > 0)
-        fallen = points[falls] + away[falls] * (height[falls] / -drop[falls])[:, None]
-        far = fallen - center
-        distances = length(far)
-        seen.append(center + far * (np.minimum(distances, reach) / np.maximum(distances, reach / 2**20))[:, None])
-    return np.concatenate(seen)
-
-
 def key_light(view: Viewpoint) -> Light:
     """Return a light that stays where it is for the viewer, wherever the viewer stands."""
-    return _light(KEY_LIGHT, WHITE, view)
+    return toward_viewer(KEY_LIGHT, WHITE, view)
 
 
-def _light(direction: tuple[float, float, float], color: Color, view: Viewpoint) -> Light:
+def toward_viewer(direction: tuple[float, float, float], color: Color, view: Viewpoint) -> Light:
+    """Return a light at infinity. direction: to it, in the directions right, up and toward the viewer."""
     axes = np.stack(view_axes(view.azimuth, view.elevation), axis=1)
     return Light("directional", dot(np.array(direction), axes), color)
 

@@ -32,6 +32,8 @@ MAX_PIXELS = 1 << 26
 
 
 def _pixels(values: ArrayLike) -> NDArray[np.uint8]:
+    if isinstance(values, str | os.PathLike):
+        values = np.asarray(reduced(open_image(Path(values), str(values), as_rgb)))
     try:
         levels = np.asarray(values)
         whole = levels.dtype.kind in "iu" or (levels.dtype.kind == "f" and bool((levels % 1 == 0).all()))

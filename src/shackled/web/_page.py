@@ -72,7 +72,8 @@ def check_page(path: str | os.PathLike[str]) -> Path:
     """Return the path, if a page can be written there. InputError if not."""
     path = Path(path)
     if path.suffix.lower() not in EXTENSIONS:
-        raise InputError(f"the page {path} must end in {EXTENSIONS[0]}")
+        hint = "; the command `shackled export` writes models" if path.suffix.lower() == ".glb" else ""
+        raise InputError(f"the page {path} must end in {EXTENSIONS[0]}{hint}")
     return check_output_file(path, "page")
 
 

@@ -9,7 +9,7 @@ from shackled import Background, Camera, Fog, Light, Material, Mesh, Object, Rim
 from shackled.errors import InputError
 from shackled.scene import Hemisphere, rotate
 from shackled.scene._camera import DEFAULT_HALF_HEIGHT
-from shackled.scene._files.scene_file import write_scene
+from shackled.scene._files.written import write_scene
 from shackled.scene._staging import BACKGROUND
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"

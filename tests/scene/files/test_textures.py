@@ -403,7 +403,7 @@ def test_what_a_texture_needs() -> None:
     with pytest.raises(InputError, match="finite texture coordinates"):
         Mesh(SQUARE, FACES.reshape(-1, 3), uvs=UVS * np.nan)
     with pytest.raises(InputError, match=r"must be a shackled\.Texture"):
-        Material(texture="wood.png")  # type: ignore[arg-type]
+        Material(texture=5)  # type: ignore[arg-type]
     out = evolve(textured(), mesh=evolve(textured().mesh, uvs=UVS * 128))
     with pytest.raises(InputError, match=r"must be from -128 to below 128, not \(0, 128\)"):
         render_call(Scene([out]))

@@ -1,6 +1,6 @@
 // Written by tools/page_settings.py from the tables of the Python package.
 
-/** What can be set: src/shackled/scene/_look.py. `low` and `high` are null where there is none. */
+/** What can be set: src/shackled/scene/_settings.py. `low` and `high` are null where there is none. */
 export type Setting = Readonly<
     Record<"name" | "kind" | "group" | "text" | "unit" | "default", string> &
         Record<"low" | "high", number | null> & { part: string | null; choices: readonly string[] }
@@ -27,7 +27,7 @@ export const SETTINGS: readonly Setting[] = [
     {"name": "size", "kind": "size", "part": null, "group": "Canvas", "text": "Width and height of the picture.", "unit": "pixels", "choices": [], "default": "the scene's, or 256 for mesh files and pieces of datasets", "low": 1, "high": 2048},
     {"name": "max_triangles", "kind": "count", "part": null, "group": "Canvas", "text": "Number of triangles to which larger meshes are simplified, or all.", "unit": "", "choices": [], "default": "as many as the canvas shows for mesh files, else all", "low": 1, "high": null},
     {"name": "background", "kind": "background", "part": "scene", "group": "Canvas", "text": "Colour of the background, or those of its top and bottom.", "unit": "", "choices": [], "default": "light for mesh files, or dark where they are light", "low": null, "high": null},
-    {"name": "invert", "kind": "flag", "part": "scene", "group": "Canvas", "text": "Replace each value v by 255 - v.", "unit": "", "choices": [], "default": "", "low": null, "high": null},
+    {"name": "invert", "kind": "flag", "part": "scene", "group": "Canvas", "text": "Invert all colours, including the background.", "unit": "", "choices": [], "default": "", "low": null, "high": null},
     {"name": "antialias", "kind": "flag", "part": "scene", "group": "Canvas", "text": "Smooth the edges with four samples per pixel.", "unit": "", "choices": [], "default": "", "low": null, "high": null},
     {"name": "rotate", "kind": "rotation", "part": null, "group": "Camera", "text": "Rotate the scene about x, then y, then z, through its middle.", "unit": "degrees", "choices": [], "default": "", "low": null, "high": null},
     {"name": "up_axis", "kind": "choice", "part": null, "group": "Camera", "text": "Axis of the file that points up in the scene, before `rotate`.", "unit": "", "choices": ["x", "y", "z"], "default": "z for STL files, else y", "low": null, "high": null},

@@ -68,7 +68,7 @@ def _floor(color: str, ambient: float = 0.45, diffuse: float = 0.6, reach: float
 
 def _sun(toward: ArrayLike, color: str) -> Light:
     """Return a directional light that casts shadows."""
-    return evolve(Light.directional(toward, color), shadow=True)
+    return evolve(Light.directional(toward=toward, color=color), shadow=True)
 
 
 def _terrain(xs: Array, zs: Array, height: float | Array) -> Mesh:
@@ -104,7 +104,7 @@ def still_life() -> Scene:
             _chessboard(),
         ],
         Camera.perspective((0.8, 4.6, 11.5), (0.25, 1.15, 0), fov=38),
-        [_sun((-8, 6.5, 3.2), "#fff1dc"), Light.directional((0.9, 0.5, 0.4), "#3c4866")],
+        [_sun((-8, 6.5, 3.2), "#fff1dc"), Light.directional(toward=(0.9, 0.5, 0.4), color="#3c4866")],
         Background("#27314a", "#c9a68a"),
         ambient_light="#c8d4ff",
     )
@@ -293,7 +293,7 @@ def skull() -> Scene:
     return evolve(
         scene,
         objects=[evolve(o, material=evolve(o.material, ambient=0.1, diffuse=0.7)) for o in scene.objects],
-        lights=[Light.directional(0.9 * right + 0.55 * up + 0.35 * back, "#ff8a4a")],
+        lights=[Light.directional(toward=0.9 * right + 0.55 * up + 0.35 * back, color="#ff8a4a")],
         background=Background("#0a0d18", "#1e1434"),
         ambient_light="#8090c0",
         rim=Rim("#4cb8ff", 3),
@@ -333,9 +333,9 @@ def knot() -> Scene:
         [_put(shapes.torus_knot(2, 3, 0.2, 150, 18), porcelain, "#f4efe8")],
         Camera.perspective((0, 0.4, 5.0), (0, 0, 0), fov=27),
         [
-            Light.directional((-1, 0.2, 0.35), "#ff3a20"),
-            Light.directional((1, 0.1, 0.3), "#2050ff"),
-            Light.directional((0.05, 1, 0.3), "#ffd9a0"),
+            Light.directional(toward=(-1, 0.2, 0.35), color="#ff3a20"),
+            Light.directional(toward=(1, 0.1, 0.3), color="#2050ff"),
+            Light.directional(toward=(0.05, 1, 0.3), color="#ffd9a0"),
         ],
         Background("#121018", "#2c2438"),
         tone=Tone(1.5, filmic=True, gamma=True),

@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 
 from ...errors import InputError, warn
 from ...values import plural
-from .._mesh import DEFAULT_COLOR, Mesh
+from .._mesh import DEFAULT_COLOR, Mesh, weld
 from .colors import to_bytes
 from .content import checked_text, read_bytes
 from .model import given_normals
 from .polygons import cut
-from .weld import weld
 
 _HEADER = re.compile(r"(?P<letters>(?:ST|C|N|4|n)*)OFF(?P<count>\d*)")
 #: The first line of a binary file.

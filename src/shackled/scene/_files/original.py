@@ -25,7 +25,8 @@ from .._material import Material
 from .._mesh import Mesh
 from .._object import Object
 from .._rotation import from_euler
-from .._scene import MAX_SIDE, Scene
+from .._scene import Scene
+from .._staging import MAX_SIDE
 from .table import Table, about
 
 #: Half of what the original's orthographic camera spans, in world units for each pixel of the canvas.

@@ -6,7 +6,6 @@ Keys that are settings of a look come from its table, with their kinds and range
 from __future__ import annotations
 
 import base64
-import json
 import math
 import os
 from collections.abc import Callable, Mapping
@@ -14,25 +13,25 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from attrs import asdict, evolve
+from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
 from ...checks import number
 from ...errors import InputError
-from ...whole_file import check_output_file, write_output
 from .._background import Background
 from .._camera import PROJECTIONS, Camera
 from .._crease import CREASES, shaded
 from .._effects import Fog, Hemisphere, Rim, Tone
 from .._ground import Ground
 from .._light import LIGHT_KINDS, WHITE, Light
-from .._look import Kind, Part, Setting, exclude, half_height_in, settings_of, view_of
+from .._look import half_height_in, view_of
 from .._material import Material
 from .._mesh import Mesh
 from .._object import Object
 from .._rotation import IDENTITY, from_axis_angle, from_euler, multiply
-from .._scene import DEFAULT_SIDE, Scene
-from .._staging import BACKGROUND, Viewpoint, frame, key_light, painted_object
+from .._scene import Scene
+from .._settings import Kind, Part, Setting, exclude, settings_of
+from .._staging import BACKGROUND, DEFAULT_SIDE, Viewpoint, frame, key_light, painted_object
 from .._texture import FILTERS, WRAPS, Texture
 from .._upright import AXES, axis_of_file, upright
 from .content import parse, read_text
@@ -41,25 +40,21 @@ from .model import MeshPart
 from .original import is_original, original_scene
 from .picture import PICTURE, read_picture
 from .table import Table, about
+from .written import MESH, keys_of
 
 SCENES = (".toml", ".json")
 
 
-def _keys(part: Part, *before: str) -> tuple[str, ...]:
-    return (*before, *(setting.name for setting in settings_of(part)))
-
-
 #: `creator`: a table of the Creator, which has no effect here.
-_SCENE = _keys("scene", "size", "camera", "objects", "tone", "creator")
-_CAMERA = _keys("camera", "projection")
-_OBJECT = _keys("object", "mesh", "position", "rotation", "up_axis", "scale", "material", "fade", "crease")
+_SCENE = keys_of("scene", "size", "camera", "objects", "tone", "creator")
+_CAMERA = keys_of("camera", "projection")
+_OBJECT = keys_of("object", "mesh", "position", "rotation", "up_axis", "scale", "material", "fade", "crease")
 _BACKGROUND = ("top", "bottom")
 _HEMISPHERE = ("sky", "ground")
 _RIM = ("color", "power")
 _FOG = ("color", "near", "far")
 _GROUND = ("color", "height", "radius", "center", "inner")
 _LIGHT = ("kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow")
-_MESH = ("positions", "faces", "colors", "normals", "uvs", "opacities")
 _PIECE = ("piece", "object")
 _TEXTURE = ("image", "width", "height", "pixels", "filter", "wrap", "alpha", "cutoff")
 _ROTATION = ("quaternion", "axis", "angle")
@@ -96,81 +91,8 @@ def scene_of(document: Mapping[str, Any], folder: Path | None) -> Scene:
     view, camera = _camera(table.table("camera", _CAMERA), width, height, objects)
     given = {"lights": [key_light(view)], "background": BACKGROUND, **_settings(table, "scene")}
     if "tone" in table:
-        given["tone"] = Tone(**_settings(table.table("tone", _keys("tone")), "tone"))
+        given["tone"] = Tone(**_settings(table.table("tone", keys_of("tone")), "tone"))
     return Scene(objects, camera, width=width, height=height, **given)
-
-
-def write_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
-    """Write a scene as JSON, including its meshes, such that loading it gives the same scene.
-
-    InputError where the path is wrong, OutputError where the disk is full or fails.
-    """
-    path = Path(path)
-    if path.suffix.lower() != ".json":
-        raise InputError(f"the scene {path} must end in .json")
-    write_output(check_output_file(path, "scene"), encode_scene_file(scene))
-
-
-def encode_scene_file(scene: Scene) -> bytes:
-    """Return the bytes of a scene file in JSON, such that loading it gives the same scene."""
-    camera = scene.camera
-    document = {
-        "size": [scene.width, scene.height],
-        **_fields(scene, "scene"),
-        **({} if scene.tone is None else {"tone": _fields(scene.tone, "tone")}),
-        "camera": {
-            **{name: getattr(camera, name) for name in ("eye", "target", "up", "projection", "half_height")},
-            **({} if camera.near is None else {"near": camera.near}),
-        },
-        "objects": [
-            {
-                "mesh": {name: value for name in _MESH if (value := getattr(thing.mesh, name)) is not None},
-                "position": thing.position,
-                "rotation": {"quaternion": thing.rotation},
-                "scale": thing.scale,
-                "material": {**_fields(thing.material, "material"), **_texture_keys(thing.material.texture)},
-                **_fields(thing, "object"),
-                **({} if thing.fade is None else {"fade": list(thing.fade)}),
-            }
-            for thing in scene.objects
-        ],
-    }
-    return f"{json.dumps(document, default=_plain)}\n".encode("ascii")
-
-
-def _fields(value: object, part: Part) -> dict[str, Any]:
-    """Return the settings that are fields of a value and not None; an object has no colour of its own."""
-    fields = {name: getattr(value, name, None) for name in _keys(part)}
-    return {name: found for name, found in fields.items() if found is not None}
-
-
-def _texture_keys(texture: Texture | None) -> dict[str, Any]:
-    if texture is None:
-        return {}
-    pixels = base64.b64encode(texture.pixels.tobytes()).decode("ascii")
-    sides = {"width": texture.width, "height": texture.height}
-    keys = {**sides, "filter": texture.filter, "wrap": texture.wrap, "pixels": pixels}
-    if texture.alpha is not None:
-        keys |= {"alpha": base64.b64encode(texture.alpha.tobytes()).decode("ascii"), "cutoff": texture.cutoff}
-    return {"texture": keys}
-
-
-def _plain(value: Any) -> Any:
-    """Return what JSON has for an array, or for a background, a light or an effect."""
-    if isinstance(value, Background | Hemisphere | Rim | Fog):
-        return asdict(value)
-    if isinstance(value, Ground):
-        return {name: found for name, found in asdict(value).items() if found is not None}
-    if not isinstance(value, Light):
-        return value.tolist()
-    place = "direction" if value.kind == "directional" else "position"
-    keys = {"kind": value.kind, place: value.vector, "color": value.color}
-    if value.kind == "spot":
-        keys |= {name: getattr(value, name) for name in ("direction", "inner_angle", "outer_angle")}
-    return keys | ({"shadow": True} if value.shadow else {})
-
-
-# ---- reading ----
 
 
 def _settings(keys: Table, part: Part) -> dict[str, Any]:
@@ -307,7 +229,7 @@ def _objects(value: object, where: str, folder: Path | None) -> list[Object]:
     keys = Table(value, where, _OBJECT)
     parts = _parts(keys, where, folder)
     given = _settings(keys, "object")
-    surface = keys.table("material", _keys("material", "texture"))
+    surface = keys.table("material", keys_of("material", "texture"))
     fields = _settings(surface, "material")
     # a mesh from a file or a piece is given normals, one in the table is as it is
     shading = fields.get("shading", "flat")
@@ -349,7 +271,7 @@ def _parts(keys: Table, where: str, folder: Path | None) -> list[MeshPart]:
         raise InputError(f"{where} needs a mesh: the path of a file, relative to the scene file")
     if isinstance(value, Mapping) and "piece" in value:
         return [MeshPart(_mesh_of_piece(keys.table("mesh", _PIECE)), {})]
-    inside = keys.table("mesh", _MESH)
+    inside = keys.table("mesh", MESH)
     with about(inside.where):
         mesh = Mesh(
             inside.matrix("positions"),

@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from ...errors import InputError, warn
 from ...values import plural
-from .._mesh import DEFAULT_COLOR, Mesh
+from .._mesh import DEFAULT_COLOR, Mesh, weld
 from .content import plain_text, read_bytes
-from .weld import weld
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER, _COUNT = 80, 4

@@ -12,9 +12,9 @@ import numpy as np
 from ....errors import InputError, warn
 from ..._crease import filled
 from ..._material import EXPONENTS
+from ..._mesh import weld
 from ..model import MeshPart, tinted
 from ..table import Table
-from ..weld import weld
 from .animation import posed
 from .document import Document
 from .nodes import Node, instances, placed

@@ -13,8 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from ....errors import InputError, warn
 from ....values import plural
 from ..._camera import Camera
-from ..._light import LIGHT_KINDS, Light
-from ..._scene import MAX_LIGHTS
+from ..._light import LIGHT_KINDS, MAX_LIGHTS, Light
 from ..colors import to_srgb
 from ..table import Table, about
 from .document import Document
@@ -78,7 +77,7 @@ def _lights(gltf: Document, nodes: Mapping[int, Node], middle: NDArray[np.float6
             strength /= max(float(np.sum((place - middle) ** 2)), 1e-12)
         with about(where):
             if kind == "directional":
-                made = Light.directional(back)
+                made = Light.directional(toward=back)
             elif kind == "point":
                 made = Light.point(place)
             else:

@@ -1,0 +1,102 @@
+"""Scenes as scene files in JSON."""
+
+from __future__ import annotations
+
+import base64
+import json
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from attrs import asdict
+
+from ...errors import InputError
+from ...whole_file import check_output_file, write_output
+from .._background import Background
+from .._effects import Fog, Hemisphere, Rim
+from .._ground import Ground
+from .._light import Light
+from .._settings import Part, settings_of
+from .._texture import Texture
+
+if TYPE_CHECKING:
+    from .._scene import Scene
+
+#: The keys of a mesh.
+MESH = ("positions", "faces", "colors", "normals", "uvs", "opacities")
+
+
+def keys_of(part: Part, *before: str) -> tuple[str, ...]:
+    """Return the keys of a part of a scene, with some before them."""
+    return (*before, *(setting.name for setting in settings_of(part)))
+
+
+def write_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
+    """Write a scene as JSON, including its meshes, such that loading it gives the same scene.
+
+    InputError where the path is wrong, OutputError where the disk is full or fails.
+    """
+    path = Path(path)
+    if path.suffix.lower() != ".json":
+        hint = "; the command `shackled export` writes models" if path.suffix.lower() == ".glb" else ""
+        raise InputError(f"the scene {path} must end in .json{hint}")
+    write_output(check_output_file(path, "scene"), encode_scene_file(scene))
+
+
+def encode_scene_file(scene: Scene) -> bytes:
+    """Return the bytes of a scene file in JSON, such that loading it gives the same scene."""
+    camera = scene.camera
+    document = {
+        "size": [scene.width, scene.height],
+        **_fields(scene, "scene"),
+        **({} if scene.tone is None else {"tone": _fields(scene.tone, "tone")}),
+        "camera": {
+            **{name: getattr(camera, name) for name in ("eye", "target", "up", "projection", "half_height")},
+            **({} if camera.near is None else {"near": camera.near}),
+        },
+        "objects": [
+            {
+                "mesh": {name: value for name in MESH if (value := getattr(thing.mesh, name)) is not None},
+                "position": thing.position,
+                "rotation": {"quaternion": thing.rotation},
+                "scale": thing.scale,
+                "material": {**_fields(thing.material, "material"), **_texture_keys(thing.material.texture)},
+                **_fields(thing, "object"),
+                **({} if thing.fade is None else {"fade": list(thing.fade)}),
+            }
+            for thing in scene.objects
+        ],
+    }
+    return f"{json.dumps(document, default=_plain)}\n".encode("ascii")
+
+
+def _fields(value: object, part: Part) -> dict[str, Any]:
+    """Return the settings that are fields of a value and not None; an object has no colour of its own."""
+    fields = {name: getattr(value, name, None) for name in keys_of(part)}
+    return {name: found for name, found in fields.items() if found is not None}
+
+
+def _texture_keys(texture: Texture | None) -> dict[str, Any]:
+    if texture is None:
+        return {}
+    pixels = base64.b64encode(texture.pixels.tobytes()).decode("ascii")
+    sides = {"width": texture.width, "height": texture.height}
+    keys = {**sides, "filter": texture.filter, "wrap": texture.wrap, "pixels": pixels}
+    if texture.alpha is not None:
+        keys |= {"alpha": base64.b64encode(texture.alpha.tobytes()).decode("ascii"), "cutoff": texture.cutoff}
+    return {"texture": keys}
+
+
+def _plain(value: Any) -> Any:
+    """Return what JSON has for an array, or for a background, a light or an effect."""
+    if isinstance(value, Background | Hemisphere | Rim | Fog):
+        return asdict(value)
+    if isinstance(value, Ground):
+        return {name: found for name, found in asdict(value).items() if found is not None}
+    if not isinstance(value, Light):
+        return value.tolist()
+    place = "direction" if value.kind == "directional" else "position"
+    keys = {"kind": value.kind, place: value.vector, "color": value.color}
+    if value.kind == "spot":
+        keys |= {name: getattr(value, name) for name in ("direction", "inner_angle", "outer_angle")}
+    return keys | ({"shadow": True} if value.shadow else {})

@@ -1,0 +1,436 @@
+"""The settings of the look of a picture: one table of them, for Python, the command line and scene files."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import Any, Final, Literal, TypedDict, cast
+
+import numpy as np
+from attrs import Factory, evolve, field, frozen
+from numpy.typing import ArrayLike
+
+from ..checks import choice, color, flag, integer, number, vector, whole
+from ..errors import InputError
+from ..words import in_our_words, instead_of
+from ._background import Background, background_of
+from ._camera import FIELDS_OF_VIEW, Camera
+from ._crease import CREASES
+from ._effects import EXPOSURES, NONE, Fog, Hemisphere, Rim, fog_or_color, hemisphere_of, rim_of
+from ._ground import Ground, ground_of
+from ._light import Light, lights_of
+from ._material import COEFFICIENTS, EXPONENTS, SHADINGS, Material, Shading
+from ._object import OPACITIES
+from ._presets import PRESETS, preset_of
+from ._rotation import IDENTITY, multiply, rotation_of
+from ._staging import ELEVATIONS, MARGINS, MAX_SIDE, MESH_STAGING
+from ._upright import AXES, Axis, upright
+
+#: What a setting is a field of; "camera" also has settings from which a camera is made, "file" those that say what is
+#: read of a glTF file.
+Part = Literal["scene", "camera", "object", "material", "tone", "file"]
+_Plain = Literal["size", "whole", "count", "number", "vector", "rotation", "flag", "color", "choice", "entry"]
+Kind = _Plain | Literal["background", "lights", "hemisphere", "rim", "fog", "ground"]
+
+
+@frozen
+class Setting:
+    """A setting of the look of a picture.
+
+    name: the keyword; `option` is --name with dashes, unless it is another. part: what it is a field of, in
+    Python and in scene files; None for what only `load` and the command line take. limits: the range of a number.
+    unit: of a number. default: in words.
+    """
+
+    name: str
+    kind: Kind
+    part: Part | None
+    text: str
+    limits: tuple[float, float] = (-math.inf, math.inf)
+    unit: str = ""
+    default: str = ""
+    choices: tuple[str, ...] = ()
+    option: str = field(default=Factory(lambda self: self._usual_option, takes_self=True))
+    group: str = ""
+
+    @property
+    def _usual_option(self) -> str:
+        name = self.name.replace("_", "-")
+        return f"--{name}/--no-{name}" if self.kind == "flag" else f"--{name}"
+
+    def check(self, value: object, name: str) -> Any:
+        """Return the value, converted by the kind of the setting. InputError, with the name, if it cannot be one."""
+        return _KINDS[self.kind][1](value, self, name)
+
+    @property
+    def help(self) -> str:
+        """The sentence, with what values may be, and the default."""
+        limits = self.range or ", ".join(self.choices) or self.unit
+        more = "; ".join(filter(None, [limits, f"default: {self.default}" if self.default else ""]))
+        return f"{self.text[:-1]} ({more})." if more else self.text
+
+    @property
+    def values(self) -> str:
+        """What values may be, such as "0.2 to 179.8 degrees" or "a colour"."""
+        words = _KINDS[self.kind][0]
+        return self.range or ", ".join(self.choices) or (f"{words}, {self.unit}" if self.unit else words)
+
+    @property
+    def range(self) -> str:
+        """Such as "0.2 to 179.8 degrees"; "" where a number may be any, and for what is none."""
+        low, high = self.limits
+        return f"{low:g} to {high:g}{f' {self.unit}' if self.unit else ''}" if math.isfinite(high) else ""
+
+
+#: The value of `max_triangles` that leaves meshes as they are.
+ALL: Final = "all"
+
+
+def _background(value: Any, setting: Setting, name: str) -> Background:
+    if isinstance(value, str) and value.strip().lower() == "transparent":
+        raise InputError(f"{name} is a colour: give `transparent` for a picture without a background")
+    return background_of(value)
+
+
+def _entry(value: object, setting: Setting, name: str) -> str | int:
+    number = None if isinstance(value, str) else integer(value)
+    if number is None and not isinstance(value, str):
+        raise InputError(f"{name} must be a name, or a number from 0, not {value!r:.60}")
+    return value if isinstance(value, str) else cast(int, number)
+
+
+def _count(value: object, setting: Setting, name: str) -> int | str:
+    if isinstance(value, str):
+        if value == ALL:
+            return ALL
+        raise InputError(f"{name} must be a whole number, at least {setting.limits[0]:g}, or {ALL}, not {value!r:.60}")
+    return whole(value, name, *setting.limits)
+
+
+def _unless_none(made: Callable[[Any, str], Any]) -> Callable[[Any, Setting, str], Any]:
+    """Return what makes an effect of a value, or None of the word that removes it."""
+    return lambda value, _, name: (
+        None if isinstance(value, str) and value.strip().lower() == NONE else made(value, name)
+    )
+
+
+def _flag(value: object, setting: Setting, name: str) -> bool:
+    # an antialiased picture has four samples per pixel
+    return True if setting.name == "antialias" and integer(value) == 4 else flag(value, name)
+
+
+def size_of(value: int | tuple[int, int], name: str = "`size`") -> tuple[int, int]:
+    """Return width and height, of one number or two. InputError for anything else."""
+    try:
+        are_rows = np.ndim(value) > 1
+    except ValueError:  # of different lengths
+        are_rows = True
+    if are_rows:
+        raise InputError(f"{name} must be one number or (width, height); vertices and faces are one argument, in ()")
+    try:
+        side = integer(value)
+        width, height = value if side is None else (side, side)  # type: ignore[misc]
+    except (TypeError, ValueError):
+        hint = "; `save` of what is returned writes a file" if isinstance(value, str) else ""
+        raise InputError(f"{name} must be one number or (width, height), not {value!r:.60}{hint}") from None
+    sides = integer(width), integer(height)
+    if None in sides:
+        raise InputError(f"{name} must be whole numbers, not {value!r:.60}")
+    return cast(tuple[int, int], sides)
+
+
+#: For each kind, what its values are, and their check.
+_KINDS: dict[Kind, tuple[str, Callable[[Any, Setting, str], Any]]] = {
+    "size": ("pixels", lambda value, setting, name: size_of(value, name)),
+    "whole": ("a whole number", lambda value, setting, name: whole(value, name, *setting.limits)),
+    "count": ("a whole number, or all", _count),
+    "number": ("a number", lambda value, setting, name: number(value, name, *setting.limits)),
+    "vector": ("x, y, z", lambda value, setting, name: vector(value, name)),
+    "rotation": ("x, y, z", lambda value, setting, name: rotation_of(value, name)),
+    "flag": ("true or false", _flag),
+    "color": ("a colour", lambda value, setting, name: color(value, name)),
+    "background": ("one colour or two", _background),
+    "choice": ("a word", lambda value, setting, name: choice(value, name, setting.choices)),
+    "lights": ("lights", lambda value, setting, name: lights_of(value)),
+    "hemisphere": ("one colour or two, or none", _unless_none(hemisphere_of)),
+    "rim": ("a colour, with an exponent from 1 to 16 or without, or none", _unless_none(rim_of)),
+    "fog": ("a colour, with two distances or without, or none", _unless_none(fog_or_color)),
+    "ground": ("a colour, or none", _unless_none(ground_of)),
+    "entry": ("a name, or a number from 0", _entry),
+}
+
+#: The view and the material of mesh files.
+_VIEW, _SURFACE = MESH_STAGING.view, MESH_STAGING.material
+#: What is taken where a setting is not given, in words, where nothing else says it.
+_DEFAULTS = {
+    "size": f"the scene's, or {MESH_STAGING.side} for mesh files and pieces of datasets",
+    "max_triangles": "as many as the canvas shows for mesh files, else all",
+    "background": "light for mesh files, or dark where they are light",
+    "up_axis": "z for STL files, else y",
+    "azimuth": f"{_VIEW.azimuth:g} for mesh files",
+    "elevation": f"{_VIEW.elevation:g} for mesh files, up to {MESH_STAGING.flat_elevation:g} for flat ones",
+    "margin": f"{_VIEW.margin:g} for mesh files",
+    "fov": "30 for mesh files, else about 50",
+    "ambient_light": "bluish white for mesh files, else white",
+    "fog": "distances of the nearest and the farthest point",
+    "exposure": "1",
+    "shading": "by `crease` for mesh files",
+    "crease": "the normals of the mesh, or by the shape where there are none",
+    "ambient": f"{_SURFACE.ambient:g} for mesh files",
+    "diffuse": f"{_SURFACE.diffuse:g} for mesh files",
+    "specular": f"{_SURFACE.specular:g} for mesh files",
+    "shininess": f"{_SURFACE.shininess:g} for mesh files",
+    "emission": "black",
+    "color": "their own",
+    "cull": "true for closed parts of mesh files",
+    "two_sided": "true for what is not culled of mesh files, up to 16,384 vertices or if the file says so",
+    "animation": "the first if `time` is given, else the pose at rest",
+    "time": "0",
+}
+#: By groups, in the order in which they are shown.
+_GROUPS: dict[str, list[Setting]] = {
+    "Canvas": [
+        Setting("size", "size", None, "Width and height of the picture.", (1, MAX_SIDE), unit="pixels"),
+        Setting(
+            "max_triangles",
+            "count",
+            None,
+            "Number of triangles to which larger meshes are simplified, or all.",
+            (1, math.inf),
+        ),
+        Setting("background", "background", "scene", "Colour of the background, or those of its top and bottom."),
+        Setting("invert", "flag", "scene", "Invert all colours, including the background."),
+        Setting("antialias", "flag", "scene", "Smooth the edges with four samples per pixel."),
+    ],
+    "Camera": [
+        Setting(
+            "rotate", "rotation", None, "Rotate the scene about x, then y, then z, through its middle.", unit="degrees"
+        ),
+        Setting(
+            "up_axis", "choice", None, "Axis of the file that points up in the scene, before `rotate`.", choices=AXES
+        ),
+        Setting("eye", "vector", "camera", "Position of the camera."),
+        Setting("target", "vector", "camera", "Point at which the camera looks."),
+        Setting("up", "vector", "camera", "Direction that points up in the picture."),
+        Setting(
+            "azimuth", "number", "camera", "Angle at which the camera stands to the right of the front.", unit="degrees"
+        ),
+        Setting(
+            "elevation",
+            "number",
+            "camera",
+            "Angle at which the camera stands above the horizon.",
+            ELEVATIONS,
+            unit="degrees",
+        ),
+        Setting("margin", "number", "camera", "Free border, as a fraction of half the picture.", MARGINS),
+        Setting(
+            "fov", "number", "camera", "Vertical field of view of a perspective camera.", FIELDS_OF_VIEW, unit="degrees"
+        ),
+        Setting(
+            "half_height",
+            "number",
+            "camera",
+            "Half the height of the view, in perspective at distance 1.",
+            (0, math.inf),
+        ),
+        Setting("near", "number", "camera", "Distance of the near plane; nearer geometry is clipped."),
+        Setting(
+            "orthographic",
+            "flag",
+            None,
+            "Use the orthographic projection, or the perspective one.",
+            option="--orthographic/--perspective",
+        ),
+    ],
+    "Light": [
+        Setting(
+            "preset",
+            "choice",
+            None,
+            "Material, colour, lights and background by the name of a look; other settings change it.",
+            choices=tuple(each.name for each in PRESETS),
+        ),
+        Setting("lights", "lights", "scene", "Up to four lights, which replace those of the scene.", option="--light"),
+        Setting("ambient_light", "color", "scene", "Colour of the ambient light."),
+        Setting(
+            "hemisphere",
+            "hemisphere",
+            "scene",
+            "Light from the sky above and from the ground below, added to the ambient light.",
+        ),
+        Setting("rim", "rim", "scene", "Light along the outlines of objects; its exponent sets its width."),
+        Setting("fog", "fog", "scene", "Fog that begins at one distance from the eye and hides everything at another."),
+        Setting("shadow", "flag", None, "Let objects cast shadows from the first light."),
+        Setting("ground", "ground", "scene", "Ground under the objects, which receives shadows."),
+        Setting("exposure", "number", "tone", "Multiplier of all light.", EXPOSURES),
+        Setting("filmic", "flag", "tone", "Compress bright light as film does, instead of clipping it."),
+        Setting("gamma", "flag", "tone", "Add light in linear space instead of as sRGB values."),
+        Setting("shading", "choice", "material", "Kind of shading.", choices=SHADINGS),
+        Setting(
+            "crease",
+            "number",
+            None,
+            "Compute normals for smooth shading, except across edges of more than this angle.",
+            CREASES,
+            unit="degrees",
+        ),
+        Setting("smooth", "flag", None, "Same as --shading smooth.", option="--smooth"),
+        Setting("unlit", "flag", None, "Same as --shading unlit.", option="--unlit"),
+        Setting("ambient", "number", "material", "Share of ambient light.", COEFFICIENTS),
+        Setting("diffuse", "number", "material", "Share of diffuse light.", COEFFICIENTS),
+        Setting("specular", "number", "material", "Strength of highlights.", COEFFICIENTS),
+        Setting(
+            "shininess", "whole", "material", "Exponent of highlights: the larger, the smaller they are.", EXPONENTS
+        ),
+    ],
+    "Surface": [
+        Setting("emission", "color", "material", "Colour of the light that surfaces emit."),
+        Setting("color", "color", "object", "One colour for all meshes."),
+        Setting("cull", "flag", "object", "Cull back faces."),
+        Setting(
+            "two_sided",
+            "flag",
+            "object",
+            "Light what is seen from behind as from the front.",
+            option="--two-sided/--one-sided",
+        ),
+        Setting("wireframe", "flag", "object", "Draw edges only.", option="--wireframe/--filled"),
+        Setting("opacity", "number", "object", "Opacity of the objects.", OPACITIES),
+    ],
+    "glTF files": [
+        Setting("animation", "entry", "file", "Animation that poses the model."),
+        Setting("time", "number", "file", "Time in the animation.", (0, math.inf), unit="seconds"),
+        Setting("use_camera", "entry", "file", "Camera of the file that is taken, with the lights there."),
+    ],
+}
+#: All settings.
+SETTINGS = tuple(
+    evolve(each, group=group, default=_DEFAULTS.get(each.name, ""))
+    for group, settings in _GROUPS.items()
+    for each in settings
+)
+
+
+def settings_of(part: Part) -> list[Setting]:
+    """Return the settings that are fields of a part of a scene."""
+    return [setting for setting in SETTINGS if setting.part == part]
+
+
+#: A colour as it is given.
+AnyColor = ArrayLike | str
+
+
+class LookOptions(TypedDict, total=False):
+    """The keywords of a look, but for `size`; what they mean says the table `SETTINGS`. None leaves what there is."""
+
+    max_triangles: int | Literal["all"] | None
+    background: Background | AnyColor | tuple[AnyColor, AnyColor] | None
+    invert: bool | None
+    antialias: bool | None
+    rotate: ArrayLike | None
+    up_axis: Axis | None
+    eye: ArrayLike | None
+    target: ArrayLike | None
+    up: ArrayLike | None
+    azimuth: float | None
+    elevation: float | None
+    margin: float | None
+    fov: float | None
+    half_height: float | None
+    near: float | None
+    orthographic: bool | None
+    preset: str | None
+    lights: Light | Sequence[Light] | None
+    ambient_light: AnyColor | None
+    hemisphere: Hemisphere | AnyColor | tuple[AnyColor, AnyColor] | None
+    rim: Rim | AnyColor | tuple[AnyColor, int] | None
+    fog: Fog | AnyColor | tuple[AnyColor, float, float] | None
+    shadow: bool | None
+    ground: Ground | AnyColor | None
+    exposure: float | None
+    filmic: bool | None
+    gamma: bool | None
+    shading: Shading | None
+    crease: float | None
+    smooth: bool | None
+    unlit: bool | None
+    ambient: float | None
+    diffuse: float | None
+    specular: float | None
+    shininess: int | None
+    emission: AnyColor | None
+    color: AnyColor | None
+    cull: bool | None
+    two_sided: bool | None
+    wireframe: bool | None
+    opacity: float | None
+    animation: str | int | None
+    time: float | None
+    use_camera: str | int | None
+
+
+#: Settings that cannot be given together: one of the first and one of the second.
+_EXCLUSIVE = ((("fov",), ("half_height",)), (("azimuth", "elevation", "margin"), ("eye", "target")))
+
+
+def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what is set, each converted by its kind; without what is None.
+
+    InputError names the keyword that is wrong, or two that exclude each other, each in `backticks`.
+    """
+    options = in_our_words("look", _taken_apart({name: value for name, value in options.items() if value is not None}))
+    known = {setting.name: setting for setting in SETTINGS}
+    for name in options:
+        if name not in known:
+            raise TypeError(f"{name!r} is not a keyword of a look; {instead_of(name, known)}")
+    look = {name: known[name].check(value, f"`{name}`") for name, value in options.items()}
+    shadings = {name for name in ("smooth", "unlit") if look.pop(name, False)} | {*filter(None, [look.get("shading")])}
+    if len(shadings) > 1:
+        raise InputError(f"the shading cannot be {' and '.join(sorted(shadings))} at once")
+    if shadings:
+        look["shading"] = shadings.pop()
+    if "preset" in look:
+        preset = preset_of(look["preset"]).settings
+        if "crease" in look:
+            del preset["shading"]
+        look = preset | look
+    if "up_axis" in look:
+        look["rotate"] = multiply(look.get("rotate", IDENTITY), upright(look.pop("up_axis")))
+    if "crease" in look and look.get("shading", "smooth") != "smooth":
+        raise InputError(f"`crease` is for smooth shading, and excludes {look['shading']}")
+    exclude(look, "`{}`".format)
+    return look
+
+
+def _taken_apart(given: dict[str, Any]) -> dict[str, Any]:
+    """Return keywords with the settings of a camera or a material, and the size of a width and a height, in place of
+    these; one that is given as well changes it.
+    """
+    if {"width", "height"} <= given.keys():
+        given = {"size": (given["width"], given["height"])} | {
+            name: value for name, value in given.items() if name not in ("width", "height")
+        }
+    if isinstance(camera := given.get("camera"), Camera):
+        fields = {name: getattr(camera, name) for name in ("eye", "target", "up", "half_height", "near")}
+        fields["orthographic"] = camera.projection == "orthographic"
+        given = _in_place_of("camera", fields, given)
+    if isinstance(material := given.get("material"), Material) and material.texture is None:
+        fields = {setting.name: getattr(material, setting.name) for setting in settings_of("material")}
+        given = _in_place_of("material", fields, given)
+    return given
+
+
+def _in_place_of(part: str, fields: dict[str, Any], given: dict[str, Any]) -> dict[str, Any]:
+    found = {name: value for name, value in fields.items() if value is not None}
+    if "fov" in given:
+        found.pop("half_height", None)
+    return found | {name: value for name, value in given.items() if name != part}
+
+
+def exclude(given: Collection[str], quote: Callable[[str], str]) -> None:
+    """Raise an InputError for settings that exclude each other; `quote` makes a name what messages call it."""
+    for pair in _EXCLUSIVE:
+        one, other = (next((name for name in names if name in given), None) for names in pair)
+        if one is not None and other is not None:
+            raise InputError(f"{quote(one)} and {quote(other)} exclude each other: give one of them")

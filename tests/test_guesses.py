@@ -1,0 +1,236 @@
+"""What people write who have not read the documentation: it works as the documented way does, or is told what does.
+
+The guesses are those of outside reviewers who knew other libraries of the field.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+from PIL import Image as PillowImage
+
+import shackled
+from shackled.errors import NodeUnreachableError
+from shackled.scene import painted
+
+# guesses are no calls that a checker of types would let pass
+s: Any = shackled
+BOX, BALL = trimesh.creation.box(), trimesh.creation.icosphere(subdivisions=1)
+MESH = shackled.Mesh(BOX.vertices, BOX.faces)
+RED = painted(MESH, "red")
+SIDE = 16
+THING = shackled.Object(MESH)
+CAMERA = shackled.Camera.perspective((3, 3, 3), (0, 0, 0), fov=45)
+NOWHERE = "http://127.0.0.1:1"
+MATRIX = np.diag([2.0, 2.0, 2.0, 1.0])
+
+
+def cube(**look: Any) -> Any:
+    return s.render("cube", size=look.pop("size", SIDE), **look)
+
+
+def turns(count: int = 2) -> list[Any]:
+    return [cube(azimuth=360 * turn / count) for turn in range(count)]
+
+
+def point(position: Any = (1, 2, 3), **fields: Any) -> Any:
+    return s.Light.point(position, **fields)
+
+
+def sun(toward: Any) -> Any:
+    return s.Light.directional(toward=toward)
+
+
+#: Guesses, and the documented way, which gives the same.
+SAME: list[tuple[Callable[[], Any], Callable[[], Any]]] = [
+    # what is rendered
+    (lambda: s.render(trimesh.Scene([BOX]), size=SIDE), lambda: s.render(shackled.Object(MESH), size=SIDE)),
+    (lambda: s.render((np.array(BOX.vertices), np.array(BOX.faces)), SIDE), lambda: s.render(MESH, SIDE)),
+    (lambda: s.render(vertices=BOX.vertices, faces=BOX.faces), lambda: s.render(MESH)),
+    (lambda: s.render(BOX.vertices, BOX.faces), lambda: s.render(MESH)),
+    (lambda: s.load([BOX, BALL], SIDE).triangles, lambda: len(BOX.faces) + len(BALL.faces)),
+    (lambda: s.load(["cube", "teapot"]).triangles, lambda: sum(s.load(each).triangles for each in ("cube", "teapot"))),
+    (
+        lambda: len(s.load([s.load("cube").objects[0], s.replace(THING, position=(3, 0, 0))]).objects),
+        lambda: 2,
+    ),
+    (lambda: next(s.datasets.pieces()).make().triangles > 0, lambda: True),
+    # meshes and objects
+    (lambda: s.Mesh(vertices=BOX.vertices, faces=BOX.faces), lambda: MESH),
+    (lambda: s.Mesh(vertices=BOX.vertices, faces=BOX.faces).vertices.tolist(), lambda: MESH.positions.tolist()),
+    (lambda: s.Mesh(positions=BOX.vertices, faces=BOX.faces, colors="red"), lambda: RED),
+    (lambda: s.Mesh(BOX.vertices, BOX.faces, color="red"), lambda: RED),
+    (lambda: s.Mesh.from_trimesh(BOX).faces.tolist(), lambda: MESH.faces.tolist()),
+    (
+        lambda: s.Mesh([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)]).faces.tolist(),
+        lambda: [[0, 1, 2], [0, 2, 3]],
+    ),
+    (lambda: s.Scene([BOX]).objects[0].mesh.triangles, lambda: 12),
+    (lambda: s.Object(BOX, position=(1, 0, 0)), lambda: s.Object(s.Mesh.from_trimesh(BOX), (1, 0, 0))),
+    (lambda: s.Object(MESH, translation=(1, 0, 0)), lambda: s.Object(MESH, (1, 0, 0))),
+    (lambda: s.Object(MESH, color="red"), lambda: s.Object(RED)),
+    (lambda: s.Object(MESH, transform=MATRIX), lambda: s.Object(MESH, scale=2)),
+    (lambda: s.replace(s.load("cube"), width=64).width, lambda: 64),
+    # the camera
+    (lambda: s.Camera(position=(3, 3, 3), target=(0, 0, 0), fov=45), lambda: CAMERA),
+    (lambda: s.Camera(eye=(3, 3, 3), target=(0, 0, 0), fov=45), lambda: CAMERA),
+    (lambda: s.Camera.look_at((3, 3, 3), (0, 0, 0), fov=45), lambda: CAMERA),
+    (lambda: s.load("cube", SIDE, camera=CAMERA).camera, lambda: CAMERA),
+    (lambda: s.load("cube", eye=(3, 3, 3), target=(0, 0, 0), fov=45).camera, lambda: CAMERA),
+    (lambda: s.load("cube", camera=CAMERA, fov=30).camera, lambda: s.replace(CAMERA, half_height=np.tan(np.pi / 12))),
+    (lambda: cube(azimuth=90, elevation=20).width, lambda: SIDE),
+    # size and background
+    (lambda: s.render("cube", width=24, height=12), lambda: s.render("cube", (24, 12))),
+    (lambda: s.render("cube", resolution=(24, 12)), lambda: s.render("cube", (24, 12))),
+    (lambda: cube(bg="white"), lambda: cube(background="white")),
+    (lambda: cube(background="transparent"), lambda: cube(transparent=True)),
+    (lambda: cube(alpha=True), lambda: cube(transparent=True)),
+    (lambda: np.asarray(cube(transparent=True)).shape, lambda: (SIDE, SIDE, 4)),
+    (lambda: cube(background=None), cube),
+    (lambda: cube(background=(0.2, 0.4, 0.6)), lambda: cube(background="#336699")),
+    (lambda: cube(aa=True), lambda: cube(antialias=True)),
+    (lambda: cube(antialias=4), lambda: cube(antialias=True)),
+    # lights
+    (lambda: s.Light(type="point", position=(2, 3, 4), color="orange"), lambda: point((2, 3, 4), color="orange")),
+    (lambda: s.Light(type="directional", direction=(0, -1, 0)), lambda: sun((0, 1, 0))),
+    (lambda: s.Light.directional(direction=(-1, -1, -1)), lambda: sun((1, 1, 1))),
+    (lambda: cube(light=point(position=(1, 2, 3))), lambda: cube(lights=[point()])),
+    (lambda: cube(lights=sun((1, 1, 1))), lambda: cube(lights=[sun((1, 1, 1))])),
+    # surfaces
+    (lambda: s.load("cube", material=s.Material(diffuse=1)).objects[0].material, lambda: s.Material(diffuse=1)),
+    (lambda: cube(colour="red"), lambda: cube(color="red")),
+    (lambda: cube(color="#f00"), lambda: cube(color=(255, 0, 0))),
+    (lambda: s.Texture("a.png"), lambda: s.Texture.open("a.png")),
+    (lambda: s.Texture(np.full((4, 4, 3), (255, 0, 0), np.uint8)), lambda: s.Texture.open("a.png")),
+    (lambda: s.load(textured()).objects[0].material.texture, lambda: s.Texture.open("a.png")),
+    (lambda: cube(shadow=True), lambda: cube(shadows=True)),
+    (lambda: cube(ground="white"), lambda: cube(ground=(1.0, 1.0, 1.0))),
+    # animations
+    (lambda: s.turntable("cube", frames=4, size=SIDE, fps=10), lambda: s.turntable("cube", 4, SIDE, duration=100)),
+    (lambda: s.Animation(frames=turns(), fps=10), lambda: s.Animation(turns(), 100)),
+    (lambda: len(s.Animation(turns(3))), lambda: 3),
+    (lambda: list(s.Animation(turns())), turns),
+    (lambda: s.Animation(turns())[1], lambda: turns()[1]),
+    # pictures
+    (lambda: cube().to_pil().size, lambda: (SIDE, SIDE)),
+    (lambda: np.asarray(cube()).shape, lambda: (SIDE, SIDE, 3)),
+    (lambda: cube().gas > 100_000, lambda: True),
+    # packages
+    (lambda: s.gas.measure("teapot").gas, lambda: s.render("teapot", 256).gas),
+    (lambda: s.tokens.__name__, lambda: "shackled.tokens"),
+]
+
+
+def textured() -> Any:
+    box: Any = trimesh.creation.box()
+    visuals: Any = trimesh.visual.TextureVisuals
+    box.visual = visuals(uv=np.linspace(0, 1, 16).reshape(8, 2), image=PillowImage.new("RGB", (4, 4), "red"))
+    return box
+
+
+@pytest.fixture(autouse=True)
+def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    PillowImage.new("RGB", (4, 4), "red").save("a.png")
+
+
+@pytest.mark.parametrize("number", range(len(SAME)))
+def test_a_guess_is_the_documented_way(number: int) -> None:
+    guess, documented = (each() for each in SAME[number])
+    assert guess == documented
+
+
+#: Guesses of files that are read or written.
+FILES = {
+    "t.gif": lambda name: s.turntable("cube", frames=2, size=SIDE).save(name),
+    "o.gif": lambda name: s.Animation(turns(), duration=100).save(name),
+    "x.webp": lambda name: cube().save(name),
+    "x.jpg": lambda name: cube().save(name),
+    "m.obj": lambda name: BOX.export(name),
+    "m.stl": lambda name: BOX.export(name),
+    "m.glb": lambda name: BOX.export(name),
+}
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_files(name: str) -> None:
+    FILES[name](name)
+    if name.startswith("m."):
+        assert s.load(Path(name), SIDE, up_axis="y").triangles == 12
+        return
+    with PillowImage.open(name) as picture:
+        assert picture.size == (SIDE, SIDE)
+
+
+@pytest.mark.parametrize("on", [NOWHERE, shackled.Nodes(NOWHERE, timeout=2)], ids=["address", "Nodes"])
+def test_a_node_is_asked(on: Any) -> None:
+    with pytest.raises(NodeUnreachableError, match=r"the node 127\.0\.0\.1:1 cannot be reached"):
+        cube(on=on)
+
+
+#: Guesses, and words of the error that name what is right.
+NAMED: dict[str, tuple[Callable[[], Any], str]] = {
+    "Mesh.load": (lambda: s.Mesh.load("x.obj"), "shackled.load(path) returns a scene"),
+    "Scene().add": (lambda: s.Scene().add(MESH), "objects"),
+    "scene.add": (lambda: s.load("cube").add(MESH), "give all objects to Scene([...])"),
+    "Object of a name": (lambda: s.Object("cube"), "shackled.load('cube') has objects"),
+    "scenes that differ": (lambda: s.render([s.load("cube"), s.load("teapot")]), "[*one.objects, *other.objects]"),
+    "depth": (lambda: cube().depth, "depths are not returned"),
+    "depth=": (lambda: cube(depth=True), "depths are not returned"),
+    "intensity": (lambda: s.Light(position=(1, 2, 3), color="white", intensity=2), "`exposure` multiplies all light"),
+    "intensity of a point": (lambda: point(intensity=2), "`exposure` multiplies all light"),
+    "PointLight": (lambda: s.PointLight(position=(1, 2, 3)), "shackled.Light.point"),
+    "toward or direction": (lambda: s.Light.directional((0, 1, 0)), "toward=, the way from the scene to the light, or"),
+    "a place of the sun": (lambda: s.Light(kind="directional", position=(0, 1, 0)), "give toward=, the way"),
+    "size": (lambda: s.render("cube", "out.png"), "`save` of what is returned writes"),
+    "output=": (lambda: cube(output="out.png"), "`save` of what is returned writes"),
+    "texture=": (lambda: s.render(MESH, texture="a.png"), "render an Object with a Material that has a texture"),
+    "width=": (lambda: s.render("cube", width=64), "`size` is the side in pixels, or (width, height)"),
+    "background": (lambda: s.load("cube", background="transparent"), "give `transparent` for a picture without"),
+    "scene.width =": (lambda: setattr(s.load("cube"), "width", 64), "shackled.replace(it, width=...)"),
+    "list_models": (lambda: s.list_models(), "shackled.datasets.pieces()"),
+    "no file": (lambda: s.render("nothere.obj"), "nothere.obj does not exist"),
+    "no piece": (lambda: s.render("teapt"), "did you mean teapot?"),
+    "rotate=45": (lambda: cube(rotate=45), "`rotate` must be x, y, z in degrees"),
+    "rotate=(1, 2)": (lambda: cube(rotate=(1, 2)), "`rotate` must be x, y, z in degrees"),
+    "a stream": (lambda: s.load(io.BytesIO(b"v 0 0 0")), "a path, the name of a piece, a Mesh, (vertices, faces), "),
+    "gas()": (lambda: s.gas("cube"), "shackled.gas is a package: call one of its functions, "),
+    "scale": (lambda: s.Object(MESH, scale=(1, 2, 1)), "the scale of an object must be a number"),
+    "nothing": (lambda: s.render([], size=SIDE), "vertices and faces are needed"),
+    "nan": (lambda: s.render((np.full((3, 3), np.nan), [(0, 1, 2)])), "not a finite number: [nan, nan, nan]"),
+    "ground=True": (lambda: cube(ground=True), "`ground` must be red, green and blue"),
+    "scene.save": (lambda: s.load("teapot").save("teapot.glb"), "must end in .json; the command `shackled export`"),
+    "export": (lambda: s.export("cube", "cube.glb"), "must end in .html; the command `shackled export`"),
+    "to_trimesh": (
+        lambda: s.Mesh(BOX.vertices, BOX.faces).to_trimesh(),
+        "trimesh.Trimesh(mesh.positions, mesh.faces, ",
+    ),
+    "shininess": (lambda: s.Material(shininess=12.5), "must be a whole number from 1 to 128, not 12.5"),
+    "both words": (lambda: s.Mesh(MESH.positions, MESH.faces, colors="red", color="red"), "are the same: give one"),
+    "fov and half_height": (lambda: s.Camera(fov=40, half_height=1), "exclude each other: give one of them"),
+    "fov, orthographic": (lambda: s.Camera(fov=40, projection="orthographic"), "give `half_height` instead of `fov`"),
+    "fps": (lambda: s.Animation(turns(), fps=0), "`fps` must be the number of frames in a second, not 0"),
+    "tokens": (lambda: s.tokens.read_metadata, "No shackled.tokens attribute read_metadata"),
+}
+
+
+@pytest.mark.parametrize("name", NAMED)
+def test_an_error_names_what_is_right(name: str) -> None:
+    guess, words = NAMED[name]
+    with pytest.raises((TypeError, AttributeError, shackled.ShackledError)) as error:
+        guess()
+    assert words in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_the_light_of_the_sun_falls_where_it_travels() -> None:
+    """Both words for the direction of a light, seen: from above, the upper half of a ball is the lighter one."""
+    for light in (sun((0, 1, 0)), s.Light.directional(direction=(0, -1, 0))):
+        pixels = s.render(BALL, 32, elevation=0, lights=light, ambient=0, background="black").pixels.astype(int)
+        assert pixels[:16].sum() > 10 * pixels[16:].sum()
