@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from shackled.cli.look_options import option_of
 from shackled.scene import SETTINGS
 
 PAGE = Path(__file__).with_name("look.md")
@@ -18,7 +17,7 @@ def table() -> str:
     """Return the table in Markdown."""
     lines = ["| keyword | option | what it sets | values | default |", "|---|---|---|---|---|"]
     for setting in SETTINGS:
-        option = option_of(setting).replace("/", "`, `")
+        option = setting.option.replace("/", "`, `")
         lines.append(f"| `{setting.name}` | `{option}` | {setting.text} | {setting.values} | {setting.default} |")
     return "\n".join(lines) + "\n"
 

@@ -17,6 +17,7 @@ from shackled import cli
 from shackled.cli.app import LINES, app
 from shackled.cli.app import run as run_command
 from shackled.cli.option import with_options
+from shackled.words import INSTEAD
 
 
 def test_stopped_while_it_is_read_in(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
@@ -172,14 +173,17 @@ def test_closed_outputs() -> None:
         (["render", "shape.obj", "--width", "64"], "option --width: it is --size"),
         (["render", "shape.obj", "--fps", "24"], "option --fps: it is --duration"),
         (["render", "shape.obj", "--alpha"], "option --alpha: it is --transparent"),
+        (["gas", "shape.obj", "--bg", "red"], "option --bg: it is --background"),
+        (["render", "shape.obj", "--intensity", "2"], None),
         (["turntable", "shape.obj"], "command turntable: it is render INPUT --turntable FRAMES"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, list) else "",
 )
 def test_other_words_name_the_right_ones(
-    arguments: list[str], meant: str, capsys: pytest.CaptureFixture[str], folder: Path
+    arguments: list[str], meant: str | None, capsys: pytest.CaptureFixture[str], folder: Path
 ) -> None:
     assert run_command(arguments) == 2
+    meant = meant or f"option --intensity: {with_options(INSTEAD['intensity'])}"
     assert capsys.readouterr() == ("", f"shackled: no such {meant}\n")
     assert [each.name for each in folder.iterdir()] == ["shape.obj"]
 
