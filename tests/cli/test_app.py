@@ -202,14 +202,6 @@ def test_words_that_mean_something_else_are_left(
     assert "it is" not in message
 
 
-def test_help_in_short(capsys: pytest.CaptureFixture[str]) -> None:
-    for command in ([], ["render"], ["token", "mint"]):
-        assert run_command([*command, "-h"]) == 0
-        short = capsys.readouterr().out
-        assert run_command([*command, "--help"]) == 0
-        assert capsys.readouterr().out == short != ""
-
-
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
 @pytest.mark.parametrize(
     "arguments",
@@ -256,9 +248,3 @@ def test_names_that_are_too_long_are_wrong_usage(
     assert messages.endswith("cannot be written: File name too long\n")
     assert messages.count("\n") == 1
     assert list(folder.iterdir()) == before
-
-
-def test_keywords_of_messages_become_options() -> None:
-    assert with_options("`fov` and `half_height` exclude each other") == "--fov and --half-height exclude each other"
-    assert with_options("`jobs` must be 1 (`gas_limit`)") == "--jobs must be 1 (--gas-limit)"
-    assert with_options("`something` else") == "`something` else"
