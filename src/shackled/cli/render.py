@@ -12,7 +12,7 @@ from typing import Annotated
 import click
 from PIL import Image as PillowImage
 
-from .._on import VERIFY, Cluster, Nodes, On, Processes, where_of
+from .._on import VERIFY, Bounds, Cluster, Nodes, On, Processes, place_of
 from ..animation import DURATION, check_duration
 from ..animation import FORMATS as FILMS
 from ..chain import CHAINS, PATIENCE, open_chain
@@ -84,7 +84,7 @@ class WhereOptions:
         int | None,
         option(
             "--jobs",
-            "Number of worker processes, each of which takes one of several inputs, or a part of one; or of concurrent "
+            "Number of concurrent calls on this machine, of processes if there are several inputs, or of concurrent "
             "calls per node.",
             "N",
             "Where",
@@ -221,7 +221,8 @@ def render(
                 check_alpha(extension, FILMS if film.is_film else FORMATS)
         source = context.get_parameter_source("rpc")
         on, sides = where.on(source is not None and source.name == "ENVIRONMENT"), where.sides
-        where_of(on, where.gas_limit, sides)
+        place_of(on)
+        Bounds(where.gas_limit, sides)
         if where.evm is not None:
             open_chain(where.evm)
         exclusive = {
