@@ -226,9 +226,11 @@ def double(number: int) -> int:
 
 
 def test_several_processes_keep_the_order() -> None:
-    with Runner(processes=2) as runner:
-        assert runner.map("doubles", double, range(20)) == list(range(0, 40, 2))
-        assert runner.map("doubles", double, [1], alone=True) == [2]
+    shown: list[tuple[str, int, int]] = []
+    runner = Runner(processes=2, show=lambda *told: shown.append(told))
+    assert runner.map("doubles", double, range(20)) == list(range(0, 40, 2))
+    assert runner.map("doubles", double, [1], alone=True) == [2]
+    assert shown == [*(("doubles", done, 20) for done in range(1, 21)), ("doubles", 1, 1)]
 
 
 def test_tables_are_not_wrapped() -> None:

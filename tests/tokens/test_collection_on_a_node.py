@@ -96,7 +96,7 @@ def test_costs_are_reported_and_nothing_is_sent_unasked(node: Node, address: str
         (("deploy", "genesis", "--price", "much"), 2, "--price must be an amount of ether"),
         (("deploy", "genesis", "--royalty", "11"), 2, "--royalty must be a finite number from 0 to 10, not 11"),
         (("deploy", "genesis", "--royalty", "nan"), 2, "--royalty must be a finite number from 0 to 10, not nan"),
-        (("mint", "1" + 40 * "0"), 2, "is not in the range 1<=x<=18446744073709551615"),
+        (("mint", "1" + 40 * "0"), 2, "is not in the range"),
         (("deploy", "genesis", "--reserve", "1025", "--private-key-env", "KEY_0"), 2, "the reserve must be 0 to 1,024"),
         (("deploy", "genesis", "--allow-list", "none.csv"), 2, "the allow list none.csv cannot be read"),
     ],

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..chain import Connection
-from ..deploy import Receipt, Transactor, local_chain
+from ..deploy import Receipt, Transactor, local_chain, signer_class
 from ..errors import InputError, VerificationError
 from ..ethereum import ETHER, checksum_address, ether
 from ..whole_file import make_output_folder, write_output
@@ -244,10 +244,9 @@ def _require(failure: str, what: str) -> None:
 
 def development_accounts(count: int = ACCOUNTS) -> list[LocalAccount]:
     """Return the first accounts of anvil, 1 to 10, whose keys are public: use them on development nodes only."""
-    from eth_account import Account
-
-    Account.enable_unaudited_hdwallet_features()
-    return [Account.from_mnemonic(PHRASE, account_path=f"m/44'/60'/0'/0/{number}") for number in range(count)]
+    opener = signer_class()
+    opener.enable_unaudited_hdwallet_features()
+    return [opener.from_mnemonic(PHRASE, account_path=f"m/44'/60'/0'/0/{number}") for number in range(count)]
 
 
 def development_transactors(connection: Connection, max_fee: int | None) -> list[Transactor]:
