@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Unpack
 
 from attrs import evolve
 
-from ._frames import load_frames
-from ._load import Thing, load_picture
+from ._load import Thing, load_frames, load_picture
 from ._on import On, where_of
 from .animation import DURATION, DURATIONS, Animation
 from .chain import Chain, open_chain

@@ -22,7 +22,7 @@ from shackled import InputError, Material, Mesh, Object, Scene, Texture, load
 from shackled.errors import InputWarning
 from shackled.scene import decode, read_mesh, read_model, render_call, simplify
 from shackled.scene._files.model import TEXTURED
-from shackled.scene._packed_texture import unpack_texture
+from shackled.scene._packed import unpack_texture
 
 Pixels = NDArray[np.uint8]
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=np.float32)

@@ -18,17 +18,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...checks import number
 from ...errors import InputError
-from .._background import Background
+from .._arithmetic import IDENTITY, from_axis_angle, from_euler, multiply
 from .._camera import PROJECTIONS, Camera
 from .._crease import CREASES, shaded
-from .._effects import Fog, Hemisphere, Rim, Tone
+from .._effects import Background, Fog, Hemisphere, Rim, Tone
 from .._ground import Ground
 from .._light import LIGHT_KINDS, WHITE, Light
 from .._look import half_height_in, view_of
-from .._material import Material
 from .._mesh import Mesh
-from .._object import Object
-from .._rotation import IDENTITY, from_axis_angle, from_euler, multiply
+from .._object import Material, Object
 from .._scene import Scene
 from .._settings import Kind, Part, Setting, exclude, settings_of
 from .._staging import BACKGROUND, DEFAULT_SIDE, Viewpoint, frame, key_light, painted_object
