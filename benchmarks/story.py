@@ -14,7 +14,7 @@ from statistics import fmean
 from tools.pages import update
 
 from shackled.artifacts import RENDERER
-from shackled.bench import DEPLOYMENT_GAS, original, original_gas
+from shackled.bench import DEPLOYMENT_GAS, EXPERIMENTS, original, original_gas
 from shackled.bench._report import wrapped
 from shackled.bench.scenes import cube
 from shackled.ethereum import intrinsic_gas
@@ -34,8 +34,13 @@ HEADLINE = tuple(f"obj_{name}_cull" for name in (*SOURCES, "armadillo", "beast",
 MINT_GAS = 124_000
 
 
-def content(name: str) -> str:
-    """Return the text between the marks of that name: of an experiment without its title, or estimates."""
+def content(name: str) -> str | None:
+    """Return the text between the marks of that name: of an experiment without its title, or estimates.
+
+    None for the measurements of this folder, which write their own.
+    """
+    if name not in (*EXPERIMENTS, "energy", "repeated"):
+        return None
     if name == "energy":
         return estimates()
     if name == "repeated":

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import csv
+import hashlib
 import json
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
-from benchmarks import stages
+from attrs import evolve
+from benchmarks import client_workload, gas_model, look_quality, money, ray_marcher, stages
 from benchmarks.scenes import cubes, staged_teapot
 from benchmarks.workload import workload_of
 
+from compiler import needs_compiler
+from shackled import render
 from shackled.bench import EXPERIMENTS, _linear, fits, gas
 from shackled.chain import open_chain
 from shackled.gas import STAGES
@@ -97,3 +102,76 @@ def test_the_stages_add_up() -> None:
     # no light, no work for it
     unlit = stages.gas_by_stage(staged_teapot("unlit", 24))
     assert unlit["fragment shader"] < spent["fragment shader"] / 10
+
+
+# ---- beyond the paper ----
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("gas_model", lambda: gas_model.text(gas_model.recorded())),
+        ("ray_marcher", lambda: ray_marcher.text(ray_marcher.recorded())),
+        ("money", lambda: money.text(*money.recorded())),
+        ("look_quality", lambda: look_quality.text(look_quality.recorded())),
+    ],
+)
+def test_the_page_has_the_recorded_figures(name: str, text: Callable[[], str]) -> None:
+    page = (ROOT / "benchmarks" / "README.md").read_text("utf-8")
+    assert f"<!-- begin {name} -->\n{text()}\n<!-- end {name} -->" in page, f"run python -m benchmarks.{name}"
+
+
+def test_the_workload_of_clients_runs(tmp_path: Path) -> None:
+    """From its files alone: revm returns the expected bytes for the expected gas."""
+    assert client_workload.stale() == [], "run python -m benchmarks.client_workload"
+    texts = {path.name: path.read_text("utf-8") for path in client_workload.FOLDER.iterdir()}
+    expected = json.loads(texts["expected.json"])
+    codes = {
+        bytes.fromhex(address[2:]): bytes.fromhex(each["code"][2:])
+        for address, each in json.loads(texts["state.json"])["alloc"].items()
+    }
+    answer = client_workload.call(codes, bytes.fromhex(expected["to"][2:]), bytes.fromhex(texts["calldata.hex"]))
+    assert answer.gas == expected["gas"]
+    assert hashlib.sha256(answer.output).hexdigest() == expected["output sha256"]
+
+
+@needs_compiler
+def test_the_ray_marcher_draws_the_same_picture() -> None:
+    for shape in ray_marcher.all_shapes().values():
+        gas, marched = ray_marcher.march(shape, 24)
+        drawn = render(ray_marcher.scene(shape, 24)).pixels
+        inside = (marched != ray_marcher.SKY).any(axis=2) & (drawn != ray_marcher.SKY).any(axis=2)
+        assert inside.sum() > 100
+        assert np.abs(marched.astype(int) - drawn)[inside].mean() < 2
+        assert gas > 100_000
+    gas, _ = ray_marcher.march(ray_marcher.all_shapes()["torus"], 64)
+    assert gas == ray_marcher.recorded()["torus, 64 x 64"]["ray marcher"], "run python -m benchmarks.ray_marcher"
+
+
+def test_money_is_counted() -> None:
+    prices = money.Prices("a day", ether=2000, mainnet=5, rollup=0.5, blob=1)
+    work = money.Work(gas=900_000, intrinsic=100_000, data=1000, compressed=500_000)
+    assert work.on_mainnet(prices) == pytest.approx(10)
+    assert work.on_rollup(prices) == pytest.approx(1 + 1)
+    # 10 gas for a zero byte, and 40 for any other, where the execution is short
+    assert money.Work(0, 21_000 + 16, 1, 1).total == 21_040
+    scene = next(iter(money.scenes().values()))
+    assert next(iter(money.recorded()[1].values())) == money.measure(scene), "run python -m benchmarks.money"
+
+
+def test_the_model_of_gas_finds_what_there_is() -> None:
+    counts = np.array([[1, 10, 5], [1, 20, 9], [1, 35, 4], [1, 2, 80]], float)
+    assert gas_model.fitted(counts, counts @ [1000, 30, 7]) == pytest.approx([1000, 30, 7])
+    assert gas_model.errors(counts, counts @ [1000, 30, 7], np.array([2000, 60, 14])) == pytest.approx([1] * 4)
+    teapot = staged_teapot("smooth", 24)
+    assert gas_model.curved(teapot) == (1, 1)
+    assert gas_model.curved(staged_teapot("flat", 24)) == (0, 0)
+
+
+def test_a_part_of_a_look_is_left_out() -> None:
+    """Of the truth, the picture of the contract is near; without a part it is farther."""
+    scene = evolve(look_quality.effects("teapot"), width=32, height=32)
+    right = look_quality.truth(scene)
+    assert np.abs(right - render(scene).pixels / 255).mean() < 0.02
+    for change in look_quality.LOOKS["effects"][1].values():
+        assert np.abs(right - render(change(scene)).pixels / 255).mean() > 0.005

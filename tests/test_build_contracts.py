@@ -12,7 +12,7 @@ from random import Random
 import pytest
 from tools import build_contracts as tool
 from tools import comment_lines
-from tools.compiled_once import compile_once
+from tools.build_contracts import compile_once
 
 from compiler import needs_compiler
 from shackled.artifacts import RENDERER, artifact, contracts, source, standard_input

@@ -8,6 +8,9 @@
 
 Needs Node and `npm ci` in contracts/. The compiler is npm's solc, a JavaScript build: the same bytes on every machine.
 
+The compiler's answers are kept in the cache folder of the user, by its version and its whole input: what was compiled
+before is not compiled again.
+
 What writes prints the functions that have more bytes than before. One that is larger than its text explains has copies:
 the optimizer makes one for each literal argument (see ZERO_SLOT in contracts/src/words/Memory.sol).
 
@@ -19,6 +22,7 @@ its bytes.
 from __future__ import annotations
 
 import argparse
+import fcntl
 import hashlib
 import json
 import os
@@ -33,9 +37,12 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
+from platformdirs import user_cache_path
+
 from shackled.artifacts import OUTPUTS as OUTPUTS
 from shackled.artifacts import source as text_of
 from shackled.gas._function_sizes import function_sizes
+from shackled.whole_file import write_whole
 
 ROOT = Path(__file__).resolve().parent.parent
 CONTRACTS = ROOT / "contracts"
@@ -184,6 +191,25 @@ def run_compiler(request: str) -> dict[str, Any]:
     return dict(result)
 
 
+def kept_answer(request: str) -> dict[str, Any]:
+    """Return the compiler's answer, which is kept. A process that asks for the same waits for the first."""
+    compiler = (LIBRARIES / "solc" / "package.json").read_text("utf-8")
+    path = user_cache_path("shackled", appauthor=False) / f"solc-answer-{digest(compiler + request)[:32]}.json"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.with_suffix(".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not path.is_file():
+            write_whole(path, json.dumps(run_compiler(request)).encode())
+    answer: dict[str, Any] = json.loads(path.read_bytes())
+    return answer
+
+
+def compile_once(request: dict[str, Any]) -> dict[str, Any]:
+    """Return the contracts that the compiler makes of an input, by source and name: see `kept_answer`."""
+    contracts: dict[str, Any] = kept_answer(_text(request))["contracts"]
+    return contracts
+
+
 def build(groups: Sequence[str] = tuple(GROUPS)) -> dict[str, str]:
     """Return the text of every artifact file of these groups, by name."""
     files: dict[str, str] = {}
@@ -205,7 +231,7 @@ def build_group(group: str) -> tuple[dict[str, str], dict[str, Any]]:
     if (size := len(_text(asked))) > MAX_INPUT_SIZE:
         raise SystemExit(f"the compiler's input of {group} has {size:,} bytes, more than {MAX_INPUT_SIZE:,}")
     files: dict[str, str] = {}
-    answer = run_compiler(_text(with_maps(asked)))
+    answer = kept_answer(_text(with_maps(asked)))
     for source, contracts in answer["contracts"].items():
         for name, output in contracts.items():
             metadata = json.loads(output["metadata"])

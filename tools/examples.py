@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
 from tools import build_contracts
-from tools.compiled_once import compile_once
+from tools.build_contracts import compile_once
 from tools.ledger import World, call_data
 
 ROOT = Path(__file__).resolve().parent.parent

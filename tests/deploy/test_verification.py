@@ -10,7 +10,7 @@ from typing import Any
 from unittest.mock import Mock
 
 import pytest
-from tools.compiled_once import compile_once
+from tools.build_contracts import compile_once
 
 from compiler import needs_compiler
 from shackled import artifacts

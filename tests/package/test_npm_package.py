@@ -18,7 +18,7 @@ import pytest
 from eth_abi.abi import decode as decode_abi
 from PIL import Image as PillowImage
 from tools import build_contracts, build_package
-from tools.compiled_once import compile_once
+from tools.build_contracts import compile_once
 from tools.examples import compile_example
 from tools.ledger import World, call_data
 
@@ -139,7 +139,7 @@ def test_sources_compile_with_default_settings(optimized: bool) -> None:
     settings = {"evmVersion": "paris", "optimizer": {"enabled": optimized}}
     selection = {name: {"*": ["abi", "evm.bytecode.object"]} for name in sources}
     request = build_contracts.request(sources, settings, selection)
-    output = build_contracts.run_compiler(json.dumps(request))["contracts"]
+    output = compile_once(request)
     made = {name: each for path in output if path.startswith("interfaces/") for name, each in output[path].items()}
     described = [name for name in CONTRACTS if f"I{name}" in made]
     assert len(described) == 8

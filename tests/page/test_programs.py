@@ -169,7 +169,7 @@ def compiled(contracts: list[str]) -> list[tuple[bytes, dict[str, str]]]:
     names = [f"{number}.sol" for number in range(len(contracts))]
     sources |= dict(zip(names, contracts, strict=True))
     request = tool.request(sources, tool.settings(200, True), {name: {"*": tool.OUTPUTS} for name in names})
-    output = tool.run_compiler(json.dumps(request))["contracts"]
+    output = tool.compile_once(request)
     found = []
     for name in names:
         (contract,) = output[name].values()

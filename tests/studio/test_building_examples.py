@@ -21,11 +21,6 @@ ROOT = Path(__file__).resolve().parents[2]
 pytestmark = needs_compiler
 
 
-@pytest.fixture(scope="module")
-def world() -> World:
-    return World()
-
-
 @pytest.mark.parametrize(
     ("gallery", "name"), [(gallery, name) for gallery, names in draw_building.PICTURES.items() for name in names]
 )

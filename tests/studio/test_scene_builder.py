@@ -31,11 +31,6 @@ pytestmark = needs_compiler
 
 
 @pytest.fixture(scope="module")
-def world() -> World:
-    return World()
-
-
-@pytest.fixture(scope="module")
 def probe(world: World) -> bytes:
     return world.deploy(compile_example("tests/studio/BuilderProbe.sol")[0])
 

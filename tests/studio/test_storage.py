@@ -27,11 +27,6 @@ from shackled.studio._storage import compress_zeros, quantize, store_mesh
 STUDIO = b"\x11" * 20
 
 
-@pytest.fixture(scope="module")
-def world() -> World:
-    return World()
-
-
 def vertices(parts: Any, numbers: Iterable[int]) -> list[tuple[object, ...]]:
     """Positions and colours of some vertices, in no order."""
     return sorted((*parts.positions[number], parts.colors[number]) for number in numbers)

@@ -44,11 +44,6 @@ CHANGES = "(uint256,(int256,int256,int256,int256),uint256,(uint256,uint256),uint
 NOBODY = "0x" + 20 * "77"
 
 
-@pytest.fixture(scope="module")
-def world() -> World:
-    return World()
-
-
 def stored(world: World, scene: Scene) -> str:
     for storing in store_scene(scene, world.address("Studio"), chain=world.chain):
         output = world.run(world.address("Studio"), storing.data, created=True)

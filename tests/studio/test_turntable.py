@@ -86,11 +86,6 @@ def model(pictures: list[Pixels], delay: int, scale: int) -> bytes:
     return b"".join([*parts, chunk(b"IEND", b"")])
 
 
-@pytest.fixture(scope="module")
-def world() -> World:
-    return World()
-
-
 def stored(world: World, scene: Scene) -> str:
     for storing in store_scene(scene, world.address("Studio"), chain=world.chain):
         world.run(world.address("Studio"), storing.data, created=True)

@@ -31,11 +31,6 @@ def thing(scale: int = ONE, material: tuple[int, ...] = FLAT, mesh: bytes = MESH
     return (mesh, (x, 0, 0), (0, 0, 0, ONE), scale, material, 0)
 
 
-@pytest.fixture(scope="module")
-def world() -> World:
-    return World()
-
-
 @pytest.mark.parametrize(
     ("scene", "error"),
     [

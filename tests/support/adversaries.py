@@ -8,7 +8,7 @@ from unittest.mock import patch
 
 import pytest
 from tools import build_contracts as tool
-from tools.compiled_once import compile_once
+from tools.build_contracts import compile_once
 from tools.tokens.world import Built
 
 from compiler import MISSING, SOLC

@@ -15,6 +15,9 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 from tools.tokens.world import Refused
 
+#: How descriptions end.
+INDEPENDENT = "Not by the authors of the Shackled contracts of 2021, nor endorsed by them."
+
 
 def document(uri: str) -> dict[str, Any]:
     """The JSON of a `data:` URI."""

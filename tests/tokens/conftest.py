@@ -1,9 +1,10 @@
-"""The users of the tests of tokens on a node, and commands that run against it."""
+"""The users of the tests of tokens on a node, and commands that run against it; collections without a node."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
@@ -13,6 +14,9 @@ from shackled.chain import VARIABLE, AddressBook
 from shackled.cli.app import run
 from shackled.ethereum import checksum_address
 from shackled.tokens._demo import development_accounts
+
+if TYPE_CHECKING:
+    from tools.tokens.stage import Stage
 
 
 @pytest.fixture(scope="module")
@@ -62,3 +66,11 @@ def shackled(node: Node, users: list[str], capsys: pytest.CaptureFixture[str]) -
         return said
 
     return command
+
+
+@pytest.fixture
+def s() -> Stage:
+    """The collections in a world of their own, as they are deployed."""
+    from tools.tokens.stage import stage
+
+    return stage()

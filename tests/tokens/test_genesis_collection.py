@@ -13,10 +13,7 @@ from tools.tokens.world import Refused
 from shackled import render
 from shackled.datasets.genesis import generate, seed_of
 from shackled.image import decode_bmp
-from token_checks import document, pixels, traits
-
-#: How descriptions end.
-INDEPENDENT = "Not by the authors of the Shackled contracts of 2021, nor endorsed by them."
+from token_checks import INDEPENDENT, document, pixels, traits
 
 SIDE, SCALE = 128, 4
 #: What marketplaces take.

@@ -14,23 +14,15 @@ import numpy as np
 from PIL import Image as PillowImage
 from PIL import ImageSequence
 from tools.tokens.merkle import leaf
-from tools.tokens.stage import ALLOW_LIST, CLOSED, ICONS, LIMIT, PUBLIC, Stage, icon_scene, stage, store_scene
+from tools.tokens.stage import ALLOW_LIST, CLOSED, ICONS, LIMIT, PUBLIC, Stage, icon_scene, store_scene
 from tools.tokens.world import ETHER, ZERO, Contract, Refused
 
 from adversaries import adversary
 from shackled import render
 from shackled.image import decode_bmp
-from token_checks import document, pixels, refused, traits
-
-#: How descriptions end.
-INDEPENDENT = "Not by the authors of the Shackled contracts of 2021, nor endorsed by them."
+from token_checks import INDEPENDENT, document, pixels, refused, traits
 
 PRICES = [price for _, _, _, price in ICONS.values()]
-
-
-@pytest.fixture
-def s() -> Stage:
-    return stage()
 
 
 def fresh(s: Stage) -> Contract:

@@ -18,11 +18,6 @@ from token_checks import refused
 ROUND, DELAY = 32, 128
 
 
-@pytest.fixture
-def s() -> Stage:
-    return stage()
-
-
 def drawn(s: Stage, token: int) -> bytes:
     """What the documentation says is drawn for a token."""
     block = s.genesis.call("blockOf", s.genesis.call("roundOf", token))

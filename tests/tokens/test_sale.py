@@ -23,11 +23,6 @@ KEY = keccak(b"who signs")
 SIGNER = Account.from_key(KEY).address
 
 
-@pytest.fixture
-def s() -> Stage:
-    return stage()
-
-
 # ---- the public sale ----
 
 

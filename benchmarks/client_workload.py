@@ -1,0 +1,142 @@
+"""Write a picture as a workload for EVM clients: the code of contracts, the data of a call, the hash of its output.
+
+python -m benchmarks.client_workload            writes the files of benchmarks/client
+python -m benchmarks.client_workload --check    writes nothing; fails if they are not up to date
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import sys
+from pathlib import Path
+
+from shackled import load
+from shackled.artifacts import RENDERER
+from shackled.chain import RevmChain
+from shackled.errors import ChainError
+from shackled.ethereum import keccak256, to_hex
+from shackled.evm import Answer, Instance, Status
+from shackled.scene import render_call
+
+FOLDER = Path(__file__).with_name("client")
+PIECE, SIDE = "teapot", 128
+GAS = 1 << 26
+
+README = """# A workload for EVM clients
+
+One read call that draws the {piece} at {side} x {side} pixels, antialiased: arithmetic, memory, and a call
+between contracts, by the rules of Cancun. It always returns the same bytes for the same gas. A client that returns
+others, or takes other gas, has a fault.
+
+| file | what |
+| --- | --- |
+| [state.json](state.json) | the runtime code of {contracts} contracts by address, as the `alloc` of a genesis file |
+| [calldata.hex](calldata.hex) | the data of the call, {calldata:,} bytes |
+| [expected.json](expected.json) | address, execution gas, and size, Keccak-256 and SHA-256 of the output |
+
+Execution gas: {gas:,}, without the intrinsic gas of a transaction. By geth's `evm` tool:
+
+```
+evm --prestate state.json --inputfile calldata.hex --gas {limit} \\
+    --receiver {to} --bench run
+```
+
+The chain configuration in `state.json` has all forks up to Cancun from the start. The command was not tried, as no geth
+is installed where this was written; a test runs the files in revm.
+
+Written by `python -m benchmarks.client_workload`.
+"""
+
+
+def call(codes: dict[bytes, bytes], to: bytes, data: bytes) -> Answer:
+    """Run the call in revm."""
+    evm = Instance()
+    evm.hold(codes)
+    return evm.call(to, data, GAS)
+
+
+def needed(codes: dict[bytes, bytes], to: bytes, data: bytes) -> dict[bytes, bytes]:
+    """Return the codes without which the call would end otherwise. ChainError if it fails with all."""
+    whole = call(codes, to, data)
+    if whole.status != Status.SUCCESS:
+        raise ChainError(f"the call ended with {whole.status.name}")
+    kept = {}
+    for address, code in codes.items():
+        others = {each: value for each, value in codes.items() if each != address}
+        if call(others, to, data) != whole:
+            kept[address] = code
+    return kept
+
+
+def files() -> dict[str, str]:
+    """Return the texts of the files by name."""
+    chain = RevmChain()
+    to = chain.address("Renderer")
+    own = {chain.address(name) for name in RENDERER}
+    data = render_call(load(PIECE, size=SIDE, antialias=True))
+    codes = needed({address: code for address, code in chain.codes().items() if address in own}, to, data)
+    answer = call(codes, to, data)
+    config = dict.fromkeys(FORKS, 0) | {"chainId": 1, "terminalTotalDifficulty": 0}
+    alloc = {to_hex(address): {"balance": "0x0", "code": to_hex(code)} for address, code in sorted(codes.items())}
+    expected = {
+        "to": to_hex(to),
+        "gas": answer.gas,
+        "output bytes": len(answer.output),
+        "output keccak256": keccak256(answer.output).hex(),
+        "output sha256": hashlib.sha256(answer.output).hexdigest(),
+    }
+    state = {"config": config, "gasLimit": hex(GAS), "difficulty": "0x0", "alloc": alloc}
+    return {
+        "state.json": json.dumps(state, indent=1) + "\n",
+        "calldata.hex": data.hex() + "\n",
+        "expected.json": json.dumps(expected, indent=1) + "\n",
+        "README.md": README.format(
+            piece=PIECE, side=SIDE, contracts=len(codes), calldata=len(data), gas=answer.gas, to=to_hex(to), limit=GAS
+        ),
+    }
+
+
+#: The forks of a chain configuration that begin at block 0, and at time 0.
+FORKS = (
+    "homesteadBlock",
+    "eip150Block",
+    "eip155Block",
+    "eip158Block",
+    "byzantiumBlock",
+    "constantinopleBlock",
+    "petersburgBlock",
+    "istanbulBlock",
+    "berlinBlock",
+    "londonBlock",
+    "shanghaiTime",
+    "cancunTime",
+)
+
+
+def stale() -> list[str]:
+    """Return the names of the files that are not up to date."""
+    return [
+        name
+        for name, text in files().items()
+        if not (FOLDER / name).is_file() or (FOLDER / name).read_text("utf-8") != text
+    ]
+
+
+def main() -> int:
+    """Write or check."""
+    if "--check" in sys.argv[1:]:
+        wrong = stale()
+        print(
+            "".join(f"{name} is not up to date: run python -m benchmarks.client_workload\n" for name in wrong), end=""
+        )
+        return bool(wrong)
+    FOLDER.mkdir(exist_ok=True)
+    for name, text in files().items():
+        (FOLDER / name).write_text(text, "utf-8", newline="\n")
+        print(f"written: {name}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
