@@ -1,13 +1,14 @@
 import struct
-import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
 
+import mesh_files
+from mesh_files import corner_colors
 from shackled.errors import InputError, InputWarning
-from shackled.scene import Mesh, read_mesh, read_model
+from shackled.scene import Mesh, read_model
 from shackled.scene._mesh import DEFAULT_COLOR
 
 SQUARE = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0))
@@ -27,29 +28,15 @@ def rows(more: str) -> str:
 
 
 def read(folder: Path, content: str | bytes) -> Mesh:
-    path = folder / "model.ply"
-    path.write_bytes(content.encode() if isinstance(content, str) else content)
-    return read_mesh(path)
+    return mesh_files.read(folder / "model.ply", content)
 
 
 def read_with_notes(folder: Path, content: str | bytes) -> tuple[Mesh, list[str]]:
-    """The mesh, and the notes without the path that each begins with."""
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        mesh = read(folder, content)
-    path = f"{folder / 'model.ply'}: "
-    notes = [str(each.message) for each in told]
-    assert all(note.startswith(path) and "\n" not in note for note in notes)
-    return mesh, [note.removeprefix(path) for note in notes]
+    return mesh_files.read_with_notes(folder / "model.ply", content)
 
 
 #: The note of a file whose faces and vertices have colours.
 OF_FACES = "the colours of its vertices are left out, for its faces have colours"
-
-
-def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
-    colors: list[list[list[int]]] = mesh.colors[mesh.faces].tolist()
-    return colors
 
 
 VERTICES = "".join(f"{x} {y} {z}\n" for x, y, z in SQUARE)
