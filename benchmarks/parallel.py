@@ -17,12 +17,13 @@ from statistics import fmean
 from attrs import evolve
 from tools.anvil import Anvil, AnvilChain, find_anvil
 
-from shackled import Scene
+from shackled import Cluster, Nodes, Processes, Scene
+from shackled._on import Place, place_of
 from shackled.bench import gas, millions, table
 from shackled.chain import open_chain
 from shackled.datasets import require
-from shackled.parallel import Listener, Where
-from shackled.parallel._backends import Backend, Part, ProcessBackend
+from shackled.parallel import Listener
+from shackled.parallel._backends import Backend, Part, ThreadBackend
 from shackled.parallel._scheduler import Scheduler
 from shackled.parallel._tiles import grid
 from shackled.scene import Rectangle, full_turn
@@ -110,8 +111,8 @@ def throughput() -> Section:
         data[name] = {"seconds": round(seconds, 3), "frames a second": round(speed, 2)}
     text = (
         f"{FRAMES} frames of the teapot at {SIDE} x {SIDE} pixels, {millions(used)} gas in all, on a machine of "
-        f"{os.cpu_count()} processors, which the nodes share with the client. Places were warm: processes started, "
-        f"nodes probed. No answer was checked. Of {RUNS} runs in turns, the best.\n\n"
+        f"{os.cpu_count()} processors, which the nodes share with the client. Places were warm: EVMs set up, workers "
+        f"started, nodes probed. No answer was checked. Of {RUNS} runs in turns, the best.\n\n"
         + table(["place", "frames a second", "million gas a second", "times this process"], rows)
     )
     return Section("Frames", text, data)
@@ -119,11 +120,11 @@ def throughput() -> Section:
 
 def opened(stack: ExitStack) -> dict[str, list[Backend]]:
     """Open the backends, which close with the stack."""
-    wanted: dict[str, Where] = {
-        "this process": Where(),
-        "2 worker processes": Where(jobs=2),
-        "dask, 1 worker": Where(cluster="", jobs=1),
-        "dask, 2 workers": Where(cluster="", jobs=2),
+    wanted: dict[str, Place] = {
+        "this process": place_of(None),
+        "2 threads": Processes(2),
+        "dask, 1 worker": Cluster(jobs=1),
+        "dask, 2 workers": Cluster(jobs=2),
     }
     binary = find_anvil()
     if binary is None:
@@ -131,12 +132,12 @@ def opened(stack: ExitStack) -> dict[str, list[Backend]]:
     else:
         one, two = (stack.enter_context(Anvil(binary)) for _ in range(2))
         deployed = stack.enter_context(AnvilChain(binary))
-        wanted["anvil, state override"] = Where(rpc=(one.url,))
-        wanted["anvil, deployed"] = Where(rpc=(deployed.node.url,), address=deployed.address("Renderer"))
-        wanted["anvil, 2 calls at a time"] = Where(rpc=(one.url,), jobs=2)
-        wanted["2 anvils"] = Where(rpc=(one.url, two.url))
+        wanted["anvil, state override"] = Nodes(one.url)
+        wanted["anvil, deployed"] = Nodes(deployed.node.url, address=deployed.address("Renderer"))
+        wanted["anvil, 2 calls at a time"] = Nodes(one.url, jobs=2)
+        wanted["2 anvils"] = Nodes(one.url, two.url)
     # the command renders a single job in its own process
-    found: dict[str, list[Backend]] = {"1 worker process": [ProcessBackend(None, 1)]}
+    found: dict[str, list[Backend]] = {"1 thread": [ThreadBackend(1)]}
     found |= {name: where.open(Listener()) for name, where in wanted.items()}
     for places in found.values():
         for place in places:

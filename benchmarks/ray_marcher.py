@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from eth_abi.abi import decode, encode
 from numpy.typing import NDArray
-from tools.compiled_once import compile_once
+from tools.build_contracts import compile_once
 from tools.pages import ROOT, update
 
 from shackled import Background, Camera, Light, Material, Object, Scene, render

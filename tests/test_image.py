@@ -17,12 +17,13 @@ from attrs import evolve
 from PIL import Image as PillowImage
 
 from shackled import Animation, Camera, Image, InputError, Light, Mesh, Object, OutputError, RenderError, Scene, render
+from shackled._on import Embedded
 from shackled.animation import check_animation
 from shackled.artifacts import artifact
 from shackled.chain import CallResult, ContractChain, RevmChain, open_chain
 from shackled.errors import OutOfGasError
 from shackled.image import FORMATS, check_output, decode_bmp
-from shackled.parallel import Counter, Where
+from shackled.parallel import Counter
 from shackled.scene import encode
 
 #: Formats that are only near.
@@ -237,7 +238,7 @@ def test_counts_are_calls_of_their_own(monkeypatch: pytest.MonkeyPatch) -> None:
         made.clear()
         assert (image.triangles, image.covered_pixels) == expected == (image.triangles, image.covered_pixels)
         assert made == [selectors[each] for each in counts]
-    assert "Where" not in repr(image.counter)
+    assert "Embedded" not in repr(image.counter)
     copied = pickle.loads(pickle.dumps(image))
     made.clear()
     assert (copied.triangles, copied.covered_pixels) == expected
@@ -253,7 +254,7 @@ def test_a_strip_that_takes_too_much_gas_is_halved() -> None:
     chain = RevmChain(300_000)
     with pytest.raises(OutOfGasError):
         chain.count(SCENE)
-    assert Counter(Where(chain), 37 * 21)(SCENE) == RevmChain().count(SCENE)
+    assert Counter(Embedded(chain), 37 * 21)(SCENE) == RevmChain().count(SCENE)
 
 
 def test_a_picture_of_unknown_scene_has_no_counts(image: Image) -> None:

@@ -31,9 +31,11 @@ import subprocess
 import sys
 import tempfile
 import tomllib
+from bisect import bisect_right
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +43,7 @@ from platformdirs import user_cache_path
 
 from shackled.artifacts import OUTPUTS as OUTPUTS
 from shackled.artifacts import source as text_of
-from shackled.gas._function_sizes import function_sizes
+from shackled.gas._source_map import instruction_sources
 from shackled.whole_file import write_whole
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -383,6 +385,29 @@ def sizes(files: dict[str, str]) -> dict[str, Counter[str]]:
         for name, mapped in maps.get("contracts", {}).items()
         if (text := files.get(f"{name}.json"))
     }
+
+
+def function_sizes(code: bytes, entries: str, sources: dict[str, Any]) -> Counter[str]:
+    """Return the number of bytes of each function.
+
+    Those in no function, such as of constants, are counted for their file, and those without a source for `compiler`.
+    Functions within inline assembly belong to the function around them.
+
+    entries: the compiler's source map of the code. sources: by its numbers, each with a `name` and its `functions`:
+    name, first byte, and number of bytes, as in source-maps.json.
+    """
+    ordered: dict[int, tuple[str, list[list[Any]], list[int]]] = {}
+    for key, source in sources.items():
+        functions = sorted(source["functions"], key=lambda function: int(function[1]))
+        ordered[int(key)] = source["name"], functions, [begin for _, begin, _ in functions]
+    counted: Counter[str] = Counter()
+    instructions = [(at, number, begin) for at, number, begin, _, _ in instruction_sources(code, entries)]
+    for (at, number, begin), (end, _, _) in pairwise([*instructions, (len(code), -1, 0)]):
+        file, functions, begins = ordered.get(number, ("compiler", [], []))
+        # the last one that begins at or before it
+        name, first, length = functions[bisect_right(begins, begin) - 1] if functions else (file, 0, 0)
+        counted[name if first <= begin < first + length else file] += end - at
+    return counted
 
 
 def risen(before: dict[str, Counter[str]], after: dict[str, Counter[str]]) -> list[str]:

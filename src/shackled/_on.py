@@ -1,24 +1,28 @@
-"""The values of the argument `on` of `render`: where calls run."""
+"""The values of the argument `on` of `render`: where calls run, and the backends that make them."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from attrs import field, frozen
 
-from .chain import CHAINS, Chain, check_chain, check_timeout, check_url
-from .checks import choice, whole
-from .errors import InputError
+from .chain import CHAINS, DEFAULT_GAS_LIMIT, Chain, check_chain, check_timeout, check_url, open_chain, open_node
+from .checks import choice, integer, whole
+from .errors import ChainError, InputError, NodeError, OutOfGasError
 from .ethereum import parse_address
+from .scene import Scene, size_of
 
 if TYPE_CHECKING:
-    from .parallel import Where
+    from .parallel import Backend, Listener
 
 
 #: The most jobs, and how much of the pixels of nodes and clusters is compared.
 MOST_JOBS = 256
 VERIFY = ("all", "some", "none")
+#: Attempts of a request to a node that is busy, before the job begins.
+ATTEMPTS = 4
 
 
 def _jobs(value: int | None) -> int | None:
@@ -34,15 +38,51 @@ def _verify(value: str | None) -> str | None:
 
 
 @frozen
-class Processes:
-    """Worker processes on this machine.
+class Embedded:
+    """One call at a time: in the EVM of a name, or on a chain that the caller made. None for revm."""
 
-    jobs: number of processes, 1..256; None for one per processor.
-    evm: "revm", "pyrevm" or "pyevm"; None for the first.
+    chain: Chain | str | None = None
+    verify: str | None = None
+
+    def opened(self) -> Chain:
+        """Return the chain."""
+        return open_chain(self.chain) if self.chain is None or isinstance(self.chain, str) else self.chain
+
+    def open(self, listener: Listener, gas_limit: int | None = None) -> list[Backend]:
+        """Return the backends of a job."""
+        from .parallel import ChainBackend, limited
+
+        if self.chain is None or isinstance(self.chain, str):
+            return [ChainBackend(limited(self.chain, gas_limit), gas=gas_limit)]
+        return [ChainBackend(self.chain, gas=gas_limit)]
+
+
+@frozen
+class Processes:
+    """Calls at the same time on this machine, in threads; in processes only for several files of one command.
+
+    jobs: number of calls at a time, 1..256; None for one per processor.
+    evm: "revm", "pyrevm" or "pyevm"; None for the first. The others hold the lock of the interpreter, so that their
+        calls run one after the other, which a warning says.
     """
 
     jobs: int | None = field(default=None, converter=_jobs)
     evm: str | None = field(default=None, converter=_evm)
+    verify: None = field(default=None, init=False, repr=False)
+
+    @property
+    def count(self) -> int:
+        """Return the number of calls at a time."""
+        return self.jobs or os.cpu_count() or 1
+
+    def open(self, listener: Listener, gas_limit: int | None = None) -> list[Backend]:
+        """Return the backends of a job."""
+        from .parallel import ThreadBackend
+
+        if self.evm in (None, "revm"):
+            return [ThreadBackend(self.count, gas_limit)]
+        listener.warned(f"{self.evm} holds the lock of the Python interpreter: its calls run one after the other")
+        return Embedded(self.evm).open(listener, gas_limit)
 
 
 def _urls(urls: tuple[str, ...]) -> tuple[str, ...]:
@@ -98,6 +138,40 @@ class Nodes:
         """Take the addresses of the nodes."""
         self.__attrs_init__(urls, address, timeout, jobs, verify)
 
+    def open(self, listener: Listener, gas_limit: int | None = None) -> list[Backend]:
+        """Return the backends of a job. Nodes that fail are left out with a warning, as long as others work."""
+        backends: list[Backend] = []
+        last: ChainError
+        urls = list(dict.fromkeys(self.urls))
+        for url in urls:
+            try:
+                backends.append(self._open(url, gas_limit))
+            except (NodeError, OutOfGasError) as error:
+                if len(urls) == 1:
+                    raise
+                listener.warned(f"{error}; it is left out")
+                last = error
+        if not backends:
+            raise last
+        return backends
+
+    def only(self, urls: Sequence[str]) -> Nodes:
+        """Return some of the nodes."""
+        return Nodes(*urls, address=self.address, timeout=self.timeout, jobs=self.jobs or 1, verify=self.verify)
+
+    def _open(self, url: str, gas_limit: int | None) -> Backend:
+        from .parallel import ChainBackend
+
+        node = open_node(url, self.address, self.timeout)
+        node.connection.attempts = ATTEMPTS
+        most = node.gas_limit
+        node.place("Renderer")  # fail early if something else is deployed at the address
+        if not most:
+            raise node.too_little()
+        node.connection.attempts = 1
+        gas = most if gas_limit is None else min(most, gas_limit)
+        return ChainBackend(node, self.jobs or 1, untrusted=True, gas=gas)
+
 
 @frozen
 class Cluster:
@@ -114,34 +188,64 @@ class Cluster:
     evm: str | None = field(default=None, converter=_evm)
     verify: str | None = field(default=None, converter=_verify)
 
+    def open(self, listener: Listener, gas_limit: int | None = None) -> list[Backend]:
+        """Return the backends of a job."""
+        from .parallel import ClusterBackend
+
+        # workers with the same contracts are trusted, unless `verify` is given
+        jobs = self.jobs or os.cpu_count() or 1
+        return [ClusterBackend(self.address, jobs, self.evm, gas_limit, self.verify is not None)]
+
 
 #: Where calls run: in the EVM of this name, at the node of this address, in this EVM, or in one of these.
 On = str | Chain | Processes | Nodes | Cluster
+#: The same, as `place_of` returns it.
+Place = Embedded | Processes | Nodes | Cluster
 
 
-def where_of(on: On | None, gas_limit: int | None = None, tile: tuple[int, int] | None = None) -> Where:
-    """Return where to render. InputError if `on` is something else."""
-    from .parallel import Where
-
+def place_of(on: On | Place | None) -> Place:
+    """Return where calls run. InputError if `on` is something else."""
     if isinstance(on, str) and "://" in on:
         on = Nodes(on)
     if on is None or isinstance(on, str):
-        return Where(None if on is None else check_chain(on, "`on`"), gas_limit=gas_limit, tile=tile)
+        return Embedded(None if on is None else check_chain(on, "`on`"))
     if isinstance(on, Processes):
-        jobs = (os.cpu_count() or 1) if on.jobs is None else on.jobs
-        return Where(on.evm, jobs, gas_limit=gas_limit, tile=tile)
-    if isinstance(on, Nodes):
-        return Where(
-            jobs=on.jobs,
-            rpc=on.urls,
-            address=on.address,
-            timeout=on.timeout,
-            gas_limit=gas_limit,
-            tile=tile,
-            verify=on.verify,
-        )
-    if isinstance(on, Cluster):
-        return Where(on.evm, on.jobs, cluster=on.address or "", gas_limit=gas_limit, tile=tile, verify=on.verify)
+        return Embedded(on.evm) if on.count == 1 else on
+    if isinstance(on, Embedded | Nodes | Cluster):
+        return on
     if not hasattr(on, "draw"):
         raise InputError(f"`on` must be one of {', '.join(CHAINS)}, Processes, Nodes or Cluster, not {on!r:.60}")
-    return Where(on, gas_limit=gas_limit, tile=tile)
+    return Embedded(on)
+
+
+def _gas(value: int | None) -> int | None:
+    gas = integer(value)
+    if value is not None and (gas is None or not 1 <= gas <= DEFAULT_GAS_LIMIT):
+        raise InputError(f"`gas_limit` must be a whole number of gas from 1 to {DEFAULT_GAS_LIMIT:,}, not {value!r}")
+    return gas
+
+
+def _tile(value: int | tuple[int, int] | None) -> tuple[int, int] | None:
+    sides = None if value is None else size_of(value, "`tile`")
+    if sides is not None and min(sides) < 1:
+        raise InputError(f"the sides of a `tile` must be whole numbers from 1, not {value!r}")
+    return sides
+
+
+@frozen
+class Bounds:
+    """Bounds of a call.
+
+    gas_limit: gas that it may use; None for the limit of the chain.
+    tile: width and height of the tiles of a picture, or one number; None where they are chosen, if any are needed.
+    """
+
+    gas_limit: int | None = field(default=None, converter=_gas)
+    tile: tuple[int, int] | None = field(default=None, converter=_tile)
+
+
+def is_one_call(place: Place, scene: Scene, bounds: Bounds) -> bool:
+    """Return whether a picture is made by one call in this process."""
+    from .parallel import is_large
+
+    return isinstance(place, Embedded) and bounds == Bounds() and not is_large(scene)

@@ -11,16 +11,16 @@ from typing import TYPE_CHECKING, Unpack
 from attrs import evolve
 
 from ._load import Thing, load_frames, load_picture
-from ._on import On, where_of
+from ._on import Bounds, Embedded, On, Place, is_one_call, place_of
 from .animation import DURATION, DURATIONS, Animation
-from .chain import Chain, open_chain
+from .chain import Chain
 from .errors import InputError, warn
 from .image import Image, decode_bmp, uncovered
-from .scene import Background, LookOptions, Scene, full_turn, size_of
+from .scene import Background, LookOptions, Scene, full_turn
 from .words import with_words
 
 if TYPE_CHECKING:
-    from .parallel import Counter, Listener, Where
+    from .parallel import Counter, Listener
 
 
 @with_words
@@ -55,15 +55,15 @@ def render(
 
     Raises InputError for an invalid scene, ChainError if a call fails.
     """
-    scene, where = load_picture(thing, size, **look), _where(on, gas_limit, tile)
+    scene, place, bounds = load_picture(thing, size, **look), place_of(on), Bounds(gas_limit, tile)
     if fit is not None:
         for name, given in (("tile", tile), ("gas_limit", gas_limit)):
             if given is not None:
                 raise InputError(f"`fit` and `{name}` exclude each other: give one of them")
         scene = _fitted(scene, fit, look)
     if not transparent:
-        return draw([scene], where, listener, keep)[0]
-    black, white = draw(_twice(scene), where, listener, keep)
+        return draw([scene], place, bounds, listener, keep)[0]
+    black, white = draw(_twice(scene), place, bounds, listener, keep)
     return uncovered(black, white, scene)
 
 
@@ -106,7 +106,7 @@ def turntable(
             make_apng(load_picture(thing, size, **look), frames, duration, on=on, gas_limit=gas_limit), duration
         )
     turned = full_turn(load_picture(thing, size, **look), frames)
-    return film(turned, duration, _where(on, gas_limit, tile), listener, keep, transparent)
+    return film(turned, duration, place_of(on), Bounds(gas_limit, tile), listener, keep, transparent)
 
 
 @with_words
@@ -134,7 +134,7 @@ def animate(
     """
     scenes, length = load_frames(thing, frames, size, **look)
     shown = pace(length, frames) if duration is None else duration
-    return film(scenes, shown, _where(on, gas_limit, tile), listener, keep, transparent)
+    return film(scenes, shown, place_of(on), Bounds(gas_limit, tile), listener, keep, transparent)
 
 
 def pace(length: float, frames: int) -> int:
@@ -145,7 +145,8 @@ def pace(length: float, frames: int) -> int:
 def film(
     scenes: Sequence[Scene],
     duration: int,
-    where: Where,
+    place: Place,
+    bounds: Bounds,
     listener: Listener | None = None,
     keep: Path | None = None,
     transparent: bool = False,
@@ -154,7 +155,7 @@ def film(
     from .parallel import render_frames
 
     drawn = [each for scene in scenes for each in _twice(scene)] if transparent else scenes
-    images = render_frames(drawn, where, listener, keep).images
+    images = render_frames(drawn, place, bounds, listener, keep).images
     if transparent:
         images = [uncovered(*both) for both in zip(images[::2], images[1::2], scenes, strict=True)]
     return Animation(images, duration)
@@ -167,17 +168,14 @@ def _twice(scene: Scene) -> list[Scene]:
 
 
 def draw(
-    scenes: Sequence[Scene], where: Where, listener: Listener | None = None, keep: Path | None = None
+    scenes: Sequence[Scene], place: Place, bounds: Bounds, listener: Listener | None = None, keep: Path | None = None
 ) -> list[Image]:
     """Render scenes of one size, by one call each or by several."""
-    from .parallel import Counter
+    from .parallel import Counter, render_frames
 
-    if all(map(where.is_one_call, scenes)):
-        chain = open_chain(where.chain) if where.chain is None or isinstance(where.chain, str) else where.chain
-        return [render_whole(scene, chain, Counter(where)) for scene in scenes]
-    from .parallel import render_frames
-
-    return render_frames(scenes, where, listener, keep).images
+    if isinstance(place, Embedded) and all(is_one_call(place, scene, bounds) for scene in scenes):
+        return [render_whole(scene, place.opened(), Counter(place)) for scene in scenes]
+    return render_frames(scenes, place, bounds, listener, keep).images
 
 
 def render_whole(scene: Scene, chain: Chain, counter: Counter) -> Image:
@@ -204,7 +202,3 @@ def _fitted(scene: Scene, fit: str, look: LookOptions) -> Scene:
     if found.scene != scene:
         warn(found.sentence)
     return found.scene
-
-
-def _where(on: On | None, gas_limit: int | None, tile: int | tuple[int, int] | None) -> Where:
-    return where_of(on, gas_limit, None if tile is None else size_of(tile, "`tile`"))

@@ -129,15 +129,12 @@ def test_tables_for_people(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_flame_graphs(capsys: pytest.CaptureFixture[str]) -> None:
-    for name in ("flame.svg", "flame.json"):
-        assert run(["gas", "shape.obj", "--size", "16", "--profile", name]) == 0
-        output, _ = capsys.readouterr()
-        assert f"flame graph: {name}" in output
-        # place, function and gas of the dearest lines
-        assert re.search(r"pipeline/\w+\.sol:\d+ +\w+\.\w+ +[\d,]+ +\d+\.\d\d %", output)
+    assert run(["gas", "shape.obj", "--size", "16", "--profile", "flame.svg"]) == 0
+    output, _ = capsys.readouterr()
+    assert "flame graph: flame.svg" in output
+    # place, function and gas of the dearest lines
+    assert re.search(r"pipeline/\w+\.sol:\d+ +\w+\.\w+ +[\d,]+ +\d+\.\d\d %", output)
     assert ElementTree.parse("flame.svg").getroot().tag.endswith("svg")
-    gas = render(load("shape.obj"), size=16).gas
-    assert json.loads(Path("flame.json").read_text("utf-8"))["profiles"][0]["endValue"] == gas
     assert report(capsys, "--profile", "other.svg")["profile"] == "other.svg"
 
 
@@ -160,7 +157,7 @@ def test_opcodes(capsys: pytest.CaptureFixture[str]) -> None:
 def test_mistakes_are_told_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
     Path("folder.svg").mkdir()
     assert "use one of revm, pyrevm, pyevm" in error(capsys, 2, "--evm", "reference")
-    assert ".json or .svg" in error(capsys, 2, "--profile", "flame.png")
+    assert "an .svg file" in error(capsys, 2, "--profile", "flame.png")
     assert "does not exist" in error(capsys, 2, "--profile", "nowhere/flame.svg")
     assert "is a folder" in error(capsys, 2, "--profile", "folder.svg")
     assert "--no-stages" in error(capsys, 2, "--profile", "flame.svg", "--no-stages")

@@ -183,21 +183,24 @@ def interruptible() -> Iterator[None]:
 
 @pytest.mark.usefixtures("interruptible")
 @pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
-@pytest.mark.parametrize("kind", [signal.SIGINT, signal.SIGKILL], ids=["interrupted", "killed"])
-def test_nothing_runs_on(kind: signal.Signals) -> None:
-    """Ctrl-C ends the workers, and so does the sudden death of the process that started them."""
+@pytest.mark.parametrize(
+    ("inputs", "kind"),
+    [(["teapot"], signal.SIGINT), (["teapot", "cube"], signal.SIGINT), (["teapot", "cube"], signal.SIGKILL)],
+    ids=["threads", "processes", "killed"],
+)
+def test_nothing_runs_on(inputs: list[str], kind: signal.Signals) -> None:
+    """Ctrl-C ends threads, and the processes of several inputs, which also end if the command is killed."""
     mark = f"SHACKLED_TEST_{os.getpid()}_{kind}"
-    command = [sys.executable, "-m", "shackled", "render", "teapot", "--size", "128", "--jobs", "2"]
+    command = [sys.executable, "-m", "shackled", "render", *inputs, "--size", "128", "--jobs", "2"]
     with subprocess.Popen(
-        [*command, "--turntable", "720", "-o", "spin.gif"],
+        [*command, "--turntable", "720", "-o", "{stem}.gif"],
         env={**os.environ, mark: "1"},
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
     ) as process:
-        wait_until(lambda: len(list(Path("spin.gif.parts").glob("*.part"))) > 4)
-        workers = marked(mark) - {process.pid}
-        assert len(workers) == 2
+        wait_until(lambda: len(list(Path("teapot.gif.parts").glob("*.part"))) > 4)
+        assert len(marked(mark) - {process.pid}) == (2 if len(inputs) > 1 else 0)
         process.send_signal(kind)
         output, messages = process.communicate(timeout=PATIENCE)
     wait_until(lambda: not marked(mark))
@@ -206,8 +209,8 @@ def test_nothing_runs_on(kind: signal.Signals) -> None:
     if kind == signal.SIGINT:
         assert process.returncode == 1
         assert messages.endswith("shackled: stopped\n")
-    assert not Path("spin.gif").exists()
-    kept = len(list(Path("spin.gif.parts").glob("*.part")))
+    assert not Path("teapot.gif").exists()
+    kept = len(list(Path("teapot.gif.parts").glob("*.part")))
     assert 4 < kept < 720
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 import xml.etree.ElementTree as ElementTree
 
@@ -12,7 +11,7 @@ from shackled import Scene, load
 from shackled.artifacts import artifact, source
 from shackled.chain import ContractChain, open_chain
 from shackled.deploy import STANDARD
-from shackled.gas import KINDS, STAGES, Profile, flame_graph, measure, profile, render_call, speedscope
+from shackled.gas import KINDS, STAGES, Profile, flame_graph, measure, profile, render_call
 from shackled.gas._flame_graph import MARGIN, WIDTH
 from shackled.gas._source_map import source_map
 from shackled.gas._trace import CallFrame, trace
@@ -164,24 +163,6 @@ def test_maps_cover_the_code(name: str) -> None:
     kinds = {place.jump for place in found.places.values()}
     assert kinds == {"i", "o", "-"}
     assert all(code[at] in (0x56, 0x57) for at, place in found.places.items() if place.jump != "-")
-
-
-def test_speedscope(profiles: dict[str, Profile]) -> None:
-    found = profiles["smooth"]
-    content = json.loads(json.dumps(speedscope(found, "pot")))
-    assert content["$schema"] == "https://www.speedscope.app/file-format-schema.json"
-    (sampled,) = content["profiles"]
-    frames = content["shared"]["frames"]
-    assert sampled["type"] == "sampled"
-    assert len(sampled["samples"]) == len(sampled["weights"])
-    assert sum(sampled["weights"]) == sampled["endValue"] == found.gas
-    assert {index for sample in sampled["samples"] for index in sample} == set(range(len(frames)))
-    stages = dict.fromkeys(STAGES, 0)
-    for sample, weight in zip(sampled["samples"], sampled["weights"], strict=True):
-        stages[frames[sample[0]]["name"]] += weight
-        assert frames[sample[1]]["name"] == "Renderer"
-    assert stages == found.stages()
-    assert all(frame["line"] > 0 for frame in frames if "file" in frame)
 
 
 def test_the_flame_graph(profiles: dict[str, Profile]) -> None:

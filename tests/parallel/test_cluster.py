@@ -12,9 +12,10 @@ import pytest
 from attrs import evolve
 
 from nodes import Reply, serving
-from shackled import ChainError, InputError, Scene, load
+from shackled import ChainError, Cluster, InputError, Processes, Scene, load
+from shackled._on import Bounds
 from shackled.chain import Drawing
-from shackled.parallel import Listener, Where, render_frames
+from shackled.parallel import Listener, render_frames
 from shackled.parallel._cluster import ClusterBackend
 from shackled.scene import Rectangle, full_turn
 
@@ -37,9 +38,9 @@ def address() -> Iterator[str]:
 
 def test_a_turntable_on_two_workers(address: str) -> None:
     frames = full_turn(SCENE, 36)
-    there = render_frames(frames, Where(cluster=address))
-    here = render_frames(frames, Where())
-    two = render_frames(frames, Where(jobs=2))
+    there = render_frames(frames, Cluster(address))
+    here = render_frames(frames)
+    two = render_frames(frames, Processes(2))
     assert [image.bmp for image in there.images] == [image.bmp for image in here.images]
     assert [image.bmp for image in two.images] == [image.bmp for image in here.images]
     assert [image.gas for image in there.images] == [image.gas for image in here.images]
@@ -56,23 +57,23 @@ def test_a_lie_of_a_cluster_is_found_if_it_is_asked_for(address: str, monkeypatc
         return replace(piece, bmp=piece.bmp[:-1] + b"\x7f") if tile.y == 32 else piece
 
     monkeypatch.setattr(ClusterBackend, "render", lie)
-    wrong = render_frames([SCENE], Where(cluster=address, tile=tile))
-    assert wrong.images[0].bmp != render_frames([SCENE], Where(tile=tile)).images[0].bmp
+    wrong = render_frames([SCENE], Cluster(address), Bounds(tile=tile))
+    assert wrong.images[0].bmp != render_frames([SCENE], None, Bounds(tile=tile)).images[0].bmp
     with pytest.raises(ChainError, match=r"^the dask cluster.* wrongly for the tile of 48 x 16 .* \(0, 32\): its"):
-        render_frames([SCENE], Where(cluster=address, tile=tile, verify="all"))
+        render_frames([SCENE], Cluster(address, verify="all"), Bounds(tile=tile))
 
 
 def test_tiles_on_a_cluster_of_our_own() -> None:
     large = evolve(SCENE, width=100, height=100)
-    job = render_frames([large], Where(cluster="", jobs=2, tile=(100, 9)))
-    (image,) = render_frames([large], Where()).images
+    job = render_frames([large], Cluster(jobs=2), Bounds(tile=(100, 9)))
+    (image,) = render_frames([large]).images
     assert job.images[0].bmp == image.bmp
     assert (job.images[0].triangles, job.images[0].covered_pixels) == (image.triangles, image.covered_pixels)
 
 
 def test_what_a_worker_says_is_told(address: str) -> None:
     with pytest.raises(ChainError, match=r"gas is not enough even for a tile of .*; raise `gas_limit`"):
-        render_frames([SCENE], Where(cluster=address, gas_limit=100_000))
+        render_frames([SCENE], Cluster(address), Bounds(gas_limit=100_000))
 
 
 def test_something_else_than_a_cluster() -> None:
@@ -102,7 +103,7 @@ def test_a_cluster_that_goes_away(capfd: pytest.CaptureFixture[str]) -> None:
                 process.kill()
 
         with pytest.raises(ChainError, match=r"^the cluster failed: its scheduler cannot be reached any more; is it"):
-            render_frames(full_turn(SCENE, 200), Where(cluster=address), listener=Breaker())
+            render_frames(full_turn(SCENE, 200), Cluster(address), listener=Breaker())
     # dask is quiet about it
     assert capfd.readouterr().err == ""
 
@@ -110,7 +111,7 @@ def test_a_cluster_that_goes_away(capfd: pytest.CaptureFixture[str]) -> None:
 def test_a_cluster_that_is_not_there(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("shackled.parallel._cluster.PATIENCE", 1)
     with pytest.raises(ChainError, match=r"no dask scheduler answers at tcp://127.0.0.1:1: "):
-        render_frames([SCENE], Where(cluster="tcp://127.0.0.1:1"))
+        render_frames([SCENE], Cluster("tcp://127.0.0.1:1"))
 
 
 class Workers:
@@ -143,4 +144,4 @@ def test_workers_that_do_not_fit(found: str | None, message: str) -> None:
 def test_without_the_package(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(InputError, match=r"pip install 'shackled\[cluster\]'"):
-        render_frames([SCENE], Where(cluster=""))
+        render_frames([SCENE], Cluster())

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import os
-import signal
+import importlib.util
+import threading
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -14,9 +15,10 @@ from attrs import evolve
 
 import shackled
 from shackled import Camera, ChainError, Cluster, Ground, Image, InputError, Nodes, Processes, Scene, load
-from shackled.chain import RevmChain, open_chain
-from shackled.parallel import Where, render_frames
-from shackled.parallel._backends import ChainBackend, Part, ProcessBackend, draw_part
+from shackled._on import Bounds, On
+from shackled.chain import CHAINS, RevmChain, open_chain
+from shackled.parallel import Listener, render_frames
+from shackled.parallel._backends import ChainBackend, Part, ThreadBackend, draw_part
 from shackled.parallel._estimate import estimate
 from shackled.parallel._job import COMPARED_GAS, choose_verifier, plan
 from shackled.parallel._store import PartStore
@@ -33,17 +35,17 @@ def whole() -> Image:
 @pytest.mark.parametrize(
     "where",
     [
-        Where(tile=(96, 10)),
-        Where(tile=(17, 13)),
-        Where(tile=(1000, 1000)),
-        Where(gas_limit=4_000_000),
-        Where("revm", jobs=2),
-        Where(jobs=2, gas_limit=5_000_000),
+        (None, Bounds(tile=(96, 10))),
+        (None, Bounds(tile=(17, 13))),
+        (None, Bounds(tile=(1000, 1000))),
+        (None, Bounds(gas_limit=4_000_000)),
+        (Processes(2, "revm"), Bounds()),
+        (Processes(2), Bounds(gas_limit=5_000_000)),
     ],
     ids=str,
 )
-def test_tiles_are_the_whole(whole: Image, where: Where) -> None:
-    job = render_frames([SCENE], where)
+def test_tiles_are_the_whole(whole: Image, where: tuple[On | None, Bounds]) -> None:
+    job = render_frames([SCENE], *where)
     (image,) = job.images
     assert image.bmp == whole.bmp
     assert (image.pixels == whole.pixels).all()
@@ -58,13 +60,13 @@ def test_parts_fit_their_gas() -> None:
     limit = 4_000_000
     chain = open_chain()
     assert isinstance(chain, RevmChain)
-    job = render_frames([SCENE], Where(gas_limit=limit))
+    job = render_frames([SCENE], None, Bounds(gas_limit=limit))
     tiles = plan(SCENE, 1, [ChainBackend(chain, gas=limit)], estimate(SCENE, chain), None)
     assert 1 < len(tiles) <= job.calls
     fitting = [chain.draw(SCENE, tile).gas for tile in tiles]
     assert sum(gas is not None and gas <= limit for gas in fitting) > len(tiles) // 2
     with pytest.raises(ChainError, match=r"even for a tile of .*; raise `gas_limit` or use `max_triangles`$"):
-        render_frames([SCENE], Where(gas_limit=500_000))
+        render_frames([SCENE], None, Bounds(gas_limit=500_000))
 
 
 def test_a_ground_covers_pixels() -> None:
@@ -82,39 +84,60 @@ def test_the_cost_is_told_about_right() -> None:
         gas = chain.draw(scene).gas
         assert gas is not None
         assert abs(estimate(scene, chain).gas(side * side) / gas - 1) < 0.25
-        job = render_frames([scene], Where(gas_limit=16_777_216))
+        job = render_frames([scene], None, Bounds(gas_limit=16_777_216))
         assert abs(job.estimated_gas / (job.images[0].gas or 0) - 1) < 0.35
 
 
 def test_an_empty_scene() -> None:
     scene = Scene([], width=50, height=40)
-    assert render_frames([scene], Where(tile=(50, 7))).images[0].bmp == shackled.render(scene).bmp
+    assert render_frames([scene], None, Bounds(tile=(50, 7))).images[0].bmp == shackled.render(scene).bmp
 
 
 def test_a_picture_of_2048() -> None:
     scene = evolve(load("cube"), width=2048, height=48)
-    (image,) = render_frames([scene], Where(gas_limit=6_000_000)).images
+    (image,) = render_frames([scene], None, Bounds(gas_limit=6_000_000)).images
     assert image.bmp == shackled.render(scene).bmp
 
 
-def test_a_worker_that_dies_is_replaced() -> None:
-    place = ProcessBackend(None, 1)
-    tile = Rectangle(0, 0, 96, 20)
-    try:
-        first = place.render(0, SCENE, tile)
-        pid = place._workers[0].pid
-        assert pid is not None
-        os.kill(pid, signal.SIGKILL)
-        assert place.render(0, SCENE, tile) == first
-        assert place._workers[0].pid != pid
-    finally:
-        place.close()
-    assert place._workers[0].pid is None
+def test_calls_end_with_their_backend() -> None:
+    """At once, in all threads, and no other begins; calls elsewhere go on."""
+    place, other = ThreadBackend(2), ThreadBackend(2)
+    long, errors = evolve(SCENE, width=2048, height=2048), list[str]()
+
+    def draw(slot: int) -> None:
+        try:
+            place.render(slot, long, Rectangle(0, 0, 2048, 2048))
+        except ChainError as error:
+            errors.append(str(error))
+
+    threads = [threading.Thread(target=draw, args=(slot,)) for slot in range(2)]
+    for thread in threads:
+        thread.start()
+    time.sleep(0.2)
+    place.close()
+    started = time.process_time()
+    for thread in threads:
+        thread.join()
+    # of a second and more each
+    assert time.process_time() - started < 0.5
+    with pytest.raises(ChainError, match="stopped"):
+        place.render(0, SCENE, Rectangle(0, 0, 96, 20))
+    assert errors == ["the call was stopped"] * 2
+    assert other.count(1, SCENE, Rectangle(0, 0, 96, 70)) == open_chain().count(SCENE)
 
 
-def test_errors_of_a_worker_are_told() -> None:
+@pytest.mark.parametrize("evm", ["pyrevm", "pyevm"])
+def test_what_holds_the_lock_says_so(evm: str) -> None:
+    if importlib.util.find_spec(CHAINS[evm]) is None:
+        pytest.skip("it is not installed")
+    with pytest.warns(RuntimeWarning, match=rf"^{evm} holds the lock of the Python interpreter: its calls run one"):
+        (place,) = Processes(2, evm).open(Listener())
+    assert (place.slots, place.name) == (1, open_chain(evm).name)
+
+
+def test_errors_of_threads_are_told() -> None:
     with pytest.raises(ChainError, match="gas is not enough even for a tile"):
-        render_frames([SCENE], Where(jobs=2, gas_limit=100_000))
+        render_frames([SCENE], Processes(2), Bounds(gas_limit=100_000))
 
 
 def test_the_interface_of_python(tmp_path: Path) -> None:

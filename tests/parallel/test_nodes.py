@@ -12,11 +12,12 @@ from attrs import evolve
 import shackled
 from nodes import Reply, anvil, failure, forward, free_port, needs_anvil, serving
 from proxies import after, always, at, before, each_third, proxy
-from shackled import ChainError, Image, load
+from shackled import ChainError, Image, Nodes, load
+from shackled._on import Bounds
 from shackled.chain import open_chain
 from shackled.errors import NodeError
 from shackled.ethereum import PROXY
-from shackled.parallel import Listener, Outline, Where, render_frames
+from shackled.parallel import Listener, Outline, render_frames
 from shackled.scene import full_turn
 
 SCENE = evolve(load("cube"), width=64, height=60)
@@ -60,12 +61,12 @@ def right() -> Image:
 
 @pytest.fixture(scope="module")
 def spun() -> list[Image]:
-    return render_frames(SPIN, Where()).images
+    return render_frames(SPIN).images
 
 
 def test_two_nodes_make_one_picture(node: str, right: Image) -> None:
     with anvil() as other:
-        job = render_frames([SCENE], Where(rpc=(node, other.url, node), tile=TILE))
+        job = render_frames([SCENE], Nodes(node, other.url, node), Bounds(tile=TILE))
     assert job.images[0].bmp == right.bmp
     assert (job.images[0].triangles, job.images[0].covered_pixels) == (right.triangles, right.covered_pixels)
     assert len(job.shares) == 2
@@ -86,7 +87,7 @@ def test_a_large_picture_survives_the_death_of_a_node() -> None:
 
     with anvil() as first, anvil() as second:
         victim = first.process
-        job = render_frames([scene], Where(rpc=(first.url, second.url), gas_limit=16_777_216), listener=Killer())
+        job = render_frames([scene], Nodes(first.url, second.url), Bounds(gas_limit=16_777_216), listener=Killer())
         assert victim.wait(timeout=30) != 0
     assert job.calls > 30
     assert job.images[0].bmp == open_chain().draw(scene).bmp
@@ -96,7 +97,7 @@ def test_a_large_picture_survives_the_death_of_a_node() -> None:
 def test_a_node_that_fails_now_and_then(node: str, right: Image, manner: str) -> None:
     asked: list[str] = []
     with proxy(node, each_third(manner), asked) as url:
-        job = render_frames([SCENE], Where(rpc=(url,), tile=TILE))
+        job = render_frames([SCENE], Nodes(url), Bounds(tile=TILE))
     assert job.images[0].bmp == right.bmp
     # a call for each part, and one more for each that failed: of three calls, two are right
     assert asked.count(manner) >= PARTS // 2
@@ -122,11 +123,11 @@ def test_a_node_that_fails_now_and_then(node: str, right: Image, manner: str) ->
 def test_a_node_that_always_fails(node: str, right: Image, manner: str, message: str) -> None:
     with proxy(node, always(manner)) as url:
         with pytest.raises(ChainError, match=message) as error:
-            render_frames([SCENE], Where(rpc=(url,), tile=TILE))
+            render_frames([SCENE], Nodes(url), Bounds(tile=TILE))
         assert "\n" not in str(error.value)
         # with another one beside it, the picture is made
         notes = Notes()
-        job = render_frames([SCENE], Where(rpc=(url, node), tile=TILE), listener=notes)
+        job = render_frames([SCENE], Nodes(url, node), Bounds(tile=TILE), listener=notes)
     assert job.images[0].bmp == right.bmp
     assert all("it is left out" in warning for warning in notes.warnings)
     assert len(job.shares) == 2
@@ -142,14 +143,14 @@ def test_a_lie_in_any_tile_is_found(node: str, spun: list[Image], lie: int) -> N
     where = f"the tile of 64 x 16 pixels at (0, {lie % 4 * 16}) of frame {lie // 4}"
     with proxy(node, at(lie, "wrong")) as url:
         with pytest.raises(ChainError) as error:
-            render_frames(SPIN, Where(rpc=(url,), tile=(64, 16)))
+            render_frames(SPIN, Nodes(url), Bounds(tile=(64, 16)))
         name = f"the node {url.removeprefix('http://')} "
         assert str(error.value).startswith(name)
         assert f"answers wrongly for {where}: its picture is not what the contracts draw" in str(error.value)
         assert str(error.value).endswith("; there is no other backend")
     notes = Notes()
     with proxy(node, at(lie // 2, "wrong")) as url:
-        job = render_frames(SPIN, Where(rpc=(url, node), tile=(64, 16)), listener=notes)
+        job = render_frames(SPIN, Nodes(url, node), Bounds(tile=(64, 16)), listener=notes)
     assert [image.bmp for image in job.images] == [image.bmp for image in spun]
     for warning in notes.warnings:
         assert re.search("answers wrongly for the tile .*; it is left out, and 1 part is rendered again", warning)
@@ -160,12 +161,12 @@ def test_a_lie_in_a_whole_picture_is_found(node: str) -> None:
         proxy(node, at(0, "wrong")) as url,
         pytest.raises(ChainError, match="answers wrongly for the picture: its picture is not what the contracts draw"),
     ):
-        render_frames([SCENE], Where(rpc=(url,)))
+        render_frames([SCENE], Nodes(url))
 
 
 def test_what_is_not_compared_may_be_wrong(node: str, spun: list[Image]) -> None:
     with proxy(node, at(3, "wrong")) as url:
-        job = render_frames(SPIN, Where(rpc=(url,), tile=(64, 16), verify="none"))
+        job = render_frames(SPIN, Nodes(url, verify="none"), Bounds(tile=(64, 16)))
     assert [job.images[n].bmp == spun[n].bmp for n in (0, 1)] == [False, True]
 
 
@@ -174,7 +175,7 @@ def test_a_large_picture_is_compared_in_samples(node: str, monkeypatch: pytest.M
     monkeypatch.setattr("shackled.parallel._job.COMPARED_GAS", 1)
     for verify, told in ((None, 1), ("some", 0), ("all", 0)):
         notes = Notes()
-        render_frames([SCENE], Where(rpc=(node,), tile=TILE, verify=verify), listener=notes)
+        render_frames([SCENE], Nodes(node, verify=verify), Bounds(tile=TILE), listener=notes)
         assert len(notes.warnings) == told
         assert all("`verify` all verifies every part" in warning for warning in notes.warnings)
 
@@ -183,7 +184,7 @@ def test_a_node_that_turns_bad(node: str, right: Image) -> None:
     """The other one is slow at first, so that it does not draw nearly all by itself."""
     notes = Notes()
     with proxy(node, after(5, "wrong")) as url, proxy(node, before(5, "slow")) as other:
-        job = render_frames([SCENE], Where(rpc=(url, other), tile=(64, 2)), listener=notes)
+        job = render_frames([SCENE], Nodes(url, other), Bounds(tile=(64, 2)), listener=notes)
     assert job.images[0].bmp == right.bmp
     assert len(notes.warnings) == 1
     assert "answers wrongly" in notes.warnings[0]
@@ -191,7 +192,7 @@ def test_a_node_that_turns_bad(node: str, right: Image) -> None:
 
 def test_a_slow_node_gets_fewer_tiles(node: str, right: Image) -> None:
     with proxy(node, always("slow")) as slow:
-        job = render_frames([SCENE], Where(rpc=(slow, node), tile=TILE))
+        job = render_frames([SCENE], Nodes(slow, node), Bounds(tile=TILE))
     slow_share = next(count for name, count in job.shares.items() if slow.rpartition(":")[2] in name)
     assert job.images[0].bmp == right.bmp
     assert slow_share < PARTS / 2
@@ -199,10 +200,10 @@ def test_a_slow_node_gets_fewer_tiles(node: str, right: Image) -> None:
 
 def test_a_node_that_does_not_answer_in_time(node: str, right: Image) -> None:
     with proxy(node, always("stuck")) as url:
-        job = render_frames([SCENE], Where(rpc=(url, node), tile=TILE, timeout=1.0), listener=Notes())
+        job = render_frames([SCENE], Nodes(url, node, timeout=1.0), Bounds(tile=TILE), listener=Notes())
         assert job.images[0].bmp == right.bmp
     with proxy(node, always("stuck")) as url, pytest.raises(NodeError, match=r"did not answer within 0.2 seconds"):
-        render_frames([evolve(SCENE, width=12, height=10)], Where(rpc=(url,), timeout=0.2))
+        render_frames([evolve(SCENE, width=12, height=10)], Nodes(url, timeout=0.2))
 
 
 def test_a_node_that_is_busy_at_first(node: str, right: Image) -> None:
@@ -213,7 +214,7 @@ def test_a_node_that_is_busy_at_first(node: str, right: Image) -> None:
         return Reply(status=429, headers={"Retry-After": "0"}) if len(asked) in (1, 2, 4) else forward(node, request)
 
     with serving(answer) as url:
-        job = render_frames([SCENE], Where(rpc=(url,), tile=TILE))
+        job = render_frames([SCENE], Nodes(url), Bounds(tile=TILE))
     assert job.images[0].bmp == right.bmp
 
 
@@ -224,7 +225,7 @@ def test_a_wrong_address_is_told_before_anything_is_rendered(node: str) -> None:
         (PROXY, "^the contract at .* is not the rend"),
     ):
         with pytest.raises(ChainError, match=message):
-            render_frames([SCENE], Where(rpc=(node,), address=f"0x{address.hex()}", tile=TILE), listener=notes)
+            render_frames([SCENE], Nodes(node, address=f"0x{address.hex()}"), Bounds(tile=TILE), listener=notes)
     assert notes.outlines == 0
 
 
@@ -237,7 +238,7 @@ def test_answers_that_are_too_long(node: str, right: Image) -> None:
 
     with serving(answer) as url:
         # 64 x 60 in halves of 30, 15, and 8 and 7 rows
-        job = render_frames([SCENE], Where(rpc=(url,), tile=(64, 60)))
+        job = render_frames([SCENE], Nodes(url), Bounds(tile=(64, 60)))
     assert job.images[0].bmp == right.bmp
     assert job.calls == 4
 
@@ -253,7 +254,7 @@ def test_a_node_that_caps_the_gas_of_a_call(node: str) -> None:
         return forward(node, request)
 
     with serving(answer) as url:
-        job = render_frames([scene], Where(rpc=(url,)))
+        job = render_frames([scene], Nodes(url))
     assert job.calls > 1
     assert job.images[0].bmp == open_chain().draw(scene).bmp
 
@@ -261,16 +262,16 @@ def test_a_node_that_caps_the_gas_of_a_call(node: str) -> None:
 def test_nodes_that_are_not_there(node: str, right: Image) -> None:
     gone = f"http://127.0.0.1:{free_port()}"
     notes = Notes()
-    job = render_frames([SCENE], Where(rpc=(gone, node)), listener=notes)
+    job = render_frames([SCENE], Nodes(gone, node), listener=notes)
     assert job.images[0].bmp == right.bmp
     assert len(notes.warnings) == 1
     assert "cannot be reached" in notes.warnings[0]
     with pytest.raises(NodeError, match="cannot be reached"):
-        render_frames([SCENE], Where(rpc=(gone,)))
+        render_frames([SCENE], Nodes(gone))
 
 
 def test_a_node_with_little_gas(right: Image) -> None:
     with anvil("--gas-limit", "3000000") as little:
-        job = render_frames([SCENE], Where(rpc=(little.url,)))
+        job = render_frames([SCENE], Nodes(little.url))
     assert job.images[0].bmp == right.bmp
     assert job.images[0].gas is None or job.images[0].gas >= (right.gas or 0)

@@ -7,10 +7,11 @@ from pathlib import Path
 import pytest
 from attrs import evolve
 
-from shackled import InputError, RenderError, Scene, load
+from shackled import InputError, Processes, RenderError, Scene, load
+from shackled._on import Bounds
 from shackled.chain import Drawing, open_chain
 from shackled.errors import TooLargeError
-from shackled.parallel import Listener, Where, folder_of, remove_parts, render_frames
+from shackled.parallel import Listener, folder_of, remove_parts, render_frames
 from shackled.parallel._backends import Part, draw_part
 from shackled.parallel._store import PLAN, PartStore
 from shackled.parallel._tiles import cut
@@ -95,8 +96,8 @@ def test_a_folder_that_cannot_be(tmp_path: Path) -> None:
 @pytest.mark.parametrize("stop", [KeyboardInterrupt(), RenderError("no more")], ids=repr)
 def test_a_job_goes_on_where_it_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, stop: BaseException) -> None:
     frames = full_turn(SCENE, 5)
-    where, keep = Where(tile=(32, 7)), tmp_path / "spin.gif.parts"
-    expected = render_frames(frames, where)
+    bounds, keep = Bounds(tile=(32, 7)), tmp_path / "spin.gif.parts"
+    expected = render_frames(frames, None, bounds)
     drawn: list[Rectangle] = []
 
     def counted(chain: object, scene: Scene, tile: Rectangle) -> Drawing:
@@ -110,11 +111,11 @@ def test_a_job_goes_on_where_it_stopped(tmp_path: Path, monkeypatch: pytest.Monk
     said: list[str] = []
     resumed = False
     with pytest.raises(type(stop)):
-        render_frames(frames, where, keep=keep)
+        render_frames(frames, None, bounds, keep=keep)
     assert said == [f"finished parts are kept in {keep}: run the same command to resume"]
     assert len(list(keep.glob("*.part"))) == 8
     resumed = True
-    again = render_frames(frames, where, keep=keep)
+    again = render_frames(frames, None, bounds, keep=keep)
     assert len(drawn) == expected.calls == 15
     assert [image.bmp for image in again.images] == [image.bmp for image in expected.images]
     assert [image.gas for image in again.images] == [image.gas for image in expected.images]
@@ -122,14 +123,14 @@ def test_a_job_goes_on_where_it_stopped(tmp_path: Path, monkeypatch: pytest.Monk
 
 def test_a_job_that_was_cut_otherwise_keeps_its_plan(tmp_path: Path) -> None:
     keep = tmp_path / "cube.png.parts"
-    first = render_frames([SCENE], Where(tile=(16, 10)), keep=keep)
+    first = render_frames([SCENE], None, Bounds(tile=(16, 10)), keep=keep)
     assert first.calls == 4
-    assert render_frames([SCENE], Where(gas_limit=20_000_000), keep=keep).calls == 1
+    assert render_frames([SCENE], None, Bounds(gas_limit=20_000_000), keep=keep).calls == 1
     keep2 = tmp_path / "large.png.parts"
     large = evolve(SCENE, width=64, height=64)
-    tight = render_frames([large], Where(tile=(64, 16)), keep=keep2)
+    tight = render_frames([large], None, Bounds(tile=(64, 16)), keep=keep2)
     # two processes would be given more parts
-    assert render_frames([large], Where(jobs=2), keep=keep2).calls == tight.calls == 4
+    assert render_frames([large], Processes(2), keep=keep2).calls == tight.calls == 4
 
 
 def test_a_single_part_that_is_cut_later(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -146,9 +147,9 @@ def test_a_single_part_that_is_cut_later(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.setattr("shackled.parallel._backends.draw_part", narrow)
     monkeypatch.setattr(Listener, "warned", lambda self, text: None)
     with pytest.raises(KeyboardInterrupt):
-        render_frames([SCENE], Where(gas_limit=10**9), keep=keep)
+        render_frames([SCENE], None, Bounds(gas_limit=10**9), keep=keep)
     resumed = True
-    again = render_frames([SCENE], Where(gas_limit=10**9), keep=keep)
+    again = render_frames([SCENE], None, Bounds(gas_limit=10**9), keep=keep)
     assert again.calls == len(drawn) > 3
     assert again.images[0].bmp == open_chain().draw(SCENE).bmp
 

@@ -10,8 +10,8 @@ from attrs import evolve
 
 import shackled
 from shackled import Scene, load
+from shackled._on import Bounds, Embedded, is_one_call
 from shackled.chain import ContractChain, open_chain
-from shackled.parallel import Where
 from shackled.parallel._backends import ChainBackend
 from shackled.parallel._estimate import estimate
 from shackled.parallel._job import plan
@@ -67,9 +67,9 @@ def test_no_other_number_of_strips_is_much_cheaper(teapot: Scene, chain: Contrac
 
 def test_small_pictures_are_one_call(chain: ContractChain) -> None:
     small = load("cube", size=1000)
-    assert Where().is_one_call(small)
+    assert is_one_call(Embedded(), small, Bounds())
     assert heights(small, chain) == [1000]
-    assert not Where().is_one_call(evolve(small, width=1024, height=1024))
+    assert not is_one_call(Embedded(), evolve(small, width=1024, height=1024), Bounds())
 
 
 def test_the_number_of_strips(chain: ContractChain) -> None:

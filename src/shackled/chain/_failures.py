@@ -25,81 +25,45 @@ from ..errors import (
 from ..ethereum import Errors, decode_error, to_hex
 from ..untrusted import plain
 
+
+def _phrases(pattern: str) -> re.Pattern[str]:
+    return re.compile(pattern, re.VERBOSE)
+
+
 #: Phrases of nodes, as lower-case letters only. The first group with a phrase that occurs in the message applies.
-TOO_LITTLE_GAS = (
+TOO_LITTLE_GAS = _phrases(
+    """
     # geth, erigon, besu, hardhat; anvil and nethermind as one word
-    "outofgas",
-    "gasrequiredexceeds",
-    "insufficientgas",
-    "notenoughgas",
+    outofgas | gasrequiredexceeds | insufficientgas | notenoughgas
     # the intrinsic gas exceeds the limit
-    "intrinsicgas",
-    "gastoolow",
-    "gaslimittoolow",
-    "gaslimitbelow",
-    "floordatagas",
-    "gasfloor",
-    "callgascost",
-    "requiresatleastgas",
+    | intrinsicgas | gastoolow | gaslimittoolow | gaslimitbelow | floordatagas | gasfloor | callgascost
+    | requiresatleastgas
     # reth and anvil, for memory
-    "memoryoog",
-    "memorylimit",
+    | memoryoog | memorylimit
     # the limit exceeds the node's own
-    "gaslimitistoohigh",
-    "gaslimittoohigh",
-    "gastoohigh",
-    "exceedsblockgaslimit",
-    "exceedsthegaslimit",
-    "greaterthanblockgaslimit",
-    "exceedsallowance",
-    "gascap",
+    | gaslimitistoohigh | gaslimittoohigh | gastoohigh | exceedsblockgaslimit | exceedsthegaslimit
+    | greaterthanblockgaslimit | exceedsallowance | gascap
+    """
 )
-TOO_LARGE = (
-    "responsesizeexceed",
-    "responsesizeshould",
-    "responsesizeis",
-    "responsetoolarge",
-    "responseistoobig",
-    "responseexceed",
-    "responsetoobig",
-    "oversizedresponse",
-    "requesttoolarge",
-    "requestistoobig",
-    "requesttoobig",
-    "oversizedrequest",
-    "requestentitytoolarge",
-    "requestsizeexceed",
-    "requestbodytoolarge",
-    "contentlengthtoolarge",
-    "payloadtoolarge",
-    "lengthlimitexceeded",
-    "bodylimit",
-    "initcodesize",
-    "initcodelimit",
-    "initcodetoolarge",
+TOO_LARGE = _phrases(
+    """
+    responsesizeexceed | responsesizeshould | responsesizeis | responsetoolarge | responseistoobig | responseexceed
+    | responsetoobig | oversizedresponse
+    | requesttoolarge | requestistoobig | requesttoobig | oversizedrequest | requestentitytoolarge | requestsizeexceed
+    | requestbodytoolarge | contentlengthtoolarge | payloadtoolarge | lengthlimitexceeded | bodylimit
+    | initcodesize | initcodelimit | initcodetoolarge
+    """
 )
-TOO_OFTEN = (
-    "ratelimit",
-    "ratelimited",
-    "requestrateexceeded",
-    "toomanyrequests",
-    "requestlimit",
-    "requestcountexceeded",
-    "computeunits",
-    "capacityexceeded",
-    "exceededitscompute",
-    "throttl",
-    "quotaexceeded",
-    "creditsexceeded",
-    "toomanyconnections",
-    "serverisbusy",
-    "serverbusy",
-    "overloaded",
-    "temporarilyunavailable",
+TOO_OFTEN = _phrases(
+    """
+    ratelimit | requestrateexceeded | toomanyrequests | requestlimit | requestcountexceeded | computeunits
+    | capacityexceeded | exceededitscompute | throttl | quotaexceeded | creditsexceeded | toomanyconnections
+    | serverisbusy | serverbusy | overloaded | temporarilyunavailable
+    """
 )
-NOT_READY = ("headernotfound", "missingtrienode", "blocknotfound", "unknownblock", "notsynced", "stillsyncing")
-TOO_SLOW = ("timeout", "timedout", "deadlineexceeded", "executionaborted")
-OLD_CHAIN = ("invalidopcode", "opcodenotfound", "notactivated", "badinstruction", "undefinedinstruction")
+NOT_READY = _phrases("headernotfound | missingtrienode | blocknotfound | unknownblock | notsynced | stillsyncing")
+TOO_SLOW = _phrases("timeout | timedout | deadlineexceeded | executionaborted")
+OLD_CHAIN = _phrases("invalidopcode | opcodenotfound | notactivated | badinstruction | undefinedinstruction")
 
 #: Codes of JSON-RPC errors, for messages without a known phrase.
 REQUEST_TOO_BIG, RESPONSE_TOO_BIG, LIMIT_EXCEEDED, NO_METHOD = -32007, -32008, -32005, -32601
@@ -147,26 +111,23 @@ def rpc_failure(name: str, error: Any) -> ChainError:
     reverted = revert_data(data)
     letters = re.sub("[^a-z]", "", f"{message} {data if reverted is None else ''}".lower())
 
-    def says(group: tuple[str, ...]) -> bool:
-        return any(words in letters for words in group)
-
     if reverted or code == 3:
         return RevertError(f"the call was reverted: {_shorten(message)}", reverted or b"")
-    if says(TOO_LARGE):
+    if TOO_LARGE.search(letters):
         return too_large(name, message)
-    if says(TOO_OFTEN) or code == 429:
+    if TOO_OFTEN.search(letters) or code == 429:
         return too_often(name, None, _quote(message))
-    if says(TOO_LITTLE_GAS):
+    if TOO_LITTLE_GAS.search(letters):
         return OutOfGasError(
             f"the {name} allows a call too little gas for this: use a smaller `size`, or raise its limit"
         )
-    if says(OLD_CHAIN):
+    if OLD_CHAIN.search(letters):
         return WrongChainError(
             f"the chain of the {name} does not know an instruction of the contracts: they need the rules of Cancun"
         )
-    if says(NOT_READY):
+    if NOT_READY.search(letters):
         return NodeBusyError(f"the {name} is not ready{_quote(message)}; try again later, or use another node")
-    if says(TOO_SLOW):
+    if TOO_SLOW.search(letters):
         return NodeTimeoutError(
             f"the {name} aborted a call that took too long{_quote(message)}; use a smaller `size`, or another node"
         )

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 from ..chain import CHAINS, PATIENCE, NodeChain, open_chain, open_node
 from ..errors import InputError
-from ..gas import STAGES, Profile, counting, flame_graph, make_report, render_call, speedscope
+from ..gas import STAGES, counting, flame_graph, make_report, render_call
 from ..whole_file import check_output_file, write_output
 from .gas_progress import Progress
 from .gas_tables import print_opcodes, print_profile, print_report
@@ -18,8 +18,6 @@ from .option import argument, option
 
 #: The chains that count gas.
 EVMS = tuple(CHAINS)
-#: The formats of --profile, by extension.
-FORMATS = (".json", ".svg")
 
 
 def gas(
@@ -44,7 +42,7 @@ def gas(
         str | None,
         option(
             "--profile",
-            "Also show gas by function and line, and write a flame graph: .svg, or .json for speedscope.",
+            "Also show gas by function and line, and write a flame graph, an .svg file.",
             "FILE",
         ),
     ] = None,
@@ -83,7 +81,7 @@ def gas(
         report = make_report(scene, place, lower, upper, stages, progress.step, node)
         counted = None if node is None else node.call("Renderer", render_call(scene))
     if path is not None and report.profile is not None:
-        _write_profile(path, report.profile, input)
+        write_output(path, flame_graph(report.profile, input).encode())
     if as_json:
         more: dict[str, Any] = {} if path is None else {"profile": str(path)}
         if node is not None and counted is not None:
@@ -116,19 +114,11 @@ def _open_node(rpc: str | None, address: str | None, timeout: float | None) -> N
 
 def _check_profile(name: str) -> Path:
     path = Path(name)
-    if path.suffix.lower() not in FORMATS:
-        raise InputError(f"--profile writes {' or '.join(FORMATS)} files, not {name!r}")
+    if path.suffix.lower() != ".svg":
+        raise InputError(f"--profile writes an .svg file, not {name!r}")
     return check_output_file(path, "profile")
 
 
 def _check_price(value: float, name: str, unit: str) -> None:
     if not (math.isfinite(value) and value >= 0):
         raise InputError(f"{name} must be 0 or more {unit}, not {value}")
-
-
-def _write_profile(path: Path, profile: Profile, name: str) -> None:
-    if path.suffix.lower() == ".json":
-        text = json.dumps(speedscope(profile, name), separators=(",", ":")) + "\n"
-    else:
-        text = flame_graph(profile, name)
-    write_output(path, text.encode())

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from .._on import On, where_of
+from .._on import Bounds, On, is_one_call, place_of
 from .._render import film, pace
 from .._render import render as draw
 from .._render import turntable as turn
@@ -130,8 +130,8 @@ def render_to(source: Source, path: Path | None, task: Task, listener: Listener)
     extension = PICTURE if path is None else path.suffix.lower()
     if path is not None:
         make_output_folder(path.parent)
-    where = where_of(task.on, task.gas_limit, task.tile)
-    in_parts = not task.one_call and (task.is_film or not where.is_one_call(loaded))
+    place, bounds = place_of(task.on), Bounds(task.gas_limit, task.tile)
+    in_parts = not task.one_call and (task.is_film or not is_one_call(place, loaded, bounds))
     started = time.perf_counter()
     keep = folder_of(path) if in_parts and path is not None else None
     told: dict[str, Any] = {"gas_limit": task.gas_limit, "tile": task.tile, "listener": listener, "keep": keep}
@@ -140,7 +140,7 @@ def render_to(source: Source, path: Path | None, task: Task, listener: Listener)
         made: Image | Animation
         if task.frames is not None:
             shown = pace(length, task.frames) if task.duration is None else task.duration
-            made = film(scenes, shown, where, listener, keep, task.transparent)
+            made = film(scenes, shown, place, bounds, listener, keep, task.transparent)
         elif task.turntable is not None:
             shown = DURATION if task.duration is None else task.duration
             made = turn(loaded, task.turntable, duration=shown, one_call=task.one_call, **told)

@@ -10,7 +10,7 @@ from typing import Annotated
 
 import click
 
-from .._on import VERIFY, Cluster, Nodes, On, Processes, where_of
+from .._on import VERIFY, Bounds, Cluster, Nodes, On, Processes, place_of
 from ..animation import DURATION, check_duration
 from ..animation import FORMATS as FILMS
 from ..chain import CHAINS, PATIENCE, open_chain
@@ -103,7 +103,7 @@ def render(
         int | None,
         option(
             "--jobs",
-            "Number of worker processes, each of which takes one of several inputs, or a part of one; or of concurrent "
+            "Number of concurrent calls on this machine, of processes if there are several inputs, or of concurrent "
             "calls per node.",
             "N",
             "Where",
@@ -171,7 +171,8 @@ def render(
             rpc = None  # options override the environment
         on = _on(evm, jobs, rpc or (), address, rpc_timeout, cluster, verify)
         sides = None if tile is None else parse_sides(tile, "--tile")
-        where_of(on, gas_limit, sides)
+        place_of(on)
+        Bounds(gas_limit, sides)
         for name, given in (
             ("--tile", tile),
             ("--gas-limit", gas_limit),

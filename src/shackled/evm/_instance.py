@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..checks import integer
 from ..errors import ChainError, InputError
-from ._module import address_space, start
+from ._module import address_space, busy, start
 
 #: The largest memory of an instance in bytes, which tools/build_evm.py writes into the module.
 MEMORY = 1 << 30
@@ -47,19 +47,25 @@ class Instance:
 
     Calls run in the block that `set_block` set: at first number 0, timestamp 1, and a PREVRANDAO of zeros.
 
-    For one thread at a time. Addresses have 20 bytes, otherwise InputError.
+    For one thread at a time, but for `stop`. Addresses have 20 bytes, otherwise InputError.
 
     Calls release the lock of the interpreter. ChainError if a call needs more memory than `MEMORY`; the instance must
     not be used afterwards.
     """
 
-    def __init__(self) -> None:
-        """Start without contracts."""
-        self._store, instance = start()
+    def __init__(self, is_stoppable: bool = False) -> None:
+        """Start without contracts. is_stoppable: whether `stop` works, for which calls take a seventh more time."""
+        self._engine, self._store, instance = start(is_stoppable)
+        self._is_stopped = False
         self._exports = instance.exports(self._store)
         self._memory: Any = self._exports["memory"]
         self._functions: dict[str, Any] = {}
         self._codes: dict[bytes, bytes] = {}
+
+    def stop(self) -> None:
+        """End the call that runs in another thread, if any, and all later ones, by ChainError."""
+        self._is_stopped = True
+        self._engine.increment_epoch()
 
     def put(self, address: bytes, code: bytes) -> None:
         """Set the code of a contract."""
@@ -135,6 +141,7 @@ class Instance:
     def _run(self, function: str, *values: int) -> Any:
         if function not in self._functions:
             self._functions[function] = self._exports[function]
+        busy.add(self._store)
         try:
             return self._functions[function](self._store, *values)
         except Exception as error:
@@ -142,10 +149,14 @@ class Instance:
 
             if not isinstance(error, wasmtime.Trap):
                 raise
+            if self._is_stopped:
+                raise ChainError("the call was stopped") from None
             why = f"the embedded EVM stopped: the call needs more than {MEMORY >> 20:,} MB of memory"
             if (limit := address_space()) is not None:
                 why += f", or than this process has left of {limit >> 20:,} MB of address space (`ulimit -v`)"
             raise ChainError(why) from error
+        finally:
+            busy.discard(self._store)
 
 
 def _checked(address: bytes) -> bytes:

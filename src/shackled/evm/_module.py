@@ -27,19 +27,23 @@ FULL, LEAST = 5 << 30, 512 << 20
 
 _lock = threading.Lock()
 
-#: What wasmtime has to close.
+#: What wasmtime has to close, and the stores in which a call runs now.
 _open: WeakSet[wasmtime.Engine | wasmtime.Module | wasmtime.Store] = WeakSet()
+busy: set[wasmtime.Store] = set()
 
 
 @atexit.register
 def _close() -> None:
     # finalizers that run later, when wasmtime's own modules are gone, would print errors
-    for each in list(_open):
+    for each in _open.difference(busy):
         each.close()
 
 
-def start() -> tuple[wasmtime.Store, wasmtime.Instance]:
-    """Return a new instance of the module, and its store. ChainError where wasmtime cannot start it.
+def start(is_stoppable: bool = False) -> tuple[wasmtime.Engine, wasmtime.Store, wasmtime.Instance]:
+    """Return a new instance of the module, with its engine and store. ChainError where wasmtime cannot start it.
+
+    is_stoppable: whether an increment of the engine's epoch ends the call that runs in the instance, and all later
+    ones. The checks of the epoch take a seventh more time, so that other instances have none.
 
     An instance reserves 4 GB of address space, so that no access to its memory needs a check. Where the system refuses
     that (`ulimit -v`), or the file in memory with its first content (`ulimit -f`), the instance is a small one: it
@@ -50,18 +54,20 @@ def start() -> tuple[wasmtime.Store, wasmtime.Instance]:
     for is_small in (False, True):
         if limit is not None and limit < (LEAST if is_small else FULL):
             continue
-        engine, module = compiled(is_small)
+        engine, module = compiled(is_small, is_stoppable)
         import wasmtime
 
         store = wasmtime.Store(engine)
+        if is_stoppable:
+            store.set_epoch_deadline(1)
         try:
             instance = wasmtime.Instance(store, module, [])
         except (wasmtime.WasmtimeError, MemoryError) as error:
             store.close()
             failure = error
             continue
-        _open.update((store, module, engine))
-        return store, instance
+        _open.add(store)
+        return engine, store, instance
     raise _cannot_start(failure) from failure
 
 
@@ -91,18 +97,37 @@ def module_bytes() -> bytes:
     return files(__package__).joinpath("evm.wasm").read_bytes()
 
 
-def compiled(is_small: bool = False) -> tuple[wasmtime.Engine, wasmtime.Module]:
-    """Return the module as machine code. is_small: see `start`.
+def compiled(is_small: bool = False, is_stoppable: bool = False) -> tuple[wasmtime.Engine, wasmtime.Module]:
+    """Return the module as machine code. is_small, is_stoppable: see `start`; what can be stopped has its own engine.
 
     The first call on a machine compiles it, within a second; later ones load it within milliseconds. ChainError where
     there is no build of wasmtime, or too little memory.
     """
     with _lock:
-        return _compiled(is_small)
+        engine, module = _compiled(is_small, is_stoppable)
+        _open.update((engine, module))
+        if is_stoppable:
+            import wasmtime
+
+            engine = wasmtime.Engine(_config(is_small, is_stoppable))
+            module = wasmtime.Module.deserialize(engine, module.serialize())
+            _open.update((engine, module))
+        return engine, module
+
+
+def _config(is_small: bool, is_stoppable: bool) -> wasmtime.Config:
+    import wasmtime
+
+    config = wasmtime.Config()
+    config.epoch_interruption = is_stoppable
+    if is_small:
+        config.memory_reservation, config.memory_guard_size = 64 << 20, 64 << 10
+        config.memory_reservation_for_growth, config.memory_init_cow = 64 << 20, False
+    return config
 
 
 @cache
-def _compiled(is_small: bool) -> tuple[wasmtime.Engine, wasmtime.Module]:
+def _compiled(is_small: bool, is_stoppable: bool) -> tuple[wasmtime.Engine, wasmtime.Module]:
     try:
         import wasmtime
     except (ImportError, OSError, RuntimeError) as error:
@@ -111,13 +136,9 @@ def _compiled(is_small: bool) -> tuple[wasmtime.Engine, wasmtime.Module]:
             f"there is no wasmtime for this machine ({platform.system()}, {platform.machine()}): choose the chain "
             "pyevm, of pip install 'shackled[pyevm]'"
         ) from error
-    config = wasmtime.Config()
-    if is_small:
-        config.memory_reservation, config.memory_guard_size = 64 << 20, 64 << 10
-        config.memory_reservation_for_growth, config.memory_init_cow = 64 << 20, False
-    engine = wasmtime.Engine(config)
+    engine = wasmtime.Engine(_config(is_small, is_stoppable))
     source = module_bytes()
-    path = _cache_file(source, is_small)
+    path = _cache_file(source, "-small" * is_small + "-stoppable" * is_stoppable)
     module = _load(engine, path)
     if module is None:
         try:
@@ -128,8 +149,8 @@ def _compiled(is_small: bool) -> tuple[wasmtime.Engine, wasmtime.Module]:
     return engine, module
 
 
-def _cache_file(source: bytes, is_small: bool) -> Path:
-    name = f"evm-{hashlib.sha256(source).hexdigest()[:16]}{'-small' * is_small}.bin"
+def _cache_file(source: bytes, kind: str) -> Path:
+    name = f"evm-{hashlib.sha256(source).hexdigest()[:16]}{kind}.bin"
     return user_cache_path("shackled", appauthor=False) / name
 
 

@@ -6,7 +6,6 @@ from ._profile import KINDS, STACK, Profile, profile
 from ._report import GasReport, make_report
 from ._runs import BAND_PIXELS
 from ._search import SearchStep, search, suffices
-from ._speedscope import speedscope
 from ._stages import STAGES
 
 __all__ = [
@@ -30,6 +29,5 @@ __all__ = [
     "profile",
     "render_call",
     "search",
-    "speedscope",
     "suffices",
 ]

@@ -1,15 +1,22 @@
+from ._backends import Backend, ChainBackend, ThreadBackend, limited
+from ._cluster import ClusterBackend
 from ._counter import Counter
+from ._estimate import is_large
 from ._job import render_frames
 from ._scheduler import Listener, Outline
 from ._store import folder_of, remove_parts
-from ._where import Where
 
 __all__ = [
+    "Backend",
+    "ChainBackend",
+    "ClusterBackend",
     "Counter",
     "Listener",
     "Outline",
-    "Where",
+    "ThreadBackend",
     "folder_of",
+    "is_large",
+    "limited",
     "remove_parts",
     "render_frames",
 ]

@@ -8,13 +8,9 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Protocol, TypeVar
 
-from ..chain import Chain, Drawing, EmbeddedChain, open_chain, out_of_gas
-from ..errors import RenderError
+from ..chain import DEFAULT_GAS_LIMIT, Chain, Drawing, EmbeddedChain, RevmChain, open_chain, out_of_gas
 from ..scene import Rectangle, Scene
-from ..workers import Worker, WorkerEndedError
 
-#: How many processes may end over one part before the job fails.
-ATTEMPTS = 2
 #: Where a sample is verified: one part in so many, besides the first one of each backend.
 SAMPLE = 8
 
@@ -122,49 +118,23 @@ class ChainBackend:
         """Do nothing: nothing runs in the background."""
 
 
-class ProcessBackend:
-    """Worker processes of this machine, each with an EVM. They end with this process, however it ends."""
+class ThreadBackend(ChainBackend):
+    """Threads of this process, each with an instance of the embedded EVM of its own."""
 
-    untrusted = False
-
-    def __init__(self, chain: str | None, jobs: int, gas: int | None = None) -> None:
-        """Start nothing yet.
-
-        chain: a name, as `open_chain` takes it. jobs: how many processes. gas: limit of a call.
-        """
-        self.slots, self.gas = jobs, gas
-        self._chain = chain
-        self._label = open_chain(chain).name
-        self._workers = [Worker() for _ in range(jobs)]
-        self._closed = False
+    def __init__(self, jobs: int, gas: int | None = None) -> None:
+        """Set up the contracts. jobs: how many calls at a time. gas: limit of a call."""
+        self._revm = RevmChain(DEFAULT_GAS_LIMIT if gas is None else gas, is_stoppable=True)
+        self._revm.address("Renderer")  # set up here, before several threads ask for it
+        super().__init__(self._revm, jobs, gas=gas)
 
     @property
     def name(self) -> str:
-        """Return the name of the chain and the number of processes."""
-        return f"{self._label}, {self.slots} processes"
-
-    def render(self, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
-        """Render a part in the process of a slot."""
-        return self._call(slot, draw_limited, scene, tile)
-
-    def count(self, slot: int, scene: Scene, tile: Rectangle) -> tuple[int, int]:
-        """Count the triangles of a part, and the pixels that they cover."""
-        return self._call(slot, count_limited, scene, tile)
-
-    def _call(self, slot: int, function: Limited[Answer], scene: Scene, tile: Rectangle) -> Answer:
-        for _ in range(ATTEMPTS):
-            try:
-                return self._workers[slot].call(function, self._chain, self.gas, scene, tile)
-            except WorkerEndedError:
-                if self._closed:
-                    break
-        raise RenderError("a worker process died twice over the same part of the picture; is there enough memory?")
+        """Return the name of the chain and the number of threads."""
+        return f"{self.chain.name}, {self.slots} threads"
 
     def close(self) -> None:
-        """End the processes, even busy ones."""
-        self._closed = True
-        for worker in self._workers:
-            worker.close()
+        """End the calls that run."""
+        self._revm.stop()
 
 
 class Verifier:

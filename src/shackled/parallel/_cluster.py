@@ -46,7 +46,8 @@ class ClusterBackend:
     ) -> None:
         """Connect to a cluster, and check that its workers have the same contracts.
 
-        address: of a scheduler, as tcp://host:8786; None starts `jobs` local workers. chain, gas: as `ProcessBackend`.
+        address: of a scheduler, as tcp://host:8786; None starts `jobs` local workers. chain: the name of an EVM.
+        gas: limit of a call.
         Raises InputError if dask.distributed is missing, here or in a worker, or a worker has other contracts;
         RenderError if no cluster answers.
         """

@@ -10,11 +10,11 @@ from typing import Any
 
 from attrs import field, frozen
 
+from .._on import Embedded, Nodes, Place
 from ..errors import OutOfGasError, TooLargeError
 from ..scene import Rectangle, Scene
 from ._backends import Backend
 from ._scheduler import Listener
-from ._where import Where
 
 
 class _Silent(Listener):
@@ -32,16 +32,18 @@ class Counter:
     add up. Those of strips that share a row do: a triangle that reaches into both also reaches into the row, which is
     subtracted. The same holds for pixels.
 
-    where: where the picture was rendered. pixels: of a tile at most; None for a picture of one call.
+    place: where the picture was rendered. pixels: of a tile at most; None for a picture of one call. gas_limit: of a
+    call.
     """
 
-    where: Where = field(repr=False)  # addresses of nodes may have keys
+    place: Place = field(repr=False)  # addresses of nodes may have keys
     pixels: int | None = None
+    gas_limit: int | None = None
 
     def __call__(self, scene: Scene) -> tuple[int, int]:
         """Count a scene. Raises the errors of `render`."""
         with ExitStack() as stack:
-            backends = self.where.open(_Silent())
+            backends = self.place.open(_Silent(), self.gas_limit)
             free: SimpleQueue[tuple[Backend, int]] = SimpleQueue()
             for backend in backends:
                 for slot in range(backend.slots):
@@ -49,7 +51,7 @@ class Counter:
             pool = ThreadPoolExecutor(sum(backend.slots for backend in backends))
             stack.callback(pool.shutdown, cancel_futures=True)
             for backend in backends:
-                # before the pool, so that busy processes end on Ctrl-C
+                # before the pool, so that calls end on Ctrl-C
                 stack.callback(backend.close)
 
             def count(rows: range) -> tuple[int, int]:
@@ -70,8 +72,9 @@ class Counter:
 
     def __reduce__(self) -> tuple[type, tuple[Any, ...]]:
         # an EVM cannot leave its process, and a node's address may have a key: a copy counts in the embedded EVM
-        is_local = not self.where.rpc and (self.where.chain is None or isinstance(self.where.chain, str))
-        return Counter, (self.where, self.pixels) if is_local else (Where(),)
+        chain = self.place.chain if isinstance(self.place, Embedded) else None
+        stays = isinstance(self.place, Nodes) or not (chain is None or isinstance(chain, str))
+        return Counter, (Embedded(),) if stays else (self.place, self.pixels, self.gas_limit)
 
 
 def strips(rows: range, height: int) -> Iterator[tuple[int, range]]:

@@ -5,11 +5,12 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from .._on import Bounds, Nodes, On, Place, place_of
 from ..chain import ContractChain, Drawing, NodeChain, open_chain
 from ..errors import caller
 from ..gas import BAND_PIXELS
@@ -21,7 +22,6 @@ from ._estimate import Estimate, estimate
 from ._scheduler import Listener, Outline, Scheduler
 from ._store import PartStore
 from ._tiles import area, cut, grid
-from ._where import Where
 
 #: Parts for each slot, so that all are busy until the end, and the extra gas that this may cost.
 PARTS_PER_SLOT = 4
@@ -32,6 +32,8 @@ LEAST_PIXELS = 1024
 MOST_PIXELS = 1 << 22
 #: Pictures that take less gas are compared whole, which takes a second or two.
 COMPARED_GAS = 500_000_000
+#: The bounds of calls where none were given.
+UNBOUNDED = Bounds()
 
 
 @dataclass(frozen=True)
@@ -49,36 +51,37 @@ class Finished:
 
 def render_frames(
     frames: Sequence[Scene],
-    where: Where,
+    on: On | Place | None = None,
+    bounds: Bounds = UNBOUNDED,
     listener: Listener | None = None,
     keep: Path | None = None,
 ) -> Finished:
-    """Render frames of equal size.
+    """Render frames of equal size. on: as in `render`.
 
     keep: a folder for finished parts, so that an interrupted job can be continued; the caller removes it.
     """
-    listener = listener or Listener()
+    listener, place = listener or Listener(), place_of(on)
     listener.place = caller()
     started = time.perf_counter()
     with ExitStack() as stack:
         stack.callback(listener.ended)
-        backends = where.open(listener)
+        backends = place.open(listener, bounds.gas_limit)
         for backend in backends:
             stack.callback(backend.close)
         local = open_chain(None)
         assert isinstance(local, ContractChain)
         expected = estimate(frames[0], local)
-        tiles = plan(frames[0], len(frames), backends, expected, where.tile)
+        tiles = plan(frames[0], len(frames), backends, expected, bounds.tile)
         parts = [Part(number, tile) for number in range(len(frames)) for tile in tiles]
-        verifier, compared = choose_verifier(frames[0], backends, expected, where.verify)
+        verifier, compared = choose_verifier(frames[0], backends, expected, place.verify)
         # a single part may be cut later
         store = PartStore(keep, frames, compared) if keep is not None else None
         if store is not None and len(parts) > 1:
-            parts = _planned(store, parts, where)
+            parts = _planned(store, parts, bounds)
         pixels = frames[0].width * frames[0].height
         gas = len(frames) * expected.gas(pixels, max(1, len(parts) // len(frames)))
         listener.planned(Outline(len(parts), len(frames), pixels * len(frames), gas))
-        if not compared and where.verify is None and len(parts) > 1:
+        if not compared and place.verify is None and len(parts) > 1:
             listener.warned(
                 f"only a sample of the parts of so large a picture is verified (one in {SAMPLE}): "
                 "`verify` all verifies every part"
@@ -92,11 +95,13 @@ def render_frames(
             raise
         name = _name(scheduler.used)
         seconds = time.perf_counter() - started
-        if where.rpc:
+        if isinstance(place, Nodes):
             # nodes that were dropped are not asked for counts either
             chains = [backend.chain for backend in scheduler.used if isinstance(backend, ChainBackend)]
-            where = replace(where, rpc=tuple(each.connection.url for each in chains if isinstance(each, NodeChain)))
-        images = [_assemble(n, scene, pieces, name, seconds / len(frames), where) for n, scene in enumerate(frames)]
+            place = place.only([each.connection.url for each in chains if isinstance(each, NodeChain)])
+        images = [
+            _assemble(n, scene, pieces, name, seconds / len(frames), place, bounds) for n, scene in enumerate(frames)
+        ]
         return Finished(images, len(pieces), gas, scheduler.shares)
 
 
@@ -140,17 +145,17 @@ def choose_verifier(
     return (None if verify == "none" else Verifier(verify == "all")), verify == "all"
 
 
-def _planned(store: PartStore, parts: list[Part], where: Where) -> list[Part]:
+def _planned(store: PartStore, parts: list[Part], bounds: Bounds) -> list[Part]:
     """Return the parts of an earlier run of the same job, or else those given."""
     earlier = store.read_plan()
-    if earlier is not None and where.tile is None:
+    if earlier is not None and bounds.tile is None:
         return earlier
     store.write_plan(parts)
     return parts
 
 
 def _assemble(
-    number: int, scene: Scene, pieces: dict[Part, Drawing], chain: str, seconds: float, where: Where
+    number: int, scene: Scene, pieces: dict[Part, Drawing], chain: str, seconds: float, place: Place, bounds: Bounds
 ) -> Image:
     """Return the picture of a frame, assembled from its parts."""
     own = {part.tile: piece for part, piece in pieces.items() if part.frame == number}
@@ -170,7 +175,7 @@ def _assemble(
         scene=scene,
         calls=len(own),
         call_gas=most(piece.gas for piece in own.values()),
-        counter=Counter(where, max(map(area, own)) if len(own) > 1 else None),
+        counter=Counter(place, max(map(area, own)) if len(own) > 1 else None, bounds.gas_limit),
     )
 
 

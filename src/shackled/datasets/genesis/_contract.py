@@ -40,7 +40,8 @@ def generate_on_chain(seed: bytes, chain: Chain | None = None) -> tuple[GenesisP
 
 def picture_on_chain(piece: GenesisPiece, chain: Chain | None = None) -> Image:
     """Return the picture of a piece, 128 x 128 pixels, made by one call from its seed alone."""
-    from ...parallel import Counter, Where
+    from ..._on import Embedded
+    from ...parallel import Counter
 
     place = open_chain() if chain is None else chain
     started = time.perf_counter()
@@ -55,7 +56,7 @@ def picture_on_chain(piece: GenesisPiece, chain: Chain | None = None) -> Image:
         made_by=place.name,
         seconds=seconds,
         scene=piece.scene(),
-        counter=Counter(Where(place)),
+        counter=Counter(Embedded(place)),
     )
 
 
