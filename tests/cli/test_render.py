@@ -351,7 +351,7 @@ def test_refusals_and_interrupts_exit_with_1(
 ) -> None:
     from shackled.chain import EmbeddedChain, RevmChain
 
-    monkeypatch.setattr("shackled._render.open_chain", lambda *_: RevmChain(gas_limit=50_000))
+    monkeypatch.setattr("shackled._on.open_chain", lambda *_: RevmChain(gas_limit=50_000))
     assert run(["render", "shape.obj"]) == 1
     assert capsys.readouterr().err == "shackled: the call ran out of gas: 50,000 gas is not enough\n"
 
