@@ -21,7 +21,7 @@ from shackled.chain import revert_error
 from shackled.datasets import teapot
 from shackled.image import decode_bmp
 from shackled.scene import from_euler
-from shackled.scene._material import Shading
+from shackled.scene._object import Shading
 from shackled.studio import store_scene
 from shackled.studio._storage import scene_struct
 

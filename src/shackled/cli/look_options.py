@@ -8,8 +8,7 @@ from collections.abc import Callable
 from inspect import Parameter
 from typing import Annotated, Any
 
-from .._frames import load_frames
-from .._load import load, load_picture, locate
+from .._load import load, load_frames, load_picture, locate
 from ..datasets import Piece
 from ..errors import InputError
 from ..scene import (
