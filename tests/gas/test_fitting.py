@@ -10,8 +10,8 @@ from shackled.chain import ContractChain, open_chain
 from shackled.datasets import teapot
 from shackled.errors import InputWarning
 from shackled.gas import fit_scene, limits, render_call, suffices
-from shackled.gas._fits import fit_of
 from shackled.gas._fitting import FITS, Fitted
+from shackled.gas._limits import fit_of
 from shackled.scene import resize
 
 LIMITS = {limit.kind: limit for limit in limits() if limit.node in ("", "geth")}

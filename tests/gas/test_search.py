@@ -12,7 +12,7 @@ from shackled.artifacts import artifact
 from shackled.chain import ContractChain, open_chain
 from shackled.errors import OutOfGasError
 from shackled.gas import SearchStep, margin, measure, render_call, search, suffices
-from shackled.gas._exact import KEPT, floor_gas, needed_for
+from shackled.gas._limits import KEPT, floor_gas, needed_for
 from shackled.gas._runs import engine_calls
 from shackled.gas._search import FIRST_LIMIT
 

@@ -18,8 +18,7 @@ from ..errors import InputError, OutOfGasError
 from ..ethereum import intrinsic_gas
 from ..scene import Scene, simplify_scene
 from ..values import listed
-from ._exact import Limit, floor_gas, limits, render_call
-from ._fits import ENVELOPE, MAX_TRANSACTION
+from ._limits import ENVELOPE, MAX_TRANSACTION, Limit, floor_gas, limits, render_call
 
 #: What a picture is to fit: one transaction, or a read call of a node with the default settings of geth.
 FITS = ("transaction", "call")
