@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 from ..chain import CHAINS, PATIENCE, NodeChain, open_chain, open_node
 from ..errors import InputError
-from ..gas import STAGES, counting, flame_graph, make_report, render_call
+from ..gas import STAGES, flame_graph, make_report, render_call
 from ..whole_file import check_output_file, write_output
 from .gas_progress import Progress
 from .gas_tables import print_opcodes, print_profile, print_report
@@ -74,7 +74,7 @@ def gas(
     for name, given in (("--profile", path is not None), ("--opcodes", opcodes)):
         if given and not stages:
             raise InputError(f"{name} and --no-stages exclude each other: give one of them")
-    place = counting(open_chain(evm))
+    place = open_chain(evm)
     node = _open_node(rpc, address, rpc_timeout)
     scene = load_with(input, look, fit)
     with Progress(quiet=as_json) as progress:

@@ -12,7 +12,7 @@ from typing import Literal
 
 from attrs import evolve
 
-from ..chain import ContractChain, open_chain
+from ..chain import open_chain
 from ..checks import choice
 from ..errors import InputError, OutOfGasError
 from ..ethereum import intrinsic_gas
@@ -71,7 +71,6 @@ def fit_scene(scene: Scene, what: str, crease: float | None = None) -> Fitted:
 class _Fitting:
     def __init__(self, scene: Scene, limit: Limit, crease: float | None) -> None:
         chain = open_chain()
-        assert isinstance(chain, ContractChain)
         self._scene, self._limit, self._crease, self._chain = scene, limit, crease, chain
         self._place = "one transaction" if limit.kind == "transaction" else f"a read call of {limit.node}"
         triangles = max((each.mesh.triangles for each in scene.objects), default=0)

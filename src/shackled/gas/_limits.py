@@ -10,8 +10,7 @@ from importlib.resources import files
 from typing import Any
 
 from .._load import Thing, load_picture
-from ..chain import Chain, ContractChain, open_chain
-from ..errors import InputError
+from ..chain import ContractChain, open_chain
 from ..scene import render_call as render_call
 from ..values import listed
 from ._runs import engine_calls
@@ -49,17 +48,9 @@ class ExactGas:
         return max(self.intrinsic_gas + searched, self.floor_gas)
 
 
-def counting(chain: Chain) -> ContractChain:
-    """Return the chain if it counts gas; otherwise raise InputError."""
-    if not isinstance(chain, ContractChain):
-        raise InputError(f"the {chain.name} counts no gas: use `chain` revm, pyrevm or pyevm")
-    return chain
-
-
 def measure(thing: Thing, chain: ContractChain | None = None) -> ExactGas:
     """Measure the gas of a render, and of its calls of the engines. thing: as in `load`. chain: None for revm."""
     scene, where = load_picture(thing), chain or open_chain()
-    assert isinstance(where, ContractChain)
     data = render_call(scene)
     result = where.call("Renderer", data)
     gas = [call.result.gas for call in engine_calls(scene, where)]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Protocol
 
-from ..chain import DEFAULT_GAS_LIMIT, Chain, Drawing, EmbeddedChain, RevmChain, open_chain, out_of_gas
+from ..chain import DEFAULT_GAS_LIMIT, Chain, Drawing, RevmChain, open_chain, out_of_gas
 from ..scene import Rectangle, Scene
 
 #: Where a sample is verified: one part in so many, besides the first one of each backend.
@@ -43,10 +43,7 @@ def check_part(piece: Drawing, tile: Rectangle) -> None:
 def limited(chain: str | None, gas: int | None) -> Chain:
     """Open a chain by name, with a gas limit for each call; None keeps the limit of the chain."""
     opened = open_chain(chain)
-    if gas is None:
-        return opened
-    assert isinstance(opened, EmbeddedChain)
-    return type(opened)(gas)
+    return opened if gas is None else type(opened)(gas)
 
 
 class Backend(Protocol):
@@ -126,8 +123,7 @@ class Verifier:
     def __init__(self, every: bool) -> None:
         """Open the chain. every: whether each part is compared, or a random sample."""
         self._every = every
-        self._chain = open_chain(None)
-        assert isinstance(self._chain, EmbeddedChain)
+        self._chain = open_chain()
         self._chain.address("Renderer")  # set up here, before several threads ask for it
 
     def selects(self, first: bool) -> bool:
