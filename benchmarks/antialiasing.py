@@ -2,7 +2,7 @@
 
     python -m benchmarks.antialiasing
 
-measures pictures with and without it, rewrites the table of docs/antialiasing.md, and prints it.
+measures pictures with and without it, rewrites the table of docs/measurements.md, and prints it.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from shackled.datasets import pieces, require
 
 from . import shared
 
-PAGE = ROOT / "docs" / "antialiasing.md"
+PAGE = ROOT / "docs" / "measurements.md"
 
 #: Limit of a transaction (EIP-7825).
 TRANSACTION = 1 << 24

@@ -2,7 +2,7 @@
 
     python -m benchmarks.deployment
 
-rewrites the tables of docs/library.md, and prints them.
+rewrites the tables of docs/studio.md, and prints them.
 
 Gas now is exact: transactions are run in the embedded EVM. Gas after EIP-8037, "State Creation Gas Cost Increase"
 (https://eips.ethereum.org/EIPS/eip-8037), is computed from it. For a transaction without value that creates `accounts`
@@ -41,7 +41,7 @@ from shackled.scene import fit, pack
 from shackled.studio import STUDIO, StoreTransaction
 from shackled.studio._storage import quantize, store_mesh
 
-PAGE = ROOT / "docs" / "library.md"
+PAGE = ROOT / "docs" / "studio.md"
 
 #: EIP-8037: gas of a byte of state; bytes of an account and of a storage slot; gas of hashing a word of code.
 STATE_BYTE = 1_530
@@ -188,7 +188,7 @@ def main() -> int:
     """Measure, print, and write the tables."""
     found = tables()
     print("\n\n".join(found.values()))
-    return update({PAGE: found.__getitem__}, "python -m benchmarks.deployment")
+    return update({PAGE: found.get}, "python -m benchmarks.deployment")
 
 
 if __name__ == "__main__":

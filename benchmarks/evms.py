@@ -142,7 +142,7 @@ def main() -> None:
         f" machine with {os.cpu_count()} cores; of each figure the best of {ROUNDS}, the EVMs taking turns.\n\n"
         f"Millions of gas a second, pictures of {SIZE} x {SIZE} pixels:\n\n{speeds()}\n\n"
         f"A command in a new process, from start to end:\n\n{starts()}\n\n"
-        "Platforms with binary wheels: [docs/limits.md](../docs/limits.md#platforms).\n",
+        "Platforms with binary wheels: [docs/install.md](../docs/install.md#platforms).\n",
         "utf-8",
     )
     print(PAGE.read_text("utf-8"))

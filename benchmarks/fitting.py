@@ -3,8 +3,8 @@
     python -m benchmarks.fitting
 
 draws models of the cost table in their default look, 256 x 256 pixels, compares the lowered pictures, enlarged to that
-size again, with them, rewrites the table of docs/gas.md, and prints it. It takes about two minutes. The steps of
-`shackled.gas.fit_scene` follow from it.
+size again, with them, rewrites the tables of docs/measurements.md, and prints them. It takes about two minutes. The
+steps of `shackled.gas.fit_scene` follow from it.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from shackled.scene import simplify_scene
 
 from . import shared
 
-PAGE = ROOT / "docs" / "gas.md"
+PAGE = ROOT / "docs" / "measurements.md"
 SIDE = 256
 #: Meshes with more triangles than the simplified ones.
 FINE = ("spot.obj", "cow.obj", "utah-teapot.obj", "armadillo.obj")

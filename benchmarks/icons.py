@@ -2,7 +2,7 @@
 
     python -m benchmarks.icons
 
-measures everything, rewrites icons.json, the table of docs/icons.md, and the list of the icons whose tokens are
+measures everything, rewrites icons.json, the table of docs/datasets.md, and the list of the icons whose tokens are
 antialiased: src/shackled/tokens/antialiased.json.
 """
 
@@ -23,7 +23,7 @@ from shackled.scene import resize
 from shackled.tokens import SCALE
 
 FILE = Path(__file__).with_name("icons.json")
-PAGE = ROOT / "docs" / "icons.md"
+PAGE = ROOT / "docs" / "datasets.md"
 LIST = ROOT / "src" / "shackled" / "tokens" / "antialiased.json"
 
 #: The gas of a transaction (EIP-7825), which some nodes give a call, too.
@@ -96,7 +96,7 @@ def main() -> int:
     print(table(figures))
     FILE.write_text(json.dumps(figures, indent=1) + "\n", "utf-8")
     LIST.write_text(json.dumps(fitting(figures), indent=1) + "\n", "utf-8")
-    return update({PAGE: lambda _: table(figures)}, "python -m benchmarks.icons")
+    return update({PAGE: {"icons": table(figures)}.get}, "python -m benchmarks.icons")
 
 
 if __name__ == "__main__":

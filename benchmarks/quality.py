@@ -2,7 +2,7 @@
 
     python -m benchmarks.quality
 
-draws everything, which takes about three minutes, rewrites quality.json and the table of docs/antialiasing.md, and
+draws everything, which takes about three minutes, rewrites quality.json and the table of docs/measurements.md, and
 prints it. It needs OpenGL (`python3 tools/prepare.py opengl`). The figures of meshes that are not there are kept.
 """
 

@@ -165,9 +165,9 @@ def pictures(figures: Figures) -> str:
     return "\n".join(lines)
 
 
-def content(name: str, figures: Figures) -> str:
-    """Return the table of docs/studio.md between the marks of that name."""
-    return {"meshes": meshes, "pictures": pictures}[name](figures)
+def content(figures: Figures) -> dict[str, str]:
+    """Return the tables of docs/studio.md by the names of their marks."""
+    return {"meshes": meshes(figures), "pictures": pictures(figures)}
 
 
 def main() -> int:
@@ -176,7 +176,7 @@ def main() -> int:
     worse, better = changes({"studio": old}, {"studio": new})
     print("\n".join([*worse, *better]) or "no figure has changed")
     FILE.write_text(json.dumps(new, indent=1, sort_keys=True) + "\n", "utf-8")
-    return update({PAGE: lambda name: content(name, new)}, "python -m benchmarks.studio")
+    return update({PAGE: content(new).get}, "python -m benchmarks.studio")
 
 
 if __name__ == "__main__":

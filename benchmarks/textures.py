@@ -1,6 +1,6 @@
 """Measure what textures cost, and look at models that others publish.
 
-python -m benchmarks.textures                measures, and rewrites the tables of docs/textures.md
+python -m benchmarks.textures                measures, and rewrites the tables of docs/light.md
 python -m benchmarks.textures --models DIR   fetches BoxTextured and Duck, and draws them into a folder
 """
 
@@ -20,7 +20,7 @@ from shackled.scene._packed_texture import pack_texture
 from shackled.scene._texture import FILTERS
 from shackled.studio import store_scene
 
-PAGE = ROOT / "docs" / "textures.md"
+PAGE = ROOT / "docs" / "light.md"
 
 #: Models of the Khronos Group, of which only `--models` brings a copy.
 MODELS = "https://raw.githubusercontent.com/KhronosGroup/glTF-Sample-Assets/main/Models/{0}/glTF-Binary/{0}.glb"
@@ -105,9 +105,9 @@ def main() -> int:
     if folder is not None:
         draw_models(folder)
         return 0
-    tables = {"pixels": per_pixel(), "stored": stored()}
+    tables = {"texels": per_pixel(), "stored": stored()}
     print("\n\n".join(tables.values()))
-    return update({PAGE: tables.__getitem__}, "python -m benchmarks.textures")
+    return update({PAGE: tables.get}, "python -m benchmarks.textures")
 
 
 if __name__ == "__main__":

@@ -15,11 +15,18 @@ from pathlib import Path
 from typing import Any
 
 import click
+import numpy as np
 import pytest
+from click.testing import CliRunner
+from numpy.typing import NDArray
+from PIL import Image as PillowImage
+from PIL import ImageSequence
+from tools.docs.contract_reference import MARK, filled
 
 import shackled
 from animated_gltf import write
 from nodes import KEY, anvil, needs_anvil
+from shackled.artifacts import artifact
 from shackled.cli.app import app
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -28,19 +35,7 @@ PROGRAMS = sorted((ROOT / "examples" / "programs").glob("*.py"))
 #: Those that need a node, whose address is in SHACKLED_RPC.
 ON_A_NODE = {"node", "stored_mesh"}
 #: Pages whose blocks form one program; of the others only the imports are run, since they need nodes or much time.
-RUNNING = {
-    "datasets",
-    "energy",
-    "export",
-    "gas",
-    "genesis",
-    "icons",
-    "look",
-    "motion",
-    "reference",
-    "stages",
-    "tutorial",
-}
+RUNNING = {"datasets", "explain", "export", "gas", "look", "measurements", "motion", "reference", "tutorial"}
 TRIANGLE = "v 0 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\n"
 MODEL = """ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z
 element face 1\nproperty list uchar int vertex_indices\nend_header\n0 1 0\n-1 -1 0\n1 -1 0\n3 0 1 2\n"""
@@ -109,10 +104,37 @@ def test_the_files_that_a_page_names_exist(page: Path) -> None:
 
 @cache
 def sources() -> list[str]:
-    folders = ("src", "contracts/src", "contracts/npm", "tests", "tools", "benchmarks", "docs", "examples")
+    folders = ("src", "contracts/src", "contracts/npm", "tests", "tools", "benchmarks", "examples")
     files = [*ROOT.glob("*.toml"), *(ROOT / "contracts").glob("*.toml")]
     files += [path for folder in folders for path in (ROOT / folder).rglob("*.*")]
     return [path.as_posix() for path in files]
+
+
+def gallery() -> list[tuple[str, str]]:
+    """The pictures of docs/gallery.md, and the command below each."""
+    page = (DOCS / "gallery.md").read_text("utf-8")
+    return re.findall(r"!\[[^]]*\]\((images/gallery/[^)]*)\)[^`]*```sh\n    shackled (.*)\n", page)
+
+
+def frames(path: Path) -> list[NDArray[np.uint8]]:
+    with PillowImage.open(path) as opened:
+        return [np.asarray(frame.convert("RGB")) for frame in ImageSequence.Iterator(opened)]
+
+
+@pytest.mark.parametrize(("picture", "command"), gallery(), ids=[Path(name).stem for name, _ in gallery()])
+def test_a_command_of_the_gallery_draws_its_picture(
+    picture: str, command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(app, shlex.split(command), catch_exceptions=False)
+    assert result.exit_code == 0, result.output
+    shown, drawn = frames(DOCS / picture), frames(tmp_path / Path(picture).name)
+    assert len(shown) == len(drawn)
+    assert all(map(np.array_equal, shown, drawn)), "run python -m tools.docs.draw_gallery"
+
+
+def test_every_picture_of_the_gallery_has_a_command() -> None:
+    assert {f"images/gallery/{path.name}" for path in (DOCS / "images" / "gallery").iterdir()} == set(dict(gallery()))
 
 
 def test_the_reference_has_every_name_with_an_example() -> None:
@@ -125,6 +147,27 @@ def test_the_reference_has_every_name_with_an_example() -> None:
     assert set(shackled.__all__) <= used
     plain = {"__version__", "replace"}  # which mkdocstrings cannot show
     assert [name for name in shackled.__all__ if name not in plain and f"::: shackled.{name}\n" not in text] == []
+
+
+def test_the_reference_of_the_contracts_is_complete() -> None:
+    text = filled((DOCS / "contracts.md").read_text("utf-8"))
+    assert MARK.search(text) is None
+    for name in (
+        "Renderer",
+        "Studio",
+        "PngEncoder",
+        "Turntable",
+        "GlbEncoder",
+        "Library",
+        "Genesis",
+        "Web",
+        "Editions",
+    ):
+        part = text.partition(f"\n## {name}\n")[2].partition("\n## ")[0] + text.partition("\n## Errors\n")[2]
+        named = [entry["name"] for entry in artifact(name).abi if "name" in entry]
+        assert [each for each in named if f"`{each}(" not in part] == []
+    # what the interface of the Renderer says, not that of another contract with a function of this name
+    assert "| `render(Scene scene)` → `bytes` | call | Draws a scene. Returns: A Windows bitmap" in text
 
 
 @pytest.fixture(scope="module")
@@ -179,7 +222,7 @@ def test_a_program_says_in_a_line_what_it_lacks(
 
 
 def test_the_programs_are_short_and_listed() -> None:
-    page = (DOCS / "programs.md").read_text("utf-8")
+    page = (DOCS / "gallery.md").read_text("utf-8")
     assert len(PROGRAMS) >= 12
     for program in PROGRAMS:
         text = program.read_text("utf-8")

@@ -128,13 +128,6 @@ def test_a_background_of_one_row_is_its_top() -> None:
     ).all()
 
 
-def test_invert_turns_every_byte() -> None:
-    for name in ("flat", "smooth"):
-        scene = flat(teapot_scene()) if name == "flat" else teapot_scene()
-        scene = evolve(fit(scene), width=37, height=29)
-        assert (draw(evolve(scene, invert=True)) == 255 - draw(scene)).all()
-
-
 def test_lit_pixels_are_those_that_are_covered() -> None:
     for width, height in ((1, 1), (2, 3), (31, 17), (64, 64), (150, 140)):
         scene = scene_of_size(width, height)

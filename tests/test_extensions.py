@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 import judge
 from pictures import chain, counts, draw, dynamic
-from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, RenderError, Scene, render
+from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, RenderError, Scene
 from shackled.artifacts import artifact
 from shackled.chain._node import engines
 from shackled.image import decode_bmp
@@ -163,16 +163,6 @@ def test_bright_colours_are_mixed_as_they_are_seen() -> None:
     bright = wall(evolve(GLOSSY, ambient=4.0), lights=[spot()])
     mixed = evolve(bright, objects=[evolve(bright.objects[0], opacity=0.25)], background=Background((0, 0, 0)))
     assert np.abs(pixels(mixed) - np.minimum(pixels(bright), 255) / 4).max() <= 1
-
-
-def test_tiles_equal_the_whole() -> None:
-    scene = fit(
-        wall(lights=[spot()], objects=[Object(WALL, material=GLOSSY), box(0.6, 120, material=MATTE), box(0.3, 180)])
-    )
-    whole = pixels(scene)
-    for x, y, width, height in ((0, 0, 31, 64), (31, 7, 33, 20), (13, 40, 1, 24)):
-        tile = chain().draw(scene, Rectangle(x, y, width, height)).bmp
-        assert (decode_bmp(tile, width, height) == whole[y : y + height, x : x + width]).all()
 
 
 # ---- records ----
@@ -401,8 +391,3 @@ def test_objects_far_down_the_scene_cannot_have_records() -> None:
     scene = evolve(scene_of(), objects=[evolve(small, opacity=1.0)] * 65536 + [small])
     with pytest.raises(InputError, match="among the first 65,536 of a scene, not number 65,536"):
         extensions(scene)
-
-
-def test_a_picture_of_both() -> None:
-    image = render(scene_of(box(0.5, material=GLOSSY), lights=[spot()]))
-    assert image.pixels.shape == (48, 48, 3)

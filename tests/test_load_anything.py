@@ -241,9 +241,9 @@ def test_the_keywords_are_those_of_the_table() -> None:
 
 
 def test_the_page_lists_all_settings() -> None:
-    found = runpy.run_path(str(Path(__file__).parent.parent / "docs" / "look_table.py"))
+    found = runpy.run_path(str(Path(__file__).parent.parent / "tools" / "docs" / "look_table.py"))
     page = found["PAGE"].read_text("utf-8")
-    assert found["with_table"](page) == page, "run docs/look_table.py"
+    assert found["with_table"](page) == page, "run python -m tools.docs.look_table"
     assert all(f"| `{setting.name}` |" in page for setting in SETTINGS)
 
 

@@ -82,7 +82,7 @@ def test_lowered_pictures_are_compared_at_the_size_that_was_asked_for() -> None:
 
 def test_the_way_of_fit_loses_least() -> None:
     """Of the pictures of the tables, none but those on the way of `--fit` is both cheaper and nearer than one on it."""
-    text = looks.PAGES[0].read_text("utf-8")
+    text = fitting.PAGE.read_text("utf-8")
     for name in ("coarse", "fine"):
         table = text.partition(f"<!-- begin {name} -->\n")[2].partition(f"\n<!-- end {name} -->")[0]
         rows = [line.strip("| ").split(" | ") for line in table.splitlines()[2:]]

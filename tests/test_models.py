@@ -1,4 +1,4 @@
-"""What tools/models.py unpacks of packages, and what stands in docs/models.md."""
+"""What tools/models.py unpacks of packages, and what stands in docs/conformance.md."""
 
 from __future__ import annotations
 

@@ -130,7 +130,7 @@ def test_others_import_only_what_a_package_exports(package: Path) -> None:
     name = ".".join(package.relative_to(PACKAGE.parent).parts)
     face = import_module(name)
     assert all(hasattr(face, each) for each in face.__all__)
-    folders = [PACKAGE, *(ROOT / each for each in ("docs", "examples"))]
+    folders = [PACKAGE, ROOT / "examples"]
     files = [path for folder in folders for path in sorted(folder.rglob("*.py")) if not path.is_relative_to(package)]
     private = [
         f"{path.relative_to(ROOT)}: {imported}"
@@ -145,7 +145,7 @@ def test_others_import_only_what_a_package_exports(package: Path) -> None:
 def test_a_package_exports_only_what_others_need(package: Path) -> None:
     """The documentation names it, or another package uses it, or a package inside this one."""
     name = ".".join(package.relative_to(PACKAGE.parent).parts)
-    files = [path for each in ("docs", "examples", "benchmarks") for path in (ROOT / each).rglob("*.py")]
+    files = [path for each in ("tools/docs", "examples", "benchmarks") for path in (ROOT / each).rglob("*.py")]
     files += [PACKAGE / "__init__.pyi", *(path for path in PACKAGE.rglob("*.py") if path.parent != package)]
     used = {each for path in files for each in of_the_package(path)}
     texts = [path.read_text() for path in [*files, *(ROOT / "docs").rglob("*.md")]]

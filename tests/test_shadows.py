@@ -14,7 +14,7 @@ from pictures import chain, draw
 from shackled import Camera, Ground, InputError, Light, Material, Mesh, Object, RenderError, Scene, load
 from shackled.artifacts import artifact
 from shackled.datasets.common import shapes
-from shackled.scene import Rectangle, decode, encode_scene, encode_scene_file, fit, painted, render_call
+from shackled.scene import Rectangle, encode_scene, encode_scene_file, fit, painted
 from shackled.scene._codec import extensions
 
 SIZE = 40
@@ -47,15 +47,6 @@ def is_right(scene: Scene) -> bool:
 SUN, LAMP = Light("directional", (-0.6, 1.0, 0.5), shadow=True), Light("point", (2, 3, 2), shadow=True)
 
 
-def test_tiles() -> None:
-    """A tile is that part of the whole."""
-    scene = fit(still_life(width=64, height=48))
-    whole = draw(scene)
-    for tile in (Rectangle(10, 5, 30, 20), Rectangle(40, 30, 24, 18)):
-        part = whole[tile.y : tile.y + tile.height, tile.x : tile.x + tile.width]
-        assert (draw(scene, tile) == part).all()
-
-
 def test_large_picture() -> None:
     """Pictures of several bands and engines' runs."""
     scene = still_life(width=160, height=160)
@@ -76,16 +67,6 @@ def test_a_ground_fades() -> None:
     assert row[9] == 0 < row[12]
 
 
-def test_scenes_are_decoded() -> None:
-    scene = still_life()
-    data = render_call(scene)
-    decoded = decode(data)
-    assert render_call(decoded) == data
-    assert [light.shadow for light in decoded.lights] == [True, False]
-    assert len(decoded.objects) == len(scene.objects)
-    assert decoded.ground is not None
-
-
 def test_scene_files(tmp_path: Path) -> None:
     scene = still_life(ground=Ground("#b9b4a8", -0.5, 7))
     path = tmp_path / "scene.json"
@@ -94,26 +75,6 @@ def test_scene_files(tmp_path: Path) -> None:
     assert load(path, shadow=False, ground="none") == evolve(
         scene, ground=None, lights=[evolve(light, shadow=False) for light in scene.lights]
     )
-
-
-def test_which_faces_cast() -> None:
-    """Of closed objects those turned away from the light, else all."""
-    scene = fit(still_life())
-    open_mesh = Mesh([(0, 1, 0), (1, 1, 0), (0, 1, 1)], [(0, 1, 2)])
-    rules = [
-        next(record for record in _records(extensions(fit(each))) if record[0] == 10)[-1]
-        for each in (scene, evolve(scene, objects=[*scene.objects, Object(open_mesh)]))
-    ]
-    assert rules == [2, 1]
-
-
-def _records(data: bytes) -> list[bytes]:
-    records = []
-    while data:
-        size = 5 + int.from_bytes(data[3:5], "big") * (32 if data[0] >= 8 else 1)
-        records.append(data[:size])
-        data = data[size:]
-    return records
 
 
 def test_wrong_values() -> None:

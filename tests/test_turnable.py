@@ -32,7 +32,7 @@ def site(tmp_path: Path) -> Path:
     image.save(docs / "images" / "crown.png")
     image.save(docs / "images" / "plain.png", scene=False)
     (tmp_path / "mkdocs.yml").write_text(
-        f"site_name: A\ntheme: {{name: null, custom_dir: theme}}\nplugins: []\nhooks: [{ROOT}/docs/turnable.py]\n"
+        f"site_name: A\ntheme: {{name: null, custom_dir: theme}}\nplugins: []\nhooks: [{ROOT}/tools/docs/turnable.py]\n"
     )
     (tmp_path / "theme").mkdir()
     (tmp_path / "theme" / "main.html").write_text("<!doctype html><body>{{ page.content }}")

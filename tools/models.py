@@ -1,4 +1,4 @@
-"""Render models that packages on npm and PyPI contain, as `shackled render` does, for docs/models.md.
+"""Render models that packages on npm and PyPI contain, as `shackled render` does, for docs/conformance.md.
 
     python -m tools.models
 
@@ -37,7 +37,7 @@ from shackled.gas import headline
 from .pages import ROOT, update
 
 TABLE = ROOT / "tools" / "models.toml"
-PAGE = ROOT / "docs" / "models.md"
+PAGE = ROOT / "docs" / "conformance.md"
 FOLDER = ROOT / "build" / "models"
 PICTURES = FOLDER / "pictures"
 

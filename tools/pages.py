@@ -8,6 +8,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+#: The pages of the documentation, and their pictures.
+DOCS = ROOT / "docs"
+IMAGES = DOCS / "images"
 
 
 def update(pages: dict[Path, Callable[[str], str | None]], command: str, check: bool = False) -> int:

@@ -1,7 +1,7 @@
 """Check on which platforms the package installs from binary wheels, without a compiler.
 
     python -m tools.platforms            prints the table
-    python -m tools.platforms --write    writes it into docs/limits.md, too
+    python -m tools.platforms --write    writes it into docs/install.md, too
 
 Nothing is installed: uv (`pip install uv`) resolves the requirements for each platform and version of Python, from the
 index of packages.
@@ -17,7 +17,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 from tools.pages import ROOT, update
 
-PAGE = ROOT / "docs" / "limits.md"
+PAGE = ROOT / "docs" / "install.md"
 
 #: Names of platforms, and what uv calls them.
 PLATFORMS = {
@@ -78,7 +78,7 @@ def brief(versions: list[str]) -> str:
 def main() -> int:
     """Print the table."""
     parser = argparse.ArgumentParser(description="Check on which platforms the package installs from binary wheels.")
-    parser.add_argument("--write", action="store_true", help="write the table into docs/limits.md")
+    parser.add_argument("--write", action="store_true", help="write the table into docs/install.md")
     options = parser.parse_args()
     text = table()
     print(text)

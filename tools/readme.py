@@ -1,4 +1,4 @@
-"""Update the figures of README.md and docs/light.md: those of benchmarks/ and of docs/images/pictures.json.
+"""Update the figures of README.md, docs/index.md and docs/light.md: those of benchmarks/ and of pictures.json.
 
 python -m tools.readme            writes them between the marks <!-- begin NAME --> and <!-- end NAME -->
 python -m tools.readme --check    writes nothing; fails if they are not up to date
@@ -11,21 +11,17 @@ import json
 import sys
 from typing import Any
 
-from tools.pages import ROOT, update
+from tools.pages import DOCS, IMAGES, ROOT, update
 
-README = ROOT / "README.md"
-LIGHT = ROOT / "docs" / "light.md"
+PAGES = (ROOT / "README.md", DOCS / "index.md", DOCS / "light.md")
 RESULTS = ROOT / "benchmarks" / "results.json"
 TOKENS = ROOT / "benchmarks" / "tokens.json"
-PICTURES = ROOT / "docs" / "images" / "pictures.json"
+PICTURES = IMAGES / "pictures.json"
 EFFECTS = ROOT / "benchmarks" / "effects.json"
-
-#: Numbers in words, for sentences.
-COUNTS = {5: "five", 6: "six", 7: "seven"}
 
 #: Rows of the cost table for the README: a part of the name of the row, and the title.
 ROWS = {
-    "obj_*_cull": "a model of about 1,000 triangles, lit (mean of 15)",
+    "mean of the 10 of them": "a model of about 1,000 triangles, lit (mean of 10)",
     "genesis_000": "a piece of the Genesis collection (mean of 24)",
     "cube_persp_128": "a cube",
     "cube_persp_512": "a cube, 512 x 512",
@@ -61,17 +57,12 @@ def tokens() -> str:
     )
 
 
-def pictures() -> str:
-    """Return the table of what the pictures of the documentation cost."""
-    data = json.loads(PICTURES.read_text("utf-8"))
-    scene, strip, teapot = data["scene"], data["strip"], data["teapot"]
+def scene() -> str:
+    """Return the line about the still life, docs/images/scene.png."""
+    data = json.loads(PICTURES.read_text("utf-8"))["scene"]
     return (
-        f"Every pixel above was computed by contracts. The still life: {scene['width']} x {scene['height']} pixels,"
-        f" {scene['triangles']:,} triangles, {millions(scene['gas'])} gas.\n"
-        f"The strip: {COUNTS[len(strip['gas'])]} pictures of 128 x 128 pixels, {min(strip['gas']) / 1e6:.1f} to"
-        f" {max(strip['gas']) / 1e6:.1f} million gas each.\n"
-        f"The teapot of `make demo`: {teapot['triangles']:,} triangles drawn at"
-        f" {teapot['width']} x {teapot['height']} pixels, {millions(teapot['gas'])} gas."
+        f"*{data['width']} x {data['height']} pixels, {data['triangles']:,} triangles, {millions(data['gas'])} gas."
+        " Turn the picture: your browser runs the contracts.*"
     )
 
 
@@ -93,15 +84,6 @@ def pixels() -> str:
     return "\n".join(lines)
 
 
-def showcase() -> str:
-    """Return a line about the scenes of the showcase."""
-    gas = json.loads(PICTURES.read_text("utf-8"))["showcase"].values()
-    return (
-        f"`shackled datasets showcase -o DIR` draws these {len(gas)} scenes, {millions(min(gas))} to"
-        f" {millions(max(gas))} gas each."
-    )
-
-
 def millions(gas: float) -> str:
     """Format gas as 4.9 million."""
     return f"{gas / 1e6:,.1f} million" if gas < 1e8 else f"{gas / 1e6:,.0f} million"
@@ -109,11 +91,11 @@ def millions(gas: float) -> str:
 
 def main() -> int:
     """Update the figures, or check that they are up to date."""
-    parser = argparse.ArgumentParser(description="Update the figures of README.md.")
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--check", action="store_true", help="write nothing; fail if they are not up to date")
     check = parser.parse_args().check
-    contents = {each.__name__: each for each in (costs, effects, pictures, pixels, showcase, tokens)}
-    return update(dict.fromkeys((README, LIGHT), lambda name: contents[name]()), "python -m tools.readme", check)
+    found = {each.__name__: each() for each in (costs, effects, pixels, scene, tokens)}
+    return update(dict.fromkeys(PAGES, found.get), "python -m tools.readme", check)
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ from shackled.evm import Instance, Status
 def test_the_tables_are_up_to_date() -> None:
     tables = deployment.tables()
     text = deployment.PAGE.read_text("utf-8")
-    assert filled(deployment.PAGE, tables.__getitem__) == text, "run python -m benchmarks.deployment"
+    assert filled(deployment.PAGE, tables.get) == text, "run python -m benchmarks.deployment"
     assert all(f"<!-- begin {name} -->" in text for name in tables)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,17 +55,8 @@ class Result:
         return self.error / max(3 * self.interior, 1)
 
     def __add__(self, other: Result) -> Result:
-        return Result(
-            scenes=self.scenes + other.scenes,
-            empty=self.empty + other.empty,
-            pixels=self.pixels + other.pixels,
-            interior=self.interior + other.interior,
-            differing=self.differing + other.differing,
-            error=self.error + other.error,
-            many=self.many + other.many,
-            worst=max(self.worst, other.worst),
-            faults=self.faults + other.faults,
-        )
+        sums = {each.name: getattr(self, each.name) + getattr(other, each.name) for each in fields(self)}
+        return Result(**sums | {"worst": max(self.worst, other.worst)})
 
     def faults_of_run(self) -> list[str]:
         """What is out of bounds, in any scene or in all of them together."""

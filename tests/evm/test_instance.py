@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import stat
 import subprocess
 import sys
@@ -247,16 +248,30 @@ def test_two_processes_at_once(tmp_path: Path) -> None:
     assert [path.suffix for path in cached(tmp_path)] == [".bin"]
 
 
-@needs_linux
-def test_a_damaged_cache(tmp_path: Path) -> None:
-    """It is compiled and written again."""
-    check(start(tmp_path))
+@pytest.fixture(scope="module")
+def compiled(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A cache that a process has written."""
+    folder = tmp_path_factory.mktemp("compiled")
+    check(start(folder))
+    return folder
+
+
+@pytest.fixture
+def cache(compiled: Path, tmp_path: Path) -> Path:
+    """The only file of such a cache, in a folder of the test."""
+    shutil.copytree(compiled, tmp_path, dirs_exist_ok=True)
     (path,) = cached(tmp_path)
-    whole = path.read_bytes()
+    return path
+
+
+@needs_linux
+def test_a_damaged_cache(tmp_path: Path, cache: Path) -> None:
+    """It is compiled and written again."""
+    whole = cache.read_bytes()
     for damaged in (whole[:-1], whole[:5000] + bytes(50) + whole[5050:]):
-        path.write_bytes(damaged)
+        cache.write_bytes(damaged)
         check(start(tmp_path))
-        assert path.read_bytes() == whole
+        assert cache.read_bytes() == whole
 
 
 @needs_linux
@@ -284,16 +299,14 @@ def spoil_by_pipe(path: Path) -> None:
 
 @needs_linux
 @pytest.mark.parametrize("spoil", [spoil_by_others, spoil_by_owner, spoil_by_link, spoil_by_pipe])
-def test_a_cache_that_others_could_have_written(tmp_path: Path, spoil: Callable[[Path], None]) -> None:
+def test_a_cache_that_others_could_have_written(tmp_path: Path, cache: Path, spoil: Callable[[Path], None]) -> None:
     """It is not run, and replaced: its content is machine code."""
     if spoil is spoil_by_owner and os.geteuid():
         pytest.skip("only root can give files away")
+    spoil(cache)
+    spoilt = cache.lstat()
     check(start(tmp_path))
-    (path,) = cached(tmp_path)
-    spoil(path)
-    spoilt = path.lstat()
-    check(start(tmp_path))
-    now = path.lstat()
+    now = cache.lstat()
     assert now.st_ctime_ns > spoilt.st_ctime_ns
     assert (stat.S_ISREG(now.st_mode), now.st_uid, now.st_mode & 0o777) == (True, os.geteuid(), 0o600)
 

@@ -67,7 +67,7 @@ class Frame:
 
 @dataclass(frozen=True)
 class Texture:
-    """texels: (height, width, 3), 0..255. alpha: (height, width, 1), or None. cutoff: see docs/textures.md."""
+    """texels: (height, width, 3), 0..255. alpha: (height, width, 1), or None. cutoff: see docs/light.md."""
 
     texels: Array
     bilinear: bool

@@ -1,4 +1,4 @@
-"""Which points a light does not reach: docs/shadows.md.
+"""Which points a light does not reach: docs/explain.md.
 
 A face shades what is behind it, in the pyramid or prism of its three sides and the light. Glass, wires and grounds cast
 no shadows; of culled objects only the faces that the rule of the shadow names do. A face does not shade itself, and

@@ -136,7 +136,7 @@ def tilted_wire(slope: float, size: int, shininess: int, antialias: bool) -> Sce
     return Scene([thing], camera, [light], BLACK, width=size, height=size, antialias=antialias)
 
 
-#: Pixels, shininess, and by how many levels highlights on wires are off without anti-aliasing: docs/antialiasing.md.
+#: Pixels, shininess, and by how many levels highlights on wires are off without anti-aliasing: docs/explain.md.
 ERRORS = [(128, 20, 23), (128, 128, 103), (512, 20, 6), (512, 128, 35)]
 
 

@@ -1,4 +1,4 @@
-"""The colour of a texture, as OpenGL defines it: docs/textures.md."""
+"""The colour of a texture, as OpenGL defines it: docs/light.md."""
 
 from __future__ import annotations
 

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from docs.draw_library import Shelf
 from eth_abi.abi import decode as decode_abi
 from eth_utils.crypto import keccak
 from PIL import Image as PillowImage
 from tools import library as tool
+from tools.docs.draw_library import Shelf
 
 import gltf_reader
 from nodes import KEY, anvil, needs_anvil

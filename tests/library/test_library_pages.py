@@ -1,4 +1,4 @@
-"""docs/library.md and docs/web3.md: their pictures, and the contracts of their examples."""
+"""docs/studio.md: its pictures, and the contracts of their examples."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from docs import draw_library
-from docs.draw_library import COLUMNS, LABEL, SIDE, Shelf
 from eth_abi.abi import decode, encode
 from PIL import Image as PillowImage
+from tools.docs import draw_library
+from tools.docs.draw_library import COLUMNS, LABEL, SIDE, Shelf
+from tools.pages import IMAGES
 
 from compiler import needs_compiler
 from shackled import render
@@ -37,14 +38,14 @@ def objects_of(scene: bytes) -> list[Any]:
 
 
 def test_the_contact_sheet(shelf: Shelf) -> None:
-    with PillowImage.open(draw_library.FOLDER / "library.png") as opened:
+    with PillowImage.open(IMAGES / "library.png") as opened:
         sheet = np.asarray(opened.convert("RGB"))
     assert sheet.shape == (-(-len(items()) // COLUMNS) * (SIDE + LABEL), COLUMNS * SIDE, 3)
     for number, item in enumerate(items()):
         if item.name in draw_library.ON_PEDESTALS:
             x, y = number % COLUMNS * SIDE, number // COLUMNS * (SIDE + LABEL)
             difference = np.abs(draw_library.picture(shelf, item).astype(int) - sheet[y : y + SIDE, x : x + SIDE])
-            assert difference.mean() < 0.5, "run python -m docs.draw_library"
+            assert difference.mean() < 0.5, "run python -m tools.docs.draw_library"
 
 
 @needs_compiler
@@ -81,9 +82,9 @@ def test_scenes_of_the_example(shelf: Shelf) -> None:
 
 @needs_compiler
 def test_the_picture_of_the_example() -> None:
-    with PillowImage.open(draw_library.FOLDER / "library-pedestal.png") as kept:
+    with PillowImage.open(IMAGES / "library-pedestal.png") as kept:
         difference = np.abs(np.asarray(draw_library.example_picture()).astype(int) - np.asarray(kept))
-    assert difference.mean() < 0.5, "run python -m docs.draw_library"
+    assert difference.mean() < 0.5, "run python -m tools.docs.draw_library"
 
 
 @needs_compiler
@@ -120,7 +121,8 @@ def test_a_site_of_ones_own(shelf: Shelf) -> None:
 
 
 def test_the_page_shows_the_code_of_the_example() -> None:
-    page = (ROOT / "docs" / "library.md").read_text("utf-8")
+    page = (ROOT / "docs" / "studio.md").read_text("utf-8")
+    page = page.partition("\n## The library\n")[2].partition("\n## web3:")[0]
     code = (ROOT / draw_library.EXAMPLE).read_text("utf-8")
     statements = {line.strip() for line in code.splitlines()}
     shown = re.findall(r"^```solidity\n(.*?)^```", page, re.M | re.S)
@@ -134,4 +136,4 @@ def test_licences() -> None:
     licences = {piece.name: piece.licence for piece in pieces()}
     assert {item.name for item in items() if licences[item.piece] != "MIT"} == {"glasses"}
     assert licences["icons/glasses"] == "CC0"
-    assert "MIT licence, except the glasses, which are CC0" in (ROOT / "docs" / "library.md").read_text("utf-8")
+    assert "MIT licence, except the glasses, which are CC0" in (ROOT / "docs" / "studio.md").read_text("utf-8")

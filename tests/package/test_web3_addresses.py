@@ -13,9 +13,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from docs import draw_library
 from PIL import Image as PillowImage
+from tools.docs import draw_library
 from tools.examples import compile_example
+from tools.pages import IMAGES
 
 from compiler import needs_compiler
 from nodes import KEY, anvil, needs_anvil
@@ -134,7 +135,7 @@ def test_a_site_of_ones_own(fetch: Fetch) -> None:
     assert (answer.status, answer.headers) == (200, {"Content-Type": "image/png"})
     with (
         PillowImage.open(io.BytesIO(answer.body)) as opened,
-        PillowImage.open(draw_library.FOLDER / "library-pedestal.png") as shown,
+        PillowImage.open(IMAGES / "library-pedestal.png") as shown,
     ):
         crown = np.asarray(shown)[:128, 128 * draw_library.ON_PEDESTALS.index("crown") :][:, :128]
         assert np.abs(np.asarray(opened)[::4, ::4].astype(int) - crown).mean() < 0.5

@@ -7,9 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from docs import draw_building
 from PIL import Image as PillowImage
+from tools.docs import draw_building
 from tools.ledger import World
+from tools.pages import IMAGES
 
 from compiler import needs_compiler
 from shackled import render
@@ -29,9 +30,9 @@ def test_pictures(world: World, gallery: str, name: str) -> None:
     functions = draw_building.PICTURES[gallery][name]
     scenes = draw_building.scenes(world, gallery, functions)
     pictures = [draw_building.draw(world, scene) for scene in scenes]
-    with PillowImage.open(draw_building.FOLDER / f"building-{name}.png") as kept:
+    with PillowImage.open(IMAGES / f"building-{name}.png") as kept:
         difference = np.abs(np.hstack(pictures).astype(int) - np.asarray(kept))
-    assert difference.mean() < 0.5, "run python -m docs.draw_building"
+    assert difference.mean() < 0.5, "run python -m tools.docs.draw_building"
     for scene, picture in zip(scenes, pictures, strict=True):
         decoded = decode(artifact("Renderer").selectors["render"] + scene)
         assert np.array_equal(render(decoded).pixels, picture)

@@ -43,7 +43,7 @@ const TIMEOUT = 30_000;
 const CHECK_TIMEOUT = 300_000;
 const SOURCES = ["src", "rpc", "studio", "pointer"];
 
-/** Shows a scene as the contracts draw it, in a worker. docs/view.md describes its attributes, properties and events. */
+/** Shows a scene as the contracts draw it, in a worker. docs/export.md describes its attributes, properties and events. */
 export class ShackledView extends HTMLElement {
     /** Where evm.wasm and contracts.json come from, for all elements without attributes `evm` and `contracts`. */
     static get assets(): AssetSources {

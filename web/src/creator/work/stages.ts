@@ -1,4 +1,4 @@
-// A picture of the result of each stage of the pipeline, as src/shackled/stages.py draws them: docs/stages.md.
+// A picture of the result of each stage of the pipeline, as src/shackled/stages.py draws them: docs/explain.md.
 
 import { add, boundsOf, cross, dot, rint, subtract, unit, type Vector } from "../../scene/arithmetic.js";
 import { drawCall, withFunction } from "../../picture.js";

@@ -93,7 +93,7 @@ export class Work {
         return this.#ask("count", { doc }, options);
     }
 
-    /** The six pictures of the pipeline: docs/stages.md. */
+    /** The six pictures of the pipeline: docs/explain.md. */
     stages(doc: Document, options?: Options): Promise<Stage[]> {
         return this.#ask("stages", { doc }, options);
     }

@@ -1,0 +1,64 @@
+"""What names the project's addresses: nothing while they are empty; with them, every README has absolute links."""
+
+from __future__ import annotations
+
+import re
+from types import SimpleNamespace
+
+import pytest
+from tools import addresses
+
+README = (addresses.ROOT / "README.md").read_text("utf-8")
+REPOSITORY, SITE = "https://host.example/owner/shackled", "https://site.example/shackled"
+
+
+@pytest.fixture
+def published(monkeypatch: pytest.MonkeyPatch) -> None:
+    project = addresses.project()
+    # as somebody may write them
+    project["tool"]["shackled"] = {"repository": REPOSITORY + "/", "documentation": SITE}
+    monkeypatch.setattr(addresses, "project", lambda: project)
+
+
+@pytest.fixture
+def unpublished(monkeypatch: pytest.MonkeyPatch) -> None:
+    project = addresses.project()
+    project["tool"]["shackled"] = {"repository": "", "documentation": ""}
+    monkeypatch.setattr(addresses, "project", lambda: project)
+
+
+@pytest.mark.usefixtures("unpublished")
+def test_without_addresses_nothing_names_one() -> None:
+    assert addresses.urls() == {}
+    assert addresses.with_addresses({"name": "a"}, "web") == {"name": "a"}
+    assert vars(addresses.on_config(SimpleNamespace())) == {}
+    text = addresses.for_an_index(README)
+    assert re.findall(r"\]\((?!#)[^)]*\)", text) == []
+    assert "- In a web page, and in Jupyter: `<shackled-view>`, npm." in text
+    assert addresses.for_an_index("[costs](#what-it-costs)") == "[costs](#what-it-costs)"
+
+
+@pytest.mark.usefixtures("published")
+def test_with_addresses() -> None:
+    found = addresses.urls()
+    assert found["Repository"] == REPOSITORY
+    assert found["Documentation"] == SITE
+    version = f"v{addresses.project()['project']['version']}"
+    text = addresses.for_an_index(README)
+    assert f"![A rocket that turns]({REPOSITORY}/raw/{version}/docs/images/gallery/turntable.gif)" in text
+    assert f"[security]({REPOSITORY}/blob/{version}/contracts/SECURITY.md)" in text
+    assert [link for link in re.findall(r"\]\(([^)#]+)", text) if not link.startswith("https://")] == []
+    assert len(re.findall(r"\]\(", text)) == len(re.findall(r"\]\(", README))
+    package = addresses.with_addresses({"name": "a"}, "web")
+    assert package["repository"]["url"] == f"git+{REPOSITORY}.git"
+    assert package["homepage"] == SITE
+    site = addresses.on_config(SimpleNamespace())
+    assert (site.repo_url, site.repo_name, site.site_url) == (REPOSITORY, "owner/shackled", f"{SITE}/")
+
+
+@pytest.mark.usefixtures("published")
+def test_links_of_a_folder_and_code() -> None:
+    text = "[a](../docs/b.md#c) `[d](e)` [`f`](g.md)\n```\n[h](i)\n```\n"
+    base = f"{REPOSITORY}/blob/v{addresses.project()['project']['version']}"
+    made = f"[a]({base}/docs/b.md#c) `[d](e)` [`f`]({base}/web/g.md)\n```\n[h](i)\n```\n"
+    assert addresses.for_an_index(text, "web") == made

@@ -1,0 +1,46 @@
+"""Draw the picture of token-commands.md: the gallery that `shackled token demo` writes, in a real browser.
+
+    python -m tools.docs.draw_token_gallery
+
+Needs anvil and chromium. The pieces differ from run to run, because the chain determines their seeds.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+from PIL import Image
+from playwright.sync_api import sync_playwright
+
+from shackled.chain import VARIABLE
+from shackled.tokens import run_demo
+from tools.anvil import Anvil, find_anvil
+from tools.page_server import ARGUMENTS, browser_path
+from tools.pages import IMAGES
+
+#: Size of the palette, which keeps the file small.
+COLORS = 256
+
+
+def main() -> None:
+    """Draw the picture."""
+    binary = find_anvil()
+    if binary is None:
+        raise SystemExit("anvil is not installed: npm ci in contracts/")
+    with tempfile.TemporaryDirectory() as folder, Anvil(binary) as node, sync_playwright() as driver:
+        os.environ[VARIABLE] = str(Path(folder) / "addresses.json")
+        demo = run_demo(node.connection, Path(folder) / "demo", lambda text: print(text, file=sys.stderr))
+        browser = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
+        page = browser.new_page(viewport={"width": 1280, "height": 1060}, color_scheme="light")
+        page.goto(demo.gallery.resolve().as_uri())
+        with Image.open(io.BytesIO(page.screenshot())) as picture:
+            picture.convert("RGB").quantize(COLORS).save(IMAGES / "gallery.png", optimize=True)
+        browser.close()
+
+
+if __name__ == "__main__":
+    main()
