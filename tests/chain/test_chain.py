@@ -36,9 +36,7 @@ SCENE = Scene(
 def chain(request: pytest.FixtureRequest) -> EmbeddedChain:
     if request.param != "revm":
         pytest.importorskip(CHAINS[request.param])
-    chain = open_chain(request.param)
-    assert isinstance(chain, EmbeddedChain)
-    return chain
+    return open_chain(request.param)
 
 
 @pytest.mark.parametrize("name", ["pyrevm", "pyevm"])

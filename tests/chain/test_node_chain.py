@@ -73,9 +73,7 @@ def book(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
 
 @pytest.fixture(scope="module")
 def embedded() -> EmbeddedChain:
-    chain = open_chain()
-    assert isinstance(chain, EmbeddedChain)
-    return chain
+    return open_chain()
 
 
 @pytest.fixture(scope="module")

@@ -1,11 +1,30 @@
-"""Where a picture fits."""
+"""Where a picture fits, and the gas limits that are documented elsewhere."""
 
 from __future__ import annotations
 
+from datetime import date
+
 from shackled import load
-from shackled.chain import EmbeddedChain, open_chain
+from shackled.chain import open_chain
 from shackled.gas import fits_of, headline, limits, measure, render_call, search, suffices
 from shackled.scene import resize
+
+
+def test_every_limit_has_a_source_and_a_date() -> None:
+    found = limits()
+    assert [limit.gas for limit in found] == sorted(limit.gas for limit in found)
+    assert len({limit.name for limit in found}) == len(found) >= 6
+    for limit in found:
+        assert limit.kind in ("transaction", "call")
+        assert limit.name.startswith(f"eth_call, {limit.node}") if limit.kind == "call" else limit.node == ""
+        assert limit.source.startswith("https://")
+        assert date(2015, 7, 30) < date.fromisoformat(limit.date)
+
+
+def test_a_transaction_has_the_smallest() -> None:
+    (transaction,) = (limit for limit in limits() if limit.kind == "transaction")
+    assert transaction.gas == 2**24
+    assert limits()[0] == transaction
 
 
 def test_a_small_picture_fits_everywhere() -> None:
@@ -53,7 +72,6 @@ def test_between_the_bounds_the_call_is_tried() -> None:
 
 def test_the_bound_is_enough_and_close() -> None:
     chain = open_chain()
-    assert isinstance(chain, EmbeddedChain)
     scene = resize(load("icosahedron"), 32)
     exact, data = measure(scene, chain), render_call(scene)
     needed = search(suffices(chain, "Renderer", data)).gas

@@ -6,12 +6,12 @@ import pytest
 from attrs import evolve
 
 from shackled import InputError, Scene, load, render
-from shackled.chain import ContractChain, open_chain
+from shackled.chain import open_chain
 from shackled.datasets import teapot
 from shackled.errors import InputWarning
 from shackled.gas import fit_scene, limits, render_call, suffices
-from shackled.gas._fits import fit_of
 from shackled.gas._fitting import FITS, Fitted
+from shackled.gas._limits import fit_of
 from shackled.scene import resize
 
 LIMITS = {limit.kind: limit for limit in limits() if limit.node in ("", "geth")}
@@ -25,7 +25,6 @@ def default() -> Scene:
 
 def fits(scene: Scene, what: str) -> bool:
     chain = open_chain()
-    assert isinstance(chain, ContractChain)
     data, drawing = render_call(scene), chain.draw(scene)
     assert drawing.gas is not None
     assert drawing.intrinsic_gas is not None

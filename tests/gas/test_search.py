@@ -6,13 +6,15 @@ from itertools import pairwise
 
 import pytest
 from attrs import evolve
+from tools.anvil import AnvilChain
 
-from shackled import InputError, RenderError, Scene
+from nodes import ANVIL, needs_anvil
+from shackled import ChainError, InputError, RenderError, Scene
 from shackled.artifacts import artifact
-from shackled.chain import ContractChain, open_chain
-from shackled.errors import OutOfGasError
+from shackled.chain import open_chain
+from shackled.errors import OutOfGasError, RevertError
 from shackled.gas import SearchStep, margin, measure, render_call, search, suffices
-from shackled.gas._exact import KEPT, floor_gas, needed_for
+from shackled.gas._limits import KEPT, floor_gas, needed_for
 from shackled.gas._runs import engine_calls
 from shackled.gas._search import FIRST_LIMIT
 
@@ -69,7 +71,6 @@ def test_all_but_a_64th() -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_the_search_and_the_exact_figure_agree(name: str, scenes: dict[str, Scene]) -> None:
     chain = open_chain()
-    assert isinstance(chain, ContractChain)
     scene = scenes[name]
     data = render_call(scene)
     exact = measure(scene, chain)
@@ -88,8 +89,6 @@ def test_the_search_and_the_exact_figure_agree(name: str, scenes: dict[str, Scen
 def test_another_evm_needs_the_same_limit(scenes: dict[str, Scene]) -> None:
     pytest.importorskip("eth")
     fast, slow = open_chain(), open_chain("pyevm")
-    assert isinstance(fast, ContractChain)
-    assert isinstance(slow, ContractChain)
     data = render_call(scenes["empty"])
     least = search(suffices(fast, "Renderer", data)).gas
     enough = suffices(slow, "Renderer", data)
@@ -99,7 +98,6 @@ def test_another_evm_needs_the_same_limit(scenes: dict[str, Scene]) -> None:
 
 def test_a_refusal_is_not_taken_for_too_little_gas(scenes: dict[str, Scene]) -> None:
     chain = open_chain()
-    assert isinstance(chain, ContractChain)
     data = render_call(evolve(scenes["empty"], width=5))
     zero_width = bytearray(data)
     zero_width[zero_width.index((5).to_bytes(32, "big")) + 31] = 0
@@ -111,7 +109,6 @@ def test_a_refusal_is_not_taken_for_too_little_gas(scenes: dict[str, Scene]) -> 
 @pytest.mark.parametrize("name", ["smooth", "mixed", "large"])
 def test_the_calls_of_the_engines_are_those_that_the_renderer_makes(name: str, scenes: dict[str, Scene]) -> None:
     chain = open_chain()
-    assert isinstance(chain, ContractChain)
     scene = scenes["smooth"]
     if name != "smooth":
         (pot,) = scene.objects
@@ -133,3 +130,30 @@ def test_the_calls_of_the_engines_are_those_that_the_renderer_makes(name: str, s
 def test_the_least_that_a_transaction_costs() -> None:
     assert floor_gas(b"") == 21000
     assert floor_gas(b"\0\0\1") == 21000 + 10 * (1 + 1 + 4)
+
+
+@needs_anvil
+def test_a_node_that_only_answers_calls_gives_the_same(scenes: dict[str, Scene]) -> None:
+    assert ANVIL is not None
+    scene = scenes["smooth"]
+    data = render_call(scene)
+    (out_of_gas,) = (selector for selector, (name, _) in artifact("Renderer").errors.items() if name == "OutOfGas")
+    refusals: list[ChainError] = []
+    with AnvilChain(ANVIL) as node:
+
+        def enough(limit: int) -> bool:
+            try:
+                node.read("Renderer", data, limit)
+            except ChainError as error:
+                refusals.append(error)
+                return False
+            return True
+
+        on_node = search(enough)
+    # of the Renderer's own gas, or, as it says itself, of the Engine's
+    assert refusals
+    for refused in refusals:
+        assert isinstance(refused, OutOfGasError) or (isinstance(refused, RevertError) and refused.data == out_of_gas)
+    chain = open_chain()
+    assert on_node == search(suffices(chain, "Renderer", data))
+    assert on_node.gas > measure(scene, chain).gas

@@ -16,7 +16,7 @@ from attrs import evolve
 import shackled
 from shackled import Camera, ChainError, Cluster, Ground, Image, InputError, Nodes, Processes, Scene, load
 from shackled._on import Bounds, On
-from shackled.chain import CHAINS, RevmChain, open_chain
+from shackled.chain import CHAINS, open_chain
 from shackled.parallel import Listener, render_frames
 from shackled.parallel._backends import ChainBackend, Part, ThreadBackend, draw_part
 from shackled.parallel._estimate import estimate
@@ -59,7 +59,6 @@ def test_tiles_are_the_whole(whole: Image, where: tuple[On | None, Bounds]) -> N
 def test_parts_fit_their_gas() -> None:
     limit = 4_000_000
     chain = open_chain()
-    assert isinstance(chain, RevmChain)
     job = render_frames([SCENE], None, Bounds(gas_limit=limit))
     tiles = plan(SCENE, 1, [ChainBackend(chain, gas=limit)], estimate(SCENE, chain), None)
     assert 1 < len(tiles) <= job.calls
@@ -73,12 +72,11 @@ def test_a_ground_covers_pixels() -> None:
     """It is a part of what is drawn, not of the background: here of the lower half."""
     camera, ground = Camera((0, 1, 9), (0, 1, 0)), Ground("white", 0, 100)
     scene = evolve(load("cube"), camera=camera, ground=ground, background="black")
-    assert 1.7 < estimate(scene, open_chain()).density < 2.3  # type: ignore[arg-type]
+    assert 1.7 < estimate(scene, open_chain()).density < 2.3
 
 
 def test_the_cost_is_told_about_right() -> None:
     chain = open_chain()
-    assert isinstance(chain, RevmChain)
     for name, side in (("teapot", 512), ("cube", 300), ("genesis/3", 400)):
         scene = evolve(load(name), width=side, height=side)
         gas = chain.draw(scene).gas
@@ -201,7 +199,6 @@ def test_nodes_need_addresses() -> None:
 def test_how_much_is_compared(monkeypatch: pytest.MonkeyPatch) -> None:
     """All of what takes little gas, in any number of tiles; of the rest what is asked for."""
     chain = open_chain()
-    assert isinstance(chain, RevmChain)
     node, cheap = ChainBackend(chain, untrusted=True), estimate(SCENE, chain)
     dear = replace(cheap, fixed=float(COMPARED_GAS))
     cases = (

@@ -20,9 +20,7 @@ from shackled.scene import Rectangle
 
 @pytest.fixture(scope="module")
 def chain() -> ContractChain:
-    found = open_chain()
-    assert isinstance(found, ContractChain)
-    return found
+    return open_chain()
 
 
 @pytest.fixture(scope="module")

@@ -79,7 +79,6 @@ def open_engines(rpc: str | None) -> dict[str, ContractChain | NodeChain]:
     for name in ENGINES:
         if find_spec(CHAINS[name]) is not None:
             chain = open_chain(name)
-            assert isinstance(chain, ContractChain)
             found[name] = chain
     if rpc is not None:
         node = open_node(rpc)

@@ -24,9 +24,7 @@ class RenderCost:
 
 def evm() -> ContractChain:
     """Open the fastest EVM that is installed."""
-    chain = open_chain()
-    assert isinstance(chain, ContractChain)
-    return chain
+    return open_chain()
 
 
 def call(contract: str, data: bytes) -> CallResult:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import re
 import time
-from typing import Any
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, TypeVar
 from urllib.parse import SplitResult, unquote, urlsplit
 
 from ..checks import number
@@ -18,6 +20,13 @@ PATIENCE, MOST_PATIENCE = 120.0, 86_400.0
 _KEY = re.compile("(?=[a-z]*[0-9])[0-9a-z]{20,}", re.IGNORECASE)
 #: The longest pause before a retry, in seconds.
 LONGEST_PAUSE = 20.0
+#: Maximum number of concurrent requests, and of those that wait for a thread.
+MAX_REQUESTS, MAX_WAITING = 6, 96
+#: Called with the number of what is read, and that of all.
+Report = Callable[[int, int], None]
+
+Value = TypeVar("Value")
+Read = TypeVar("Read")
 
 
 class Connection:
@@ -130,6 +139,17 @@ class Connection:
         for secret in self._secrets:
             text = text.replace(secret, "***")
         return text
+
+
+def read_all(read: Callable[[Value], Read], values: Sequence[Value], report: Report | None = None) -> Iterator[Read]:
+    """Yield what `read` returns of each value, in order; several are read concurrently."""
+    with ThreadPoolExecutor(MAX_REQUESTS) as pool:
+        for begin in range(0, len(values), MAX_WAITING):
+            some = values[begin : begin + MAX_WAITING]
+            for done, found in enumerate(pool.map(read, some), begin + 1):
+                if report is not None:
+                    report(done, len(values))
+                yield found
 
 
 def quantity(value: Any) -> int:

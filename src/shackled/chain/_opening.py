@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import cache
 from importlib.util import find_spec
 
 from ..checks import choice
 from ..errors import InputError
 from ..ethereum import parse_address
-from ._chain import Chain
 from ._connection import PATIENCE, Connection
 from ._embedded import EmbeddedChain, PyEvmChain, PyrevmChain, RevmChain
 from ._node import NodeChain
 
 #: Names of chains, and the module that each needs.
 CHAINS = {"revm": "wasmtime", "pyrevm": "pyrevm", "pyevm": "eth"}
-_KINDS: dict[str, Callable[[], Chain]] = {"revm": RevmChain, "pyrevm": PyrevmChain, "pyevm": PyEvmChain}
+_KINDS: dict[str, type[EmbeddedChain]] = {"revm": RevmChain, "pyrevm": PyrevmChain, "pyevm": PyEvmChain}
 
 
 def open_node(url: str, address: str | None = None, timeout: float | None = None) -> NodeChain:
@@ -25,10 +23,8 @@ def open_node(url: str, address: str | None = None, timeout: float | None = None
     address: of a deployed renderer; None uses the known one, or sends the contracts with each call. timeout: seconds
     for an answer. Raises InputError if a value is invalid.
     """
-    local = open_chain(None)
-    assert isinstance(local, EmbeddedChain)
     renderer = None if address is None else parse_address(address, "`address`")
-    return NodeChain(Connection(url, PATIENCE if timeout is None else timeout), local, renderer)
+    return NodeChain(Connection(url, PATIENCE if timeout is None else timeout), open_chain(), renderer)
 
 
 def check_chain(name: str, parameter: str) -> str:
@@ -39,7 +35,7 @@ def check_chain(name: str, parameter: str) -> str:
 
 
 @cache
-def open_chain(name: str | None = None) -> Chain:
+def open_chain(name: str | None = None) -> EmbeddedChain:
     """Return the chain of a name; None selects the embedded EVM. Raises InputError if it is unknown."""
     name = "revm" if name is None else check_chain(name, "the chain")
     if not find_spec(CHAINS[name]):

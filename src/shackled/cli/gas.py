@@ -16,7 +16,6 @@ from ..gas import (
     GasReport,
     Profile,
     SearchStep,
-    counting,
     flame_graph,
     make_report,
     render_call,
@@ -89,7 +88,7 @@ def gas(
     for name, given in (("--profile", path is not None), ("--opcodes", opcodes)):
         if given and not stages:
             raise InputError(f"{name} and --no-stages exclude each other: give one of them")
-    place = counting(open_chain(evm))
+    place = open_chain(evm)
     node = _open_node(rpc, address, rpc_timeout)
     scene = load_with(input, look, fit)
     with LateBar("searching") as bar:

@@ -17,7 +17,7 @@ from .._render import film, pace
 from .._render import render as draw
 from .._render import turntable as turn
 from ..animation import DURATION, Animation
-from ..chain import ContractChain, open_chain
+from ..chain import open_chain
 from ..errors import ChainError
 from ..gas import Fit, fits_of, headline, render_call, suffices
 from ..image import MOST_COLORS, Image, Pixels, colors, most
@@ -200,7 +200,6 @@ def fits_of_made(made: Image | Animation, scene: Scene) -> tuple[Fit, ...] | Non
     if made.calls == 1 and isinstance(made, Image):
         # gas is the same everywhere
         chain = open_chain()
-        assert isinstance(chain, ContractChain)
         enough = suffices(chain, "Renderer", data)
     return fits_of(gas, -(-made.intrinsic_gas // made.calls), data, enough)
 

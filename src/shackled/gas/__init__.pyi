@@ -1,7 +1,6 @@
-from ._exact import counting, limits, margin, measure, render_call
-from ._fits import Fit, fits_of, headline
 from ._fitting import fit_scene
 from ._flame_graph import flame_graph
+from ._limits import Fit, fits_of, headline, limits, margin, measure, render_call
 from ._profile import KINDS, STACK, Profile, profile
 from ._report import GasReport, make_report
 from ._runs import BAND_PIXELS
@@ -17,7 +16,6 @@ __all__ = [
     "GasReport",
     "Profile",
     "SearchStep",
-    "counting",
     "fit_scene",
     "fits_of",
     "flame_graph",

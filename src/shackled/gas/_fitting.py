@@ -12,14 +12,13 @@ from typing import Literal
 
 from attrs import evolve
 
-from ..chain import ContractChain, open_chain
+from ..chain import open_chain
 from ..checks import choice
 from ..errors import InputError, OutOfGasError
 from ..ethereum import intrinsic_gas
 from ..scene import Scene, simplify_scene
 from ..values import listed
-from ._exact import Limit, floor_gas, limits, render_call
-from ._fits import ENVELOPE, MAX_TRANSACTION
+from ._limits import ENVELOPE, MAX_TRANSACTION, Limit, floor_gas, limits, render_call
 
 #: What a picture is to fit: one transaction, or a read call of a node with the default settings of geth.
 FITS = ("transaction", "call")
@@ -72,7 +71,6 @@ def fit_scene(scene: Scene, what: str, crease: float | None = None) -> Fitted:
 class _Fitting:
     def __init__(self, scene: Scene, limit: Limit, crease: float | None) -> None:
         chain = open_chain()
-        assert isinstance(chain, ContractChain)
         self._scene, self._limit, self._crease, self._chain = scene, limit, crease, chain
         self._place = "one transaction" if limit.kind == "transaction" else f"a read call of {limit.node}"
         triangles = max((each.mesh.triangles for each in scene.objects), default=0)

@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from ..artifacts import artifact
 from ..scene import Scene
-from ._exact import render_call
+from ._limits import render_call
 from ._source_map import SourceLocation, SourceMap, source_map
 from ._stages import STAGES
 from ._trace import CallFrame, trace

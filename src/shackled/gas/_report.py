@@ -8,8 +8,7 @@ from typing import Any
 
 from ..chain import ContractChain
 from ..scene import Scene
-from ._exact import ExactGas, Margin, margin, measure, render_call
-from ._fits import Fit, fits_of
+from ._limits import ExactGas, Fit, Margin, fits_of, margin, measure, render_call
 from ._profile import Profile, profile
 from ._search import Caller, Search, SearchStep, search, suffices
 

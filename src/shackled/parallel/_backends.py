@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from typing import Protocol, TypeVar
+from typing import Protocol
 
-from ..chain import DEFAULT_GAS_LIMIT, Chain, Drawing, EmbeddedChain, RevmChain, open_chain, out_of_gas
+from ..chain import DEFAULT_GAS_LIMIT, Chain, Drawing, RevmChain, open_chain, out_of_gas
 from ..scene import Rectangle, Scene
 
 #: Where a sample is verified: one part in so many, besides the first one of each backend.
 SAMPLE = 8
-
-Answer = TypeVar("Answer")
-#: `draw_limited` or `count_limited`.
-Limited = Callable[[str | None, int | None, Scene, Rectangle], Answer]
 
 
 @dataclass(frozen=True)
@@ -29,14 +24,12 @@ class Part:
 
 def draw_part(chain: Chain, scene: Scene, tile: Rectangle) -> Drawing:
     """Render a tile of a frame."""
-    whole = (tile.width, tile.height) == (scene.width, scene.height)
-    return chain.draw(scene, None if whole else tile)
+    return chain.draw(scene, _within(scene, tile))
 
 
-def count_part(chain: Chain, scene: Scene, tile: Rectangle) -> tuple[int, int]:
-    """Count the triangles of a tile of a frame, and the pixels that they cover."""
-    whole = (tile.width, tile.height) == (scene.width, scene.height)
-    return chain.count(scene, None if whole else tile)
+def _within(scene: Scene, tile: Rectangle) -> Rectangle | None:
+    """Return a tile as chains take it: None for the whole."""
+    return None if (tile.width, tile.height) == (scene.width, scene.height) else tile
 
 
 def check_part(piece: Drawing, tile: Rectangle) -> None:
@@ -50,20 +43,7 @@ def check_part(piece: Drawing, tile: Rectangle) -> None:
 def limited(chain: str | None, gas: int | None) -> Chain:
     """Open a chain by name, with a gas limit for each call; None keeps the limit of the chain."""
     opened = open_chain(chain)
-    if gas is None:
-        return opened
-    assert isinstance(opened, EmbeddedChain)
-    return type(opened)(gas)
-
-
-def draw_limited(chain: str | None, gas: int | None, scene: Scene, tile: Rectangle) -> Drawing:
-    """Render a tile of a frame in this process, on the chain that `limited` opens."""
-    return draw_part(limited(chain, gas), scene, tile)
-
-
-def count_limited(chain: str | None, gas: int | None, scene: Scene, tile: Rectangle) -> tuple[int, int]:
-    """Count a tile of a frame in this process, on the chain that `limited` opens."""
-    return count_part(limited(chain, gas), scene, tile)
+    return opened if gas is None else type(opened)(gas)
 
 
 class Backend(Protocol):
@@ -112,7 +92,7 @@ class ChainBackend:
 
     def count(self, slot: int, scene: Scene, tile: Rectangle) -> tuple[int, int]:
         """Count the triangles of a part, and the pixels that they cover."""
-        return count_part(self.chain, scene, tile)
+        return self.chain.count(scene, _within(scene, tile))
 
     def close(self) -> None:
         """Do nothing: nothing runs in the background."""
@@ -143,8 +123,7 @@ class Verifier:
     def __init__(self, every: bool) -> None:
         """Open the chain. every: whether each part is compared, or a random sample."""
         self._every = every
-        self._chain = open_chain(None)
-        assert isinstance(self._chain, EmbeddedChain)
+        self._chain = open_chain()
         self._chain.address("Renderer")  # set up here, before several threads ask for it
 
     def selects(self, first: bool) -> bool:

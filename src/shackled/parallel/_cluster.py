@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from ..chain import Drawing, open_chain
 from ..errors import InputError, RenderError, ShackledError
 from ..scene import Rectangle, Scene
-from ._backends import Answer, Limited, count_limited, draw_limited, limited
+from ._backends import ChainBackend, limited
 from ._store import contracts_digest
 
 if TYPE_CHECKING:
@@ -94,18 +94,19 @@ class ClusterBackend:
 
     def render(self, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
         """Render a part on any free worker."""
-        return self._call(draw_limited, scene, tile)
+        piece: Drawing = self._call("render", scene, tile)
+        return piece
 
     def count(self, slot: int, scene: Scene, tile: Rectangle) -> tuple[int, int]:
         """Count the triangles of a part, and the pixels that they cover."""
-        return self._call(count_limited, scene, tile)
+        counts: tuple[int, int] = self._call("count", scene, tile)
+        return counts
 
-    def _call(self, function: Limited[Answer], scene: Scene, tile: Rectangle) -> Answer:
+    def _call(self, method: str, scene: Scene, tile: Rectangle) -> Any:
         from distributed import KilledWorker
 
         try:
-            future = self._client.submit(function, self._chain, self.gas, scene, tile, pure=False)
-            answer: Answer = future.result()
+            return self._client.submit(_answer, method, self._chain, self.gas, scene, tile, pure=False).result()
         except KilledWorker:
             raise RenderError(
                 "the workers of the cluster died over the same part of the picture, one after the other"
@@ -117,7 +118,6 @@ class ClusterBackend:
             lost = any(sign in said for sign in LOST)
             what = "its scheduler cannot be reached any more; is it running?" if lost else _line(error)
             raise RenderError(f"the cluster failed: {what}") from None
-        return answer
 
     def close(self) -> None:
         """Disconnect, which cancels queued parts, and stop a local cluster."""
@@ -168,6 +168,11 @@ class ClusterBackend:
             if found != contracts_digest().hex():
                 raise InputError(f"the worker {worker} has other contracts: install the same version of shackled there")
         return len(facts)
+
+
+def _answer(method: str, chain: str | None, gas: int | None, scene: Scene, tile: Rectangle) -> Any:
+    """Make a call of a worker, in its process. method: of `Backend`."""
+    return getattr(ChainBackend(limited(chain, gas), gas=gas), method)(0, scene, tile)
 
 
 def _facts_function() -> Any:

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from .._on import Bounds, Nodes, On, Place, place_of
-from ..chain import ContractChain, Drawing, NodeChain, open_chain
+from ..chain import Drawing, NodeChain, open_chain
 from ..errors import caller
 from ..gas import BAND_PIXELS
 from ..image import Image, decode_bmp, encode_bmp, most, total
@@ -69,7 +69,6 @@ def render_frames(
         for backend in backends:
             stack.callback(backend.close)
         local = open_chain(None)
-        assert isinstance(local, ContractChain)
         expected = estimate(frames[0], local)
         tiles = plan(frames[0], len(frames), backends, expected, bounds.tile)
         parts = [Part(number, tile) for number in range(len(frames)) for tile in tiles]

@@ -194,9 +194,7 @@ def _transactions(
 def _transaction(
     what: str, data: bytes, content: bytes, studio: bytes, chain: ContractChain | None
 ) -> StoreTransaction:
-    chain = chain or open_chain()  # type: ignore[assignment]
-    assert isinstance(chain, ContractChain)
-    result = chain.call(STUDIO, data)
+    result = (chain or open_chain()).call(STUDIO, data)
     return StoreTransaction(what, data, _created(content, studio), content, result.gas + result.intrinsic_gas)
 
 

@@ -1,20 +1,26 @@
-"""Exact gas of a picture, the gas limit that its call needs, and documented limits: see limits.toml."""
+"""Exact gas of a picture, the gas limit that its call needs, and how it fits documented limits: see limits.toml."""
 
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+from typing import Any
 
 from .._load import Thing, load_picture
-from ..chain import Chain, ContractChain, open_chain
-from ..errors import InputError
+from ..chain import ContractChain, open_chain
 from ..scene import render_call as render_call
+from ..values import listed
 from ._runs import engine_calls
 
 #: EIP-150: a call passes on all but one 64th of the gas that is left.
 KEPT = 64
+#: Largest transaction that nodes relay, in bytes: geth's txMaxSize, four slots of 32 KiB.
+MAX_TRANSACTION = 4 * 32 * 1024
+#: Bytes of a transaction besides its data: signature, addresses, fees; rounded up.
+ENVELOPE = 512
 
 
 @dataclass(frozen=True)
@@ -42,17 +48,9 @@ class ExactGas:
         return max(self.intrinsic_gas + searched, self.floor_gas)
 
 
-def counting(chain: Chain) -> ContractChain:
-    """Return the chain if it counts gas; otherwise raise InputError."""
-    if not isinstance(chain, ContractChain):
-        raise InputError(f"the {chain.name} counts no gas: use `chain` revm, pyrevm or pyevm")
-    return chain
-
-
 def measure(thing: Thing, chain: ContractChain | None = None) -> ExactGas:
     """Measure the gas of a render, and of its calls of the engines. thing: as in `load`. chain: None for revm."""
     scene, where = load_picture(thing), chain or open_chain()
-    assert isinstance(where, ContractChain)
     data = render_call(scene)
     result = where.call("Renderer", data)
     gas = [call.result.gas for call in engine_calls(scene, where)]
@@ -113,3 +111,73 @@ def limits() -> tuple[Limit, ...]:
     """Return all known limits, the smallest first."""
     data = tomllib.loads(files(__package__).joinpath("limits.toml").read_text("utf-8"))
     return tuple(sorted((Limit(**entry) for entry in data["limit"]), key=lambda limit: limit.gas))
+
+
+@dataclass(frozen=True)
+class Fit:
+    """The comparison of a picture with one limit.
+
+    needed: gas limit that the request needs, or an upper bound of it. reason: why it does not fit, if gas is not the
+    reason, or "".
+    """
+
+    limit: Limit
+    needed: int
+    fits: bool
+    reason: str
+
+    @property
+    def share(self) -> float:
+        """Needed gas over the limit."""
+        return self.needed / self.limit.gas
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the object that `--json` prints."""
+        limit = self.limit
+        return {
+            "name": limit.name,
+            "limit": limit.gas,
+            "fits": self.fits,
+            "source": limit.source,
+            "date": limit.date,
+            "remark": limit.remark,
+        }
+
+
+def fits_of(
+    gas: int, intrinsic_gas: int, calldata: bytes, suffices: Callable[[int], bool] | None = None
+) -> tuple[Fit, ...]:
+    """Return how a picture fits into each known limit, the smallest first.
+
+    gas: of the execution. suffices: whether the call succeeds with a given gas for the execution. It is called only
+    where the bounds do not decide, since a call must be given a little more gas than it uses; without it such a limit
+    counts as too small.
+    """
+    return tuple(fit_of(limit, gas, intrinsic_gas, calldata, suffices) for limit in limits())
+
+
+def fit_of(
+    limit: Limit, gas: int, intrinsic_gas: int, calldata: bytes, suffices: Callable[[int], bool] | None = None
+) -> Fit:
+    """Return how a picture fits into one limit, as `fits_of`."""
+    floor, size = floor_gas(calldata), len(calldata)
+    needed = max(intrinsic_gas + needed_for(gas), floor)
+    fits = needed <= limit.gas
+    if not fits and max(intrinsic_gas + gas, floor) <= limit.gas and suffices is not None:
+        fits = suffices(limit.gas - intrinsic_gas)
+        needed = limit.gas if fits else needed
+    reason = ""
+    if limit.kind == "transaction" and size + ENVELOPE > MAX_TRANSACTION:
+        fits, reason = False, f"its data of {size:,} bytes is more than the {MAX_TRANSACTION:,} that nodes relay"
+    return Fit(limit, needed, fits, reason)
+
+
+def headline(fits: Sequence[Fit]) -> str:
+    """Return the result in a few words, such as "fits one transaction, and any node's read call"."""
+    in_transaction = all(fit.fits for fit in fits if fit.limit.kind == "transaction")
+    calls = [fit for fit in fits if fit.limit.kind == "call"]
+    nodes = [fit.limit.node for fit in calls if fit.fits]
+    if not nodes:
+        return "fits no usual node: take fewer pixels or triangles"
+    where = "any node's read call" if len(nodes) == len(calls) else f"calls of {listed(nodes)}"
+    return f"fits one transaction, and {where}" if in_transaction else f"fits {where}; no transaction"
