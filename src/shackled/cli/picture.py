@@ -68,7 +68,7 @@ class Task:
 class Done:
     """What was done.
 
-    report: the object of --json. scene: the bytes of the scene in the file, or that it would have; None for no line.
+    report: the object of --json. scene: size of the scene in bytes, or None to omit the line.
     """
 
     report: dict[str, Any]
