@@ -31,7 +31,7 @@ from shackled import (
 from shackled.errors import InputError
 from shackled.scene import Hemisphere, decode, read_scene, render_call
 from shackled.scene._files.written import write_scene
-from shackled.scene._fit import MAX_COORDINATE, fit_factor
+from shackled.scene._fit import MAX_COORDINATE, _factor, _is_exact, _prepared
 from shackled.scene._texture import FILTERS, WRAPS
 
 Floats = NDArray[np.float64]
@@ -135,7 +135,8 @@ def alike(found: Floats, expected: Floats, error: float = 2.0**-20) -> None:
 
 def assert_restored(found: Scene, scene: Scene) -> None:
     """Each field of what was decoded is that of the scene; lengths are multiplied by a factor, about an eye."""
-    factor = fit_factor(scene)
+    prepared = _prepared(scene)
+    factor = 1.0 if _is_exact(prepared) else _factor(prepared)
     eye = scene.camera.eye - found.camera.eye / factor
 
     def placed(points: ArrayLike) -> Floats:

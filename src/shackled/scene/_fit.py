@@ -77,12 +77,6 @@ def fit(scene: Scene) -> Scene:
     return evolve(scene, objects=objects, camera=camera, lights=lights, fog=fog)
 
 
-def fit_factor(scene: Scene) -> float:
-    """Return the factor by which `fit` scales lengths; 1 for a scene that it leaves as it is."""
-    scene = _prepared(scene)
-    return 1.0 if _is_exact(scene) else _factor(scene)
-
-
 def _prepared(scene: Scene) -> Scene:
     """Return the scene with its ground as an object, and all objects prepared."""
     grounds = [] if scene.ground is None else [scene.ground.under(scene.world_positions())]

@@ -46,9 +46,9 @@ Kind = _Plain | Literal["background", "lights", "hemisphere", "rim", "fog", "gro
 class Setting:
     """A setting of the look of a picture.
 
-    name: the keyword; `option` is --name with dashes, unless it is another. part: what it is a field of, in
-    Python and in scene files; None for what only `load` and the command line take. limits: the range of a number.
-    unit: of a number. default: in words.
+    name: the keyword; `option` is --name with dashes, unless it is another. part: the class whose field this is, in
+    Python and in scene files; None for what only `load` and the command line take. limits, unit: for numbers. default:
+    shown in the help.
     """
 
     name: str
