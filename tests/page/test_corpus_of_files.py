@@ -77,33 +77,29 @@ def gltf() -> dict[str, Any]:
     stripes = [[[255, 0, 0], [0, 0, 255]] * 2] * 4
     made["skin"].skin([{"translation": [1, 2, 3]}, {"rotation": KINDS["about_z"](90)}], None, [[0, 1, 0, 0]] * 3,
                       [[0.5, 0.5, 0, 0]] * 3)  # fmt: skip
-    made["morph"].primitive["targets"] = [{"POSITION": made["morph"].accessor(POINTS)}]
+    made["morph"].primitive["targets"] = [{"POSITION": made["morph"].rows(POINTS)}]
     made["morph"].node["weights"] = [0.5]
-    attributes = {"TRANSLATION": made["instances"].accessor([[0, 0, 0], [5, 0, 0]])}
+    attributes = {"TRANSLATION": made["instances"].rows([[0, 0, 0], [5, 0, 0]])}
     made["instances"].node["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": attributes}}
-    made["colours"].primitive["attributes"]["COLOR_0"] = made["colours"].accessor([[1, 0.2, 0], [0, 0.5, 1], [0, 0, 0]])
-    made["bytes"].primitive["attributes"]["COLOR_0"] = made["bytes"].accessor(
-        [[255, 9, 0, 128]] * 3, "u1", normalized=True
-    )
-    quantized = made["quantized"].accessor([[0, 0, 0], [127, 0, 0], [0, 127, 0]], "i1", normalized=True)
+    made["colours"].primitive["attributes"]["COLOR_0"] = made["colours"].rows([[1, 0.2, 0], [0, 0.5, 1], [0, 0, 0]])
+    made["bytes"].primitive["attributes"]["COLOR_0"] = made["bytes"].rows([[255, 9, 0, 128]] * 3, "u1", normalized=True)
+    quantized = made["quantized"].rows([[0, 0, 0], [127, 0, 0], [0, 127, 0]], "i1", normalized=True)
     made["quantized"].primitive["attributes"]["POSITION"] = quantized
     for name, mode in (("strip", 5), ("fan", 6), ("points", 0)):
-        primitive = {"attributes": {"POSITION": made[name].accessor([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 1]])}}
-        made[name].keys["meshes"][0]["primitives"].append({**primitive, "mode": mode})
+        primitive = {"attributes": {"POSITION": made[name].rows([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 1]])}}
+        made[name].document["meshes"][0]["primitives"].append({**primitive, "mode": mode})
     made["mirrored"].node["scale"] = [-1, 2, 1]
     half = {"baseColorFactor": [0.5, 0.1, 1, 0.25]}
     made["base-colour"].material(pbrMetallicRoughness={**half, "roughnessFactor": 0.3})
     made["blended"].material(pbrMetallicRoughness=half, alphaMode="BLEND")
     made["blended-vertices"].material(alphaMode="BLEND")
-    made["blended-vertices"].primitive["attributes"]["COLOR_0"] = made["blended-vertices"].accessor(
-        [[1, 1, 1, 0.5]] * 3
-    )
+    made["blended-vertices"].primitive["attributes"]["COLOR_0"] = made["blended-vertices"].rows([[1, 1, 1, 0.5]] * 3)
     rgba = [[[*color, alpha] for color in row for alpha in (0, 255)] for row in stripes]
     made["masked"].material(
         alphaMode="MASK", pbrMetallicRoughness={"baseColorTexture": made["masked"].texture(rgba, "RGBA")}
     )
     made["hidden"].material(alphaMode="MASK", pbrMetallicRoughness=half)
-    made["hidden"].keys["meshes"][0]["primitives"].append({"attributes": {"POSITION": 0}})
+    made["hidden"].document["meshes"][0]["primitives"].append({"attributes": {"POSITION": 0}})
     made["unlit"].material(extensions={"KHR_materials_unlit": {}})
     made["emissive"].material(emissiveFactor=[0.2, 0, 1])
     made["emissive-texture"].material(
@@ -119,26 +115,26 @@ def gltf() -> dict[str, Any]:
         if name == "transform":
             info["extensions"] = {"KHR_texture_transform": {"offset": [0.1, 0.2], "rotation": 0.5, "scale": [3, 2]}}
         made[name].material(pbrMetallicRoughness={"baseColorTexture": info})
-    made["normal-map"].keys["materials"][0]["normalTexture"] = {"index": 0}
-    made["nearest"].keys["samplers"] = [{"magFilter": 9728, "wrapS": 33071, "wrapT": 33071}]
-    made["nearest"].keys["textures"][0]["sampler"] = 0
+    made["normal-map"].document["materials"][0]["normalTexture"] = {"index": 0}
+    made["nearest"].document["samplers"] = [{"magFilter": 9728, "wrapS": 33071, "wrapT": 33071}]
+    made["nearest"].document["textures"][0]["sampler"] = 0
     made["palette"].material(
         pbrMetallicRoughness={"baseColorTexture": made["palette"].texture([[[9, 99, 199]] * 2] * 2, "RGB")}
     )
-    made["visibility"].keys["nodes"].append(
+    made["visibility"].document["nodes"].append(
         {"mesh": 0, "translation": [9, 0, 0], "extensions": {"KHR_node_visibility": {"visible": False}}}
     )
-    made["visibility"].keys["scenes"][0]["nodes"].append(1)
-    made["cameras"].keys["cameras"] = [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}]
+    made["visibility"].document["scenes"][0]["nodes"].append(1)
+    made["cameras"].document["cameras"] = [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}]
     made["cameras"].node["camera"] = 0
     made["light"].node["extensions"] = {"KHR_lights_punctual": {"light": 0}}
-    made["light"].keys["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "point"}]}}
+    made["light"].document["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "point"}]}}
     made["animation"].animation("translation", [0, 1], [[0, 0, 0], [4, 0, 0]])
     made["extensions"].material(extensions={"KHR_materials_clearcoat": {"clearcoatFactor": 1}})
-    made["scenes"].keys["scenes"].append({"nodes": []})
+    made["scenes"].document["scenes"].append({"nodes": []})
     sparse = {"count": 1, "indices": {"bufferView": made["sparse"].view(b"\2"), "componentType": 5121},
               "values": {"bufferView": made["sparse"].view(np.array([0, 5, 0], dtype="f4").tobytes())}}  # fmt: skip
-    made["sparse"].keys["accessors"][0]["sparse"] = sparse
+    made["sparse"].document["accessors"][0]["sparse"] = sparse
     if find_spec("DracoPy"):
         faces = np.array([[0, 1, 2], [2, 1, 3]], dtype="u4")
         packed = import_module("DracoPy").encode(np.eye(4, 3, dtype="f4"), faces, colors=np.full((4, 3), 99, "u1"))

@@ -147,7 +147,8 @@ def test_long_drawing_is_told_and_stopped(visit: Visit) -> None:
     page.wait("!app.busy.value")
     assert "Stopped" in page.said()
     page.after(page.press("Control+z"))
-    assert page.page.inner_text("[data-name=title]") == title
+    # the text follows the picture a little later
+    page.page.locator("[data-name=title]", has_text=title).wait_for()
 
 
 def test_a_light_is_dragged_on_its_sphere(visit: Visit) -> None:
