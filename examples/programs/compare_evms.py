@@ -7,7 +7,10 @@ import shackled
 
 scene = shackled.load("tetrahedron", size=32)
 first = shackled.render(scene, on="revm")
-second = shackled.render(scene, on="pyevm")
+try:
+    second = shackled.render(scene, on="pyevm")
+except shackled.InputError as error:
+    raise SystemExit(str(error)) from None
 difference = np.abs(np.asarray(first, dtype=int) - np.asarray(second, dtype=int))
 print(f"{first.made_by}: {first.gas:,} gas; {second.made_by}: {second.gas:,} gas; {difference.max()} levels apart")
 
