@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-pragma solidity ^0.8.24;
+pragma solidity 0.8.37;
 
 /// @notice Draws a sphere or a torus by sphere tracing, as shaders do: the baseline of ray_marcher.py.
 /// @dev Numbers are fixed-point, 1 being 2^24. The shape is at the origin of its own frame and lies in a ball of radius

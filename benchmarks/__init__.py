@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 
 @dataclass(frozen=True)
@@ -13,3 +18,21 @@ class Section:
     title: str
     text: str
     data: dict[str, Any]
+
+
+def read_figures(path: Path) -> Any:
+    """Return the figures of a JSON file; none if it does not exist yet."""
+    return json.loads(path.read_text("utf-8")) if path.exists() else {}
+
+
+def write_figures(path: Path, figures: Any, sort_keys: bool = False) -> None:
+    """Write figures to a JSON file."""
+    path.write_text(json.dumps(figures, indent=1, sort_keys=sort_keys) + "\n", "utf-8")
+
+
+def flip(right: ArrayLike, seen: ArrayLike) -> float:
+    """Return the mean FLIP, a perceptual difference from 0 to 1, of two pictures (H, W, 3) in levels from 0 to 255."""
+    from flip_evaluator import evaluate
+
+    pair = ((np.asarray(each) / 255).astype(np.float32) for each in (right, seen))
+    return float(evaluate(*pair, "LDR", applyMagma=False)[1])

@@ -23,7 +23,8 @@ from tools.anvil import Anvil, find_anvil
 
 from shackled import Scene, load
 from shackled.artifacts import artifact
-from shackled.chain import CHAINS, ContractChain, NodeChain, open_chain, open_node
+from shackled.bench._engines import open_engines
+from shackled.chain import ContractChain, NodeChain
 from shackled.scene import LookOptions, encode
 
 PAGE = Path(__file__).resolve().parent / "evms.md"
@@ -57,15 +58,8 @@ def speeds() -> str:
     """Return a table of millions of gas a second."""
     scenes = {name: load(piece, SIZE, **look) for name, (piece, look) in SCENES.items()}
     with ExitStack() as stack:
-        evms: dict[str, Caller] = {}
-        for name in ("revm", "pyrevm", "pyevm"):
-            if find_spec(CHAINS[name]):
-                chain = open_chain(name)
-                assert isinstance(chain, ContractChain)
-                evms[name] = chain
         anvil = find_anvil()
-        if anvil is not None:
-            evms["anvil"] = open_node(stack.enter_context(Anvil(anvil)).url)
+        evms = open_engines(None if anvil is None else stack.enter_context(Anvil(anvil)).url)
         rows = {name: row(scene, evms) for name, scene in scenes.items()}
     lines = [f"| scene | gas, millions | {' | '.join(NAMES[name] for name in evms)} | revm by pyrevm |"]
     lines.append(f"|---|---:|{'---:|' * len(evms)}---:|")

@@ -25,7 +25,7 @@ from tools.pages import ROOT, update
 from shackled import Image, Scene, load, render
 from shackled.scene import simplify_scene
 
-from . import shared
+from . import flip, shared
 
 PAGE = ROOT / "docs" / "measurements.md"
 SIDE = 256
@@ -92,8 +92,6 @@ def enlarged(image: Image, side: int) -> np.ndarray:
 
 def judge(path: Path, rows: tuple[Lowered, ...]) -> list[tuple[float, float, float]]:
     """Return for each row its share of gas, FLIP, and mean error in levels, beside the picture that was asked for."""
-    from flip_evaluator import evaluate
-
     scene = load(path, size=SIDE, max_triangles="all")
     asked = render(scene)
     right = asked.pixels.astype(float)
@@ -101,9 +99,7 @@ def judge(path: Path, rows: tuple[Lowered, ...]) -> list[tuple[float, float, flo
     for row in rows:
         image = render(row.scene(scene))
         seen = enlarged(image, SIDE)
-        pair = ((each / 255).astype(np.float32) for each in (right, seen))
-        flip = float(evaluate(*pair, "LDR", applyMagma=False)[1])
-        found.append((cost(image) / cost(asked), flip, float(np.abs(right - seen).mean())))
+        found.append((cost(image) / cost(asked), flip(right, seen), float(np.abs(right - seen).mean())))
     return found
 
 
@@ -111,8 +107,8 @@ def table(rows: tuple[Lowered, ...], results: Iterable[list[tuple[float, float, 
     """Return the means over all models as a table in Markdown, most gas first."""
     lines = ["| | gas | FLIP | mean error, levels |", "|---|---:|---:|---:|"]
     means = [[fmean(values) for values in zip(*row, strict=True)] for row in zip(*results, strict=True)]
-    for (gas, flip, error), row in sorted(zip(means, rows, strict=True), key=lambda each: -each[0][0]):
-        lines.append(f"| {row.title} | {100 * gas:.0f} % | {flip:.4f} | {error:.2f} |")
+    for (gas, difference, error), row in sorted(zip(means, rows, strict=True), key=lambda each: -each[0][0]):
+        lines.append(f"| {row.title} | {100 * gas:.0f} % | {difference:.4f} | {error:.2f} |")
     return "\n".join(lines)
 
 

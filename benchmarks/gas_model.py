@@ -9,7 +9,6 @@ benchmarks/README.md. A model that does not fit one picture, such as one with mo
 
 from __future__ import annotations
 
-import json
 import sys
 import warnings
 from collections.abc import Iterable, Iterator
@@ -23,10 +22,12 @@ from tools.pages import ROOT, update
 
 from shackled import InputError, Scene, load
 from shackled.bench import gas, table
+from shackled.bench._report import wrapped
 from shackled.datasets.common import shapes
 from shackled.errors import InputWarning
 from shackled.scene import LookOptions, Mesh
 
+from . import read_figures, write_figures
 from .workload import workload_of
 
 FILE = Path(__file__).with_name("gas_model.json")
@@ -145,9 +146,11 @@ def text(figures: dict[str, Any]) -> str:
     for name, each in figures.items():
         fit, held = np.abs(each["fit"]), np.abs(list(each["held out"].values()))
         shares = np.median(fit), np.median(held), held.max()
-        lines.append([name, *(f"{value:,.0f}" for value in each["coefficients"]), *(f"{x:.0%}" for x in shares)])
+        lines.append(
+            [name, *(f"{round(value) + 0:,}" for value in each["coefficients"]), *(f"{x:.0%}" for x in shares)]
+        )
     head = ["gas of", "a picture", *COUNTS]
-    return (
+    return wrapped(
         f"Fitted to {len(first['fit'])} pictures of generated meshes; predicted are {len(first['held out'])} models of"
         f" the packages {', '.join(HELD_OUT)} at {SIDES[1]} x {SIDES[1]} pixels. Rows and tested pixels are those of"
         " all drawn triangles; a triangle is curved if the normals of its corners differ, and as large a share of the"
@@ -158,14 +161,14 @@ def text(figures: dict[str, Any]) -> str:
 
 def recorded() -> dict[str, Any]:
     """Return the figures of gas_model.json."""
-    figures: dict[str, Any] = json.loads(FILE.read_text("utf-8"))
+    figures: dict[str, Any] = read_figures(FILE)
     return figures
 
 
 def main() -> int:
     """Measure, print and write the figures."""
     figures = {name: measure(look) for name, look in LOOKS.items()}
-    FILE.write_text(json.dumps(figures, indent=1) + "\n", "utf-8")
+    write_figures(FILE, figures)
     print(text(figures))
     made = {"gas_model": text(figures)}
     return update({PAGE: made.get}, "python -m benchmarks.gas_model")

@@ -8,7 +8,6 @@ antialiased: src/shackled/tokens/antialiased.json.
 
 from __future__ import annotations
 
-import json
 import sys
 from pathlib import Path
 
@@ -21,6 +20,8 @@ from shackled.datasets import pieces
 from shackled.ethereum import intrinsic_gas
 from shackled.scene import resize
 from shackled.tokens import SCALE
+
+from . import read_figures, write_figures
 
 FILE = Path(__file__).with_name("icons.json")
 PAGE = ROOT / "docs" / "datasets.md"
@@ -71,7 +72,7 @@ def take() -> Figures:
 
 def recorded() -> Figures:
     """Return the figures of icons.json."""
-    figures: Figures = json.loads(FILE.read_text("utf-8")) if FILE.exists() else {}
+    figures: Figures = read_figures(FILE)
     return figures
 
 
@@ -94,8 +95,8 @@ def main() -> int:
     """Measure, print and write the figures."""
     figures = take()
     print(table(figures))
-    FILE.write_text(json.dumps(figures, indent=1) + "\n", "utf-8")
-    LIST.write_text(json.dumps(fitting(figures), indent=1) + "\n", "utf-8")
+    write_figures(FILE, figures)
+    write_figures(LIST, fitting(figures))
     return update({PAGE: {"icons": table(figures)}.get}, "python -m benchmarks.icons")
 
 

@@ -9,7 +9,6 @@ so much smaller that it needs the same gas. Rewrites look_quality.json and its t
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -23,11 +22,14 @@ from tools.pages import ROOT, update
 
 from shackled import Rim, Scene, Tone, load, render
 from shackled.bench import table
+from shackled.bench._report import wrapped
 from shackled.scene import Hemisphere, fit, render_call
 
 sys.path.insert(0, str(ROOT / "tests" / "support"))
 sys.path.insert(0, str(ROOT / "tests"))
 from judge import render as in_float64
+
+from . import flip, read_figures, write_figures
 
 FILE = Path(__file__).with_name("look_quality.json")
 PAGE = ROOT / "benchmarks" / "README.md"
@@ -76,20 +78,18 @@ LOOKS: dict[str, tuple[Callable[[str], Scene], dict[str, Callable[[Scene], Scene
 
 
 def truth(scene: Scene) -> Pixels:
-    """Return the picture in float64, (H, W, 3), from 0 to 1."""
+    """Return the picture in float64, (H, W, 3), from 0 to 255."""
     large = evolve(scene, width=FINER * scene.width, height=FINER * scene.height)
     exact = in_float64(render_call(fit(large))).exact
-    return np.asarray(exact.reshape(scene.height, FINER, scene.width, FINER, 3).mean(axis=(1, 3)) / 255)
+    return np.asarray(exact.reshape(scene.height, FINER, scene.width, FINER, 3).mean(axis=(1, 3)))
 
 
 def drawn(scene: Scene, right: Pixels) -> tuple[int, float]:
     """Return the gas of a scene, and the FLIP of its picture, enlarged as browsers do."""
-    from flip_evaluator import evaluate
-
     image = render(scene)
     assert image.gas is not None
-    seen = np.asarray(image.to_pil().convert("RGB").resize((SIDE, SIDE), PillowImage.Resampling.BICUBIC)) / 255
-    return image.gas, float(evaluate(right.astype(np.float32), seen.astype(np.float32), "LDR", applyMagma=False)[1])
+    seen = image.to_pil().convert("RGB").resize((SIDE, SIDE), PillowImage.Resampling.BICUBIC)
+    return image.gas, flip(right, np.asarray(seen))
 
 
 def measure(piece: str) -> dict[str, list[float]]:
@@ -109,24 +109,29 @@ def measure(piece: str) -> dict[str, list[float]]:
 
 def text(figures: dict[str, dict[str, list[float]]]) -> str:
     """Return the means over the pieces as Markdown."""
-    lines = []
+    lines, dear = [], []
     for name in next(iter(figures.values())):
         share, flip, smaller = np.mean([each[name] for each in figures.values()], axis=0)
+        if flip < smaller:
+            dear.append(name)
         lines.append([name, f"{share:.0%}", f"{flip:.4f}", f"{smaller:.4f}"])
     head = ["look: left out", "gas", "FLIP", "FLIP of the whole look, smaller, for this gas"]
-    return f"Means of {', '.join(figures)}, {SIDE} x {SIDE} pixels.\n\n" + table(head, lines)
+    return wrapped(
+        f"Means of {', '.join(figures)}, {SIDE} x {SIDE} pixels. To spend less gas, one loses less by leaving a part"
+        f" out than by a smaller canvas for {' and '.join(dear) or 'no part'}.\n\n" + table(head, lines)
+    )
 
 
 def recorded() -> dict[str, Any]:
     """Return the figures of look_quality.json."""
-    figures: dict[str, Any] = json.loads(FILE.read_text("utf-8"))
+    figures: dict[str, Any] = read_figures(FILE)
     return figures
 
 
 def main() -> int:
     """Measure, print and write the figures."""
     figures = {piece: measure(piece) for piece in PIECES}
-    FILE.write_text(json.dumps(figures, indent=1) + "\n", "utf-8")
+    write_figures(FILE, figures)
     print(text(figures))
     made = {"look_quality": text(figures)}
     return update({PAGE: made.get}, "python -m benchmarks.look_quality")

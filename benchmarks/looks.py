@@ -21,7 +21,7 @@ from tools.pages import ROOT, update
 from shackled import Scene, load, render
 from shackled.bench import gas
 from shackled.gas import KINDS, profile
-from shackled.scene._material import Shading
+from shackled.scene._object import Shading
 
 from . import antialiasing, cost, shared
 from .scenes import SECOND_LIGHT, staged_teapot

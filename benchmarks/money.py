@@ -13,7 +13,6 @@ byte.
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 import zlib
 from dataclasses import asdict, dataclass, fields
@@ -28,6 +27,8 @@ from shackled.bench import call_renderer, table
 from shackled.bench.scenes import cube
 from shackled.ethereum import intrinsic_gas
 from shackled.scene import encode
+
+from . import read_figures, write_figures
 
 FILE = Path(__file__).with_name("money.json")
 PAGE = ROOT / "benchmarks" / "README.md"
@@ -110,7 +111,7 @@ def text(prices: Prices, works: dict[str, Work]) -> str:
 
 def recorded() -> tuple[Prices, dict[str, Work]]:
     """Return the prices and the measurements of money.json."""
-    found: dict[str, Any] = json.loads(FILE.read_text("utf-8"))
+    found: dict[str, Any] = read_figures(FILE)
     return Prices(**found["prices"]), {name: Work(**each) for name, each in found["work"].items()}
 
 
@@ -124,9 +125,9 @@ def main(arguments: list[str] | None = None) -> int:
     prices = Prices(**asdict(before) | given)
     works = {name: measure(scene) for name, scene in scenes().items()}
     found = {"prices": asdict(prices), "work": {name: asdict(each) for name, each in works.items()}}
-    FILE.write_text(json.dumps(found, indent=1) + "\n", "utf-8")
+    write_figures(FILE, found)
     print(text(prices, works))
-    return update({PAGE: lambda name: text(prices, works) if name == "money" else None}, "python -m benchmarks.money")
+    return update({PAGE: {"money": text(prices, works)}.get}, "python -m benchmarks.money")
 
 
 if __name__ == "__main__":

@@ -7,7 +7,6 @@ measures everything, rewrites motion.json and the table of docs/motion.md, and p
 
 from __future__ import annotations
 
-import json
 import sys
 from pathlib import Path
 
@@ -19,6 +18,8 @@ from shackled.chain import EmbeddedChain, open_chain, returned_bytes
 from shackled.datasets import pieces
 from shackled.scene import resize
 from shackled.studio import ANIMATE, store_scene
+
+from . import read_figures, write_figures
 
 FILE = Path(__file__).with_name("motion.json")
 PAGE = ROOT / "docs" / "motion.md"
@@ -80,7 +81,7 @@ def take() -> Figures:
 
 def recorded() -> Figures:
     """Return the figures of motion.json."""
-    figures: Figures = json.loads(FILE.read_text("utf-8")) if FILE.exists() else {}
+    figures: Figures = read_figures(FILE)
     return figures
 
 
@@ -107,7 +108,7 @@ def main() -> int:
     """Measure, print and write the figures."""
     figures = take()
     print(table(figures))
-    FILE.write_text(json.dumps(figures, indent=1) + "\n", "utf-8")
+    write_figures(FILE, figures)
     return update({PAGE: lambda _: table(figures)}, "python -m benchmarks.motion")
 
 

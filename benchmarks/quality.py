@@ -8,7 +8,6 @@ prints it. It needs OpenGL (`python3 tools/prepare.py opengl`). The figures of m
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
@@ -26,7 +25,7 @@ from tools.pages import ROOT, update
 from shackled import Scene, load, render
 from shackled.datasets import pieces
 
-from . import shared
+from . import flip, read_figures, shared, write_figures
 from .antialiasing import PAGE
 
 sys.path.insert(0, str(ROOT / "tests" / "support"))
@@ -124,14 +123,11 @@ def shown(scene: Scene, pixels: Array) -> Array:
 
 def judge(scene: Scene) -> tuple[dict[str, Array], list[float]]:
     """Return the errors of KINDS, (n, k) each for the k pictures of JUDGED, and the FLIP of each picture."""
-    from flip_evaluator import evaluate
-
     truth = true_picture(scene)
     pictures = list(judged_pictures(scene))
     errors = np.stack([np.abs(each - truth.pixels).mean(axis=2) for each in pictures], axis=2)
     # of pictures in whole levels, as they are seen
-    reference, *tests = ((np.rint(each) / 255).astype(np.float32) for each in (truth.pixels, *pictures))
-    flips = [float(evaluate(reference, test, "LDR", applyMagma=False)[1]) for test in tests]
+    flips = [flip(np.rint(truth.pixels), np.rint(each)) for each in pictures]
     return {"edges": errors[truth.edges], "silhouettes": errors[truth.silhouettes]}, flips
 
 
@@ -148,7 +144,7 @@ def measure(results: list[tuple[dict[str, Array], list[float]]]) -> Figures:
 
 def recorded() -> dict[str, Figures]:
     """Return the figures of quality.json."""
-    figures: dict[str, Figures] = json.loads(FILE.read_text("utf-8")) if FILE.exists() else {}
+    figures: dict[str, Figures] = read_figures(FILE)
     return figures
 
 
@@ -176,7 +172,7 @@ def main() -> int:
     print(table(found))
     if not shared.meshes():
         print(f"meshes: {shared.MESHES_SKIPPED}; their figures are kept")
-    FILE.write_text(json.dumps(found, indent=1) + "\n", "utf-8")
+    write_figures(FILE, found)
     return update({PAGE: lambda name: table(found) if name == "quality" else None}, "python -m benchmarks.quality")
 
 

@@ -9,7 +9,6 @@ contracts/.
 
 from __future__ import annotations
 
-import json
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,6 +26,8 @@ from shackled.datasets.common import shapes
 from shackled.errors import RenderError
 from shackled.evm import Instance, Status
 from shackled.scene import Mesh, from_euler, painted, rotate
+
+from . import flip, read_figures, write_figures
 
 CONTRACT = Path(__file__).with_name("RayMarcher.sol")
 FILE = Path(__file__).with_name("ray_marcher.json")
@@ -124,30 +125,27 @@ def march(shape: Shape, side: int) -> tuple[int, Pixels]:
 
 def measure(shape: Shape, side: int) -> dict[str, Any]:
     """Return the gas of both pictures, and how far they differ."""
-    from flip_evaluator import evaluate
-
     gas, marched = march(shape, side)
     drawn = render(scene(shape, side))
-    pair = ((each / 255).astype(np.float32) for each in (marched, drawn.pixels))
     return {
         "ray marcher": gas,
         "renderer": drawn.gas,
         "triangles": len(shape.mesh.faces),
         "pixels": side * side,
         "lit pixels": int((marched != SKY).any(axis=2).sum()),
-        "FLIP": round(float(evaluate(*pair, "LDR", applyMagma=False)[1]), 4),
+        "FLIP": round(flip(marched, drawn.pixels), 4),
         "mean error": round(float(np.abs(marched.astype(float) - drawn.pixels).mean()), 2),
     }
 
 
 def recorded() -> dict[str, Any]:
     """Return the figures of ray_marcher.json."""
-    figures: dict[str, Any] = json.loads(FILE.read_text("utf-8"))
+    figures: dict[str, Any] = read_figures(FILE)
     return figures
 
 
 def text(figures: dict[str, Any]) -> str:
-    """Return the figures as a table in Markdown."""
+    """Return the figures as Markdown."""
     head = ["picture", "ray marcher, gas", "a pixel", "a lit pixel", "triangles", "Renderer, gas", "a pixel"]
     lines = []
     for name, each in figures.items():
@@ -155,7 +153,11 @@ def text(figures: dict[str, Any]) -> str:
         cells = [f"{marched:,}", f"{marched / each['pixels']:,.0f}", f"{marched / each['lit pixels']:,.0f}"]
         cells += [f"{each['triangles']:,}", f"{drawn:,}", f"{drawn / each['pixels']:,.0f}", f"{marched / drawn:.1f}"]
         lines.append([name, *cells, f"{each['FLIP']:.4f}", f"{each['mean error']:.2f}"])
-    return table([*head, "ratio", "FLIP", "mean error, levels"], lines)
+    ratios = [each["ray marcher"] / each["renderer"] for each in figures.values()]
+    return (
+        f"At an equal picture the ray marcher takes {min(ratios):.1f} to {max(ratios):.1f} times the gas.\n\n"
+        + table([*head, "ratio", "FLIP", "mean error, levels"], lines)
+    )
 
 
 def main() -> int:
@@ -163,7 +165,7 @@ def main() -> int:
     figures = {
         f"{name}, {side} x {side}": measure(shape, side) for name, shape in all_shapes().items() for side in SIDES
     }
-    FILE.write_text(json.dumps(figures, indent=1) + "\n", "utf-8")
+    write_figures(FILE, figures)
     print(text(figures))
     made = {"ray_marcher": text(figures)}
     return update({PAGE: made.get}, "python -m benchmarks.ray_marcher")

@@ -7,7 +7,6 @@ measures everything and rewrites gas.json; what changed is printed. The figures 
 
 from __future__ import annotations
 
-import json
 import sys
 from pathlib import Path
 
@@ -24,7 +23,7 @@ from shackled.datasets.genesis import seed_of
 from shackled.deploy import STANDARD
 from shackled.scene import Rectangle
 
-from . import shared, unit_costs
+from . import read_figures, shared, unit_costs, write_figures
 from .scenes import LAMP, cubes, empty, room, staged_teapot
 
 FILE = Path(__file__).with_name("gas.json")
@@ -140,7 +139,7 @@ def take() -> Snapshot:
 
 def recorded() -> Snapshot:
     """Return the figures of gas.json."""
-    snapshot: Snapshot = json.loads(FILE.read_text("utf-8")) if FILE.exists() else {}
+    snapshot: Snapshot = read_figures(FILE)
     return snapshot
 
 
@@ -168,7 +167,7 @@ def main() -> int:
     print("\n".join([*worse, *better]) or "no figure has changed")
     if not shared.is_there():
         print(f"scenes of the cost table: {shared.SKIPPED}; their figures are kept")
-    FILE.write_text(json.dumps({**old, **new}, indent=1, sort_keys=True) + "\n", "utf-8")
+    write_figures(FILE, {**old, **new}, sort_keys=True)
     return 0
 
 

@@ -7,7 +7,6 @@ measures everything, rewrites studio.json and the tables of docs/studio.md, and 
 
 from __future__ import annotations
 
-import json
 import sys
 from pathlib import Path
 
@@ -27,6 +26,7 @@ from shackled.studio import store_scene
 from shackled.studio._compact_mesh import compact
 from shackled.studio._storage import quantize, store_mesh
 
+from . import read_figures, write_figures
 from .snapshot import changes
 
 FILE = Path(__file__).with_name("studio.json")
@@ -132,7 +132,7 @@ def take() -> Figures:
 
 def recorded() -> Figures:
     """Return the figures of studio.json."""
-    figures: Figures = json.loads(FILE.read_text("utf-8")) if FILE.exists() else {}
+    figures: Figures = read_figures(FILE)
     return figures
 
 
@@ -175,7 +175,7 @@ def main() -> int:
     old, new = recorded(), take()
     worse, better = changes({"studio": old}, {"studio": new})
     print("\n".join([*worse, *better]) or "no figure has changed")
-    FILE.write_text(json.dumps(new, indent=1, sort_keys=True) + "\n", "utf-8")
+    write_figures(FILE, new, sort_keys=True)
     return update({PAGE: content(new).get}, "python -m benchmarks.studio")
 
 

@@ -16,7 +16,7 @@ from tools.pages import ROOT, update
 
 from shackled import Camera, Light, Material, Mesh, Object, Scene, Texture, Tone, load, render
 from shackled.chain import EmbeddedChain, open_chain
-from shackled.scene._packed_texture import pack_texture
+from shackled.scene._packed import pack_texture
 from shackled.scene._texture import FILTERS
 from shackled.studio import store_scene
 

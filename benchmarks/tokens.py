@@ -7,7 +7,6 @@ measures everything, rewrites tokens.json and the table of docs/tokens.md, and p
 
 from __future__ import annotations
 
-import json
 import statistics
 import sys
 from pathlib import Path
@@ -18,6 +17,8 @@ from tools.tokens.stage import ALLOW_LIST, ICONS, LIMIT, PRICE, Stage, icon_scen
 from tools.tokens.world import GAS, ZERO, account, keccak
 
 from shackled.datasets.genesis import seed_of
+
+from . import read_figures, write_figures
 
 ROOT = Path(__file__).resolve().parent.parent
 FILE = Path(__file__).with_name("tokens.json")
@@ -143,7 +144,7 @@ def token_uris(s: Stage, seeds: int) -> Figures:
 
 def recorded() -> Figures:
     """Return the figures of tokens.json."""
-    figures: Figures = json.loads(FILE.read_text("utf-8")) if FILE.exists() else {}
+    figures: Figures = read_figures(FILE)
     return figures
 
 
@@ -159,7 +160,7 @@ def main() -> int:
     """Measure, print and write the figures."""
     figures = take()
     print(table(figures))
-    FILE.write_text(json.dumps(figures, indent=1) + "\n", "utf-8")
+    write_figures(FILE, figures)
     return update({PAGE: lambda _: table(figures)}, "python -m benchmarks.tokens")
 
 

@@ -12,8 +12,8 @@ from attrs import evolve
 
 from shackled import Camera, Material, Mesh, Object, Scene
 from shackled.bench import gas
-from shackled.bench.scenes import DISTANCE, NIGHT, SUN
-from shackled.scene._material import Shading
+from shackled.bench.scenes import DISTANCE, NIGHT, SUN, grid
+from shackled.scene._object import Shading
 
 from .scenes import SECOND_LIGHT
 from .workload import workload_of
@@ -52,12 +52,9 @@ def figures() -> dict[str, int]:
 
 def sheet(shading: Shading, antialias: bool, divisions: int, half_width: int, half_height: int) -> Scene:
     """Make a sheet of 2 * divisions^2 triangles, two waves wide and high, in front of the camera, in one colour."""
-    at = np.linspace(-1, 1, divisions + 1)
-    x, y = (axis.ravel() for axis in np.meshgrid(at, at))
-    grid = np.arange(x.size).reshape(divisions + 1, divisions + 1)
-    a, b, c, d = (corner.ravel() for corner in (grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]))
+    x, y, faces = grid(divisions)
     waves = 40 * np.sin(2 * np.pi * x) * np.sin(2 * np.pi * y)
     positions = np.rint(np.stack([half_width * x, half_height * y, waves], axis=1))
-    mesh = Mesh(positions, np.stack([a, b, c, a, c, d], axis=1).reshape(-1, 3), "tan")
+    mesh = Mesh(positions, faces, "tan")
     o = Object(mesh, (0, 0, -DISTANCE), material=Material(shading, 0.25, 0.75, 0.3, 24))
     return Scene([o], Camera(), [SUN], NIGHT, width=SIDE, height=SIDE, antialias=antialias)

@@ -30,19 +30,26 @@ def _address_book(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
         yield
 
 
-#: Files and folders whose tests take more than about five seconds of one processor together: all are slow.
+#: Files and folders whose tests take some seconds of a processor together: all are slow.
 SLOW = (
+    "bench/test_bench.py",
+    "bench/test_deployment_costs.py",
     "cli/test_app.py",
+    "cli/test_render.py",
     "cli/test_render_parallel.py",
     "cli/test_several.py",
     "cli/test_streams.py",
     "conformance",
     "evm",
+    "gas/test_blocks.py",
     "judge",
     "package",
+    "page",
     "parallel/test_cluster.py",
     "parallel/test_job.py",
     "parallel/test_strips.py",
+    "preview/test_preview.py",
+    "preview/test_stored_scenes.py",
     "scene/test_canvas.py",
     "scene/test_decode.py",
     "scene/test_restored.py",
@@ -59,8 +66,14 @@ SLOW = (
     "test_tile_culling.py",
     "test_tile_gas.py",
     "test_workers.py",
+    "tokens/test_editions_invariants.py",
     "tokens/test_icons_gas.py",
+    "tokens/test_invariants.py",
     "tokens/test_token_docs.py",
+    "tokens/test_token_gas.py",
+    "web/test_encoder.py",
+    "web/test_export.py",
+    "web/test_widget.py",
 )
 
 

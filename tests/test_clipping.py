@@ -14,7 +14,7 @@ import judge
 from pictures import UNLIT, call_data, counts, covered, draw, on_pixel_grid, pixel_grid_camera, soup, unlit_scene
 from shackled import Camera, Light, Material, Mesh, Object, Scene
 from shackled.scene import vertex_normals
-from shackled.scene._material import Shading
+from shackled.scene._object import Shading
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pictures import draw
 from shackled import Camera, Light, Material, Mesh, Object, Scene, Tone
 from shackled.scene import Rectangle, fit
-from shackled.scene._material import Shading
+from shackled.scene._object import Shading
 
 Array = NDArray[np.float64]
 Rng = np.random.Generator

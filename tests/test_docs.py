@@ -239,6 +239,7 @@ def test_the_programs_have_strict_types() -> None:
         "mypy",
         "--strict",
         "--config-file=",
+        "--cache-dir=.mypy_cache/programs",
         *map(str, PROGRAMS),
     ]
     result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)

@@ -13,7 +13,7 @@ from PIL import ImageSequence
 
 from animated_gltf import write
 from shackled import InputError, Scene, animate, load
-from shackled._frames import load_frames
+from shackled._load import load_frames
 from shackled.cli.app import run
 
 #: A look in which the model is red on black, whatever the light.

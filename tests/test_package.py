@@ -35,6 +35,10 @@ CONSTRAINTS = ROOT / "tools" / "constraints.txt"
 EXTRA_OF = {
     "bench": "bench",
     "chain/_embedded.py": "pyevm pyrevm",
+    "deploy/_account.py": "chain",
+    "deploy/_transactor.py": "chain",
+    "cli/chain_options.py": "chain",
+    "tokens/": "chain",
     "mp4.py": "mp4",
     "parallel/_cluster.py": "cluster",
     "scene/_files/gltf/draco.py": "draco",

@@ -20,7 +20,7 @@ from judge import render
 from pictures import call, call_data
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
 from shackled.scene import Rectangle, fit, vertex_normals
-from shackled.scene._material import Shading
+from shackled.scene._object import Shading
 
 Integers = NDArray[np.int64]
 Array = NDArray[np.float64]

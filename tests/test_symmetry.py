@@ -23,7 +23,7 @@ from shackled import Camera, Light, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
 from shackled.datasets import teapot
 from shackled.scene import from_euler, rotate, vertex_normals
-from shackled.scene._rotation import multiply
+from shackled.scene._arithmetic import multiply
 from test_fill_rule import edge_functions
 
 Array = NDArray[np.float64]

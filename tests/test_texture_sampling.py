@@ -13,7 +13,7 @@ from tools.ledger import World, call_data
 
 from compiler import needs_compiler
 from shackled import Texture
-from shackled.scene._packed_texture import pack_texture
+from shackled.scene._packed import pack_texture
 from shackled.scene._texture import FILTERS, WRAPS
 
 NO_UVS = np.zeros((0, 2))

@@ -11,9 +11,7 @@ import json
 import sys
 from pathlib import Path
 
-from rich.console import Console
-from rich.progress import track
-
+from shackled.cli.progress import LateBar
 from shackled.datasets import draw_all, pieces
 from shackled.datasets.common import models
 
@@ -26,8 +24,11 @@ def main() -> int:
     parser.add_argument("--check", action="store_true", help="change nothing; exit code 1 if the file is wrong")
     check = parser.parse_args().check
     builtin = [piece for piece in pieces() if piece.name not in models()]
-    shown = track(draw_all(builtin), "drawing", len(builtin), console=Console(stderr=True))
-    costs = {drawing.name: (drawing.triangles, drawing.gas) for drawing in shown}
+    with LateBar("drawing") as bar:
+        costs = {}
+        for drawing in draw_all(builtin):
+            costs[drawing.name] = (drawing.triangles, drawing.gas)
+            bar.set(len(costs), len(builtin))
     rows = [f"{json.dumps(piece.name)}: {json.dumps(costs[piece.name])}" for piece in builtin]
     text = "{\n" + ",\n".join(rows) + "\n}\n"
     if not check:

@@ -27,6 +27,7 @@ from shackled import InputError
 from shackled.bench.scenes import cube, equal_triangles
 from shackled.datasets.common._fetch import checksum, download
 from shackled.datasets.common._models import Model
+from shackled.errors import FetchError
 from shackled.scene import from_euler, rotate
 
 from .documents import Document, document, genesis_document, scene_document
@@ -232,6 +233,8 @@ def main() -> int:
             (scenes / f"{name}.json").write_text(json.dumps(scene) + "\n", "utf-8")
             if known[name] != digest(scene):
                 other.append(name)
+    except FetchError as error:
+        raise SystemExit(f"{str(error).partition(' A file')[0]}; files that you have: --from FOLDER") from None
     except InputError as error:
         raise SystemExit(str(error)) from None
     print(f"{len(known)} scenes in {scenes}, {len(known) - len(other)} of them as they were measured")

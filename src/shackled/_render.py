@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Unpack
 
 from attrs import evolve
 
-from ._frames import load_frames
-from ._load import Thing, load_picture
+from ._load import Thing, load_frames, load_picture
 from ._on import Bounds, Embedded, On, Place, is_one_call, place_of
 from .animation import DURATION, DURATIONS, Animation
 from .chain import Chain

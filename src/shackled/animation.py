@@ -28,6 +28,7 @@ from .image import (
     check_scene,
     data_uri,
     gas_in_short,
+    indexed,
     one_of,
     pillow_bytes,
     png_options,
@@ -35,7 +36,6 @@ from .image import (
     write_open,
 )
 from .mp4 import check_mp4, encode_mp4
-from .palette import indexed
 from .scene import PICTURE
 from .values import plural
 from .whole_file import check_output_file, check_output_folder, make_output_folder, write_output

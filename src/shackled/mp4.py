@@ -10,7 +10,7 @@ from importlib.util import find_spec
 import numpy as np
 
 from .errors import InputError
-from .palette import Pixels
+from .image import Pixels
 
 #: How near to the frames it is: 0 is exact, and 18 is taken as hardly to be told from that.
 _QUALITY = "12"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -88,6 +89,16 @@ def test_a_file_must_be_the_right_one(tmp_path: Path) -> None:
     (tmp_path / "cow.obj").write_text("v 0 0 0\n")
     with pytest.raises(InputError, match="its checksum is git-blob:"):
         recipe.file_of("cow", source, tmp_path)
+
+
+def test_without_a_network_files_can_be_given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    # a port at which nobody listens
+    source = replace(recipe.SOURCES["cow"], address="http://127.0.0.1:9/cow.obj")
+    monkeypatch.setattr(recipe, "SOURCES", {"cow": source})
+    monkeypatch.setattr("sys.argv", ["recipe", str(tmp_path)])
+    with pytest.raises(SystemExit, match=r"cow: 127.0.0.1:9 cannot be reached.*files that you have: --from FOLDER"):
+        recipe.main()
 
 
 # ---- the measurement ----

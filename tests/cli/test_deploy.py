@@ -6,8 +6,7 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -15,14 +14,13 @@ import pytest
 from eth_account import Account
 from tools.anvil import Anvil
 
-from nodes import KEY, Reply, anvil, failure, forward, free_port, needs_anvil, serving
+from commands import Said
+from nodes import KEY, Reply, failure, forward, free_port, serving
 from shackled.artifacts import artifact
 from shackled.chain import VARIABLE
 from shackled.cli.app import run
 from shackled.deploy import deployments
 from shackled.ethereum import PROXY
-
-pytestmark = needs_anvil
 
 PASSWORD = "a pass phrase 77"
 
@@ -37,31 +35,16 @@ def book(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return path
 
 
-@pytest.fixture
-def node() -> Iterator[Anvil]:
-    with anvil() as running:
-        yield running
-
-
-@dataclass(frozen=True)
-class Told:
-    """What a command said."""
-
-    code: int
-    out: str
-    err: str
-
-
-Command = Callable[..., Told]
+Command = Callable[..., Said]
 
 
 @pytest.fixture
 def deploy(folder: Path, capsys: pytest.CaptureFixture[str]) -> Command:
     """Runs the command, and looks whether it printed or wrote a key or a password."""
 
-    def command(*arguments: str) -> Told:
+    def command(*arguments: str) -> Said:
         code = run(["deploy", *arguments])
-        told = Told(code, *capsys.readouterr())
+        told = Said(code, *capsys.readouterr())
         written = [path for path in folder.rglob("*") if path.is_file() and path.name != "keystore"]
         for text in [told.out, told.err, *(path.read_text("utf-8") for path in written)]:
             assert KEY[2:] not in text

@@ -14,7 +14,6 @@ import pytest
 from nodes import anvil, needs_anvil
 from shackled import load, render
 from shackled.cli.app import app, run
-from shackled.cli.look_options import option_of
 from shackled.datasets import Piece
 from shackled.gas import KINDS, STAGES
 from shackled.scene import SETTINGS
@@ -102,7 +101,7 @@ def test_the_options_of_a_look_are_the_same_everywhere() -> None:
         command = app.get_command(click.Context(app), name)
         assert command is not None
         options[name] = {option for parameter in command.params for option in parameter.opts}
-    look = {option_of(setting).partition("/")[0] for setting in SETTINGS}
+    look = {setting.option.partition("/")[0] for setting in SETTINGS}
     assert len(look) > 20
     for given in options.values():
         assert look <= given

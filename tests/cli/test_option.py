@@ -17,6 +17,7 @@ SOURCE = Path(shackled.__file__).parent
 
 def test_parameters_become_options() -> None:
     assert with_options("`jobs` must be\n from 1; see `timeout`") == "--jobs must be from 1; see --rpc-timeout"
+    assert with_options("`fov` and `half_height` exclude each other") == "--fov and --half-height exclude each other"
     assert with_options("`ls` is `no option`") == "`ls` is `no option`"
 
 

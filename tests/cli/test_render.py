@@ -351,7 +351,7 @@ def test_refusals_and_interrupts_exit_with_1(
 ) -> None:
     from shackled.chain import EmbeddedChain, RevmChain
 
-    monkeypatch.setattr("shackled._render.open_chain", lambda *_: RevmChain(gas_limit=50_000))
+    monkeypatch.setattr("shackled._on.open_chain", lambda *_: RevmChain(gas_limit=50_000))
     assert run(["render", "shape.obj"]) == 1
     assert capsys.readouterr().err == "shackled: the call ran out of gas: 50,000 gas is not enough\n"
 
@@ -366,11 +366,15 @@ def test_refusals_and_interrupts_exit_with_1(
 def test_help_and_version(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["--version"]) == 0
     assert capsys.readouterr().out == f"shackled {__version__}\n"
-    for arguments in ([], ["--help"]):
-        assert run(arguments) == 0
-        assert "render" in capsys.readouterr().out
-    assert run(["render", "--help"]) == 0
-    assert "--max-triangles" in capsys.readouterr().out
+    for arguments, word in (([], "render"), (["render"], "--max-triangles"), (["token", "mint"], "--icon")):
+        texts = []
+        for option in ("--help", "-h"):
+            assert run([*arguments, option]) == 0
+            texts.append(capsys.readouterr().out)
+        assert word in texts[0]
+        assert texts[0] == texts[1]
+    assert run([]) == 0
+    assert "render" in capsys.readouterr().out
 
 
 def scene_line(output: str) -> str | None:

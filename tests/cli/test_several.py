@@ -13,8 +13,6 @@ from PIL import Image as PillowImage
 
 from shackled import render
 from shackled.cli.app import run
-from shackled.errors import RenderError
-from shackled.workers import WorkerEndedError, each
 
 SMALL = ["--size", "16"]
 
@@ -149,21 +147,6 @@ def test_as_a_shell_runs_it(three: Path) -> None:
     done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, timeout=120)
     assert (done.returncode, done.stderr) == (0, "2 rendered, 0 failed\n")
     assert sorted(os.listdir("out")) == ["a.png", "c.png"]
-
-
-def _end(number: int) -> int:
-    if number == 1:
-        os._exit(1)
-    return number
-
-
-def test_a_process_that_ends_is_the_failure_of_one_input() -> None:
-    def lost(error: WorkerEndedError) -> int:
-        return -1
-
-    assert dict(each(_end, range(4), 2, lost)) == {0: 0, 1: -1, 2: 2, 3: 3}
-    with pytest.raises(RenderError):
-        list(each(_end, range(4), 2))
 
 
 def test_results_are_not_printed_through_the_bar(folder: Path) -> None:

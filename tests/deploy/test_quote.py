@@ -183,7 +183,9 @@ def test_a_node_that_gives_no_answer_ends_the_quotes() -> None:
         make_quotes(Connection(url), [call(1)], FEES)
 
 
-@pytest.mark.parametrize("block", [None, [], {"baseFeePerGas": "5"}])
+@pytest.mark.parametrize(
+    "block", [None, [], ["no"], *({"baseFeePerGas": fee} for fee in ("5", "zz", 5, "0x" + 65 * "f"))]
+)
 def test_what_is_no_block(block: object) -> None:
     with serving(lambda _: result(block)) as url, pytest.raises(NodeError, match="an invalid block"):
         current_fees(Connection(url))

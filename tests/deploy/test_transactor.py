@@ -108,9 +108,6 @@ def test_what_is_signed_is_what_was_quoted(node: Node) -> None:
     ("lies", "words"),
     [
         ({"eth_getBlockByNumber": lambda block, _: block | {"baseFeePerGas": "zz"}}, "an invalid block"),
-        ({"eth_getBlockByNumber": lambda block, _: block | {"baseFeePerGas": 5}}, "an invalid block"),
-        ({"eth_getBlockByNumber": lambda block, _: block | {"baseFeePerGas": "0x" + 65 * "f"}}, "an invalid block"),
-        ({"eth_getBlockByNumber": lambda block, _: ["no"]}, "an invalid block"),
         ({"eth_getTransactionCount": lambda count, _: "0x" + 64 * "f"}, "an impossible nonce of .* 115,79"),
         ({"eth_estimateGas": lambda gas, _: "0x" + 20_000 * "9"}, "an invalid number"),
     ],
@@ -143,11 +140,6 @@ def test_what_is_no_receipt(node: Node, receipt: Any) -> None:
     words = r"^the transaction 0x\w{64} was sent, check what became of it before .*: .*an invalid receipt"
     with Liar(lies).before(node.url) as url, pytest.raises(NodeError, match=words):
         transactor(url).send(quoted(transactor(url)))
-
-
-def test_no_suggestion_of_a_tip(node: Node) -> None:
-    with replying(node.url, eth_maxPriorityFeePerGas=failure("the method does not exist", -32601)) as url:
-        assert transactor(url).fees().tip == 10**9
 
 
 def test_a_refusal_without_a_reason(node: Node) -> None:

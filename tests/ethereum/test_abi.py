@@ -2,12 +2,27 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
+from eth_abi import abi
+from eth_abi.exceptions import DecodingError
+from hypothesis import given
+from hypothesis import strategies as st
 
 from shackled.artifacts import artifact, known_errors
 from shackled.chain import describe_revert
 from shackled.errors import InputError
-from shackled.ethereum import SOLIDITY_ERRORS, Interface, decode_error, error_table, keccak256, word
+from shackled.ethereum import (
+    SOLIDITY_ERRORS,
+    Interface,
+    decode_error,
+    decode_values,
+    encode_values,
+    error_table,
+    keccak256,
+    word,
+)
 
 # the examples of the specification of the ABI: docs.soliditylang.org/en/latest/abi-spec.html
 FOO = Interface(
@@ -104,3 +119,63 @@ def test_errors_with_structs() -> None:
     assert list(table) == [keccak256(b"Odd((uint8,(bytes2))[])")[:4]]
     data = word(32) + word(1) + word(7) + b"ab".ljust(32, b"\0")
     assert describe_revert(next(iter(table)) + data, table) == "Odd(those=((7, (0x6162))))"
+
+
+def kinds(depth: int = 2) -> st.SearchStrategy[tuple[str, st.SearchStrategy[Any]]]:
+    """Types, each with its values."""
+    sizes = st.integers(1, 32)
+    plain = st.one_of(
+        sizes.map(lambda n: (f"uint{8 * n}", st.integers(0, 2 ** (8 * n) - 1))),
+        sizes.map(lambda n: (f"int{8 * n}", st.integers(-(2 ** (8 * n - 1)), 2 ** (8 * n - 1) - 1))),
+        sizes.map(lambda n: (f"bytes{n}", st.binary(min_size=n, max_size=n))),
+        st.sampled_from(
+            [
+                ("bool", st.booleans()),
+                ("bytes", st.binary(max_size=70)),
+                ("string", st.text(max_size=40)),
+                ("address", st.binary(min_size=20, max_size=20).map(lambda each: f"0x{each.hex()}")),
+            ]
+        ),
+    )
+    if not depth:
+        return plain
+    below = kinds(depth - 1)
+    return st.one_of(
+        plain,
+        below.map(lambda each: (f"{each[0]}[]", st.lists(each[1], max_size=3).map(tuple))),
+        st.tuples(below, st.integers(1, 3)).map(
+            lambda each: (f"{each[0][0]}[{each[1]}]", st.tuples(*[each[0][1]] * each[1]))
+        ),
+        st.lists(below, min_size=1, max_size=3).map(
+            lambda each: (f"({','.join(kind for kind, _ in each)})", st.tuples(*(values for _, values in each)))
+        ),
+    )
+
+
+@given(st.lists(kinds(), max_size=4), st.data())
+def test_values_are_those_of_eth_abi(chosen: list[tuple[str, st.SearchStrategy[Any]]], draw: st.DataObject) -> None:
+    types = [kind for kind, _ in chosen]
+    values = tuple(draw.draw(each) for _, each in chosen)
+    data = abi.encode(types, values)
+    assert encode_values(types, values) == data
+    assert decode_values(types, data) == values
+    if data:
+        with pytest.raises(ValueError, match=r"bytes end before byte|do not hold"):
+            decode_values(types, data[: draw.draw(st.integers(0, len(data) - 1))])
+
+
+@given(kinds(), st.data())
+def test_damaged_data_are_read_as_eth_abi_reads_them(
+    chosen: tuple[str, st.SearchStrategy[Any]], draw: st.DataObject
+) -> None:
+    kind, values = chosen
+    data = bytearray(abi.encode([kind], [draw.draw(values)]))
+    at = draw.draw(st.integers(0, len(data) - 1))
+    data[at] ^= draw.draw(st.integers(1, 255))
+    try:
+        expected = abi.decode([kind], bytes(data))
+    except (DecodingError, OverflowError, UnicodeDecodeError):
+        with pytest.raises(ValueError, match=r"not|end"):
+            decode_values([kind], bytes(data))
+    else:
+        assert decode_values([kind], bytes(data)) == expected

@@ -15,7 +15,7 @@ from shackled import Background, Camera, Fog, Light, Material, Mesh, Object, Rim
 from shackled.datasets import Piece, pieces, require
 from shackled.datasets.common import shapes
 from shackled.scene import Hemisphere, rotate, vertex_normals
-from shackled.scene._material import Shading
+from shackled.scene._object import Shading
 from shackled.scene._staging import signed_volume
 from shackled.scene._texture import FILTERS, WRAPS
 

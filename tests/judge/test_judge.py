@@ -9,7 +9,7 @@ from attrs import evolve
 from pictures import WHITE, call_data, draw
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, Texture, load
 from shackled.scene import fit
-from shackled.scene._material import Shading
+from shackled.scene._object import Shading
 
 from . import KINDS, Picture, Verdict, draw_in_tiles, judge, judge_pixels, random_scene, render
 from .verdict import outside

@@ -30,8 +30,8 @@ from shackled.chain import ContractChain, open_chain
 from shackled.datasets import pieces
 from shackled.scene import ANTIALIAS, NORMAL_UNIT, Hemisphere, Projection, decode, fit, pack, render_call
 from shackled.scene._arithmetic import cosine
-from shackled.scene._material import Shading
-from shackled.scene._packed_mesh import unpack
+from shackled.scene._object import Shading
+from shackled.scene._packed import unpack
 from shackled.scene._records import FOG, HEMISPHERE, OPACITY_OF, RIM, SPOT, TONE
 
 TRIANGLE = Mesh([[0, 0, 0], [1000, 0, 0], [0, 1000, 0]], [[0, 1, 2]], [[1, 2, 3], [4, 5, 6], [255, 0, 128]])

@@ -76,8 +76,8 @@ def test_the_picture_is_that_of_the_whole(look: dict[str, object], monkeypatch: 
     scene = look_at(SOLID, {"size": (64, 64)})
     scene = load(scene, **look)  # type: ignore[arg-type]
     expected = render(scene)
-    monkeypatch.setattr("shackled.scene._divide.MAX_FACES", 11)
-    monkeypatch.setattr("shackled.scene._divide.MAX_VERTICES", 14)
+    monkeypatch.setattr("shackled.scene._fit.MAX_FACES", 11)
+    monkeypatch.setattr("shackled.scene._fit.MAX_VERTICES", 14)
     assert len(fit(scene).objects) > 5
     found: Image = render(scene)
     assert expected.covered_pixels

@@ -4,7 +4,7 @@ from numpy.typing import NDArray
 
 from shackled.errors import InputError
 from shackled.scene import from_euler, rotate
-from shackled.scene._rotation import from_axis_angle, multiply
+from shackled.scene._arithmetic import from_axis_angle, multiply
 
 X, Y, Z = np.eye(3)
 

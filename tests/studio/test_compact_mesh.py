@@ -204,6 +204,6 @@ def test_bits_of_normals(bits: int) -> None:
 
 
 @pytest.mark.parametrize("data", [b"", b"\4\0\0\0\0", b"\0\0\1\0\0", bytes.fromhex("0000000001") + bytes(6)])
-def test_what_is_no_packed_mesh(data: bytes) -> None:
+def test_what_is_no_packed(data: bytes) -> None:
     with pytest.raises(InputError):
         compact(data)

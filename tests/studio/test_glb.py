@@ -23,8 +23,8 @@ import gltf_reader
 from evms import Ours, pyevm_call, pyrevm_call
 from shackled import Camera, Light, Material, Mesh, Object, RenderError, Scene, load
 from shackled.artifacts import artifact
-from shackled.chain import EmbeddedChain, open_chain
 from shackled.datasets import pieces, teapot
+from shackled.deploy import local_chain
 from shackled.ethereum import word
 from shackled.scene import encode_scene, fit, from_euler, pack, rotate
 from shackled.studio import store_scene
@@ -53,8 +53,7 @@ SCENE = Scene(
 
 
 def call(scene: Scene, function: str = "encode") -> bytes:
-    chain = open_chain()
-    assert isinstance(chain, EmbeddedChain)
+    chain = local_chain()
     data = artifact("GlbEncoder").selectors[function] + word(32) + encode_scene(fit(scene))
     (answer,) = decode(["bytes"], chain.call("GlbEncoder", data).output)
     return bytes(answer)
@@ -319,8 +318,7 @@ def changed(change: Any) -> bytes:
     ],
 )
 def test_what_is_refused(change: Any, error: str) -> None:
-    chain = open_chain()
-    assert isinstance(chain, EmbeddedChain)
+    chain = local_chain()
     with pytest.raises(RenderError) as caught:
         chain.call("GlbEncoder", changed(change))
     assert error in str(caught.value)
@@ -333,8 +331,7 @@ def test_objects_without_faces_are_left_out(tmp_path: Path) -> None:
     (values,) = decode([kind], word(32) + encode_scene(fit(scene)))
     objects = list(values[6])
     objects[0], objects[1] = (b"\0\0\1\0\0" + bytes(9), *objects[0][1:]), (bytes(5), *objects[1][1:])
-    chain = open_chain()
-    assert isinstance(chain, EmbeddedChain)
+    chain = local_chain()
     data = call_data(f"encode({kind})", (*values[:6], objects, values[7]))
     (glb,) = decode(["bytes"], chain.call("GlbEncoder", data).output)
     compare(glb, evolve(fit(scene), objects=fit(scene).objects[2:]), fitted=True)
@@ -343,16 +340,14 @@ def test_objects_without_faces_are_left_out(tmp_path: Path) -> None:
 
 def test_a_normal_of_no_length_becomes_one(tmp_path: Path) -> None:
     packed = pack(TENT, True)
-    chain = open_chain()
-    assert isinstance(chain, EmbeddedChain)
+    chain = local_chain()
     data = changed(lambda o: (packed[:14] + bytes(4) + packed[18:], *o[1:4], (2, *o[4][1:]), o[5]))
     (glb,) = decode(["bytes"], chain.call("GlbEncoder", data).output)
     assert_valid([glb], tmp_path)
 
 
 def test_every_evm_agrees() -> None:
-    chain = open_chain()
-    assert isinstance(chain, EmbeddedChain)
+    chain = local_chain()
     address = chain.address("GlbEncoder")
     data = artifact("GlbEncoder").selectors["encode"] + word(32) + encode_scene(fit(SCENE))
     ours = Ours().call(chain.codes(), address, data, 10**8)

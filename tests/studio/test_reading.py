@@ -3,23 +3,13 @@ from __future__ import annotations
 from typing import cast
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from shackled import Mesh, Scene
 from shackled.chain import Connection
 from shackled.errors import VerificationError
 from shackled.scene import Object, fit
 from shackled.studio import storage_address, stored_codes
-from shackled.studio._storage import SCENE, compress_zeros, encode_with_pointers, expand_zeros, stored_meshes
-
-runs = st.lists(st.tuples(st.sampled_from([0, 255, 1, 200]), st.integers(1, 300)), max_size=8)
-
-
-@given(runs)
-def test_zeros_come_back(parts: list[tuple[int, int]]) -> None:
-    data = b"".join(bytes([value]) * count for value, count in parts)
-    assert expand_zeros(compress_zeros(data)) == data
+from shackled.studio._storage import SCENE, compress_zeros, encode_with_pointers, stored_meshes
 
 
 def test_the_meshes_of_a_scene_are_found() -> None:

@@ -17,8 +17,7 @@ from shackled.artifacts import artifact
 from shackled.image import decode_bmp
 from shackled.scene import is_closed, pack
 from shackled.scene._decode import read_call
-from shackled.scene._packed_mesh import unpack
-from shackled.scene._packed_texture import pack_texture
+from shackled.scene._packed import pack_texture, unpack
 from shackled.scene._staging import Viewpoint, frame
 from shackled.studio._compact_mesh import split_mesh
 from shackled.studio._storage import scene_struct

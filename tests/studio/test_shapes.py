@@ -16,7 +16,7 @@ from tools.ledger import World, call_data
 from compiler import needs_compiler
 from shackled import Mesh, RenderError
 from shackled.scene import NORMAL_UNIT, is_closed, vertex_normals
-from shackled.scene._packed_mesh import unpack
+from shackled.scene._packed import unpack
 
 CENTER = np.array([10, 20, 30])
 SPHERE, CYLINDER, CONE, RING = range(4)

@@ -21,7 +21,7 @@ from shackled.chain import revert_error
 from shackled.datasets import teapot
 from shackled.image import decode_bmp
 from shackled.scene import from_euler
-from shackled.scene._material import Shading
+from shackled.scene._object import Shading
 from shackled.studio import store_scene
 from shackled.studio._storage import scene_struct
 
@@ -49,6 +49,16 @@ def stored(world: World, scene: Scene) -> str:
         output = world.run(world.address("Studio"), storing.data, created=True)
         assert output[12:32] == storing.pointer
     return "0x" + storing.pointer.hex()
+
+
+def struct_of(world: World, pointer: str) -> Any:
+    """The struct of a stored scene, decoded."""
+    return decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
+
+
+def kept(world: World, struct: tuple[Any, ...]) -> str:
+    """The pointer of a struct that is stored as it is."""
+    return "0x" + world.store(f"storeScene({SCENE_STRUCT})", struct).hex()
 
 
 def pixels(png: bytes) -> NDArray[np.uint8]:
@@ -93,7 +103,7 @@ def test_a_data_uri_of_whole_words(world: World) -> None:
 
 def test_what_is_kept_is_the_scene(world: World) -> None:
     pointer = stored(world, SCENE)
-    struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
+    struct = struct_of(world, pointer)
     assert struct[0] == (48, 40)
     sizes = [5 + 13 * len(POT.positions) + 6 * len(POT.faces), 5 + 9 * 3 + 6]
     assert [len(o[0]) for o in struct[6]] == sizes
@@ -113,10 +123,10 @@ def test_extensions_are_kept_with_the_scene(world: World) -> None:
         drawn = np.array(picture.convert("RGB"))
     assert (drawn == render(scene).pixels).all()
     assert (drawn != render(SCENE).pixels).any()
-    struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
+    struct = struct_of(world, pointer)
     assert len(struct[7]) == 45 + 9
     # what a newer contract may know is reported when it is drawn
-    newer = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*struct[:7], b"\x0e\0\0\0\1" + bytes(32))).hex()
+    newer = kept(world, (*struct[:7], b"\x0e\0\0\0\1" + bytes(32)))
     with pytest.raises(RenderError, match=r"UnknownExtension\(kind=14, index=0\)"):
         world.call("Studio", "check(address)", newer)
 
@@ -148,9 +158,8 @@ def test_antialiased(world: World) -> None:
 @pytest.mark.parametrize("records", [b"\1\0\0\0\x28" + bytes(35), b"\0\0", b"\2\0\0\0\4"])
 def test_records_that_are_cut_off(world: World, records: bytes) -> None:
     """Another record does not complete them."""
-    data = call_data("scene(address)", stored(world, SCENE))
-    struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), data))[0]
-    pointer = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*struct[:7], records)).hex()
+    struct = struct_of(world, stored(world, SCENE))
+    pointer = kept(world, (*struct[:7], records))
     for fields in (0, 32):
         with pytest.raises(RenderError, match=r"ExtensionCutOff\(position=0\)"):
             changed(world, pointer, fields=fields)
@@ -305,13 +314,13 @@ def test_what_is_neither(world: World) -> None:
 def test_a_scene_with_a_broken_mesh_spoils_only_itself(world: World) -> None:
     good = stored(world, SCENE)
     broken = "0x" + world.store("storeMesh(bytes)", b"\0\0\3\0\1").hex()
-    struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", good)))[0]
+    struct = struct_of(world, good)
     for o in range(2):
         objects = list(struct[6])
         objects[o] = (b"\x12" + bytes.fromhex(broken[2:]), *objects[o][1:])
-        pointer = world.store(f"storeScene({SCENE_STRUCT})", (*struct[:6], objects, struct[7]))
+        pointer = kept(world, (*struct[:6], objects, struct[7]))
         with pytest.raises(RenderError, match="MeshLength"):
-            world.call("Studio", "render(address)", "0x" + pointer.hex())
+            world.call("Studio", "render(address)", pointer)
     assert world.call("Studio", "render(address)", good) == render(SCENE).bmp
 
 
@@ -394,12 +403,10 @@ def test_what_is_refused_plain_is_refused_turned(
 ) -> None:
     """Position, rotation or scale of an object beyond their bounds, with the error that says so."""
     pointer = stored(world, SCENE)
-    struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
+    struct = struct_of(world, pointer)
     second = list(struct[6][1])
     second[field] = {1: (value, 0, 0), 2: (0, 0, 0, 0) if value is None else (value, 0, 0, 1 << 32), 3: value}[field]
-    broken = (
-        "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*struct[:6], [struct[6][0], tuple(second)], struct[7])).hex()
-    )
+    broken = kept(world, (*struct[:6], [struct[6][0], tuple(second)], struct[7]))
     changes = [] if turn is None else [(fields, turn, 0, (0, 0), 0, (8, 8))]
     with pytest.raises(RenderError, match=re.escape(error.format(value))):
         world.call("Studio", function, broken, *changes)
@@ -409,14 +416,12 @@ def test_what_is_refused_plain_is_refused_turned(
 def test_turned_however_long_the_rotations_are(world: World, length: int) -> None:
     """Only the direction of a rotation counts, that of the object and that of the turn."""
     tent = evolve(SCENE, objects=[SCENE.objects[1]])
-    struct = decode(
-        [SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", stored(world, tent)))
-    )[0]
+    struct = struct_of(world, stored(world, tent))
     pictures = []
     for own, turn in ((1 << 32, 1 << 32), (length, 1 << 32), (1 << 32, min(length, 1 << 48)), (length, 1)):
         o = list(struct[6][0])
         o[2] = (0, -own, 0, own)
-        pointer = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*struct[:6], [tuple(o)], struct[7])).hex()
+        pointer = kept(world, (*struct[:6], [tuple(o)], struct[7]))
         pictures.append(changed(world, pointer, fields=1, turn=(turn, 0, 0, -turn)))
     assert len(np.unique(pictures[0].reshape(-1, 3), axis=0)) > 20
     for picture in pictures[1:]:
@@ -442,9 +447,9 @@ def test_what_cannot_be_drawn_does_not_pass_the_check(
 ) -> None:
     pointer = stored(world, SCENE)
     world.run(world.address("Studio"), call_data("check(address)", pointer))
-    struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
+    struct = struct_of(world, pointer)
     others, objects = change(struct[:6], list(struct[6]))
-    broken = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*others, objects, struct[7])).hex()
+    broken = kept(world, (*others, objects, struct[7]))
     for function in ("check", "render"):
         with pytest.raises(RenderError, match=re.escape(error)):
             world.run(world.address("Studio"), call_data(f"{function}(address)", broken))

@@ -22,7 +22,7 @@ from tools.png_code import SIGNATURE, encode_png
 from evms import Ours, pyevm_call, pyrevm_call
 from shackled import Background, Camera, ChainError, Light, Material, Mesh, Object, RenderError, Scene, load, render
 from shackled.artifacts import artifact
-from shackled.chain import open_chain
+from shackled.deploy import local_chain
 from shackled.ethereum import word
 from shackled.scene import encode_scene, fit, from_euler, pack, rotate
 from shackled.studio import store_scene
@@ -58,7 +58,7 @@ def turned(
 
 
 def animate(scene: Scene, **spin: Any) -> bytes:
-    output = open_chain().call("Turntable", turned(scene, **spin)).output
+    output = local_chain().call("Turntable", turned(scene, **spin)).output
     return bytes(decode(["bytes"], output)[0])
 
 
@@ -264,14 +264,13 @@ def test_a_scene_that_cannot_be_drawn_is_refused(change: Any, error: str, hold: 
     (struct_,) = decode([kind], word(32) + encode_scene(fit(SCENE)))
     data = call_data(f"animate({kind},{SPIN})", change(struct_), (2, 50, 1, UPRIGHT, hold))
     with pytest.raises(RenderError) as caught:
-        open_chain().call("Turntable", data)
+        local_chain().call("Turntable", data)
     assert error in str(caught.value)
 
 
 def test_every_evm_agrees() -> None:
-    chain = open_chain()
-    chain.address("Turntable")
-    codes, address = chain.codes(), chain.address("Turntable")
+    chain = local_chain()
+    address, codes = chain.address("Turntable"), chain.codes()
     data = turned(evolve(SCENE, width=6, height=5), frames=2, hold=True)
     ours = Ours().call(codes, address, data, 10**8)
     assert len(decode(["bytes"], ours.output)[0]) > 200
@@ -280,7 +279,7 @@ def test_every_evm_agrees() -> None:
 
 
 def test_an_address_without_code_is_no_part() -> None:
-    chain = open_chain()
+    chain = local_chain()
     parts = [chain.address("Renderer"), chain.address("PngEncoder")]
     for place in range(2):
         given = [b"\x77" * 20 if at == place else part for at, part in enumerate(parts)]

@@ -35,8 +35,8 @@ from shackled.datasets.genesis import seed_of
 from shackled.errors import ChainError
 from shackled.image import encode_bmp
 from shackled.scene import LIGHT_KINDS, Background, Fog, Ground, Hemisphere, Rectangle, Rim, encode, resize
-from shackled.scene._material import Shading
-from shackled.scene._rotation import from_axis_angle, multiply
+from shackled.scene._arithmetic import from_axis_angle, multiply
+from shackled.scene._object import Shading
 from shackled.scene._texture import FILTERS, WRAPS
 from shackled.studio import ANIMATE, store_scene
 

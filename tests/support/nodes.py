@@ -46,6 +46,12 @@ class Node(Anvil):
         """A contract of ours as web3.py sees it."""
         return self.web3.eth.contract(address=Web3.to_checksum_address(address), abi=artifact(name).abi)
 
+    def transact(self, function: Any, sender: str, value: int = 0) -> Any:
+        """Send a transaction of web3.py; return its receipt."""
+        receipt = self.web3.eth.wait_for_transaction_receipt(function.transact({"from": sender, "value": value}))
+        assert receipt["status"] == 1
+        return receipt
+
     def mine(self, blocks: int) -> None:
         """Make so many blocks."""
         self.rpc("anvil_mine", hex(blocks))

@@ -28,7 +28,6 @@ __all__ = [
     "document",
     "documents",
     "genesis_document",
-    "mesh_keys",
     "object_keys",
     "wrong_documents",
 ]

@@ -27,7 +27,7 @@ from shackled.scene import (
     rotate,
     vertex_normals,
 )
-from shackled.scene._material import Shading
+from shackled.scene._object import Shading
 from shackled.scene._texture import FILTERS, WRAPS
 
 Array = NDArray[np.float64]

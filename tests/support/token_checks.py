@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
-from tools.tokens.world import Refused
+from tools.tokens.world import Contract, Refused
 
 #: How descriptions end.
 INDEPENDENT = "Not by the authors of the Shackled contracts of 2021, nor endorsed by them."
@@ -52,3 +52,14 @@ def refused(name: str, *values: Any) -> Iterator[None]:
     assert caught.value.name == name, caught.value
     if values:
         assert caught.value.values == values
+
+
+def succeeds(possible: bool, contract: Contract, function: str, *arguments: Any, sender: str, value: int = 0) -> bool:
+    """Send a transaction, and return whether it succeeded; that must be whether it is possible."""
+    try:
+        contract.send(function, *arguments, sender=sender, value=value)
+    except Refused:
+        assert not possible, function
+        return False
+    assert possible, function
+    return True

@@ -33,7 +33,7 @@ PRICE = 2 * 10**17
 def address(running_node: Node, genesis: str) -> str:
     """The collection, closed, with one token."""
     contract, accounts = running_node.contract("GenesisCollection", genesis), running_node.accounts
-    contract.functions.mintReserve(accounts[ALICE], 1).transact({"from": accounts[OWNER]})
+    running_node.transact(contract.functions.mintReserve(accounts[ALICE], 1), accounts[OWNER])
     return genesis
 
 
@@ -96,7 +96,7 @@ def test_costs_are_reported_and_nothing_is_sent_unasked(node: Node, address: str
         (("deploy", "genesis", "--price", "much"), 2, "--price must be an amount of ether"),
         (("deploy", "genesis", "--royalty", "11"), 2, "--royalty must be a finite number from 0 to 10, not 11"),
         (("deploy", "genesis", "--royalty", "nan"), 2, "--royalty must be a finite number from 0 to 10, not nan"),
-        (("mint", "1" + 40 * "0"), 2, "less than or equal to"),
+        (("mint", "1" + 40 * "0"), 2, "is not in the range"),
         (("deploy", "genesis", "--reserve", "1025", "--private-key-env", "KEY_0"), 2, "the reserve must be 0 to 1,024"),
         (("deploy", "genesis", "--allow-list", "none.csv"), 2, "the allow list none.csv cannot be read"),
     ],
@@ -124,7 +124,7 @@ def test_a_node_in_a_variable_sends_no_list(
 def test_without_a_signer_nobody_permits(node: Node, address: str, shackled: Shackled) -> None:
     contract = node.contract("GenesisCollection", address)
     root = contract.functions.allowListRoot().call()
-    contract.functions.setAllowList(root, "0x" + "00" * 20).transact({"from": node.accounts[OWNER]})
+    node.transact(contract.functions.setAllowList(root, "0x" + "00" * 20), node.accounts[OWNER])
     said = shackled("token", "permit", node.accounts[BOB], 1, user=OWNER, expect=2)
     assert said.error.startswith("shackled: the collection accepts no permissions yet")
 
@@ -180,7 +180,7 @@ def test_a_keystore_signs_too(
 
 def test_a_wrong_price_is_reported_in_words(node: Node, address: str) -> None:
     collection = open_collection(Connection(node.url), address)
-    node.contract("GenesisCollection", address).functions.setPhase(2).transact({"from": node.accounts[OWNER]})
+    node.transact(node.contract("GenesisCollection", address).functions.setPhase(2), node.accounts[OWNER])
     with pytest.raises(RevertError, match=r"^the price is 0.2 ether, but 0.15 ether was sent$"):
         collection.contract.call("mint", 1, sender=node.accounts[BOB], value=15 * 10**16)
 
@@ -252,9 +252,9 @@ def test_another_randomness_than_that_of_the_block_is_found(
     node: Node, address: str, shackled: Shackled, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     contract = node.contract("GenesisCollection", address)
-    contract.functions.setPhase(2).transact({"from": node.accounts[OWNER]})
+    node.transact(contract.functions.setPhase(2), node.accounts[OWNER])
     node.mine(40)
-    contract.functions.mint(1).transact({"from": node.accounts[BOB], "value": PRICE})
+    node.transact(contract.functions.mint(1), node.accounts[BOB], PRICE)
     token = contract.functions.totalSupply().call() - 1
     node.mine(200)
     shackled("token", "reveal", "--yes", user=BOB)

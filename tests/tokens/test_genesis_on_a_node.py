@@ -92,8 +92,7 @@ def test_the_whole_way_of_tokens(
     assert as_json["owner"] == node.accounts[CAROL]
 
     # the gas that is reported is that of a transaction
-    sent = contract.functions.tokenURI(4).transact({"from": node.accounts[OWNER]})
-    used = node.web3.eth.wait_for_transaction_receipt(sent)["gasUsed"]
+    used = node.transact(contract.functions.tokenURI(4), node.accounts[OWNER])["gasUsed"]
     data = bytes.fromhex(contract.encode_abi("tokenURI", [4])[2:])
     assert as_json["gas"] == used - 21000 - sum(16 if byte else 4 for byte in data)
     assert as_json["gas"] <= 13_000_000

@@ -13,6 +13,8 @@ from tools.tokens.merkle import proof_of, root_of
 from tools.tokens.stage import ALLOW_LIST, ICONS, LIMIT, PRICE, PUBLIC, RESERVE, stage
 from tools.tokens.world import ETHER, ZERO, Contract, Refused, account
 
+from token_checks import succeeds
+
 NAMES = ("alice", "bob", "carol", "dave")
 PEOPLE = [account(name) for name in NAMES]
 LISTED = {account("alice"): 3, account("bob"): 7, account("carol"): 2**256 - 1}
@@ -111,16 +113,10 @@ class Sales(RuleBasedStateMachine):
             and (not listed or (person in LISTED and self.spent.get((name, person), 0) + quantity <= allowed))
             and self.world.balance(person) >= value
         )
-        try:
-            if listed:
-                proof = proof_of(LISTED, person) if person in LISTED else proof_of(LISTED, PEOPLE[0])
-                contract.send("mintWithProof", *first, quantity, allowed, proof, sender=person, value=value)
-            else:
-                contract.send("mint", *first, quantity, sender=person, value=value)
-        except Refused:
-            assert not possible
+        proof = proof_of(LISTED, person if person in LISTED else PEOPLE[0])
+        function, more = ("mintWithProof", (allowed, proof)) if listed else ("mint", ())
+        if not succeeds(possible, contract, function, *first, quantity, *more, sender=person, value=value):
             return False
-        assert possible
         if listed:
             self.spent[name, person] = self.spent.get((name, person), 0) + quantity
         self.paid[person] += value
@@ -137,12 +133,7 @@ class Sales(RuleBasedStateMachine):
     def transfer(self, name: str, start: str, end: str, by: str, token: int) -> None:
         tokens = self.tokens[name]
         possible = token < len(tokens) and tokens[token] == start == by
-        try:
-            self._contract(name).send("safeTransferFrom", start, end, token, sender=by)
-        except Refused:
-            assert not possible
-        else:
-            assert possible
+        if succeeds(possible, self._contract(name), "safeTransferFrom", start, end, token, sender=by):
             tokens[token] = end
 
     @precondition(lambda self: self.tokens["genesis"])
@@ -169,35 +160,21 @@ class Sales(RuleBasedStateMachine):
         if not possible and block < self.world.number:
             return
         header = self.world.header(block + 1 if other else block) if possible else b""
-        try:
-            self.s.genesis.send("reveal", [round_], [header], sender=by)
-        except Refused:
-            assert not possible or (other and round_ not in self.revealed)
-        else:
-            assert possible
-            assert not other or round_ in self.revealed
+        possible = possible and (not other or round_ in self.revealed)
+        if succeeds(possible, self.s.genesis, "reveal", [round_], [header], sender=by):
             self.revealed.add(round_)
 
     # ---- what the owner does ----
 
     @rule(name=st.sampled_from(["genesis", "icons"]), phase=st.sampled_from([PUBLIC, PUBLIC, ALLOW_LIST, 0, 3]))
     def set_phase(self, name: str, phase: int) -> None:
-        try:
-            self._contract(name).send("setPhase", phase, sender=self.owner)
-        except Refused:
-            assert phase == 3
-        else:
+        if succeeds(phase != 3, self._contract(name), "setPhase", phase, sender=self.owner):
             self.phases[name] = phase
 
     @rule(to=people, quantity=quantities)
     def mint_reserve(self, to: str, quantity: int) -> None:
         possible = 0 < quantity <= min(LIMIT, RESERVE - self.reserve_minted)
-        try:
-            self.s.genesis.send("mintReserve", to, quantity, sender=self.owner)
-        except Refused:
-            assert not possible
-        else:
-            assert possible
+        if succeeds(possible, self.s.genesis, "mintReserve", to, quantity, sender=self.owner):
             self.reserve_minted += quantity
             self._add("genesis", to, quantity)
 
@@ -205,24 +182,14 @@ class Sales(RuleBasedStateMachine):
     def mint_icon_reserve(self, to: str, quantity: int, icon: int) -> None:
         reserve = list(ICONS.values())[icon][2]
         possible = 0 < quantity <= reserve - self.icons[icon][1]
-        try:
-            self.s.icons.send("mintReserve", icon, to, quantity, sender=self.owner)
-        except Refused:
-            assert not possible
-        else:
-            assert possible
+        if succeeds(possible, self.s.icons, "mintReserve", icon, to, quantity, sender=self.owner):
             self.icons[icon][1] += quantity
             self._add("icons", to, quantity)
             self.kinds += [icon] * quantity
 
     @rule(name=st.sampled_from(["genesis", "icons"]), by=st.sampled_from([*PEOPLE, account("owner")]))
     def withdraw(self, name: str, by: str) -> None:
-        try:
-            self._contract(name).send("withdraw", account("treasury"), sender=by)
-        except Refused:
-            assert by != self.owner
-        else:
-            assert by == self.owner
+        if succeeds(by == self.owner, self._contract(name), "withdraw", account("treasury"), sender=by):
             self.fetched += self.taken[name]
             self.taken[name] = 0
 

@@ -68,7 +68,7 @@ def test_an_old_block_is_proven_by_the_headers_after_it(
         receipts: dict[str, list[Receipt]] = {}
         for step in reveal_calls(collection, rounds):
             done = perform(user, contract, step.function, *step.arguments, gas=step.gas)
-            assert done.gas <= step.gas
+            assert done.gas <= (step.gas or 0)
             receipts.setdefault(step.function, []).append(done)
         # one transaction does not take all headers, and the older round begins where the younger one ended
         assert len(receipts["keepHash"]) == 3

@@ -59,7 +59,7 @@ def test_what_allows_everything_is_taken(stated: str) -> None:
     ],
 )
 def test_what_is_not_known_to_allow_it_is_refused(stated: str) -> None:
-    with pytest.raises(InputError, match=r"must not be minted .* not known to allow commercial use of changed copies"):
+    with pytest.raises(InputError, match=r"must not be stored .* not known to allow commercial use of changed copies"):
         licence_of(FILE, stated)
 
 
@@ -72,7 +72,7 @@ def test_a_licence_must_be_stated(stated: str | None, reason: str) -> None:
 @pytest.mark.parametrize("name", ["nefertiti", "3dbenchy"])
 def test_models_whose_licence_is_in_dispute_are_refused(name: str) -> None:
     assert not require(name).commercial
-    with pytest.raises(InputError, match=f"^{name} must not be minted: its licence .* is not known to allow"):
+    with pytest.raises(InputError, match=f"^{name} must not be stored: its licence .* is not known to allow"):
         licence_of(require(name), None)
 
 
@@ -82,5 +82,5 @@ def test_pieces_bring_their_licence_along() -> None:
         if piece.commercial:
             assert licence_of(piece, None) == piece.licence
         else:
-            with pytest.raises(InputError, match=f"{piece.name} must not be minted"):
+            with pytest.raises(InputError, match=f"{piece.name} must not be stored"):
                 licence_of(piece, None)

@@ -134,8 +134,8 @@ def test_the_price_is_known_before_an_account_is_named(shackled: Shackled) -> No
 @pytest.mark.parametrize(
     ("arguments", "code", "said"),
     [
-        (("store", "bunny", "--yes"), 2, "bunny must not be minted: its licence (Stanford 3D Scanning Repository"),
-        (("store", "suzanne", "--yes"), 2, "suzanne must not be minted"),
+        (("store", "bunny", "--yes"), 2, "bunny must not be stored: its licence (Stanford 3D Scanning Repository"),
+        (("store", "suzanne", "--yes"), 2, "suzanne must not be stored"),
         (("store", "icons/heart", "--licence", "MIT"), 2, "--licence is for files"),
         (("store", "icons/rocket"), 2, "nothing was sent: name an account"),
         (("store", "icons/none"), 2, "there is no piece 'icons/none'"),
@@ -145,7 +145,7 @@ def test_the_price_is_known_before_an_account_is_named(shackled: Shackled) -> No
         (("token", "picture", "0x" + "12" * 20, "-o", "a.gif"), 2, "must end in .png"),
         (("token", "deploy", "icons", "--icons", "nothing"), 2, "there is no piece 'nothing'"),
         (("token", "deploy", "icons", "--icons", "heart,heart"), 2, "icons/heart is named twice"),
-        (("token", "deploy", "icons", "--icons", "bunny"), 2, "bunny must not be minted"),
+        (("token", "deploy", "icons", "--icons", "bunny"), 2, "bunny must not be stored"),
         (("token", "deploy", "icons", "--supply", "1", "--reserve", "2"), 2, "no more in the reserve"),
         (("token", "deploy", "genesis", "--icons", "heart"), 2, "--icons and --supply are for collections of icons"),
         (("token", "mint", "--icon", "heart", "-c", "genesis"), 2, "the address book has no genesis collection"),

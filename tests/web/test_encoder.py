@@ -29,8 +29,8 @@ from shackled.artifacts import artifact
 from shackled.datasets import pieces
 from shackled.image import decode_bmp
 from shackled.scene import Hemisphere, Rectangle, decode, encode, encode_scene_file, render_call
+from shackled.scene._arithmetic import from_axis_angle, multiply
 from shackled.scene._files.original import original_scene
-from shackled.scene._rotation import from_axis_angle, multiply
 from shackled.scene._turning import turn
 
 SCRIPT = Path(__file__).with_name("calls.mjs")

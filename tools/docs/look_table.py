@@ -5,7 +5,6 @@ python -m tools.docs.look_table
 
 from __future__ import annotations
 
-from shackled.cli.look_options import option_of
 from shackled.scene import SETTINGS
 from tools.pages import DOCS
 
@@ -17,7 +16,7 @@ def table() -> str:
     """Return the table in Markdown."""
     lines = ["| keyword | option | what it sets | values | default |", "|---|---|---|---|---|"]
     for setting in SETTINGS:
-        option = option_of(setting).replace("/", "`, `")
+        option = setting.option.replace("/", "`, `")
         lines.append(f"| `{setting.name}` | `{option}` | {setting.text} | {setting.values} | {setting.default} |")
     return "\n".join(lines) + "\n"
 

@@ -1,8 +1,7 @@
 from ._deploy import deployment_gas
 from ._measure import call, call_renderer, gas
 from ._original import DEPLOYMENT_GAS, original, original_gas
-from ._plots import can_plot
-from ._report import millions, table
+from ._report import can_plot, millions, table
 from ._runner import EXPERIMENTS, Runner, check_names
 
 __all__ = [

@@ -12,8 +12,7 @@ from PIL import Image as PillowImage
 from ..scene import Projection
 from ._measure import cost, picture
 from ._original import original_gas
-from ._plots import ORIGINAL, OURS, powers_of_two
-from ._report import ExperimentReport, millions, ratio, table
+from ._report import ORIGINAL, OURS, ExperimentReport, millions, powers_of_two, ratio, table
 from ._runner import Runner
 from .scenes import cube
 
@@ -81,10 +80,10 @@ def _text(sides: tuple[int, ...], gas: Series, theirs: dict[tuple[Projection, in
         lines.append(line)
     head = ["canvas", "perspective: original", "ours", "ratio", "orthographic: original", "ours", "ratio"]
     return (
-        f"From {first} x {first} to {last} x {last} pixels the gas of the cube grows with the side to the power of"
-        f" {ours:.2f} (2 would be: with the pixels); that of the original to the power of {log2(after / before):.2f},"
-        " because the price of memory grows with its square. The orthographic cube is cheaper here: the eye is"
-        " infinitely far away, so that each face has one highlight for all its pixels.\n\n" + table(head, lines)
+        f"From {first} x {first} to {last} x {last} pixels gas grows as side^{ours:.2f} here (linear in pixels would be"
+        f" 2) and as side^{log2(after / before):.2f} in the original, where memory is priced quadratically. The"
+        " orthographic cube is cheaper here: the eye is infinitely far away, so that each face has one highlight for"
+        " all its pixels.\n\n" + table(head, lines)
     )
 
 

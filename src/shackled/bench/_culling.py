@@ -14,8 +14,7 @@ from ..datasets.common import builtin
 from ..scene import resize
 from ._measure import cost, picture
 from ._original import PAPER_CULLED, PAPER_CULLING_RATIO, PAPER_UNCULLED, original
-from ._plots import FOURTH, OURS
-from ._report import ExperimentReport, millions, table
+from ._report import FOURTH, OURS, ExperimentReport, millions, table
 from ._runner import Runner
 
 if TYPE_CHECKING:

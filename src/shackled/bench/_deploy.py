@@ -10,8 +10,7 @@ from ..deploy import STANDARD
 from ..ethereum import intrinsic_gas
 from ..evm import Instance
 from ._original import CODE_SIZES, DEPLOYMENT_GAS, PAPER_DEPLOYMENT_ETHER
-from ._plots import ORIGINAL, OURS
-from ._report import Cell, ExperimentReport, millions, table
+from ._report import ORIGINAL, OURS, Cell, ExperimentReport, millions, table
 from ._runner import Runner
 
 if TYPE_CHECKING:

@@ -13,8 +13,7 @@ from ..chain import CHAINS, ContractChain, NodeChain, open_chain, open_node
 from ..datasets import teapot
 from ..errors import RenderError
 from ..scene import Scene, encode, stage
-from ._plots import FOURTH, ORIGINAL, OURS, THIRD
-from ._report import Cell, ExperimentReport, millions, table
+from ._report import FOURTH, ORIGINAL, OURS, THIRD, Cell, ExperimentReport, millions, table
 from ._runner import Runner
 from .scenes import cube, equal_triangles
 

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import astuple, dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ..datasets import require
 from ._measure import cost
-from ._original import original
-from ._plots import INK, ORIGINAL, OURS, THIRD
-from ._report import ExperimentReport, millions, table
+from ._original import Measured, original
+from ._report import INK, ORIGINAL, OURS, THIRD, ExperimentReport, millions, table
 from ._runner import Runner
 from .fits import Column, r2_of
 
@@ -29,37 +28,37 @@ class GenesisCost:
     """Faces of the mesh; triangles that survive culling; covered pixels; whether only edges are drawn."""
 
     number: int
-    faces: int
+    triangles: int
     drawn: int
     lit_pixels: int
     wireframe: bool
     gas: int
 
 
+Pieces = Sequence[GenesisCost | Measured]
+
+
 def run(runner: Runner) -> ExperimentReport:
     """Measure every piece."""
     found = runner.map("genesis", measure, QUICK_PIECES if runner.quick else PIECES)
-    gas = np.array([piece.gas for piece in found], float)
     theirs = [figures for name, figures in original().items() if name.startswith("genesis_")]
 
     def draw(figure: Figure) -> None:
         left, middle, right = figure.subplots(1, 3)
-        _panel(left, [f.triangles for f in theirs], [f.gas / 1e9 for f in theirs], ORIGINAL)
+        _panel(left, theirs, "triangles", 1e9, ORIGINAL)
         left.set(title=f"original, {len(theirs)} pieces", xlabel="triangles", ylabel="gas, billions")
         solid, wires = ([p for p in found if p.wireframe is wireframe] for wireframe in (False, True))
-        for axes, name in ((middle, "faces"), (right, "lit_pixels")):
-            axes.plot(
-                [getattr(p, name) for p in wires], [p.gas / 1e6 for p in wires], "x", color=THIRD, ms=3.5, alpha=0.7
-            )
-            _panel(axes, [getattr(p, name) for p in solid], [p.gas / 1e6 for p in solid], OURS)
+        for axes, name in ((middle, "triangles"), (right, "lit_pixels")):
+            axes.plot(_column(wires, name), _column(wires, "gas") / 1e6, "x", color=THIRD, ms=3.5, alpha=0.7)
+            _panel(axes, solid, name, 1e6, OURS)
         middle.set(title=f"Shackled now, {len(found)} pieces", xlabel="triangles", ylabel="gas, millions")
         right.set(title="x: wireframe, not fitted", xlabel="lit pixels")
 
     return ExperimentReport(
         "Genesis: gas against triangles",
         ["piece", "triangles", "drawn", "lit_pixels", "wireframe", "gas"],
-        [[p.number, p.faces, p.drawn, p.lit_pixels, int(p.wireframe), p.gas] for p in found],
-        _text(found, gas, [(figures.triangles, figures.lit_pixels, figures.gas) for figures in theirs]),
+        [[int(value) for value in astuple(piece)] for piece in found],
+        _text(found, theirs),
         draw,
         (9.6, 3.2),
     )
@@ -73,55 +72,52 @@ def measure(number: int) -> GenesisCost:
     return GenesisCost(number, scene.triangles, found.triangles, found.lit_pixels, wireframe, found.gas)
 
 
-def line(x: ArrayLike, y: ArrayLike) -> tuple[float, float, float]:
+def line(x: Column, y: Column) -> tuple[float, float, float]:
     """Return slope and constant by numpy.polyfit, as the paper does, and R2."""
-    x, y = np.asarray(x, float), np.asarray(y, float)
     slope, constant = np.polyfit(x, y, 1)
     return float(slope), float(constant), r2_of(y, slope * x + constant)
 
 
-def _panel(axes: Axes, x: list[int], y: list[float], color: str) -> None:
+def _column(pieces: Pieces, name: str) -> Column:
+    return np.array([getattr(piece, name) for piece in pieces], float)
+
+
+def _panel(axes: Axes, pieces: Pieces, name: str, unit: float, color: str) -> None:
+    x, y = _column(pieces, name), _column(pieces, "gas") / unit
     axes.plot(x, y, "o", color=color, ms=3, alpha=0.5, mew=0)
     slope, constant, r2 = line(x, y)
-    ends = np.array([min(x), max(x)])
+    ends = np.array([x.min(), x.max()])
     axes.plot(ends, slope * ends + constant, "-", color=INK, lw=1.2)
     axes.text(0.97, 0.03, f"R2 {r2:.3f}", transform=axes.transAxes, ha="right")
     axes.set(xlim=(0, None), ylim=(0, None))
 
 
-def _text(found: list[GenesisCost], gas: Column, theirs: list[tuple[int, int, int]]) -> str:
-    solid = [piece for piece in found if not piece.wireframe]
-    lines = [
-        ["original", str(len(theirs)), *_line("triangles", [f[0] for f in theirs], [f[2] for f in theirs])],
-        ["original", str(len(theirs)), *_line("lit pixels", [f[1] for f in theirs], [f[2] for f in theirs])],
-        ["ours", str(len(found)), *_line("triangles", [p.faces for p in found], gas)],
-        ["ours", str(len(found)), *_line("lit pixels", [p.lit_pixels for p in found], gas)],
-        ["ours, no wireframes", str(len(solid)), *_line("triangles", [p.faces for p in solid], [p.gas for p in solid])],
-        [
-            "ours, no wireframes",
-            str(len(solid)),
-            *_line("lit pixels", [p.lit_pixels for p in solid], [p.gas for p in solid]),
-        ],
-    ]
-    before_gas = np.array([f[2] for f in theirs], float)
-    faces = [piece.faces for piece in found]
-    ranks = [["original", *_spread(before_gas, 0)], ["ours", *_spread(gas, 2)]]
+def _text(found: list[GenesisCost], theirs: list[Measured]) -> str:
+    groups: dict[str, Pieces] = {
+        "original": theirs,
+        "ours": found,
+        "ours, no wireframes": [p for p in found if not p.wireframe],
+    }
+    lines = []
+    for group, pieces in groups.items():
+        for name in ("triangles", "lit_pixels"):
+            slope, constant, r2 = line(_column(pieces, name), _column(pieces, "gas"))
+            fit = [f"{constant:,.0f} {slope:+,.1f} x", f"{r2:.4f}"]
+            lines.append([group, str(len(pieces)), name.replace("_", " "), *fit])
+    before, gas, faces = _column(theirs, "gas"), _column(found, "gas"), [piece.triangles for piece in found]
     over = int((gas + 21000 > 1 << 24).sum())
     return (
         f"{len(found)} pieces, {min(faces)} to {max(faces)} triangles; on average"
-        f" {before_gas.mean() / gas.mean():,.0f} times less gas than the {len(theirs)} pieces of the original that were"
+        f" {before.mean() / gas.mean():,.0f} times less gas than the {len(theirs)} pieces of the original that were"
         f" measured. What a piece costs now follows the pixels it covers rather than its triangles. The most"
         f" expensive takes {millions(gas.max())}; {'none is' if not over else f'{over} are'} above the 16.777M of one"
         " transaction.\n\n"
-        + table(["gas", "least", "median", "mean", "most"], ranks)
+        + table(
+            ["gas", "least", "median", "mean", "most"], [["original", *_spread(before, 0)], ["ours", *_spread(gas, 2)]]
+        )
         + "\n\nLines by `numpy.polyfit`:\n\n"
         + table(["pieces", "number", "against", "line", "R2"], lines)
     )
-
-
-def _line(against: str, x: ArrayLike, gas: ArrayLike) -> list[str]:
-    slope, constant, r2 = line(x, gas)
-    return [against, f"{constant:,.0f} {slope:+,.1f} x", f"{r2:.4f}"]
 
 
 def _spread(gas: Column, digits: int) -> list[str]:

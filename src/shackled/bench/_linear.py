@@ -10,10 +10,9 @@ import numpy as np
 from ..scene import Light, Material, Scene
 from ._measure import cost
 from ._original import original
-from ._plots import FOURTH, OURS, THIRD
-from ._report import ExperimentReport, table
+from ._report import FOURTH, OURS, THIRD, ExperimentReport, table
 from ._runner import Runner
-from .fits import Column, fit, line, quadratic_share
+from .fits import Column, fit, quadratic_share
 from .scenes import GLOSSY, MATTE, SUN, UNLIT, cube, equal_triangles, square, turned_cube
 
 if TYPE_CHECKING:
@@ -55,9 +54,9 @@ def run(runner: Runner) -> ExperimentReport:
     def draw(figure: Figure) -> None:
         left, right = figure.subplots(1, 2)
         for look in LOOKS:
-            for axes, kind, place in ((left, "squares", 1), (right, "cubes", 2)):
-                _, *columns = columns_of(rows, f"{look} {kind}")
-                x, gas = columns[place - 1], columns[2] / 1e6
+            for axes, kind, place in ((left, "squares", 0), (right, "cubes", 1)):
+                columns = columns_of(rows, f"{look} {kind}")
+                x, gas = columns[place], columns[2] / 1e6
                 constant, slope = fit([x], gas).coefficients
                 axes.plot(x, gas, MARKS[look], color=COLORS[look], ms=3.5, label=look)
                 axes.plot(x, constant + slope * x, ":", color=COLORS[look], lw=1)
@@ -82,32 +81,27 @@ def cubes(look: str, sides: Sequence[int] = SIDES) -> list[Scene]:
     return [turned_cube(side, material, lights) for side in sides]
 
 
-def columns_of(rows: list[Row], *series: str) -> tuple[str, Column, Column, Column]:
-    """Return triangles, pixels and gas of some series, behind the name of the first."""
+def columns_of(rows: list[Row], *series: str) -> tuple[Column, Column, Column]:
+    """Return triangles, pixels and gas of some series."""
     columns = np.array([row[1:] for row in rows if row[0] in series], float).T
-    return series[0], columns[0], columns[1], columns[2]
+    return columns[0], columns[1], columns[2]
 
 
 def _text(rows: list[Row]) -> str:
     lines = []
-    for name, kind in (("tris", "equal triangles"), ("cube_persp", "cubes")):
-        found = sorted((f for key, f in original().items() if key.startswith(f"{name}_")), key=lambda f: f.gas)
-        gas = np.array([f.gas for f in found], float)
-        if name == "tris":
-            x, quantity = np.array([f.triangles for f in found], float), "triangles"
-        else:
-            x, quantity = np.array([f.canvas**2 for f in found], float), "pixels"
-        lines.append(_fitted(f"original: {kind}", {quantity: x}, gas))
-    _, triangles, _, gas = columns_of(rows, "equal triangles")
-    lines.append(_fitted("ours: equal triangles", {"triangles": triangles}, gas))
-    _, _, pixels, gas = columns_of(rows, "cubes of the original")
-    lines.append(_fitted("ours: cubes", {"pixels": pixels}, gas))
+    for name, kind, quantity in (("tris_", "equal triangles", "triangles"), ("cube_persp_", "cubes", "pixels")):
+        found = sorted((f for key, f in original().items() if key.startswith(name)), key=lambda f: f.gas)
+        x = [f.triangles if quantity == "triangles" else f.canvas**2 for f in found]
+        lines.append(
+            _fitted(f"original: {kind}", {quantity: np.array(x, float)}, np.array([f.gas for f in found], float))
+        )
+    series = {"equal triangles": "equal triangles", "cubes": "cubes of the original"}
+    series |= {f"{look} {kind}": f"{look} {kind}" for look in LOOKS for kind in ("squares", "cubes")}
+    for name, each in series.items():
+        triangles, pixels, gas = columns_of(rows, each)
+        lines.append(_fitted(f"ours: {name}", {"pixels": pixels} if "cubes" in name else {"triangles": triangles}, gas))
     for look in LOOKS:
-        _, triangles, _, gas = columns_of(rows, f"{look} squares")
-        lines.append(_fitted(f"ours: {look} squares", {"triangles": triangles}, gas))
-        _, _, pixels, gas = columns_of(rows, f"{look} cubes")
-        lines.append(_fitted(f"ours: {look} cubes", {"pixels": pixels}, gas))
-        _, triangles, pixels, gas = columns_of(rows, f"{look} squares", f"{look} cubes")
+        triangles, pixels, gas = columns_of(rows, f"{look} squares", f"{look} cubes")
         lines.append(_fitted(f"ours: {look}, all", {"triangles": triangles, "pixels": pixels}, gas))
     counts = [row[1] for row in rows if row[0] == "unlit squares"]
     return (
@@ -122,7 +116,10 @@ def _text(rows: list[Row]) -> str:
 
 
 def _fitted(name: str, columns: dict[str, Column], gas: Column) -> list[str]:
-    """Return the row of a fit; a term with a square is tried where there is one quantity."""
+    """Return the row of a fit: its gas, R2, and the share of a term with a square where there is one quantity."""
     x = list(columns.values())
+    found = fit(x, gas)
+    constant, *slopes = found.coefficients
+    terms = [f"{slope:+,.1f} {quantity}" for slope, quantity in zip(slopes, columns, strict=True)]
     square = f"{quadratic_share(x, gas):+.2%}" if len(x) == 1 else ""
-    return [*line(name, list(columns), fit(x, gas)), square]
+    return [name, " ".join([f"{constant:,.0f}", *terms]), f"{found.r2:.6f}", square]

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 from ._measure import call_renderer
 from ._original import DATA_URI_SIZE, SVG_GAS, SVG_URI_SIZE
-from ._plots import FOURTH, OURS, THIRD, powers_of_two
-from ._report import Cell, ExperimentReport, millions, table
+from ._report import FOURTH, OURS, THIRD, Cell, ExperimentReport, millions, powers_of_two, table
 from ._runner import Runner
 from .scenes import cube
 

@@ -1,4 +1,4 @@
-"""Run experiments by name, in several processes, with a progress bar.
+"""Run experiments by name, in several processes.
 
 An experiment is a module with `run(runner) -> ExperimentReport`.
 """
@@ -8,11 +8,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator
 from importlib import import_module
-from types import TracebackType
 from typing import TypeVar
-
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 from ..errors import InputError
 from ..workers import each
@@ -20,6 +16,8 @@ from ._report import ExperimentReport
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
+#: Shows the progress of several calls.
+Show = Callable[[str, int, int], None]
 
 #: In the order of the paper.
 EXPERIMENTS = {
@@ -42,38 +40,24 @@ def check_names(names: Iterable[str]) -> None:
 
 
 class Runner:
-    """A context in which experiments run."""
+    """What experiments run in."""
 
-    def __init__(self, quick: bool = False, processes: int | None = None, rpc: str | None = None) -> None:
+    def __init__(
+        self, quick: bool = False, processes: int | None = None, rpc: str | None = None, show: Show | None = None
+    ) -> None:
         """Start nothing yet.
 
         quick: whether to use a few small scenes, as a check that everything works. processes: how many; None is one
         for each core, since embedded EVMs hold the interpreter's lock. rpc: a node that `engines` measures too.
+        show: called with a label, and how many calls of it are done, of how many.
         """
         self.rpc = rpc
         self.quick = quick
         self.processes = processes or os.cpu_count() or 1
-        self._progress = Progress(
-            TextColumn("{task.description:10}"),
-            BarColumn(),
-            MofNCompleteColumn(),
-            TimeElapsedColumn(),
-            TimeRemainingColumn(),
-            console=Console(stderr=True),
-        )
-
-    def __enter__(self) -> Runner:
-        self._progress.start()
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self._progress.stop()
+        self._show = show
 
     def run(self, name: str) -> ExperimentReport:
-        """Run one of EXPERIMENTS. InputError for another name."""
-        check_names([name])
+        """Run one of EXPERIMENTS."""
         report: ExperimentReport = import_module(f"._{name}", __package__).run(self)
         return report
 
@@ -86,7 +70,6 @@ class Runner:
         all run one after the other in this process, for measurements of time.
         """
         items = list(items)
-        task = self._progress.add_task(label, total=len(items))
         results: dict[int, Result] = {}
         if alone or self.processes == 1:
             found: Iterator[tuple[int, Result]] = ((place, function(item)) for place, item in enumerate(items))
@@ -94,5 +77,6 @@ class Runner:
             found = each(function, items, self.processes)
         for place, result in found:
             results[place] = result
-            self._progress.advance(task)
+            if self._show is not None:
+                self._show(label, len(results), len(items))
         return [results[place] for place in range(len(items))]

@@ -9,8 +9,7 @@ from PIL import Image as PillowImage
 
 from ._measure import cost, picture
 from ._original import original_gas
-from ._plots import ORIGINAL, OURS
-from ._report import ExperimentReport, millions, ratio, table
+from ._report import ORIGINAL, OURS, ExperimentReport, millions, ratio, table
 from ._runner import Runner
 from .fits import Column, LinearFit, fit, quadratic_share
 from .scenes import equal_triangles

@@ -38,10 +38,3 @@ def quadratic_share(columns: list[Column], gas: Column) -> float:
     """Return the share of the gas of the last scene that a term with the square of the first column takes in a fit."""
     with_square = fit([*columns, columns[0] ** 2], gas)
     return float(with_square.coefficients[-1] * columns[0][-1] ** 2 / gas[-1])
-
-
-def line(name: str, quantities: Sequence[str], by: LinearFit) -> list[str]:
-    """Write a row of a table: what was fitted, the gas by the fit, R2."""
-    constant, *slopes = by.coefficients
-    terms = [f"{slope:+,.1f} {quantity}" for slope, quantity in zip(slopes, quantities, strict=True)]
-    return [name, " ".join([f"{constant:,.0f}", *terms]), f"{by.r2:.6f}"]

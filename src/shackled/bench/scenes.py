@@ -8,8 +8,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..scene import Background, Camera, Light, Material, Mesh, Object, Projection, Scene, from_euler, rotate
+from .fits import Column
 
 NIGHT = Background((0, 0, 40), (0, 0, 160))
 SUN = Light("directional", (1, 2, 3))
@@ -68,12 +70,8 @@ def turned_cube(size: int, material: Material = GLOSSY, lights: Sequence[Light] 
 
 def square(divisions: int, size: int, material: Material = GLOSSY, lights: Sequence[Light] = (SUN,)) -> Scene:
     """Make a square in front of the camera, of 2 * divisions^2 triangles."""
-    return before_camera(square_mesh(divisions), size, material, lights)
-
-
-def before_camera(mesh: Mesh, size: int, material: Material = GLOSSY, lights: Sequence[Light] = (SUN,)) -> Scene:
-    """Place a mesh in front of the default camera."""
-    return Scene([Object(mesh, (0, 0, -DISTANCE), material=material)], Camera(), lights, NIGHT, width=size, height=size)
+    placed = Object(square_mesh(divisions), (0, 0, -DISTANCE), material=material)
+    return Scene([placed], Camera(), lights, NIGHT, width=size, height=size)
 
 
 def cube_mesh(half: int = 500) -> Mesh:
@@ -85,13 +83,19 @@ def cube_mesh(half: int = 500) -> Mesh:
 def square_mesh(divisions: int) -> Mesh:
     """Make a square that faces +z, of 2 * divisions^2 triangles."""
     half = 840  # a multiple of most numbers up to 24
-    at = np.rint(np.linspace(-half, half, divisions + 1))
-    x, y = (axis.ravel() for axis in np.meshgrid(at, at))
-    grid = np.arange(x.size).reshape(divisions + 1, divisions + 1)
-    a, b, c, d = (corner.ravel() for corner in (grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]))
-    faces = np.stack([a, b, c, a, c, d], axis=1).reshape(-1, 3)
+    x, y, faces = grid(divisions)
+    x, y = np.rint(half * x), np.rint(half * y)
     share = np.stack([x + half, y + half, half - x], axis=1) / (2 * half)
     return Mesh(np.stack([x, y, 0 * x], axis=1), faces, np.rint(255 * share))
+
+
+def grid(divisions: int) -> tuple[Column, Column, NDArray[np.int64]]:
+    """Return x and y from -1 to 1 of the points of a square grid, and its triangles, which face +z."""
+    at = np.linspace(-1, 1, divisions + 1)
+    x, y = (axis.ravel() for axis in np.meshgrid(at, at))
+    points = np.arange(x.size).reshape(divisions + 1, divisions + 1)
+    a, b, c, d = (corner.ravel() for corner in (points[:-1, :-1], points[:-1, 1:], points[1:, 1:], points[1:, :-1]))
+    return x, y, np.stack([a, b, c, a, c, d], axis=1).reshape(-1, 3)
 
 
 def _cube_faces() -> list[tuple[int, int, int]]:

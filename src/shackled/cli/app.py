@@ -14,9 +14,10 @@ from click.shell_completion import get_completion_class
 
 from ..errors import InputError, InputWarning, ShackledError
 from ..untrusted import plain
+from ..words import INSTEAD, SAME
 from .command import CommandGroup
-from .notes import noting
-from .option import MEANT, with_options
+from .option import MEANT, option_names, with_options
+from .output import noting
 
 datasets = CommandGroup(
     "datasets",
@@ -25,7 +26,7 @@ datasets = CommandGroup(
 )
 library = CommandGroup(
     "library",
-    {name: f"library:{name}" for name in ("list", "store")},
+    {"list": "store:list", "store": "store:store_items"},
     "List and store the library: icons and common objects that any contract can draw.",
 )
 edition = CommandGroup(
@@ -37,9 +38,7 @@ token = CommandGroup(
     "token",
     {
         "deploy": "token.deploy:deploy",
-        **{name: f"token.icons:{name}" for name in ("add", "seal")},
-        **{name: f"token.allow_list:{name}" for name in ("allow-list", "permit")},
-        "phase": "token.owner:phase",
+        **{name: f"token.owner:{name}" for name in ("add", "seal", "allow-list", "permit", "phase")},
         **{name: f"token.sale:{name}" for name in ("mint", "reveal")},
         **{name: f"token.show:{name}" for name in ("show", "list", "verify", "picture")},
         "transfer": "token.sale:transfer",
@@ -103,7 +102,11 @@ def _help() -> None:
 
 app = Root(
     "shackled",
-    {**{name: f"{name}:{name}" for name in LINES}, **{str(each.name): each for each in GROUPS}},
+    {
+        **{name: f"{name}:{name}" for name in LINES},
+        "stages": "render:stages",
+        **{str(each.name): each for each in GROUPS},
+    },
     "Render 3D scenes with Ethereum smart contracts.",
     callback=_help,
     params=[
@@ -163,8 +166,13 @@ def _meant(error: click.ClickException) -> str | None:
     """Return what a usage error with another word for a command or an option says; None for other errors."""
     context: Any = getattr(error, "ctx", None)
     if isinstance(error, click.NoSuchOption) and context is not None:
-        right, known = MEANT.get(error.option_name), {name for each in context.command.params for name in each.opts}
-        return f"no such option {error.option_name}: it is {right}" if right in known else None
+        given, known = error.option_name, {name for each in context.command.params for name in each.opts}
+        keyword = given.lstrip("-").replace("-", "_")
+        same = {**SAME["look"], **SAME["render"]}.get(keyword)
+        right = MEANT.get(given) or (None if same is None else option_names().get(same))
+        if right in known:
+            return f"no such option {given}: it is {right}"
+        return f"no such option {given}: {INSTEAD[keyword]}" if keyword in INSTEAD and "--fov" in known else None
     command = re.match(r"No such command '(\w+)'", error.format_message())
     right = MEANT.get(command[1]) if command is not None and context.parent is None else None
     return None if command is None or right is None else f"no such command {command[1]}: it is {right}"

@@ -9,6 +9,7 @@ from typing import Annotated
 from ..errors import InputError
 from ..whole_file import check_output_folder
 from .option import argument, option
+from .progress import LateBar
 
 
 def bench(
@@ -39,6 +40,7 @@ def bench(
     folder = check_output_folder(Path(output))
     if not can_plot():
         print("no plots: they need matplotlib (pip install 'shackled[bench]')", file=sys.stderr)
-    with Runner(quick, processes, rpc) as runner:
+    with LateBar("measuring") as bar:
+        runner = Runner(quick, processes, rpc, lambda label, done, total: bar.set(done, total, label))
         written = [path for name in chosen for path in runner.run(name).save(name, folder)]
     print("\n".join(str(path) for path in written))

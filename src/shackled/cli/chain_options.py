@@ -89,9 +89,13 @@ class SignerOptions:
         return self.account is not None or self.private_key_env is not None
 
     def check(self) -> None:
-        """Raise InputError if two accounts were named."""
+        """Raise InputError if two accounts were named, or if none can sign here."""
         if self.account is not None and self.private_key_env is not None:
             raise InputError("--account and --private-key-env exclude each other: give one of them")
+        if self.is_given:
+            from ..deploy import signer_class
+
+            signer_class()
 
     @cached_property
     def signer(self) -> LocalAccount:

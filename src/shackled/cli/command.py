@@ -13,8 +13,8 @@ from typing import Annotated, Any, Protocol, get_args, get_origin, get_type_hint
 
 import click
 
-from .notes import STRICT
 from .option import Argument, Declared, Option
+from .output import STRICT
 
 
 class Group(Protocol):

@@ -5,29 +5,17 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from itertools import groupby
 from pathlib import Path
 from typing import Annotated, Any
-
-from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    DownloadColumn,
-    Progress,
-    TextColumn,
-    TimeRemainingColumn,
-    track,
-)
 
 from ..checks import choice
 from ..datasets import DATASETS, Piece, PieceCost, cost, figures, pieces
 from ..errors import InputError
 from ..values import plural
 from .option import argument, option
-
-CONSOLE = Console(stderr=True)
+from .progress import LateBar
 
 #: Number of Genesis pieces in a gallery without --all.
 GENESIS_SHOWN = 48
@@ -136,21 +124,13 @@ def _fetch(model: Any, own: Path | None, again: bool) -> None:
                 file=sys.stderr,
             )
     else:
-        with _download_bar(model.name) as show:
-            done = fetch(model, again, show)
+        with LateBar(model.name, 0) as bar:
+            done = fetch(model, again, bar.set)
         if not done:
             source = "from a local file; --again downloads the published one" if model.is_own() else "already"
             print(f"{model.name}: it is in the cache {source}", file=sys.stderr)
     name, triangles, gas, *_ = _line(model.piece(), cost(model.piece()))
     print(f"{name}: {triangles} triangles, {gas} gas; shackled render {name}")
-
-
-@contextmanager
-def _download_bar(name: str) -> Iterator[Any]:
-    columns = (TextColumn("{task.description}"), BarColumn(), DownloadColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=CONSOLE, transient=True, disable=not CONSOLE.is_terminal) as bar:
-        task = bar.add_task(name, total=None, visible=False)
-        yield lambda here, whole: bar.update(task, completed=here, total=whole, visible=True)
 
 
 def showcase(
@@ -204,8 +184,11 @@ def gallery(
         if every or piece.dataset != "genesis" or genesis <= GENESIS_SHOWN:
             shown.append(piece)
     ready = [piece for piece in shown if piece.ready()]
-    bar = track(draw_all(ready, processes=jobs), "drawing", len(ready), console=CONSOLE, transient=True)
-    drawings = {drawing.name: drawing for drawing in bar}
+    drawings = {}
+    with LateBar("drawing") as bar:
+        for drawing in draw_all(ready, processes=jobs):
+            drawings[drawing.name] = drawing
+            bar.set(len(drawings), len(ready))
     for path in paths:
         html = path.suffix.lower() == ".html"
         write_output(path, page(shown, drawings).encode() if html else sheet(shown, drawings))

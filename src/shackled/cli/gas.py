@@ -9,15 +9,29 @@ from typing import Annotated, Any
 
 from ..chain import CHAINS, PATIENCE, NodeChain, open_chain, open_node
 from ..errors import InputError
-from ..gas import STAGES, flame_graph, make_report, render_call
+from ..gas import (
+    KINDS,
+    STACK,
+    STAGES,
+    GasReport,
+    Profile,
+    SearchStep,
+    flame_graph,
+    make_report,
+    render_call,
+)
+from ..values import plural
 from ..whole_file import check_output_file, write_output
-from .gas_progress import Progress
-from .gas_tables import print_opcodes, print_profile, print_report
 from .look_options import FIT, Look, load_with
 from .option import argument, option
+from .output import print_line, print_table
+from .progress import LateBar
 
 #: The chains that count gas.
 EVMS = tuple(CHAINS)
+#: Characters of the bar of a stage; functions and lines shown.
+BAR = 24
+ROWS = 20
 
 
 def gas(
@@ -77,8 +91,8 @@ def gas(
     place = open_chain(evm)
     node = _open_node(rpc, address, rpc_timeout)
     scene = load_with(input, look, fit)
-    with Progress(quiet=as_json) as progress:
-        report = make_report(scene, place, lower, upper, stages, progress.step, node)
+    with LateBar("searching") as bar:
+        report = make_report(scene, place, lower, upper, stages, Steps(as_json, bar).show, node)
         counted = None if node is None else node.call("Renderer", render_call(scene))
     if path is not None and report.profile is not None:
         write_output(path, flame_graph(report.profile, input).encode())
@@ -122,3 +136,111 @@ def _check_profile(name: str) -> Path:
 def _check_price(value: float, name: str, unit: str) -> None:
     if not (math.isfinite(value) and value >= 0):
         raise InputError(f"{name} must be 0 or more {unit}, not {value}")
+
+
+class Steps:
+    """The steps of a search: a line for each unless it is quiet, and a bar."""
+
+    def __init__(self, quiet: bool, bar: LateBar) -> None:
+        """Take where to show them."""
+        self._quiet, self._bar, self._number = quiet, bar, 0
+
+    def show(self, step: SearchStep) -> None:
+        """Show a step."""
+        self._number += 1
+        if not self._quiet:
+            verdict = "sufficient" if step.enough else "insufficient"
+            bounds = f"{step.lower:,} < gas" + ("" if step.upper is None else f" <= {step.upper:,}")
+            self._bar.print(f"call {self._number:2}: {step.limit:>14,} {verdict}; {bounds}")
+        if step.upper is not None:
+            # halving
+            self._bar.set(self._number, self._number + (step.upper - step.lower - 1).bit_length())
+
+
+def print_report(report: GasReport, gas_price: float, eth_price: float | None) -> None:
+    """Print gas, search, stages, price, and the limits that the gas fits."""
+    for label, value in _figures(report, gas_price, eth_price).items():
+        print_line(f"{label:12} {value}")
+    if report.profile is not None:
+        stages = report.profile.stages()
+        most = max(stages.values())
+        rows = [
+            (stage, f"{gas:,}", _share(gas, report.profile.gas), "#" * round(BAR * gas / most) if most else "")
+            for stage, gas in stages.items()
+        ]
+        print_line("")
+        print_table(("stage", "gas", "", ""), [*rows, ("total", f"{report.profile.gas:,}", "", "")])
+    print_line("")
+    limits = []
+    for fit in report.fits:
+        limit, fits = fit.limit, "yes" if fit.fits else f"no{fit.reason and f', {fit.reason}'}"
+        share = f"{100 * report.request_limit / limit.gas:.0f} %"
+        limits.append((limit.name, f"{limit.gas:,}", share, fits, limit.source, limit.date))
+    print_table(("where it fits", "limit", "of it", "", "source", "date"), limits)
+    print_line(
+        "As documented by the sources on these dates, not measured; operators change them. "
+        "The limit of a request includes the intrinsic gas."
+    )
+
+
+def print_opcodes(profile: Profile) -> None:
+    """Print gas by kind of opcode, and their shares in each stage."""
+    print_line("")
+    kinds = profile.opcodes().items()
+    print_table(("opcodes", "gas", ""), [(kind, f"{gas:,}", _share(gas, profile.gas)) for kind, gas in kinds])
+    print_line("")
+    rows = [
+        (stage, *(_share(gas, whole) for gas in profile.opcodes(stage).values()))
+        for stage, whole in profile.stages().items()
+        if whole
+    ]
+    print_table(("stage", *KINDS), rows)
+
+
+def print_profile(profile: Profile, opcodes: bool) -> None:
+    """Print gas by function, and by line. opcodes: also the share of `STACK` in the own gas of a function."""
+    rows = []
+    for each in profile.functions()[:ROWS]:
+        shares = [_share(profile.opcodes(function=each.name)[STACK], each.own)] if opcodes else []
+        rows.append((each.name, f"{each.own:,}", _share(each.own, profile.gas), f"{each.total:,}", *shares))
+    print_line("")
+    print_table(("function", "self", "", "with calls", *([STACK] if opcodes else [])), rows)
+    print_line("")
+    lines = profile.lines()[:ROWS]
+    rows = [(place, name, f"{gas:,}", _share(gas, profile.gas)) for place, name, gas in lines]
+    print_table(("line", "function", "gas", ""), rows)
+    print_line("")
+
+
+def _figures(report: GasReport, gas_price: float, eth_price: float | None) -> dict[str, str]:
+    exact, found, margin = report.exact, report.search, report.margin
+    bracket = next(step for step in found.steps if step.upper is not None)
+    last = found.steps[-1]
+    ether = report.ether(gas_price)
+    dollars = "" if eth_price is None else f", {ether * eth_price:,.2f} US dollars at {eth_price:,g} per ether"
+    per = (report.per(report.triangles), report.per(report.lit_pixels))
+    figures = {
+        "picture": f"{report.scene.width} x {report.scene.height} pixels; "
+        f"{plural(report.triangles, 'triangle')}, {plural(report.lit_pixels, 'lit pixel')}",
+        "gas": f"{exact.gas:,} of the execution, exact ({report.chain})",
+        "searched": f"{found.gas:,} by {found.calls} calls, which narrowed the limits from "
+        f"{bracket.lower:,} .. {bracket.upper:,} to {last.lower:,} .. {last.upper:,}",
+        "margin": f"{margin.gas:,}, {_share(margin.gas, exact.gas)}: "
+        + (
+            f"a 64th of the gas is not passed on to an engine, which needs {exact.dearest_call:,}, "
+            f"so {margin.kept:,} must be left; the Renderer uses {margin.after:,} of it after the call"
+        ),
+        "intrinsic": f"{exact.intrinsic_gas:,} to send the scene, not included in the figures above",
+        "each": ", ".join(
+            f"{gas:,.0f} per {what}"
+            for gas, what in zip(per, ("triangle", "lit pixel"), strict=True)
+            if gas is not None
+        ),
+        "transaction": f"{exact.transaction_gas:,} gas, {ether:.6g} ether at {gas_price:g} gwei{dollars}; "
+        f"needs a limit of {report.request_limit:,}",
+    }
+    return {label: text for label, text in figures.items() if text}
+
+
+def _share(part: int, whole: int) -> str:
+    return f"{100 * part / whole:.2f} %" if whole else ""

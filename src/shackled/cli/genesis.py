@@ -11,6 +11,7 @@ from ..errors import InputError
 from ..image import FORMATS, one_of
 from ..scene import PICTURE
 from .option import argument, option
+from .progress import LateBar
 
 
 def genesis(
@@ -95,16 +96,10 @@ def _draw(piece: GenesisPiece, path: Path) -> int:
 
 
 def _sheet(sheet: str, count: int | None, size: int | None, workers: int | None) -> None:
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
     from ..datasets import SIZE
     from ..datasets.genesis import COUNT, render_sheet
 
-    columns = (TextColumn("drawing"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     count, size = COUNT if count is None else count, SIZE if size is None else size
-    console = Console(stderr=True)
-    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
-        task = bar.add_task("drawing", total=count)
-        render_sheet(sheet, count, size, workers, lambda done, total: bar.update(task, completed=done, total=total))
+    with LateBar("drawing", 0) as bar:
+        render_sheet(sheet, count, size, workers, bar.set)
     print(f"{sheet}: {count:,} pieces")

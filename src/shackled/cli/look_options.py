@@ -8,8 +8,7 @@ from collections.abc import Callable
 from inspect import Parameter
 from typing import Annotated, Any
 
-from .._frames import load_frames
-from .._load import load, load_picture, locate
+from .._load import load, load_frames, load_picture, locate
 from ..datasets import Piece
 from ..errors import InputError
 from ..scene import (
@@ -146,7 +145,7 @@ class LookGroup:
             values |= {"background": None, "transparent": True}
         given = {setting: values.pop(setting.name) for setting in SETTINGS}
         look = {
-            setting.name: _KINDS[setting.kind][2](value, option_of(setting))
+            setting.name: _KINDS[setting.kind][2](value, setting.option)
             for setting, value in given.items()
             if value is not None
         }
@@ -191,16 +190,11 @@ def load_frames_with(input: str, frames: int, look: dict[str, Any]) -> tuple[lis
         return load_frames(input, frames, **look)
 
 
-def option_of(setting: Setting) -> str:
-    """Return the option of a setting, such as "--max-triangles" or "--cull/--no-cull"."""
-    return setting.option
-
-
 def _parameter(setting: Setting) -> Parameter:
     kind, metavar, _ = _KINDS[setting.kind]
     if setting.kind == "number" and setting.unit:
         metavar = setting.unit.upper()
     text = f"{setting.help}{_MORE.get(setting.name, '')}"
     panel = None if setting.name in COMMON else setting.group
-    declared = option(option_of(setting), text, metavar, panel)
+    declared = option(setting.option, text, metavar, panel)
     return Parameter(setting.name, Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[kind | None, declared])

@@ -42,7 +42,7 @@ OPTIONS = {
     "verify": "--verify",
 }
 
-#: Other words for commands and options, and what is meant.
+#: Other words for commands and options than `shackled.words` has for keywords, and what is meant.
 MEANT = {
     "mint": "store, which mints no token; `shackled token mint` does",
     "turntable": "render INPUT --turntable FRAMES",
@@ -50,11 +50,7 @@ MEANT = {
     "convert": "export",
     "serve": "creator",
     "gui": "creator",
-    "--alpha": "--transparent",
-    "--antialiasing": "--antialias",
-    "--bg": "--background",
     "--chain": "--evm",
-    "--colour": "--color",
     "--fps": "--duration",
     "--height": "--size",
     "--license": "--licence",
@@ -62,7 +58,6 @@ MEANT = {
     "--out": "--output",
     "--processes": "--jobs",
     "--res": "--size",
-    "--resolution": "--size",
     "--threads": "--jobs",
     "--width": "--size",
     "--workers": "--jobs",
@@ -110,11 +105,16 @@ def argument(text: str, metavar: str, **more: Any) -> Any:
     return Declared((), text, metavar, **more)
 
 
+def option_names() -> dict[str, str]:
+    """Return the options of parameters, those of a look too."""
+    from ..scene import SETTINGS
+
+    return {setting.name: setting.option.partition("/")[0] for setting in SETTINGS} | OPTIONS
+
+
 def with_options(message: str) -> str:
     """Return a message of the library in one line, with options in place of the parameters that it names."""
     if "`" in message:
-        from ..scene import SETTINGS
-
-        names = {setting.name: setting.option.partition("/")[0] for setting in SETTINGS} | OPTIONS
+        names = option_names()
         message = re.sub(r"`(\w+)`", lambda match: names.get(match[1], match[0]), message)
     return " ".join(message.split())

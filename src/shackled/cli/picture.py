@@ -20,8 +20,7 @@ from ..animation import DURATION, Animation
 from ..chain import open_chain
 from ..errors import ChainError
 from ..gas import Fit, fits_of, headline, render_call, suffices
-from ..image import Image, most
-from ..palette import MOST_COLORS, Pixels, colors
+from ..image import MOST_COLORS, Image, Pixels, colors, most
 from ..parallel import Listener, folder_of, remove_parts
 from ..scene import PICTURE, Scene, scene_chunk
 from ..values import plural
@@ -69,7 +68,7 @@ class Task:
 class Done:
     """What was done.
 
-    report: the object of --json. scene: the bytes of the scene in the file, or that it would have; None for no line.
+    report: the object of --json. scene: size of the scene in bytes, or None to omit the line.
     """
 
     report: dict[str, Any]

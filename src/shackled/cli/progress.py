@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
 import threading
-
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+import time
 
 from ..parallel import Listener, Outline
 from .option import with_options
 
-#: Seconds before a bar is shown.
+#: Seconds before a bar is shown, and between two pictures of it.
 PATIENCE = 1.0
+PAUSE = 0.1
+#: Characters of a bar.
+WIDTH = 40
 
 
 class LateBar:
@@ -24,48 +26,48 @@ class LateBar:
     def __init__(self, what: str, patience: float = PATIENCE) -> None:
         """Start the timer. what: the label of the bar."""
         self._what = what
-        self._console = Console(stderr=True)
-        self._bar: Progress | None = None
         self._done, self._total = 0, 0
+        self._shown, self._drawn = False, 0.0
+        self._started = time.monotonic()
         self._lock = threading.RLock()
         self._timer: threading.Timer | None = None
-        if self._console.is_terminal:
+        if sys.stderr is not None and sys.stderr.isatty():
             self._timer = threading.Timer(patience, self._show)
             self._timer.daemon = True
             self._timer.start()
 
-    def set(self, done: int, total: int) -> None:
-        """Set the progress of the task; before the first call, the bar shows activity only."""
+    def set(self, done: int, total: int | None, what: str | None = None) -> None:
+        """Set the progress of the task; before the first call, the bar has its label only. what: another label."""
         with self._lock:
-            self._done, self._total = done, total
-            if self._bar is not None:
-                self._bar.update(self._bar.tasks[0].id, completed=done, total=total)
+            if what is not None and what != self._what:
+                self._what, self._started = what, time.monotonic()
+            self._done, self._total = done, total or 0
+            if time.monotonic() - self._drawn >= PAUSE:
+                self._draw()
 
     def print(self, line: str) -> None:
         """Print a line on stderr, above the bar if there is one."""
         with self._lock:
-            if self._bar is not None:
-                self._bar.console.print(line, markup=False, highlight=False, soft_wrap=True)
-            else:
-                print(line, file=sys.stderr, flush=True)
+            self._clear()
+            print(line, file=sys.stderr, flush=True)
+            self._draw()
 
     def print_result(self, line: str) -> None:
         """Print a line on stdout; above the bar if that is on the same terminal."""
         with self._lock:
-            if self._bar is not None and sys.stdout.isatty():
-                self.print(line)
-            else:
-                print(line, flush=True)
+            if sys.stdout.isatty():
+                self._clear()
+            print(line, flush=True)
+            self._draw()
 
     def end(self) -> None:
         """Remove the bar; it does not appear again."""
         with self._lock:
             timer, self._timer = self._timer, None
-            bar, self._bar = self._bar, None
+            self._clear()
+            self._shown = False
         if timer is not None:
             timer.cancel()
-        if bar is not None:
-            bar.stop()
 
     def __enter__(self) -> LateBar:
         return self
@@ -75,20 +77,27 @@ class LateBar:
 
     def _show(self) -> None:
         with self._lock:
-            if self._timer is None:
-                return
-            self._bar = Progress(
-                TextColumn(self._what),
-                BarColumn(),
-                TaskProgressColumn(),
-                TimeRemainingColumn(),
-                console=self._console,
-                transient=True,
-                # results would be wrapped, and go to stderr
-                redirect_stdout=False,
-            )
-            self._bar.add_task(self._what, total=self._total or None, completed=self._done)
-            self._bar.start()
+            self._shown = self._timer is not None
+            self._draw()
+
+    def _draw(self) -> None:
+        if not self._shown:
+            return
+        self._drawn = time.monotonic()
+        text = self._what
+        if self._total:
+            part = min(1.0, self._done / self._total)
+            left = (self._drawn - self._started) * (1 / part - 1) if part else 0
+            text += f" {'#' * round(WIDTH * part):.<{WIDTH}} {100 * part:3.0f}% {left // 60:3.0f}:{left % 60:02.0f}"
+        elif self._done:
+            text += f" {self._done:,}"
+        # not up to the edge, where some terminals begin a new line
+        width = shutil.get_terminal_size().columns - 1
+        print(f"\r{text:{width}.{width}}", end="", file=sys.stderr, flush=True)
+
+    def _clear(self) -> None:
+        if self._shown:
+            print(f"\r{' ' * (shutil.get_terminal_size().columns - 1)}\r", end="", file=sys.stderr, flush=True)
 
 
 class Notes(Listener):

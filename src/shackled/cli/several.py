@@ -21,8 +21,8 @@ from ..image import check_output
 from ..scene import PICTURE, READERS, Link
 from ..untrusted import plain
 from ..workers import each
-from .notes import Action, action, noting
 from .option import with_options
+from .output import Action, action, noting
 from .picture import Done, Source, Task, render_to
 from .progress import LateBar, Notes
 from .streams import STREAM, is_output, stdin_file

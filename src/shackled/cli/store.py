@@ -1,13 +1,17 @@
-"""shackled store"""
+"""shackled store, library list and library store: scenes in the Studio"""
 
 from __future__ import annotations
 
-from typing import Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
 
+from ..chain import Connection
 from ..errors import InputError
+from ..ethereum import checksum_address
 from ..image import FORMATS, one_of
 from .chain_options import (
     Calldata,
+    Json,
     NodeOptions,
     PayerOptions,
     check_calldata,
@@ -19,8 +23,12 @@ from .chain_options import (
 )
 from .look_options import parse_size
 from .option import argument, option
-from .output import print_line, print_note
+from .output import print_line, print_note, print_table
 from .progress import LateBar
+
+if TYPE_CHECKING:
+    from ..deploy import Quote
+    from ..tokens import StoragePlan
 
 
 def store(
@@ -42,7 +50,7 @@ def store(
         option("--position-bits", "Round positions to a grid of 2^N steps, 4 to 16, to save gas. Default: exact.", "N"),
     ] = None,
     calldata: Calldata = None,
-    as_json: Annotated[bool, option("--json", "Print one JSON object instead of text.")] = False,
+    as_json: Json = False,
 ) -> None:
     """Store an object on a chain; any contract can then draw it.
 
@@ -55,7 +63,6 @@ def store(
     from ..image import check_output
     from ..scene import ALL, READERS
     from ..tokens import SceneToStore, licence_of, plan_storage, read_back, token_scene
-    from ..tokens import store as send
 
     if calldata is not None and output is not None:
         raise InputError(
@@ -67,6 +74,7 @@ def store(
     source = locate(input)
     terms = licence_of(source, licence)
     node.check()
+    payer.check()
     # a token is drawn by nodes of all kinds, of which many allow a call too little gas for antialiased meshes
     is_mesh = not isinstance(source, Piece) and source.suffix.lower() in READERS
     thing = (token_scene(source) if pixels is None else source.make()) if isinstance(source, Piece) else source
@@ -79,32 +87,20 @@ def store(
     pointer = storage.pointers[0]
     if isinstance(source, Piece) and source.notice:
         print_note(source.notice)
-    gas = 0
+    named = {f"store part {number} of {each.name}": each.quote for number, each in enumerate(storage.missing, 1)}
     if storage.missing or storage.parts.missing:
         size_in_bytes = sum(each.transaction.size for each in storage.missing)
         print_note(
             f"{input}: {scene.triangles:,} triangles, {size_in_bytes:,} bytes on chain {connection.chain_id}; "
             f"licence: {terms}"
         )
-        if storage.parts.missing:
-            names = ", ".join(step.name for step in storage.parts.missing)
-            print_note(f"deploying {names} first: {storage.parts.gas:,} gas")
-        print_note(f"storing it: {storage.gas:,} gas; it cannot be undone")
-        # before the account is opened, so that the price is shown without one
-        print_price([*storage.parts.quotes, *storage.quotes])
-        if calldata is not None:
-            parts = {
-                f"store part {number} of {each.name}": each.quote for number, each in enumerate(storage.missing, 1)
-            }
-            calls = wallet_calls(storage.parts) | parts
-            write_calls(calldata, connection.chain_id, calls, as_json, pointer=pointer)
+        gas = _send(storage, connection, payer, "it", named, calldata, as_json, pointer=pointer)
+        if gas is None:
             if not as_json:
                 print_line(f"pointer  {pointer}")
             return
-        transactor = payer.transactor(connection)
-        payer.confirm(transactor)
-        gas = sum(receipt.gas for receipt in send(storage, transactor, print_step))
     else:
+        gas = 0
         print_note(f"{input} is on chain {connection.chain_id} already: nothing was sent")
     image = read_back(connection, storage.studio, pointer, wanted)
     if path is not None:
@@ -130,3 +126,117 @@ def store(
     print_line(f"in Solidity:  Studio({storage.studio}).renderDataURI({pointer}, 4)")
     print_line(f"command line: shackled token picture {pointer} -o FILE.png")
     print_line(f"as tokens:    shackled token edition add {pointer} NAME --price ETHER")
+
+
+def list_(
+    node: NodeOptions,
+    as_json: Json = False,
+) -> None:
+    """List the items: bounds, triangles, bytes, gas to store, pointers; with --rpc, whether they are stored."""
+    from ..chain import read_all
+    from ..library import items
+
+    stored: dict[str, bool] = {}
+    with LateBar("reading items") as bar:
+        found = items()
+        if node.rpc is not None:
+            connection = node.connect()
+            parts = [(each.name, part.pointer) for each in found for part in each.transactions]
+            codes = read_all(lambda part: connection.code(part[1]), parts, bar.set)
+            for (name, _), code in zip(parts, codes, strict=True):
+                stored[name] = stored.get(name, True) and bool(code)
+    rows = [
+        {
+            "name": each.name,
+            "piece": each.piece,
+            "triangles": each.scene.triangles,
+            "low": each.low.tolist(),
+            "high": each.high.tolist(),
+            "bytes": each.size,
+            "gas": each.gas,
+            "meshes": [checksum_address(mesh) for mesh in each.meshes],
+            "pointer": checksum_address(each.pointer),
+            **({"stored": stored[each.name]} if stored else {}),
+        }
+        for each in found
+    ]
+    if as_json:
+        print_json({"items": rows})
+        return
+    head = ["name", "triangles", "size", "bytes", "gas", "pointer", *(["stored"] if stored else [])]
+    print_table(head, [_row(each) for each in rows])
+
+
+def _row(item: dict[str, Any]) -> list[str]:
+    sides = " x ".join(f"{high - low:,}" for low, high in zip(item["low"], item["high"], strict=True))
+    row = [item["name"], f"{item['triangles']:,}", sides, f"{item['bytes']:,}", f"{item['gas']:,}", item["pointer"]]
+    return [*row, "yes" if item["stored"] else "no"] if "stored" in item else row
+
+
+def store_items(
+    node: NodeOptions,
+    payer: PayerOptions,
+    names: Annotated[list[str] | None, argument("Items to store; default: all.", "[NAME]...")] = None,
+    calldata: Calldata = None,
+    as_json: Json = False,
+) -> None:
+    """Store items of the library on a chain. Skips stored items; prints the price first; cannot be undone."""
+    from ..deploy import current_fees
+    from ..library import chosen_items
+    from ..tokens import SceneToStore, plan_storage
+
+    node.check()
+    payer.check()
+    check_calldata(calldata)
+    with LateBar("reading items"):
+        wanted = chosen_items(names or ())
+        connection = node.connect()
+        scenes = [SceneToStore(each.name, each.scene) for each in wanted]
+        plan = plan_storage(connection, scenes, current_fees(connection, payer.max_wei))
+    if plan.pointers != tuple(checksum_address(each.pointer) for each in wanted):
+        raise InputError("the Studio of this chain is not that of this version: see `shackled deploy`")
+    gas: int | None = 0
+    if plan.missing or plan.parts.missing:
+        named = {f"{each.name}, {each.transaction.what}": each.quote for each in plan.missing}
+        count = len({each.name for each in plan.missing})
+        gas = _send(plan, connection, payer, f"{count} of {len(wanted)} items", named, calldata, as_json)
+        if gas is None:
+            return
+    else:
+        print_note("all items are stored already: nothing was sent")
+    pointers = {each.name: pointer for each, pointer in zip(wanted, plan.pointers, strict=True)}
+    if as_json:
+        print_json({"chain_id": connection.chain_id, "studio": plan.studio, "gas": gas, "pointers": pointers})
+        return
+    for name, pointer in pointers.items():
+        print_line(f"{name:16} {pointer}")
+
+
+def _send(
+    storage: StoragePlan,
+    connection: Connection,
+    payer: PayerOptions,
+    what: str,
+    named: dict[str, Quote],
+    calldata: Path | None,
+    as_json: bool,
+    **more: str,
+) -> int | None:
+    """Print the price of what is missing, and send it; return its gas, or None if it was written for a wallet.
+
+    named: the transactions by their purpose, for a wallet. more: of the JSON.
+    """
+    from ..tokens import store as send
+
+    if storage.parts.missing:
+        names = ", ".join(step.name for step in storage.parts.missing)
+        print_note(f"deploying {names} first: {storage.parts.gas:,} gas")
+    print_note(f"storing {what}: {storage.gas:,} gas; it cannot be undone")
+    # before the account is opened, so that the price is shown without one
+    print_price([*storage.parts.quotes, *storage.quotes])
+    if calldata is not None:
+        write_calls(calldata, connection.chain_id, wallet_calls(storage.parts) | named, as_json, **more)
+        return None
+    transactor = payer.transactor(connection)
+    payer.confirm(transactor)
+    return sum(receipt.gas for receipt in send(storage, transactor, print_step))

@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 from PIL import Image as PillowImage
 from PIL.PngImagePlugin import PngInfo
+from platformdirs import user_cache_path
 
 from ..artifacts import RENDERER, artifact
 from ..chain import open_chain
@@ -63,9 +64,7 @@ def cache_folder() -> Path:
     chosen = os.environ.get(VARIABLE)
     if chosen:
         return Path(chosen)
-    import pooch
-
-    return Path(pooch.os_cache("shackled"))
+    return user_cache_path("shackled")
 
 
 def keep(path: Path, data: bytes) -> None:

@@ -1,4 +1,4 @@
-from ._account import environment_account, keystore_account, read_keystore
+from ._account import environment_account, keystore_account, read_keystore, signer_class
 from ._contract import (
     CONTRACTS,
     STANDARD,
@@ -35,5 +35,6 @@ __all__ = [
     "local_chain",
     "make_quotes",
     "read_keystore",
+    "signer_class",
     "write_verification",
 ]

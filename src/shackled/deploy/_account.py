@@ -11,10 +11,22 @@ from ..errors import InputError
 from ..untrusted import read_json
 
 if TYPE_CHECKING:
+    from eth_account import Account
     from eth_account.signers.local import LocalAccount
 
 #: The most rounds of PBKDF2; more would look like a command that hangs.
 MOST_ROUNDS = 10_000_000
+
+
+def signer_class() -> type[Account]:
+    """Return the class that opens accounts. InputError without the extra `chain`."""
+    try:
+        from eth_account import Account
+    except ModuleNotFoundError:
+        raise InputError(
+            "an account that signs needs a package that is not installed: pip install 'shackled[chain]'"
+        ) from None
+    return Account
 
 
 def environment_account(name: str) -> LocalAccount:
@@ -22,9 +34,7 @@ def environment_account(name: str) -> LocalAccount:
 
     Raises InputError if the variable holds none.
     """
-    from eth_account import Account
-
-    value = os.environ.get(name, "").strip()
+    opener, value = signer_class(), os.environ.get(name, "").strip()
     if not value:
         # an invalid name may be a key or a mnemonic, given by mistake
         if not re.fullmatch("[A-Za-z_][A-Za-z0-9_]{0,39}", name) or re.fullmatch("[0-9a-fA-F]{16,}", name):
@@ -35,7 +45,7 @@ def environment_account(name: str) -> LocalAccount:
         raise InputError(f"the environment variable {name} is not set: it must hold a private key")
     if re.fullmatch("(0x)?[0-9a-fA-F]{64}", value):
         try:
-            account: LocalAccount = Account.from_key(value)
+            account: LocalAccount = opener.from_key(value)
             return account
         except Exception:  # its message could show the key
             pass
@@ -85,13 +95,11 @@ def _pbkdf2_rounds(keystore: Any) -> int:
 
 def keystore_account(path: Path, password: str) -> LocalAccount:
     """Return the account of a keystore file. Raises InputError if the file or the password is wrong."""
-    from eth_account import Account
-
-    text = read_keystore(path)
+    opener, text = signer_class(), read_keystore(path)
     try:
-        key = Account.decrypt(text, password)
+        key = opener.decrypt(text, password)
     except Exception as error:  # its message could show a part of the file
         what = "the password is wrong" if "MAC" in str(error) else "it is damaged or of an unknown kind"
         raise InputError(f"the keystore file {path} cannot be opened: {what}") from None
-    account: LocalAccount = Account.from_key(key)
+    account: LocalAccount = opener.from_key(key)
     return account

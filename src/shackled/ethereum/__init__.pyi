@@ -1,4 +1,4 @@
-from ._abi import SOLIDITY_ERRORS, Errors, Interface, decode_error, error_table
+from ._abi import SOLIDITY_ERRORS, Errors, Interface, decode_error, decode_values, encode_values, error_table
 from ._amounts import ETHER, GWEI, amount, at_most, ether, parse_ether, roughly, rounded
 from ._encoding import (
     PROXY,
@@ -26,7 +26,9 @@ __all__ = [
     "checksum_address",
     "create2_address",
     "decode_error",
+    "decode_values",
     "encode_header",
+    "encode_values",
     "error_table",
     "ether",
     "intrinsic_gas",

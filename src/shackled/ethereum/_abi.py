@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache, cached_property
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any
 
 from ..errors import InputError
-from ._encoding import keccak256
-
-if TYPE_CHECKING:
-    from eth_abi.codec import ABICodec
-    from eth_typing import ABIComponent, ABIConstructor, ABIFunction
+from ._encoding import keccak256, parse_address, to_hex, word
 
 #: Name and parameters (name, type) of errors, by selector.
 Errors = Mapping[bytes, tuple[str, list[tuple[str, str]]]]
@@ -29,66 +26,216 @@ class Interface:
 
     def encode(self, function: str, *arguments: Any) -> bytes:
         """Encode a call: selector and arguments. InputError, which names the parameter, for a wrong value."""
-        from eth_utils.abi import function_abi_to_4byte_selector
-
         entry = self._functions[function]
-        return function_abi_to_4byte_selector(entry) + _encode(entry, arguments, function)
+        return keccak256(_signature(entry).encode())[:4] + _encode(entry, arguments, function)
 
     def decode(self, function: str, answer: bytes) -> Any:
         """Decode the output of a function: its value, or a tuple of several.
 
         Raises ValueError if the output is invalid.
         """
-        from eth_abi.abi import decode
-        from eth_abi.exceptions import DecodingError
-        from eth_utils.abi import get_abi_output_types
-
         try:
-            values = decode(get_abi_output_types(self._functions[function]), answer)
-        except (DecodingError, OverflowError, UnicodeDecodeError) as error:
+            values = decode_values([_type_of(each) for each in self._functions[function]["outputs"]], answer)
+        except ValueError as error:
             raise ValueError(f"{len(answer)} bytes are not an output of {function}: {error}") from error
         return values[0] if len(values) == 1 else values
 
     def construct(self, *arguments: Any) -> bytes:
         """Encode the arguments of the constructor, which are appended to the creation code. InputError as `encode`."""
         entry = next(entry for entry in self._abi if entry["type"] == "constructor")
-        return _encode(cast("ABIConstructor", entry), arguments, "the constructor")
+        return _encode(entry, arguments, "the constructor")
 
     def parameter_type(self, function: str, number: int = 0) -> str:
-        """Return the type of a parameter for eth_abi, where a struct is a tuple such as "(uint256,bytes)"."""
-        from eth_utils.abi import get_abi_input_types
-
-        return get_abi_input_types(self._functions[function])[number]
+        """Return the type of a parameter, where a struct is a tuple such as "(uint256,bytes)"."""
+        return _type_of(self._functions[function]["inputs"][number])
 
     @cached_property
-    def _functions(self) -> dict[str, ABIFunction]:
-        from eth_utils.abi import abi_to_signature
-
-        functions: dict[str, ABIFunction] = {}
+    def _functions(self) -> dict[str, Mapping[str, Any]]:
+        functions: dict[str, Mapping[str, Any]] = {}
         for entry in self._abi:
             if entry["type"] == "function":
-                function = cast("ABIFunction", entry)
-                functions[abi_to_signature(function)] = function
-                functions.setdefault(entry["name"], function)
+                functions[_signature(entry)] = entry
+                functions.setdefault(entry["name"], entry)
         return functions
 
 
-def _encode(entry: ABIConstructor | ABIFunction, arguments: Sequence[Any], name: str) -> bytes:
-    from eth_abi.abi import encode
-    from eth_abi.exceptions import EncodingError
-    from eth_utils.abi import get_abi_input_types
-
-    kinds = get_abi_input_types(entry)
+def _encode(entry: Mapping[str, Any], arguments: Sequence[Any], name: str) -> bytes:
+    kinds = [_type_of(each) for each in entry["inputs"]]
     try:
-        return encode(kinds, arguments)
-    except (EncodingError, UnicodeEncodeError):
+        return encode_values(kinds, arguments)
+    except ValueError:
         for parameter, kind, value in zip(entry["inputs"], kinds, arguments, strict=True):
             try:
-                encode([kind], [value])
-            except (EncodingError, UnicodeEncodeError):
+                encode_values([kind], [value])
+            except ValueError:
                 which = f"{parameter.get('name')} of {name}".strip()
                 raise InputError(f"{which} must be a {kind}, not {value!r:.60}") from None
         raise
+
+
+def _signature(entry: Mapping[str, Any]) -> str:
+    return f"{entry['name']}({','.join(map(_type_of, entry['inputs']))})"
+
+
+def _type_of(parameter: Mapping[str, Any]) -> str:
+    """Return the type of a parameter in signatures."""
+    kind: str = parameter["type"]
+    if not kind.startswith("tuple"):
+        return kind
+    return f"({','.join(map(_type_of, parameter['components']))}){kind.removeprefix('tuple')}"
+
+
+# ---- values ----
+
+
+def encode_values(kinds: Sequence[str], values: Sequence[Any]) -> bytes:
+    """Encode values of these types. ValueError for a value that is not of its type.
+
+    An array or struct is a list or tuple, an address is text or 20 bytes.
+    """
+    heads, tails = [], b""
+    size = sum(map(_size, kinds))
+    for kind, value in zip(kinds, values, strict=True):
+        data = _encoded(kind, value)
+        if _is_dynamic(kind):
+            heads.append(word(size + len(tails)))
+            tails += data
+        else:
+            heads.append(data)
+    return b"".join(heads) + tails
+
+
+def decode_values(kinds: Sequence[str], data: bytes, texts: str = "strict") -> tuple[Any, ...]:
+    """Decode values of these types: arrays and structs as tuples, addresses as text without capitals.
+
+    texts: what becomes of bytes of a text that are not UTF-8, as `bytes.decode` names it. ValueError if the data are
+    cut or invalid, which includes bits that are not zero beside a value.
+    """
+    return _decoded_all(kinds, data, 0, texts)
+
+
+@cache
+def _parts(kind: str) -> tuple[str, list[str]]:
+    """Return what a type is, "[]", "[n]", "()" or itself, and the types of its elements."""
+    if kind.endswith("]"):
+        element, _, count = kind.rpartition("[")
+        return f"[{count}", [element]
+    if not kind.startswith("("):
+        return kind, []
+    found, depth = [""], 0
+    for each in kind[1:-1]:
+        depth += (each == "(") - (each == ")")
+        if each == "," and not depth:
+            found.append("")
+        else:
+            found[-1] += each
+    return "()", found if found != [""] else []
+
+
+@cache
+def _is_dynamic(kind: str) -> bool:
+    what, inner = _parts(kind)
+    return what in ("bytes", "string", "[]") or any(map(_is_dynamic, inner))
+
+
+@cache
+def _size(kind: str) -> int:
+    """Return the bytes that a value takes in place: for a dynamic one, those of its offset."""
+    what, inner = _parts(kind)
+    if _is_dynamic(kind) or not (inner or what == "()"):
+        return 32
+    return sum(map(_size, inner)) * (int(what[1:-1]) if what.startswith("[") else 1)
+
+
+def _encoded(kind: str, value: Any) -> bytes:
+    what, inner = _parts(kind)
+    if what.startswith(("[", "(")):
+        if not isinstance(value, list | tuple):
+            raise ValueError(f"{value!r:.60} is not a list or tuple")
+        kinds = inner if what == "()" else inner * (len(value) if what == "[]" else int(what[1:-1]))
+        return (word(len(value)) if what == "[]" else b"") + encode_values(kinds, value)
+    if what == "string" and isinstance(value, str):
+        value = value.encode()
+    elif what == "address":
+        value = parse_address(value, "the value") if isinstance(value, str) else value
+        if isinstance(value, bytes) and len(value) == 20:
+            return word(value)
+    elif what == "bool" and isinstance(value, bool):
+        return word(int(value))
+    elif isinstance(value, int) and not isinstance(value, bool) and value in _whole(what):
+        return word(value % (1 << 256))
+    if what in ("string", "bytes") and isinstance(value, bytes):
+        return word(len(value)) + value.ljust(-(-len(value) // 32) * 32, b"\0")
+    if (length := _fixed(what)) and isinstance(value, bytes) and len(value) <= length:
+        return value.ljust(32, b"\0")
+    raise ValueError(f"{value!r:.60} is not a {kind}")
+
+
+def _decoded_all(kinds: Sequence[str], data: bytes, start: int, texts: str) -> tuple[Any, ...]:
+    values, at = [], start
+    for kind in kinds:
+        place = start + int.from_bytes(_piece(data, at, 32), "big") if _is_dynamic(kind) else at
+        values.append(_decoded(kind, data, place, texts))
+        at += _size(kind)
+    return tuple(values)
+
+
+def _decoded(kind: str, data: bytes, at: int, texts: str) -> Any:
+    what, inner = _parts(kind)
+    if what == "()":
+        return _decoded_all(inner, data, at, texts)
+    if what.startswith("[") and what != "[]":
+        return _decoded_all(inner * int(what[1:-1]), data, at, texts)
+    piece = _piece(data, at, 32)
+    value = int.from_bytes(piece, "big")
+    if what == "[]":
+        if value * _size(inner[0]) > len(data):
+            raise ValueError(f"{len(data)} bytes do not hold {value} times {inner[0]}")
+        return _decoded_all(inner * value, data, at + 32, texts)
+    if what in ("string", "bytes"):
+        whole = _piece(data, at + 32, -(-value // 32) * 32)
+        if any(whole[value:]):
+            raise ValueError(f"the bytes after a {kind} are not zero")
+        return whole[:value].decode(errors=texts) if what == "string" else whole[:value]
+    if length := _fixed(what):
+        if any(piece[length:]):
+            raise ValueError(f"the bytes after a {kind} are not zero")
+        return piece[:length]
+    if what == "address" and not any(piece[:12]):
+        return to_hex(piece[12:])
+    if what == "bool" and value <= 1:
+        return bool(value)
+    whole_numbers = _whole(what)
+    value -= (value >> 255 << 256) if whole_numbers.start else 0
+    if value in whole_numbers:
+        return value
+    raise ValueError(f"{to_hex(piece)} is not a {kind}")
+
+
+def _piece(data: bytes, at: int, size: int) -> bytes:
+    if at + size > len(data):
+        raise ValueError(f"{len(data)} bytes end before byte {at + size}")
+    return data[at : at + size]
+
+
+@cache
+def _whole(kind: str) -> range:
+    """Return the values of a type of whole numbers; none for another type."""
+    match = re.fullmatch(r"(u?)int(\d+)", kind)
+    if match is None:
+        return range(0)
+    count = 1 << int(match[2])
+    return range(count) if match[1] else range(-count // 2, count // 2)
+
+
+@cache
+def _fixed(kind: str) -> int:
+    """Return the number of bytes of a type such as bytes32; 0 for another type."""
+    match = re.fullmatch(r"bytes(\d+)", kind)
+    return int(match[1]) if match else 0
+
+
+# ---- errors ----
 
 
 def error_table(abi: Iterable[Mapping[str, Any]]) -> dict[bytes, tuple[str, list[tuple[str, str]]]]:
@@ -100,15 +247,6 @@ def error_table(abi: Iterable[Mapping[str, Any]]) -> dict[bytes, tuple[str, list
             signature = f"{entry['name']}({','.join(kind for _, kind in parameters)})"
             table[keccak256(signature.encode())[:4]] = (entry["name"], parameters)
     return table
-
-
-def _type_of(parameter: Mapping[str, Any]) -> str:
-    """Return the type of a parameter in signatures."""
-    if not parameter["type"].startswith("tuple"):
-        return str(parameter["type"])
-    from eth_utils.abi import collapse_if_tuple
-
-    return collapse_if_tuple(cast("ABIComponent", parameter))
 
 
 #: Errors of Solidity itself: `require` and `revert` with a text, and failed checks.
@@ -125,27 +263,11 @@ def decode_error(data: bytes, errors: Errors) -> tuple[str, dict[str, Any]] | No
 
     A value without a name is called by its type. Bytes of a text that are not UTF-8 are replaced.
     """
-    from eth_abi.exceptions import DecodingError
-
     if data[:4] not in errors:
         return None
     name, parameters = errors[data[:4]]
     try:
-        values = _tolerant_codec().decode([kind for _, kind in parameters], data[4:])
-    except (DecodingError, OverflowError):
+        values = decode_values([kind for _, kind in parameters], data[4:], "replace")
+    except ValueError:
         return None
     return name, {label or kind: value for (label, kind), value in zip(parameters, values, strict=True)}
-
-
-@cache
-def _tolerant_codec() -> ABICodec:
-    """Return a decoder that replaces bytes of texts that are not UTF-8."""
-    from eth_abi.codec import ABICodec
-    from eth_abi.decoding import StringDecoder
-    from eth_abi.registry import BaseEquals, registry
-
-    tolerant = registry.copy()  # type: ignore[no-untyped-call]
-    tolerant.unregister_decoder("string")
-    decoder = StringDecoder("replace")  # type: ignore[no-untyped-call]
-    tolerant.register_decoder(BaseEquals("string"), decoder, label="string")  # type: ignore[no-untyped-call]
-    return ABICodec(tolerant)

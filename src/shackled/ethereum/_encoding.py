@@ -29,7 +29,6 @@ def word(value: int | bytes) -> bytes:
 
 def keccak256(data: bytes) -> bytes:
     """Return the Keccak-256 hash of data, 32 bytes."""
-    # eth_utils takes 0.1 s to import
     return keccak.new(digest_bits=256, data=data).digest()
 
 
@@ -49,9 +48,10 @@ def create2_address(creation: bytes, salt: bytes = SALT, creator: bytes = PROXY)
 
 def checksum_address(address: bytes) -> str:
     """Write an address with the checksum of EIP-55, which is in its capitals."""
-    from eth_utils.address import to_checksum_address
-
-    return str(to_checksum_address(address))
+    digits = address.hex()
+    marks = keccak256(digits.encode()).hex()
+    capital = (each.upper() if mark > "7" else each for each, mark in zip(digits, marks, strict=False))
+    return f"0x{''.join(capital)}"
 
 
 def parse_address(text: str, name: str) -> bytes:
@@ -101,8 +101,6 @@ def encode_header(block: Mapping[str, Any]) -> bytes:
     Values may be hexadecimal, bytes or numbers. Raises InputError if a field is missing, or if the hash differs from
     the block's, because its chain has other fields.
     """
-    import rlp
-
     items = []
     for name, size in (HEADER_FIELDS | LATER_FIELDS).items():
         if block.get(name) is None:
@@ -110,7 +108,8 @@ def encode_header(block: Mapping[str, Any]) -> bytes:
                 break
             raise InputError(f"the node returned no {name} of block {_number(block)}, so its header cannot be encoded")
         items.append(_field(block[name], size))
-    header: bytes = rlp.encode(items)
+    body = b"".join(map(_rlp, items))
+    header = _length(len(body), 0xC0) + body
     found, expected = keccak256(header), _field(block.get("hash") or b"", 32)
     if found != expected:
         raise InputError(
@@ -126,7 +125,24 @@ def _number(block: Mapping[str, Any]) -> int:
 
 def _field(value: Any, size: int | None) -> bytes:
     """Return the bytes of a field: a number without leading zeros, anything else in full length."""
-    from eth_utils.conversions import to_bytes
-
-    data = to_bytes(hexstr=value) if isinstance(value, str) else to_bytes(value)
+    if isinstance(value, str):
+        digits = value.removeprefix("0x")
+        data = bytes.fromhex(digits.rjust(len(digits) + len(digits) % 2, "0"))
+    elif isinstance(value, int):
+        data = value.to_bytes(-(-value.bit_length() // 8), "big")
+    else:
+        data = bytes(value)
     return data.lstrip(b"\0") if size == 0 else data.rjust(size or 0, b"\0")
+
+
+def _rlp(data: bytes) -> bytes:
+    """Encode bytes in RLP."""
+    return data if len(data) == 1 and data[0] < 0x80 else _length(len(data), 0x80) + data
+
+
+def _length(length: int, base: int) -> bytes:
+    """Return what precedes so many bytes in RLP. base: 0x80 for bytes, 0xC0 for a list."""
+    if length <= 55:
+        return bytes([base + length])
+    size = length.to_bytes(-(-length.bit_length() // 8), "big")
+    return bytes([base + 55 + len(size)]) + size

@@ -1,9 +1,9 @@
-from ._background import Background
+from ._arithmetic import euler, from_euler, rotate
 from ._camera import Camera, Projection
 from ._canvas import as_shown
 from ._codec import SHADINGS, TWO_SIDED, WIREFRAME, Rectangle, encode, encode_scene, render_call
 from ._decode import decode
-from ._effects import Fog, Hemisphere, Rim, Tone
+from ._effects import Background, Fog, Hemisphere, Rim, Tone
 from ._files.content import MAX_BYTES
 from ._files.gltf.animation import animation_length, animations_of
 from ._files.gltf.view import read_view
@@ -20,13 +20,11 @@ from ._from_trimesh import objects_of, part_of
 from ._ground import Ground
 from ._light import INNER_ANGLE, LIGHT_KINDS, WHITE, Light
 from ._look import look_at, resize, stage
-from ._material import Material
 from ._mesh import Mesh, components, faces_of_all, is_trimesh, vertex_normals, weld, without_slivers
-from ._object import Object
-from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack
+from ._object import Material, Object
+from ._packed import NORMAL_UNIT, NORMALS, WIDE, pack
 from ._presets import PRESETS
 from ._records import ANTIALIAS, LONG_KINDS, RECORD_HEADER
-from ._rotation import euler, from_euler, rotate
 from ._scene import Scene
 from ._settings import ALL, SETTINGS, Kind, LookOptions, Setting, checked_look, settings_of, size_of
 from ._simplify import FORCEFUL, GENTLE, simplify, simplify_scene

@@ -1,5 +1,7 @@
 """Arithmetic whose results are the same on each machine, and in web/src/scene/arithmetic.ts.
 
+Rotations are quaternions (x, y, z, w); the identity is (0, 0, 0, 1).
+
 NumPy's `@` and `norm` leave the order of sums to BLAS, and sines to the C library or the processor.
 """
 
@@ -8,7 +10,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+
+from ..checks import Floats, number, vector
+from ..errors import InputError
 
 Array = NDArray[np.float64]
 
@@ -69,3 +74,106 @@ def _series(degrees: float) -> tuple[int, int]:
         term = (term * x >> BITS) // power
     c, s = sums
     return c, -s if radians < 0 else s
+
+
+IDENTITY = vector((0, 0, 0, 1), size=4)
+
+#: By how much the columns of a matrix may be from unit vectors at right angles.
+ORTHOGONAL = 1e-6
+
+
+def from_euler(degrees: ArrayLike) -> NDArray[np.float64]:
+    """Return the rotation about the x, then the y, then the z axis of the world, each in degrees.
+
+    Counter-clockwise as seen from the positive end of the axis.
+    """
+    x, y, z = vector(degrees, "a rotation in degrees")
+    about_x, about_y, about_z = (
+        from_axis_angle((1, 0, 0), x),
+        from_axis_angle((0, 1, 0), y),
+        from_axis_angle((0, 0, 1), z),
+    )
+    return multiply(about_z, multiply(about_y, about_x))
+
+
+def euler(x: float, y: float, z: float) -> NDArray[np.float64]:
+    """Return the rotation about the x, then the y, then the z axis of the world, each in degrees, as a quaternion."""
+    return from_euler((x, y, z))
+
+
+def from_axis_angle(axis: ArrayLike, degrees: float) -> NDArray[np.float64]:
+    """Return the rotation about an axis of any length but zero, counter-clockwise seen from where the axis points."""
+    direction = vector(axis, "the axis of a rotation")
+    if not direction.any():
+        raise InputError("the axis of a rotation must not be zero")
+    # whole turns off first, so that 360 degrees are exactly none
+    half = math.remainder(number(degrees, "the angle of a rotation in degrees"), 360) / 2
+    return np.append(unit(direction) * sine(half), cosine(half))
+
+
+def multiply(second: ArrayLike, first: ArrayLike) -> NDArray[np.float64]:
+    """Return the rotation `first`, followed by `second`."""
+    a, b = np.asarray(second, dtype=np.float64), np.asarray(first, dtype=np.float64)
+    return np.append(a[3] * b[:3] + b[3] * a[:3] + np.cross(a[:3], b[:3]), a[3] * b[3] - dot(a[:3], b[:3]))
+
+
+def rotate(quaternion: ArrayLike, points: ArrayLike) -> NDArray[np.float64]:
+    """Return the points, (3,) or (n, 3), turned by a quaternion of any length but zero."""
+    q, p = vector(quaternion, "a rotation", 4), np.asarray(points, dtype=np.float64)
+    if not q.any():
+        raise InputError("a rotation must not be the zero quaternion; the identity is (0, 0, 0, 1)")
+    q = unit(q)
+    t = 2 * cross(q[:3], p)
+    return np.asarray(p + q[3] * t + cross(q[:3], t))
+
+
+def matrix_of(value: ArrayLike, size: int, name: str) -> NDArray[np.float64]:
+    """Return a square matrix of `size` rows of finite floats. InputError for anything else."""
+    try:
+        matrix = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        matrix = np.zeros(0)
+    if matrix.shape != (size, size) or not np.isfinite(matrix).all():
+        raise InputError(f"{name} must be {size} x {size} finite numbers, not {value!r:.60}")
+    return matrix
+
+
+def quaternion_of(m: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the rotation of a matrix, (3, 3), whose columns are unit vectors at right angles, right-handed.
+
+    InputError for any other matrix.
+    """
+    if np.abs(m.T @ m - np.eye(3)).max() > ORTHOGONAL or np.linalg.det(m) < 0:
+        raise InputError("the matrix of a rotation must have unit columns at right angles, and must not mirror")
+    # 4 q q^T, whose largest column has no small divisor
+    trace = np.trace(m)
+    squares = np.zeros((4, 4))
+    squares[:3, :3] = m + m.T + (1 - trace) * np.eye(3)
+    squares[3, :3] = squares[:3, 3] = (m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1])
+    squares[3, 3] = 1 + trace
+    largest = squares[:, np.argmax(np.diag(squares))]
+    quaternion: NDArray[np.float64] = largest / length(largest)
+    return quaternion if quaternion[3] >= 0 else -quaternion
+
+
+def rotation_of(value: ArrayLike, name: str = "a rotation") -> Floats:
+    """Return the rotation that is meant, as a read-only quaternion (x, y, z, w).
+
+    value: a quaternion of any length but zero, three angles in degrees about x, then y, then z, or a matrix, (3, 3).
+    """
+    try:
+        shape = np.shape(value)
+    except ValueError:  # rows of different lengths
+        shape = ()
+    if shape == (3,):
+        value = from_euler(vector(value, name))
+    elif shape == (3, 3):
+        value = quaternion_of(matrix_of(value, 3, "the matrix of a rotation"))
+    elif shape != (4,):
+        raise InputError(
+            f"{name} must be x, y, z in degrees, a quaternion x, y, z, w, or a 3 x 3 matrix, not {value!r:.60}"
+        )
+    quaternion = vector(value, name, 4)
+    if not quaternion.any():
+        raise InputError(f"{name} must not be the zero quaternion; the identity is (0, 0, 0, 1)")
+    return quaternion

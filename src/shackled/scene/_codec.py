@@ -20,8 +20,7 @@ from ._files.table import about
 from ._fit import fit
 from ._light import Light
 from ._object import Object
-from ._packed_mesh import pack
-from ._packed_texture import pack_alpha, pack_texture
+from ._packed import pack, pack_alpha, pack_texture
 from ._records import (
     ALPHA_OF,
     ANTIALIAS,

@@ -11,9 +11,8 @@ from attrs import evolve
 from numpy.typing import NDArray
 
 from ._arithmetic import cosine, dot, length
-from ._material import Shading
 from ._mesh import Mesh, components, weld
-from ._object import Object
+from ._object import Object, Shading
 from ._winding import against
 
 Floats = NDArray[np.float64]

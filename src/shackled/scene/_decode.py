@@ -11,7 +11,6 @@ from attrs import evolve
 
 from ..artifacts import artifact
 from ..errors import InputError
-from ._background import Background
 from ._camera import Camera
 from ._codec import (
     CULL_BACKFACES,
@@ -28,16 +27,14 @@ from ._codec import (
     extensions,
     render_call,
 )
-from ._effects import EXPOSURES, Fog, Hemisphere, Rim, Tone
+from ._effects import EXPOSURES, Background, Fog, Hemisphere, Rim, Tone
 from ._files.table import about
 from ._fit import MAX_COORDINATE, MAX_SCALE
 from ._ground import Ground
 from ._light import MAX_LIGHTS, Light
-from ._material import COEFFICIENTS, EXPONENTS, Material
 from ._mesh import Mesh
-from ._object import Object
-from ._packed_mesh import WIDE, unpack
-from ._packed_texture import unpack_alpha, unpack_texture
+from ._object import COEFFICIENTS, EXPONENTS, Material, Object
+from ._packed import WIDE, unpack, unpack_alpha, unpack_texture
 from ._records import (
     ALPHA_OF,
     ANTIALIAS,

@@ -1,10 +1,11 @@
-"""Effects of a whole scene: light from the sky and along outlines, fog, and how light becomes colours.
+"""Backgrounds, and effects of a whole scene: light from the sky and along outlines, fog, and how light becomes colours.
 
 `Scene.extensions` has a record for each. Scenes with any of them are antialiased.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from attrs import field, frozen
@@ -125,3 +126,35 @@ def tone_of(value: Tone | None) -> Tone | None:
     if value is not None:
         instance(value, "the tone of a scene", Tone)
     return value
+
+
+def _bottom(value: ArrayLike | str | None, name: str = "") -> Color:
+    # None is replaced by the top right after
+    return value if value is None else color(value, name)  # type: ignore[return-value]
+
+
+@frozen(field_transformer=with_names)
+class Background:
+    """A vertical gradient from the colour of the top row to that of the bottom row, by default the same.
+
+    Colours are red, green, blue, 0..255; also given as floats 0..1, "#rrggbb" or a name.
+    """
+
+    top: Color = field(default=(0, 0, 0), converter=color, metadata=checked("the background colour"))
+    bottom: Color = field(
+        default=None, converter=_bottom, metadata=checked("the colour at the bottom of the background")
+    )
+
+    def __attrs_post_init__(self) -> None:
+        """Take the top's colour where none is given for the bottom."""
+        if self.bottom is None:
+            object.__setattr__(self, "bottom", self.top)
+
+
+def background_of(value: Background | ArrayLike | str | Sequence[ArrayLike | str]) -> Background:
+    """Return a background, given as itself, as one colour, or as two, (top, bottom)."""
+    if isinstance(value, Background):
+        return value
+    if isinstance(value, list | tuple) and len(value) == 2:
+        return Background(*value)
+    return Background(value)  # type: ignore[arg-type]

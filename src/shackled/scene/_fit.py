@@ -11,21 +11,20 @@ divided last, so that their parts have one grid.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ._arithmetic import dot, length, unit
+from ._arithmetic import dot, length, rotate, unit
 from ._camera import Camera
-from ._divide import divided
 from ._effects import Fog
 from ._light import Light
-from ._mesh import part_of_faces, vertex_normals
+from ._mesh import MAX_FACES, MAX_VERTICES, part_of_faces, vertex_normals
 from ._object import Object
-from ._packed_mesh import MAX_SHORT, MAX_WIDE, fits, is_integral
-from ._rotation import rotate
+from ._packed import MAX_SHORT, MAX_WIDE, fits, is_integral
 from ._scene import Scene
 
 Array = NDArray[np.float64]
@@ -282,3 +281,26 @@ def _direction(v: Array) -> Array:
 
 def _show(v: Array) -> str:
     return f"({', '.join(f'{x:g}' for x in v)})"
+
+
+def divided(o: Object) -> list[Object]:
+    """Return the object, or, if its mesh is too large for a contract, several that together are the same.
+
+    Each has the next faces of the mesh, so that what is close together in a file stays together. Vertices at the cuts
+    are in both parts, with their normals.
+    """
+    mesh = o.mesh
+    if len(mesh.positions) <= MAX_VERTICES and mesh.triangles <= MAX_FACES:
+        return [o]
+    return [evolve(o, mesh=part_of_faces(mesh, faces)) for faces in _runs(mesh.faces)]
+
+
+def _runs(faces: NDArray[np.int64]) -> Iterator[NDArray[np.int64]]:
+    while len(faces):
+        run = faces[:MAX_FACES]
+        # where each vertex is named first: the run ends before the one that is too many
+        firsts = np.sort(np.unique(run, return_index=True)[1])
+        if len(firsts) > MAX_VERTICES:
+            run = run[: firsts[MAX_VERTICES] // 3]
+        yield run
+        faces = faces[len(run) :]

@@ -9,12 +9,10 @@ from attrs import evolve
 from numpy.typing import NDArray
 
 from ..errors import InputError, warn
-from ._files.colors import to_srgb
 from ._files.model import MeshPart, Picture, finite_uvs, is_transparent
-from ._material import Material
 from ._mesh import is_trimesh, mesh_of, weld
-from ._object import Object
-from ._texture import as_rgb, as_rgba, cutoff_of
+from ._object import Material, Object
+from ._texture import as_rgb, as_rgba, cutoff_of, to_srgb
 
 
 def part_of(value: Any) -> MeshPart:

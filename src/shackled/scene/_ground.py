@@ -13,9 +13,8 @@ from ..checks import Color, Floats, color, number, vector
 from ..errors import InputError
 from ..values import checked, with_names
 from ._arithmetic import length
-from ._material import Material
 from ._mesh import Mesh
-from ._object import Object
+from ._object import Material, Object
 
 #: The radius of a ground, as a multiple of half the diagonal of the box around the objects; the part of the radius at
 #: which it begins to fade; how far it is below the lowest vertex, as a part of that half diagonal.

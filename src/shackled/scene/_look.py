@@ -11,15 +11,13 @@ from attrs import evolve
 
 from ..checks import Color, Floats
 from ..errors import InputError
-from ._arithmetic import dot, length
+from ._arithmetic import IDENTITY, dot, length, multiply, rotate
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
 from ._crease import is_flat, shaded, without_normals
 from ._effects import Fog, Tone
-from ._material import Material
 from ._mesh import Mesh
-from ._object import Object
+from ._object import Material, Object
 from ._presets import preset_of
-from ._rotation import IDENTITY, multiply, rotate
 from ._scene import Scene
 from ._settings import ALL, LookOptions, Setting, checked_look, settings_of, size_of
 from ._staging import (

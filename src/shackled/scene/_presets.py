@@ -12,9 +12,9 @@ from attrs.converters import optional
 
 from .. import checks
 from ..checks import Color
-from ._background import Background, background_of
+from ._effects import Background, background_of
 from ._light import WHITE, Light
-from ._material import Material
+from ._object import Material
 from ._staging import view_axes
 
 

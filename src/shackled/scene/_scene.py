@@ -14,9 +14,8 @@ from ..checks import Color, Floats, color, flag, instance, integer
 from ..errors import InputError
 from ..values import checked, plural, with_names
 from ..words import Words, words_of
-from ._background import Background, background_of
 from ._camera import Camera
-from ._effects import Fog, Hemisphere, Rim, Tone, fog_of, hemisphere_of, rim_of, tone_of
+from ._effects import Background, Fog, Hemisphere, Rim, Tone, background_of, fog_of, hemisphere_of, rim_of, tone_of
 from ._files.written import write_scene
 from ._ground import Ground, ground_of
 from ._light import WHITE, Light, lights_of, parts_of

@@ -13,16 +13,25 @@ from numpy.typing import ArrayLike
 from ..checks import choice, color, flag, integer, number, vector, whole
 from ..errors import InputError
 from ..words import in_our_words, instead_of
-from ._background import Background, background_of
+from ._arithmetic import IDENTITY, multiply, rotation_of
 from ._camera import FIELDS_OF_VIEW, Camera
 from ._crease import CREASES
-from ._effects import EXPOSURES, NONE, Fog, Hemisphere, Rim, fog_or_color, hemisphere_of, rim_of
+from ._effects import (
+    EXPOSURES,
+    NONE,
+    Background,
+    Fog,
+    Hemisphere,
+    Rim,
+    background_of,
+    fog_or_color,
+    hemisphere_of,
+    rim_of,
+)
 from ._ground import Ground, ground_of
 from ._light import Light, lights_of
-from ._material import COEFFICIENTS, EXPONENTS, SHADINGS, Material, Shading
-from ._object import OPACITIES
+from ._object import COEFFICIENTS, EXPONENTS, OPACITIES, SHADINGS, Material, Shading
 from ._presets import PRESETS, preset_of
-from ._rotation import IDENTITY, multiply, rotation_of
 from ._staging import ELEVATIONS, MARGINS, MAX_SIDE, MESH_STAGING
 from ._upright import AXES, Axis, upright
 

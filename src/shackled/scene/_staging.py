@@ -15,12 +15,11 @@ from ..checks import Color, Floats, number
 from ..errors import InputError
 from ..values import checked, with_names
 from ._arithmetic import cosine, dot, length, sine
-from ._background import Background
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
+from ._effects import Background
 from ._light import WHITE, Light
-from ._material import Material
 from ._mesh import Mesh, faces_of_all
-from ._object import Object
+from ._object import Material, Object
 
 BACKGROUND = Background((46, 54, 72), (136, 146, 162))
 

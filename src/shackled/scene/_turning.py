@@ -10,9 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..checks import number
 from ..errors import InputError
-from ._arithmetic import dot, length
+from ._arithmetic import dot, length, multiply, rotate, rotation_of
 from ._camera import Camera
-from ._rotation import multiply, rotate, rotation_of
 from ._scene import Scene
 
 Points = NDArray[np.float64]

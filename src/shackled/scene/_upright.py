@@ -11,10 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..checks import Floats, vector
 from ..errors import InputError, warn
-from ._arithmetic import unit
+from ._arithmetic import from_euler, unit
 from ._files.model import MeshPart
 from ._mesh import faces_of_all
-from ._rotation import from_euler
 
 Axis = Literal["x", "y", "z"]
 AXES: tuple[Axis, ...] = ("x", "y", "z")

@@ -11,7 +11,7 @@ from attrs import evolve
 from ..artifacts import artifact
 from ..chain import Connection, ContractChain, open_chain
 from ..errors import InputError, VerificationError
-from ..ethereum import checksum_address, create2_address, intrinsic_gas, word
+from ..ethereum import checksum_address, create2_address, decode_values, encode_values, intrinsic_gas, word
 from ..scene import Object, Scene, encode_scene, fit, pack, rotate
 from ._compact_mesh import compact, vertex_order
 
@@ -137,17 +137,15 @@ def quantize(o: Object, bits: int) -> Object:
 
 def encode_with_pointers(scene: Scene, pointers: Sequence[bytes]) -> bytes:
     """Encode the struct of a scene that `fit` made, with pointers in place of its meshes."""
-    from eth_abi.abi import decode, encode
-
     kind = scene_struct()
-    (struct,) = decode([kind], word(32) + encode_scene(scene))
+    (struct,) = decode_values([kind], word(32) + encode_scene(scene))
     *others, objects, extensions = struct
     pointed = [(bytes([POINTED]) + pointer, *o[1:]) for o, pointer in zip(objects, pointers, strict=True)]
-    return encode([kind], [(*others, pointed, extensions)])[32:]
+    return encode_values([kind], [(*others, pointed, extensions)])[32:]
 
 
 def scene_struct() -> str:
-    """Return the ABI type of the contracts' struct Scene, for eth_abi."""
+    """Return the ABI type of the contracts' struct Scene."""
     return artifact(STUDIO).interface.parameter_type("storeScene")
 
 
@@ -253,14 +251,11 @@ def stored_codes(connection: Connection, studio: bytes, pointer: bytes) -> dict[
 
 def stored_meshes(data: bytes) -> list[bytes]:
     """Return the field `mesh` of each object of a stored scene. Raises VerificationError if the bytes are invalid."""
-    from eth_abi.abi import decode
-    from eth_abi.exceptions import DecodingError
-
     if data[:1] != bytes([SCENE]):
         raise VerificationError("the stored bytes are not a scene")
     try:
-        (struct,) = decode([scene_struct()], expand_zeros(data[1:]))
-    except (DecodingError, IndexError, OverflowError) as error:
+        (struct,) = decode_values([scene_struct()], expand_zeros(data[1:]))
+    except (ValueError, IndexError) as error:
         raise VerificationError(f"the stored bytes are not a complete scene: {error}") from None
     *_, objects, _ = struct
     return [each[0] for each in objects]

@@ -1,6 +1,6 @@
 from ._allow_list import read_allow_list
-from ._collection import EDITIONS, KINDS, Collection, open_collection
-from ._contract import Contract, minted_tokens, plan, withdrawn
+from ._collection import EDITIONS, KINDS, Collection, CollectionKind, open_collection
+from ._contract import Contract, ContractCall, minted_tokens, plan, withdrawn
 from ._demo import run_demo
 from ._editions import (
     OPEN,
@@ -14,11 +14,10 @@ from ._editions import (
     withdraw_gas,
 )
 from ._icons import ICON_PRICE, SCALE, add_call, check_sale, chosen_pieces, find_icon, icons_of, licence_of, token_scene
-from ._launch import CollectionTerms, address_of, launch, parts_of, plan_launch, plan_setup
+from ._launch import CollectionTerms, Launch, SetupStep, address_of, launch, parts_of, plan_launch, plan_setup
 from ._metadata import MAX_LENGTH, read_data_uri
 from ._minting import mint_call, sign_allowance
 from ._reveal import (
-    RevealCall,
     Round,
     check_randomness,
     hidden_rounds,
@@ -27,7 +26,7 @@ from ._reveal import (
     price_wallet_calls,
     reveal_calls,
 )
-from ._storage import SceneToStore, plan_storage, read_back, store
+from ._storage import SceneToStore, StoragePlan, plan_storage, read_back, store
 from ._verify import check_code, check_collection_code, check_token
 from ._view import comparison, read_view, read_views
 
@@ -39,12 +38,16 @@ __all__ = [
     "OPEN",
     "SCALE",
     "Collection",
+    "CollectionKind",
     "CollectionTerms",
     "Contract",
+    "ContractCall",
     "EditionTerms",
-    "RevealCall",
+    "Launch",
     "Round",
     "SceneToStore",
+    "SetupStep",
+    "StoragePlan",
     "add_call",
     "add_gas",
     "added_number",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from typing import Any
 
 from ..artifacts import artifact, known_errors
@@ -29,6 +30,19 @@ USUAL_GAS = {
     "transferOwnership": 28_000,
     "withdraw": 30_000,
 }
+
+
+@dataclass(frozen=True)
+class ContractCall:
+    """A function with its arguments.
+
+    value: ether to send, in wei. gas: approximate gas of the whole transaction; None uses `USUAL_GAS`.
+    """
+
+    function: str
+    arguments: tuple[Any, ...]
+    value: int = 0
+    gas: int | None = None
 
 
 class Contract:

@@ -9,17 +9,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..chain import Connection
-from ..deploy import Receipt, Transactor, local_chain
+from ..deploy import Receipt, Transactor, local_chain, signer_class
 from ..errors import InputError, VerificationError
 from ..ethereum import ETHER, checksum_address, ether
 from ..whole_file import make_output_folder, write_output
 from ._allow_list import make_allow_list
 from ._collection import KINDS, Collection
-from ._contract import perform
+from ._contract import ContractCall, perform
 from ._icons import ICON_PRICE, SCALE, add_call, chosen_pieces, icons_of, token_scene
 from ._launch import CollectionTerms, launch, plan_launch
 from ._metadata import read_token_uri
-from ._minting import MintCall, mint_call, sign_allowance
+from ._minting import mint_call, sign_allowance
 from ._reveal import hidden_rounds, latest_block, reveal_calls
 from ._storage import SceneToStore, plan_storage, store
 from ._verify import check_code, check_token
@@ -225,7 +225,7 @@ def _read_back(collection: Collection, demo: Demo, report: Callable[[str], None]
     demo.costs.append(ActionCost(f"{title}: tokenURI, most", max(gas), original and (original[1],) * 2))
 
 
-def _mint(user: Transactor, collection: Collection, call: MintCall) -> Receipt:
+def _mint(user: Transactor, collection: Collection, call: ContractCall) -> Receipt:
     return perform(user, collection.contract, call.function, *call.arguments, value=call.value)
 
 
@@ -244,10 +244,9 @@ def _require(failure: str, what: str) -> None:
 
 def development_accounts(count: int = ACCOUNTS) -> list[LocalAccount]:
     """Return the first accounts of anvil, 1 to 10, whose keys are public: use them on development nodes only."""
-    from eth_account import Account
-
-    Account.enable_unaudited_hdwallet_features()
-    return [Account.from_mnemonic(PHRASE, account_path=f"m/44'/60'/0'/0/{number}") for number in range(count)]
+    opener = signer_class()
+    opener.enable_unaudited_hdwallet_features()
+    return [opener.from_mnemonic(PHRASE, account_path=f"m/44'/60'/0'/0/{number}") for number in range(count)]
 
 
 def development_transactors(connection: Connection, max_fee: int | None) -> list[Transactor]:

@@ -14,11 +14,10 @@ from ..errors import InputError, NodeError, OutOfGasError, RenderError, Verifica
 from ..ethereum import amount, checksum_address, ether, intrinsic_gas
 from ..studio import STUDIO
 from ._collection import EDITIONS, Collection
-from ._contract import USUAL_GAS, find_events
+from ._contract import USUAL_GAS, ContractCall, find_events
 from ._icons import SCALE
 from ._launch import MAX_ROYALTY
 from ._metadata import MAX_LENGTH
-from ._minting import MintCall
 
 #: The supply of an edition without a limit.
 OPEN = 2**32 - 1
@@ -247,8 +246,8 @@ def withdraw_gas(collection: Collection, editions: Sequence[int], to: str) -> in
     return USUAL_GAS["withdraw"] + intrinsic_gas(data) + WITHDRAW_GAS * (len(editions) - 1)
 
 
-def edition_mint_call(edition: Edition, quantity: int) -> MintCall:
+def edition_mint_call(edition: Edition, quantity: int) -> ContractCall:
     """Return the call that mints tokens. Raises InputError if it would be refused."""
     if not 1 <= quantity <= MOST_AT_ONCE:
         raise InputError(f"a call mints 1 to {MOST_AT_ONCE} tokens, not {quantity}")
-    return MintCall("mint", (edition.number, quantity), quantity * edition.price)
+    return ContractCall("mint", (edition.number, quantity), quantity * edition.price)

@@ -170,16 +170,16 @@ EXAMPLES = "CC0-1.0, public domain, CC-BY-4.0, CC-BY-SA-4.0, MIT, BSD-3-Clause, 
 
 
 def licence_of(source: Path | Piece | Link, stated: str | None) -> str:
-    """Return the licence of an object that is to be minted: that of a dataset piece, or `stated` for a file.
+    """Return the licence of an object that is to be stored: that of a dataset piece, or `stated` for a file.
 
-    Raises InputError if it is not known to allow minting, which cannot be undone.
+    Raises InputError if it is not known to allow that, which cannot be undone.
     """
     if isinstance(source, Piece):
         if stated is not None:
             raise InputError(f"`licence` is for files: {source.name} has the licence {source.licence}")
         if not (source.commercial and allows(source.licence)):
             raise InputError(
-                f"{source.name} must not be minted: its licence ({source.licence}) is not known to allow commercial "
+                f"{source.name} must not be stored: its licence ({source.licence}) is not known to allow commercial "
                 "use of changed copies, and nothing can be removed from a chain"
             )
         return source.licence
@@ -193,12 +193,12 @@ def licence_of(source: Path | Piece | Link, stated: str | None) -> str:
         raise InputError("`licence` is empty: state it, for instance CC0-1.0 or 'my own work'")
     if not allows(words):
         raise InputError(
-            f"{source} must not be minted under the licence {words!r}: it is not known to allow commercial use of "
+            f"{source} must not be stored under the licence {words!r}: it is not known to allow commercial use of "
             f"changed copies, as {EXAMPLES} do; if you made it yourself, state 'my own work'"
         )
     return words
 
 
 def allows(licence: str) -> bool:
-    """Return whether a licence is known to allow minting."""
+    """Return whether a licence is known to allow that."""
     return ALLOWED_LICENCES.fullmatch(re.sub(r"[\s_-]+", " ", licence.lower()).strip()) is not None

@@ -12,21 +12,13 @@ from ..ethereum import checksum_address, parse_address, to_hex
 from ..untrusted import read_json
 from ._allow_list import AllowList, read_allow_list
 from ._collection import Collection
+from ._contract import ContractCall
 from ._icons import icon_at
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
 
     from ._collection import Collection
-
-
-@dataclass(frozen=True)
-class MintCall:
-    """A function with its arguments. value: ether to send, in wei."""
-
-    function: str
-    arguments: tuple[Any, ...]
-    value: int = 0
 
 
 def mint_call(
@@ -37,7 +29,7 @@ def mint_call(
     permission: Path | Allowance | None = None,
     reserve_to: str | None = None,
     icon: int | None = None,
-) -> MintCall:
+) -> ContractCall:
     """Return the call with which an account mints.
 
     reserve_to: receiver of tokens from the reserve. icon: number of the icon, for collections of icons.
@@ -45,7 +37,7 @@ def mint_call(
     """
     which = () if icon is None else (icon,)
     if reserve_to is not None:
-        return MintCall("mintReserve", (*which, reserve_to, quantity))
+        return ContractCall("mintReserve", (*which, reserve_to, quantity))
     price = collection.contract.call("price") if icon is None else icon_at(collection, icon).price
     value = quantity * int(price)
     if allow_list is not None:
@@ -56,13 +48,15 @@ def mint_call(
             raise InputError(
                 f"the allow list has the root 0x{listed.root.hex()}, but that of the collection is {actual}"
             )
-        return MintCall("mintWithProof", (*which, quantity, listed.allowance(account), listed.proof(account)), value)
+        return ContractCall(
+            "mintWithProof", (*which, quantity, listed.allowance(account), listed.proof(account)), value
+        )
     if permission is not None:
         allowed = permission if isinstance(permission, Allowance) else read_allowance(permission)
         if allowed.account != account:
             raise InputError(f"the permission is for {allowed.account}, not for {account}")
-        return MintCall("mintWithSignature", (*which, quantity, allowed.struct, allowed.signature), value)
-    return MintCall("mint", (*which, quantity), value)
+        return ContractCall("mintWithSignature", (*which, quantity, allowed.struct, allowed.signature), value)
+    return ContractCall("mint", (*which, quantity), value)
 
 
 ALLOWANCE_FIELDS = [

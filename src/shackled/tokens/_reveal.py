@@ -11,7 +11,7 @@ from ..deploy import Call, Fees, Quote, Transactor, make_quotes
 from ..errors import ChainError, InputError, NodeError, RevertError, TransactionError
 from ..ethereum import encode_header, keccak256, to_hex
 from ._collection import Collection
-from ._contract import call_of, plan
+from ._contract import ContractCall, call_of, plan
 
 #: Maximum number of rounds in a transaction.
 ROUNDS_AT_ONCE = 40
@@ -58,16 +58,7 @@ def latest_block(collection: Collection) -> int:
     return collection.connection.number("eth_blockNumber")
 
 
-@dataclass(frozen=True)
-class RevealCall:
-    """A call that reveals tokens or proves old blocks. gas: approximate gas of its transaction."""
-
-    function: str
-    arguments: tuple[Any, ...]
-    gas: int
-
-
-def reveal_calls(collection: Collection, rounds: list[Round]) -> list[RevealCall]:
+def reveal_calls(collection: Collection, rounds: list[Round]) -> list[ContractCall]:
     """Return the calls that reveal rounds whose blocks are not missing, in order.
 
     If block hashes are no longer available on the chain, the first calls prove them. Every header is compared with the
@@ -82,12 +73,12 @@ def reveal_calls(collection: Collection, rounds: list[Round]) -> list[RevealCall
     return calls
 
 
-def reveal_call(rounds: Sequence[Round], headers: list[bytes]) -> RevealCall:
+def reveal_call(rounds: Sequence[Round], headers: list[bytes]) -> ContractCall:
     """Return the call that reveals rounds by the headers of their blocks."""
-    return RevealCall("reveal", ([each.number for each in rounds], headers), FIRST_GAS + REVEAL_GAS * len(rounds))
+    return ContractCall("reveal", ([each.number for each in rounds], headers), gas=FIRST_GAS + REVEAL_GAS * len(rounds))
 
 
-def price_calls(transactor: Transactor, collection: Collection, calls: Sequence[RevealCall]) -> list[Quote]:
+def price_calls(transactor: Transactor, collection: Collection, calls: Sequence[ContractCall]) -> list[Quote]:
     """Return the quotes of one or more calls. Raises RevertError, with an explanation, if the first would revert."""
     first, contract = calls[0], collection.contract
     quote = plan(transactor, contract, first.function, *first.arguments, gas=first.gas)
@@ -95,7 +86,7 @@ def price_calls(transactor: Transactor, collection: Collection, calls: Sequence[
     return [quote, *make_quotes(transactor.connection, later, quote.fees, [quote], transactor.address)]
 
 
-def price_wallet_calls(collection: Collection, calls: Sequence[RevealCall], fees: Fees) -> list[Quote]:
+def price_wallet_calls(collection: Collection, calls: Sequence[ContractCall], fees: Fees) -> list[Quote]:
     """Return the quotes of one or more calls that some wallet will send, so without an account.
 
     Raises RevertError, with an explanation, if the first would revert.
@@ -132,12 +123,12 @@ def checked_header(block: Mapping[str, Any], number: int, expected: bytes, name:
     return header
 
 
-def _transactions(collection: Collection, calls: Sequence[RevealCall]) -> list[Call]:
+def _transactions(collection: Collection, calls: Sequence[ContractCall]) -> list[Call]:
     interface, address = collection.contract.interface, collection.address
     return [call_of(interface, address, each.function, *each.arguments, gas=each.gas) for each in calls]
 
 
-def _proofs(collection: Collection, hashes: dict[int, bytes]) -> Iterator[RevealCall]:
+def _proofs(collection: Collection, hashes: dict[int, bytes]) -> Iterator[ContractCall]:
     """Yield calls that go back, header by header, from a block whose hash is available to each of the old ones.
 
     hashes: by block; those of the old ones are zeros, and are replaced by what the calls prove.
@@ -163,7 +154,7 @@ def _proofs(collection: Collection, hashes: dict[int, bytes]) -> Iterator[Reveal
                 expected = headers[-1][4:36]
                 number -= 1
             # the contract then stores the hash of block `number`
-            yield RevealCall("keepHash", (first, headers), FIRST_GAS + HEADER_GAS * len(headers))
+            yield ContractCall("keepHash", (first, headers), gas=FIRST_GAS + HEADER_GAS * len(headers))
         hashes[block] = expected
 
 

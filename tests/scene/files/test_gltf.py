@@ -1,6 +1,3 @@
-import base64
-import io
-import json
 import struct
 from pathlib import Path
 from typing import Any
@@ -10,98 +7,42 @@ import pytest
 from attrs import evolve
 from PIL import Image
 
+from mesh_files import Gltf, corner_colors, corner_positions, png
 from shackled import load
 from shackled.errors import InputError, InputWarning
-from shackled.scene import MESH_STAGING, Mesh, read_mesh, read_model
+from shackled.scene import MESH_STAGING, read_mesh, read_model
 from shackled.scene._files.model import TEXTURED
 from shackled.scene._mesh import DEFAULT_COLOR
 
 POINTS = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
 
 
-def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
-    colors: list[list[list[int]]] = mesh.colors[mesh.faces].tolist()
-    return colors
-
-
-def corner_positions(mesh: Mesh) -> list[list[list[float]]]:
-    positions: list[list[list[float]]] = mesh.positions[mesh.faces].tolist()
-    return positions
-
-
-class Gltf:
+class Triangle(Gltf):
     """A glTF document of one triangle, to which tests add."""
 
     def __init__(self) -> None:
-        self.data = b""
-        self.document: dict[str, Any] = {
-            "asset": {"version": "2.0"},
-            "scene": 0,
-            "scenes": [{"nodes": [0]}],
-            "nodes": [{"mesh": 0}],
-            "meshes": [{"primitives": [{"attributes": {}}]}],
-            "bufferViews": [],
-            "accessors": [],
-        }
+        super().__init__(scenes=[{"nodes": [0]}], nodes=[{"mesh": 0}], meshes=[{"primitives": [{"attributes": {}}]}])
         self.attribute("POSITION", np.array(POINTS, dtype=np.float32))
 
     def attribute(self, name: str, values: np.ndarray[Any, Any], normalized: bool = False) -> None:
-        self.primitive["attributes"][name] = self.accessor(values, normalized)
+        self.primitive["attributes"][name] = self.accessor(values, normalized=normalized)
 
     @property
     def primitive(self) -> dict[str, Any]:
         primitive: dict[str, Any] = self.document["meshes"][0]["primitives"][0]
         return primitive
 
-    def view(self, data: bytes) -> int:
-        self.data += bytes(-len(self.data) % 4)
-        self.document["bufferViews"].append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)})
-        self.data += data
-        return len(self.document["bufferViews"]) - 1
-
-    def accessor(self, values: np.ndarray[Any, Any], normalized: bool = False) -> int:
-        kinds = {"f4": 5126, "u1": 5121, "u2": 5123, "u4": 5125}
-        shape = {1: "SCALAR"} if values.ndim == 1 else {2: {2: "VEC2", 3: "VEC3", 4: "VEC4"}[values.shape[-1]]}
-        self.document["accessors"].append(
-            {
-                "bufferView": self.view(values.tobytes()),
-                "componentType": kinds[values.dtype.str[1:]],
-                "count": len(values),
-                "type": shape[values.ndim],
-                "normalized": normalized,
-            }
-        )
-        return len(self.document["accessors"]) - 1
-
     def material(self, **values: Any) -> None:
         self.document["materials"] = [{"pbrMetallicRoughness": values}]
         self.primitive["material"] = 0
 
     def texture(self, image: Image.Image) -> None:
-        stream = io.BytesIO()
-        image.save(stream, "PNG")
-        self.document["images"] = [{"bufferView": self.view(stream.getvalue()), "mimeType": "image/png"}]
+        self.document["images"] = [{"bufferView": self.view(png(image)), "mimeType": "image/png"}]
         self.document["textures"] = [{"source": 0}]
-
-    def glb(self, path: Path) -> Path:
-        self.document["buffers"] = [{"byteLength": len(self.data)}]
-        text = json.dumps(self.document).encode()
-        text += b" " * (-len(text) % 4)
-        data = self.data + bytes(-len(self.data) % 4)
-        length = 12 + 8 + len(text) + 8 + len(data)
-        chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + data
-        path.write_bytes(struct.pack("<4sII", b"glTF", 2, length) + chunks)
-        return path
-
-    def gltf(self, path: Path, uri: str | None = None) -> Path:
-        uri = uri or "data:application/octet-stream;base64," + base64.b64encode(self.data).decode()
-        self.document["buffers"] = [{"byteLength": len(self.data), "uri": uri}]
-        path.write_text(json.dumps(self.document))
-        return path
 
 
 def test_glb_without_material(tmp_path: Path) -> None:
-    mesh = read_mesh(Gltf().glb(tmp_path / "model.glb"))
+    mesh = read_mesh(Triangle().glb(tmp_path / "model.glb"))
     assert corner_positions(mesh) == [[list(p) for p in POINTS]]
     assert corner_colors(mesh) == [[list(DEFAULT_COLOR)] * 3]
     assert mesh.normals is None
@@ -109,11 +50,12 @@ def test_glb_without_material(tmp_path: Path) -> None:
 
 def test_what_a_material_says_of_its_surface(tmp_path: Path) -> None:
     def surface(**values: Any) -> dict[str, Any]:
-        model = Gltf()
+        model = Triangle()
         model.material(**values)
         return read_model(model.glb(tmp_path / "model.glb"))[0].material
 
-    assert read_model(Gltf().glb(tmp_path / "model.glb"))[0].material == surface() == surface(metallicFactor=0) == {}
+    plain = read_model(Triangle().glb(tmp_path / "model.glb"))[0].material
+    assert plain == surface() == surface(metallicFactor=0) == {}
     rough, glossy = surface(roughnessFactor=1, metallicFactor=0), surface(roughnessFactor=0.2, metallicFactor=0)
     assert rough["specular"] == 0
     assert rough["specular"] < glossy["specular"] < surface(roughnessFactor=0.2)["specular"]
@@ -126,7 +68,7 @@ def test_what_a_material_says_of_its_surface(tmp_path: Path) -> None:
 
 
 def test_an_unlit_material_is_unlit(tmp_path: Path) -> None:
-    model = Gltf()
+    model = Triangle()
     model.material()
     model.document["materials"][0]["extensions"] = {"KHR_materials_unlit": {}}
     path = model.glb(tmp_path / "model.glb")
@@ -135,7 +77,7 @@ def test_an_unlit_material_is_unlit(tmp_path: Path) -> None:
 
 
 def test_normals_of_the_file_make_it_smooth(tmp_path: Path) -> None:
-    model = Gltf()
+    model = Triangle()
     normals = np.array([[0, 0, 1], [0.6, 0, 0.8], [0, 0.6, 0.8]])
     model.attribute("NORMAL", normals.astype(np.float32))
     thing = load(model.glb(tmp_path / "model.glb")).objects[0]
@@ -146,7 +88,7 @@ def test_normals_of_the_file_make_it_smooth(tmp_path: Path) -> None:
 
 
 def test_normals_of_the_faces_themselves_leave_it_flat(tmp_path: Path) -> None:
-    model = Gltf()
+    model = Triangle()
     a, b, c = np.array(POINTS)
     model.attribute("NORMAL", np.array([np.cross(b - a, c - a)] * 3, dtype=np.float32))
     thing = load(model.glb(tmp_path / "model.glb")).objects[0]
@@ -154,7 +96,7 @@ def test_normals_of_the_faces_themselves_leave_it_flat(tmp_path: Path) -> None:
 
 
 def test_gltf_with_its_data_inside_and_beside(tmp_path: Path) -> None:
-    model = Gltf()
+    model = Triangle()
     assert corner_positions(read_mesh(model.gltf(tmp_path / "model.gltf"))) == [[list(p) for p in POINTS]]
     (tmp_path / "data.bin").write_bytes(model.data)
     path = model.gltf(tmp_path / "other.gltf", "data.bin")
@@ -163,14 +105,14 @@ def test_gltf_with_its_data_inside_and_beside(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("scale", [1, 257])
 def test_vertex_colors_of_8_and_16_bits(tmp_path: Path, scale: int) -> None:
-    model = Gltf()
+    model = Triangle()
     colors = np.array([[255, 0, 0, 255], [0, 100, 0, 255], [0, 0, 7, 255]]) * scale
     model.attribute("COLOR_0", colors.astype(np.uint8 if scale == 1 else np.uint16), normalized=True)
     assert corner_colors(read_mesh(model.glb(tmp_path / "model.glb"))) == [[[255, 0, 0], [0, 168, 0], [0, 0, 46]]]
 
 
 def test_material_color_times_vertex_color(tmp_path: Path) -> None:
-    model = Gltf()
+    model = Triangle()
     model.attribute("COLOR_0", np.array([[1, 1, 1], [0.5, 1, 1], [0, 0, 0]], dtype=np.float32))
     model.material(baseColorFactor=[1, 0.2, 0, 1])
     assert corner_colors(read_mesh(model.glb(tmp_path / "model.glb"))) == [[[255, 124, 0], [188, 124, 0], [0, 0, 0]]]
@@ -178,7 +120,7 @@ def test_material_color_times_vertex_color(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("mode", [None, "OPAQUE", "MASK", "BLEND"])
 def test_alpha_is_that_of_materials_that_are_blended(tmp_path: Path, mode: str | None) -> None:
-    model = Gltf()
+    model = Triangle()
     model.attribute("COLOR_0", np.array([[1, 0, 0, 0.2], [1, 1, 1, 1], [0, 0, 0, 0]], dtype=np.float32))
     model.material(baseColorFactor=[1, 1, 1, 0.4])
     if mode is not None:
@@ -196,7 +138,7 @@ def test_alpha_is_that_of_materials_that_are_blended(tmp_path: Path, mode: str |
 
 
 def test_what_is_blended_is_apart(tmp_path: Path) -> None:
-    model = Gltf()
+    model = Triangle()
     model.attribute("COLOR_0", np.array([[1, 1, 1, 0.2]] * 3, dtype=np.float32))
     plain = {"attributes": {"POSITION": model.primitive["attributes"]["POSITION"]}}
     factors = [("BLEND", 0.4), ("OPAQUE", 0.4), ("BLEND", 0.4), ("BLEND", 0.6), ("BLEND", 1)]
@@ -215,7 +157,7 @@ def test_what_is_blended_is_apart(tmp_path: Path) -> None:
 
 
 def test_texture_is_sampled_from_its_top(tmp_path: Path) -> None:
-    model = Gltf()
+    model = Triangle()
     image = Image.new("RGB", (1, 2), (255, 0, 0))
     image.putpixel((0, 1), (0, 0, 255))
     model.texture(image)
@@ -228,7 +170,7 @@ def test_texture_is_sampled_from_its_top(tmp_path: Path) -> None:
 
 
 def test_nodes_put_parts_in_their_places(tmp_path: Path) -> None:
-    model = Gltf()
+    model = Triangle()
     model.attribute("NORMAL", np.array([[0, 0, 1]] * 3, dtype=np.float32))
     model.document["nodes"] = [
         {"children": [1, 2], "translation": [10, 0, 0]},
@@ -245,7 +187,7 @@ def test_nodes_put_parts_in_their_places(tmp_path: Path) -> None:
 
 
 def test_a_mirrored_part_is_still_seen_from_outside(tmp_path: Path) -> None:
-    model = Gltf()
+    model = Triangle()
     model.attribute("NORMAL", np.array([[0, 0, 1]] * 3, dtype=np.float32))
     model.document["nodes"] = [{"mesh": 0, "scale": [-1, 1, 1]}]
     mesh = read_mesh(model.glb(tmp_path / "model.glb"))
@@ -255,16 +197,16 @@ def test_a_mirrored_part_is_still_seen_from_outside(tmp_path: Path) -> None:
 
 
 def test_broken_gltf_is_told_in_one_line(tmp_path: Path) -> None:
-    whole = Gltf().glb(tmp_path / "whole.glb").read_bytes()
-    wrong_index = Gltf()
+    whole = Triangle().glb(tmp_path / "whole.glb").read_bytes()
+    wrong_index = Triangle()
     wrong_index.primitive["indices"] = wrong_index.accessor(np.array([0, 1, 7], dtype=np.uint16))
-    no_mesh = Gltf()
+    no_mesh = Triangle()
     no_mesh.document["nodes"] = [{}]
-    packed = Gltf()
+    packed = Triangle()
     packed.document["extensionsRequired"] = ["EXT_meshopt_compression"]
-    not_finite = Gltf()
+    not_finite = Triangle()
     not_finite.attribute("POSITION", np.array([[0, 0, 0], [1, 0, np.nan], [0, 1, 0]], dtype=np.float32))
-    beside = Gltf().gltf(tmp_path / "lost.gltf", "missing.bin").read_bytes()
+    beside = Triangle().gltf(tmp_path / "lost.gltf", "missing.bin").read_bytes()
     for name, content, message in [
         ("cut.glb", whole[:-30], ": it ends after 398 of its 428 bytes"),
         ("start.glb", whole[:9], ": it ends within its header"),
@@ -300,7 +242,7 @@ def test_broken_gltf_is_told_in_one_line(tmp_path: Path) -> None:
 
 
 def test_a_missing_texture_is_told(tmp_path: Path) -> None:
-    model = Gltf()
+    model = Triangle()
     model.document["images"] = [{"uri": "missing.png"}]
     model.document["textures"] = [{"source": 0}]
     model.attribute("TEXCOORD_0", np.zeros((3, 2), dtype=np.float32))
@@ -315,7 +257,7 @@ def test_a_missing_texture_is_told(tmp_path: Path) -> None:
 
 def test_the_part_of_a_texture_that_a_transform_takes(tmp_path: Path) -> None:
     """The example of the extension: the lower left quarter of the image, turned by 90 degrees."""
-    model = Gltf()
+    model = Triangle()
     image = Image.new("RGB", (4, 4))
     image.paste((255, 0, 0), (0, 2, 2, 4))
     image.putpixel((0, 3), (0, 255, 0))
@@ -330,7 +272,7 @@ def test_the_part_of_a_texture_that_a_transform_takes(tmp_path: Path) -> None:
 
 
 def test_diffuse_color_of_the_older_material(tmp_path: Path) -> None:
-    model = Gltf()
+    model = Triangle()
     model.material()
     glossiness = {"diffuseFactor": [0, 0.2, 1, 1]}
     model.document["materials"][0]["extensions"] = {"KHR_materials_pbrSpecularGlossiness": glossiness}
@@ -348,7 +290,7 @@ def refusal(folder: Path, model: Gltf) -> str:
 
 
 def changed(**keys: Any) -> Gltf:
-    model = Gltf()
+    model = Triangle()
     model.document |= keys
     return model
 
@@ -398,7 +340,7 @@ def test_what_a_document_lacks_is_named(tmp_path: Path) -> None:
 
 
 def test_coordinates_beyond_floats_are_told_without_other_warnings(tmp_path: Path) -> None:
-    model = Gltf()
+    model = Triangle()
     model.document["nodes"] = [{"children": [1], "scale": [1e299] * 3}, {"mesh": 0, "scale": [1e299] * 3}]
     model.document["nodes"][0]["translation"] = [-1e299, 0, 0]
     assert "coordinate that is not a finite number" in refusal(tmp_path, model)
@@ -411,21 +353,21 @@ def test_files_beside_are_named(tmp_path: Path) -> None:
         ("http://127.0.0.1:9/a.bin", "buffers[0].uri is 'http://127.0.0.1:9/a.bin'; only files in the folder of the"),
         ("data:;base64,A", "buffers[0].uri does not hold valid base64"),
     ]:
-        path = Gltf().gltf(tmp_path / "model.gltf", uri)
+        path = Triangle().gltf(tmp_path / "model.gltf", uri)
         with pytest.raises(InputError) as error:
             read_mesh(path)
         assert str(error.value).startswith(f"{path}: {message}")
 
 
 def test_nodes_deep_in_one_another(tmp_path: Path) -> None:
-    model = Gltf()
+    model = Triangle()
     model.document["nodes"] = [{"children": [number + 1]} for number in range(5000)] + [{"mesh": 0}]
     assert len(np.asarray(read_mesh(model.glb(tmp_path / "model.glb")).faces)) == 1
 
 
 def test_a_mesh_that_is_shown_too_often(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("shackled.scene._files.gltf.read.MAX_TRIANGLES", 9)
-    model = Gltf()
+    model = Triangle()
     model.document["nodes"] = [{"mesh": 0}] * 10
     model.document["scenes"] = [{"nodes": list(range(10))}]
     assert refusal(tmp_path, model) == "it shows more than 9 triangles, the most that are read"

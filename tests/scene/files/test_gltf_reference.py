@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import base64
 import json
 import re
-import struct
 from pathlib import Path
 from typing import Any
 
@@ -14,14 +12,12 @@ import pytest
 from numpy.typing import NDArray
 
 import gltf_reader
+from mesh_files import CODES, TYPES, Gltf
 from shackled.errors import InputWarning
 from shackled.scene import read_mesh
 from shackled.scene._mesh import DEFAULT_COLOR
 
 Values = NDArray[Any]
-
-CODES = {"i1": 5120, "u1": 5121, "i2": 5122, "u2": 5123, "u4": 5125, "f4": 5126}
-TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 
 
 class Writer:
@@ -158,19 +154,9 @@ class Writer:
         return {"bufferView": len(self.document["bufferViews"]) - 1, "byteOffset": start}
 
     def write(self, folder: Path) -> Path:
-        if self.chance(0.5):
-            uri = "data:application/octet-stream;base64," + base64.b64encode(self.data).decode()
-            self.document["buffers"] = [{"byteLength": len(self.data), "uri": uri}]
-            path = folder / "model.gltf"
-            path.write_text(json.dumps(self.document))
-            return path
-        self.document["buffers"] = [{"byteLength": len(self.data)}]
-        text, data = json.dumps(self.document).encode(), self.data + bytes(-len(self.data) % 4)
-        text += b" " * (-len(text) % 4)
-        chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + data
-        path = folder / "model.glb"
-        path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
-        return path
+        file = Gltf()
+        file.document, file.data = self.document, self.data
+        return file.gltf(folder / "model.gltf") if self.chance(0.5) else file.glb(folder / "model.glb")
 
 
 def srgb(color: gltf_reader.Vector) -> list[float]:

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from mesh_files import corner_colors, corner_positions
+from mesh_files import read as read_file
 from shackled.errors import InputError, InputWarning
 from shackled.scene import Mesh, read_mesh, write_obj
 from shackled.scene._files.model import TEXTURED
@@ -14,19 +16,7 @@ SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
 
 
 def read(folder: Path, text: str) -> Mesh:
-    path = folder / "model.obj"
-    path.write_text(text)
-    return read_mesh(path)
-
-
-def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
-    colors: list[list[list[int]]] = mesh.colors[mesh.faces].tolist()
-    return colors
-
-
-def corner_positions(mesh: Mesh) -> list[list[list[float]]]:
-    positions: list[list[list[float]]] = mesh.positions[mesh.faces].tolist()
-    return positions
+    return read_file(folder / "model.obj", text)
 
 
 def messages(told: pytest.WarningsRecorder) -> list[str]:

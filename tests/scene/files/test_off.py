@@ -1,37 +1,25 @@
 import itertools
 import struct
-import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import mesh_files
+from mesh_files import corner_colors
 from shackled.errors import InputError
-from shackled.scene import Mesh, read_mesh
+from shackled.scene import Mesh
 from shackled.scene._mesh import DEFAULT_COLOR
 
 SQUARE = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
 
 
 def read(folder: Path, content: str | bytes) -> Mesh:
-    path = folder / "model.off"
-    path.write_bytes(content.encode() if isinstance(content, str) else content)
-    return read_mesh(path)
+    return mesh_files.read(folder / "model.off", content)
 
 
 def read_with_notes(folder: Path, content: str | bytes) -> tuple[Mesh, list[str]]:
-    """The mesh, and the notes without the path that each begins with."""
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        mesh = read(folder, content)
-    path = f"{folder / 'model.off'}: "
-    assert all(str(each.message).startswith(path) for each in told)
-    return mesh, [str(each.message).removeprefix(path) for each in told]
-
-
-def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
-    colors: list[list[list[int]]] = mesh.colors[mesh.faces].tolist()
-    return colors
+    return mesh_files.read_with_notes(folder / "model.off", content)
 
 
 def test_plain(tmp_path: Path) -> None:

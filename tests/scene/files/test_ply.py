@@ -1,13 +1,14 @@
 import struct
-import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
 
+import mesh_files
+from mesh_files import corner_colors
 from shackled.errors import InputError, InputWarning
-from shackled.scene import Mesh, read_mesh, read_model
+from shackled.scene import Mesh, read_model
 from shackled.scene._mesh import DEFAULT_COLOR
 
 SQUARE = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0))
@@ -21,30 +22,21 @@ def header(encoding: str, vertex: str, faces: int, face: str = "") -> str:
     )
 
 
+def rows(more: str) -> str:
+    """The lines of the vertices, each with the same numbers after its coordinates."""
+    return "".join(f"{x} {y} {z} {more}\n" for x, y, z in SQUARE)
+
+
 def read(folder: Path, content: str | bytes) -> Mesh:
-    path = folder / "model.ply"
-    path.write_bytes(content.encode() if isinstance(content, str) else content)
-    return read_mesh(path)
+    return mesh_files.read(folder / "model.ply", content)
 
 
 def read_with_notes(folder: Path, content: str | bytes) -> tuple[Mesh, list[str]]:
-    """The mesh, and the notes without the path that each begins with."""
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        mesh = read(folder, content)
-    path = f"{folder / 'model.ply'}: "
-    notes = [str(each.message) for each in told]
-    assert all(note.startswith(path) and "\n" not in note for note in notes)
-    return mesh, [note.removeprefix(path) for note in notes]
+    return mesh_files.read_with_notes(folder / "model.ply", content)
 
 
 #: The note of a file whose faces and vertices have colours.
 OF_FACES = "the colours of its vertices are left out, for its faces have colours"
-
-
-def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
-    colors: list[list[list[int]]] = mesh.colors[mesh.faces].tolist()
-    return colors
 
 
 VERTICES = "".join(f"{x} {y} {z}\n" for x, y, z in SQUARE)
@@ -56,6 +48,9 @@ NEEDS = (
 #: The left half red, the right one blue.
 HALVES = Image.fromarray(np.repeat([[[255, 0, 0]] * 4 + [[0, 0, 255]] * 4], 8, axis=0).astype(np.uint8))
 COLOR = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+COLOR_IN_SHORT = "property uchar r\nproperty uchar g\nproperty uchar b\n"
+NORMAL = "property float nx\nproperty float ny\nproperty float nz\n"
+TRIANGLE = "3 0 1 2\n"
 
 
 def test_text(tmp_path: Path) -> None:
@@ -67,19 +62,17 @@ def test_text(tmp_path: Path) -> None:
     assert corner_colors(mesh) == [[list(DEFAULT_COLOR)] * 3] * 2
 
 
-def test_windows_line_ends(tmp_path: Path) -> None:
-    text = (header("ascii", "", 1) + VERTICES + "4 0 1 2 3\n").replace("\n", "\r\n")
-    assert len(np.asarray(read(tmp_path, text).faces)) == 2
+# the last as in a file of the package compas
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r", "\r\r\n"])
+@pytest.mark.parametrize("word", ["ply", "PLY"])
+def test_line_ends(tmp_path: Path, end: str, word: str) -> None:
+    text = header("ascii", "", 1).replace("ply", word, 1) + VERTICES + "4 0 1 2 3\n"
+    assert read(tmp_path, text.replace("\n", end)).triangles == 2
 
 
-def test_capitals_and_doubled_line_ends(tmp_path: Path) -> None:
-    """As in a file of the package compas."""
-    text = (header("ascii", "", 1) + VERTICES + "4 0 1 2 3\n").replace("\n", "\r\r\n")
-    assert len(np.asarray(read(tmp_path, text.replace("ply", "PLY", 1)).faces)) == 2
-
-
-def test_windows_line_ends_before_binary_data(tmp_path: Path) -> None:
-    content = header("binary_little_endian", "", 1).replace("\n", "\r\n").encode()
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_line_ends_before_binary_data(tmp_path: Path, end: str) -> None:
+    content = header("binary_little_endian", "", 1).replace("\n", end).encode()
     content += np.array(SQUARE, "<f4").tobytes() + struct.pack("<Biiii", 4, 0, 1, 2, 3)
     assert read(tmp_path, content).triangles == 2
 
@@ -89,16 +82,6 @@ def test_letters_that_are_not_of_ascii(tmp_path: Path) -> None:
     assert read(tmp_path, text).triangles == 1
     with pytest.raises(InputError, match=r"line 15 should hold an element face .*, not '3 0 1 é'"):
         read(tmp_path, text.replace(b"3 0 1 2\n", b"3 0 1 \xe9\n"))
-
-
-@pytest.mark.parametrize("encoding", ["ascii", "binary_little_endian"])
-def test_line_ends_of_an_old_mac(tmp_path: Path, encoding: str) -> None:
-    content = header(encoding, "", 1).replace("\n", "\r").encode()
-    if encoding == "ascii":
-        content += (VERTICES + "4 0 1 2 3\n").replace("\n", "\r").encode()
-    else:
-        content += b"".join(struct.pack("<fff", *point) for point in SQUARE) + struct.pack("<Biiii", 4, 0, 1, 2, 3)
-    assert len(np.asarray(read(tmp_path, content).faces)) == 2
 
 
 def test_polygons_of_several_sizes_as_text(tmp_path: Path) -> None:
@@ -112,17 +95,6 @@ def test_a_concave_polygon_is_filled_as_it_is(tmp_path: Path) -> None:
     mesh = read(tmp_path, header("ascii", "", 1) + vertices + "4 1 2 3 0\n")
     a, b, c = np.moveaxis(mesh.positions[mesh.faces], 1, 0)
     assert sorted((np.cross(b - a, c - a)[:, 2] / 2).tolist()) == [0.5, 0.5]
-
-
-def test_colors_of_vertices_come_first_if_all_faces_have_the_same(tmp_path: Path) -> None:
-    rows = "".join(f"{x} {y} {z} 1 2 3\n" for x, y, z in SQUARE)
-    faces = ["3 0 1 2 255 255 255\n", "3 0 2 3 255 255 255\n"]
-    text = header("ascii", COLOR, 2, COLOR) + rows
-    assert corner_colors(read(tmp_path, text + "".join(faces))) == [[[1, 2, 3]] * 3] * 2
-    faces[1] = faces[1].replace("255", "9")
-    mesh, notes = read_with_notes(tmp_path, text + "".join(faces))
-    assert corner_colors(mesh) == [[[255, 255, 255]] * 3, [[9, 9, 9]] * 3]
-    assert notes == [OF_FACES]
 
 
 def test_a_texture_that_cannot_be_shown_is_told(tmp_path: Path) -> None:
@@ -143,34 +115,37 @@ def test_binary_with_triangles_and_quads(tmp_path: Path, encoding: str, order: s
     assert corner_colors(mesh) == [[[a, 100, 255] for a in face] for face in ((0, 1, 2), (0, 1, 2), (0, 2, 3))]
 
 
-def test_face_colors(tmp_path: Path) -> None:
-    mesh = read(tmp_path, header("ascii", "", 2, COLOR) + VERTICES + "3 0 1 2 255 0 0\n3 0 2 3 0 0 9\n")
-    assert corner_colors(mesh) == [[[255, 0, 0]] * 3, [[0, 0, 9]] * 3]
-
-
-def test_vertex_colors_beside_texture_coordinates(tmp_path: Path) -> None:
-    more = COLOR + "property float s\nproperty float t\n"
-    rows = "".join(f"{x} {y} {z} 1 2 3 0.5 0.5\n" for x, y, z in SQUARE)
-    mesh, notes = read_with_notes(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")
-    assert corner_colors(mesh) == [[[1, 2, 3]] * 3]
-    assert notes == ["of its elements are left out: s of vertex, t of vertex"]
-
-
-def test_colors_as_fractions(tmp_path: Path) -> None:
-    more = COLOR.replace("uchar", "float")
-    rows = "".join(f"{x} {y} {z} 1 0.5 0\n" for x, y, z in SQUARE)
-    assert corner_colors(read(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")) == [[[255, 128, 0]] * 3]
-
-
-def test_a_nearly_black_color_in_bytes_stays_so(tmp_path: Path) -> None:
-    rows = "".join(f"{x} {y} {z} 1 0 1\n" for x, y, z in SQUARE)
-    assert corner_colors(read(tmp_path, header("ascii", COLOR, 1) + rows + "3 0 1 2\n")) == [[[1, 0, 1]] * 3]
+@pytest.mark.parametrize(
+    ("vertex", "row", "face", "faces", "expected"),
+    [
+        ("", "", COLOR, ["255 0 0", "0 0 9"], [(255, 0, 0), (0, 0, 9)]),
+        (COLOR.replace("uchar", "float"), "1 0.5 0", "", [""], [(255, 128, 0)]),
+        # nearly black
+        (COLOR, "1 0 1", "", [""], [(1, 0, 1)]),
+        # a single face has no colour of its own beside those of its vertices, but others do, where one channel differs
+        (COLOR, "9 9 9", COLOR, ["7 7 7"], [(9, 9, 9)]),
+        (COLOR, "9 9 9", COLOR, ["1 2 3", "1 2 3", "1 2 4"], [(1, 2, 3), (1, 2, 3), (1, 2, 4)]),
+        (COLOR, "9 9 9", COLOR, ["1 2 4", "1 2 3", "1 2 3"], [(1, 2, 4), (1, 2, 3), (1, 2, 3)]),
+        (COLOR, "1 2 3", COLOR, ["255 255 255"] * 2, [(1, 2, 3)] * 2),
+        # the first name of a colour counts
+        (COLOR_IN_SHORT + COLOR, "1 2 3 4 5 6", "", [""], [(4, 5, 6)]),
+        (COLOR + "property float s\nproperty float t\n", "1 2 3 0.5 0.5", "", [""], [(1, 2, 3)]),
+    ],
+)
+def test_colors(
+    tmp_path: Path, vertex: str, row: str, face: str, faces: list[str], expected: list[tuple[int, ...]]
+) -> None:
+    text = header("ascii", vertex, len(faces), face) + rows(row)
+    text += "".join(f"3 0 1 {2 + (k > 1)} {each}\n" for k, each in enumerate(faces))
+    mesh, notes = read_with_notes(tmp_path, text)
+    assert corner_colors(mesh) == [[list(each)] * 3 for each in expected]
+    left = [name for name in "rgbst" if vertex != COLOR and f" {name}\n" in vertex]
+    lost = [f"of its elements are left out: {', '.join(f'{name} of vertex' for name in left)}"] if left else []
+    assert notes == [*lost, *([OF_FACES] if vertex and len(set(faces)) > 1 else [])]
 
 
 def test_normals_are_kept(tmp_path: Path) -> None:
-    more = "property float nx\nproperty float ny\nproperty float nz\n"
-    rows = "".join(f"{x} {y} {z} 0 1 0\n" for x, y, z in SQUARE)
-    mesh = read(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")
+    mesh = read(tmp_path, header("ascii", NORMAL, 1) + rows("0 1 0") + TRIANGLE)
     assert np.asarray(mesh.normals).tolist() == [[0, 1, 0]] * 3
 
 
@@ -191,6 +166,8 @@ def test_normals_are_kept(tmp_path: Path) -> None:
          "not '3 0 1 2 1 0 0'"),
         (header("ascii", "", 2) + VERTICES + "3 0 1\n2 3 0 2 3\n",
          "line 15 should hold an element face (a list vertex_indices after its length) and nothing else, not '3 0 1'"),
+        (header("ascii", "", 1) + VERTICES + "3 0 1 2\n7\n",
+         "line 16 is left over behind the elements of its header: '7'"),
         (header("ascii", "", 1) + VERTICES + "3 0 1 2\n\n3 0 2 3\n",
          "line 17 is left over behind the elements of its header: '3 0 2 3'"),
         (header("ascii", "", 1) + VERTICES + "3 0 1.5 2\n", "the numbers of vertices must be whole, not 1.5"),
@@ -274,8 +251,7 @@ def test_types_of_lists(tmp_path: Path, name: str, kind: str) -> None:
     ],
 )
 def test_colors_by_their_type(tmp_path: Path, name: str, values: list[float], expected: list[int]) -> None:
-    rows = "".join(f"{x} {y} {z} {' '.join(map(str, values))}\n" for x, y, z in SQUARE)
-    text = header("ascii", COLOR.replace("uchar", name), 1) + rows + "3 0 1 2\n"
+    text = header("ascii", COLOR.replace("uchar", name), 1) + rows(" ".join(map(str, values))) + TRIANGLE
     assert corner_colors(read(tmp_path, text)) == [[expected] * 3]
 
 
@@ -284,10 +260,9 @@ def test_colors_by_their_type(tmp_path: Path, name: str, values: list[float], ex
 )
 def test_names_of_colors(tmp_path: Path, names: tuple[str, str, str]) -> None:
     more = "".join(f"property uchar {name}\n" for name in names)
-    rows = "".join(f"{x} {y} {z} 10 20 30\n" for x, y, z in SQUARE)
-    assert corner_colors(read(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")) == [[[10, 20, 30]] * 3]
+    assert corner_colors(read(tmp_path, header("ascii", more, 1) + rows("10 20 30") + TRIANGLE)) == [[[10, 20, 30]] * 3]
     # a colour that is not whole is none
-    text = header("ascii", more.replace(names[2], "other"), 1) + rows + "3 0 1 2\n"
+    text = header("ascii", more.replace(names[2], "other"), 1) + rows("10 20 30") + TRIANGLE
     mesh, notes = read_with_notes(tmp_path, text)
     assert corner_colors(mesh) == [[list(DEFAULT_COLOR)] * 3]
     assert notes == [f"of its elements are left out: {names[0]} of vertex, {names[1]} of vertex, other of vertex"]
@@ -296,32 +271,7 @@ def test_names_of_colors(tmp_path: Path, names: tuple[str, str, str]) -> None:
 @pytest.mark.parametrize(("red", "other", "expected"), [("float", "uchar", 255), ("uchar", "float", 1)])
 def test_the_type_of_red_tells(tmp_path: Path, red: str, other: str, expected: int) -> None:
     more = COLOR.replace("uchar", other).replace(f"{other} red", f"{red} red")
-    rows = "".join(f"{x} {y} {z} 1 1 1\n" for x, y, z in SQUARE)
-    assert corner_colors(read(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")) == [[[expected] * 3] * 3]
-
-
-def test_the_first_name_of_a_color_counts(tmp_path: Path) -> None:
-    more = "property uchar r\nproperty uchar g\nproperty uchar b\n" + COLOR
-    rows = "".join(f"{x} {y} {z} 1 2 3 4 5 6\n" for x, y, z in SQUARE)
-    mesh, notes = read_with_notes(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")
-    assert corner_colors(mesh) == [[[4, 5, 6]] * 3]
-    assert notes == ["of its elements are left out: r of vertex, g of vertex, b of vertex"]
-
-
-def test_faces_have_colors_if_any_two_differ(tmp_path: Path) -> None:
-    """In any place, and one channel is enough."""
-    rows = "".join(f"{x} {y} {z} 9 9 9\n" for x, y, z in SQUARE)
-    for colors in (["1 2 3", "1 2 3", "1 2 4"], ["1 2 4", "1 2 3", "1 2 3"]):
-        faces = "".join(f"3 0 1 {2 + (k > 1)} {color}\n" for k, color in enumerate(colors))
-        mesh, notes = read_with_notes(tmp_path, header("ascii", COLOR, 3, COLOR) + rows + faces)
-        assert notes == [OF_FACES]
-        assert corner_colors(mesh) == [[list(map(int, color.split()))] * 3 for color in colors]
-
-
-def test_a_single_face_beside_colors_of_vertices(tmp_path: Path) -> None:
-    rows = "".join(f"{x} {y} {z} 9 9 9\n" for x, y, z in SQUARE)
-    mesh = read(tmp_path, header("ascii", COLOR, 1, COLOR) + rows + "3 0 1 2 7 7 7\n")
-    assert corner_colors(mesh) == [[[9, 9, 9]] * 3]
+    assert corner_colors(read(tmp_path, header("ascii", more, 1) + rows("1 1 1") + TRIANGLE)) == [[[expected] * 3] * 3]
 
 
 def test_both_names_of_the_list_of_a_face(tmp_path: Path) -> None:
@@ -348,9 +298,9 @@ def test_both_names_of_the_list_of_a_face(tmp_path: Path) -> None:
     ],
 )
 def test_what_a_mesh_needs(tmp_path: Path, old: str, new: str, face: str) -> None:
-    rows = VERTICES if "list uchar float" not in new else "".join(f"1 {x} {y} {z}\n" for x, y, z in SQUARE)
+    lines = VERTICES if "list uchar float" not in new else "".join(f"1 {x} {y} {z}\n" for x, y, z in SQUARE)
     with pytest.raises(InputError, match=f"{NEEDS} vertex, face$"):
-        read(tmp_path, header("ascii", "", 1).replace(old, new) + rows + face + "\n")
+        read(tmp_path, header("ascii", "", 1).replace(old, new) + lines + face + "\n")
 
 
 def test_other_elements_are_passed_over(tmp_path: Path) -> None:
@@ -438,11 +388,6 @@ def test_wrong_lines_of_faces(tmp_path: Path, faces: str, line: int) -> None:
         read(tmp_path, header("ascii", "", 2) + VERTICES + faces)
 
 
-def test_what_is_left_over_at_once(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"line 16 is left over behind the elements of its header: '7'$"):
-        read(tmp_path, header("ascii", "", 1) + VERTICES + "3 0 1 2\n7\n")
-
-
 @pytest.mark.parametrize("missing", range(1, 40))
 def test_a_binary_file_that_ends_early(tmp_path: Path, missing: int) -> None:
     """Nothing but the end of its data is told, wherever that is: in a number, a length, a list."""
@@ -477,16 +422,13 @@ def test_a_list_of_less_than_nothing(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("number", ["nan", "inf", "-1.#IND", "-nan(ind)"])
 def test_normals_that_are_no_numbers_are_computed(tmp_path: Path, number: str) -> None:
-    more = "property float nx\nproperty float ny\nproperty float nz\n"
-    rows = [f"{x} {y} {z} 0 1 0\n" for x, y, z in SQUARE]
-    text = header("ascii", more, 1)
+    text = header("ascii", NORMAL, 1)
     note = "normals that are not finite numbers are computed: "
-    rows[1] = f"1 0 0 0 {number} 0\n"
-    mesh, notes = read_with_notes(tmp_path, text + "".join(rows) + "3 0 1 2\n")
+    one = rows("0 1 0").replace("1 0 0 0 1 0", f"1 0 0 0 {number} 0", 1)
+    mesh, notes = read_with_notes(tmp_path, text + one + TRIANGLE)
     assert notes == [note + "1"]
     assert np.asarray(mesh.normals)[mesh.faces].tolist() == [[[0, 1, 0], [0, 0, 1], [0, 1, 0]]]
-    rows = [f"{x} {y} {z} {number} 0 0\n" for x, y, z in SQUARE]
-    mesh, notes = read_with_notes(tmp_path, text + "".join(rows) + "3 0 1 2\n")
+    mesh, notes = read_with_notes(tmp_path, text + rows(f"{number} 0 0") + TRIANGLE)
     assert (mesh.normals, notes) == (None, [note + "4"])
 
 
@@ -529,8 +471,8 @@ def textured(vertex: str, face: str = "", count: int = 1, names: tuple[str, ...]
 def test_texture_coordinates_of_vertices(tmp_path: Path, names: tuple[str, str]) -> None:
     HALVES.save(tmp_path / "t.png")
     more = "".join(f"property float {name}\n" for name in names)
-    rows = "".join(f"{x} {y} {z} {x} {y}\n" for x, y, z in SQUARE)
-    (tmp_path / "model.ply").write_text(textured(more) + rows + "4 0 1 2 3\n")
+    lines = "".join(f"{x} {y} {z} {x} {y}\n" for x, y, z in SQUARE)
+    (tmp_path / "model.ply").write_text(textured(more) + lines + "4 0 1 2 3\n")
     (part,) = read_model(tmp_path / "model.ply")
     assert part.material["texture"].pixels.tolist() == np.asarray(HALVES).tolist()
     assert part.mesh.colors.tolist() == [[255, 255, 255]] * 4
@@ -568,8 +510,8 @@ def test_textures_by_number(tmp_path: Path) -> None:
 def test_a_texture_comes_before_colors(tmp_path: Path) -> None:
     HALVES.save(tmp_path / "t.png")
     more = COLOR + "property uchar alpha\nproperty float s\nproperty float t\n"
-    rows = "".join(f"{x} {y} {z} 1 2 3 51 {x} {y}\n" for x, y, z in SQUARE)
-    (tmp_path / "model.ply").write_text(textured(more) + rows + "4 0 1 2 3\n")
+    lines = "".join(f"{x} {y} {z} 1 2 3 51 {x} {y}\n" for x, y, z in SQUARE)
+    (tmp_path / "model.ply").write_text(textured(more) + lines + "4 0 1 2 3\n")
     with pytest.warns(InputWarning, match="2 triangles drawn in the colours of a texture, not in their own$"):
         (part,) = read_model(tmp_path / "model.ply")
     assert part.mesh.rgba.tolist() == [[255, 255, 255, 51]] * 4
@@ -579,16 +521,16 @@ def test_a_texture_comes_before_colors(tmp_path: Path) -> None:
 def test_a_texture_is_looked_for_beside_the_file(tmp_path: Path, name: str) -> None:
     """By its last part, in any letter case, as those of material files are."""
     HALVES.save(tmp_path / "t.png")
-    rows = "".join(f"{x} {y} {z} {x} {y}\n" for x, y, z in SQUARE)
+    lines = "".join(f"{x} {y} {z} {x} {y}\n" for x, y, z in SQUARE)
     header = textured("property float s\nproperty float t\n", names=(name,))
-    (tmp_path / "model.ply").write_text(header + rows + "4 0 1 2 3\n")
+    (tmp_path / "model.ply").write_text(header + lines + "4 0 1 2 3\n")
     (part,) = read_model(tmp_path / "model.ply")
     assert part.material["texture"].pixels.tolist() == np.asarray(HALVES).tolist()
 
 
 def test_texture_coordinates_that_are_no_numbers(tmp_path: Path) -> None:
     HALVES.save(tmp_path / "t.png")
-    rows = "".join(f"{x} {y} {z} nan {y}\n" for x, y, z in SQUARE)
-    (tmp_path / "model.ply").write_text(textured("property float s\nproperty float t\n") + rows + "4 0 1 2 3\n")
+    lines = "".join(f"{x} {y} {z} nan {y}\n" for x, y, z in SQUARE)
+    (tmp_path / "model.ply").write_text(textured("property float s\nproperty float t\n") + lines + "4 0 1 2 3\n")
     with pytest.warns(InputWarning, match="texture coordinates that are not finite numbers; they are taken as 0$"):
         read_model(tmp_path / "model.ply")

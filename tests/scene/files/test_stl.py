@@ -1,10 +1,11 @@
 import struct
-import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import mesh_files
+from mesh_files import corner_colors, corner_positions
 from shackled.errors import InputError
 from shackled.scene import Mesh, read_mesh
 from shackled.scene._mesh import DEFAULT_COLOR
@@ -22,24 +23,7 @@ def binary(declared: int, attributes: tuple[int, ...] = (0,), header: bytes = b"
 
 
 def read_with_notes(folder: Path, content: bytes) -> tuple[Mesh, list[str]]:
-    """The mesh, and the notes without the path that each begins with."""
-    path = folder / "model.stl"
-    path.write_bytes(content)
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        mesh = read_mesh(path)
-    assert all(str(each.message).startswith(f"{path}: ") for each in told)
-    return mesh, [str(each.message).removeprefix(f"{path}: ") for each in told]
-
-
-def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
-    colors: list[list[list[int]]] = mesh.colors[mesh.faces].tolist()
-    return colors
-
-
-def corner_positions(mesh: Mesh) -> list[list[list[float]]]:
-    positions: list[list[list[float]]] = mesh.positions[mesh.faces].tolist()
-    return positions
+    return mesh_files.read_with_notes(folder / "model.stl", content)
 
 
 def test_stl_in_binary(tmp_path: Path) -> None:

@@ -1,6 +1,6 @@
 from PIL import Image
 
-from shackled.scene._files.colors import sample
+from shackled.scene._texture import sample
 
 RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
 

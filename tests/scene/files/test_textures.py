@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import base64
-import io
-import json
 import struct
 import zlib
 from pathlib import Path
@@ -18,11 +16,12 @@ from numpy.typing import NDArray
 from PIL import Image
 
 import shackled
+from mesh_files import Gltf, png
 from shackled import InputError, Material, Mesh, Object, Scene, Texture, load
 from shackled.errors import InputWarning
 from shackled.scene import decode, read_mesh, read_model, render_call, simplify
 from shackled.scene._files.model import TEXTURED
-from shackled.scene._packed_texture import unpack_texture
+from shackled.scene._packed import unpack_texture
 
 Pixels = NDArray[np.uint8]
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=np.float32)
@@ -34,39 +33,19 @@ def pixels_of(width: int, height: int, seed: int = 1) -> Pixels:
     return np.random.default_rng(seed).integers(0, 256, (height, width, 3), dtype=np.uint8)
 
 
-def png(pixels: Pixels) -> bytes:
-    stream = io.BytesIO()
-    Image.fromarray(pixels).save(stream, "PNG")
-    return stream.getvalue()
-
-
 def glb(path: Path, images: list[bytes | str], samplers: list[dict[str, int]] | None = None, **more: Any) -> Path:
     """A GLB with a square for each image: its bytes, or a URI. more: uvs, colors, factor."""
-    data = bytearray()
-    document: dict[str, Any] = {"asset": {"version": "2.0"}, "scene": 0, "bufferViews": [], "accessors": []}
-
-    def view(content: bytes) -> int:
-        document["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": len(content)})
-        data.extend(content + bytes(-len(content) % 4))
-        return len(document["bufferViews"]) - 1
-
-    def accessor(values: NDArray[Any], kind: str) -> int:
-        component = {"f4": 5126, "u2": 5123}[values.dtype.str[1:]]
-        document["accessors"].append(
-            {"bufferView": view(values.tobytes()), "componentType": component, "count": len(values), "type": kind}
-        )
-        return len(document["accessors"]) - 1
-
+    file = Gltf()
     attributes = {
-        "POSITION": accessor(SQUARE, "VEC3"),
-        "TEXCOORD_0": accessor(np.asarray(more.get("uvs", UVS), dtype=np.float32), "VEC2"),
+        "POSITION": file.accessor(SQUARE),
+        "TEXCOORD_0": file.accessor(np.asarray(more.get("uvs", UVS), dtype=np.float32)),
     }
     if "colors" in more:
-        attributes["COLOR_0"] = accessor(np.asarray(more["colors"], dtype=np.float32), "VEC3")
-    indices = accessor(FACES, "SCALAR")
+        attributes["COLOR_0"] = file.accessor(np.asarray(more["colors"], dtype=np.float32))
+    indices = file.accessor(FACES)
     count = len(images)
-    document |= {
-        "images": [{"uri": each} if isinstance(each, str) else {"bufferView": view(each)} for each in images],
+    file.document |= {
+        "images": [{"uri": each} if isinstance(each, str) else {"bufferView": file.view(each)} for each in images],
         "samplers": samplers or [{}],
         "textures": [{"source": number, "sampler": number if samplers else 0} for number in range(count)],
         "materials": [
@@ -84,13 +63,8 @@ def glb(path: Path, images: list[bytes | str], samplers: list[dict[str, int]] | 
         ],
         "nodes": [{"mesh": number, "translation": [2 * number, 0, 0]} for number in range(count)],
         "scenes": [{"nodes": list(range(count))}],
-        "buffers": [{"byteLength": len(data)}],
     }
-    text = json.dumps(document).encode()
-    text += b" " * (-len(text) % 4)
-    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + bytes(data)
-    path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
-    return path
+    return file.glb(path)
 
 
 def texture_of(scene: Scene, number: int = 0) -> Texture:

@@ -96,7 +96,7 @@ export function unpack(packed: Uint8Array): Mesh {
 }
 
 /**
- * Return a vector that `packedNormals` rounds to the same word, although it makes it a unit vector; _packed_mesh.py says
+ * Return a vector that `packedNormals` rounds to the same word, although it makes it a unit vector; _packed.py says
  * how.
  */
 function unpackedNormal(word: number): number[] {

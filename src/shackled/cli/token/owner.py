@@ -1,16 +1,21 @@
-"""shackled token phase, withdraw, royalty, transfer-ownership and accept-ownership: commands of the owner"""
+"""Commands of the owner of a collection: the sale, royalties, ownership, icons, and who may mint before the sale"""
 
 from __future__ import annotations
 
+import json
+import time
+from pathlib import Path
 from typing import Annotated
+
+import click
 
 from ...checks import choice, number
 from ...errors import InputError
-from ...ethereum import checksum_address, ether
-from ..chain_options import parse_checksum_address
+from ...ethereum import checksum_address, ether, parse_ether
+from ..chain_options import SignerOptions, parse_checksum_address
 from ..option import argument, option
 from ..output import print_line
-from .options import PHASES, CollectionOptions, TokenPayerOptions
+from .options import MAX_NUMBER, PHASES, CollectionOptions, IconsOptions, TokenPayerOptions
 
 
 def phase(
@@ -81,3 +86,113 @@ def accept_ownership(which: CollectionOptions, payer: TokenPayerOptions) -> None
         raise InputError(f"{collection.name} {offered}")
     receipt = payer.send(collection, "accept its ownership", "acceptOwnership")
     print_line(f"{collection.name} belongs to {collection.state().owner}; {receipt.gas:,} gas")
+
+
+def allow_list(
+    context: click.Context,
+    file: Annotated[Path, argument("Lines of account,quantity, or an OpenZeppelin tree as JSON.", "FILE")],
+    which: CollectionOptions,
+    payer: TokenPayerOptions,
+    output: Annotated[
+        Path | None, option("-o --output", "Write the tree as OpenZeppelin's StandardMerkleTree, .json.", "FILE")
+    ] = None,
+    signer: Annotated[
+        str | None, option("--signer", "Account that signs permissions; default: unchanged.", "ADDRESS")
+    ] = None,
+) -> None:
+    """Print the root of an allow list; with --rpc, set it in a collection. For the owner."""
+    from ...tokens import read_allow_list
+    from ...whole_file import write_output
+
+    allowed = read_allow_list(file)
+    quantities = allowed.allowances.values()
+    print_line(f"root 0x{allowed.root.hex()}, {len(quantities):,} accounts, {sum(quantities):,} tokens")
+    if output is not None:
+        write_output(output, (json.dumps(allowed.document(), indent=1) + "\n").encode())
+    source = context.get_parameter_source("rpc")
+    # the environment variable of the node alone does not ask for a transaction
+    is_only_set = source is not None and source.name == "ENVIRONMENT" and not payer.is_given
+    if which.rpc is None or is_only_set:
+        return
+    collection = which.open()
+    trusted = collection.state().allow_list_signer if signer is None else parse_checksum_address(signer, "--signer")
+    receipt = payer.send(collection, "set the allow list", "setAllowList", allowed.root, trusted)
+    print_line(f"{collection.name} has this allow list now; {receipt.gas:,} gas")
+
+
+def permit(
+    who: Annotated[str, argument("The account that may mint.", "ACCOUNT")],
+    which: CollectionOptions,
+    signing: SignerOptions,
+    quantity: Annotated[int, argument("Number of tokens in all.", "N", min=1, max=MAX_NUMBER)] = 1,
+    output: Annotated[Path | None, option("-o --output", "File to write; default: print it.", "FILE")] = None,
+    days: Annotated[float, option("--days", "Days until it expires.", "DAYS", min=0)] = 30,
+) -> None:
+    """Sign a permission to mint for one account; sends no transaction. For the signer of the collection."""
+    from ...tokens import sign_allowance
+    from ...whole_file import write_output
+
+    account = parse_checksum_address(who, "the account")
+    seconds = 86400 * number(days, "--days", 0, 36_500)
+    collection = which.open()
+    signer = signing.signer
+    trusted = collection.state().allow_list_signer
+    if not int(trusted, 16):
+        raise InputError(
+            "the collection accepts no permissions yet: its owner sets a signer with shackled token allow-list FILE "
+            "--signer"
+        )
+    if str(signer.address) != trusted:
+        raise InputError(f"permissions of this collection are signed by {trusted}, not by {signer.address}")
+    permission = sign_allowance(collection, signer, account, quantity, int(time.time() + seconds))
+    text = json.dumps(permission.document(), indent=1)
+    if output is None:
+        print(text)
+        return
+    write_output(output, (text + "\n").encode())
+    print_line(f"{output}: {account} may mint {quantity}, with: shackled token mint --permission {output}")
+
+
+def add(
+    name: Annotated[str, argument("A dataset piece; with POINTER, the name of the icon.", "NAME")],
+    which: IconsOptions,
+    payer: TokenPayerOptions,
+    pointer: Annotated[str | None, argument("Address of the stored scene, from `shackled store`.", "[POINTER]")] = None,
+    price: Annotated[str, option("--price", "Price of a token, in ether.", "ETHER")] = "0.02",
+    supply: Annotated[int, option("--supply", "Number of tokens.", "N")] = 100,
+    reserve: Annotated[int, option("--reserve", "Number of these tokens reserved for the team.", "N")] = 1,
+) -> None:
+    """Add an icon, whose scene is stored already, to a collection that is not sealed. For the owner."""
+    from ...deploy import local_chain
+    from ...studio import STUDIO, stored_codes
+    from ...tokens import SCALE, SceneToStore, add_call, check_sale, chosen_pieces, plan_storage, token_scene
+
+    wei = parse_ether(price, "--price")
+    check_sale([], wei, supply, reserve)
+    pieces = [] if pointer is not None else chosen_pieces(name)
+    if len(pieces) > 1:
+        raise InputError("one icon can be added at a time")
+    place = None if pointer is None else parse_checksum_address(pointer, "the pointer")
+    collection = which.open()
+    if place is None:
+        piece = pieces[0]
+        storage = plan_storage(collection.connection, [SceneToStore(piece.name, token_scene(piece))])
+        if storage.missing:
+            raise InputError(f"{piece.name} is not on the chain yet; run: shackled store {piece.name}")
+        name, place = piece.title, storage.pointers[0]
+    arguments = (name, place, SCALE, wei, supply, reserve)
+    # fails before the confirmation if the scene cannot be drawn
+    codes = stored_codes(collection.connection, local_chain().address(STUDIO), bytes.fromhex(place[2:]))
+    gas = add_call(collection.contract.interface, collection.address, arguments, codes).gas
+    receipt = payer.send(collection, f"add {name}", "add", *arguments, gas=gas)
+    print_line(f"{name} is added; {receipt.gas:,} gas")
+
+
+def seal(which: IconsOptions, payer: TokenPayerOptions) -> None:
+    """Seal the set of icons; required before the sale. Cannot be undone. For the owner."""
+    from ...tokens import icons_of
+
+    collection = which.open()
+    icons = icons_of(collection)
+    receipt = payer.send(collection, f"seal the collection with {len(icons)} icons", "seal")
+    print_line(f"{collection.name} is sealed with {len(icons)} icons; {receipt.gas:,} gas")

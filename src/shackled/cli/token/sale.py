@@ -24,7 +24,7 @@ from .options import MAX_NUMBER, AnyCollectionOptions, CollectionOptions, TokenP
 
 if TYPE_CHECKING:
     from ...deploy import Quote
-    from ...tokens import Collection, RevealCall, Round
+    from ...tokens import Collection, ContractCall, Round
 
 #: Seconds between two requests while waiting for a block.
 PAUSE = 4.0
@@ -155,7 +155,7 @@ def _ready_rounds(collection: Collection, rounds: list[Round], wait: bool) -> li
     return ready
 
 
-def _name_of(call: RevealCall) -> str:
+def _name_of(call: ContractCall) -> str:
     """Return the purpose of a call; no two calls of a reveal have the same one."""
     if call.function != "reveal":
         return f"prove blocks before {call.arguments[0]}"

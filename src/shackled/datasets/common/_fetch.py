@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import errno
 import hashlib
-import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -88,9 +87,6 @@ def _keep(model: Model, path: Path, prepared: Path) -> None:
 
 def download(model: Model, progress: Progress = _no_progress) -> Path:
     """Return the path of the published file, from the cache or from the first address that has it."""
-    import pooch
-
-    pooch.get_logger().setLevel(logging.ERROR)
     place = model.original
     with _on_disk(model):
         if place.is_file() and checksum(place, model.checksum) == model.checksum:
@@ -99,10 +95,9 @@ def download(model: Model, progress: Progress = _no_progress) -> Path:
         place.parent.mkdir(parents=True, exist_ok=True)
     failures: list[FetchError] = []
     for address in model.addresses:
-        known = model.checksum if model.checksum.startswith("sha256:") else None
         try:
             with _on_disk(model):
-                pooch.retrieve(address, known, place.name, place.parent, downloader=_Downloader(model, progress))
+                _Downloader(model, progress).download(address, place)
             return place
         except FetchError as error:
             failures.append(error)
@@ -110,13 +105,14 @@ def download(model: Model, progress: Progress = _no_progress) -> Path:
 
 
 class _Downloader:
-    """A downloader for pooch, which also verifies the checksum and moves the file."""
+    """Downloads the file of a model, goes on where that was cut, and verifies the checksum."""
 
     def __init__(self, model: Model, progress: Progress) -> None:
         self._model = model
         self._progress = progress
 
-    def __call__(self, address: str, output: str, _: Any, check_only: bool = False) -> bool:
+    def download(self, address: str, place: Path) -> None:
+        """Download the file from an address, and move it to its place."""
         model = self._model
         part = _part(model)
         resumed = part.is_file() and part.stat().st_size > 0
@@ -133,8 +129,7 @@ class _Downloader:
                 f"{model.name}: what {address} sends is not the file that was expected: its checksum is {found}"
                 f" instead of {model.checksum}"
             )
-        part.replace(output)
-        return True
+        part.replace(place)
 
     def _transfer(self, address: str, part: Path) -> None:
         """Download the missing part of the file."""

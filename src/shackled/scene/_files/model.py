@@ -13,8 +13,7 @@ from PIL import Image
 from ...errors import warn
 from .._crease import filled
 from .._mesh import DEFAULT_COLOR, Mesh, faces_of_all, weld
-from .._texture import MAX_TEXTURE_SIDE, Filter, Texture, Wrap, reduced
-from .colors import sample
+from .._texture import MAX_TEXTURE_SIDE, Filter, Texture, Wrap, reduced, sample
 
 #: The warning for a mesh whose textures have more than one colour, if only the mesh is read.
 TEXTURED = "its textures give their colours at the vertices only; what they show between them is lost"

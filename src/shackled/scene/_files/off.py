@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ...errors import InputError, warn
 from ...values import plural
 from .._mesh import DEFAULT_COLOR, Mesh, weld
-from .colors import to_bytes
+from .._texture import to_bytes
 from .content import checked_text, read_bytes
 from .model import given_normals
 from .polygons import cut

@@ -17,14 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import InputError
-from .._arithmetic import dot
-from .._background import Background
+from .._arithmetic import dot, from_euler
 from .._camera import Camera
+from .._effects import Background
 from .._light import Light
-from .._material import Material
 from .._mesh import Mesh
-from .._object import Object
-from .._rotation import from_euler
+from .._object import Material, Object
 from .._scene import Scene
 from .._staging import MAX_SIDE
 from .table import Table, about

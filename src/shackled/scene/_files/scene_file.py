@@ -13,22 +13,20 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from attrs import evolve
+from attrs import NOTHING, evolve, fields
 from numpy.typing import ArrayLike, NDArray
 
 from ...checks import number
 from ...errors import InputError
-from .._background import Background
+from .._arithmetic import IDENTITY, from_axis_angle, from_euler, multiply
 from .._camera import PROJECTIONS, Camera
 from .._crease import CREASES, shaded
-from .._effects import Fog, Hemisphere, Rim, Tone
+from .._effects import Background, Fog, Hemisphere, Rim, Tone
 from .._ground import Ground
 from .._light import LIGHT_KINDS, WHITE, Light
 from .._look import half_height_in, view_of
-from .._material import Material
 from .._mesh import Mesh
-from .._object import Object
-from .._rotation import IDENTITY, from_axis_angle, from_euler, multiply
+from .._object import Material, Object
 from .._scene import Scene
 from .._settings import Kind, Part, Setting, exclude, settings_of
 from .._staging import BACKGROUND, DEFAULT_SIDE, Viewpoint, frame, key_light, painted_object
@@ -49,11 +47,6 @@ SCENES = (".toml", ".json")
 _SCENE = keys_of("scene", "size", "camera", "objects", "tone", "creator")
 _CAMERA = keys_of("camera", "projection")
 _OBJECT = keys_of("object", "mesh", "position", "rotation", "up_axis", "scale", "material", "fade", "crease")
-_BACKGROUND = ("top", "bottom")
-_HEMISPHERE = ("sky", "ground")
-_RIM = ("color", "power")
-_FOG = ("color", "near", "far")
-_GROUND = ("color", "height", "radius", "center", "inner")
 _LIGHT = ("kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow")
 _PIECE = ("piece", "object")
 _TEXTURE = ("image", "width", "height", "pixels", "filter", "wrap", "alpha", "cutoff")
@@ -118,41 +111,34 @@ def _size(table: Table) -> tuple[int, int]:
 
 def _background(keys: Table, setting: Setting) -> Background:
     value = keys.get(setting.name)
-    if not isinstance(value, Mapping):
-        return Background(keys.color(setting.name))
-    inside = keys.table(setting.name, _BACKGROUND)
-    top = inside.color("top", (0, 0, 0))
-    return Background(top, inside.color("bottom", top))
+    return _effect(keys, setting) if isinstance(value, Mapping) else Background(keys.color(setting.name))
 
 
-def _hemisphere(keys: Table, setting: Setting) -> Hemisphere:
-    inside = keys.table(setting.name, _HEMISPHERE)
-    return Hemisphere(inside.color("sky"), inside.color("ground", (0, 0, 0)))
-
-
-def _rim(keys: Table, setting: Setting) -> Rim:
-    inside = keys.table(setting.name, _RIM)
-    color, power = inside.color("color"), inside.whole("power", 3)
+def _effect(keys: Table, setting: Setting) -> Any:
+    """Return what a table has the fields of; those that it must have are those without a default."""
+    kind, reads = _EFFECTS[setting.kind]
+    inside = keys.table(setting.name, tuple(reads))
+    needed = {each.name for each in fields(kind) if each.default is NOTHING}
+    given = {name: read(inside, name) for name, read in reads.items() if name in inside or name in needed}
     with about(inside.where):
-        return Rim(color, power)
+        return kind(**given)
 
 
-def _fog(keys: Table, setting: Setting) -> Fog:
-    inside = keys.table(setting.name, _FOG)
-    color, near, far = inside.color("color"), inside.number("near"), inside.number("far")
-    with about(inside.where):
-        return Fog(color, near, far)
-
-
-def _ground(keys: Table, setting: Setting) -> Ground:
-    inside = keys.table(setting.name, _GROUND)
-    given: dict[str, Any] = {name: inside.number(name) for name in ("height", "radius", "inner") if name in inside}
-    if "center" in inside:
-        given["center"] = inside.numbers("center", (0, 0))
-    with about(inside.where):
-        return Ground(inside.color("color"), **given)
-
-
+#: The classes of what is given as a table, and how their fields are read.
+_EFFECTS: dict[Kind, tuple[Any, dict[str, Callable[[Table, str], Any]]]] = {
+    "background": (Background, {"top": Table.color, "bottom": Table.color}),
+    "hemisphere": (Hemisphere, {"sky": Table.color, "ground": Table.color}),
+    "rim": (Rim, {"color": Table.color, "power": Table.whole}),
+    "fog": (Fog, {"color": Table.color, "near": Table.number, "far": Table.number}),
+    "ground": (
+        Ground,
+        {
+            "color": Table.color,
+            **dict.fromkeys(("height", "radius", "inner"), Table.number),
+            "center": lambda keys, name: keys.numbers(name, (0, 0)),
+        },
+    ),
+}
 #: How the values of kinds are read, besides the range.
 _READ: dict[Kind, Callable[[Table, Setting], Any]] = {
     "whole": lambda keys, setting: keys.whole(setting.name),
@@ -163,10 +149,7 @@ _READ: dict[Kind, Callable[[Table, Setting], Any]] = {
     "background": _background,
     "choice": lambda keys, setting: keys.choice(setting.name, setting.choices),
     "lights": lambda keys, setting: [_light(part, where) for where, part in keys.rows(setting.name)],
-    "hemisphere": _hemisphere,
-    "rim": _rim,
-    "fog": _fog,
-    "ground": _ground,
+    **dict.fromkeys(("hemisphere", "rim", "fog", "ground"), _effect),
 }
 
 

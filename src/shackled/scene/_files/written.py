@@ -12,8 +12,7 @@ from attrs import asdict
 
 from ...errors import InputError
 from ...whole_file import check_output_file, write_output
-from .._background import Background
-from .._effects import Fog, Hemisphere, Rim
+from .._effects import Background, Fog, Hemisphere, Rim
 from .._ground import Ground
 from .._light import Light
 from .._settings import Part, settings_of

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from ....errors import InputError
 from ..table import Table
-from .accessors import numbers
-from .document import Document
+from .document import Document, numbers
 
 Array = NDArray[np.float64]
 

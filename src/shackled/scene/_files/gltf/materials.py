@@ -1,24 +1,60 @@
-"""Materials of a glTF document, as far as they are drawn."""
+"""Materials and textures of a glTF document, as far as they are drawn."""
 
 from __future__ import annotations
 
+import io
 import math
 from dataclasses import dataclass, replace
 from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 
 from ....checks import Color
-from ....errors import InputError
+from ....errors import InputError, warn
 from ..._mesh import DEFAULT_COLOR
-from ..._texture import cutoff_of
-from ..colors import to_srgb
-from ..model import Picture, finite_uvs
+from ..._texture import Filter, as_rgba, cutoff_of, open_image, to_srgb
+from ..model import FileWrap, Picture, finite_uvs, is_transparent
 from ..table import Table
-from .document import Document
-from .images import picture_of
-from .vertices import Vertices
+from .document import Document, Vertices
+
+#: Filters and wraps of samplers, by their numbers in OpenGL.
+_NEAREST = 9728
+_FILE_WRAPS: dict[int, FileWrap] = {10497: "repeat", 33071: "clamp", 33648: "mirror"}
+
+
+def picture_of(gltf: Document, texture: Table, has_alpha: bool = False) -> Picture | None:
+    """Return the image of a texture with its sampler; None, with a warning, if it cannot be had.
+
+    has_alpha: whether its alpha counts.
+    """
+    image = _image(gltf, texture)
+    if image is None:
+        return None
+    if not has_alpha or not is_transparent(image):
+        image = image.convert("RGB")
+    sampler = gltf.item(texture, "sampler", "samplers") if "sampler" in texture else Table({}, "")
+    filter: Filter = "nearest" if sampler.whole("magFilter", 0) == _NEAREST else "bilinear"
+    u, v = (_FILE_WRAPS.get(sampler.whole(name, 0), "repeat") for name in ("wrapS", "wrapT"))
+    return Picture(image, f"{gltf.path}: {texture.where}", filter, (u, v))
+
+
+def _image(gltf: Document, texture: Table) -> Image.Image | None:
+    webp = texture.table("extensions").table("EXT_texture_webp")
+    keys = webp if "source" in webp else texture
+    if keys.place("source") not in gltf.images:
+        image = None
+        try:
+            source = gltf.item(keys, "source", "images")
+            data = gltf.view(gltf.item(source, "bufferView", "bufferViews")) if "bufferView" in source else None
+            file = io.BytesIO(gltf.resource(source) if data is None else data)
+            image = open_image(file, source.where, as_rgba)
+        except InputError as error:
+            warn(f"{gltf.path}: a texture is left out: {error}")
+        gltf.images[keys.place("source")] = image
+    return gltf.images[keys.place("source")]
+
 
 Array = NDArray[np.float64]
 

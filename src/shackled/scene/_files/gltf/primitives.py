@@ -11,13 +11,10 @@ from numpy.typing import NDArray
 from ....errors import InputError
 from ..model import Picture, tinted
 from ..table import Table, about
-from .accessors import numbers
-from .document import Document
+from .document import Document, Vertices, numbers
 from .draco import decompress
 from .materials import Surface, colors_of, picture_on, surface_of
-from .nodes import Node
-from .pose import morphed, skinned, weights_of
-from .vertices import Vertices
+from .nodes import Node, morphed, skinned, weights_of
 
 Array = NDArray[np.float64]
 

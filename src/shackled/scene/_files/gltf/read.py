@@ -11,8 +11,8 @@ import numpy as np
 
 from ....errors import InputError, warn
 from ..._crease import filled
-from ..._material import EXPONENTS
 from ..._mesh import weld
+from ..._object import EXPONENTS
 from ..model import MeshPart, tinted
 from ..table import Table
 from .animation import posed

@@ -14,7 +14,7 @@ from ....errors import InputError, warn
 from ....values import plural
 from ..._camera import Camera
 from ..._light import LIGHT_KINDS, MAX_LIGHTS, Light
-from ..colors import to_srgb
+from ..._texture import to_srgb
 from ..table import Table, about
 from .document import Document
 from .nodes import Node
