@@ -17,7 +17,7 @@ from typing import Any
 import pytest
 
 from nodes import Reply, failure, free_port, result, serving
-from shackled.chain import Connection
+from shackled.chain import Connection, read_all
 from shackled.chain._failures import retry_after, revert_data
 from shackled.errors import (
     ChainError,
@@ -435,3 +435,28 @@ def test_what_is_no_number_of_256_bits(number: Any) -> None:
         _ = Connection(url).chain_id
     with serving(lambda _: result("0x" + 64 * "f")) as url:
         assert Connection(url).number("eth_gasPrice") == 2**256 - 1
+
+
+def test_the_order_and_the_progress() -> None:
+    reported: list[tuple[int, int]] = []
+    found = list(read_all(lambda value: 2 * value, range(200), lambda done, total: reported.append((done, total))))
+    assert found == [2 * value for value in range(200)]
+    assert reported == [(done, 200) for done in range(1, 201)]
+
+
+def test_several_are_read_at_a_time() -> None:
+    together = threading.Barrier(4, timeout=20)
+    list(read_all(lambda _: together.wait(), range(4)))
+
+
+def test_an_endless_list_is_not_held() -> None:
+    """A node may say that there are any number of things."""
+    asked: list[int] = []
+
+    def fail(value: int) -> None:
+        asked.append(value)
+        raise LookupError(value)
+
+    with pytest.raises(LookupError):
+        list(read_all(fail, range(2**62)))
+    assert len(asked) < 100

@@ -1,21 +1,29 @@
-"""Canvases so large that strips are cheaper than the whole."""
+"""Canvases so large that strips are cheaper than the whole; and the written figures of tiles."""
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 from attrs import evolve
+from benchmarks.parallel import GRIDS, SIDES
 
 import shackled
 from shackled import Scene, load
 from shackled._on import Bounds, Embedded, is_one_call
+from shackled.bench import gas as gas_of
 from shackled.chain import ContractChain, open_chain
+from shackled.datasets import require
 from shackled.parallel._backends import ChainBackend
 from shackled.parallel._estimate import estimate
 from shackled.parallel._job import plan
+from shackled.parallel._tiles import grid
 from shackled.scene import Rectangle
+
+FIGURES = json.loads((Path(__file__).parents[2] / "benchmarks" / "parallel.json").read_text("utf-8"))
 
 
 @pytest.fixture(scope="module")
@@ -98,3 +106,19 @@ def test_frames_and_backgrounds_are_cut_alike(teapot: Scene) -> None:
     calls = shackled.render(teapot).calls
     assert shackled.render(teapot, transparent=True).calls == 2 * calls
     assert shackled.turntable(teapot, frames=2).calls == 2 * calls
+
+
+@pytest.mark.parametrize("side", SIDES[:3])
+def test_gas_of_tiles(side: int) -> None:
+    scene, written = evolve(require("teapot").make(), width=side, height=side), FIGURES["Tiles"][str(side)]
+    assert written["whole"] == gas_of(scene)
+    for across, down in GRIDS[:3]:
+        parts = grid(side, side, side // across, side // down)
+        assert written[f"{across} x {down}"] == sum(gas_of(scene, "renderTile", part) for part in parts)
+
+
+def test_few_strips_cost_about_as_much_as_squares() -> None:
+    for written in FIGURES["Tiles"].values():
+        assert written["1 x 4"] < 1.02 * written["2 x 2"]
+        # of 128 rows, two each
+        assert written["1 x 64"] < 1.18 * written["8 x 8"]
