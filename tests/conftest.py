@@ -81,6 +81,7 @@ SLOW = (
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark tests by their file and the fixtures that they use. Tests of a node are skipped where there is no anvil."""
     slow = [Path(__file__).parent / each for each in SLOW]
+    assert all(each.exists() for each in slow), "SLOW names a file that is gone"
     for item in items:
         if any(item.path.is_relative_to(each) for each in slow):
             item.add_marker("slow")

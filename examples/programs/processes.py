@@ -1,4 +1,4 @@
-"""Render tiles of a picture in two worker processes, and check that they equal the whole."""
+"""Render tiles of a picture in two threads, and check that they equal the whole."""
 
 import shackled
 

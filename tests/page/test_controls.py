@@ -285,8 +285,9 @@ def test_objects_are_moved_copied_named_and_removed(visit: Visit) -> None:
     page.page.locator("[data-name=objects] button").last.dblclick()
     field = page.page.locator("[data-name=object-name]")
     field.fill("My cube")
-    page.after(lambda: field.press("Enter"))
-    assert page.doc()["objects"][1]["name"] == "My cube" != name
+    field.press("Enter")
+    page.wait("app.doc.value.objects[1].name === 'My cube'")
+    assert name != "My cube"
     for _ in range(5):
         page.after(page.press("Control+z"))
     assert page.doc()["objects"] == [cube, cone]

@@ -131,7 +131,7 @@ def test_without_a_signer_nobody_permits(node: Node, address: str, shackled: Sha
 
 def test_a_phase_that_there_is_not_is_reported(node: Node, address: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Contracts of strangers may say anything."""
-    collection = open_collection(Connection(node.url), address)
+    collection = open_collection(node.url, address)
     ask = collection.contract.call
     monkeypatch.setattr(collection.contract, "call", lambda name, *rest: 7 if name == "phase" else ask(name, *rest))
     with pytest.raises(NodeError, match="returned an unknown phase of its sale, 7"):

@@ -187,11 +187,12 @@ class Collection:
         return checksum_address(bytes.fromhex(value[2:]))
 
 
-def open_collection(connection: Connection, address: str, editions: bool = False) -> Collection:
+def open_collection(node: Connection | str, address: str, editions: bool = False) -> Collection:
     """Return the collection at an address. Raises InputError if there is none.
 
-    editions: also accept the collection of editions, which has no sale.
+    node: a node, or its URL. editions: also accept the collection of editions, which has no sale.
     """
+    connection = Connection(node) if isinstance(node, str) else node
     for kind in (*KINDS.values(), *([EDITIONS] if editions else [])):
         try:
             if Contract(connection, kind.contract, address).call("name") == kind.title:
