@@ -84,7 +84,7 @@ web: $(DEV) $(NODE) ## check types, style, tests and bundles of the TypeScript p
 	$(BIN)/python tools/build_web.py --check
 
 docs: $(DEV) page ## build the documentation into site/, with the Creator in site/creator/
-	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict
 
 fast: $(DEV)
 	$(BIN)/pytest -n 2 --dist worksteal -m "not slow and not browser and not node"
