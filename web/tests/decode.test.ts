@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { encode, type Scene } from "../src/index.js";
 import { decodeCall } from "../src/scene/decode.js";
+import { processorTime } from "./processor_time.js";
 import { TETRAHEDRON } from "./tetrahedron.js";
 
 test("a disc that is not matte is no ground", () => {
@@ -41,13 +42,10 @@ test("the same meshes are encoded in little time, from any side", () => {
         return { ...scene, objects: scene.objects.map((each) => ({ ...each, mesh: { ...each.mesh } })) };
     };
     assert.deepEqual(encode(from(1)), encode(fresh(1)));
-    const seconds = (make: (angle: number) => Scene): number => {
+    const time = (make: (angle: number) => Scene): number => {
         const scenes = Array.from({ length: 50 }, (_, index) => make(index));
-        // of the processor, however busy the machine is
-        const start = process.cpuUsage();
-        for (const scene of scenes) encode(scene);
-        return process.cpuUsage(start).user;
+        return processorTime(() => scenes.forEach((scene) => void encode(scene)));
     };
-    const slow = seconds(fresh);
-    assert.ok(seconds(from) < slow / 4);
+    const slow = time(fresh);
+    assert.ok(time(from) < slow / 4);
 });

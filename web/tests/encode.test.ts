@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { encode, halfHeightOf, parseScene, type Scene } from "../src/index.js";
+import { processorTime } from "./processor_time.js";
 
 const MESH = {
     positions: [
@@ -176,17 +177,10 @@ test("the time of an encoding is in proportion to the number of objects", () => 
         ground: { color: "tomato" },
         lights: [{ kind: "point", position: [9, 9, 9], shadow: true }],
     });
-    const seconds = (scene: Scene): number => {
-        const times = Array.from({ length: 12 }, () => {
-            // of the processor, however busy the machine is
-            const start = process.cpuUsage();
-            encode(scene);
-            return process.cpuUsage(start).user;
-        });
-        return Math.min(...times);
-    };
+    const time = (scene: Scene): number =>
+        Math.min(...Array.from({ length: 12 }, () => processorTime(() => void encode(scene))));
     const [few, many] = [of(200), of(1600)];
-    seconds(few);
+    time(few);
     // 64 times as long where each object looks at all others
-    assert.ok(seconds(many) < 40 * seconds(few));
+    assert.ok(time(many) < 40 * time(few));
 });
