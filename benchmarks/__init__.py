@@ -9,6 +9,10 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
+from tools.pages import ROOT, update
+
+FOLDER = ROOT / "benchmarks"
+README = FOLDER / "README.md"
 
 
 @dataclass(frozen=True)
@@ -20,14 +24,22 @@ class Section:
     data: dict[str, Any]
 
 
-def read_figures(path: Path) -> Any:
+def read_figures(path: Path) -> dict[str, Any]:
     """Return the figures of a JSON file; none if it does not exist yet."""
-    return json.loads(path.read_text("utf-8")) if path.exists() else {}
+    figures: dict[str, Any] = json.loads(path.read_text("utf-8")) if path.exists() else {}
+    return figures
 
 
 def write_figures(path: Path, figures: Any, sort_keys: bool = False) -> None:
     """Write figures to a JSON file."""
     path.write_text(json.dumps(figures, indent=1, sort_keys=sort_keys) + "\n", "utf-8")
+
+
+def publish(name: str, figures: dict[str, Any], text: str) -> int:
+    """Write the figures of a module of this folder to NAME.json, its text to the README; return the exit code."""
+    print(text)
+    write_figures(FOLDER / f"{name}.json", figures)
+    return update({README: {name: text}.get}, f"python -m benchmarks.{name}")
 
 
 def flip(right: ArrayLike, seen: ArrayLike) -> float:

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import sys
-from pathlib import Path
 
-from . import cost, stages
+from . import FOLDER, cost, stages, write_figures
 
-FOLDER = Path(__file__).parent
 RESULTS, FIGURES = FOLDER / "results.md", FOLDER / "results.json"
 
 
@@ -23,7 +20,7 @@ def main() -> int:
         data[section.title] = section.data
     if all(data.values()) or not FIGURES.exists():
         RESULTS.write_text("\n".join(written), "utf-8")
-        FIGURES.write_text(json.dumps(data, indent=1) + "\n", "utf-8")
+        write_figures(FIGURES, data)
         print(f"written: {RESULTS.name}, {FIGURES.name}")
     else:
         print(f"{RESULTS.name} and {FIGURES.name} are left as they are, since a part was skipped")

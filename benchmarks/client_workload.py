@@ -1,7 +1,8 @@
 """Write a picture as a workload for EVM clients: the code of contracts, the data of a call, the hash of its output.
 
-python -m benchmarks.client_workload            writes the files of benchmarks/client
-python -m benchmarks.client_workload --check    writes nothing; fails if they are not up to date
+    python -m benchmarks.client_workload
+
+writes the files of benchmarks/client.
 """
 
 from __future__ import annotations
@@ -22,6 +23,21 @@ from shackled.scene import render_call
 FOLDER = Path(__file__).with_name("client")
 PIECE, SIDE = "teapot", 128
 GAS = 1 << 26
+#: The forks of a chain configuration that begin at block 0, and at time 0.
+FORKS = (
+    "homesteadBlock",
+    "eip150Block",
+    "eip155Block",
+    "eip158Block",
+    "byzantiumBlock",
+    "constantinopleBlock",
+    "petersburgBlock",
+    "istanbulBlock",
+    "berlinBlock",
+    "londonBlock",
+    "shanghaiTime",
+    "cancunTime",
+)
 
 README = """# A workload for EVM clients
 
@@ -97,23 +113,6 @@ def files() -> dict[str, str]:
     }
 
 
-#: The forks of a chain configuration that begin at block 0, and at time 0.
-FORKS = (
-    "homesteadBlock",
-    "eip150Block",
-    "eip155Block",
-    "eip158Block",
-    "byzantiumBlock",
-    "constantinopleBlock",
-    "petersburgBlock",
-    "istanbulBlock",
-    "berlinBlock",
-    "londonBlock",
-    "shanghaiTime",
-    "cancunTime",
-)
-
-
 def stale() -> list[str]:
     """Return the names of the files that are not up to date."""
     return [
@@ -124,13 +123,7 @@ def stale() -> list[str]:
 
 
 def main() -> int:
-    """Write or check."""
-    if "--check" in sys.argv[1:]:
-        wrong = stale()
-        print(
-            "".join(f"{name} is not up to date: run python -m benchmarks.client_workload\n" for name in wrong), end=""
-        )
-        return bool(wrong)
+    """Write the files."""
     FOLDER.mkdir(exist_ok=True)
     for name, text in files().items():
         (FOLDER / name).write_text(text, "utf-8", newline="\n")

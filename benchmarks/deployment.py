@@ -30,7 +30,7 @@ from dataclasses import dataclass
 from tools.pages import ROOT, update
 
 from shackled import load
-from shackled.chain import EmbeddedChain, open_chain
+from shackled.chain import open_chain
 from shackled.deploy import Deployment, deployments
 from shackled.deploy._contract import PROXY_CODE
 from shackled.errors import ChainError
@@ -147,7 +147,6 @@ def storing_table(costs: dict[str, Cost]) -> str:
 def mesh_costs() -> dict[str, Cost]:
     """Return the costs of storing a mesh of about a thousand triangles, as it is and rounded."""
     chain = open_chain()
-    assert isinstance(chain, EmbeddedChain)
     studio = chain.address(STUDIO)
     (exact,) = fit(load("teapot")).objects
     costs = {}

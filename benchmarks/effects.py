@@ -8,7 +8,6 @@ which `python -m tools.readme` makes the table of docs/light.md.
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Callable
 from typing import Any
@@ -18,6 +17,8 @@ from tools.readme import EFFECTS
 
 from shackled import Camera, Fog, Light, Material, Mesh, Object, Rim, Scene, Tone, render
 from shackled.scene import Hemisphere
+
+from . import write_figures
 
 CORNERS = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]
 #: Normals that differ, so that every fragment has its own.
@@ -87,7 +88,7 @@ def main() -> int:
     }
     for name, gas in found.items():
         print(f"{name:36}" + "".join(f"{each:>8,}" for each in gas))
-    EFFECTS.write_text(json.dumps(found, indent=1) + "\n", "utf-8")
+    write_figures(EFFECTS, found)
     return 0
 
 

@@ -18,7 +18,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from tools.models import packages
-from tools.pages import ROOT, update
 
 from shackled import InputError, Scene, load
 from shackled.bench import gas, table
@@ -27,23 +26,20 @@ from shackled.datasets.common import shapes
 from shackled.errors import InputWarning
 from shackled.scene import LookOptions, Mesh
 
-from . import read_figures, write_figures
+from . import publish, read_figures
 from .workload import workload_of
 
 FILE = Path(__file__).with_name("gas_model.json")
-PAGE = ROOT / "benchmarks" / "README.md"
 #: Packages whose models are predicted: small ones.
 HELD_OUT = ("compas", "devjoni-stllib", "node-stl", "pymeshfix", "skeletor")
 #: Triangles of a predicted model at most: the largest mesh of the fit has fewer than half as many.
 MOST = 10_000
 SIDES = (64, 128, 256)
 LOOKS: dict[str, LookOptions] = {
-    f"{'smooth' if smooth else 'flat'}{', antialiased' if antialias else ''}": {
-        "shading": "smooth" if smooth else "flat",
-        "antialias": antialias,
-    }
-    for antialias in (False, True)
-    for smooth in (False, True)
+    "flat": {"shading": "flat", "antialias": False},
+    "smooth": {"shading": "smooth", "antialias": False},
+    "flat, antialiased": {"shading": "flat", "antialias": True},
+    "smooth, antialiased": {"shading": "smooth", "antialias": True},
 }
 #: What is counted, as a table names it. Curved: with a normal of its own at each corner.
 COUNTS = ("a face", "a drawn one", "if curved", "a row", "if curved", "a tested pixel", "if curved")
@@ -146,9 +142,7 @@ def text(figures: dict[str, Any]) -> str:
     for name, each in figures.items():
         fit, held = np.abs(each["fit"]), np.abs(list(each["held out"].values()))
         shares = np.median(fit), np.median(held), held.max()
-        lines.append(
-            [name, *(f"{round(value) + 0:,}" for value in each["coefficients"]), *(f"{x:.0%}" for x in shares)]
-        )
+        lines.append([name, *(f"{round(value):,}" for value in each["coefficients"]), *(f"{x:.0%}" for x in shares)])
     head = ["gas of", "a picture", *COUNTS]
     return wrapped(
         f"Fitted to {len(first['fit'])} pictures of generated meshes; predicted are {len(first['held out'])} models of"
@@ -161,17 +155,13 @@ def text(figures: dict[str, Any]) -> str:
 
 def recorded() -> dict[str, Any]:
     """Return the figures of gas_model.json."""
-    figures: dict[str, Any] = read_figures(FILE)
-    return figures
+    return read_figures(FILE)
 
 
 def main() -> int:
     """Measure, print and write the figures."""
     figures = {name: measure(look) for name, look in LOOKS.items()}
-    write_figures(FILE, figures)
-    print(text(figures))
-    made = {"gas_model": text(figures)}
-    return update({PAGE: made.get}, "python -m benchmarks.gas_model")
+    return publish("gas_model", figures, text(figures))
 
 
 if __name__ == "__main__":

@@ -72,8 +72,7 @@ def take() -> Figures:
 
 def recorded() -> Figures:
     """Return the figures of icons.json."""
-    figures: Figures = read_figures(FILE)
-    return figures
+    return read_figures(FILE)
 
 
 def fitting(figures: Figures) -> list[str]:

@@ -18,7 +18,7 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
-from tools.pages import ROOT, update
+from tools.pages import ROOT
 
 from shackled import Rim, Scene, Tone, load, render
 from shackled.bench import table
@@ -29,10 +29,9 @@ sys.path.insert(0, str(ROOT / "tests" / "support"))
 sys.path.insert(0, str(ROOT / "tests"))
 from judge import render as in_float64
 
-from . import flip, read_figures, write_figures
+from . import flip, publish, read_figures
 
 FILE = Path(__file__).with_name("look_quality.json")
-PAGE = ROOT / "benchmarks" / "README.md"
 PIECES = ("teapot", "torus-knot", "icons/crown", "genesis/7")
 SIDE = 128
 #: Sides of the smaller canvases on which the whole look is drawn, the largest first.
@@ -102,8 +101,8 @@ def measure(piece: str) -> dict[str, list[float]]:
         gas, flips = zip(*reversed(sizes), strict=True)
         found[f"{look}: nothing"] = [1.0, sizes[0][1], sizes[0][1]]
         for name, change in parts.items():
-            spent, flip = drawn(change(scene), right)
-            found[f"{look}: {name}"] = [spent / sizes[0][0], flip, float(np.interp(spent, gas, flips))]
+            spent, without = drawn(change(scene), right)
+            found[f"{look}: {name}"] = [spent / sizes[0][0], without, float(np.interp(spent, gas, flips))]
     return {name: np.round(each, 4).tolist() for name, each in found.items()}
 
 
@@ -111,10 +110,10 @@ def text(figures: dict[str, dict[str, list[float]]]) -> str:
     """Return the means over the pieces as Markdown."""
     lines, dear = [], []
     for name in next(iter(figures.values())):
-        share, flip, smaller = np.mean([each[name] for each in figures.values()], axis=0)
-        if flip < smaller:
+        share, without, smaller = np.mean([each[name] for each in figures.values()], axis=0)
+        if without < smaller:
             dear.append(name)
-        lines.append([name, f"{share:.0%}", f"{flip:.4f}", f"{smaller:.4f}"])
+        lines.append([name, f"{share:.0%}", f"{without:.4f}", f"{smaller:.4f}"])
     head = ["look: left out", "gas", "FLIP", "FLIP of the whole look, smaller, for this gas"]
     return wrapped(
         f"Means of {', '.join(figures)}, {SIDE} x {SIDE} pixels. To spend less gas, one loses less by leaving a part"
@@ -124,17 +123,13 @@ def text(figures: dict[str, dict[str, list[float]]]) -> str:
 
 def recorded() -> dict[str, Any]:
     """Return the figures of look_quality.json."""
-    figures: dict[str, Any] = read_figures(FILE)
-    return figures
+    return read_figures(FILE)
 
 
 def main() -> int:
     """Measure, print and write the figures."""
     figures = {piece: measure(piece) for piece in PIECES}
-    write_figures(FILE, figures)
-    print(text(figures))
-    made = {"look_quality": text(figures)}
-    return update({PAGE: made.get}, "python -m benchmarks.look_quality")
+    return publish("look_quality", figures, text(figures))
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ docs/parallel.md, and prints the first. Figures of meshes and scenes that are no
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -23,7 +22,7 @@ from shackled.bench import gas
 from shackled.gas import KINDS, profile
 from shackled.scene._object import Shading
 
-from . import antialiasing, cost, shared
+from . import antialiasing, cost, read_figures, shared, write_figures
 from .scenes import SECOND_LIGHT, staged_teapot
 
 FILE = Path(__file__).with_name("looks.json")
@@ -150,8 +149,7 @@ def table_figures() -> Figures:
 
 def recorded() -> Figures:
     """Return the figures of looks.json."""
-    figures: Figures = json.loads(FILE.read_text("utf-8")) if FILE.exists() else {}
-    return figures
+    return read_figures(FILE)
 
 
 def table(figures: Figures) -> str:
@@ -199,7 +197,7 @@ def main() -> int:
     print(table(new))
     if not shared.is_there() or not shared.meshes():
         print(f"{shared.SKIPPED}; their figures are kept")
-    FILE.write_text(json.dumps(new, indent=1, sort_keys=True) + "\n", "utf-8")
+    write_figures(FILE, new, sort_keys=True)
     made = {"looks": table, "opcodes": opcodes, "strips": strips}
     return update(
         {page: lambda name: made[name](new) if name in made else None for page in PAGES}, "python -m benchmarks.looks"

@@ -1,4 +1,4 @@
-"""Say what pictures and their storing cost in dollars, on mainnet and on a rollup, at given prices.
+"""Say what a transaction that draws a picture costs in dollars, on mainnet and on a rollup, at assumed prices.
 
     python -m benchmarks.money [--date DAY] [--ether USD] [--mainnet GWEI] [--rollup GWEI] [--blob GWEI]
 
@@ -17,9 +17,6 @@ import sys
 import zlib
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
-from typing import Any
-
-from tools.pages import ROOT, update
 
 from shackled import Scene, load
 from shackled.artifacts import artifact
@@ -28,10 +25,9 @@ from shackled.bench.scenes import cube
 from shackled.ethereum import intrinsic_gas
 from shackled.scene import encode
 
-from . import read_figures, write_figures
+from . import publish, read_figures
 
 FILE = Path(__file__).with_name("money.json")
-PAGE = ROOT / "benchmarks" / "README.md"
 #: Limit of a transaction (EIP-7825).
 MOST = 1 << 24
 
@@ -111,7 +107,7 @@ def text(prices: Prices, works: dict[str, Work]) -> str:
 
 def recorded() -> tuple[Prices, dict[str, Work]]:
     """Return the prices and the measurements of money.json."""
-    found: dict[str, Any] = read_figures(FILE)
+    found = read_figures(FILE)
     return Prices(**found["prices"]), {name: Work(**each) for name, each in found["work"].items()}
 
 
@@ -121,13 +117,10 @@ def main(arguments: list[str] | None = None) -> int:
     for each in fields(Prices):
         parser.add_argument(f"--{each.name}", type=str if each.name == "date" else float)
     given = {name: value for name, value in vars(parser.parse_args(arguments)).items() if value is not None}
-    before = recorded()[0] if FILE.exists() else Prices("2026-11-26", 3000, 2, 0.01, 0.1)
-    prices = Prices(**asdict(before) | given)
+    prices = Prices(**asdict(recorded()[0]) | given)
     works = {name: measure(scene) for name, scene in scenes().items()}
     found = {"prices": asdict(prices), "work": {name: asdict(each) for name, each in works.items()}}
-    write_figures(FILE, found)
-    print(text(prices, works))
-    return update({PAGE: {"money": text(prices, works)}.get}, "python -m benchmarks.money")
+    return publish("money", found, text(prices, works))
 
 
 if __name__ == "__main__":

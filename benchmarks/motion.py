@@ -14,7 +14,7 @@ from tools.pages import ROOT, update
 
 from shackled import Scene
 from shackled.artifacts import artifact
-from shackled.chain import EmbeddedChain, open_chain, returned_bytes
+from shackled.chain import open_chain, returned_bytes
 from shackled.datasets import pieces
 from shackled.scene import resize
 from shackled.studio import ANIMATE, store_scene
@@ -46,7 +46,6 @@ COLUMNS = {
 def measure(scene: Scene) -> Figures:
     """Store a scene in the embedded chain; return gas and bytes of each file that the Studio makes of it."""
     chain = open_chain()
-    assert isinstance(chain, EmbeddedChain)
     studio, interface = chain.address("Studio"), artifact("Studio").interface
     stored = store_scene(scene, studio, chain=chain)
     pointer = "0x" + stored[-1].pointer.hex()
@@ -81,8 +80,7 @@ def take() -> Figures:
 
 def recorded() -> Figures:
     """Return the figures of motion.json."""
-    figures: Figures = read_figures(FILE)
-    return figures
+    return read_figures(FILE)
 
 
 def fitting(figures: Figures) -> list[str]:

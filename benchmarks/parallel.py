@@ -136,7 +136,7 @@ def opened(stack: ExitStack) -> dict[str, list[Backend]]:
         wanted["anvil, deployed"] = Nodes(deployed.node.url, address=deployed.address("Renderer"))
         wanted["anvil, 2 calls at a time"] = Nodes(one.url, jobs=2)
         wanted["2 anvils"] = Nodes(one.url, two.url)
-    # the command renders a single job in its own process
+    # `Processes(1)` is this process: a thread shows what it costs that its calls can be stopped
     found: dict[str, list[Backend]] = {"1 thread": [ThreadBackend(1)]}
     found |= {name: where.open(Listener()) for name, where in wanted.items()}
     for places in found.values():

@@ -144,8 +144,7 @@ def measure(results: list[tuple[dict[str, Array], list[float]]]) -> Figures:
 
 def recorded() -> dict[str, Figures]:
     """Return the figures of quality.json."""
-    figures: dict[str, Figures] = read_figures(FILE)
-    return figures
+    return read_figures(FILE)
 
 
 def table(figures: dict[str, Figures]) -> str:

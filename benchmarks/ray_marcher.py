@@ -15,23 +15,21 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from eth_abi.abi import decode, encode
 from numpy.typing import NDArray
-from tools.build_contracts import compile_once
-from tools.pages import ROOT, update
+from tools.build_contracts import compile_once, request, settings
 
 from shackled import Background, Camera, Light, Material, Object, Scene, render
 from shackled.bench import table
 from shackled.datasets.common import shapes
 from shackled.errors import RenderError
+from shackled.ethereum import Interface
 from shackled.evm import Instance, Status
 from shackled.scene import Mesh, from_euler, painted, rotate
 
-from . import flip, read_figures, write_figures
+from . import flip, publish, read_figures
 
 CONTRACT = Path(__file__).with_name("RayMarcher.sol")
 FILE = Path(__file__).with_name("ray_marcher.json")
-PAGE = ROOT / "benchmarks" / "README.md"
 #: 1 in the numbers of the contract.
 ONE = 1 << 24
 SIDES = (64, 128)
@@ -42,8 +40,6 @@ LIGHT = np.array([1.0, 2.0, 3.0])
 ANGLES = (50, 20, 0)
 ADDRESS = b"ray marcher".rjust(20, b"\0")
 GAS = 1 << 40
-
-_SCENE = "(uint256,int256,int256[2],int256[3],int256[3],int256[3],int256[3],int256,int256,uint8[3],uint8[3])"
 
 Pixels = NDArray[np.uint8]
 
@@ -72,8 +68,8 @@ def scene(shape: Shape, side: int) -> Scene:
     return Scene([thing], camera, [Light("directional", LIGHT)], Background(SKY), width=side, height=side)
 
 
-def call_data(shape: Shape, side: int, selector: bytes) -> bytes:
-    """Return the call of the ray marcher for the same picture, in the frame of the shape."""
+def numbers(shape: Shape, side: int) -> tuple[Any, ...]:
+    """Return the struct of the ray marcher for the same picture, in the frame of the shape."""
     # the axes of the shape in the world; each column is an axis of the world in the frame of the shape
     axes = rotate(from_euler(ANGLES), np.eye(3))
     right, up, back = axes.T
@@ -82,7 +78,7 @@ def call_data(shape: Shape, side: int, selector: bytes) -> bytes:
     def fixed(values: Any) -> list[int]:
         return [round(float(value) * ONE) for value in np.ravel(values)]
 
-    values = (
+    return (
         side,
         *fixed(HALF_HEIGHT),
         fixed(shape.torus),
@@ -91,35 +87,28 @@ def call_data(shape: Shape, side: int, selector: bytes) -> bytes:
         COLOR,
         SKY,
     )
-    return selector + encode([_SCENE], [values])
 
 
-def compiled() -> tuple[bytes, bytes]:
-    """Return the runtime code of the ray marcher, and the selector of its function."""
-    request = {
-        "language": "Solidity",
-        "sources": {"RayMarcher.sol": {"content": CONTRACT.read_text("utf-8")}},
-        "settings": {
-            "optimizer": {"enabled": True, "runs": 1_000_000},
-            "viaIR": True,
-            "evmVersion": "cancun",
-            "outputSelection": {"*": {"*": ["evm.deployedBytecode.object", "evm.methodIdentifiers"]}},
-        },
-    }
-    evm = compile_once(request)["RayMarcher.sol"]["RayMarcher"]["evm"]
-    (selector,) = evm["methodIdentifiers"].values()
-    return bytes.fromhex(evm["deployedBytecode"]["object"]), bytes.fromhex(selector)
+def compiled() -> tuple[bytes, Interface]:
+    """Return the runtime code of the ray marcher, and its interface."""
+    asked = request(
+        {CONTRACT.name: CONTRACT.read_text("utf-8")},
+        settings(1_000_000, inline=True),
+        {"*": {"*": ["abi", "evm.deployedBytecode.object"]}},
+    )
+    built = compile_once(asked)[CONTRACT.name]["RayMarcher"]
+    return bytes.fromhex(built["evm"]["deployedBytecode"]["object"]), Interface(built["abi"])
 
 
 def march(shape: Shape, side: int) -> tuple[int, Pixels]:
     """Return gas and picture of the ray marcher. RenderError if the call fails."""
-    code, selector = compiled()
+    code, interface = compiled()
     evm = Instance()
     evm.put(ADDRESS, code)
-    answer = evm.call(ADDRESS, call_data(shape, side, selector), GAS)
+    answer = evm.call(ADDRESS, interface.encode("render", numbers(shape, side)), GAS)
     if answer.status != Status.SUCCESS:
         raise RenderError(f"the ray marcher ended with {answer.status.name}")
-    (pixels,) = decode(["bytes"], answer.output)
+    pixels = interface.decode("render", answer.output)
     return answer.gas, np.frombuffer(pixels, np.uint8).reshape(side, side, 3)
 
 
@@ -140,13 +129,13 @@ def measure(shape: Shape, side: int) -> dict[str, Any]:
 
 def recorded() -> dict[str, Any]:
     """Return the figures of ray_marcher.json."""
-    figures: dict[str, Any] = read_figures(FILE)
-    return figures
+    return read_figures(FILE)
 
 
 def text(figures: dict[str, Any]) -> str:
     """Return the figures as Markdown."""
     head = ["picture", "ray marcher, gas", "a pixel", "a lit pixel", "triangles", "Renderer, gas", "a pixel"]
+    head += ["ratio", "FLIP", "mean error, levels"]
     lines = []
     for name, each in figures.items():
         marched, drawn = each["ray marcher"], each["renderer"]
@@ -154,10 +143,8 @@ def text(figures: dict[str, Any]) -> str:
         cells += [f"{each['triangles']:,}", f"{drawn:,}", f"{drawn / each['pixels']:,.0f}", f"{marched / drawn:.1f}"]
         lines.append([name, *cells, f"{each['FLIP']:.4f}", f"{each['mean error']:.2f}"])
     ratios = [each["ray marcher"] / each["renderer"] for each in figures.values()]
-    return (
-        f"At an equal picture the ray marcher takes {min(ratios):.1f} to {max(ratios):.1f} times the gas.\n\n"
-        + table([*head, "ratio", "FLIP", "mean error, levels"], lines)
-    )
+    times = f"{min(ratios):.1f} to {max(ratios):.1f} times"
+    return f"The ray marcher takes {times} the gas of the Renderer.\n\n{table(head, lines)}"
 
 
 def main() -> int:
@@ -165,10 +152,7 @@ def main() -> int:
     figures = {
         f"{name}, {side} x {side}": measure(shape, side) for name, shape in all_shapes().items() for side in SIDES
     }
-    write_figures(FILE, figures)
-    print(text(figures))
-    made = {"ray_marcher": text(figures)}
-    return update({PAGE: made.get}, "python -m benchmarks.ray_marcher")
+    return publish("ray_marcher", figures, text(figures))
 
 
 if __name__ == "__main__":

@@ -10,11 +10,9 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-import numpy as np
 from attrs import evolve
-from eth_abi.abi import encode as abi_encode
 
-from shackled import Camera, Light, Mesh
+from shackled import Camera, Light
 from shackled.artifacts import artifact
 from shackled.bench import call, deployment_gas, gas
 from shackled.bench import scenes as paper
@@ -24,6 +22,7 @@ from shackled.deploy import STANDARD
 from shackled.scene import Rectangle
 
 from . import read_figures, shared, unit_costs, write_figures
+from .original.documents import call_data, document, mesh_keys
 from .scenes import LAMP, cubes, empty, room, staged_teapot
 
 FILE = Path(__file__).with_name("gas.json")
@@ -39,12 +38,13 @@ FOUR_LIGHTS = (
     Light("point", (-400, -300, -1500), (60, 120, 255)),
 )
 
-# The interface of the original contracts.
-_LIGHTING = "(bool,int256,int256,int256,uint256,int256[3],int256[3],int256[3],int256[3])"
-_PARAMETERS = f"(uint256[3][],int256[3][],int256[3][],int256[3],int256,int256[3][2],{_LIGHTING},bool,bool,bool,bool)"
-
 #: Toward the upper right; power 2,000 at a distance of 50, as in the original's pieces.
-ORIGINAL_LIGHT = (True, 0, 2000, 2000, 10, (40, 30, 0), (255, 255, 255), (1, 1, 1), (0, 0, 0))
+ORIGINAL_LIGHT = {
+    "lightSpecPower": 2000,
+    "lightPos": [40, 30, 0],
+    "lightColDiff": [1] * 3,
+    "lightColAmbi": [0] * 3,
+}
 
 
 def own_figures() -> Figures:
@@ -85,10 +85,9 @@ def own_figures() -> Figures:
     for function in ("renderCounted", "renderDataURI", "renderSVG"):
         figures[f"teapot, flat, 128, {function}"] = gas(teapot, function)
     figures["teapot, flat, 128, renderTile, the middle quarter"] = gas(teapot, "renderTile", Rectangle(32, 32, 64, 64))
+    cube = document(128, ORIGINAL_LIGHT, **mesh_keys(cube_mesh()))
     for svg in (False, True):
-        figures[f"Original, cube, 128, {'SVG' if svg else 'BMP'}"] = call(
-            "Original", original_call(cube_mesh(), 128, svg)
-        ).gas
+        figures[f"Original, cube, 128, {'SVG' if svg else 'BMP'}"] = call("Original", call_data(cube, svg)).gas
     return figures | genesis_figures()
 
 
@@ -106,18 +105,6 @@ def genesis_figures() -> Figures:
 def shared_figures() -> Figures:
     """Measure the scenes of the cost table; nothing if they are missing."""
     return {name: gas(scene) for name, scene in shared.table_scenes().items()}
-
-
-def original_call(mesh: Mesh, size: int, svg: bool) -> bytes:
-    """Encode a call of `render` of the original's interface: a mesh of whole coordinates, lit, before the camera."""
-    faces, positions, colors = (
-        np.asarray(table).astype(int).tolist() for table in (mesh.faces, mesh.positions, mesh.colors)
-    )
-    background = ((0, 0, 40), (0, 0, 160))
-    parameters = (faces, positions, colors, (0, 0, -2500), 1, background, ORIGINAL_LIGHT, True, True, False, False)
-    return artifact("Original").selectors["render"] + abi_encode(
-        [_PARAMETERS, "int256", "bool"], [parameters, size, svg]
-    )
 
 
 def contract_figures() -> Figures:
@@ -139,8 +126,7 @@ def take() -> Snapshot:
 
 def recorded() -> Snapshot:
     """Return the figures of gas.json."""
-    snapshot: Snapshot = read_figures(FILE)
-    return snapshot
+    return read_figures(FILE)
 
 
 def changes(old: Snapshot, new: Snapshot) -> tuple[list[str], list[str]]:

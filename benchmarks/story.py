@@ -20,12 +20,11 @@ from shackled.bench.scenes import cube
 from shackled.ethereum import intrinsic_gas
 from shackled.scene import encode
 
-from . import energy
+from . import README, energy
 from .original.recipe import SOURCES, digests
 
 ROOT = Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "benchmarks" / "results"
-PAGE = ROOT / "benchmarks" / "README.md"
 ESTIMATES = ROOT / "docs" / "measurements.md"
 
 #: The models in the first row of the cost table.
@@ -40,10 +39,10 @@ def content(name: str) -> str | None:
 
     None for the measurements of this folder, which write their own.
     """
-    if name not in (*EXPERIMENTS, "repeated"):
-        return None
     if name == "repeated":
         return wrapped(repeated())
+    if name not in EXPERIMENTS:
+        return None
     path = RESULTS / f"{name}.md"
     if not path.exists():
         raise SystemExit(f"there is no {path.relative_to(ROOT)}: run `shackled bench --all -o benchmarks/results`")
@@ -98,7 +97,9 @@ def rows(name: str) -> list[dict[str, str]]:
 def main() -> int:
     """Update the pages."""
     return update(
-        {PAGE: content, ESTIMATES: {"energy": estimates()}.get}, "python -m benchmarks.story", "--check" in sys.argv[1:]
+        {README: content, ESTIMATES: {"energy": estimates()}.get},
+        "python -m benchmarks.story",
+        "--check" in sys.argv[1:],
     )
 
 

@@ -17,7 +17,7 @@ from tools.pages import ROOT, update
 
 from shackled import Object, load, render
 from shackled.artifacts import artifact
-from shackled.chain import EmbeddedChain, open_chain
+from shackled.chain import open_chain
 from shackled.datasets import require, teapot
 from shackled.datasets.genesis import generate_on_chain, picture_on_chain, seed_of
 from shackled.image import encode_bmp
@@ -47,10 +47,8 @@ class Keeper:
 
     def __init__(self) -> None:
         """Open the chain."""
-        chain = open_chain()
-        assert isinstance(chain, EmbeddedChain)
-        self.chain = chain
-        self.studio = chain.address("Studio")
+        self.chain = open_chain()
+        self.studio = self.chain.address("Studio")
 
     def gas(self, contract: str, function: str, data: bytes) -> int:
         """Return the execution gas of a call."""
@@ -132,8 +130,7 @@ def take() -> Figures:
 
 def recorded() -> Figures:
     """Return the figures of studio.json."""
-    figures: Figures = read_figures(FILE)
-    return figures
+    return read_figures(FILE)
 
 
 def meshes(figures: Figures) -> str:

@@ -15,7 +15,7 @@ from attrs import evolve
 from tools.pages import ROOT, update
 
 from shackled import Camera, Light, Material, Mesh, Object, Scene, Texture, Tone, load, render
-from shackled.chain import EmbeddedChain, open_chain
+from shackled.chain import open_chain
 from shackled.scene._packed import pack_texture
 from shackled.scene._texture import FILTERS
 from shackled.studio import store_scene
@@ -74,7 +74,6 @@ def per_pixel() -> str:
 def stored() -> str:
     """Return the gas of storing textures as a table in Markdown."""
     chain = open_chain()
-    assert isinstance(chain, EmbeddedChain)
     studio = chain.address("Studio")
     without = sum(each.gas for each in store_scene(square(None), studio)[1:])
     lines = ["| texture | bytes | gas to store it with a scene |", "|---|---:|---:|"]

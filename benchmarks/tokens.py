@@ -144,8 +144,7 @@ def token_uris(s: Stage, seeds: int) -> Figures:
 
 def recorded() -> Figures:
     """Return the figures of tokens.json."""
-    figures: Figures = read_figures(FILE)
-    return figures
+    return read_figures(FILE)
 
 
 def table(figures: Figures) -> str:

@@ -24,8 +24,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from playwright.sync_api import sync_playwright
-from tools.page_server import ARGUMENTS, browser_path, static
+from tools.page_server import chromium, static
 
 from shackled import load
 from shackled.artifacts import artifact
@@ -179,8 +178,7 @@ def main() -> None:
     parser.add_argument("--element", action="store_true", help="measure the element only")
     parser.add_argument("--write", action="store_true", help="write view.json")
     options = parser.parse_args()
-    with sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
+    with chromium() as browser:
         for smooth in (False, True):
             found = measure(browser, smooth, options.seconds)
             name = "smooth" if smooth else "flat"
@@ -192,7 +190,6 @@ def main() -> None:
             if options.write:
                 known = json.loads(RESULTS.read_text("utf-8"))
                 RESULTS.write_text(json.dumps(known | {"after": after}, indent=2) + "\n", "utf-8")
-        browser.close()
 
 
 if __name__ == "__main__":

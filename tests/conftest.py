@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
-from tools.page_server import ARGUMENTS, browser_path
+from tools.page_server import browser_path, chromium
 
 from nodes import ANVIL, PUBLIC, Node, anvil
 
@@ -119,10 +119,8 @@ def node(running_node: Node) -> Iterator[Node]:
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
     """Chromium, which finds no host but this machine. Of a module: beside it, no test can use a loop of asyncio."""
-    sync_api = pytest.importorskip("playwright.sync_api", reason="the tests of pages need playwright")
+    pytest.importorskip("playwright.sync_api", reason="the tests of pages need playwright")
     if browser_path() is None:
         pytest.skip("the tests of pages need chromium: apt-get install chromium")
-    with sync_api.sync_playwright() as driver:
-        chromium = driver.chromium.launch(executable_path=browser_path(), args=[*ARGUMENTS, ALONE])
-        yield chromium
-        chromium.close()
+    with chromium(ALONE) as started:
+        yield started

@@ -122,7 +122,7 @@ def test_the_page_has_the_recorded_figures(name: str, text: Callable[[], str]) -
     assert f"<!-- begin {name} -->\n{text()}\n<!-- end {name} -->" in page, f"run python -m benchmarks.{name}"
 
 
-def test_the_workload_of_clients_runs(tmp_path: Path) -> None:
+def test_the_workload_of_clients_runs() -> None:
     """From its files alone: revm returns the expected bytes for the expected gas."""
     assert client_workload.stale() == [], "run python -m benchmarks.client_workload"
     texts = {path.name: path.read_text("utf-8") for path in client_workload.FOLDER.iterdir()}

@@ -9,7 +9,6 @@ import runpy
 import shlex
 import subprocess
 import sys
-from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -25,7 +24,7 @@ from tools.docs.contract_reference import MARK, filled
 
 import shackled
 from animated_gltf import write
-from nodes import KEY, anvil, needs_anvil
+from nodes import KEY, Node
 from shackled.artifacts import artifact
 from shackled.cli.app import app
 
@@ -170,12 +169,6 @@ def test_the_reference_of_the_contracts_is_complete() -> None:
     assert "| `render(Scene scene)` → `bytes` | call | Draws a scene. Returns: A Windows bitmap" in text
 
 
-@pytest.fixture(scope="module")
-def node() -> Iterator[str]:
-    with anvil() as running:
-        yield running.url
-
-
 def run(program: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)
     runpy.run_path(str(program), run_name="__main__")
@@ -189,12 +182,11 @@ def test_a_program_runs(
     assert capsys.readouterr().out or list(tmp_path.iterdir())
 
 
-@needs_anvil
 @pytest.mark.parametrize("name", sorted(ON_A_NODE))
 def test_a_program_runs_on_a_node(
-    name: str, node: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    name: str, node: Node, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setenv("SHACKLED_RPC", node)
+    monkeypatch.setenv("SHACKLED_RPC", node.url)
     monkeypatch.setenv("KEY", KEY)
     run(ROOT / "examples" / "programs" / f"{name}.py", tmp_path, monkeypatch)
     assert "gas" in capsys.readouterr().out

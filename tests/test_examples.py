@@ -21,7 +21,7 @@ from tools.ledger import World
 
 from compiler import needs_compiler
 from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene, load, render
-from shackled.chain import EmbeddedChain, open_chain
+from shackled.chain import open_chain
 from shackled.datasets import require
 from shackled.image import decode_bmp
 from shackled.scene import from_euler, is_closed, render_call
@@ -81,7 +81,6 @@ def test_meshes_are_written_where_they_are_wanted(tmp_path: Path) -> None:
 @needs_compiler
 def test_call_from_contract() -> None:
     chain = open_chain()
-    assert isinstance(chain, EmbeddedChain)
     creation, selectors = compile_example("examples/call_from_contract/Tetrahedron.sol")
     parts = (chain.address(name).rjust(32, b"\0") for name in ("Renderer", "PngEncoder"))
     code = chain.create("Tetrahedron", creation + b"".join(parts))

@@ -1,7 +1,4 @@
-"""What people write who have not read the documentation: it works as the documented way does, or is told what does.
-
-The guesses are those of outside reviewers who knew other libraries of the field.
-"""
+"""What people write who know other libraries, not the documentation: it works, or an error says what does."""
 
 from __future__ import annotations
 
@@ -214,6 +211,14 @@ NAMED: dict[str, tuple[Callable[[], Any], str]] = {
     "shininess": (lambda: s.Material(shininess=12.5), "must be a whole number from 1 to 128, not 12.5"),
     "both words": (lambda: s.Mesh(MESH.positions, MESH.faces, colors="red", color="red"), "are the same: give one"),
     "fov and half_height": (lambda: s.Camera(fov=40, half_height=1), "exclude each other: give one of them"),
+    "toward and direction": (lambda: s.Light(kind="directional", toward=(0, 1, 0), direction=(0, 1, 0)), "give one of"),
+    "a light that is replaced": (
+        lambda: s.replace(sun((1, 1, 1)), toward=(0, 1, 0)),
+        "`toward` and `vector` of a light",
+    ),
+    "fps and duration": (lambda: s.Animation(turns(), 100, fps=10), "exclude each other: give one of them"),
+    "fps and duration of a turn": (lambda: s.turntable("cube", 4, 8, duration=100, fps=10), "exclude each other: give"),
+    "faces of all sizes": (lambda: s.Mesh(BOX.vertices, [(0, 1, 2), (0, 1)]), "the faces of a mesh must be rows of 3"),
     "fov, orthographic": (lambda: s.Camera(fov=40, projection="orthographic"), "give `half_height` instead of `fov`"),
     "fps": (lambda: s.Animation(turns(), fps=0), "`fps` must be the number of frames in a second, not 0"),
     "tokens": (lambda: s.tokens.read_metadata, "No shackled.tokens attribute read_metadata"),

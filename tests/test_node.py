@@ -109,9 +109,7 @@ def node() -> Iterator[Node]:
 
 @pytest.fixture(scope="module")
 def embedded() -> ContractChain:
-    chain = open_chain()
-    assert isinstance(chain, ContractChain)
-    return chain
+    return open_chain()
 
 
 def q32(values: Any) -> Any:

@@ -27,6 +27,11 @@ def unpublished(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(addresses, "project", lambda: project)
 
 
+def test_the_citation_names_the_repository() -> None:
+    named = re.findall(r"^repository-code: (.*)$", (addresses.ROOT / "CITATION.cff").read_text("utf-8"), re.MULTILINE)
+    assert named == list(filter(None, [addresses.addresses()["repository"]]))
+
+
 @pytest.mark.usefixtures("unpublished")
 def test_without_addresses_nothing_names_one() -> None:
     assert addresses.urls() == {}

@@ -84,15 +84,31 @@ def test_contracts_say_licence_and_compiler(texts: dict[str, str]) -> None:
 
 
 def test_links_lead_somewhere(texts: dict[str, str]) -> None:
+    """To files that are there, and to headings of pages."""
     # the page that tools/docs/with_creator.py adds to the site
     broken, made = [], {"docs/creating.md: creator/index.html", "docs/index.md: creator/index.html"}
     for name, text in texts.items():
         if name.endswith(".md"):
             text = re.sub(r"^```.*?^```", "", text, flags=re.DOTALL | re.MULTILINE)
-            for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", text) + re.findall(r'(?:src|href)="([^"#]+)', text):
-                if "://" not in target and not (ROOT / name).parent.joinpath(target).exists():
+            linked = re.findall(r"\]\(([^)\s]+)[^)]*\)", text)
+            for target in linked + re.findall(r'(?:src|href)="([^"#]+)', text):
+                path, _, heading = target.partition("#")
+                page = (ROOT / name).parent.joinpath(path) if path else ROOT / name
+                if "://" not in target and not (page.exists() and (not heading or has_heading(page, heading))):
                     broken.append(f"{name}: {target}")
     assert set(broken) == made
+
+
+def has_heading(page: Path, anchor: str) -> bool:
+    text = page.read_text("utf-8")
+    headings = [
+        re.sub(r"\]\([^)]*\)|[^\w\s-]", "", each.lower()) for each in re.findall(r"^#+ (.*)$", text, re.MULTILINE)
+    ]
+    # the site makes one hyphen of several, GitHub does not
+    gap = r"[-\s]+" if page.is_relative_to(ROOT / "docs") else r"\s"
+    known = {re.sub(gap, "-", each.strip()) for each in headings}
+    # a name of the reference, whose heading mkdocstrings makes
+    return anchor in known or f"::: {anchor}\n" in text or f'id="{anchor}"' in text
 
 
 @pytest.mark.parametrize("name", contracts())
@@ -111,9 +127,10 @@ def test_one_version_everywhere() -> None:
     changes = re.findall(r"^## \[(\d[^\]]*)\]", (ROOT / "CHANGELOG.md").read_text("utf-8"), re.MULTILINE)
     assert shackled.__version__ == version
     assert changes[0] == version
-    for folder in NPM_PACKAGES:
-        for name in ("package.json", "package-lock.json"):
-            assert json.loads((ROOT / folder / name).read_text("utf-8"))["version"] == version
+    packages = [f"{folder}/{name}" for folder in NPM_PACKAGES for name in ("package.json", "package-lock.json")]
+    for name in ("contracts/npm/package.json", *packages):
+        assert json.loads((ROOT / name).read_text("utf-8"))["version"] == version
+    assert f"\nversion: {version}\n" in (ROOT / "CITATION.cff").read_text("utf-8")
 
 
 def test_the_readme_has_the_figures_that_were_measured() -> None:

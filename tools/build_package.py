@@ -24,9 +24,8 @@ from typing import Any
 from shackled.artifacts import artifact, source, standard_input
 from shackled.deploy import CONTRACTS, Deployment, deployments
 from shackled.ethereum import checksum_address
-from tools.addresses import for_an_index, with_addresses
+from tools.addresses import ROOT, for_an_index, with_addresses
 
-ROOT = Path(__file__).resolve().parent.parent
 SOURCES = ROOT / "contracts" / "src"
 #: The files of the package that are written by hand.
 WRITTEN = ROOT / "contracts" / "npm"

@@ -29,7 +29,7 @@ from PIL import Image, ImageDraw
 
 from shackled.cli.facts import facts_of
 from shackled.cli.option import with_options
-from shackled.cli.picture import Source, Task, render_to
+from shackled.cli.picture import FilmOptions, Source, Task, render_to
 from shackled.cli.progress import Notes
 from shackled.errors import InputWarning, ShackledError
 from shackled.gas import headline
@@ -47,7 +47,7 @@ COMPANIONS = {".mtl", ".bin", ".png", ".jpg", ".jpeg", ".dds", ".tga", ".bmp", "
 PLATFORM = ("--python-version=3.11", "--platform=manylinux2014_x86_64", "--platform=manylinux_2_28_x86_64")
 WHEEL = ("-m", "pip", "download", "--quiet", "--no-deps", "--only-binary=:all:", *PLATFORM)
 #: The options of `shackled render`: none.
-DEFAULTS = Task({}, None, None, None, None, False, False, None, None, None, None)
+DEFAULTS = Task({}, None, FilmOptions(), False, None, None, None, None)
 #: Of a contact sheet: pictures in a row, rows, side of a picture and height of its name in pixels.
 ACROSS, DOWN, SIDE, NAME = 4, 3, 256, 14
 

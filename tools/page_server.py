@@ -10,7 +10,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
 
 BROWSERS = ("chromium", "chromium-browser")
 #: It must not look for updates, or ask for anything but the page.
@@ -50,6 +53,17 @@ def static(folder: Path = PAGE) -> Iterator[Static]:
         threading.Thread(target=server.serve_forever, daemon=True).start()
         yield served
         server.shutdown()
+
+
+@contextmanager
+def chromium(*more: str) -> Iterator[Browser]:
+    """Start a browser, which is closed at the end. more: arguments of its command line beside ARGUMENTS."""
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=browser_path(), args=[*ARGUMENTS, *more])
+        yield browser
+        browser.close()
 
 
 def browser_path() -> str | None:

@@ -191,48 +191,11 @@ def check_npm_packages(table: Table) -> None:
 
 
 def check_texts(table: Table) -> None:
-    """Check that versions agree, and that links between the pages of the repository lead somewhere."""
-    with table.check("versions and addresses") as details:
-        citation = (ROOT / "CITATION.cff").read_text("utf-8")
-        demand(f"\nversion: {VERSION}\n" in citation, f"CITATION.cff has another version than {VERSION}")
-        repository = addresses()["repository"]
-        named = re.findall(r"^repository-code: (.*)$", citation, re.MULTILINE)
-        demand(
-            named == [repository] * bool(repository), f"CITATION.cff: repository-code must be {repository or 'absent'}"
-        )
-        details += [VERSION, repository or "no address yet: fill [tool.shackled] in pyproject.toml to publish"]
-    with table.check("links between pages") as details:
-        listed = run("git", "ls-files", "*.md", cwd=ROOT).split()
-        links = [(page, link) for page in listed for link in links_of(ROOT / page)]
-        broken = [f"{page}: {link}" for page, link in links if not leads_somewhere(ROOT / page, link)]
-        demand(not broken, "; ".join(broken[:3]))
-        details.append(f"{len(links)} in {len(listed)} pages")
-
-
-def links_of(page: Path) -> list[str]:
-    """Return the targets of a page's links that are in the repository."""
-    text = re.sub(r"^```.*?^```$|`[^`\n]*`", "", page.read_text("utf-8"), flags=re.DOTALL | re.MULTILINE)
-    return re.findall(r"\]\((?![a-z]+:)([^)\s]+)\)", text)
-
-
-def leads_somewhere(page: Path, link: str) -> bool:
-    """Return whether the file of a link is there, and has its heading."""
-    path, _, anchor = link.partition("#")
-    target = page.parent / path if path else page
-    # the site has the page of the Creator, which is built
-    if not target.exists():
-        return path.startswith("creator/")
-    if not anchor or target.suffix != ".md":
-        return True
-    text = target.read_text("utf-8")
-    headings = [
-        re.sub(r"\]\([^)]*\)|[^\w\s-]", "", each.lower()) for each in re.findall(r"^#+ (.*)$", text, re.MULTILINE)
-    ]
-    # the site makes one hyphen of several, GitHub does not
-    gap = r"[-\s]+" if page.is_relative_to(ROOT / "docs") else r"\s"
-    known = {re.sub(gap, "-", each.strip()) for each in headings}
-    # a name of the reference, whose heading mkdocstrings makes
-    return anchor in known or f"::: {anchor}\n" in text or f'id="{anchor}"' in text
+    """Run the tests of versions, addresses, and links between the pages of the repository."""
+    with table.check("versions, addresses, links") as details:
+        tests = ("tests/test_rules.py", "tests/test_project_addresses.py")
+        run(sys.executable, "-m", "pytest", "-q", *tests, cwd=ROOT)
+        details += [VERSION, addresses()["repository"] or "no address yet: fill [tool.shackled] in pyproject.toml"]
 
 
 # ---- where it is used ----

@@ -28,14 +28,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from eth_abi.abi import decode
 from numpy.typing import NDArray
 
 from shackled import InputError
+from shackled.artifacts import artifact
 from shackled.bench import original
 from shackled.errors import ChainError
-from shackled.ethereum import intrinsic_gas, keccak256, to_hex
+from shackled.ethereum import intrinsic_gas, keccak256, parse_address, to_hex
 from shackled.evm import Instance, Status
+from shackled.evm._instance import MOST_GAS
 
 from .documents import Document, call_data
 
@@ -43,8 +44,6 @@ ROOT = Path(__file__).resolve().parents[2]
 CSV = ROOT / "src" / "shackled" / "bench" / "original.csv"
 SOLC = ROOT / "contracts" / "node_modules" / "solc"
 TOKEN = "Shackled"
-#: Of a call: as much as the embedded EVM takes.
-GAS = (1 << 45) - 1
 #: Whom pyrevm lets call.
 CALLER = bytes(19) + b"\1"
 SETTINGS = {"optimizer": {"enabled": True, "runs": 200}}
@@ -124,7 +123,7 @@ def call(codes: Codes, address: bytes, data: bytes) -> tuple[int, bytes]:
     evm = Instance()
     evm.hold(codes)
     try:
-        answer = evm.call(address, data, GAS)
+        answer = evm.call(address, data, MOST_GAS)
     except ChainError:
         return _in_pyrevm(codes, address, data)
     if answer.status != Status.SUCCESS:
@@ -141,7 +140,7 @@ def _in_pyrevm(codes: Codes, address: bytes, data: bytes) -> tuple[int, bytes]:
     for each, code in codes.items():
         evm.insert_account_info(to_hex(each), pyrevm.AccountInfo(code=code))
     try:
-        output = bytes(evm.message_call(to_hex(CALLER), to_hex(address), data, None, GAS))
+        output = bytes(evm.message_call(to_hex(CALLER), to_hex(address), data, None, MOST_GAS))
     except RuntimeError as error:
         raise ChainError(f"the call failed: {error}") from None
     assert evm.result is not None
@@ -151,7 +150,7 @@ def _in_pyrevm(codes: Codes, address: bytes, data: bytes) -> tuple[int, bytes]:
 def row(name: str, scene: Document, codes: Codes, address: bytes) -> dict[str, str | int]:
     """Measure a scene; return its row."""
     gas, output = call(codes, address, call_data(scene))
-    (uri,) = decode(["string"], output)
+    uri = artifact("Original").interface.decode("render", output)
     known = original().get(name)
     return {
         "scene": name,
@@ -219,8 +218,10 @@ def main(arguments: list[str] | None = None) -> int:
     names = given.names or sorted(path.stem for path in folder.glob("*.json"))
     rows, left_out = [], 0
     try:
+        if not names:
+            raise InputError(f"{folder} has no scenes")
         if given.at:
-            address, codes = bytes.fromhex(given.at[2:]), deployed(given.sources)
+            address, codes = parse_address(given.at, "--at"), deployed(given.sources)
         else:
             address, codes = linked(compiled(standard_input(given.sources), given.solc), given.contract)
         for name in names:
@@ -235,7 +236,7 @@ def main(arguments: list[str] | None = None) -> int:
             known = original().get(name)
             note = "new" if known is None else "as recorded" if known.gas == found["gas"] else f"recorded {known.gas:,}"
             print(f"{name}: {found['gas']:,} ({note})", flush=True)
-    except (OSError, InputError) as error:
+    except (OSError, ValueError) as error:
         raise SystemExit(str(error)) from None
     given.output.write_text(written(CSV.read_text("utf-8"), rows), "utf-8")
     return bool(left_out)

@@ -39,8 +39,8 @@ PIECES = range(64)
 SIDES = (8, 16, 32, 64, 128, 256, 512)
 #: The original's orthographic camera was measured up to this side.
 ORTHOGRAPHIC_SIDE = 128
-LIGHT = {"lightPos": [-20, 20, 30], "lightDiffPower": 500, "lightSpecPower": 1500}
-SKY = [[20, 20, 30], [60, 60, 90]]
+MODEL_LIGHT = {"lightPos": [-20, 20, 30], "lightDiffPower": 500, "lightSpecPower": 1500}
+MODEL_SKY = [[20, 20, 30], [60, 60, 90]]
 QUAD = {
     "verts": [[-1300, -1300, 0], [1300, -1300, 0], [1300, 1300, 0], [-1300, 1300, 0]],
     "faces": [[0, 1, 2], [0, 2, 3]],
@@ -189,7 +189,7 @@ def model_document(positions: Array, faces: Faces, angles: tuple[float, float, f
     whole = np.rint(turned * (HALF / np.abs(turned[:, :2]).max()))
     colors = np.rint(100 + 90 * vertex_normals(whole, faces))
     keys = {"verts": whole.astype(int).tolist(), "faces": faces.tolist(), "cols": colors.astype(int).tolist()}
-    return document(128, LIGHT, **keys, backgroundColor=SKY, backfaceCulling=cull)
+    return document(128, MODEL_LIGHT, **keys, backgroundColor=MODEL_SKY, backfaceCulling=cull)
 
 
 def vertex_normals(positions: Array, faces: Faces) -> Array:

@@ -39,7 +39,7 @@ from .mp4 import check_mp4, encode_mp4
 from .scene import PICTURE
 from .values import plural
 from .whole_file import check_output_file, check_output_folder, make_output_folder, write_output
-from .words import Given, Words, milliseconds, words_of
+from .words import Words, with_duration, words_of
 
 if TYPE_CHECKING:
     from .studio import ContractFile
@@ -60,15 +60,7 @@ def _frames(frames: Iterable[Image | ArrayLike]) -> tuple[Image, ...]:
     return tuple(frame if isinstance(frame, Image) else Image(frame) for frame in frames)
 
 
-def _with_fps(given: Given) -> Given:
-    """Return the fields of an animation, whose duration may be given by the frames in a second."""
-    return {
-        "duration" if name == "fps" else name: milliseconds(value) if name == "fps" else value
-        for name, value in given.items()
-    }
-
-
-@words_of("fps", read=_with_fps)
+@words_of("fps", read=with_duration)
 @frozen(repr=False)
 class Animation(Words):
     """Frames as a contract made them, all of one size, repeated endlessly. They are its members: len, [n] and `for`.

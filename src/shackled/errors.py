@@ -27,6 +27,11 @@ class InputError(ShackledError, ValueError):
         super().__init__(re.sub(r"\s*\n\s*", " ", message))
 
 
+def not_installed(what: str, extra: str) -> InputError:
+    """Return the error for what needs the package of an extra."""
+    return InputError(f"{what} needs a package that is not installed: pip install 'shackled[{extra}]'")
+
+
 class InputWarning(UserWarning):
     """What was asked for is not what is drawn: a part of a file is ignored, or a picture is made to fit."""
 

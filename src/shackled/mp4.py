@@ -9,7 +9,7 @@ from importlib.util import find_spec
 
 import numpy as np
 
-from .errors import InputError
+from .errors import not_installed
 from .image import Pixels
 
 #: How near to the frames it is: 0 is exact, and 18 is taken as hardly to be told from that.
@@ -21,7 +21,7 @@ _UNITS = 1000
 def check_mp4() -> None:
     """Raise an InputError if MP4 files cannot be written here."""
     if find_spec("av") is None:
-        raise InputError("an .mp4 file needs a package that is not installed: pip install 'shackled[mp4]'")
+        raise not_installed("an .mp4 file", "mp4")
 
 
 def encode_mp4(frames: Sequence[Pixels], duration: int) -> bytes:

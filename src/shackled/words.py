@@ -29,14 +29,14 @@ _LOOK = {
     "rotation": "rotate",
     "shadows": "shadow",
 }
-_PLACE = {"location": "position", "translate": "position", "translation": "position"}
 _COLOR = {"colour": "color"}
+_CAMERA = {"look_at": "target", "position": "eye", "yfov": "fov"}
 _PICTURE = {"alpha": "transparent"}
 #: Other words for keywords, by what has these: a class, a function, or a look.
 SAME = {
     "look": _LOOK,
     "Animation": {"images": "frames"},
-    "Camera": {"look_at": "target", "position": "eye", "yfov": "fov"},
+    "Camera": _CAMERA,
     "Light": {**_COLOR, "pos": "position", "type": "kind"},
     "Material": {"emissive": "emission", "map": "texture"},
     "Mesh": {
@@ -46,11 +46,16 @@ SAME = {
         "uv": "uvs",
         "vertex_normals": "normals",
     },
-    "Object": {**_PLACE, "colour": "color", "matrix": "transform", "rotate": "rotation"},
+    "Object": {
+        **_COLOR,
+        **dict.fromkeys(("location", "translate", "translation"), "position"),
+        "matrix": "transform",
+        "rotate": "rotation",
+    },
     "directional": _COLOR,
     "point": _COLOR,
     "spot": _COLOR,
-    "perspective": {"look_at": "target", "position": "eye", "yfov": "fov"},
+    "perspective": _CAMERA,
     "render": _PICTURE,
     "turntable": _PICTURE,
     "animate": _PICTURE,
@@ -62,6 +67,7 @@ _SCENE_FIXED = "a Scene does not change: give all objects to Scene([...]), or to
 #: What to give instead of a keyword, an attribute, or a name of the package.
 INSTEAD = {
     **dict.fromkeys(("output", "path", "filename"), _FILE),
+    **dict.fromkeys(("width", "height", "shape"), "`size` is the side in pixels, or (width, height)"),
     "PointLight": "shackled.Light.point makes a light at a position",
     "DirectionalLight": "shackled.Light.directional makes a light at infinity",
     "SpotLight": "shackled.Light.spot makes a light that shines into a cone",
@@ -71,8 +77,6 @@ INSTEAD = {
     "alpha": "`transparent` of render leaves out the background, `opacity` is that of the objects",
     "camera": "`eye`, `target`, `up` and `fov` place the camera, `use_camera` takes that of a glTF file",
     "depth": "depths are not returned",
-    "width": "`size` is the side in pixels, or (width, height)",
-    "height": "`size` is the side in pixels, or (width, height)",
     "to_trimesh": "trimesh.Trimesh(mesh.positions, mesh.faces, vertex_colors=mesh.rgba, process=False) makes one",
     "export": "shackled.export(scene, path) writes a page, and the command `shackled export` also a .glb file",
     "fps": "`duration` is the time of a frame in milliseconds",
@@ -82,7 +86,6 @@ INSTEAD = {
     "load": "shackled.load(path) returns a scene, shackled.scene.read_mesh(path) a mesh, Texture.open(path) a texture",
     "material": _SURFACE,
     "projection": "did you mean orthographic?",
-    "shape": "`size` is the side in pixels, or (width, height)",
     "texture": f"{_SURFACE} that has a texture",
 }
 
@@ -121,8 +124,8 @@ def with_words(function: Callable[P, R]) -> Callable[P, R]:
                 args = ((args[0], args[1]), *args[2:])
         if "transparent" in named and str(given.get("background")).strip().lower() == "transparent":
             given = {**given, "background": None, "transparent": True}
-        if "fps" in given and "duration" in named:
-            given["duration"] = milliseconds(given.pop("fps"))
+        if "duration" in named:
+            given = with_duration(given)
         if not has_look:
             _check(function.__qualname__, given, [name for name in named if name != "cls"])
         return function(*args, **given)
@@ -138,12 +141,18 @@ def _is_rows(value: Any) -> bool:
         return False
 
 
-def milliseconds(fps: float) -> int:
-    """Return the duration of a frame of so many in a second. InputError unless there are some."""
+def with_duration(given: Given) -> Given:
+    """Return keywords with the duration of a frame in milliseconds in place of `fps`, the frames in a second."""
+    if "fps" not in given:
+        return given
+    if "duration" in given:
+        raise InputError("`fps` and `duration` exclude each other: give one of them")
+    fps = given.pop("fps")
     try:
-        return round(1000 / fps)
+        given["duration"] = round(1000 / fps)
     except (TypeError, ValueError, ZeroDivisionError, OverflowError):
         raise InputError(f"`fps` must be the number of frames in a second, not {fps!r:.60}") from None
+    return given
 
 
 def words_of(

@@ -94,7 +94,6 @@ class _Worker:
     def call(self, function: Callable[[Item], Result], item: Item) -> Result:
         """Call a function of a module in the process; return its result or raise its error, or WorkerEndedError."""
         process = self._started()
-        assert process.stdin is not None
         assert process.stdout is not None
         try:
             _send(process.stdin, pickle.dumps((function, item), pickle.HIGHEST_PROTOCOL))

@@ -187,6 +187,7 @@ def test_culled_triangles_are_counted() -> None:
     [
         ("a.json", "{}", "is no standard JSON input"),
         ("folder", "", "has no .sol files"),
+        ("b.json", "{", "Expecting property name"),
     ],
 )
 def test_what_is_no_source_is_refused(name: str, text: str, message: str, tmp_path: Path, scenes: Path) -> None:

@@ -10,8 +10,7 @@ import time
 
 import pytest
 
-from shackled.cli.chain_options import print_json
-from shackled.cli.output import print_table
+from shackled.cli.output import print_json, print_table
 from shackled.cli.progress import LateBar
 
 ADDRESS = "0x" + "5b" * 20
@@ -25,8 +24,7 @@ def test_a_table_shows_untrusted_text_as_it_is(capsys: pytest.CaptureFixture[str
 
 
 def test_a_narrow_terminal_does_not_shorten_values(monkeypatch: pytest.MonkeyPatch) -> None:
-    stream = io.StringIO()
-    monkeypatch.setattr(stream, "isatty", lambda: True)
+    stream = Terminal()
     monkeypatch.setattr(sys, "stdout", stream)
     monkeypatch.setenv("COLUMNS", "40")
     print_table(("contract", "address", "at most"), [("Renderer", ADDRESS, "0.00123456789")])

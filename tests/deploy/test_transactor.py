@@ -42,15 +42,11 @@ def without_estimates(node: Node) -> AbstractContextManager[str]:
     return replying(node.url, eth_estimateGas=result("0x5208"))
 
 
-def balance(node: Node, address: bytes) -> int:
-    return node.connection.number("eth_getBalance", "0x" + address.hex(), "latest")
-
-
 def test_sending_ether(node: Node) -> None:
-    payer, before = transactor(node.url), balance(node, SOMEONE)
+    payer, before = transactor(node.url), node.balance(SOMEONE)
     owned = payer.balance()
     receipt = payer.send(quoted(payer, value=ETHER))
-    assert balance(node, SOMEONE) - before == ETHER
+    assert node.balance(SOMEONE) - before == ETHER
     assert receipt.gas == 21000
     assert owned - payer.balance() == ETHER + receipt.fee
 
@@ -60,7 +56,7 @@ def test_fees_of_a_chain_without_eip_1559() -> None:
         payer = transactor(node.url, max_fee=100 * GWEI)
         assert payer.fees().tip is None
         receipt = payer.send(quoted(payer, value=7))
-        assert balance(node, SOMEONE) == 7
+        assert node.balance(SOMEONE) == 7
         assert receipt.gas == 21000
         assert int(node.rpc("eth_getTransactionByHash", receipt.hash)["type"], 16) == 0
 
@@ -122,7 +118,7 @@ def test_odd_answers_are_reported_before_anything_is_sent(node: Node, lies: Any,
 @pytest.mark.parametrize("logs", ["zz", ["zz"], [{"topics": []}], [{"address": "0x" + 40 * "0", "topics": ["0x"]}], {}])
 def test_odd_events_of_a_transaction_that_succeeded(node: Node, logs: Any) -> None:
     lies = {"eth_getTransactionReceipt": lambda receipt, _: receipt | {"logs": logs}}
-    before = balance(node, SOMEONE)
+    before = node.balance(SOMEONE)
     words = r"^the transaction 0x\w{64} succeeded, so do not send it again; but the node .* invalid events"
     with Liar(lies).before(node.url) as url:
         if logs:
@@ -130,7 +126,7 @@ def test_odd_events_of_a_transaction_that_succeeded(node: Node, logs: Any) -> No
                 transactor(url).send(quoted(transactor(url), value=9))
         else:
             transactor(url).send(quoted(transactor(url), value=9))
-    assert balance(node, SOMEONE) - before == 9
+    assert node.balance(SOMEONE) - before == 9
 
 
 @pytest.mark.parametrize("receipt", ["zz", {}, {"status": "0x1"}, {"status": "0x" + 99 * "1"}])
@@ -222,11 +218,11 @@ def test_an_answer_that_was_lost(node: Node) -> None:
         sent.append(request)
         return replace(forward(node.url, request), cut=5)
 
-    before = balance(node, SOMEONE)
+    before = node.balance(SOMEONE)
     with replying(node.url, eth_sendRawTransaction=lose) as url:
         payer = transactor(url)
         payer.send(quoted(payer, value=3))
-    assert balance(node, SOMEONE) - before == 3
+    assert node.balance(SOMEONE) - before == 3
     # a broken connection is tried again at once, and the node knows the transaction then
     assert {each["params"][0] for each in sent} == {sent[0]["params"][0]}
 

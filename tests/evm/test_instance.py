@@ -345,15 +345,15 @@ def test_where_wasmtime_has_no_library(tmp_path: Path) -> None:
     assert told.stderr.endswith("choose the chain pyevm, of pip install 'shackled[pyevm]'\n")
 
 
-def test_a_time_limit_ends_a_call() -> None:
-    """From another thread: the call that runs, and all later ones of this instance; others go on."""
+def test_another_thread_stops_a_call() -> None:
+    """The one that runs, and all later ones of this instance; others go on."""
     made, other = Instance(is_stoppable=True), Instance(is_stoppable=True)
     for each in (made, other):
         each.put(ADDRESS, ENDLESS)
-    limit = threading.Timer(0.2, made.stop)
-    limit.start()
+    stopping = threading.Timer(0.2, made.stop)
+    stopping.start()
     for _ in range(2):
         with pytest.raises(ChainError, match=r"^the call was stopped$"):
             made.call(ADDRESS, b"", 1 << 44)
-    limit.join()
+    stopping.join()
     assert other.call(ADDRESS, b"", 1_000).status == Status.OUT_OF_GAS

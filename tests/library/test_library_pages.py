@@ -1,4 +1,4 @@
-"""docs/studio.md: its pictures, and the contracts of their examples."""
+"""docs/studio.md: its pictures, and the contracts of its examples."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import pytest
 from eth_abi.abi import decode, encode
 from PIL import Image as PillowImage
 from tools.docs import draw_library
-from tools.docs.draw_library import COLUMNS, LABEL, SIDE, Shelf
+from tools.docs.draw_library import Shelf
 from tools.pages import IMAGES
 
 from compiler import needs_compiler
@@ -24,6 +24,8 @@ from shackled.scene import from_euler, rotate
 
 ROOT = Path(__file__).resolve().parents[2]
 SITE = "examples/library/PedestalSite.sol"
+#: Of the contact sheet: the sides of a picture, the height of its name, and the pictures in a row.
+SIDE, LABEL, COLUMNS = 128, 22, 8
 
 
 @pytest.fixture(scope="module")

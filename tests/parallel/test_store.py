@@ -129,7 +129,7 @@ def test_a_job_that_was_cut_otherwise_keeps_its_plan(tmp_path: Path) -> None:
     keep2 = tmp_path / "large.png.parts"
     large = evolve(SCENE, width=64, height=64)
     tight = render_frames([large], None, Bounds(tile=(64, 16)), keep=keep2)
-    # two processes would be given more parts
+    # two threads would be given more parts
     assert render_frames([large], Processes(2), keep=keep2).calls == tight.calls == 4
 
 

@@ -335,7 +335,7 @@ def test_films() -> None:
     assert "its 9 frames have more than 134,217,728 pixels together" in problem
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.data())
 def test_damaged_films_are_a_problem_of_one_line(data: st.DataObject) -> None:
     """Decoders fail at them in many ways."""

@@ -56,7 +56,7 @@ def meshes(draw: st.DrawFn) -> bytes:
     return pack(mesh, smooth=draw(st.booleans()))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(packed=meshes())
 def test_nothing_is_lost(packed: bytes) -> None:
     stored = compact(packed)
@@ -160,7 +160,7 @@ def test_faces_of_more_vertices_than_there_are() -> None:
         opened(made[:4] + b"\0\1" + made[6:] + b"\xf0")
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(data=st.data())
 def test_no_bytes_break_the_decoder(data: st.DataObject) -> None:
     """Whatever it is given it ends, in little gas, with a mesh of the size that it tells or an error of its own."""
@@ -177,7 +177,7 @@ def test_no_bytes_break_the_decoder(data: st.DataObject) -> None:
         assert len(mesh) == size
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(
     kind=st.sampled_from([0, 1, 2, 3, 4, COMPACT, 0x11, 0x12, 0x13, 0x20, 0xFF]),
     rest=st.one_of(st.binary(max_size=70), st.binary(min_size=15, max_size=15).map(bytes(8).__add__)),
@@ -204,6 +204,6 @@ def test_bits_of_normals(bits: int) -> None:
 
 
 @pytest.mark.parametrize("data", [b"", b"\4\0\0\0\0", b"\0\0\1\0\0", bytes.fromhex("0000000001") + bytes(6)])
-def test_what_is_no_packed(data: bytes) -> None:
+def test_what_is_no_packed_mesh(data: bytes) -> None:
     with pytest.raises(InputError):
         compact(data)

@@ -213,7 +213,7 @@ def scenes(draw: st.DrawFn) -> Scene:
     return Scene(objects)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(scenes())
 def test_any_scene(scene: Scene) -> None:
     compare(call(scene), scene)

@@ -65,7 +65,7 @@ def pictures(draw: st.DrawFn) -> Pixels:
     return random.integers(0, 256, (height, width, 3), np.uint8)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(pixels=pictures(), scale=st.integers(1, 8))
 def test_any_picture(pixels: Pixels, scale: int) -> None:
     png = encode_png(pixels, scale)

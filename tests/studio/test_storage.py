@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from attrs import evolve
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
@@ -95,7 +95,6 @@ def test_a_thousand_triangles_are_stored_for_what_is_promised() -> None:
     assert store_scene(scene, STUDIO, 11, 6)[0].gas < 1_100_000
 
 
-@settings(deadline=None)
 @given(st.lists(st.tuples(st.sampled_from([0, 255, 1, 7, 200]), st.integers(1, 300)), max_size=6))
 def test_zeros_are_compressed_as_they_are_decompressed(runs: list[tuple[int, int]]) -> None:
     """By the library of the contracts, as its documentation has it, and here."""

@@ -285,11 +285,7 @@ def test_an_address_without_code_is_no_part() -> None:
     for place in range(2):
         given = [b"\x77" * 20 if at == place else part for at, part in enumerate(parts)]
         with pytest.raises(ChainError, match="could not be deployed"):
-            chain.create("Turntable", artifact("Turntable").creation + b"".join(map(word_of, given)))
-
-
-def word_of(address: bytes) -> bytes:
-    return address.rjust(32, b"\0")
+            chain.create("Turntable", artifact("Turntable").creation + b"".join(map(word, given)))
 
 
 def test_chromium_plays_it(browser: Any, tmp_path: Path) -> None:

@@ -20,4 +20,5 @@ class Said:
         return self.err.strip().splitlines()[-1]
 
 
+#: Runs a command of the package.
 Shackled = Callable[..., Said]

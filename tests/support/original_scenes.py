@@ -17,6 +17,7 @@ from benchmarks.original.documents import (
     mesh_keys,
     scene_document,
 )
+from benchmarks.original.recipe import MODEL_LIGHT
 
 from shackled import Mesh
 from shackled.bench import scenes
@@ -51,8 +52,7 @@ def object_keys(name: str, radius: int = 800) -> dict[str, Any]:
 
 def object_document(name: str, side: int = 128) -> Document:
     """A built-in piece under a light from above."""
-    light = {"lightPos": [-20, 20, 30], "lightDiffPower": 500, "lightSpecPower": 1500}
-    return document(side, light, **object_keys(name))
+    return document(side, MODEL_LIGHT, **object_keys(name))
 
 
 def quads(count: int = 1, gap: int = 10) -> dict[str, Any]:

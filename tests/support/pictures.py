@@ -24,9 +24,7 @@ WHITE = (255, 255, 255)
 @cache
 def chain() -> ContractChain:
     """Where the contracts run."""
-    found = open_chain()
-    assert isinstance(found, ContractChain)
-    return found
+    return open_chain()
 
 
 def words(*values: int) -> bytes:

@@ -156,4 +156,4 @@ class Show(RuleBasedStateMachine):
 
 
 TestEditions = Show.TestCase
-TestEditions.settings = settings(max_examples=10, stateful_step_count=30, deadline=None)
+TestEditions.settings = settings(max_examples=10, stateful_step_count=30)

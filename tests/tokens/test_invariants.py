@@ -264,4 +264,4 @@ class Sales(RuleBasedStateMachine):
 
 
 TestSales = Sales.TestCase
-TestSales.settings = settings(max_examples=10, stateful_step_count=40, deadline=None)
+TestSales.settings = settings(max_examples=10, stateful_step_count=40)

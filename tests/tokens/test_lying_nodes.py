@@ -13,7 +13,7 @@ import pytest
 
 from nodes import Node
 from proxies import Liar
-from shackled.chain import VARIABLE, Connection
+from shackled.chain import VARIABLE
 from shackled.cli.app import run
 from shackled.deploy import Transactor
 from shackled.tokens import KINDS, CollectionTerms, launch, plan_launch, plan_storage, store
@@ -64,10 +64,10 @@ def _contracts(running_node: Node, tmp_path_factory: pytest.TempPathFactory) -> 
         collection, _ = launch(plan_launch(running_node.connection, KINDS["genesis"], terms), owner)
         perform(owner, collection.contract, "setPhase", 2)
         perform(owner, collection.contract, "mint", 1, value=collection.contract.call("price"))
-        running_node.rpc("anvil_mine", hex(200))
+        running_node.mine(200)
         store(plan_storage(running_node.connection, []), owner)
         running_node.rpc("anvil_setNextBlockBaseFeePerGas", hex(GWEI))
-        running_node.rpc("anvil_mine", "0x1")
+        running_node.mine(1)
         yield
 
 
@@ -78,7 +78,7 @@ def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def balance(node: Node) -> int:
-    return Connection(node.url).number("eth_getBalance", str(development_accounts()[USER].address), "latest")
+    return node.balance(node.accounts[USER])
 
 
 def ceiling(said: str) -> int:

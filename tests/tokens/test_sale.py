@@ -145,7 +145,7 @@ def test_without_a_list_there_is_no_proof(s: Stage) -> None:
         s.genesis.send("mintWithSignature", 1, permission, bytes(65), sender=s.alice, value=PRICE)
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 @given(st.integers(0, 2**256 - 1), st.integers(0, 2**256 - 1))
 def test_no_quantity_overflows_an_allowance(quantity: int, allowed: int) -> None:
     s = stage()

@@ -49,43 +49,43 @@ def test_a_wallet_sends_the_transactions(node: Node, tmp_path: Path, shackled: S
         call = {key: each[key] for key in ("to", "value", "data", "gas")}
         digest = node.rpc("eth_sendTransaction", {"from": node.web3.eth.accounts[BOB], **call})
         assert node.web3.eth.wait_for_transaction_receipt(digest)["status"] == 1
-    minted = json.loads(shackled("store", "icons/die", "--json").out)
-    assert minted["gas"] == 0
-    assert minted["pointer"] in said.out
+    stored = json.loads(shackled("store", "icons/die", "--json").out)
+    assert stored["gas"] == 0
+    assert stored["pointer"] in said.out
 
 
 def test_an_object_is_put_on_chain_once(node: Node, tmp_path: Path, shackled: Shackled) -> None:
     picture = tmp_path / "bell.png"
     said = shackled("store", "icons/bell", "-o", picture, "--json", "--yes", user=ALICE)
-    minted = json.loads(said.out)
+    stored = json.loads(said.out)
     assert "storing it:" in said.err
-    assert 0 < minted["gas"] <= 1_700_000
+    assert 0 < stored["gas"] <= 1_700_000
     np.testing.assert_array_equal(pixels(picture.read_bytes()), render(token_scene(require("icons/bell"))).pixels)
     # web3.py finds the same there
-    studio = node.contract("Studio", minted["studio"])
+    studio = node.contract("Studio", stored["studio"])
     (draw,) = (f for f in studio.all_functions() if f.abi_element_identifier == "render(address)")
-    assert draw(minted["pointer"]).call() == render(token_scene(require("icons/bell"))).bmp
+    assert draw(stored["pointer"]).call() == render(token_scene(require("icons/bell"))).bmp
     # the same again costs nothing, and needs no account
     said = shackled("store", "icons/bell", "--json")
-    assert json.loads(said.out) | {"output": None} == minted | {"gas": 0, "output": None}
+    assert json.loads(said.out) | {"output": None} == stored | {"gas": 0, "output": None}
     assert "nothing was sent" in said.err
     large = tmp_path / "large.png"
-    assert "bytes" in shackled("token", "picture", minted["pointer"], "-o", large, "--scale", 2).out
+    assert "bytes" in shackled("token", "picture", stored["pointer"], "-o", large, "--scale", 2).out
     assert pixels(large.read_bytes()).shape == (256, 256, 3)
     vector, model, film = tmp_path / "bell.svg", tmp_path / "bell.glb", tmp_path / "film.png"
-    shackled("token", "picture", minted["pointer"], "-o", vector, "--scale", 2)
+    shackled("token", "picture", stored["pointer"], "-o", vector, "--scale", 2)
     assert base64.b64encode(large.read_bytes()) in vector.read_bytes()
-    shackled("token", "picture", minted["pointer"], "-o", model)
+    shackled("token", "picture", stored["pointer"], "-o", model)
     assert model.read_bytes()[:4] == b"glTF"
     turned = ["--turntable", 3, "--scale", 1, "--duration", 40]
-    shackled("token", "picture", minted["pointer"], "-o", film, "--size", 16, *turned)
+    shackled("token", "picture", stored["pointer"], "-o", film, "--size", 16, *turned)
     with PillowImage.open(film) as opened:
         assert (opened.size, opened.info["duration"]) == ((16, 16), 40)
         assert len(list(ImageSequence.Iterator(opened))) == 3
-    shackled("token", "picture", minted["pointer"], "-o", film, *turned)
+    shackled("token", "picture", stored["pointer"], "-o", film, *turned)
     assert pixels(film.read_bytes()).shape == (128, 128, 3)
     for options in (["-o", vector, "--turntable", 3], ["-o", large, "--size", 8], ["-o", tmp_path / "a.gif"]):
-        shackled("token", "picture", minted["pointer"], *options, expect=2)
+        shackled("token", "picture", stored["pointer"], *options, expect=2)
     said = shackled("token", "picture", "0x" + "12" * 20, "-o", large, expect=1)
     assert "no scene is stored at 0x1212" in said.error
 

@@ -20,7 +20,6 @@ from tools.anvil import AnvilChain, find_anvil
 from nodes import Reply, anvil, needs_anvil, result, serving
 from shackled import Image, Scene, load, render
 from shackled.artifacts import artifact
-from shackled.chain import EmbeddedChain, open_chain
 from shackled.ethereum import to_hex
 from shackled.gas import profile
 from shackled.scene import encode, encode_scene_file, render_call
@@ -454,8 +453,6 @@ def test_nodes_that_answer_otherwise(show: Opener) -> None:
 def test_stored_scenes(show: Opener) -> None:
     """The node says what code is where; Studio's own code decides what belongs there."""
     stored = load("teapot", size=(48, 40))
-    chain = open_chain()
-    assert isinstance(chain, EmbeddedChain)
     transactions = store_scene(stored, STUDIO)
     codes = {to_hex(each.pointer): each.code for each in transactions}
     pointer = to_hex(transactions[-1].pointer)

@@ -15,7 +15,7 @@ import pytest
 
 from shackled import load
 from shackled.artifacts import artifact
-from shackled.chain import ContractChain, open_chain
+from shackled.chain import open_chain
 from shackled.errors import RenderError
 from shackled.gas import profile, render_call
 from shackled.scene import LookOptions, encode
@@ -39,7 +39,6 @@ def drawn_by_node(calls: list[bytes], folder: Path, *, profile: bool = False) ->
 
 def drawn_by_python(call: bytes) -> dict[str, Any]:
     chain = open_chain()
-    assert isinstance(chain, ContractChain)
     try:
         result = chain.call("Renderer", call)
     except RenderError as error:

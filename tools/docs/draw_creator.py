@@ -12,9 +12,8 @@ from collections.abc import Callable
 from typing import Any, Literal
 
 from PIL import Image
-from playwright.sync_api import sync_playwright
 
-from tools.page_server import ARGUMENTS, browser_path, static
+from tools.page_server import chromium, static
 from tools.pages import IMAGES
 
 #: Frames per second of the GIF, and screen pixels per pixel of it.
@@ -30,8 +29,7 @@ RESTS = """() => {
 
 def main() -> None:
     """Make all pictures."""
-    with static() as server, sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
+    with static() as server, chromium() as browser:
 
         def visit(width: int, height: int, scheme: Literal["light", "dark"], **options: Any) -> Any:
             context = browser.new_context(viewport={"width": width, "height": height}, color_scheme=scheme, **options)
@@ -60,7 +58,6 @@ def main() -> None:
 
         save(visit(390, 780, "dark", has_touch=True, is_mobile=True, device_scale_factor=1.5), "creator-phone")
         film(visit(1100, 700, "light"))
-        browser.close()
 
 
 def rest(page: Any) -> None:

@@ -8,14 +8,13 @@ Needs the compiler: `npm ci` in contracts/.
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 from eth_abi.abi import decode, encode
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
-from PIL import ImageDraw, ImageFont
 
 from shackled.artifacts import artifact
 from shackled.chain import EmbeddedChain, describe_revert, open_chain
@@ -23,12 +22,12 @@ from shackled.ethereum import word
 from shackled.evm import Instance, Status
 from shackled.library import Item, chosen_items, items
 from shackled.studio import STUDIO
+from tools.docs.draw_pictures import contact_sheet
 from tools.examples import compile_example
 from tools.pages import IMAGES
 
 EXAMPLE = "examples/library/Pedestal.sol"
 GAS = 1_000_000_000
-SIDE, LABEL, COLUMNS = 128, 22, 8
 
 #: What stands on pedestals, and in the compartments.
 ON_PEDESTALS = ("crown", "teapot", "glasses")
@@ -105,17 +104,6 @@ def picture(shelf: Shelf, item: Item) -> NDArray[np.uint8]:
     return pixels(body)
 
 
-def contact_sheet(shelf: Shelf, shown: Sequence[Item]) -> PillowImage.Image:
-    """Return the pictures of items with their names beneath."""
-    sheet = PillowImage.new("RGB", (COLUMNS * SIDE, -(-len(shown) // COLUMNS) * (SIDE + LABEL)), "#14161c")
-    pen, font = ImageDraw.Draw(sheet), ImageFont.load_default(13)
-    for number, item in enumerate(shown):
-        x, y = number % COLUMNS * SIDE, number // COLUMNS * (SIDE + LABEL)
-        sheet.paste(PillowImage.fromarray(picture(shelf, item)), (x, y))
-        pen.text((x + SIDE // 2, y + SIDE + LABEL // 2), item.name, "#c8ccd4", font, anchor="mm")
-    return sheet
-
-
 def example_picture() -> PillowImage.Image:
     """Return the scenes of the example: the pedestals in a row, the compartments below."""
     shelf = Shelf(chosen_items((*ON_PEDESTALS, *IN_COMPARTMENTS)))
@@ -125,7 +113,9 @@ def example_picture() -> PillowImage.Image:
 
 def main() -> None:
     """Draw the pictures."""
-    contact_sheet(Shelf(items()), items()).save(IMAGES / "library.png", optimize=True)
+    shelf = Shelf(items())
+    sheet = contact_sheet([picture(shelf, item) for item in items()], (item.name for item in items()), columns=8)
+    sheet.save(IMAGES / "library.png", optimize=True)
     example_picture().save(IMAGES / "library-pedestal.png", optimize=True)
 
 

@@ -10,17 +10,18 @@ import json
 import subprocess
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, Unpack
 
 import numpy as np
 from attrs import evolve
+from numpy.typing import NDArray
 from PIL import Image as PillowImage
 from PIL import ImageDraw, ImageFont
 
 from shackled import Background, Camera, Image, Light, Material, Object, Scene, load, render
-from shackled.datasets import Piece, teapot
+from shackled.datasets import teapot
 from shackled.datasets.common import builtin, shapes
 from shackled.datasets.genesis import generate, picture_on_chain, seed_of
 from shackled.datasets.icons import pieces as icons
@@ -144,7 +145,7 @@ def presets() -> tuple[PillowImage.Image, list[int | None]]:
 
 
 def effects() -> dict[str, list[Image]]:
-    """Draw the rows of docs/light.md and docs/light.md, 192 x 192 pixels each, the first without the effect."""
+    """Draw the rows of docs/light.md, 192 x 192 pixels each, the first without the effect."""
     chalk = Material("smooth", ambient=0.6, diffuse=0.5, specular=0.1, shininess=20)
     pale = pot(6, 192, chalk, color="#f0ece4", lights=KEY, ambient_light="#a0a0a0", background="#c4d8ec")
     dark = pot(6, 192, evolve(GLAZED, ambient=0.12), color=CLAY, lights=KEY, background=NIGHT)
@@ -200,19 +201,16 @@ def effects() -> dict[str, list[Image]]:
     return rendered
 
 
-def contact_sheet(pieces: Sequence[Piece], columns: int) -> tuple[PillowImage.Image, list[int]]:
-    """Draw pieces, 128 x 128 pixels each, with their names below; also return the gas of each."""
+def contact_sheet(pictures: Sequence[NDArray[np.uint8]], names: Iterable[str], columns: int) -> PillowImage.Image:
+    """Return pictures of 128 x 128 pixels in rows, with their names below."""
     side, label = 128, 22
-    sheet = PillowImage.new("RGB", (columns * side, -(-len(pieces) // columns) * (side + label)), "#14161c")
+    sheet = PillowImage.new("RGB", (columns * side, -(-len(pictures) // columns) * (side + label)), "#14161c")
     pen, font = ImageDraw.Draw(sheet), ImageFont.load_default(13)
-    costs = []
-    for number, piece in enumerate(pieces):
+    for number, (pixels, name) in enumerate(zip(pictures, names, strict=True)):
         x, y = number % columns * side, number // columns * (side + label)
-        image = render(piece.make(), size=side)
-        sheet.paste(PillowImage.fromarray(image.pixels), (x, y))
-        pen.text((x + side // 2, y + side + label // 2), piece.name.split("/")[-1], "#c8ccd4", font, anchor="mm")
-        costs.append(image.gas or 0)
-    return sheet, costs
+        sheet.paste(PillowImage.fromarray(pixels), (x, y))
+        pen.text((x + side // 2, y + side + label // 2), name.split("/")[-1], "#c8ccd4", font, anchor="mm")
+    return sheet
 
 
 def genesis() -> tuple[PillowImage.Image, list[int]]:
@@ -253,9 +251,10 @@ def main() -> None:
         PillowImage.fromarray(np.hstack([image.pixels for image in images])).save(IMAGES / f"{name}.png", optimize=True)
         figures[name] = {"gas": [image.gas for image in images]}
     for name, pieces, columns in (("icons", list(icons()), 7), ("common", builtin.pieces(), 8)):
-        sheet, costs = contact_sheet(pieces, columns)
+        images = [render(piece.make(), size=128) for piece in pieces]
+        sheet = contact_sheet([image.pixels for image in images], (piece.name for piece in pieces), columns)
         sheet.save(IMAGES / f"{name}.png", optimize=True)
-        figures[name] = {"gas": costs}
+        figures[name] = {"gas": [image.gas for image in images]}
     sheet, costs = genesis()
     sheet.save(IMAGES / "genesis.png", optimize=True)
     figures["genesis"] = {"gas": costs}

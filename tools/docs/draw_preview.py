@@ -14,9 +14,8 @@ from pathlib import Path
 
 from benchmarks.preview import ALL, Server, make_project
 from PIL import Image
-from playwright.sync_api import sync_playwright
 
-from tools.page_server import ARGUMENTS, browser_path
+from tools.page_server import chromium
 from tools.pages import IMAGES
 
 PICTURE = IMAGES / "preview.png"
@@ -24,20 +23,18 @@ PICTURE = IMAGES / "preview.png"
 
 def main() -> int:
     """Start the preview, take the picture when all tokens are there, and write it."""
-    with tempfile.TemporaryDirectory() as name, sync_playwright() as playwright:
+    with tempfile.TemporaryDirectory() as name, chromium() as browser:
         folder = Path(name)
         make_project(folder)
         with Server(folder) as server:
             for message in server.messages():
                 if message.get("status") == "done":
                     break
-            browser = playwright.chromium.launch(executable_path=browser_path(), args=ARGUMENTS)
             page = browser.new_page(viewport={"width": 1200, "height": 800})
             page.goto(server.url)
             page.get_by_text(f"{ALL} tokens in").wait_for()
             page.wait_for_load_state("networkidle")
             shot = page.screenshot()
-            browser.close()
     Image.open(io.BytesIO(shot)).convert("P", palette=Image.Palette.ADAPTIVE, dither=Image.Dither.NONE).save(
         PICTURE, optimize=True
     )

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 from attrs import evolve
+from PIL import Image
 
 from shackled import Camera, Object, Scene, Texture, load, render
 from tools.pages import IMAGES
@@ -39,8 +40,6 @@ def main() -> None:
         with_texture(near, Texture(small, "bilinear")),
     ]
     strip = np.concatenate([render(each).pixels for each in scenes], axis=1)
-    from PIL import Image
-
     Image.fromarray(strip).save(IMAGE, optimize=True)
     print(f"written: {IMAGE}")
 

@@ -14,12 +14,11 @@ import tempfile
 from pathlib import Path
 
 from PIL import Image
-from playwright.sync_api import sync_playwright
 
 from shackled.chain import VARIABLE
 from shackled.tokens import run_demo
 from tools.anvil import Anvil, find_anvil
-from tools.page_server import ARGUMENTS, browser_path
+from tools.page_server import chromium
 from tools.pages import IMAGES
 
 #: Size of the palette, which keeps the file small.
@@ -31,15 +30,13 @@ def main() -> None:
     binary = find_anvil()
     if binary is None:
         raise SystemExit("anvil is not installed: npm ci in contracts/")
-    with tempfile.TemporaryDirectory() as folder, Anvil(binary) as node, sync_playwright() as driver:
+    with tempfile.TemporaryDirectory() as folder, Anvil(binary) as node, chromium() as browser:
         os.environ[VARIABLE] = str(Path(folder) / "addresses.json")
         demo = run_demo(node.connection, Path(folder) / "demo", lambda text: print(text, file=sys.stderr))
-        browser = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
         page = browser.new_page(viewport={"width": 1280, "height": 1060}, color_scheme="light")
         page.goto(demo.gallery.resolve().as_uri())
         with Image.open(io.BytesIO(page.screenshot())) as picture:
             picture.convert("RGB").quantize(COLORS).save(IMAGES / "gallery.png", optimize=True)
-        browser.close()
 
 
 if __name__ == "__main__":

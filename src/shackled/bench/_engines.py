@@ -78,8 +78,7 @@ def open_engines(rpc: str | None) -> dict[str, ContractChain | NodeChain]:
     found: dict[str, ContractChain | NodeChain] = {}
     for name in ENGINES:
         if find_spec(CHAINS[name]) is not None:
-            chain = open_chain(name)
-            found[name] = chain
+            found[name] = open_chain(name)
     if rpc is not None:
         node = open_node(rpc)
         # such as anvil/v1.7.1

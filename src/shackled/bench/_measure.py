@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..artifacts import artifact
-from ..chain import CallResult, ContractChain, open_chain
+from ..chain import CallResult, open_chain
 from ..image import decode_bmp
 from ..scene import Rectangle, Scene, encode
 
@@ -22,14 +22,9 @@ class RenderCost:
     lit_pixels: int
 
 
-def evm() -> ContractChain:
-    """Open the fastest EVM that is installed."""
-    return open_chain()
-
-
 def call(contract: str, data: bytes) -> CallResult:
     """Call a contract."""
-    return evm().call(contract, data)
+    return open_chain().call(contract, data)
 
 
 def call_renderer(scene: Scene, function: str = "render", tile: Rectangle | None = None) -> CallResult:
@@ -44,9 +39,9 @@ def gas(scene: Scene, function: str = "render", tile: Rectangle | None = None) -
 
 def cost(scene: Scene) -> RenderCost:
     """Measure what the picture of a scene costs."""
-    return RenderCost(gas(scene), *evm().count(scene))
+    return RenderCost(gas(scene), *open_chain().count(scene))
 
 
 def picture(scene: Scene) -> NDArray[np.uint8]:
     """Draw a scene: (H, W, 3)."""
-    return decode_bmp(evm().draw(scene).bmp, scene.width, scene.height)
+    return decode_bmp(open_chain().draw(scene).bmp, scene.width, scene.height)

@@ -100,7 +100,7 @@ class RevmChain(EmbeddedChain):
     name = "embedded EVM (revm)"
 
     def __init__(self, gas_limit: int = DEFAULT_GAS_LIMIT, is_stoppable: bool = False) -> None:
-        """Take the default gas limit of calls, and whether `stop` works, for which they take a seventh more time."""
+        """Take the default gas limit of calls, and whether `stop` works, which makes them slower."""
         super().__init__(gas_limit)
         self._is_stoppable, self._is_stopped = is_stoppable, False
         self._all: WeakSet[Instance] = WeakSet()
@@ -114,7 +114,7 @@ class RevmChain(EmbeddedChain):
         """
         with self._lock:
             self._is_stopped = True
-            for evm in list(self._all):
+            for evm in self._all:
                 evm.stop()
 
     def create(self, name: str, creation: bytes) -> bytes:

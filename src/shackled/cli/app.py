@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import os
-import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import click
 from click.shell_completion import get_completion_class
@@ -68,9 +66,21 @@ GROUPS = (datasets, library, token)
 
 
 class Root(CommandGroup):
-    """The command itself, which lists its commands without loading them."""
+    """The command itself, which lists its commands without loading them, and knows other words for them."""
 
     strict = frozenset({"render", "export", "info", "gas", "stages", "store", "preview"})
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read the arguments; none is a request for help."""
+        return super().parse_args(ctx, args or ["--help"])
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command. UsageError, which names the right one, for another word."""
+        if args[0] in MEANT and not ctx.resilient_parsing:
+            ctx.fail(f"no such command {args[0]}: it is {MEANT[args[0]]}")
+        return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the first lines of the help of all commands."""
@@ -94,12 +104,6 @@ def _completion(context: click.Context, _: click.Parameter, value: str | None) -
         context.exit()
 
 
-def _help() -> None:
-    context = click.get_current_context()
-    if context.invoked_subcommand is None:
-        print(context.get_help())
-
-
 app = Root(
     "shackled",
     {
@@ -108,7 +112,6 @@ app = Root(
         **{str(each.name): each for each in GROUPS},
     },
     "Render 3D scenes with Ethereum smart contracts.",
-    callback=_help,
     params=[
         click.Option(
             ["--version"],
@@ -153,6 +156,10 @@ def _run(arguments: Sequence[str] | None) -> int:
         return _fail(error, 1)
     except (KeyboardInterrupt, click.Abort):
         return _fail("stopped", 1)
+    except click.exceptions.NoArgsIsHelpError as error:
+        # of a group
+        error.show()
+        return error.exit_code
     except click.ClickException as error:
         return _fail(_meant(error) or error.format_message(), error.exit_code)
     except OSError as error:
@@ -163,19 +170,15 @@ def _run(arguments: Sequence[str] | None) -> int:
 
 
 def _meant(error: click.ClickException) -> str | None:
-    """Return what a usage error with another word for a command or an option says; None for other errors."""
-    context: Any = getattr(error, "ctx", None)
-    if isinstance(error, click.NoSuchOption) and context is not None:
-        given, known = error.option_name, {name for each in context.command.params for name in each.opts}
-        keyword = given.lstrip("-").replace("-", "_")
-        same = {**SAME["look"], **SAME["render"]}.get(keyword)
-        right = MEANT.get(given) or (None if same is None else option_names().get(same))
-        if right in known:
-            return f"no such option {given}: it is {right}"
-        return f"no such option {given}: {INSTEAD[keyword]}" if keyword in INSTEAD and "--fov" in known else None
-    command = re.match(r"No such command '(\w+)'", error.format_message())
-    right = MEANT.get(command[1]) if command is not None and context.parent is None else None
-    return None if command is None or right is None else f"no such command {command[1]}: it is {right}"
+    """Return what a usage error with another word for an option says; None for other errors."""
+    if not isinstance(error, click.NoSuchOption) or error.ctx is None:
+        return None
+    given, known = error.option_name, {name for each in error.ctx.command.params for name in each.opts}
+    keyword = given.lstrip("-").replace("-", "_")
+    right = MEANT.get(given) or option_names().get((SAME["look"] | SAME["render"]).get(keyword, ""))
+    if right in known:
+        return f"no such option {given}: it is {right}"
+    return f"no such option {given}: {INSTEAD[keyword]}" if keyword in INSTEAD and "--fov" in known else None
 
 
 def _drop_output() -> None:

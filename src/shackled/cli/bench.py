@@ -15,7 +15,7 @@ from .progress import LateBar
 def bench(
     names: Annotated[
         list[str] | None,
-        argument("Experiments to run; all by default. Without -o they are listed.", "[NAME]..."),
+        argument("Experiments to run; all by default. Without -o they are listed.", "NAME"),
     ] = None,
     output: Annotated[str | None, option("-o --output", "Folder for CSV files, plots and tables.", "DIR")] = None,
     everything: Annotated[bool, option("--all", "Run all experiments.")] = False,

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import click
 
@@ -21,7 +21,7 @@ from ..untrusted import plain
 from ..values import plural
 from ..whole_file import check_output_file, write_output
 from .option import option
-from .output import print_line, print_note
+from .output import print_json, print_line, print_note
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
@@ -229,11 +229,6 @@ def print_step(step: DeploymentStep, receipts: Sequence[Receipt], to_stdout: boo
     gas = sum(receipt.gas for receipt in receipts)
     text = f"{step.name}: at {checksum_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}"
     (print_line if to_stdout else print_note)(text)
-
-
-def print_json(document: Any) -> None:
-    """Print a JSON document in one line, in ASCII, which every terminal and encoding can show."""
-    print(json.dumps(document))
 
 
 def parse_checksum_address(text: str, name: str) -> str:

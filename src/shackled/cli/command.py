@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from importlib import import_module
 from inspect import Parameter, signature
@@ -76,12 +76,8 @@ def command(function: Callable[..., Any], name: str, more: Sequence[click.Parame
     more: other parameters of click.
     """
     groups: dict[str, Group] = {}
-    needs_context = False
     found: list[Parameter] = []
     for each in signature(function, eval_str=True).parameters.values():
-        if each.annotation is click.Context:
-            needs_context = True
-            continue
         group = Fields(each.annotation) if is_dataclass(each.annotation) else _second(each.annotation)
         if isinstance(group, Declared):
             found.append(each)
@@ -92,11 +88,10 @@ def command(function: Callable[..., Any], name: str, more: Sequence[click.Parame
         found.sort(key=lambda each: COMMON.index(each.name) if each.name in COMMON else len(COMMON))
 
     def callback(**values: Any) -> Any:
-        given = {each.name: _given(values[each.name], each.default) for each in found}
+        # several values, of which there may be none, are a tuple
+        given = {key: (list(value) or None) if isinstance(value, tuple) else value for key, value in values.items()}
         for key, group in groups.items():
             given[key] = group.take(given)
-        if needs_context:
-            given["context"] = click.get_current_context()
         try:
             return function(**given)
         except KeyboardInterrupt:
@@ -124,17 +119,8 @@ class CommandGroup(click.Group):
 
     def __init__(self, name: str, places: Mapping[str, str | click.Command], text: str, **more: Any) -> None:
         """Take groups, or modules of this package and functions, as "token.sale:mint", by the names of the commands."""
-        super().__init__(name, help=text, context_settings=CONTEXT, invoke_without_command=True, **more)
+        super().__init__(name, help=text, context_settings=CONTEXT, **more)
         self.places = places
-        self.callback = self.callback or self._told
-
-    @staticmethod
-    def _told() -> int:
-        context = click.get_current_context()
-        if context.invoked_subcommand is not None:
-            return 0
-        click.echo(context.get_help(), err=True)
-        return 2
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of the commands."""
@@ -151,16 +137,6 @@ class CommandGroup(click.Group):
         function = getattr(loaded, f"{name.replace('-', '_')}{'_' * (name == 'list')}")
         return command(function, cmd_name, [STRICT] if cmd_name in self.strict else [])
 
-    def commands_below(self) -> Iterator[tuple[str, click.Command]]:
-        """Yield all commands, those of groups too, with their full names."""
-        context = click.Context(self)
-        for name in self.places:
-            found = self.get_command(context, name)
-            assert found is not None
-            yield f"{self.name} {name}", found
-            if isinstance(found, CommandGroup):
-                yield from ((f"{self.name} {below}", each) for below, each in found.commands_below())
-
 
 def _second(annotation: Any) -> Any:
     """Return what declares an annotated parameter."""
@@ -168,35 +144,28 @@ def _second(annotation: Any) -> Any:
     return get_args(annotation)[1]
 
 
-def _given(value: Any, default: Any) -> Any:
-    """Return a value as the function takes it: several as a list, or the default for none."""
-    if not isinstance(value, tuple):
-        return value
-    return list(value) if value or default is Parameter.empty else default
-
-
 def _parameter(each: Parameter) -> click.Parameter:
     """Return the option or argument of a parameter."""
     kind, declared = get_args(each.annotation)[:2]
-    kind = next(iter(set(get_args(kind)) - {NoneType}), kind) if NoneType in get_args(kind) else kind
+    if NoneType in get_args(kind):
+        kind = get_args(kind)[0]
     is_many = get_origin(kind) is list
     kind = get_args(kind)[0] if is_many else kind
-    more: dict[str, Any] = {"type": _type(kind, declared), "metavar": declared.metavar}
-    if each.default is Parameter.empty:
-        more["required"] = True
-    elif not is_many:
+    is_required = each.default is Parameter.empty
+    more: dict[str, Any] = {"type": _type(kind, declared), "required": is_required}
+    if not is_required and not is_many:
         more["default"] = each.default
-    if declared.names:
-        if kind is bool and "/" not in declared.names[0]:
-            more |= {"is_flag": True, "type": None}
-        has_default = not isinstance(each.default, bool) and each.default not in (None, Parameter.empty)
-        more |= {"help": declared.text, "multiple": is_many, "envvar": declared.envvar, "show_default": has_default}
-        return Option([each.name, *declared.names], declared.panel, **more)
-    more["metavar"] = f"{declared.metavar}..." if is_many and "." not in declared.metavar else declared.metavar
-    return Argument(each.name, declared.text, nargs=-1 if is_many else 1, **more)
+    if not declared.names:
+        metavar = (declared.metavar if is_required else f"[{declared.metavar}]") + "..." * is_many
+        return Argument(each.name, declared.text, nargs=-1 if is_many else 1, metavar=metavar, **more)
+    more |= {"is_flag": kind is bool, "show_default": kind is not bool, "multiple": is_many}
+    more |= {"help": declared.text, "metavar": declared.metavar, "envvar": declared.envvar}
+    return Option([each.name, *declared.names], declared.panel, **more)
 
 
 def _type(kind: Any, declared: Declared) -> Any:
+    if kind is bool:
+        return None  # a flag with a type is never set by click 8.2.0
     if kind is Path:
         return click.Path(path_type=Path)
     if declared.min is None and declared.max is None:

@@ -14,6 +14,7 @@ from ..checks import choice
 from ..datasets import DATASETS, Piece, PieceCost, cost, figures, pieces
 from ..errors import InputError
 from ..values import plural
+from ..whole_file import check_output_file, make_output_folder, write_output
 from .option import argument, option
 from .progress import LateBar
 
@@ -88,7 +89,7 @@ def _summary(rows: Sequence[tuple[Piece, PieceCost]]) -> tuple[str, str, str, st
 
 
 def fetch(
-    names: Annotated[list[str], argument("Names of models, as in `shackled datasets list`.", "NAME...")],
+    names: Annotated[list[str], argument("Names of models, as in `shackled datasets list`.", "NAME")],
     own: Annotated[
         Path | None,
         option("--from", "Local mesh file or archive to use instead of a download.", "FILE"),
@@ -136,14 +137,13 @@ def _fetch(model: Any, own: Path | None, again: bool) -> None:
 def showcase(
     names: Annotated[
         list[str] | None,
-        argument("Scenes, such as glass; all by default.", "[NAME]..."),
+        argument("Scenes, such as glass; all by default.", "NAME"),
     ] = None,
     output: Annotated[Path, option("-o --output", "Output folder.", "DIR")] = Path("showcase"),
 ) -> None:
     """Render the scenes of the showcase into a folder, with a page (index.html) and a contact sheet (sheet.png)."""
     from ..datasets.showcase import draw_showcase
     from ..datasets.showcase import pieces as scenes
-    from ..whole_file import make_output_folder
 
     known = {piece.name.removeprefix("showcase/"): piece for piece in scenes()}
     chosen = [
@@ -170,7 +170,6 @@ def gallery(
 ) -> None:
     """Render all pieces into a self-contained HTML page or a contact sheet. Finished drawings are cached."""
     from ..datasets import draw_all, page, sheet
-    from ..whole_file import check_output_file, write_output
 
     wanted = _check_dataset(dataset)
     paths = outputs or [Path("gallery.html")]

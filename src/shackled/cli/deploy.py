@@ -14,14 +14,13 @@ from .chain_options import (
     NodeOptions,
     PayerOptions,
     check_calldata,
-    print_json,
     print_rollup_fee,
     print_step,
     wallet_calls,
     write_calls,
 )
 from .option import option
-from .output import print_line, print_note, print_table
+from .output import print_json, print_line, print_note, print_table
 
 if TYPE_CHECKING:
     from ..deploy import Deployment, Plan, Receipt

@@ -16,8 +16,8 @@ from ..studio import make_glb
 from ..web import check_page
 from ..web import export as write_page
 from ..whole_file import check_output_file
-from .look_options import Look, load_with
-from .option import argument, option
+from .look_options import Input, Look, load_with
+from .option import option
 from .progress import LateBar
 
 #: Bytes of a page, and gas of its picture, above which a note is printed.
@@ -26,7 +26,7 @@ SLOW = 2_000_000_000
 
 
 def export(
-    input: Annotated[str, argument("Mesh file, scene file, or name of a piece.", "INPUT")],
+    input: Input,
     output: Annotated[
         str | None,
         option("-o --output", "File to write: a page, .html, or a model, .glb. Named after INPUT by default.", "FILE"),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from pathlib import Path
 from typing import Annotated, Any
@@ -22,25 +21,23 @@ from ..gas import (
 )
 from ..values import plural
 from ..whole_file import check_output_file, write_output
-from .look_options import FIT, Look, load_with
-from .option import argument, option
-from .output import print_line, print_table
+from .look_options import FIT, Input, Look, load_with
+from .option import option
+from .output import print_json, print_line, print_table
 from .progress import LateBar
 
-#: The chains that count gas.
-EVMS = tuple(CHAINS)
 #: Characters of the bar of a stage; functions and lines shown.
 BAR = 24
 ROWS = 20
 
 
 def gas(
-    input: Annotated[str, argument("Mesh file, scene file, or name of a piece.", "INPUT")],
+    input: Input,
     *,
     look: Look,
     evm: Annotated[
         str | None,
-        option("--evm", f"EVM to measure in: {', '.join(EVMS)}; default: revm.", "NAME"),
+        option("--evm", f"EVM to measure in: {', '.join(CHAINS)}; default: revm.", "NAME"),
     ] = None,
     rpc: Annotated[
         str | None,
@@ -103,7 +100,7 @@ def gas(
         if opcodes and report.profile is not None:
             more["opcodes"] = report.profile.opcodes()
             more["opcodes_of_stages"] = {stage: report.profile.opcodes(stage) for stage in STAGES}
-        print(json.dumps({"input": input} | report.to_json(gas_price, eth_price) | more))
+        print_json({"input": input} | report.to_json(gas_price, eth_price) | more)
         return
     print_report(report, gas_price, eth_price)
     if node is not None and counted is not None:

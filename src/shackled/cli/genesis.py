@@ -8,7 +8,7 @@ from typing import Annotated
 
 from ..datasets.genesis import GenesisPiece
 from ..errors import InputError
-from ..image import FORMATS, one_of
+from ..image import FORMATS, check_output, one_of
 from ..scene import PICTURE
 from .option import argument, option
 from .progress import LateBar
@@ -58,7 +58,6 @@ def genesis(
 
 def _pieces(seeds: list[str], as_json: bool, output: str | None) -> None:
     from ..datasets.genesis import generate_on_chain, parse_seed
-    from ..image import check_output
 
     if output is not None and len(seeds) > 1:
         raise InputError(f"--output needs exactly one SEED, not {len(seeds)}")

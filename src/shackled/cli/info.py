@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import warnings
 from collections.abc import Sequence
 from contextlib import ExitStack, nullcontext
@@ -18,11 +17,11 @@ from ..gas import headline
 from ..scene import Scene, as_shown
 from ..values import listed, plural
 from .facts import Facts, facts_of
-from .option import argument, option, with_options
-from .output import print_line
+from .option import option, with_options
+from .output import print_json, print_line
 from .picture import Source, fits_of_made
 from .progress import LateBar
-from .several import inputs_of
+from .several import Inputs, inputs_of
 from .streams import FORMATS, STREAM, as_stdin
 
 #: The sides of the pictures whose gas is told, in pixels.
@@ -30,10 +29,7 @@ SIDES = (128, 256, 512)
 
 
 def info(
-    inputs: Annotated[
-        list[str],
-        argument("Mesh or scene files, names of pieces, folders of mesh files, or - for standard input.", "INPUT"),
-    ],
+    inputs: Inputs,
     gas: Annotated[bool, option("--gas/--no-gas", "Draw it, to count the gas of pictures and where they fit.")] = True,
     kind: Annotated[
         str | None,
@@ -54,10 +50,10 @@ def info(
                     raise
                 failed.append(error)
                 if as_json:
-                    print_line(json.dumps({"input": source.name, "error": with_options(str(error))}))
+                    print_json({"input": source.name, "error": with_options(str(error))})
                 continue
             if as_json:
-                print_line(json.dumps(told.to_json()))
+                print_json(told.to_json())
             else:
                 for line in [*([] if is_first else [""]), *told.lines()]:
                     print_line(line)

@@ -25,7 +25,7 @@ from ..scene import (
     checked_look,
 )
 from .command import COMMON
-from .option import option
+from .option import argument, option
 from .progress import LateBar
 
 
@@ -154,6 +154,8 @@ class LookGroup:
 
 
 Look = Annotated[dict[str, Any], LookGroup()]
+#: What a look is of.
+Input = Annotated[str, argument("Mesh file, scene file, or name of a piece.", "INPUT")]
 
 #: The option of commands that can make a picture fit.
 FIT = option(

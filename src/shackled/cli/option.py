@@ -8,38 +8,22 @@ from dataclasses import dataclass
 from typing import Any
 
 import click
+from click.core import ParameterSource
 
 #: The options of parameters that messages of the library name in backticks.
 OPTIONS = {
-    "address": "--address",
-    "any_chain": "--any-chain",
-    "arg": "--arg",
-    "chain": "--evm",
-    "cluster": "--cluster",
-    "contract": "--contract",
-    "contracts": "--contracts",
-    "evm": "--evm",
-    "fit": "--fit",
-    "frames": "--frames",
-    "gas_limit": "--gas-limit",
-    "host": "--host",
-    "jobs": "--jobs",
-    "licence": "--licence",
-    "max_fee": "--max-fee",
-    "max_triangles": "--max-triangles",
+    **{
+        name: f"--{name.replace('_', '-')}"
+        for name in (
+            *("address", "any_chain", "arg", "cluster", "contract", "contracts", "evm", "fit", "frames", "gas_limit"),
+            *("jobs", "licence", "max_fee", "max_triangles", "one_call", "port", "salt", "setup", "size", "tile"),
+            *("transparent", "verify"),
+        )
+    },
     "on": "--evm",
-    "one_call": "--one-call",
-    "port": "--port",
-    "rpc": "--rpc",
-    "salt": "--salt",
-    "setup": "--setup",
-    "size": "--size",
-    "tile": "--tile",
     "timeout": "--rpc-timeout",
-    "transparent": "--transparent",
     "url": "--rpc",
     "urls": "--rpc",
-    "verify": "--verify",
 }
 
 #: Other words for commands and options than `shackled.words` has for keywords, and what is meant.
@@ -103,6 +87,11 @@ def option(name: str, text: str, kind: str | None = None, panel: str | None = No
 def argument(text: str, metavar: str, **more: Any) -> Any:
     """Declare an argument: its help, and the word for it in the usage."""
     return Declared((), text, metavar, **more)
+
+
+def is_from_environment(name: str) -> bool:
+    """Return whether a parameter of the running command has the value of its environment variable."""
+    return click.get_current_context().get_parameter_source(name) is ParameterSource.ENVIRONMENT
 
 
 def option_names() -> dict[str, str]:

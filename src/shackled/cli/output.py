@@ -5,6 +5,7 @@ A note tells what of an input is left out or changed; with --strict it is an err
 
 from __future__ import annotations
 
+import json
 import re
 import sys
 import warnings
@@ -30,6 +31,11 @@ def print_line(text: str) -> None:
 def print_note(text: str) -> None:
     """Print a line that is not part of the result."""
     print(plain(text), file=sys.stderr, flush=True)
+
+
+def print_json(document: Any) -> None:
+    """Print a JSON document in one line, in ASCII, which every terminal and encoding can show."""
+    print(json.dumps(document))
 
 
 def print_table(head: Sequence[str], rows: Sequence[Sequence[str]], *, to_stderr: bool = False) -> None:

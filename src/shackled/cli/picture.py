@@ -10,15 +10,15 @@ from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 from .._on import Bounds, On, is_one_call, place_of
 from .._render import film, pace
 from .._render import render as draw
 from .._render import turntable as turn
-from ..animation import DURATION, Animation
+from ..animation import DURATION, Animation, check_duration
 from ..chain import open_chain
-from ..errors import ChainError
+from ..errors import ChainError, InputError
 from ..gas import Fit, fits_of, headline, render_call, suffices
 from ..image import MOST_COLORS, Image, Pixels, colors, most
 from ..parallel import Listener, folder_of, remove_parts
@@ -26,6 +26,7 @@ from ..scene import PICTURE, Scene, scene_chunk
 from ..values import plural
 from ..whole_file import make_output_folder
 from .look_options import load_frames_with, load_with
+from .option import option
 from .progress import LateBar
 from .streams import OUTPUT, STREAM, as_stdin, write_stdout
 
@@ -43,25 +44,59 @@ class Source:
 
 
 @dataclass(frozen=True)
+class FilmOptions:
+    """Which frames are rendered, if several are."""
+
+    turntable: Annotated[int | None, option("--turntable", "Render a full turn in this many frames.", "FRAMES")] = None
+    frames: Annotated[
+        int | None,
+        option("--frames", "Render an animation, the first one by default, in this many frames.", "N", "glTF files"),
+    ] = None
+    duration: Annotated[
+        int | None,
+        option(
+            "--duration",
+            f"Duration of a frame (default: {DURATION}, or the pace of the animation of the file).",
+            "MILLISECONDS",
+            "Turntable",
+        ),
+    ] = None
+    one_call: Annotated[
+        bool,
+        option(
+            "--one-call", "Make the whole animated PNG in one call of a contract, as for a token.", None, "Turntable"
+        ),
+    ] = False
+
+    @property
+    def is_film(self) -> bool:
+        """Whether there are several frames."""
+        return self.turntable is not None or self.frames is not None
+
+    def check(self) -> None:
+        """Raise InputError for options that exclude or need each other."""
+        if self.duration is not None:
+            check_duration(self.duration)
+            if not self.is_film:
+                raise InputError("--duration needs --turntable or --frames")
+        if self.one_call and self.turntable is None:
+            raise InputError("--one-call needs --turntable")
+        if self.turntable is not None and self.frames is not None:
+            raise InputError("--turntable and --frames exclude each other: give one of them")
+
+
+@dataclass(frozen=True)
 class Task:
     """What is to be done with each input: the options of `shackled render`."""
 
     look: dict[str, Any]
     fit: str | None
-    turntable: int | None
-    frames: int | None
-    duration: int | None
-    one_call: bool
+    film: FilmOptions
     transparent: bool
     scene: bool | None
     on: On | None
     gas_limit: int | None
     tile: tuple[int, int] | None
-
-    @property
-    def is_film(self) -> bool:
-        """Whether it has several frames."""
-        return self.turntable is not None or self.frames is not None
 
 
 @dataclass(frozen=True)
@@ -120,10 +155,10 @@ def render_to(source: Source, path: Path | None, task: Task, listener: Listener)
     with as_stdin(source.place) if source.name == STREAM else nullcontext():
         scenes: list[Scene] = []
         length = 0.0
-        if task.frames is None:
+        if task.film.frames is None:
             loaded = load_with(source.place, task.look, task.fit)
         else:
-            scenes, length = load_frames_with(source.place, task.frames, task.look)
+            scenes, length = load_frames_with(source.place, task.film.frames, task.look)
             loaded = scenes[0]
     if task.scene:
         scene_chunk(loaded).check()
@@ -131,19 +166,19 @@ def render_to(source: Source, path: Path | None, task: Task, listener: Listener)
     if path is not None:
         make_output_folder(path.parent)
     place, bounds = place_of(task.on), Bounds(task.gas_limit, task.tile)
-    in_parts = not task.one_call and (task.is_film or not is_one_call(place, loaded, bounds))
+    in_parts = not task.film.one_call and (task.film.is_film or not is_one_call(place, loaded, bounds))
     started = time.perf_counter()
     keep = folder_of(path) if in_parts and path is not None else None
     told: dict[str, Any] = {"gas_limit": task.gas_limit, "tile": task.tile, "listener": listener, "keep": keep}
     told |= {"on": task.on, "transparent": task.transparent}
     with nullcontext() if in_parts else LateBar("rendering"):
         made: Image | Animation
-        if task.frames is not None:
-            shown = pace(length, task.frames) if task.duration is None else task.duration
+        if task.film.frames is not None:
+            shown = pace(length, task.film.frames) if task.film.duration is None else task.film.duration
             made = film(scenes, shown, place, bounds, listener, keep, task.transparent)
-        elif task.turntable is not None:
-            shown = DURATION if task.duration is None else task.duration
-            made = turn(loaded, task.turntable, duration=shown, one_call=task.one_call, **told)
+        elif task.film.turntable is not None:
+            shown = DURATION if task.film.duration is None else task.film.duration
+            made = turn(loaded, task.film.turntable, duration=shown, one_call=task.film.one_call, **told)
         else:
             made = draw(loaded, **told)
     try:
@@ -164,7 +199,7 @@ def render_to(source: Source, path: Path | None, task: Task, listener: Listener)
     with LateBar("counting"):
         counts, shows_something = _counted(made)
         fits = fits_of_made(made, loaded)
-    several = in_parts or task.transparent or task.is_film
+    several = in_parts or task.transparent or task.film.is_film
     seconds = time.perf_counter() - started
     report = _report(made, source.name, path, seconds, counts, written, fits, several)
     if not shows_something:

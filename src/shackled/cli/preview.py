@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Annotated
 from ..errors import InputError, VerificationError
 from ..ethereum import checksum_address
 from ..untrusted import plain
-from .chain_options import print_json
 from .option import argument, option
-from .output import print_line, print_note, print_table
+from .output import print_json, print_line, print_note, print_table
 from .progress import LateBar
 
 if TYPE_CHECKING:

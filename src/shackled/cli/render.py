@@ -9,70 +9,26 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-import click
 from PIL import Image as PillowImage
 
 from .._on import VERIFY, Bounds, Cluster, Nodes, On, Processes, place_of
-from ..animation import DURATION, check_duration
 from ..animation import FORMATS as FILMS
 from ..chain import CHAINS, PATIENCE, open_chain
 from ..errors import InputError
 from ..image import FORMATS, check_alpha, one_of
 from ..scene import PICTURE
 from ..whole_file import check_output_folder, make_output_folder, write_output
-from .look_options import FIT, Look, load_with, parse_sides
-from .option import argument, option
-from .picture import Task, render_to
+from .look_options import FIT, Input, Look, load_with, parse_sides
+from .option import is_from_environment, option
+from .picture import FilmOptions, Task, render_to
 from .progress import JobProgress
-from .several import inputs_of, outputs_of, render_all
+from .several import Inputs, inputs_of, outputs_of, render_all
 from .streams import FORMATS as KINDS
 
 #: The address that stands for a cluster on this machine.
 LOCAL = "local"
 
 Evm = Annotated[str | None, option("--evm", f"EVM to draw in: {', '.join(CHAINS)}; default: revm.", "NAME", "Where")]
-
-
-@dataclass(frozen=True)
-class FilmOptions:
-    """Which frames are rendered, if several are."""
-
-    turntable: Annotated[int | None, option("--turntable", "Render a full turn in this many frames.", "FRAMES")] = None
-    frames: Annotated[
-        int | None,
-        option("--frames", "Render an animation, the first one by default, in this many frames.", "N", "glTF files"),
-    ] = None
-    duration: Annotated[
-        int | None,
-        option(
-            "--duration",
-            f"Duration of a frame (default: {DURATION}, or the pace of the animation of the file).",
-            "MILLISECONDS",
-            "Turntable",
-        ),
-    ] = None
-    one_call: Annotated[
-        bool,
-        option(
-            "--one-call", "Make the whole animated PNG in one call of a contract, as for a token.", None, "Turntable"
-        ),
-    ] = False
-
-    @property
-    def is_film(self) -> bool:
-        """Whether there are several frames."""
-        return self.turntable is not None or self.frames is not None
-
-    def check(self) -> None:
-        """Raise InputError for options that exclude or need each other."""
-        if self.duration is not None:
-            check_duration(self.duration)
-            if not self.is_film:
-                raise InputError("--duration needs --turntable or --frames")
-        if self.one_call and self.turntable is None:
-            raise InputError("--one-call needs --turntable")
-        if self.turntable is not None and self.frames is not None:
-            raise InputError("--turntable and --frames exclude each other: give one of them")
 
 
 @dataclass(frozen=True)
@@ -160,11 +116,7 @@ class WhereOptions:
 
 
 def render(
-    context: click.Context,
-    inputs: Annotated[
-        list[str],
-        argument("Mesh or scene files, names of pieces, folders of mesh files, or - for standard input.", "INPUT"),
-    ],
+    inputs: Inputs,
     output: Annotated[
         str | None,
         option(
@@ -219,8 +171,7 @@ def render(
         if transparent:
             for extension in extensions:
                 check_alpha(extension, FILMS if film.is_film else FORMATS)
-        source = context.get_parameter_source("rpc")
-        on, sides = where.on(source is not None and source.name == "ENVIRONMENT"), where.sides
+        on, sides = where.on(is_from_environment("rpc")), where.sides
         place_of(on)
         Bounds(where.gas_limit, sides)
         if where.evm is not None:
@@ -240,8 +191,7 @@ def render(
             raise InputError("--transparent and --one-call exclude each other: the contract's file has a background")
         if scene and extensions - {PICTURE}:
             raise InputError(f"--scene needs a {PICTURE} file, not {paths[0]}")
-        frames = (film.turntable, film.frames, film.duration, film.one_call)
-        task = Task(look, fit, *frames, transparent, scene, on, where.gas_limit, sides)
+        task = Task(look, fit, film, transparent, scene, on, where.gas_limit, sides)
         if len(sources) > 1:
             render_all(sources, paths, task, "json" if as_json else None if quiet else "line")
             return
@@ -251,7 +201,7 @@ def render(
 
 
 def stages(
-    input: Annotated[str, argument("Mesh file, scene file, or name of a piece.", "INPUT")],
+    input: Input,
     output: Annotated[str, option("-o --output", "Folder for the pictures.", "DIR")],
     *,
     look: Look,

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, redirect_stderr
 from dataclasses import replace
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Literal
 
 from .._load import locate
 from .._on import Processes
@@ -21,12 +21,17 @@ from ..image import check_output
 from ..scene import PICTURE, READERS, Link
 from ..untrusted import plain
 from ..workers import each
-from .option import with_options
+from .option import argument, with_options
 from .output import Action, action, noting
 from .picture import Done, Source, Task, render_to
 from .progress import LateBar, Notes
 from .streams import STREAM, is_output, stdin_file
 
+#: The argument of commands with several inputs.
+Inputs = Annotated[
+    list[str],
+    argument("Mesh or scene files, names of pieces, folders of mesh files, or - for standard input.", "INPUT"),
+]
 #: What stands for the name of an input, without folder and extension, in a pattern of outputs.
 STEM = "{stem}"
 #: The name of the picture of standard input.
@@ -133,7 +138,7 @@ def render_all(sources: Sequence[Source], paths: Sequence[Path | None], task: Ta
     jobs = 1
     if isinstance(task.on, Processes):
         # a process for each input, instead of several for the parts of one
-        jobs, task = task.on.jobs or os.cpu_count() or 1, replace(task, on=task.on.evm)
+        jobs, task = task.on.count, replace(task, on=task.on.evm)
     failed: list[ShackledError] = []
     work = [(source, path, task, action()) for source, path in zip(sources, paths, strict=True)]
     with LateBar("rendering") as bar:

@@ -5,17 +5,19 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
+from .._load import load, locate
 from ..chain import Connection
+from ..datasets import Piece
 from ..errors import InputError
 from ..ethereum import checksum_address
-from ..image import FORMATS, one_of
+from ..image import FORMATS, check_output, one_of
+from ..scene import ALL, READERS
 from .chain_options import (
     Calldata,
     Json,
     NodeOptions,
     PayerOptions,
     check_calldata,
-    print_json,
     print_price,
     print_step,
     wallet_calls,
@@ -23,7 +25,7 @@ from .chain_options import (
 )
 from .look_options import parse_size
 from .option import argument, option
-from .output import print_line, print_note, print_table
+from .output import print_json, print_line, print_note, print_table
 from .progress import LateBar
 
 if TYPE_CHECKING:
@@ -56,12 +58,7 @@ def store(
 
     Prints the price first; cannot be undone.
     """
-
-    from .._load import load, locate
-    from ..datasets import Piece
     from ..deploy import current_fees
-    from ..image import check_output
-    from ..scene import ALL, READERS
     from ..tokens import SceneToStore, licence_of, plan_storage, read_back, token_scene
 
     if calldata is not None and output is not None:
@@ -176,7 +173,7 @@ def _row(item: dict[str, Any]) -> list[str]:
 def store_items(
     node: NodeOptions,
     payer: PayerOptions,
-    names: Annotated[list[str] | None, argument("Items to store; default: all.", "[NAME]...")] = None,
+    names: Annotated[list[str] | None, argument("Items to store; default: all.", "NAME")] = None,
     calldata: Calldata = None,
     as_json: Json = False,
 ) -> None:

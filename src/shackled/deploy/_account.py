@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import InputError
+from ..errors import InputError, not_installed
 from ..untrusted import read_json
 
 if TYPE_CHECKING:
@@ -23,9 +23,7 @@ def signer_class() -> type[Account]:
     try:
         from eth_account import Account
     except ModuleNotFoundError:
-        raise InputError(
-            "an account that signs needs a package that is not installed: pip install 'shackled[chain]'"
-        ) from None
+        raise not_installed("an account that signs", "chain") from None
     return Account
 
 

@@ -1,4 +1,13 @@
-from ._abi import SOLIDITY_ERRORS, Errors, Interface, decode_error, decode_values, encode_values, error_table
+from ._abi import (
+    SOLIDITY_ERRORS,
+    Errors,
+    Interface,
+    decode_error,
+    decode_values,
+    encode_values,
+    error_table,
+    whole_numbers,
+)
 from ._amounts import ETHER, GWEI, amount, at_most, ether, parse_ether, roughly, rounded
 from ._encoding import (
     PROXY,
@@ -38,5 +47,6 @@ __all__ = [
     "roughly",
     "rounded",
     "to_hex",
+    "whole_numbers",
     "word",
 ]

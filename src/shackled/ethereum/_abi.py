@@ -27,7 +27,7 @@ class Interface:
     def encode(self, function: str, *arguments: Any) -> bytes:
         """Encode a call: selector and arguments. InputError, which names the parameter, for a wrong value."""
         entry = self._functions[function]
-        return keccak256(_signature(entry).encode())[:4] + _encode(entry, arguments, function)
+        return _selector(entry) + _encode(entry, arguments, function)
 
     def decode(self, function: str, answer: bytes) -> Any:
         """Decode the output of a function: its value, or a tuple of several.
@@ -77,6 +77,10 @@ def _signature(entry: Mapping[str, Any]) -> str:
     return f"{entry['name']}({','.join(map(_type_of, entry['inputs']))})"
 
 
+def _selector(entry: Mapping[str, Any]) -> bytes:
+    return keccak256(_signature(entry).encode())[:4]
+
+
 def _type_of(parameter: Mapping[str, Any]) -> str:
     """Return the type of a parameter in signatures."""
     kind: str = parameter["type"]
@@ -116,10 +120,10 @@ def decode_values(kinds: Sequence[str], data: bytes, texts: str = "strict") -> t
 
 @cache
 def _parts(kind: str) -> tuple[str, list[str]]:
-    """Return what a type is, "[]", "[n]", "()" or itself, and the types of its elements."""
+    """Return what a type is, "[]", "()" or itself, and the types of its elements. An array [n] is as a struct of n."""
     if kind.endswith("]"):
-        element, _, count = kind.rpartition("[")
-        return f"[{count}", [element]
+        element, _, count = kind[:-1].rpartition("[")
+        return ("()", [element] * int(count)) if count else ("[]", [element])
     if not kind.startswith("("):
         return kind, []
     found, depth = [""], 0
@@ -129,7 +133,7 @@ def _parts(kind: str) -> tuple[str, list[str]]:
             found.append("")
         else:
             found[-1] += each
-    return "()", found if found != [""] else []
+    return "()", found
 
 
 @cache
@@ -142,18 +146,17 @@ def _is_dynamic(kind: str) -> bool:
 def _size(kind: str) -> int:
     """Return the bytes that a value takes in place: for a dynamic one, those of its offset."""
     what, inner = _parts(kind)
-    if _is_dynamic(kind) or not (inner or what == "()"):
-        return 32
-    return sum(map(_size, inner)) * (int(what[1:-1]) if what.startswith("[") else 1)
+    return sum(map(_size, inner)) if what == "()" and not _is_dynamic(kind) else 32
 
 
 def _encoded(kind: str, value: Any) -> bytes:
     what, inner = _parts(kind)
-    if what.startswith(("[", "(")):
+    if inner:
         if not isinstance(value, list | tuple):
             raise ValueError(f"{value!r:.60} is not a list or tuple")
-        kinds = inner if what == "()" else inner * (len(value) if what == "[]" else int(what[1:-1]))
-        return (word(len(value)) if what == "[]" else b"") + encode_values(kinds, value)
+        if what == "()":
+            return encode_values(inner, value)
+        return word(len(value)) + encode_values(inner * len(value), value)
     if what == "string" and isinstance(value, str):
         value = value.encode()
     elif what == "address":
@@ -162,7 +165,7 @@ def _encoded(kind: str, value: Any) -> bytes:
             return word(value)
     elif what == "bool" and isinstance(value, bool):
         return word(int(value))
-    elif isinstance(value, int) and not isinstance(value, bool) and value in _whole(what):
+    elif isinstance(value, int) and not isinstance(value, bool) and value in whole_numbers(what):
         return word(value % (1 << 256))
     if what in ("string", "bytes") and isinstance(value, bytes):
         return word(len(value)) + value.ljust(-(-len(value) // 32) * 32, b"\0")
@@ -184,8 +187,6 @@ def _decoded(kind: str, data: bytes, at: int, texts: str) -> Any:
     what, inner = _parts(kind)
     if what == "()":
         return _decoded_all(inner, data, at, texts)
-    if what.startswith("[") and what != "[]":
-        return _decoded_all(inner * int(what[1:-1]), data, at, texts)
     piece = _piece(data, at, 32)
     value = int.from_bytes(piece, "big")
     if what == "[]":
@@ -205,9 +206,9 @@ def _decoded(kind: str, data: bytes, at: int, texts: str) -> Any:
         return to_hex(piece[12:])
     if what == "bool" and value <= 1:
         return bool(value)
-    whole_numbers = _whole(what)
-    value -= (value >> 255 << 256) if whole_numbers.start else 0
-    if value in whole_numbers:
+    allowed = whole_numbers(what)
+    value -= (value >> 255 << 256) if allowed.start else 0
+    if value in allowed:
         return value
     raise ValueError(f"{to_hex(piece)} is not a {kind}")
 
@@ -219,8 +220,8 @@ def _piece(data: bytes, at: int, size: int) -> bytes:
 
 
 @cache
-def _whole(kind: str) -> range:
-    """Return the values of a type of whole numbers; none for another type."""
+def whole_numbers(kind: str) -> range:
+    """Return the values of a type of whole numbers such as int256; none for another type."""
     match = re.fullmatch(r"(u?)int(\d+)", kind)
     if match is None:
         return range(0)
@@ -244,8 +245,7 @@ def error_table(abi: Iterable[Mapping[str, Any]]) -> dict[bytes, tuple[str, list
     for entry in abi:
         if entry["type"] == "error":
             parameters = [(parameter["name"], _type_of(parameter)) for parameter in entry["inputs"]]
-            signature = f"{entry['name']}({','.join(kind for _, kind in parameters)})"
-            table[keccak256(signature.encode())[:4]] = (entry["name"], parameters)
+            table[_selector(entry)] = (entry["name"], parameters)
     return table
 
 

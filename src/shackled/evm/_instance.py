@@ -54,7 +54,7 @@ class Instance:
     """
 
     def __init__(self, is_stoppable: bool = False) -> None:
-        """Start without contracts. is_stoppable: whether `stop` works, for which calls take a seventh more time."""
+        """Start without contracts. is_stoppable: whether `stop` works, which makes calls slower."""
         self._engine, self._store, instance = start(is_stoppable)
         self._is_stopped = False
         self._exports = instance.exports(self._store)

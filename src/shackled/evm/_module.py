@@ -35,7 +35,8 @@ busy: set[wasmtime.Store] = set()
 @atexit.register
 def _close() -> None:
     # finalizers that run later, when wasmtime's own modules are gone, would print errors
-    for each in _open.difference(busy):
+    # a copy, which threads that still run do not change
+    for each in _open.difference(busy.copy()):
         each.close()
 
 
@@ -43,7 +44,7 @@ def start(is_stoppable: bool = False) -> tuple[wasmtime.Engine, wasmtime.Store, 
     """Return a new instance of the module, with its engine and store. ChainError where wasmtime cannot start it.
 
     is_stoppable: whether an increment of the engine's epoch ends the call that runs in the instance, and all later
-    ones. The checks of the epoch take a seventh more time, so that other instances have none.
+    ones. The checks of the epoch take time, so that other instances have none: benchmarks/parallel.md measures both.
 
     An instance reserves 4 GB of address space, so that no access to its memory needs a check. Where the system refuses
     that (`ulimit -v`), or the file in memory with its first content (`ulimit -f`), the instance is a small one: it

@@ -101,11 +101,12 @@ class ChainBackend:
 class ThreadBackend(ChainBackend):
     """Threads of this process, each with an instance of the embedded EVM of its own."""
 
+    chain: RevmChain
+
     def __init__(self, jobs: int, gas: int | None = None) -> None:
         """Set up the contracts. jobs: how many calls at a time. gas: limit of a call."""
-        self._revm = RevmChain(DEFAULT_GAS_LIMIT if gas is None else gas, is_stoppable=True)
-        self._revm.address("Renderer")  # set up here, before several threads ask for it
-        super().__init__(self._revm, jobs, gas=gas)
+        super().__init__(RevmChain(DEFAULT_GAS_LIMIT if gas is None else gas, is_stoppable=True), jobs, gas=gas)
+        self.chain.address("Renderer")  # set up here, before several threads ask for it
 
     @property
     def name(self) -> str:
@@ -114,7 +115,7 @@ class ThreadBackend(ChainBackend):
 
     def close(self) -> None:
         """End the calls that run."""
-        self._revm.stop()
+        self.chain.stop()
 
 
 class Verifier:

@@ -15,7 +15,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from ..chain import Drawing, open_chain
-from ..errors import InputError, RenderError, ShackledError
+from ..errors import InputError, RenderError, ShackledError, not_installed
 from ..scene import Rectangle, Scene
 from ._backends import ChainBackend, limited
 from ._store import contracts_digest
@@ -54,9 +54,7 @@ class ClusterBackend:
         try:
             from distributed import Client
         except ImportError:
-            raise InputError(
-                "`cluster` needs a package that is not installed: pip install 'shackled[cluster]'"
-            ) from None
+            raise not_installed("`cluster`", "cluster") from None
 
         class QuietClient(Client):  # type: ignore[misc,unused-ignore]
             def __del__(self) -> None:

@@ -68,8 +68,7 @@ def render_frames(
         backends = place.open(listener, bounds.gas_limit)
         for backend in backends:
             stack.callback(backend.close)
-        local = open_chain(None)
-        expected = estimate(frames[0], local)
+        expected = estimate(frames[0], open_chain())
         tiles = plan(frames[0], len(frames), backends, expected, bounds.tile)
         parts = [Part(number, tile) for number in range(len(frames)) for tile in tiles]
         verifier, compared = choose_verifier(frames[0], backends, expected, place.verify)

@@ -10,7 +10,7 @@ from typing import Any
 
 from ..deploy import CONTRACTS
 from ..errors import InputError
-from ..ethereum import ETHER, GWEI, Interface, parse_address
+from ..ethereum import ETHER, GWEI, Interface, parse_address, whole_numbers
 from ..untrusted import read_json
 from ._project import Compiled
 
@@ -175,19 +175,12 @@ def _single(text: str, kind: str, what: str) -> Any:
             shown = f"{len(content)} bytes"
         else:
             number = int(text.replace("_", ""), 0)
-            low, high = _range(kind)
-            if low <= number <= high:
+            if number in whole_numbers(kind):
                 return number
             shown = text
     except (ValueError, KeyError):
         pass
     raise InputError(f"{what} must be {_described(kind)}, not {shown:.80}")
-
-
-def _range(kind: str) -> tuple[int, int]:
-    """Return the least and the greatest number of an integer type."""
-    bits = int(kind.removeprefix("u").removeprefix("int"))
-    return (0, (1 << bits) - 1) if kind[0] == "u" else (-1 << bits - 1, (1 << bits - 1) - 1)
 
 
 def _described(kind: str) -> str:
@@ -199,9 +192,9 @@ def _described(kind: str) -> str:
     if kind.startswith("bytes"):
         count = f", {kind[5:]} bytes" if kind[5:] else ""
         return f"a {kind}{count} in hexadecimal"
-    if "int" not in kind:
+    if not (allowed := whole_numbers(kind)):
         return f"of another type: values of {kind} are not supported"
-    low, high = _range(kind)
+    low, high = allowed.start, allowed.stop - 1
     bits = high.bit_length()
     limits = f"{low} to {high}" if bits < 64 else f"{f'-2^{bits}' if low else 0} to 2^{bits} - 1"
     return f"{'an' if low else 'a'} {kind}, {limits}"

@@ -156,7 +156,7 @@ def _too_expensive(what: str, gas: int) -> str:
 
 
 #: Fractional bits of the quantities in errors; of other errors the numbers are whole, or their scale is the fault.
-BITS = {
+FRACTIONAL_BITS = {
     **dict.fromkeys(("HalfHeightOutOfRange", "NearOutOfRange", "CameraOutOfRange", "LightOutOfRange"), 32),
     **dict.fromkeys(("CoefficientOutOfRange", "ScaleOutOfRange", "RotationOutOfRange", "SpotOutOfRange"), 32),
     **dict.fromkeys(("SpotAngles", "FogOutOfRange", "GroundOutOfRange", "AngleOutOfRange"), 32),
@@ -164,14 +164,14 @@ BITS = {
     "OpacityOutOfRange": 24,
     "ExposureOutOfRange": 16,
 }
-ERROR = re.compile(r"(\w+)\((.*)\)", re.DOTALL)
+ERROR_TEXT = re.compile(r"(\w+)\((.*)\)", re.DOTALL)
 QUANTITY = re.compile(r"\b(?!object=|light=)(\w+=)(-?\d+)\b")
 
 
 def in_units(error: str) -> str:
     """Return an error, such as "FogOutOfRange(near=4294967296, far=0)", with its quantities in units."""
-    match = ERROR.fullmatch(error)
-    bits = BITS.get(match[1], 0) if match else 0
+    match = ERROR_TEXT.fullmatch(error)
+    bits = FRACTIONAL_BITS.get(match[1], 0) if match else 0
     # the error of the scene builder, which has no object, has whole units
     if error.startswith("PositionOutOfRange(object="):
         bits = 32

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Literal, cast
+from collections.abc import Mapping
+from typing import Any, Literal, cast
 
 from attrs import field, frozen
 from numpy.typing import ArrayLike
@@ -38,10 +39,18 @@ def _with_fov(given: Given) -> Given:
     if "fov" in given:
         if "half_height" in given:
             raise InputError("`fov` and `half_height` exclude each other: give one of them")
-        if given.get("projection", "perspective") != "perspective":
-            raise InputError("an orthographic camera has no field of view: give `half_height` instead of `fov`")
-        given["half_height"] = half_height_of(given.pop("fov"))
+        given["half_height"] = half_height_in(given, given.get("projection", "perspective") != "perspective")
+        del given["fov"]
     return given
+
+
+def half_height_in(given: Mapping[str, Any], orthographic: bool) -> float | None:
+    """Return the half height of the view that `fov` or `half_height` asks for; None without them."""
+    if "fov" not in given:
+        return given.get("half_height")
+    if orthographic:
+        raise InputError("an orthographic camera has no field of view: give `half_height` instead of `fov`")
+    return half_height_of(given["fov"])
 
 
 @words_of("fov", read=_with_fov)

@@ -1,6 +1,6 @@
 """Backgrounds, and effects of a whole scene: light from the sky and along outlines, fog, and how light becomes colours.
 
-`Scene.extensions` has a record for each. Scenes with any of them are antialiased.
+`Scene.extensions` has a record for each effect. Scenes with any of them are antialiased.
 """
 
 from __future__ import annotations

@@ -38,14 +38,15 @@ def _of_words(given: Given) -> Given:
     is_directional = given.get("kind") == "directional"
     if is_directional and "position" in given:
         raise InputError(f"a directional light has no position: give {_TOWARD}")
-    if is_directional and given.get("direction") is not None:
-        given["toward"] = _opposite(given.pop("direction"))
-    name = "toward" if is_directional else "position"
-    return {"vector" if key == name else key: value for key, value in given.items()}
-
-
-def _opposite(direction: ArrayLike) -> Floats:
-    return 0 - vector(direction, "the direction of a light")
+    given = {name: value for name, value in given.items() if name != "direction" or value is not None}
+    names = ("toward", "direction", "vector") if is_directional else ("position", "vector")
+    found = [name for name in names if name in given]
+    if len(found) > 1:
+        raise InputError(f"`{found[0]}` and `{found[1]}` of a light exclude each other: give one of them")
+    if found:
+        value = given.pop(found[0])
+        given["vector"] = 0 - vector(value, "the direction of a light") if found == ["direction"] else value
+    return given
 
 
 @words_of("toward", "position", read=_of_words)
@@ -151,7 +152,7 @@ def lights_of(value: Light | Iterable[Light] | None) -> tuple[Light, ...]:
 
 
 def parts_of(parts: Iterable[Part], name: str, kind: str) -> list[Part]:
-    """Return the parts of a scene, of what should be a list of some kind. InputError if it is none."""
+    """Return parts of a scene as a list. InputError for what is none; name, kind: of the parts, for the message."""
     try:
         if not isinstance(parts, str | Mapping):
             return list(parts)

@@ -12,7 +12,7 @@ from attrs import evolve
 from ..checks import Color, Floats
 from ..errors import InputError
 from ._arithmetic import IDENTITY, dot, length, multiply, rotate
-from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
+from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_in
 from ._crease import is_flat, shaded, without_normals
 from ._effects import Fog, Tone
 from ._mesh import Mesh
@@ -20,6 +20,7 @@ from ._object import Material, Object
 from ._presets import preset_of
 from ._scene import Scene
 from ._settings import ALL, LookOptions, Setting, checked_look, settings_of, size_of
+from ._simplify import simplify_scene
 from ._staging import (
     MESH_STAGING,
     PLAIN,
@@ -122,8 +123,6 @@ def look_at(
     scene = evolve(scene, fog=_fog_between(scene, fog) if isinstance(fog, tuple) else fog)
     if look.get("max_triangles", ALL) == ALL:
         return scene
-    from ._simplify import simplify_scene
-
     return simplify_scene(scene, look["max_triangles"], crease)
 
 
@@ -273,15 +272,6 @@ def _to_be_seen(scene: Scene) -> Floats:
         distances = length(far)
         seen.append(center + far * (np.minimum(distances, reach) / np.maximum(distances, reach / 2**20))[:, None])
     return np.concatenate(seen)
-
-
-def half_height_in(look: Mapping[str, Any], orthographic: bool) -> float | None:
-    """Return the half height of the view that a look asks for; None if it does not."""
-    if "fov" not in look:
-        return look.get("half_height")
-    if orthographic:
-        raise InputError("an orthographic camera has no field of view: give `half_height` instead of `fov`")
-    return half_height_of(look["fov"])
 
 
 def _given(look: Mapping[str, Any], settings: Iterable[Setting]) -> dict[str, Any]:

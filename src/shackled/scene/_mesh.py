@@ -27,12 +27,15 @@ _AT_ONCE = 1 << 16
 Colors = ArrayLike | str | Sequence[str]
 
 
-def _table(values: ArrayLike, name: str = "a table") -> Floats:
+def _array(values: ArrayLike, name: str, width: int = 3) -> Floats:
     try:
-        rows = fixed(values, np.float64)
+        return fixed(values, np.float64)
     except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{name} must be rows of 3 numbers") from None
-    return _rows_of_3(rows, name)
+        raise InputError(f"{name} must be rows of {width} numbers") from None
+
+
+def _table(values: ArrayLike, name: str = "a table") -> Floats:
+    return _rows_of_3(_array(values, name), name)
 
 
 def _optional_table(values: ArrayLike | None, name: str = "a table") -> Floats | None:
@@ -43,10 +46,7 @@ def _uvs(values: ArrayLike | None) -> Floats | None:
     if values is None:
         return None
     name = "the texture coordinates of a mesh"
-    try:
-        rows = fixed(values, np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{name} must be rows of 2 numbers") from None
+    rows = _array(values, name, 2)
     if rows.ndim != 2 or rows.shape[1] != 2:
         raise InputError(f"{name} must be rows of 2 numbers, not of shape {rows.shape}")
     return rows
@@ -54,16 +54,19 @@ def _uvs(values: ArrayLike | None) -> Floats | None:
 
 def _faces(values: ArrayLike) -> NDArray[np.int64]:
     name = "the faces of a mesh"
-    if np.ndim(values) == 2 and np.shape(values)[1] == 4:
-        values = np.reshape(np.asarray(values)[:, [0, 1, 2, 0, 2, 3]], (-1, 3))
     if isinstance(values, np.ndarray) and values.dtype == np.int64:
-        return _rows_of_3(fixed(values, np.int64), name)
-    rows = _table(values, name)
+        return _rows_of_3(fixed(_triangles(values), np.int64), name)
+    rows = _rows_of_3(_triangles(_array(values, name)), name)
     bad = np.flatnonzero(~((rows % 1 == 0) & (np.abs(rows) < 2**53)).all(axis=1))
     if len(bad):
         named = ", ".join(f"{number:.17g}" for number in rows[bad[0]])
         raise InputError(f"face {bad[0]} names the vertices [{named}], which must be whole numbers")
     return fixed(rows, np.int64)
+
+
+def _triangles(faces: NDArray[Number]) -> NDArray[Number]:
+    """Return faces of 4 corners each cut in two, (2 m, 3), and others as they are."""
+    return faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3) if faces.ndim == 2 and faces.shape[1] == 4 else faces
 
 
 def _opacities(values: ArrayLike | None) -> Floats | None:

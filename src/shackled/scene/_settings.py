@@ -417,9 +417,7 @@ def _taken_apart(given: dict[str, Any]) -> dict[str, Any]:
     these; one that is given as well changes it.
     """
     if {"width", "height"} <= given.keys():
-        given = {"size": (given["width"], given["height"])} | {
-            name: value for name, value in given.items() if name not in ("width", "height")
-        }
+        given.setdefault("size", (given.pop("width"), given.pop("height")))
     if isinstance(camera := given.get("camera"), Camera):
         fields = {name: getattr(camera, name) for name in ("eye", "target", "up", "half_height", "near")}
         fields["orthographic"] = camera.projection == "orthographic"

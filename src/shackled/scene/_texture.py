@@ -7,7 +7,7 @@ import os
 import warnings
 from collections.abc import Callable
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Literal, cast
+from typing import IO, Literal, cast
 
 import numpy as np
 from attrs import field, frozen
@@ -17,10 +17,6 @@ from PIL import Image
 from ..checks import choice, fixed, integer
 from ..errors import InputError
 from ..values import Value, array_key, with_names
-
-if TYPE_CHECKING:
-    from PIL import Image
-
 
 Filter = Literal["nearest", "bilinear"]
 FILTERS: tuple[Filter, ...] = ("nearest", "bilinear")
@@ -35,7 +31,7 @@ MAX_PIXELS = 1 << 26
 
 def _pixels(values: ArrayLike) -> NDArray[np.uint8]:
     if isinstance(values, str | os.PathLike):
-        values = np.asarray(reduced(open_image(Path(values), str(values), as_rgb)))
+        values = Texture.open(values).pixels
     try:
         levels = np.asarray(values)
         whole = levels.dtype.kind in "iu" or (levels.dtype.kind == "f" and bool((levels % 1 == 0).all()))
@@ -177,8 +173,6 @@ def open_image(
     """Return the image, as RGB or as `convert` returns it. InputError, with its name, if there is none, or it is too
     large.
     """
-    from PIL import Image
-
     try:
         with (
             warnings.catch_warnings(action="ignore", category=Image.DecompressionBombWarning),
@@ -200,15 +194,13 @@ def as_rgb(image: Image.Image) -> Image.Image:
     if image.mode[0] not in "IF":
         return image.convert("RGB")
     # Pillow cuts the levels of these off at 255
-    from PIL.Image import fromarray
-
     grey = np.nan_to_num(np.asarray(image, dtype=np.float64))
     largest = 65535
     if image.mode == "F":
         largest = next((each for each in (1, 255) if grey.max() <= each), largest)
         grey *= 65535 / largest
     # the upper byte, as of 16-bit colours
-    return fromarray((np.clip(grey, 0, 65535) // 256).astype(np.uint8)).convert("RGB")
+    return Image.fromarray((np.clip(grey, 0, 65535) // 256).astype(np.uint8)).convert("RGB")
 
 
 def as_rgba(image: Image.Image) -> Image.Image:
@@ -224,9 +216,7 @@ def reduced(image: Image.Image, side: int = MAX_TEXTURE_SIDE) -> Image.Image:
     if largest <= side:
         return image
     width, height = (max(1, round(length * side / largest)) for length in image.size)
-    from PIL.Image import Resampling
-
-    return image.resize((width, height), Resampling.LANCZOS)
+    return image.resize((width, height), Image.Resampling.LANCZOS)
 
 
 def to_bytes(colors: ArrayLike, largest: float | None = None) -> NDArray[np.float64]:

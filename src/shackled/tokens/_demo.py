@@ -98,20 +98,20 @@ def _genesis(
     report("the sale opens for the allow list")
     _pay(demo, "Genesis: set the allow list", perform(owner, contract, "setAllowList", listed.root, _name(owner)))
     _pay(demo, "Genesis: open the sale", perform(owner, contract, "setPhase", ALLOW_LIST))
-    receipt = _mint(alice, collection, mint_call(collection, _name(alice), 2, allow_list=listed))
+    receipt = _send(alice, collection, mint_call(collection, _name(alice), 2, allow_list=listed))
     _pay(demo, "Genesis: mint 2 by an allow list", receipt)
     permission = sign_allowance(collection, development_accounts(1)[0], _name(bob), 1, int(time.time()) + 86400)
-    receipt = _mint(bob, collection, mint_call(collection, _name(bob), 1, permission=permission))
+    receipt = _send(bob, collection, mint_call(collection, _name(bob), 1, permission=permission))
     _pay(demo, "Genesis: mint 1 by a permission", receipt)
 
     report("the sale opens for everyone")
     perform(owner, contract, "setPhase", PUBLIC)
     for user, quantity, original in ((carol, 1, ORIGINAL_MINT_1), (dave, 5, ORIGINAL_MINT_5)):
-        receipt = _mint(user, collection, mint_call(collection, _name(user), quantity))
+        receipt = _send(user, collection, mint_call(collection, _name(user), quantity))
         _pay(demo, f"Genesis: mint {quantity}", receipt, original)
     for user, quantity in ((carol, 5), (erin, 4)):
-        _mint(user, collection, mint_call(collection, _name(user), quantity))
-    receipt = _mint(owner, collection, mint_call(collection, _name(owner), 2, reserve_to=_name(friend)))
+        _send(user, collection, mint_call(collection, _name(user), quantity))
+    receipt = _send(owner, collection, mint_call(collection, _name(owner), 2, reserve_to=_name(friend)))
     _pay(demo, "Genesis: mint 2 of the reserve", receipt)
 
     rounds = hidden_rounds(collection)
@@ -121,8 +121,7 @@ def _genesis(
     report(f"{blocks} blocks pass, and another account reveals all tokens")
     connection.request("anvil_mine", hex(blocks))
     (call,) = reveal_calls(collection, rounds)
-    receipt = perform(stranger, contract, call.function, *call.arguments, gas=call.gas)
-    _pay(demo, "Genesis: reveal all of a round", receipt)
+    _pay(demo, "Genesis: reveal all of a round", _send(stranger, collection, call))
     _after_sale(collection, owner, dave, friend, demo, report)
     return collection
 
@@ -152,10 +151,10 @@ def _icons(
     report("the icons are sold")
     first, *others = icons_of(collection)
     call = mint_call(collection, _name(owner), 1, reserve_to=_name(owner), icon=first.number)
-    _pay(demo, "Icons: mint 1 of the reserve", _mint(owner, collection, call))
+    _pay(demo, "Icons: mint 1 of the reserve", _send(owner, collection, call))
     for icon in others:
         buyer = buyers[icon.number % len(buyers)]
-        receipt = _mint(buyer, collection, mint_call(collection, _name(buyer), 1, icon=icon.number))
+        receipt = _send(buyer, collection, mint_call(collection, _name(buyer), 1, icon=icon.number))
         if icon.number == len(buyers):  # a first token for this buyer, not the first one sold
             _pay(demo, "Icons: mint 1", receipt)
     _after_sale(collection, owner, buyers[0], buyers[1], demo, report)
@@ -225,8 +224,8 @@ def _read_back(collection: Collection, demo: Demo, report: Callable[[str], None]
     demo.costs.append(ActionCost(f"{title}: tokenURI, most", max(gas), original and (original[1],) * 2))
 
 
-def _mint(user: Transactor, collection: Collection, call: ContractCall) -> Receipt:
-    return perform(user, collection.contract, call.function, *call.arguments, value=call.value)
+def _send(user: Transactor, collection: Collection, call: ContractCall) -> Receipt:
+    return perform(user, collection.contract, call.function, *call.arguments, value=call.value, gas=call.gas)
 
 
 def _pay(demo: Demo, name: str, receipt: Receipt, original: tuple[int, int] | None = None) -> None:

@@ -1,4 +1,4 @@
-"""The icons of a collection, each with a stored scene, a price and a supply; and the licences that allow it."""
+"""The icons of a collection, each with a stored scene, a price and a supply; and the licences of what is stored."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def find_icon(collection: Collection, text: str) -> CollectionIcon:
 def chosen_pieces(names: str | None) -> list[Piece]:
     """Return dataset pieces for icons, from names with commas; None returns the dataset of icons.
 
-    Raises InputError for an unknown piece, or one whose licence forbids minting.
+    Raises InputError for an unknown piece, or one that must not be stored.
     """
     if names is None:
         return list(pieces("icons"))
@@ -160,19 +160,19 @@ def check_sale(pieces: Sequence[Piece], price: int, supply: int, reserve: int) -
         raise InputError(f"{len(pieces):,} icons are too many for a collection")
 
 
-#: Licences that allow it, in lower case, with single spaces between the words.
+#: Licences that allow commercial use of changed copies, in lower case, with single spaces between the words.
 ALLOWED_LICENCES = re.compile(
     r"my own work|own work|public domain|cc ?0( 1\.0)?( universal)?|cc by( sa)?( [1-4]\.0)?( international)?"
     r"|(the )?mit( 0)?( licen[cs]e)?|apache( licen[cs]e)?( 2(\.0)?)|0 ?bsd|bsd [0-3] clause( licen[cs]e)?"
     r"|isc( licen[cs]e)?|zlib( licen[cs]e)?|(the )?unlicense|wtfpl"
 )
-EXAMPLES = "CC0-1.0, public domain, CC-BY-4.0, CC-BY-SA-4.0, MIT, BSD-3-Clause, Apache-2.0"
+LICENCE_EXAMPLES = "CC0-1.0, public domain, CC-BY-4.0, CC-BY-SA-4.0, MIT, BSD-3-Clause, Apache-2.0"
 
 
 def licence_of(source: Path | Piece | Link, stated: str | None) -> str:
     """Return the licence of an object that is to be stored: that of a dataset piece, or `stated` for a file.
 
-    Raises InputError if it is not known to allow that, which cannot be undone.
+    Raises InputError if it is not known to allow commercial use of changed copies: what is stored cannot be removed.
     """
     if isinstance(source, Piece):
         if stated is not None:
@@ -194,11 +194,11 @@ def licence_of(source: Path | Piece | Link, stated: str | None) -> str:
     if not allows(words):
         raise InputError(
             f"{source} must not be stored under the licence {words!r}: it is not known to allow commercial use of "
-            f"changed copies, as {EXAMPLES} do; if you made it yourself, state 'my own work'"
+            f"changed copies, as {LICENCE_EXAMPLES} do; if you made it yourself, state 'my own work'"
         )
     return words
 
 
 def allows(licence: str) -> bool:
-    """Return whether a licence is known to allow that."""
+    """Return whether a licence is known to allow commercial use of changed copies."""
     return ALLOWED_LICENCES.fullmatch(re.sub(r"[\s_-]+", " ", licence.lower()).strip()) is not None

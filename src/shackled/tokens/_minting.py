@@ -18,8 +18,6 @@ from ._icons import icon_at
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
 
-    from ._collection import Collection
-
 
 def mint_call(
     collection: Collection,

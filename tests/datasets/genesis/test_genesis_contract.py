@@ -24,7 +24,7 @@ from attrs import evolve
 from original_scenes import genesis_document
 from shackled import Light, render
 from shackled.artifacts import artifact
-from shackled.chain import ContractChain, open_chain
+from shackled.chain import open_chain
 from shackled.datasets.genesis import COUNT, GenesisPiece, generate, parse_seed, picture_on_chain, seed_of
 from shackled.datasets.genesis._collection import find, pieces
 from shackled.datasets.genesis._contract import call, decode_piece
@@ -150,7 +150,6 @@ def test_picture_is_that_of_the_scene(number: int) -> None:
 @pytest.mark.parametrize("function", ["renderDataURI", "renderSVG"])
 def test_other_formats_are_those_of_the_renderer(function: str) -> None:
     chain = open_chain()
-    assert isinstance(chain, ContractChain)
     scene = generate(seed_of(5)).scene()
     expected = chain.call("Renderer", encode(artifact("Renderer").selectors[function], scene)).output
     assert call(function, seed_of(5)).output == expected

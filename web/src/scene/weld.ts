@@ -1,4 +1,4 @@
-// From what corners of faces have to a mesh, whose vertices have it: src/shackled/scene/_files/weld.py.
+// From what corners of faces have to a mesh, whose vertices have it: src/shackled/scene/_mesh.py.
 
 import { checkedMesh, type Mesh } from "./checked.js";
 import { beside, numbered, rowsOf } from "./topology.js";

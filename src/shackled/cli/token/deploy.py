@@ -19,11 +19,10 @@ from ..chain_options import (
     PayerOptions,
     parse_checksum_address,
     parse_max_fee,
-    print_json,
     print_step,
 )
 from ..option import argument, option
-from ..output import print_line, print_note, print_table
+from ..output import print_json, print_line, print_note, print_table
 
 if TYPE_CHECKING:
     from ...datasets import Piece

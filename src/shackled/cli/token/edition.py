@@ -10,9 +10,9 @@ from ...errors import VerificationError
 from ...ethereum import amount, ether, parse_ether
 from ...tokens import OPEN
 from ...values import plural
-from ..chain_options import Json, NodeOptions, parse_checksum_address, print_json
+from ..chain_options import Json, NodeOptions, parse_checksum_address
 from ..option import argument, option
-from ..output import print_line, print_table
+from ..output import print_json, print_line, print_table
 from ..progress import LateBar
 from .options import MAX_NUMBER, TokenPayerOptions
 
@@ -181,7 +181,7 @@ def close(edition: Number, which: EditionsOptions, payer: TokenPayerOptions) -> 
 def withdraw(
     which: EditionsOptions,
     payer: TokenPayerOptions,
-    editions: Annotated[list[int] | None, argument("Editions; default: all of yours.", "[EDITION]...", min=0)] = None,
+    editions: Annotated[list[int] | None, argument("Editions; default: all of yours.", "EDITION", min=0)] = None,
     to: Annotated[str | None, option("--to", "Receiver; default: you.", "ADDRESS")] = None,
 ) -> None:
     """Withdraw the proceeds of your editions."""

@@ -7,13 +7,12 @@ import time
 from pathlib import Path
 from typing import Annotated
 
-import click
-
 from ...checks import choice, number
 from ...errors import InputError
 from ...ethereum import checksum_address, ether, parse_ether
+from ...whole_file import write_output
 from ..chain_options import SignerOptions, parse_checksum_address
-from ..option import argument, option
+from ..option import argument, is_from_environment, option
 from ..output import print_line
 from .options import MAX_NUMBER, PHASES, CollectionOptions, IconsOptions, TokenPayerOptions
 
@@ -89,7 +88,6 @@ def accept_ownership(which: CollectionOptions, payer: TokenPayerOptions) -> None
 
 
 def allow_list(
-    context: click.Context,
     file: Annotated[Path, argument("Lines of account,quantity, or an OpenZeppelin tree as JSON.", "FILE")],
     which: CollectionOptions,
     payer: TokenPayerOptions,
@@ -102,17 +100,14 @@ def allow_list(
 ) -> None:
     """Print the root of an allow list; with --rpc, set it in a collection. For the owner."""
     from ...tokens import read_allow_list
-    from ...whole_file import write_output
 
     allowed = read_allow_list(file)
     quantities = allowed.allowances.values()
     print_line(f"root 0x{allowed.root.hex()}, {len(quantities):,} accounts, {sum(quantities):,} tokens")
     if output is not None:
         write_output(output, (json.dumps(allowed.document(), indent=1) + "\n").encode())
-    source = context.get_parameter_source("rpc")
     # the environment variable of the node alone does not ask for a transaction
-    is_only_set = source is not None and source.name == "ENVIRONMENT" and not payer.is_given
-    if which.rpc is None or is_only_set:
+    if which.rpc is None or (is_from_environment("rpc") and not payer.is_given):
         return
     collection = which.open()
     trusted = collection.state().allow_list_signer if signer is None else parse_checksum_address(signer, "--signer")
@@ -130,7 +125,6 @@ def permit(
 ) -> None:
     """Sign a permission to mint for one account; sends no transaction. For the signer of the collection."""
     from ...tokens import sign_allowance
-    from ...whole_file import write_output
 
     account = parse_checksum_address(who, "the account")
     seconds = 86400 * number(days, "--days", 0, 36_500)
@@ -157,7 +151,7 @@ def add(
     name: Annotated[str, argument("A dataset piece; with POINTER, the name of the icon.", "NAME")],
     which: IconsOptions,
     payer: TokenPayerOptions,
-    pointer: Annotated[str | None, argument("Address of the stored scene, from `shackled store`.", "[POINTER]")] = None,
+    pointer: Annotated[str | None, argument("Address of the stored scene, from `shackled store`.", "POINTER")] = None,
     price: Annotated[str, option("--price", "Price of a token, in ether.", "ETHER")] = "0.02",
     supply: Annotated[int, option("--supply", "Number of tokens.", "N")] = 100,
     reserve: Annotated[int, option("--reserve", "Number of these tokens reserved for the team.", "N")] = 1,

@@ -14,12 +14,11 @@ from ..chain_options import (
     Json,
     check_calldata,
     parse_checksum_address,
-    print_json,
     print_price,
     write_calls,
 )
 from ..option import argument, option
-from ..output import print_line, print_note
+from ..output import print_json, print_line, print_note
 from .options import MAX_NUMBER, AnyCollectionOptions, CollectionOptions, TokenPayerOptions
 
 if TYPE_CHECKING:

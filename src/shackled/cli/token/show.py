@@ -12,10 +12,10 @@ from ...ethereum import amount, ether
 from ...image import check_output, one_of
 from ...tokens import EDITIONS
 from ...whole_file import check_output_file, write_output
-from ..chain_options import Json, NodeOptions, parse_checksum_address, print_json
+from ..chain_options import Json, NodeOptions, parse_checksum_address
 from ..look_options import parse_size
 from ..option import argument, option
-from ..output import print_line, print_table
+from ..output import print_json, print_line, print_table
 from ..progress import LateBar
 from .options import MAX_NUMBER, PHASES, AnyCollectionOptions, CollectionOptions
 
@@ -139,7 +139,7 @@ def picture(
 
 def verify(
     which: AnyCollectionOptions,
-    numbers: Annotated[list[int] | None, argument("Tokens; default: all.", "[ID]...")] = None,
+    numbers: Annotated[list[int] | None, argument("Tokens; default: all.", "ID")] = None,
 ) -> None:
     """Compare the code, the seeds and the pictures of a collection with those computed here."""
     from ...deploy import local_chain

@@ -97,98 +97,91 @@ def download(model: Model, progress: Progress = _no_progress) -> Path:
     for address in model.addresses:
         try:
             with _on_disk(model):
-                _Downloader(model, progress).download(address, place)
+                _download(model, address, progress)
             return place
         except FetchError as error:
             failures.append(error)
     raise failures[-1]
 
 
-class _Downloader:
-    """Downloads the file of a model, goes on where that was cut, and verifies the checksum."""
-
-    def __init__(self, model: Model, progress: Progress) -> None:
-        self._model = model
-        self._progress = progress
-
-    def download(self, address: str, place: Path) -> None:
-        """Download the file from an address, and move it to its place."""
-        model = self._model
-        part = _part(model)
-        resumed = part.is_file() and part.stat().st_size > 0
-        self._transfer(address, part)
+def _download(model: Model, address: str, progress: Progress) -> None:
+    """Download the file from an address, from where that was cut, and move it to its place if its checksum is right."""
+    part = _part(model)
+    resumed = part.is_file() and part.stat().st_size > 0
+    _transfer(model, address, part, progress)
+    found = checksum(part, model.checksum)
+    if found != model.checksum and resumed:
+        # what was there may have been the beginning of something else
+        part.unlink()
+        _transfer(model, address, part, progress)
         found = checksum(part, model.checksum)
-        if found != model.checksum and resumed:
-            # what was there may have been the beginning of something else
-            part.unlink()
-            self._transfer(address, part)
-            found = checksum(part, model.checksum)
-        if found != model.checksum:
-            part.unlink()
-            raise FetchError(
-                f"{model.name}: what {address} sends is not the file that was expected: its checksum is {found}"
-                f" instead of {model.checksum}"
+    if found != model.checksum:
+        part.unlink()
+        raise FetchError(
+            f"{model.name}: what {address} sends is not the file that was expected: its checksum is {found}"
+            f" instead of {model.checksum}"
+        )
+    part.replace(model.original)
+
+
+def _transfer(model: Model, address: str, part: Path, progress: Progress) -> None:
+    """Download the missing part of the file."""
+    import requests
+
+    name = model.name
+    here = part.stat().st_size if part.is_file() else 0
+    headers = {"Accept-Encoding": "identity"}
+    if here:
+        headers["Range"] = f"bytes={here}-"
+    whole, answered = model.size, False
+    try:
+        with requests.get(address, headers=headers, stream=True, timeout=TIMEOUT) as response:
+            answered = True
+            if response.status_code == 416:  # there is no more than what is here
+                if whole is None or here == whole:
+                    return
+                part.unlink()
+                raise FetchError(f"{name}: {address} sent {here:,} bytes instead of {whole:,}; run it again")
+            if response.status_code not in (200, 206):
+                raise FetchError(f"{name}: {address} answers {response.status_code} {response.reason}")
+            goes_on = response.status_code == 206 and response.headers.get("Content-Range", "").startswith(
+                f"bytes {here}-"
             )
-        part.replace(place)
+            if not goes_on:
+                here = 0
+            with part.open("ab" if goes_on else "wb") as file:
+                for data in response.iter_content(CHUNK):
+                    here += len(data)
+                    if here > (MAX_BYTES if whole is None else whole):
+                        file.close()
+                        part.unlink()
+                        raise FetchError(f"{name}: {address} sends more than the {whole or MAX_BYTES:,} bytes expected")
+                    _write(file, data)
+                    progress(here, whole)
+    except requests.exceptions.ConnectTimeout:
+        raise FetchError(f"{name}: no answer from {_host(address)} within {TIMEOUT[0]} seconds") from None
+    except (
+        requests.exceptions.ConnectionError,
+        requests.exceptions.ChunkedEncodingError,
+        requests.exceptions.Timeout,
+    ):
+        if answered:
+            raise _cut(model, here) from None
+        raise FetchError(
+            f"{name}: {_host(address)} cannot be reached; is there a network?"
+            f" A file that you have goes in with: shackled datasets fetch {name} --from FILE"
+        ) from None
+    except requests.exceptions.RequestException as error:
+        raise FetchError(f"{name}: {address} cannot be fetched: {type(error).__name__}") from None
+    if whole is not None and here < whole:
+        raise _cut(model, here)
 
-    def _transfer(self, address: str, part: Path) -> None:
-        """Download the missing part of the file."""
-        import requests
 
-        name = self._model.name
-        here = part.stat().st_size if part.is_file() else 0
-        headers = {"Accept-Encoding": "identity"}
-        if here:
-            headers["Range"] = f"bytes={here}-"
-        whole, answered = self._model.size, False
-        try:
-            with requests.get(address, headers=headers, stream=True, timeout=TIMEOUT) as response:
-                answered = True
-                if response.status_code == 416:  # there is no more than what is here
-                    if whole is None or here == whole:
-                        return
-                    part.unlink()
-                    raise FetchError(f"{name}: {address} sent {here:,} bytes instead of {whole:,}; run it again")
-                if response.status_code not in (200, 206):
-                    raise FetchError(f"{name}: {address} answers {response.status_code} {response.reason}")
-                goes_on = response.status_code == 206 and response.headers.get("Content-Range", "").startswith(
-                    f"bytes {here}-"
-                )
-                if not goes_on:
-                    here = 0
-                with part.open("ab" if goes_on else "wb") as file:
-                    for data in response.iter_content(CHUNK):
-                        here += len(data)
-                        if here > (MAX_BYTES if whole is None else whole):
-                            file.close()
-                            part.unlink()
-                            raise FetchError(
-                                f"{name}: {address} sends more than the {whole or MAX_BYTES:,} bytes expected"
-                            )
-                        _write(file, data)
-                        self._progress(here, whole)
-        except requests.exceptions.ConnectTimeout:
-            raise FetchError(f"{name}: no answer from {_host(address)} within {TIMEOUT[0]} seconds") from None
-        except (
-            requests.exceptions.ConnectionError,
-            requests.exceptions.ChunkedEncodingError,
-            requests.exceptions.Timeout,
-        ):
-            if answered:
-                raise self._cut(here) from None
-            raise FetchError(
-                f"{name}: {_host(address)} cannot be reached; is there a network?"
-                f" A file that you have goes in with: shackled datasets fetch {name} --from FILE"
-            ) from None
-        except requests.exceptions.RequestException as error:
-            raise FetchError(f"{name}: {address} cannot be fetched: {type(error).__name__}") from None
-        if whole is not None and here < whole:
-            raise self._cut(here)
-
-    def _cut(self, here: int) -> FetchError:
-        name, whole = self._model.name, self._model.size
-        of = "" if whole is None else f" of {whole:,}"
-        return FetchError(f"{name}: the connection was cut after {here:,}{of} bytes; run it again to go on from there")
+def _cut(model: Model, here: int) -> FetchError:
+    of = "" if model.size is None else f" of {model.size:,}"
+    return FetchError(
+        f"{model.name}: the connection was cut after {here:,}{of} bytes; run it again to go on from there"
+    )
 
 
 def _part(model: Model) -> Path:

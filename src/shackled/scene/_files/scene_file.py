@@ -19,12 +19,12 @@ from numpy.typing import ArrayLike, NDArray
 from ...checks import number
 from ...errors import InputError
 from .._arithmetic import IDENTITY, from_axis_angle, from_euler, multiply
-from .._camera import PROJECTIONS, Camera
+from .._camera import PROJECTIONS, Camera, half_height_in
 from .._crease import CREASES, shaded
 from .._effects import Background, Fog, Hemisphere, Rim, Tone
 from .._ground import Ground
 from .._light import LIGHT_KINDS, WHITE, Light
-from .._look import half_height_in, view_of
+from .._look import view_of
 from .._mesh import Mesh
 from .._object import Material, Object
 from .._scene import Scene

@@ -4,6 +4,7 @@ import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
 import type { App } from "../app.js";
 import type { Document } from "../document.js";
+import { capital } from "../parts.js";
 import { neededGas } from "../programs/cast.js";
 import { titleOf } from "../programs/subject.js";
 import { LIMITS, type Limit } from "../settings.js";
@@ -187,7 +188,7 @@ function Bars({ rows }: { rows: readonly { stage: string; gas: number }[] }) {
         <table class="bars">
             <tbody>
                 {rows.map(({ stage, gas }) => (
-                    <Line key={stage} title={stage.slice(0, 1).toUpperCase() + stage.slice(1)} of={[gas, total]}>
+                    <Line key={stage} title={capital(stage)} of={[gas, total]}>
                         <td class="number">{count(gas)}</td>
                     </Line>
                 ))}

@@ -4,6 +4,7 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useId, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { App, DialogName } from "../app.js";
 import type { Document } from "../document.js";
+import { capital } from "../parts.js";
 import { IconButton } from "../ui/icons.js";
 import type { Drawn } from "../work/work.js";
 
@@ -243,8 +244,7 @@ export async function drawnOf({ shown, work }: App, doc: Document, signal: Abort
 
 /** Return the words of an error, as a sentence. */
 export function wordsOf(error: unknown): string {
-    const text = error instanceof Error ? error.message : String(error);
-    return text.slice(0, 1).toUpperCase() + text.slice(1);
+    return capital(error instanceof Error ? error.message : String(error));
 }
 
 export function count(value: number): string {

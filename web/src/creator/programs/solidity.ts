@@ -4,6 +4,7 @@ import { toHex } from "../../evm/bytes.js";
 import { SHADINGS } from "../../scene/checked.js";
 import { WORD } from "../../scene/encode.js";
 import { OBJECT_WORDS, Reader } from "../../scene/reader.js";
+import { capital } from "../parts.js";
 import { linkLines, notices, oneLine, originOf, stemOf, titleOf, type Subject } from "./subject.js";
 
 /** Bytes of meshes and extensions that a contract holds beside its code (EIP-170: 24,576), and what each object adds. */
@@ -110,10 +111,7 @@ export function spdxOf(licences: readonly string[]): string {
 
 /** Return a name for Solidity: "icons-coin" becomes IconsCoin. */
 export function contractName(stem: string): string {
-    const name = stem
-        .split("-")
-        .map((word) => word.slice(0, 1).toUpperCase() + word.slice(1))
-        .join("");
+    const name = stem.split("-").map(capital).join("");
     return /^[A-Z]/.test(name) && !TAKEN.includes(name) ? name : `Picture${name}`;
 }
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ....errors import InputError
+from ....errors import InputError, not_installed
 from ..table import Table
 from .document import Document
 
@@ -40,10 +40,7 @@ def _decode(data: bytes, where: str) -> tuple[dict[int, NDArray[Any]], NDArray[A
     try:
         import DracoPy
     except ImportError:
-        raise InputError(
-            f"{where} is compressed with Draco, which needs a package that is not installed: "
-            "pip install 'shackled[draco]'"
-        ) from None
+        raise not_installed(f"{where} is compressed with Draco, which", "draco") from None
     try:
         mesh = DracoPy.decode(data)
         attributes = {each["unique_id"]: np.asarray(each["data"]) for each in mesh.attributes}
