@@ -85,9 +85,7 @@ contract Renderer is IRenderer {
     }
 
     function renderTileCounted(Scene calldata scene, Rectangle calldata tile)
-        external
-        view
-        returns (bytes memory bmp, uint256 triangles, uint256 litPixels)
+        external view returns (bytes memory bmp, uint256 triangles, uint256 litPixels)
     {
         return counted(scene, tile);
     }
@@ -127,9 +125,7 @@ contract Renderer is IRenderer {
 
     /// @dev Ends the call with the counted picture.
     function counted(Scene calldata scene, Rectangle memory tile)
-        private
-        view
-        returns (bytes memory bmp, uint256 triangles, uint256 litPixels)
+        private view returns (bytes memory bmp, uint256 triangles, uint256 litPixels)
     {
         store(COUNT_PIXELS, 1);
         File memory file = draw(scene, tile);
@@ -210,9 +206,7 @@ contract Renderer is IRenderer {
     /// @dev Draws a large picture that needs several engines, band by band, since the pixels and depths drawn by one engine are passed to
     /// the next.
     function drawBands(Scene calldata scene, Rectangle memory tile)
-        private
-        view
-        returns (uint256 pixels, uint256 triangles, uint256 litPixels)
+        private view returns (uint256 pixels, uint256 triangles, uint256 litPixels)
     {
         unchecked {
             uint256 rows = BAND_PIXELS / tile.width;

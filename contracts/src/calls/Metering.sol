@@ -11,8 +11,7 @@ pragma solidity 0.8.37;
 /// @return used The gas used.
 /// @return exhausted Whether the call ran out of gas, without revert data.
 function metered(address target, uint256 limit, uint256 data, uint256 size)
-    view
-    returns (bool success, uint256 used, bool exhausted)
+    view returns (bool success, uint256 used, bool exhausted)
 {
     assembly ("memory-safe") {
         if iszero(limit) { limit := not(0) }

@@ -403,10 +403,7 @@ library Png {
             function write(target, count, code, pixel) -> newTarget, newCount {
                 // from blue, green, red with eight bits each to red, green, blue with nine
                 let text := shr(232, mload(pixel))
-                text := or(
-                    or(shl(247, and(text, 0xff)), and(shl(230, text), GREEN_OF_9)),
-                    shl(229, shr(16, text))
-                )
+                text := or(or(shl(247, and(text, 0xff)), and(shl(230, text), GREEN_OF_9)), shl(229, shr(16, text)))
                 text := add(text, shl(229, LITERALS))
                 let size := and(code, 0xff)
                 mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, or(code, shr(size, text)))))

@@ -64,9 +64,7 @@ contract AntialiasedSmoothEngine is SampleBuffer, ExactSamples, SmoothSamples {
 
     /// @dev As QuadraticSamples, with the same mark.
     function drawExact(uint256 p, uint256 attribute, uint256 covered, uint256 column, uint256 row)
-        internal
-        pure
-        override(ExactSamples, SampleRasterizer)
+        internal pure override(ExactSamples, SampleRasterizer)
     {
         unchecked {
             uint256 edge = load(p) & IS_EDGE;

@@ -90,9 +90,7 @@ library Colors {
         }
     }
 
-    function paintPrism(Paint memory how, Hue[6] memory added, Prisms memory prisms, uint256 k, uint256[] memory colors)
-        private pure
-    {
+    function paintPrism(Paint memory how, Hue[6] memory added, Prisms memory prisms, uint256 k, uint256[] memory colors) private pure {
         unchecked {
             // the coordinates along the gradient
             int256[] memory values = how.direction < UP ? prisms.x : prisms.y;

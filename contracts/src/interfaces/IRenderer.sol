@@ -53,9 +53,7 @@ interface IRenderer is SceneErrors, AngleErrors, RegisterErrors {
     /// @return triangles The number of triangles left after culling and clipping that do not lie entirely beyond one edge of the tile.
     /// @return litPixels The number of pixels of the tile covered by any of them.
     function renderTileCounted(Scene calldata scene, Rectangle calldata tile)
-        external
-        view
-        returns (bytes memory bmp, uint256 triangles, uint256 litPixels);
+        external view returns (bytes memory bmp, uint256 triangles, uint256 litPixels);
 
     /// @notice Draws a scene.
     /// @return A `data:` URI of the bitmap.

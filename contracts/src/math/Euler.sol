@@ -20,9 +20,7 @@ function fromEuler(Fixed x, Fixed y, Fixed z) pure returns (Quaternion memory) {
     (Fixed sx, Fixed cx) = sinCosOfHalf(x.raw());
     (Fixed sy, Fixed cy) = sinCosOfHalf(y.raw());
     (Fixed sz, Fixed cz) = sinCosOfHalf(z.raw());
-    return Quaternion(
-        sx * cy * cz - cx * sy * sz, cx * sy * cz + sx * cy * sz, cx * cy * sz - sx * sy * cz, cx * cy * cz + sx * sy * sz
-    );
+    return Quaternion(sx * cy * cz - cx * sy * sz, cx * sy * cz + sx * cy * sz, cx * cy * sz - sx * sy * cz, cx * cy * cz + sx * sy * sz);
 }
 
 /// @notice Returns the sine and cosine of half an angle in degrees (Q32), with an error of at most 2^-31.

@@ -67,10 +67,7 @@ abstract contract Pipeline is PrimitiveAssembly {
     /// @param lists For each object, the vertex records, and the beginning and end of its list of triangles.
     /// @return size The number of bytes from `image` on to return: see Picture.
     function openPicture(Rectangle memory tile, uint256 image, uint256 bandRows, uint256[3][] memory lists)
-        internal
-        pure
-        virtual
-        returns (uint256 size);
+        internal pure virtual returns (uint256 size);
 
     /// @notice Prepares the depths for the rows from `top` (inclusive) to `bottom` (exclusive) of the tile.
     function openBand(Rectangle memory tile, uint256 image, uint256 top, uint256 bottom) internal pure virtual;
@@ -190,9 +187,7 @@ abstract contract Pipeline is PrimitiveAssembly {
     /// @dev Makes the vertices and triangles of the current object, after the data already in memory.
     /// @param atOnce Whether faces that need no clipping are drawn immediately, rather than listed.
     function assembleObject(Mesh memory mesh, uint256 index, bool atOnce)
-        private
-        pure
-        returns (uint256 records, uint256 list, uint256 end, uint256 drawn)
+        private pure returns (uint256 records, uint256 list, uint256 end, uint256 drawn)
     {
         unchecked {
             uint256 mode = load(OBJECT_MODE);

@@ -107,9 +107,7 @@ library Casters {
                 setFreeMemory(end + 0x100);
                 Object calldata object = scene.objects[i];
                 Mesh memory mesh = openMesh(object.mesh);
-                end = readObject(
-                    state, mesh, i, end, casts(scene, i) ? (object.flags & CULL_BACKFACES == 0 ? SHADOWS_ALL : rule) : 0
-                );
+                end = readObject(state, mesh, i, end, casts(scene, i) ? (object.flags & CULL_BACKFACES == 0 ? SHADOWS_ALL : rule) : 0);
             }
             uint256 count = (end - state.casters) / CASTER_SIZE;
             uint256 words = (count + INDEX_IN_SET) >> SET_SHIFT;
@@ -135,9 +133,7 @@ library Casters {
     /// @param end The address for appending those that cast shadows.
     /// @param rule Which of them cast shadows; 0 for none.
     function readObject(ShadowScene memory state, Mesh memory mesh, uint256 index, uint256 end, uint256 rule)
-        private
-        pure
-        returns (uint256)
+        private pure returns (uint256)
     {
         unchecked {
             uint256 face = state.faces[index];

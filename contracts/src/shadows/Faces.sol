@@ -108,9 +108,7 @@ library Faces {
     /// @param corners The first word of its record.
     /// @return end The address after the last of these pairs.
     function writeBoxes(uint256 target, uint256 tables, uint256 words, Frame memory frame, uint256 corners)
-        internal
-        pure
-        returns (uint256 end)
+        internal pure returns (uint256 end)
     {
         unchecked {
             uint256 box = (corners >> FACE_BOX_AT) & FACE_BOX_MASK;

@@ -71,8 +71,7 @@ library Shadows {
 
     /// @dev Sets the entries of the faces of an object.
     function shadeObject(Scene calldata scene, View memory view_, ShadowScene memory state, Receiver memory receiver, uint256 index)
-        private
-        pure
+        private pure
     {
         unchecked {
             Object calldata object = scene.objects[index];
@@ -162,12 +161,7 @@ library Shadows {
     }
 
     /// @return The entry of a face: LIT, SHADOW_DARK, or the address of a list: see Outlines.finish.
-    function shadeFace(
-        ShadowScene memory state,
-        Receiver memory receiver,
-        uint256 face,
-        uint256 source
-    ) private pure returns (uint256) {
+    function shadeFace(ShadowScene memory state, Receiver memory receiver, uint256 face, uint256 source) private pure returns (uint256) {
         unchecked {
             uint256 corners = load(face);
             bool isSet;

@@ -145,9 +145,7 @@ contract IconsCollection is Collection, WithStudio {
     }
 
     /// @notice Mints tokens of an icon to the caller, who proves a place on the allow list by a signature.
-    function mintWithSignature(uint256 icon, uint256 quantity, Allowance calldata allowance, bytes calldata signature)
-        external payable
-    {
+    function mintWithSignature(uint256 icon, uint256 quantity, Allowance calldata allowance, bytes calldata signature) external payable {
         spendBySignature(quantity, allowance, signature);
         sell(icon, quantity);
     }

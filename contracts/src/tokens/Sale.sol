@@ -110,9 +110,7 @@ abstract contract Sale is Token, Ownable2Step, EIP712 {
 
     /// @notice Returns the EIP-712 hash to sign for an allowance.
     function allowanceHash(Allowance calldata allowance) public view returns (bytes32) {
-        return _hashTypedDataV4(
-            keccak256(abi.encode(ALLOWANCE_TYPE, allowance.account, allowance.quantity, allowance.deadline))
-        );
+        return _hashTypedDataV4(keccak256(abi.encode(ALLOWANCE_TYPE, allowance.account, allowance.quantity, allowance.deadline)));
     }
 
     /// @dev Counts tokens against an allowance proven by the Merkle tree.

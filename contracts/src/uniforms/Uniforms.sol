@@ -35,9 +35,7 @@ library Uniforms {
     /// @return data The beginning of the calldata.
     /// @return end The end of the calldata.
     function write(bytes4 selector, Scene calldata scene, Rectangle memory tile, uint256 room)
-        internal
-        pure
-        returns (uint256 data, uint256 end)
+        internal pure returns (uint256 data, uint256 end)
     {
         unchecked {
             // once for all calls

@@ -33,9 +33,7 @@ library Clipper {
     /// @return free The first address after the list and the new vertices.
     /// @return drawn The number of faces with a visible part: see PrimitiveAssembly.
     function run(Mesh memory mesh, uint256 records, uint256 shift, uint256 list, bool cull, bool hasBacks)
-        internal
-        pure
-        returns (uint256 end, uint256 free, uint256 drawn)
+        internal pure returns (uint256 end, uint256 free, uint256 drawn)
     {
         unchecked {
             uint256 count = countFaces(mesh, records, shift);
@@ -79,9 +77,7 @@ library Clipper {
     /// @return isCut Whether it must be clipped.
     /// @return isOutside Whether it lies entirely outside one plane.
     function readFace(Mesh memory mesh, uint256 records, uint256 shift, uint256 face, uint256 polygon)
-        private
-        pure
-        returns (bool isCut, bool isOutside)
+        private pure returns (bool isCut, bool isOutside)
     {
         unchecked {
             uint256 indices = Triangles.readIndices(mesh.faces + FACE_SIZE * face);
@@ -212,9 +208,7 @@ library Clipper {
 
     /// @notice Appends the triangles of a polygon to the list. Its vertices are at `records`.
     function fan(uint256 corner, uint256 corners, uint256 records, uint256 shift, uint256 list, bool cull)
-        private
-        pure
-        returns (uint256 end, bool isDrawn)
+        private pure returns (uint256 end, bool isDrawn)
     {
         unchecked {
             end = list;

@@ -24,9 +24,7 @@ abstract contract PrimitiveAssembly is Rasterizer {
     /// @return drawn The number of faces to draw: they face the viewer, or both sides are visible, and they do not lie entirely beyond one
     /// edge of the tile.
     function assemble(Mesh memory mesh, uint256 records, uint256 shift, uint256 list, bool cull)
-        internal
-        pure
-        returns (uint256 end, uint256 drawn)
+        internal pure returns (uint256 end, uint256 drawn)
     {
         unchecked {
             store(LIST, list);

@@ -24,9 +24,7 @@ library Triangles {
     /// @return end The end of the list.
     /// @return drawn 1 if it is to be drawn, otherwise 0.
     function append(uint256 list, uint256 a, uint256 b, uint256 c, uint256 edges, bool cull)
-        internal
-        pure
-        returns (uint256 end, uint256 drawn)
+        internal pure returns (uint256 end, uint256 drawn)
     {
         unchecked {
             int256 area = doubleAreaOf(a, b, c);

@@ -67,10 +67,7 @@ library VertexShader {
                         divisor := ONE_32
                     }
                     // spread colour bytes to their lanes, times 2^10
-                    mstore(
-                        add(record, VERTEX_ATTRIBUTES),
-                        or(shl(ATTRIBUTE_DEPTH_AT, depth), and(mul(data, COLOR_SPREAD), BYTES_Q10))
-                    )
+                    mstore(add(record, VERTEX_ATTRIBUTES), or(shl(ATTRIBUTE_DEPTH_AT, depth), and(mul(data, COLOR_SPREAD), BYTES_Q10)))
                     // a negative lane, which has borrowed from the one above, yields a value far beyond the guard band
                     let x := div(and(clip, CLIP_X_MASK), divisor) // column * distance / distance, sub-pixels
                     let y := div(and(shr(CLIP_Y_AT, clip), CLIP_Y_MASK), divisor) // row * distance / distance

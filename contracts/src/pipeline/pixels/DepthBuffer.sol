@@ -10,10 +10,7 @@ import "../../words/Registers.sol";
 // The depth buffer of a band: 8 bytes for each pixel, rows as in the picture.
 abstract contract DepthBuffer is Pipeline, PixelRasterizer {
     function openPicture(Rectangle memory tile, uint256 image, uint256 bandRows, uint256[3][] memory)
-        internal
-        pure
-        override
-        returns (uint256 size)
+        internal pure override returns (uint256 size)
     {
         unchecked {
             // at the end of memory, where untouched memory costs nothing; depths are read as whole words, of which 8 bytes count; their

@@ -32,10 +32,7 @@ abstract contract Wireframe is PixelRasterizer, Wires {
 
     /// @param attribute The accumulator at the upper end.
     /// @param change The change of the attribute word along the line.
-    function steepLine(uint256 p, uint256 q, int256 dx, int256 dy, uint256 attribute, uint256 change)
-        private
-        pure
-    {
+    function steepLine(uint256 p, uint256 q, int256 dx, int256 dy, uint256 attribute, uint256 change) private pure {
         unchecked {
             uint256 top = max(load(BAND_TOP), firstRowOf(p));
             uint256 bottom = min(load(BAND_BOTTOM), firstRowOf(q));
@@ -53,10 +50,7 @@ abstract contract Wireframe is PixelRasterizer, Wires {
         }
     }
 
-    function flatLine(uint256 p, uint256 q, int256 dx, int256 dy, uint256 attribute, uint256 change)
-        private
-        pure
-    {
+    function flatLine(uint256 p, uint256 q, int256 dx, int256 dy, uint256 attribute, uint256 change) private pure {
         unchecked {
             int256 begin = (columnOf(p) + int256(SUBPIXEL_MASK)) >> SUBPIXEL_BITS;
             int256 end = (columnOf(q) + int256(SUBPIXEL_MASK)) >> SUBPIXEL_BITS;

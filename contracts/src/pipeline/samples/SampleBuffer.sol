@@ -35,10 +35,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
     }
 
     function openPicture(Rectangle memory tile, uint256 image, uint256, uint256[3][] memory lists)
-        internal
-        pure
-        override
-        returns (uint256 size)
+        internal pure override returns (uint256 size)
     {
         unchecked {
             uint256 borders = (image + 3 * tile.width * tile.height + OVERHANG + 31) & ~uint256(31);

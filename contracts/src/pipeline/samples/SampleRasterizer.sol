@@ -182,10 +182,7 @@ abstract contract SampleRasterizer is Rasterizer {
             c := sub(shr(SCREEN_ROW_AT, c), a)
             mstore(SIDE_ROW, row)
             // the position of the first vertex
-            x := add(
-                shl(ADDRESS_FRACTION, sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))),
-                shl(SUBPIXEL_TO_COLUMN, x)
-            )
+            x := add(shl(ADDRESS_FRACTION, sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))), shl(SUBPIXEL_TO_COLUMN, x))
             row := sub(shl(SUBPIXEL_BITS, row), a) // row: sub-pixels from the first vertex to the first row
             {
                 // to the second vertex on the left

@@ -24,9 +24,7 @@ library Samples {
 
     /// @dev Returns the accumulator and the ray at the centroid of the covered samples.
     function centroid(uint256 attribute, uint256 covered, uint256 column, uint256 row)
-        internal
-        pure
-        returns (uint256 there, uint256 rayX, uint256 rayY)
+        internal pure returns (uint256 there, uint256 rayX, uint256 rayY)
     {
         assembly ("memory-safe") {
             there := attribute

@@ -192,9 +192,7 @@ abstract contract FlatShading is Rasterizer {
 
     /// @dev Returns the changes of depth along a row and along a column, times twice the area.
     function slopes(uint256 a, uint256 b, uint256 c, uint256 za, uint256 zb, uint256 zc)
-        private
-        pure
-        returns (uint256 along, uint256 down)
+        private pure returns (uint256 along, uint256 down)
     {
         assembly ("memory-safe") {
             za := shr(ATTRIBUTE_DEPTH_AT, za) // depths from here on: of the first vertex, and relative to it

@@ -41,9 +41,7 @@ library Shading {
     /// @param crossing See Lighting.setFace.
     /// @return mode How its fragments are lit. If only by highlights, the colours of the attribute words include the other light.
     function setFace(uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 crossing)
-        internal
-        pure
-        returns (uint256 mode, uint256, uint256, uint256)
+        internal pure returns (uint256 mode, uint256, uint256, uint256)
     {
         unchecked {
             uint256 light;
@@ -68,11 +66,7 @@ library Shading {
     /// in large triangles, which determine the mean error of a picture. With weights w, depths z and colours c, the difference is the sum
     /// of w_i w_j (z_i - z_j) (c_i - c_j) / z over the three pairs of vertices, where w_i w_j is at most 1/4, and their sum at most 1/3:
     /// each pair alone may contribute three levels, or one and a half.
-    function isAffine(uint256 a, uint256 b, uint256 c, uint256 screenA, uint256 screenB, uint256 screenC)
-        internal
-        pure
-        returns (bool yes)
-    {
+    function isAffine(uint256 a, uint256 b, uint256 c, uint256 screenA, uint256 screenB, uint256 screenC) internal pure returns (bool yes) {
         bool large;
         assembly ("memory-safe") {
             // words compare like rows
@@ -132,8 +126,7 @@ library Shading {
 
     /// @notice Sets the registers of a triangle whose fragments are shaded individually.
     function setExact(uint256 a, uint256 b, uint256 c, uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode)
-        internal
-        pure
+        internal pure
     {
         unchecked {
             uint256 nearest = max(attributesA, max(attributesB, attributesC)) >> ATTRIBUTE_DEPTH_AT;

@@ -57,9 +57,7 @@ abstract contract SmoothShading is Rasterizer {
 
     /// @dev Returns the attribute words of a triangle and its mode, and sets its normal or normals.
     function surface(uint256 a, uint256 b, uint256 c, uint256 crossing)
-        internal
-        pure
-        returns (uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode)
+        internal pure returns (uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode)
     {
         (attributesA, attributesB, attributesC) = Shading.attributesOf(a, b, c);
         mode = load(OBJECT_MODE) & ~IS_QUADRATIC;

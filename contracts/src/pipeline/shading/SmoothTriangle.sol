@@ -245,9 +245,7 @@ library SmoothTriangle {
     /// @param least Three times the least N * N.
     /// @param turn The largest squares of changes of N and of H, Q20.
     function isSkewed(uint256 p, uint256 q, uint256 r, uint256 ab, uint256 ac, uint256 bc, uint256 least, uint256 turn)
-        private
-        pure
-        returns (bool yes)
+        private pure returns (bool yes)
     {
         assembly ("memory-safe") {
             function lowest(packed) -> value { value := sar(LOWER_85_TO_TOP, shl(LOWER_85_TO_TOP, packed)) }
