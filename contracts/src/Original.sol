@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Fixed, ZERO, ONE} from "./math/Fixed.sol";
-import {Vector} from "./math/Vector.sol";
-import {Quaternion} from "./math/Quaternion.sol";
-import {
-    Scene, Canvas, Camera, Background, Light, Material, Object, PERSPECTIVE,
-    ORTHOGRAPHIC, DIRECTIONAL, FLAT, UNLIT, CULL_BACKFACES, WIREFRAME
-} from "./scene/Scene.sol";
+import "./scene/Scene.sol";
 import {MAX_SHININESS, MAX_COORDINATE, MAX_COEFFICIENT, MAX_EXTENT} from "./scene/Checks.sol";
 import {WIDE} from "./scene/Mesh.sol";
 import {Base64} from "./encode/Base64.sol";

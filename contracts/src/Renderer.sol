@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Fixed} from "./math/Fixed.sol";
-import {Quaternion} from "./math/Quaternion.sol";
 import {fromEuler} from "./math/Euler.sol";
-import {Scene, Rectangle} from "./scene/Scene.sol";
+import {Scene, Rectangle, Fixed, Quaternion} from "./scene/Scene.sol";
 import {BAND_PIXELS, Pipeline} from "./pipeline/Pipeline.sol";
 import {checkScene} from "./scene/Checks.sol";
 import {IRenderer} from "./interfaces/IRenderer.sol";

@@ -2,11 +2,9 @@
 pragma solidity ^0.8.25;
 
 import {sinCosOfHalf} from "../math/Euler.sol";
-import {Fixed, ONE, ZERO} from "../math/Fixed.sol";
-import {Vector} from "../math/Vector.sol";
 import {PackedMesh} from "../mesh/PackedMesh.sol";
 import {NORMALS, WIDE} from "../scene/Mesh.sol";
-import {Camera, Canvas, Object, ORTHOGRAPHIC, PERSPECTIVE} from "../scene/Scene.sol";
+import {Camera, Canvas, Object, ORTHOGRAPHIC, PERSPECTIVE, Vector, Fixed, ONE, ZERO} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 import {Stage, StageMaker} from "./StageMaker.sol";
 

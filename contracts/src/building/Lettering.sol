@@ -3,7 +3,7 @@ pragma solidity ^0.8.25;
 
 import {sqrt} from "../math/Roots.sol";
 import {STARTS, STROKES} from "./Glyphs.sol";
-import {Model, ModelMaker} from "./ModelMaker.sol";
+import {Model} from "./ModelMaker.sol";
 import {Shapes} from "./Shapes.sol";
 
 /// @title Lettering: adds text as solid letters to a mesh.

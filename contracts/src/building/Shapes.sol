@@ -3,7 +3,7 @@ pragma solidity ^0.8.25;
 
 import {Fixed} from "../math/Fixed.sol";
 import {sinCosOfHalf} from "../math/Euler.sol";
-import {Model, ModelMaker} from "./ModelMaker.sol";
+import {Model} from "./ModelMaker.sol";
 
 /// @title Shapes: adds boxes, solids of revolution and extrusions to a mesh.
 /// @notice Faces point outward. Axes of revolution are parallel to y; rotate the object for other axes. All shapes except open lathes are

@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
-import {Vector} from "../math/Vector.sol";
-import {Quaternion} from "../math/Quaternion.sol";
 import {fromEuler, sinCosOfHalf} from "../math/Euler.sol";
 import {HEADER_SIZE, PackedMesh} from "../mesh/PackedMesh.sol";
 import {NORMALS, WIDE} from "../scene/Mesh.sol";
-import {
-    ANTIALIAS, EMISSION_OF, FOG, GROUND, HEMISPHERE, OPACITIES_OF, OPACITY_OF, RIM, SHADOW, SHADOWS_ALL, SPOT, TEXTURE_BILINEAR,
-    TEXTURE_CLAMP, TEXTURE_OF, TONE, TONE_FILMIC, TONE_GAMMA
-} from "../words/Records.sol";
+import "../words/Records.sol";
 import {addRecord, copyBytes} from "../scene/RecordWriter.sol";
-import {
-    Scene, Canvas, Background, Light, Material, Object, PERSPECTIVE, DIRECTIONAL, POINT, UNLIT, FLAT, SMOOTH, CULL_BACKFACES,
-    WIREFRAME
-} from "../scene/Scene.sol";
+import "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 import {Box, Framing} from "./Framing.sol";
 import {Model, ModelMaker} from "./ModelMaker.sol";

@@ -4,24 +4,7 @@ pragma solidity 0.8.37;
 import {Extensions} from "../scene/Extensions.sol";
 import {openMesh} from "../scene/Mesh.sol";
 import {loadCalldata} from "../words/Memory.sol";
-import {
-    ALPHA_OF,
-    ANTIALIAS,
-    EMISSION_OF,
-    FOG,
-    GROUND,
-    OPACITIES_OF,
-    RECORD_HEADER,
-    RIM,
-    SHADOW,
-    SHADOWS_FRONT_FACES,
-    TEXTURE_BILINEAR,
-    TEXTURE_CLAMP,
-    TEXTURE_OF,
-    TONE,
-    TONE_FILMIC,
-    TONE_GAMMA
-} from "../words/Records.sol";
+import "../words/Records.sol";
 import {Scene} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 

@@ -2,14 +2,10 @@
 pragma solidity 0.8.37;
 
 import {Gamma} from "./Gamma.sol";
-import {Matrix} from "../math/Quaternion.sol";
-import {Vector} from "../math/Vector.sol";
 import {ALPHA_HEADER, EffectRecords} from "./EffectRecords.sol";
 import {Extensions} from "../scene/Extensions.sol";
-import {
-    ALPHA_OF, ANTIALIAS, EMISSION_OF, FOG, GROUND, HEMISPHERE, OPACITIES_OF, RECORD_HEADER, RIM, SHADOW, TEXTURE_OF, TONE, TONE_GAMMA
-} from "../words/Records.sol";
-import {Light, Material, Object, Scene, POINT, UNLIT} from "../scene/Scene.sol";
+import "../words/Records.sol";
+import {Light, Material, Object, Scene, POINT, UNLIT, Vector, Matrix} from "../scene/Scene.sol";
 import {Lights} from "../uniforms/Lights.sol";
 import {MeshSpace} from "../uniforms/MeshSpace.sol";
 import {Transform} from "../uniforms/Transform.sol";

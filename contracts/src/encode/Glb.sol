@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Vector} from "../math/Vector.sol";
-import {Quaternion} from "../math/Quaternion.sol";
 import {sqrt} from "../math/Roots.sol";
 import {checkLayout, checkObject} from "../scene/Checks.sol";
 import {Extensions, OPAQUE} from "../scene/Extensions.sol";
 import {OPACITY_OF, RECORD_HEADER} from "../words/Records.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
-import {Object, Scene, CULL_BACKFACES, WIREFRAME, SMOOTH, UNLIT} from "../scene/Scene.sol";
+import {Object, Scene, CULL_BACKFACES, WIREFRAME, SMOOTH, UNLIT, Vector, Quaternion} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 import {GlbErrors} from "../interfaces/GlbErrors.sol";
 import {Bmp} from "./Bmp.sol";

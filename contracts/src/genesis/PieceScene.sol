@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
-import {Quaternion} from "../math/Quaternion.sol";
-import {Scene, Canvas, Camera, Light, Material, Object, DIRECTIONAL, FLAT, CULL_BACKFACES, WIREFRAME} from "../scene/Scene.sol";
+import {
+    Scene, Canvas, Camera, Light, Material, Object, DIRECTIONAL, FLAT, CULL_BACKFACES, WIREFRAME, Fixed, ZERO, ONE, Quaternion
+} from "../scene/Scene.sol";
 import {Piece} from "../interfaces/Piece.sol";
 
 /// @notice Makes the scene of a piece. A library, so that callers that already have the piece need not generate it again.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-import {Quaternion} from "../math/Quaternion.sol";
-import {Background, Canvas} from "../scene/Scene.sol";
+import {Background, Canvas, Quaternion} from "../scene/Scene.sol";
 
 uint256 constant TURN = 1;
 uint256 constant PAINT = 2;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-import {Fixed} from "../math/Fixed.sol";
-import {Object} from "../scene/Scene.sol";
+import {Object, Fixed} from "../scene/Scene.sol";
 import {Item} from "./Item.sol";
 
 /// @title ILibrary: the meshes and scenes of the project by name. `Addresses.LIBRARY` is its address on every chain.

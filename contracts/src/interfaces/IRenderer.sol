@@ -2,9 +2,7 @@
 pragma solidity ^0.8.25;
 
 import {AngleErrors} from "../math/Euler.sol";
-import {Fixed} from "../math/Fixed.sol";
-import {Quaternion} from "../math/Quaternion.sol";
-import {Rectangle, Scene} from "../scene/Scene.sol";
+import {Rectangle, Scene, Fixed, Quaternion} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 import {RegisterErrors} from "../words/RegisterErrors.sol";
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
-import {Vector} from "../math/Vector.sol";
-import {Quaternion} from "../math/Quaternion.sol";
 import {number} from "../mesh/Kinds.sol";
 import {Meshes} from "../studio/Meshes.sol";
-import {CULL_BACKFACES, Material, Object} from "../scene/Scene.sol";
+import {CULL_BACKFACES, Material, Object, Vector, Quaternion, Fixed, ZERO, ONE} from "../scene/Scene.sol";
 import {ILibrary} from "../interfaces/ILibrary.sol";
 import {Item} from "../interfaces/Item.sol";
 import {ItemTable} from "./ItemTable.sol";

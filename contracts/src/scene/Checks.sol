@@ -1,27 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Fixed} from "../math/Fixed.sol";
-import {Vector} from "../math/Vector.sol";
-import {Quaternion} from "../math/Quaternion.sol";
-import {
-    Rectangle,
-    Camera,
-    Light,
-    Material,
-    Object,
-    Scene,
-    PERSPECTIVE,
-    ORTHOGRAPHIC,
-    DIRECTIONAL,
-    POINT,
-    SMOOTH,
-    SCENE_LIGHTS,
-    SCENE_OBJECTS,
-    SCENE_EXTENSIONS,
-    LIGHT_WORDS,
-    OBJECT_WORDS
-} from "./Scene.sol";
+import "./Scene.sol";
 import {Extensions} from "./Extensions.sol";
 import {loadCalldata} from "../words/Memory.sol";
 import {NORMALS, WIDE} from "./Mesh.sol";

@@ -1,20 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {
-    ALPHA_OF,
-    ANTIALIAS,
-    ANY_WORDS,
-    LONG_KINDS,
-    OF_LIGHT,
-    OF_OBJECT,
-    OPACITIES_OF,
-    OPACITY_OF,
-    RECORD_HEADER,
-    RECORD_OWNERS,
-    RECORD_SIZES,
-    SPOT
-} from "../words/Records.sol";
+import "../words/Records.sol";
 import {loadCalldata} from "../words/Memory.sol";
 import {Scene, POINT} from "./Scene.sol";
 import {SceneErrors} from "./SceneErrors.sol";

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-import {Fixed} from "../math/Fixed.sol";
-import {Vector} from "../math/Vector.sol";
-import {Quaternion} from "../math/Quaternion.sol";
+import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
+import {Vector, normalize} from "../math/Vector.sol";
+import {Matrix, Quaternion} from "../math/Quaternion.sol";
 
 // The input of the renderer. The world is right-handed with +y up; the default camera has the eye at the origin and looks along -z. All
 // lengths are Q32 fixed-point numbers in world units, colours are 0xRRGGBB, and every number takes a whole ABI word. Arrays and meshes can

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Vector} from "../math/Vector.sol";
 import {Indices} from "../pipeline/geometry/Indices.sol";
 import {Triangles} from "../pipeline/geometry/Triangles.sol";
 import {Extensions} from "../scene/Extensions.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
 import {GROUND, OPACITY_OF, SHADOWS_ALL, SHADOWS_FRONT_FACES} from "../words/Records.sol";
-import {CULL_BACKFACES, Object, Scene, WIREFRAME} from "../scene/Scene.sol";
+import {CULL_BACKFACES, Object, Scene, WIREFRAME, Vector} from "../scene/Scene.sol";
 import {CASTER_SIZE, FACE_RECORD_SIZE, FACE_SIDE, Faces, PLANES_SIZE, SET_SHIFT, INDEX_IN_SET} from "./Faces.sol";
 import {BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./LightSpace.sol";
 import {CHAINS} from "./Outlines.sol";

@@ -2,12 +2,9 @@
 pragma solidity 0.8.37;
 
 import {magnitude} from "../math/Bits.sol";
-import {Fixed} from "../math/Fixed.sol";
-import {Matrix} from "../math/Quaternion.sol";
 import {sqrt} from "../math/Roots.sol";
-import {Vector, normalize} from "../math/Vector.sol";
 import {Mesh} from "../scene/Mesh.sol";
-import {Light, Object, POINT} from "../scene/Scene.sol";
+import {Light, Object, POINT, Fixed, Vector, normalize, Matrix} from "../scene/Scene.sol";
 import "../words/Registers.sol";
 
 // Light space. The z axis points toward a directional light, or from a point light to the shadow casters. The origin is the centre of the

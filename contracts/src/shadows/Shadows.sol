@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {ZERO} from "../math/Fixed.sol";
-import {Vector, normalize} from "../math/Vector.sol";
 import {Extensions} from "../scene/Extensions.sol";
 import {SHADOW} from "../words/Records.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
-import {Object, Scene, CULL_BACKFACES, FLAT, UNLIT, WIREFRAME} from "../scene/Scene.sol";
+import {Object, Scene, CULL_BACKFACES, FLAT, UNLIT, WIREFRAME, ZERO, Vector, normalize} from "../scene/Scene.sol";
 import {Triangles} from "../pipeline/geometry/Triangles.sol";
 import {Transform} from "../uniforms/Transform.sol";
 import {View} from "../uniforms/View.sol";

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
 import {sqrt} from "../math/Roots.sol";
-import {Matrix} from "../math/Quaternion.sol";
-import {Vector} from "../math/Vector.sol";
 import {PackedMesh} from "../mesh/PackedMesh.sol";
 import {MAX_CANVAS, inRange} from "../scene/Checks.sol";
-import {Camera, Object, Scene, PERSPECTIVE} from "../scene/Scene.sol";
+import {Camera, Object, Scene, PERSPECTIVE, Vector, Fixed, ZERO, ONE, Matrix} from "../scene/Scene.sol";
 
 /// @notice Moves the camera so that a rotating scene stays within the picture.
 /// @dev A vertex at height h above the centre, along the axis, and at distance r from the axis moves on a circle. On the circle, a linear

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Fixed} from "../math/Fixed.sol";
-import {Vector} from "../math/Vector.sol";
 import {sqrt} from "../math/Roots.sol";
-import {Quaternion, Matrix} from "../math/Quaternion.sol";
 import {PackedMesh} from "../mesh/PackedMesh.sol";
 import {ANTIALIAS as ANTIALIAS_RECORD} from "../words/Records.sol";
 import {addRecord} from "../scene/RecordWriter.sol";
 import {WIDE} from "../scene/Mesh.sol";
-import {Scene, Object} from "../scene/Scene.sol";
+import {Scene, Object, Fixed, Vector, Quaternion, Matrix} from "../scene/Scene.sol";
 import {checkPosition, checkRotation, checkScale, inRange} from "../scene/Checks.sol";
 import {ANTIALIAS, BACKGROUND, CANVAS, INVERT, PAINT, TURN, Changes} from "../interfaces/Changes.sol";
 import {StudioErrors} from "../interfaces/StudioErrors.sol";

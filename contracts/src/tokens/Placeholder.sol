@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
-import {Quaternion} from "../math/Quaternion.sol";
-import {Scene, Canvas, Background, Material, Object, UNLIT, WIREFRAME} from "../scene/Scene.sol";
+import {Scene, Canvas, Background, Material, Object, UNLIT, WIREFRAME, Quaternion, Fixed, ZERO, ONE} from "../scene/Scene.sol";
 
 /// @notice The picture of tokens that have no picture yet: the edges of an octahedron, grey on black.
 library Placeholder {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Fixed} from "../math/Fixed.sol";
-import {Vector, normalize} from "../math/Vector.sol";
 import {Extensions} from "../scene/Extensions.sol";
 import {RECORD_HEADER, SPOT} from "../words/Records.sol";
-import {Light, Scene, POINT} from "../scene/Scene.sol";
+import {Light, Scene, POINT, Fixed, Vector, normalize} from "../scene/Scene.sol";
 import {View} from "./View.sol";
 import "../words/Registers.sol";
 

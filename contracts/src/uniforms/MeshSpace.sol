@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Vector, normalize} from "../math/Vector.sol";
 import {Matrix, transposedTimes} from "../math/Quaternion.sol";
-import {Scene, Object, Light, POINT} from "../scene/Scene.sol";
+import {Scene, Object, Light, POINT, Vector, normalize} from "../scene/Scene.sol";
 import {View} from "./View.sol";
 import "../words/Registers.sol";
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Fixed} from "../math/Fixed.sol";
-import {Vector} from "../math/Vector.sol";
-import {Matrix} from "../math/Quaternion.sol";
-import {Object, Rectangle} from "../scene/Scene.sol";
+import {Object, Rectangle, Fixed, Vector, Matrix} from "../scene/Scene.sol";
 import {View} from "./View.sol";
 import "../words/Registers.sol";
 

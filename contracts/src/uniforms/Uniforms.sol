@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Matrix} from "../math/Quaternion.sol";
-import {Object, Rectangle, Scene, TWO_SIDED, UNLIT, WIREFRAME} from "../scene/Scene.sol";
+import {Object, Rectangle, Scene, TWO_SIDED, UNLIT, WIREFRAME, Matrix} from "../scene/Scene.sol";
 import {Extensions, OPAQUE} from "../scene/Extensions.sol";
 import {ANTIALIAS, OPACITY_OF, RECORD_HEADER} from "../words/Records.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Fixed} from "../math/Fixed.sol";
-import {Vector, normalize} from "../math/Vector.sol";
 import {sqrt} from "../math/Roots.sol";
-import {Camera, ORTHOGRAPHIC} from "../scene/Scene.sol";
+import {Camera, ORTHOGRAPHIC, Fixed, Vector, normalize} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 import "../words/Registers.sol";
 

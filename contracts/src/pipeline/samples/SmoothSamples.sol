@@ -7,8 +7,6 @@ import {Shading} from "../shading/Shading.sol";
 import {LESS_BITS, SmoothLight} from "../shading/SmoothLight.sol";
 import {SMOOTH_BIAS} from "../shading/SmoothShading.sol";
 import {SmoothTriangle, STEEP_LIGHT, UNBOUNDED_LIGHT} from "../shading/SmoothTriangle.sol";
-import {OpenEdges} from "./OpenEdges.sol";
-import {QuadraticSamples} from "./QuadraticSamples.sol";
 import {SampleRasterizer} from "./SampleRasterizer.sol";
 import "../../words/SampleRegisters.sol";
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Quadratic} from "./Quadratic.sol";
 import "../../words/SampleRegisters.sol";
 
 // The light of a lamp on smooth triangles of several pixels. The products of SmoothTriangle need a root and two divisions at each fragment;
