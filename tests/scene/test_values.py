@@ -251,7 +251,7 @@ def test_integers_of_numpy_are_sizes() -> None:
 
 def test_numbers_in_strings_are_numbers() -> None:
     """Or nothing: not strings that fail later."""
-    assert Camera(half_height="0.5", near="1") == Camera(half_height=0.5, near=1)  # type: ignore[arg-type]
+    assert Camera(half_height="0.5", near="1") == Camera(half_height=0.5, near=1)
     assert Material(ambient="1") == Material(ambient=1)
     assert Object(MESH, scale="2") == Object(MESH, scale=2)
 
@@ -372,10 +372,6 @@ def thing(mesh: Any = MESH, **fields: Any) -> Object:
         ),
         (lambda: thing(rotation=[(1, 2), 3]), f"{ROTATION} x, y, z in degrees, a quaternion"),
         (lambda: thing(rotation=(1, 2, "x")), f"{ROTATION} 3 numbers, not (1, 2, 'x')"),
-        (
-            lambda: render(MESH, FACES),  # type: ignore[arg-type]
-            "`size` must be one number or (width, height); vertices and faces are one argument",
-        ),
         (lambda: render("cube", rotate=np.zeros((9, 9))), "`rotate` must be x, y, z in degrees, a quaternion x, y, "),
         (lambda: scene(lights=[Camera()]), "lights[0] of a scene must be a shackled.Light, not Camera("),
         (lambda: scene(camera=MESH), "the camera of a scene must be a shackled.Camera, not <Mesh 3 vertices"),
