@@ -1,4 +1,7 @@
-"""Scenes from calldata: what Python encoded comes back as the same bytes, and anything else harms nobody."""
+"""Scenes from calldata: whatever Python encoded comes back, and anything else harms nobody.
+
+`decode` itself compares the bytes of the call that is made of the scene again.
+"""
 
 from __future__ import annotations
 
@@ -7,30 +10,13 @@ import math
 import numpy as np
 import pytest
 from attrs import evolve
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from random_scenes import broken_call, random_case
-from shackled import (
-    Background,
-    Camera,
-    Fog,
-    InputError,
-    Light,
-    Material,
-    Mesh,
-    Object,
-    RenderError,
-    Rim,
-    Scene,
-    Tone,
-    render,
-)
+from shackled import Camera, InputError, Light, Mesh, Object, RenderError, Scene
 from shackled.chain import open_chain
 from shackled.datasets import pieces
-from shackled.scene import ANTIALIAS, NORMAL_UNIT, Hemisphere, Projection, decode, fit, pack, render_call
+from shackled.scene import ANTIALIAS, NORMAL_UNIT, decode, fit, pack, render_call
 from shackled.scene._arithmetic import cosine
-from shackled.scene._object import Shading
 from shackled.scene._packed import unpack
 from shackled.scene._records import FOG, OPACITY_OF, RIM, SPOT, TONE
 
@@ -42,115 +28,10 @@ SCENE = Scene(
 )
 
 
-def assert_same(scene: Scene) -> Scene:
-    call = render_call(scene)
-    found = decode(call)
-    assert render_call(found) == call
-    return found
-
-
 def test_every_piece() -> None:
     for piece in pieces():
         if piece.ready() and (piece.dataset != "genesis" or piece.name.endswith("7")):
-            assert_same(piece.make())
-
-
-def test_every_field() -> None:
-    scene = Scene(
-        [
-            Object(
-                TRIANGLE,
-                (1, 2, -30),
-                (0, 1, 0, 1),
-                0.5,
-                Material("flat", 1, 2, 4, 128),
-                False,
-                True,
-                0.5,
-                two_sided=True,
-            ),
-            Object(TRIANGLE, material=Material("unlit", 0.25, 0.5, 0)),
-        ],
-        Camera((0, 0, 4), (0, 0, 0), (0, 2, 0), near=0.25, half_height=0.5),
-        [Light.directional(toward=(1, 2, 3), color=(1, 2, 3)), Light.point((4, 5, 6)), SCENE.lights[0]],
-        Background((1, 2, 3), (4, 5, 6)),
-        (7, 8, 9),
-        True,
-        320,
-        200,
-        True,
-        Hemisphere((1, 2, 3), (4, 5, 6)),
-        Rim((7, 8, 9), 16),
-        Fog((1, 2, 3), 0.25, 12),
-        Tone(1.5, gamma=True),
-    )
-    found = assert_same(scene)
-    # cosines have 32 bits after the point
-    *others, light = found.lights
-    light = evolve(light, inner_angle=round(light.inner_angle, 6), outer_angle=round(light.outer_angle, 6))
-    assert evolve(found, lights=[*others, light]) == scene
-
-
-@pytest.mark.parametrize("seeds", [range(first, first + 50) for first in range(0, 200, 50)])
-def test_random_scenes(seeds: range) -> None:
-    for seed in seeds:
-        scene = random_case(seed).scene
-        assert_same(scene)
-        assert_same(evolve(scene, camera=evolve(scene.camera, near=None)))
-
-
-coordinate = st.floats(-1, 1, width=32)
-point = st.tuples(coordinate, coordinate, coordinate)
-direction = point.filter(lambda v: max(map(abs, v)) > 1e-3)
-magnitude = st.floats(-30, 30).map(lambda exponent: 10.0**exponent)
-color = st.tuples(*[st.integers(0, 255)] * 3)
-
-
-@settings(max_examples=300, deadline=None)
-@given(
-    st.lists(point, min_size=3, max_size=8),
-    st.lists(magnitude, min_size=4, max_size=4),
-    st.lists(direction, min_size=4, max_size=4),
-    st.tuples(*[coordinate] * 4).filter(lambda q: max(map(abs, q)) > 1e-3),
-    st.sampled_from(["unlit", "flat", "smooth"]),
-    st.sampled_from(["perspective", "orthographic"]),
-    st.tuples(st.floats(0, 180), st.floats(0, 180)).map(sorted),
-    st.floats(0, 1),
-    st.booleans(),
-)
-def test_scenes_of_every_size(
-    points: list[tuple[float, float, float]],
-    sizes: list[float],
-    places: list[tuple[float, float, float]],
-    rotation: tuple[float, float, float, float],
-    shading: Shading,
-    projection: Projection,
-    angles: list[float],
-    opacity: float,
-    is_near: bool,
-) -> None:
-    size, scale, distance, far = sizes
-    world = size * scale
-    mesh = Mesh(np.array(points) * size, [[0, 1, 2]] + [[0, i, i - 1] for i in range(2, len(points))])
-    thing = Object(mesh, np.array(places[0]) * world, rotation, scale, Material(shading), opacity=opacity)
-    light = Light.spot(np.array(places[1]) * world * far, np.array(places[2]) * size, (1, 2, 3), *angles)
-    half_height = min(max(world, 1e-30), 1e30) if projection == "orthographic" else 0.5
-    eye = np.array(places[3]) * world * min(distance, 1e3)
-    near = world * distance if is_near else None
-    camera = Camera(eye, (0, 0, 0), (0.01, 1, 0.02), projection, half_height, near)
-    scene = Scene([thing], camera, [light, Light.point(light.vector), Light.directional(toward=places[2])])
-    try:
-        call = render_call(scene)
-    except InputError:
-        return
-    try:
-        found = decode(call)
-    except InputError:
-        # the contracts refuse it too
-        with pytest.raises(RenderError):
-            render(evolve(scene, width=1, height=1))
-        return
-    assert render_call(found) == call
+            decode(render_call(piece.make()))
 
 
 def test_what_fit_made_is_kept() -> None:
@@ -158,7 +39,7 @@ def test_what_fit_made_is_kept() -> None:
     for camera in (Camera((0, 0, 1e20)), Camera((0, 0, 1e20), projection="orthographic", half_height=1e20)):
         scene = Scene([Object(TRIANGLE, scale=1e15)], camera, [far])
         assert fit(scene).lights[0].vector.max() > 2**22
-        assert_same(scene)
+        decode(render_call(scene))
 
 
 def test_angles_from_every_cosine() -> None:
@@ -204,35 +85,6 @@ def test_broken_calls_are_refused_where_the_contracts_refuse_them() -> None:
             if "camera" not in str(error):
                 raise
     assert 30 < accepted < 400
-
-
-def other_numbers(call: bytes, rng: np.random.Generator) -> bytes:
-    """A call in which one or two of the first 60 words are larger or smaller by a power of two, or by a little."""
-    changed = bytearray(call)
-    for _ in range(rng.integers(1, 3)):
-        place = 4 + 32 * int(rng.integers(1, 60))
-        value, shift = int.from_bytes(changed[place : place + 32], "big", signed=True), int(rng.integers(1, 31))
-        value = [value >> shift, value << shift, value + shift - 15][rng.integers(3)]
-        changed[place : place + 32] = (value % (1 << 256)).to_bytes(32, "big")
-    return bytes(changed)
-
-
-def test_what_is_accepted_is_the_same_call() -> None:
-    """Scenes that `fit` would move or scale are refused: their pictures would change."""
-    rng, accepted, refused = np.random.default_rng(7), 0, 0
-    for seed in range(120):
-        call = render_call(random_case(seed).scene)
-        for _ in range(5):
-            mutant = other_numbers(call, rng)
-            try:
-                scene = decode(mutant)
-            except InputError as error:
-                refused += "is not the one that Shackled makes of its scene" in str(error)
-                continue
-            accepted += 1
-            assert render_call(scene) == mutant
-    assert accepted > 100
-    assert refused > 10
 
 
 def changed(place: int, value: int) -> bytes:
