@@ -4,17 +4,13 @@ from numpy.typing import NDArray
 
 from shackled import load
 from shackled.errors import InputError
-from shackled.scene import Light, Material, Mesh, Scene, is_closed, painted, stage
+from shackled.scene import Light, Mesh, Scene, is_closed, painted, stage
 from shackled.scene._staging import signed_volume
 
 CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
 SIDES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
 FACES = [face for a, b, c, d in SIDES for face in ((a, b, c), (a, c, d))]
 BOX = Mesh(CORNERS * (1, 2, 3) * 100 + (1000, -50, 7), FACES)
-
-
-def world(scene: Scene) -> NDArray[np.float64]:
-    return scene.world_positions()
 
 
 def picture(scene: Scene) -> NDArray[np.float64]:
@@ -24,7 +20,7 @@ def picture(scene: Scene) -> NDArray[np.float64]:
     back = back / np.linalg.norm(back)
     right = np.cross(camera.up, back)
     right /= np.linalg.norm(right)
-    seen = world(scene) - eye
+    seen = scene.world_positions() - eye
     depth = -seen @ back
     assert (depth > 0).all()
     size = camera.half_height * (depth if camera.projection == "perspective" else 1)
@@ -34,8 +30,8 @@ def picture(scene: Scene) -> NDArray[np.float64]:
 def test_the_mesh_comes_into_the_unit_sphere() -> None:
     scene = stage(BOX)
     assert scene.objects[0].mesh is BOX
-    assert np.linalg.norm(world(scene), axis=1).max() == pytest.approx(1)
-    np.testing.assert_allclose(world(scene).min(axis=0), -world(scene).max(axis=0), atol=1e-12)
+    assert np.linalg.norm(scene.world_positions(), axis=1).max() == pytest.approx(1)
+    np.testing.assert_allclose(scene.world_positions().min(axis=0), -scene.world_positions().max(axis=0), atol=1e-12)
 
 
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
@@ -104,27 +100,6 @@ def test_the_flatter_a_mesh_the_higher_the_viewer() -> None:
     assert elevation(Mesh(CORNERS * (1, 0.25, 1), FACES), elevation=-5) == pytest.approx(-5)
 
 
-def test_what_may_be_chosen_is_taken() -> None:
-    scene = stage(
-        BOX,
-        color="#ff0000",
-        material=Material("smooth", 0.1),
-        diffuse=0.2,
-        lights=Light("point", (1, 2, 3)),
-        ambient_light=(1, 2, 3),
-        wireframe=True,
-        invert=True,
-        antialias=True,
-        cull=False,
-    )
-    thing = scene.objects[0]
-    assert thing.mesh.colors.tolist() == [[255, 0, 0]] * 8
-    assert thing.material == Material("smooth", 0.1, 0.2)
-    assert (thing.wireframe, thing.cull) == (True, False)
-    assert (scene.lights[0].kind, scene.ambient_light) == ("point", (1, 2, 3))
-    assert (scene.invert, scene.antialias) == (True, True)
-
-
 def test_only_closed_meshes_are_culled() -> None:
     assert stage(BOX).objects[0].cull
     assert not stage(Mesh(BOX.positions, FACES[1:])).objects[0].cull
@@ -141,12 +116,6 @@ def test_closed_whatever_the_colors() -> None:
 def test_volume() -> None:
     assert signed_volume(BOX) == pytest.approx(2 * 4 * 6 * 1e6)
     assert signed_volume(Mesh(CORNERS, [face[::-1] for face in FACES])) == pytest.approx(-8)
-
-
-def test_painted_keeps_the_rest() -> None:
-    mesh = painted(Mesh(CORNERS, FACES, normals=CORNERS), (1, 2, 3))
-    assert mesh.colors.tolist() == [[1, 2, 3]] * 8
-    assert np.asarray(mesh.normals).tolist() == CORNERS.tolist()
 
 
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])

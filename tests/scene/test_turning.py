@@ -113,7 +113,7 @@ def test_several_objects_turn_together() -> None:
     assert np.allclose(half.objects[1].position, (0, 0, 0))
 
 
-@pytest.mark.parametrize("frames", [3, 3.0, np.int64(3), "3"])
+@pytest.mark.parametrize("frames", [3.0, np.int64(3)])
 def test_frames_of_other_types(frames: int) -> None:
     assert full_turn(scene(), frames) == full_turn(scene(), 3)
 

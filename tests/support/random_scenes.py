@@ -214,7 +214,7 @@ def _scene(rng: Rng, kind: Kind) -> Scene:
         objects=objects,
         camera=_camera(rng, kind, objects),
         lights=[_light(rng, kind, objects) for _ in range(rng.choice(5, p=[0.1, 0.5, 0.2, 0.1, 0.1]))],
-        background=Background(_color(rng), _color(rng) if rng.random() < 0.5 else None),
+        background=Background(_color(rng), *([_color(rng)] if rng.random() < 0.5 else [])),
         ambient_light=(255, 255, 255) if rng.random() < 0.5 else _color(rng),
         invert=bool(rng.random() < 0.2),
         width=width,

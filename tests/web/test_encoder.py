@@ -59,7 +59,7 @@ class Calls:
 
     def add(self, name: str, text: str, scene: Scene, function: str = "render", tile: Rectangle | None = None) -> None:
         self.names.append(name)
-        self.lines.append({"name": function, "text": text} | ({"tile": vars(tile)} if tile else {}))
+        self.lines.append({"name": function, "text": text} | ({"tile": tile._asdict()} if tile else {}))
         self.expected.append(encode(artifact("Renderer").selectors[function], scene, tile))
 
     def differences(self, folder: Path) -> list[str]:

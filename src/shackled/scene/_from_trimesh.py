@@ -16,9 +16,7 @@ from ._texture import as_rgb, as_rgba, cutoff_of, to_srgb
 
 
 def part_of(value: Any) -> MeshPart:
-    """Return the mesh of a trimesh.Trimesh, texture and emission of its material as fields of a `Material`, if it has
-    any, its opacity, if it is blended, and whether it has two sides. Errors as in `mesh_of`.
-    """
+    """Return the mesh of a trimesh.Trimesh with what its material says. Errors as in `mesh_of`."""
     visual: Any = getattr(value, "visual", None)
     uvs = getattr(visual, "uv", None)
     if not is_trimesh(value) or getattr(visual, "kind", None) != "texture":
@@ -52,10 +50,7 @@ def part_of(value: Any) -> MeshPart:
 
 
 def objects_of(scene: Any) -> list[Object]:
-    """Return the objects of a trimesh.Scene, one for each place in which a mesh stands.
-
-    A matrix that is more than a scale, a rotation and a translation is applied to the vertices.
-    """
+    """Return the objects of a trimesh.Scene, one for each place in which a mesh stands."""
     objects = []
     for name in scene.graph.nodes_geometry:
         matrix, geometry = scene.graph[name]

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 from attrs import field, frozen
-from numpy.typing import ArrayLike
 
 from ..checks import Color, Floats, color, flag, instance, integer
 from ..errors import InputError
@@ -37,10 +36,6 @@ def _camera(value: Camera | None) -> Camera:
     if value is not None:
         instance(value, "the camera of a scene", Camera)
     return value  # type: ignore[return-value]
-
-
-def _background(value: Background | ArrayLike | str | Sequence[ArrayLike | str] | None) -> Background:
-    return value if value is None else background_of(value)  # type: ignore[return-value]
 
 
 def _side(value: int, name: str = "side") -> int:
@@ -75,7 +70,7 @@ class Scene(Words):
     objects: tuple[Object, ...] = field(converter=_objects)
     camera: Camera = field(default=None, converter=_camera)
     lights: tuple[Light, ...] = field(default=None, converter=lights_of)
-    background: Background = field(default=None, converter=_background)
+    background: Background = field(default=None, converter=background_of)
     ambient_light: Color = field(default=WHITE, converter=color, metadata=checked("the ambient light"))
     invert: bool = field(default=False, converter=flag, metadata=checked("invert of a scene"))
     width: int = field(default=DEFAULT_SIDE, converter=_side, metadata=checked("width"))

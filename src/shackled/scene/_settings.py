@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
-from typing import Any, Final, Literal, TypedDict, cast
+from typing import Any, Final, Literal, TypedDict
 
-import numpy as np
 from attrs import Factory, evolve, field, frozen
 from numpy.typing import ArrayLike
 
@@ -95,17 +94,17 @@ class Setting:
 ALL: Final = "all"
 
 
-def _background(value: Any, setting: Setting, name: str) -> Background:
+def _background(value: Any, setting: Setting, name: str) -> Background | None:
     if isinstance(value, str) and value.strip().lower() == "transparent":
         raise InputError(f"{name} is a colour: give `transparent` for a picture without a background")
     return background_of(value)
 
 
 def _entry(value: object, setting: Setting, name: str) -> str | int:
-    number = None if isinstance(value, str) else integer(value)
-    if number is None and not isinstance(value, str):
+    entry = value if isinstance(value, str) else integer(value)
+    if entry is None:
         raise InputError(f"{name} must be a name, or a number from 0, not {value!r:.60}")
-    return value if isinstance(value, str) else cast(int, number)
+    return entry
 
 
 def _count(value: object, setting: Setting, name: str) -> int | str:
@@ -130,22 +129,15 @@ def _flag(value: object, setting: Setting, name: str) -> bool:
 
 def size_of(value: int | tuple[int, int], name: str = "`size`") -> tuple[int, int]:
     """Return width and height, of one number or two. InputError for anything else."""
+    side = integer(value)
     try:
-        are_rows = np.ndim(value) > 1
-    except ValueError:  # of different lengths
-        are_rows = True
-    if are_rows:
-        raise InputError(f"{name} must be one number or (width, height); vertices and faces are one argument, in ()")
-    try:
-        side = integer(value)
-        width, height = value if side is None else (side, side)  # type: ignore[misc]
+        width, height = map(integer, value) if side is None else (side, side)  # type: ignore[arg-type]
     except (TypeError, ValueError):
         hint = "; `save` of what is returned writes a file" if isinstance(value, str) else ""
         raise InputError(f"{name} must be one number or (width, height), not {value!r:.60}{hint}") from None
-    sides = integer(width), integer(height)
-    if None in sides:
+    if width is None or height is None:
         raise InputError(f"{name} must be whole numbers, not {value!r:.60}")
-    return cast(tuple[int, int], sides)
+    return width, height
 
 
 #: For each kind, what its values are, and their check.
@@ -413,9 +405,7 @@ def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _taken_apart(given: dict[str, Any]) -> dict[str, Any]:
-    """Return keywords with the settings of a camera or a material, and the size of a width and a height, in place of
-    these; one that is given as well changes it.
-    """
+    """Return keywords with the settings of a camera, a material, and a width and height in place of these."""
     if {"width", "height"} <= given.keys():
         given.setdefault("size", (given.pop("width"), given.pop("height")))
     if isinstance(camera := given.get("camera"), Camera):
