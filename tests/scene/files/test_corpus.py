@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import struct
 import warnings
 from pathlib import Path
@@ -62,9 +61,6 @@ def off(header: str = "OFF", behind: str = "", of_face: str = "", more: str = ""
 
 BYTES = "".join(f"property uchar {name}\n" for name in ("red", "green", "blue", "alpha"))
 STRIP = ply().replace(b"element face", b"element tristrips").replace(b"4 0 1 2 3", b"5 0 1 3 2 -1")
-BINARY_OFF = (
-    b"OFF BINARY\n" + struct.pack(">3i12f", 4, 1, 0, *itertools.chain(*SQUARE)) + struct.pack(">6i", 4, 0, 1, 2, 3, 0)
-)
 TEXTURE = "comment TextureFile blue.png\n"
 BEHIND = "what is behind its facets is left out: {}"
 SAYS = "its header says {}; there are 2, which are read"
@@ -118,8 +114,6 @@ FILES: dict[str, tuple[bytes, tuple[tuple[int, ...], ...], list[str]]] = {
     "geomview.off": (off("CNOFF", "0 0 1 1.0 0 0 1.0"), (RED, RED), []),
     "alpha.off": (off("COFF", "255 0 0 128"), (PALE, PALE), []),
     "alpha-of-face.off": (off(of_face="1.0 0 0 0.5"), (PALE, PALE), []),
-    "homogeneous.off": (off("4OFF", "1"), (GREY, GREY), []),
-    "binary.off": (BINARY_OFF, (GREY, GREY), []),
     "st.off": (
         off("STOFF", "0.5 0.5"),
         (GREY, GREY),

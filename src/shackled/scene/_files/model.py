@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
+from ...checks import Color
 from ...errors import warn
 from .._crease import filled
 from .._mesh import DEFAULT_COLOR, Mesh, faces_of_all, weld
@@ -45,12 +46,12 @@ class MeshPart:
     """
 
     mesh: Mesh
-    material: dict[str, Any]
+    material: dict[str, Any] = field(default_factory=dict)
     opacity: float = 1.0
     two_sided: bool = False
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Picture:
     """An image of a file, and how it is to be sampled. name: for messages, with the path of the file.
 
@@ -123,10 +124,10 @@ class Picture:
 
 @dataclass(frozen=True)
 class Look:
-    """What the triangles of a part have in common: their texture, other fields of a `Material`, and their opacity."""
+    """What the triangles of a part have in common."""
 
     picture: Picture | None = None
-    fields: Mapping[str, Any] = field(default_factory=dict)
+    emission: Color = (0, 0, 0)
     opacity: float = 1.0
 
 
@@ -144,11 +145,12 @@ def split(
     corners: (m, 3), rows of `positions`. colors, normals, uvs: of corners. look: (m,), the place in `looks` of that of
     each triangle.
     """
-    textures = len({id(each.picture) for each in looks if each.picture is not None})
+    textures = len({each.picture for each in looks if each.picture is not None})
     parts = []
     for number in np.unique(look).tolist():
         own, each = np.flatnonzero(look == number), looks[number]
-        fields, own_uvs = dict(each.fields), None
+        fields: dict[str, Any] = {"emission": each.emission} if any(each.emission) else {}
+        own_uvs = None
         if each.picture is not None:
             fields["texture"], own_uvs = each.picture.texture(uvs[own], textures)
         own_normals = None if normals is None else normals[own]
@@ -233,10 +235,8 @@ def baked(parts: Sequence[MeshPart]) -> tuple[Mesh, bool]:
     faces = faces_of_all(part.mesh for part in parts)
     colors = np.concatenate([_baked_colors(part) for part in parts])
     positions = np.concatenate([part.mesh.positions for part in parts])
-    normals = [part.mesh.normals for part in parts]
-    found = None
-    if all(each is not None for each in normals):
-        found = np.concatenate([each for each in normals if each is not None])[faces]
+    normals = [part.mesh.normals for part in parts if part.mesh.normals is not None]
+    found = np.concatenate(normals)[faces] if len(normals) == len(parts) else None
     return weld(positions, faces, colors[faces], found), bool(textured)
 
 

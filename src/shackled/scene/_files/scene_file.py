@@ -253,7 +253,7 @@ def _parts(keys: Table, where: str, folder: Path | None) -> list[MeshPart]:
     if value is None or isinstance(value, str):
         raise InputError(f"{where} needs a mesh: the path of a file, relative to the scene file")
     if isinstance(value, Mapping) and "piece" in value:
-        return [MeshPart(_mesh_of_piece(keys.table("mesh", _PIECE)), {})]
+        return [MeshPart(_mesh_of_piece(keys.table("mesh", _PIECE)))]
     inside = keys.table("mesh", MESH)
     with about(inside.where):
         mesh = Mesh(
@@ -264,7 +264,7 @@ def _parts(keys: Table, where: str, folder: Path | None) -> list[MeshPart]:
             inside.matrix("uvs", width=2) if "uvs" in inside else None,
             inside.series("opacities") if "opacities" in inside else None,
         )
-    return [MeshPart(mesh, {})]
+    return [MeshPart(mesh)]
 
 
 def _beside(folder: Path | None, name: str) -> Path:

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from ...errors import InputError, warn
 from ...values import plural
-from .._mesh import DEFAULT_COLOR, Mesh, weld
+from .._mesh import DEFAULT_COLOR, weld
 from .content import plain_text, read_bytes
+from .model import MeshPart
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER, _COUNT = 80, 4
@@ -26,7 +27,7 @@ _PLAUSIBLE = 1e15
 Array = NDArray[np.float64]
 
 
-def read_stl(path: Path) -> Mesh:
+def read_stl(path: Path) -> list[MeshPart]:
     """Return the mesh of an STL file, in light grey unless its facets have colours.
 
     The normals of its faces follow from their vertices. An InputWarning tells of facets that are left out because they
@@ -44,7 +45,8 @@ def read_stl(path: Path) -> Mesh:
     if not finite.all():
         warn(f"{path}: facets with coordinates that are not finite numbers are left out: {(~finite).sum()}")
     faces = np.arange(3 * int(finite.sum())).reshape(-1, 3)
-    return weld(corners[finite].reshape(-1, 3), faces, None if colors is None else colors[finite].repeat(3, axis=1))
+    corner_colors = None if colors is None else colors[finite].repeat(3, axis=1)
+    return [MeshPart(weld(corners[finite].reshape(-1, 3), faces, corner_colors))]
 
 
 def _binary(path: Path, data: bytes) -> tuple[Array, Array | None]:
