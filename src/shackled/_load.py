@@ -177,20 +177,20 @@ def _made(thing: Any, look: Mapping[str, Any]) -> Mesh | list[Object] | Scene:
         return thing.scene()
     if isinstance(thing, Piece):
         return _in_default_look(thing)
-    if isinstance(thing, Object) or _is_trimesh_scene(thing):
-        return _staged(_placed(thing), look)
+    if isinstance(thing, Object):
+        return _staged([thing], look)
     if is_trimesh(thing):
-        return [_unplaced(part_of(thing))]
-    if not isinstance(thing, list | tuple):
-        raise InputError(
-            "a path, the name of a piece, a Mesh, (vertices, faces), a Scene or a mesh of trimesh is needed, not "
-            f"{thing!r:.60}"
-        )
-    if thing and _is_input(thing[0]):
-        return _combined(thing, look)
-    if 2 <= len(thing) <= 4:
-        return Mesh(*thing)
-    raise InputError(f"vertices and faces are needed, not {len(thing)} parts: {thing!r:.60}")
+        return _staged(list(objects_of(thing)), look) if hasattr(thing, "graph") else [_unplaced(part_of(thing))]
+    if isinstance(thing, list | tuple):
+        if thing and _is_input(thing[0]):
+            return _combined(thing, look)
+        if 2 <= len(thing) <= 4:
+            return Mesh(*thing)
+        raise InputError(f"vertices and faces are needed, not {len(thing)} parts: {thing!r:.60}")
+    raise InputError(
+        "a path, the name of a piece, a Mesh, (vertices, faces), a Scene or a mesh of trimesh is needed, not "
+        f"{thing!r:.60}"
+    )
 
 
 def _in_default_look(piece: Piece) -> Scene:
@@ -200,23 +200,13 @@ def _in_default_look(piece: Piece) -> Scene:
     return evolve(scene, width=side, height=side, antialias=True) if piece.dataset in DATASETS else scene
 
 
-def _is_trimesh_scene(thing: object) -> bool:
-    return is_trimesh(thing) and hasattr(thing, "graph")
-
-
 def _is_input(thing: Any) -> bool:
     """Return whether a member of a list is an input by itself; otherwise the list may be (vertices, faces)."""
     if isinstance(thing, list | tuple) and thing:
         first = thing[0]
-        are_arrays = (
-            2 <= len(thing) <= 4 and hasattr(first, "__len__") and len(first) > 0 and hasattr(first[0], "__len__")
-        )
-        return are_arrays or _is_input(first)
+        has_rows = hasattr(first, "__len__") and len(first) > 0 and hasattr(first[0], "__len__")
+        return (has_rows and 2 <= len(thing) <= 4) or _is_input(first)
     return isinstance(thing, str | os.PathLike | Piece | Link | Mesh | Object | Scene) or is_trimesh(thing)
-
-
-def _placed(thing: Any) -> list[Object]:
-    return [thing] if isinstance(thing, Object) else list(objects_of(thing))
 
 
 def _staged(objects: list[Object], look: Mapping[str, Any]) -> Scene:
@@ -236,21 +226,16 @@ def _combined(things: Sequence[Any], look: Mapping[str, Any]) -> list[Object] | 
             found = _located(thing)
             if isinstance(found, list | tuple) and found and _is_input(found[0]):
                 raise InputError("a list must not hold lists: give one list of all members")
-            if isinstance(found, Object) or _is_trimesh_scene(found):
-                parts = _placed(found)
-            elif isinstance(made := _made(found, look), Mesh):
-                parts = [Object(made)]
-            elif isinstance(made, Scene):
-                parts = list(made.objects)
-                if isinstance(found, Piece):
-                    pieces.append(slice(len(objects), len(objects) + len(parts)))
-                else:
-                    scenes.append(made)
-            else:
+            made = _made(found, look)
+            if isinstance(made, list):
                 model, models = [*model, *made], models + 1
-                name = str(found) if isinstance(found, Path) else "the mesh"
-                parts = list(_in_their_places(made, name).objects)
-        objects += parts
+                made = _in_their_places(made, str(found) if isinstance(found, Path) else "the mesh")
+            elif isinstance(made, Scene) and isinstance(found, Scene | Path | Link):
+                scenes.append(made)
+            parts = [Object(made)] if isinstance(made, Mesh) else made.objects
+            if isinstance(found, Piece):
+                pieces.append(slice(len(objects), len(objects) + len(parts)))
+            objects += parts
     if models == len(things):
         return model
     if len(pieces) > 1:

@@ -46,11 +46,7 @@ def read_bytes(path: Path) -> bytes:
 
 def read_text(path: Path) -> str:
     """Return the text of a file as `plain_text` does. InputError for binary data."""
-    return checked_text(path, read_bytes(path))
-
-
-def checked_text(path: Path, data: bytes) -> str:
-    """Return the text of bytes, with `plain_text`. InputError for binary data; `path` is for its message."""
+    data = read_bytes(path)
     if b"\0" in data:
         raise InputError(f"{path} is not a text file, as a {path.suffix} file should be")
     return plain_text(data)

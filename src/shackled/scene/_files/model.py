@@ -106,7 +106,8 @@ class Picture:
         wraps: list[Wrap] = []
         for axis, wrap in enumerate(self.wraps):
             if wrap == "mirror" and outside[axis]:
-                image = _mirrored(image, axis)
+                pixels = np.asarray(image)
+                image = Image.fromarray(np.concatenate([pixels, np.flip(pixels, 1 - axis)], axis=1 - axis))
                 uvs[:, :, axis] /= 2
             wraps.append("clamp" if wrap == "clamp" or (wrap == "mirror" and not outside[axis]) else "repeat")
         needed = {wrap for wrap, is_outside in zip(wraps, outside, strict=True) if is_outside} or set(wraps)
@@ -177,17 +178,11 @@ def replaced(colors: Array) -> int:
     return int((~(plain[0] | plain[1])).sum())
 
 
-def _mirrored(image: Image.Image, axis: int) -> Image.Image:
-    """Return an image beside, or above, its mirror image."""
-    pixels = np.asarray(image)
-    return Image.fromarray(np.concatenate([pixels, np.flip(pixels, 1 - axis)], axis=1 - axis))
-
-
 def _side(count: int) -> int:
     side = MAX_TEXTURE_SIDE
-    while count > _FULL_SIZE:
+    while count > _FULL_SIZE and side > 1:
         side, count = side // 2, (count + 3) // 4
-    return max(side, 1)
+    return side
 
 
 def is_transparent(image: Image.Image) -> bool:

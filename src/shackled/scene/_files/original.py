@@ -22,18 +22,13 @@ from .._camera import Camera
 from .._effects import Background
 from .._light import Light
 from .._mesh import Mesh
-from .._object import Material, Object
+from .._object import COEFFICIENTS, Material, Object
 from .._scene import Scene
 from .._staging import MAX_SIDE
 from .table import Table, about
 
 #: Half of what the original's orthographic camera spans, in world units for each pixel of the canvas.
 ORTHOGRAPHIC_UNITS = 500
-
-
-def is_original(document: Mapping[str, Any]) -> bool:
-    """Return whether a JSON object is a scene of the original."""
-    return "canvasDim" in document
 
 
 def original_scene(document: Mapping[str, Any]) -> Scene:
@@ -51,10 +46,8 @@ def original_scene(document: Mapping[str, Any]) -> Scene:
     side = keys.get("canvasDim")
     if type(side) is not int or not 1 <= side <= MAX_SIDE:
         raise InputError(f"canvasDim must be a whole number from 1 to {MAX_SIDE}, not {side!r:.60}")
-    if keys.flag("perspCamera", True):
-        camera = Camera()
-    else:
-        camera = Camera(projection="orthographic", half_height=ORTHOGRAPHIC_UNITS * side)
+    orthographic = Camera(projection="orthographic", half_height=ORTHOGRAPHIC_UNITS * side)
+    camera = Camera() if keys.flag("perspCamera", True) else orthographic
     material, lights = _light(keys.table("lightingParams"))
     scale = keys.number("objScale", 1)
     position = keys.numbers("objPosition", (0, 0, 0))
@@ -108,8 +101,8 @@ def _light(lighting: Table) -> tuple[Material, list[Light]]:
     material = Material(
         "flat",
         ambient=1,
-        diffuse=_coefficient(diffuse * float(diffuse_color.mean() / hue.mean())),
-        specular=_coefficient(specular * float(specular_color.max() / 255)),
+        diffuse=np.clip(diffuse * float(diffuse_color.mean() / hue.mean()), *COEFFICIENTS),
+        specular=np.clip(specular * float(specular_color.max() / 255), *COEFFICIENTS),
         shininess=round(min(max(lighting.number("inverseShininess", 1), 1), 128)),
     )
     return material, [Light("directional", vector, hue)]
@@ -121,10 +114,6 @@ def _light_color(lighting: Table, key: str) -> NDArray[np.float64]:
     if (color < 0).any():
         raise InputError(f"{lighting.place(key)} must not be negative, not {lighting.get(key)!r:.60}")
     return color
-
-
-def _coefficient(value: float) -> float:
-    return min(max(value, 0.0), 4.0)
 
 
 def _background(keys: Table) -> Background:

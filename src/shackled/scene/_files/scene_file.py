@@ -23,7 +23,7 @@ from .._camera import PROJECTIONS, Camera, half_height_in
 from .._crease import CREASES, shaded
 from .._effects import Background, Fog, Hemisphere, Rim, Tone
 from .._ground import Ground
-from .._light import LIGHT_KINDS, WHITE, Light
+from .._light import LIGHT_KINDS, WHITE, Light, LightKind
 from .._look import view_of
 from .._mesh import Mesh
 from .._object import Material, Object
@@ -35,7 +35,7 @@ from .._upright import AXES, axis_of_file, upright
 from .content import parse, read_text
 from .mesh_file import READERS, read_model
 from .model import MeshPart
-from .original import is_original, original_scene
+from .original import original_scene
 from .picture import PICTURE, read_picture
 from .table import Table, about
 from .written import MESH, keys_of
@@ -47,7 +47,12 @@ SCENES = (".toml", ".json")
 _SCENE = keys_of("scene", "size", "camera", "objects", "tone", "creator")
 _CAMERA = keys_of("camera", "projection")
 _OBJECT = keys_of("object", "mesh", "position", "rotation", "up_axis", "scale", "material", "fade", "crease")
-_LIGHT = ("kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow")
+#: The vectors that a light of each kind must have, and the angles that it may have.
+_LIGHT: dict[LightKind, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "directional": (("direction",), ()),
+    "point": (("position",), ()),
+    "spot": (("position", "direction"), ("inner_angle", "outer_angle")),
+}
 _PIECE = ("piece", "object")
 _TEXTURE = ("image", "width", "height", "pixels", "filter", "wrap", "alpha", "cutoff")
 _ROTATION = ("quaternion", "axis", "angle")
@@ -70,7 +75,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
         raise InputError(f"{path} is neither a mesh nor a scene file by its extension; known are {known}")
     document = parse(path, read_text(path), extension)
     with about(str(path)):
-        if extension == ".json" and is_original(document):
+        if extension == ".json" and "canvasDim" in document:
             return original_scene(document)
         return scene_of(document, path.parent)
 
@@ -98,9 +103,7 @@ def _settings(keys: Table, part: Part) -> dict[str, Any]:
 
 
 def _size(table: Table) -> tuple[int, int]:
-    size = table.get("size")
-    if size is None:
-        return DEFAULT_SIDE, DEFAULT_SIDE
+    size = table.values.get("size", DEFAULT_SIDE)
     sides = size if isinstance(size, list) else [size, size]
     if len(sides) != 2 or not all(type(side) is int for side in sides):
         raise InputError(f"size must be a number of pixels, or width and height, not {size!r:.60}")
@@ -156,19 +159,12 @@ _READ: dict[Kind, Callable[[Table, Setting], Any]] = {
 def _camera(keys: Table, width: int, height: int, objects: list[Object]) -> tuple[Viewpoint, Camera]:
     given = _settings(keys, "camera")
     exclude(given, keys.place)
-    if ("eye" in given) != ("target" in given):
-        there, missing = ("eye", "target") if "eye" in given else ("target", "eye")
-        raise InputError(
-            f"camera.{there} needs a camera.{missing}; without both the camera is placed so that all is seen"
-        )
-    if "up" in given and "eye" not in given:
-        raise InputError("camera.up needs a camera.eye and a camera.target")
+    for name in ("eye", "target", "up"):
+        for needed in ("eye", "target"):
+            if name in given and needed not in given:
+                raise InputError(f"camera.{name} needs a camera.{needed}, too; without any, all is seen")
     projection = keys.choice("projection", PROJECTIONS, "perspective")
     orthographic = projection == "orthographic"
-    if orthographic and "fov" in given:
-        raise InputError(
-            "camera.fov is for the perspective projection; the orthographic one has half_height, in world units"
-        )
     with about("camera"):
         half_height = half_height_in(given, orthographic)
         view = view_of(given, width, height, orthographic)
@@ -177,10 +173,6 @@ def _camera(keys: Table, width: int, height: int, objects: list[Object]) -> tupl
                 raise InputError("an orthographic camera with an eye needs half_height, in world units")
             places = {name: given[name] for name in ("eye", "target", "up") if name in given}
             camera = Camera(**places, projection=projection)
-            if not camera.up.any():
-                raise InputError("up must not be (0, 0, 0)")
-            if np.array_equal(camera.eye, camera.target):
-                raise InputError("eye and target are the same point")
         else:
             points = [np.zeros((0 if objects else 1, 3)), *(thing.world_positions() for thing in objects)]
             camera = frame(np.concatenate(points), view)
@@ -189,22 +181,17 @@ def _camera(keys: Table, width: int, height: int, objects: list[Object]) -> tupl
 
 
 def _light(value: object, where: str) -> Light:
-    keys = Table(value, where, _LIGHT)
-    kind = keys.choice("kind", LIGHT_KINDS)
-    color = keys.color("color", WHITE)
-    vectors = {"directional": ("direction",), "point": ("position",), "spot": ("position", "direction")}[kind]
-    angles = ("inner_angle", "outer_angle") if kind == "spot" else ()
-    for name in ("position", "direction", "inner_angle", "outer_angle"):
-        if name in vectors and name not in keys:
+    kind = Table(value, where).choice("kind", LIGHT_KINDS)
+    vectors, angles = _LIGHT[kind]
+    keys = Table(value, where, ("kind", *vectors, "color", *angles, "shadow"))
+    for name in vectors:
+        if name not in keys:
             raise InputError(f"{where} must have a {name}, as its kind is {kind}")
-        if name in keys and name not in (*vectors, *angles):
-            raise InputError(f"{where} must have no {name}, as its kind is {kind}")
     place, *direction = (keys.numbers(name, (0, 0, 0)) for name in vectors)
     given: dict[str, Any] = {name: keys.number(name) for name in angles if name in keys}
-    if "shadow" in keys:
-        given["shadow"] = keys.flag("shadow")
+    given |= {"color": keys.color("color", WHITE), "shadow": keys.flag("shadow", False)}
     with about(where):
-        return Light(kind, place, color, *direction, **given)
+        return Light(kind, place, direction=direction[0] if direction else None, **given)
 
 
 def _objects(value: object, where: str, folder: Path | None) -> list[Object]:
@@ -220,7 +207,8 @@ def _objects(value: object, where: str, folder: Path | None) -> list[Object]:
     is_inside = isinstance(mesh := keys.get("mesh"), Mapping) and "piece" not in mesh
     if not is_inside or crease is not None:
         fields["shading"] = "flat"
-    texture = _texture(surface, folder) if "texture" in surface else None
+    if "texture" in surface:
+        fields["texture"] = _texture(surface, folder)
     position, scale = keys.numbers("position", (0, 0, 0)), keys.number("scale", 1)
     axis = keys.choice("up_axis", AXES, "y")
     if not isinstance(name := keys.get("mesh"), str):
@@ -235,11 +223,9 @@ def _objects(value: object, where: str, folder: Path | None) -> list[Object]:
     with about(where):
         objects = []
         for part in parts:
-            own_fields = {"opacity": part.opacity, "two_sided": part.two_sided}
             own = {name: part.material[name] for name in ("texture", "emission") if name in part.material}
-            given_texture = {} if texture is None else {"texture": texture}
-            material = Material(**(own | fields | given_texture))
-            thing = Object(part.mesh, position, rotation, scale, material, **(own_fields | given))
+            own_fields = {"opacity": part.opacity, "two_sided": part.two_sided}
+            thing = Object(part.mesh, position, rotation, scale, Material(**(own | fields)), **(own_fields | given))
             thing = shaded(thing, shading, crease, anew=crease is not None)
             objects.append(thing if color is None else painted_object(thing, color))
         return objects
@@ -247,6 +233,8 @@ def _objects(value: object, where: str, folder: Path | None) -> list[Object]:
 
 def _parts(keys: Table, where: str, folder: Path | None) -> list[MeshPart]:
     value = keys.get("mesh")
+    if folder is None and isinstance(value, Mapping) and "file" in value:  # one that was opened on the page
+        value = str(value["file"])
     if isinstance(value, str) and value:
         with about(keys.place("mesh")):
             return read_model(_beside(folder, value))
@@ -269,7 +257,7 @@ def _parts(keys: Table, where: str, folder: Path | None) -> list[MeshPart]:
 
 def _beside(folder: Path | None, name: str) -> Path:
     if folder is None:
-        raise InputError(f"a link cannot name files, such as {name!r:.60}")
+        raise InputError(f"a link cannot name files, such as {name!r:.60}; save a scene file in the Creator instead")
     return folder / name
 
 

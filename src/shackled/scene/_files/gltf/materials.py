@@ -9,7 +9,6 @@ from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 from ....checks import Color
 from ....errors import InputError, warn
@@ -19,17 +18,31 @@ from ..model import FileWrap, Picture, finite_uvs, is_transparent
 from ..table import Table
 from .document import Document, Vertices
 
+Array = NDArray[np.float64]
+
 #: Filters and wraps of samplers, by their numbers in OpenGL.
 _NEAREST = 9728
 _FILE_WRAPS: dict[int, FileWrap] = {10497: "repeat", 33071: "clamp", 33648: "mirror"}
 
 
-def picture_of(gltf: Document, texture: Table, has_alpha: bool = False) -> Picture | None:
+def _picture(gltf: Document, texture: Table, has_alpha: bool) -> Picture | None:
     """Return the image of a texture with its sampler; None, with a warning, if it cannot be had.
 
     has_alpha: whether its alpha counts.
     """
-    image = _image(gltf, texture)
+    webp = texture.table("extensions").table("EXT_texture_webp")
+    keys = webp if "source" in webp else texture
+    place = keys.place("source")
+    if place not in gltf.images:
+        gltf.images[place] = None
+        try:
+            source = gltf.item(keys, "source", "images")
+            data = gltf.view(gltf.item(source, "bufferView", "bufferViews")) if "bufferView" in source else None
+            file = io.BytesIO(gltf.resource(source) if data is None else data)
+            gltf.images[place] = open_image(file, source.where, as_rgba)
+        except InputError as error:
+            warn(f"{gltf.path}: a texture is left out: {error}")
+    image = gltf.images[place]
     if image is None:
         return None
     if not has_alpha or not is_transparent(image):
@@ -40,26 +53,7 @@ def picture_of(gltf: Document, texture: Table, has_alpha: bool = False) -> Pictu
     return Picture(image, f"{gltf.path}: {texture.where}", filter, (u, v))
 
 
-def _image(gltf: Document, texture: Table) -> Image.Image | None:
-    webp = texture.table("extensions").table("EXT_texture_webp")
-    keys = webp if "source" in webp else texture
-    if keys.place("source") not in gltf.images:
-        image = None
-        try:
-            source = gltf.item(keys, "source", "images")
-            data = gltf.view(gltf.item(source, "bufferView", "bufferViews")) if "bufferView" in source else None
-            file = io.BytesIO(gltf.resource(source) if data is None else data)
-            image = open_image(file, source.where, as_rgba)
-        except InputError as error:
-            warn(f"{gltf.path}: a texture is left out: {error}")
-        gltf.images[keys.place("source")] = image
-    return gltf.images[keys.place("source")]
-
-
-Array = NDArray[np.float64]
-
 _GLOSSINESS = "KHR_materials_pbrSpecularGlossiness"
-_ALPHA_MODES = ("OPAQUE", "MASK", "BLEND")
 
 
 @dataclass(frozen=True)
@@ -80,11 +74,6 @@ class Surface:
     is_two_sided: bool = False
     cutoff: float | None = None
     has_alpha: bool = False
-
-    @property
-    def is_hidden(self) -> bool:
-        """Whether nothing of it is seen: textures and colours of vertices only lower the alpha."""
-        return self.cutoff is not None and self.factor[3] < self.cutoff
 
 
 def surface_of(gltf: Document, primitive: Table) -> Surface | None:
@@ -109,8 +98,12 @@ def surface_of(gltf: Document, primitive: Table) -> Surface | None:
         elif emitted.any():
             gltf.leave_out("emissive texture", material.where)
         emitted = np.zeros(3)
-    _tell_of_textures(gltf, material, keys)
-    mode = material.choice("alphaMode", _ALPHA_MODES, "OPAQUE")
+    for key, name in (("normalTexture", "normal texture"), ("occlusionTexture", "occlusion texture")):
+        if key in material:
+            gltf.leave_out(name, material.where)
+    if "metallicRoughnessTexture" in keys or "specularGlossinessTexture" in keys:
+        gltf.leave_out("texture", material.where, "{} of roughness")
+    mode = material.choice("alphaMode", ("OPAQUE", "MASK", "BLEND"), "OPAQUE")
     cutoff = material.number("alphaCutoff", 0.5) if mode == "MASK" else None
     return Surface(
         color,
@@ -123,14 +116,6 @@ def surface_of(gltf: Document, primitive: Table) -> Surface | None:
         cutoff,
         mode == "BLEND" or (cutoff is not None and cutoff > 0),
     )
-
-
-def _tell_of_textures(gltf: Document, material: Table, keys: Table) -> None:
-    for key, name in (("normalTexture", "normal texture"), ("occlusionTexture", "occlusion texture")):
-        if key in material:
-            gltf.leave_out(name, material.where)
-    if "metallicRoughnessTexture" in keys or "specularGlossinessTexture" in keys:
-        gltf.leave_out("texture", material.where, "{} of roughness")
 
 
 def _gloss(keys: Table, is_older: bool) -> tuple[float, float] | None:
@@ -180,7 +165,7 @@ def picture_on(vertices: Vertices, surface: Surface | None, where: str) -> tuple
     transform = info.table("extensions").table("KHR_texture_transform")
     number = transform.whole("texCoord", info.whole("texCoord", 0))
     coordinates = vertices.values(f"TEXCOORD_{number}", "VEC2")
-    picture = picture_of(vertices.gltf, vertices.gltf.item(info, "index", "textures"), surface.has_alpha)
+    picture = _picture(vertices.gltf, vertices.gltf.item(info, "index", "textures"), surface.has_alpha)
     if picture is not None and surface.cutoff is not None and surface.has_alpha:
         # of the texture times the factor
         picture = replace(picture, cutoff=cutoff_of(surface.cutoff / max(surface.factor[3], 1e-9)))

@@ -15,7 +15,7 @@ from ....values import plural
 from ..._camera import Camera
 from ..._light import LIGHT_KINDS, MAX_LIGHTS, Light
 from ..._texture import to_srgb
-from ..table import Table, about
+from ..table import about
 from .document import Document
 from .nodes import Node
 from .read import nodes_of
@@ -58,24 +58,19 @@ def _camera(gltf: Document, nodes: Mapping[int, Node], name: str | int) -> Camer
 
 def _lights(gltf: Document, nodes: Mapping[int, Node], middle: NDArray[np.float64]) -> list[Light]:
     """Return the lights that are shown, the brightest first."""
-    declared = gltf.keys.table("extensions").table(_LIGHTS).rows("lights")
+    declared = gltf.keys.table("extensions").table(_LIGHTS).tables("lights")
     found: list[tuple[float, NDArray[np.float64], Light]] = []
     for node in nodes.values():
         keys = node.keys.table("extensions").table(_LIGHTS)
         if not node.is_shown or "light" not in keys:
             continue
-        if (number := keys.whole("light")) >= len(declared):
-            raise InputError(
-                f"{keys.place('light')} is {number}, but there are {len(declared)} lights, numbered from 0"
-            )
-        where, value = declared[number]
-        light = Table(value, where)
+        light = declared[keys.index("light", len(declared), "lights")]
         kind = light.choice("type", LIGHT_KINDS)
         place, back = node.matrix[:3, 3], _unit(node.matrix[:3, 2])
         strength = light.number("intensity", 1)
         if kind != "directional":
             strength /= max(float(np.sum((place - middle) ** 2)), 1e-12)
-        with about(where):
+        with about(light.where):
             if kind == "directional":
                 made = Light.directional(toward=back)
             elif kind == "point":
