@@ -13,73 +13,14 @@ import numpy as np
 import pytest
 import trimesh
 from numpy.typing import NDArray
-from PIL import Image
 
-from mesh_files import Gltf, png
+from mesh_files import POINTS
+from mesh_files import GltfObject as File
 from shackled import load
 from shackled.errors import InputError, InputWarning
 from shackled.scene import MeshPart, part_of, read_model
 
 Values = NDArray[Any]
-
-#: A triangle whose corners all differ, and its normals.
-POINTS = np.array([[0, 0, 0], [2, 0, 0], [0, 1, 0.5]], dtype="f4")
-NORMAL = np.array([[0, 0, 1]] * 3, dtype="f4")
-
-
-class File(Gltf):
-    """A document with one triangle on one node."""
-
-    def __init__(self) -> None:
-        super().__init__(nodes=[{"mesh": 0}], scenes=[{"nodes": [0]}])
-        del self.document["scene"]
-        self.primitive: dict[str, Any] = {"attributes": {"POSITION": self.rows(POINTS)}}
-        self.document["meshes"] = [{"primitives": [self.primitive]}]
-
-    @property
-    def node(self) -> dict[str, Any]:
-        node: dict[str, Any] = self.document["nodes"][0]
-        return node
-
-    def rows(self, values: Any, kind: str = "f4", **more: Any) -> int:
-        array: Values = np.asarray(values, dtype=kind)
-        array = array[:, None] if array.ndim == 1 else array.reshape(len(array), math.prod(array.shape[1:]))
-        return self.accessor(array, **more)
-
-    def material(self, **values: Any) -> None:
-        self.document["materials"] = [values]
-        self.primitive["material"] = 0
-
-    def texture(self, pixels: Any, mode: str) -> dict[str, int]:
-        image = Image.fromarray(np.asarray(pixels, dtype=np.uint8), mode)
-        self.document["images"] = [{"bufferView": self.view(png(image)), "mimeType": "image/png"}]
-        self.document["textures"] = [{"source": 0}]
-        self.primitive["attributes"]["TEXCOORD_0"] = self.rows([[0, 0], [1, 0], [0, 1]])
-        return {"index": 0}
-
-    def skin(self, joints: list[dict[str, Any]], bindings: Any = None, used: Any = None, weights: Any = None) -> None:
-        """Joints of the document, in the scene, on which the vertices hang: by default each on the first one."""
-        numbers = [len(self.document["nodes"]) + number for number in range(len(joints))]
-        self.document["nodes"] += joints
-        self.document["scenes"][0]["nodes"] += numbers
-        self.node["skin"] = 0
-        self.document["skins"] = [{"joints": numbers}]
-        if bindings is not None:
-            columns = np.asarray(bindings).transpose(0, 2, 1)
-            self.document["skins"][0]["inverseBindMatrices"] = self.rows(columns)
-        self.primitive["attributes"] |= {
-            "JOINTS_0": self.rows([[0, 0, 0, 0]] * 3 if used is None else used, "u1"),
-            "WEIGHTS_0": self.rows([[1, 0, 0, 0]] * 3 if weights is None else weights),
-        }
-
-    def animation(self, path: str, times: Any, values: Any, node: int = 0, name: str = "Move", **sampler: Any) -> None:
-        part = {"input": self.rows(times), "output": self.rows(values), **sampler}
-        channel = {"sampler": 0, "target": {"node": node, "path": path}}
-        animation = {"name": name, "samplers": [part], "channels": [channel]}
-        self.document.setdefault("animations", []).append(animation)
-
-    def write(self, folder: Path) -> Path:
-        return self.gltf(folder / "model.gltf")
 
 
 def read(file: File, folder: Path, *notes: str, **pose: Any) -> list[MeshPart]:
@@ -166,7 +107,7 @@ def test_more_than_four_joints_and_normals(tmp_path: Path) -> None:
 
 def test_joints_that_mirror_leave_the_outside_outside(tmp_path: Path) -> None:
     file = File()
-    file.primitive["attributes"]["NORMAL"] = file.rows(NORMAL)
+    file.primitive["attributes"]["NORMAL"] = file.rows([[0, 0, 1]] * 3)
     file.skin([{"scale": [-1, 1, 1]}])
     a, b, c = corners(file, tmp_path)[0]
     assert np.cross(b - a, c - a)[2] > 0
@@ -198,7 +139,7 @@ def test_broken_skins(tmp_path: Path) -> None:
 
 def test_weights_of_the_node_come_before_those_of_the_mesh(tmp_path: Path) -> None:
     file = File()
-    file.primitive["attributes"]["NORMAL"] = file.rows(NORMAL)
+    file.primitive["attributes"]["NORMAL"] = file.rows([[0, 0, 1]] * 3)
     moves = np.array([[0, 0, 1], [0, 2, 0], [3, 0, 0]], dtype="f4")
     # one vertex only, in a sparse accessor without any other data
     sparse = {
