@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import struct
 import warnings
 from pathlib import Path
@@ -163,6 +164,24 @@ def test_triangles_without_area(tmp_path: Path, extension: str) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert read_mesh(path).triangles == 3
+
+
+#: An arrow head, from a corner that does not see all of it.
+ARROW = "0 2 0\n-1 0 0\n0 1 0\n1 0 0\n"
+CONCAVE = {
+    "obj": re.sub("(?m)^", "v ", ARROW.strip()) + "\nf 2 3 4 1\n",
+    "ply": ply().decode().partition("end_header")[0] + f"end_header\n{ARROW}4 1 2 3 0\n",
+    "off": f"OFF\n4 1 0\n{ARROW}4 1 2 3 0\n",
+}
+
+
+@pytest.mark.parametrize("extension", CONCAVE)
+def test_a_concave_polygon_is_filled_as_it_is(tmp_path: Path, extension: str) -> None:
+    path = tmp_path / f"arrow.{extension}"
+    path.write_text(CONCAVE[extension])
+    mesh = read_mesh(path)
+    a, b, c = np.moveaxis(mesh.positions[mesh.faces], 1, 0)
+    assert sorted((np.cross(b - a, c - a)[:, 2] / 2).tolist()) == [0.5, 0.5]
 
 
 @pytest.mark.parametrize("size", [1e-300, 1e-9, 1, 1e9, 1.5e308])
