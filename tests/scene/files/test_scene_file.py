@@ -6,11 +6,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from shackled import Background, Camera, Fog, Light, Material, Mesh, Object, Rim, Scene, Tone, load
+from shackled import Background, Fog, Light, Material, Rim, Scene, Tone, load
 from shackled.errors import InputError
 from shackled.scene import Hemisphere, rotate
 from shackled.scene._camera import DEFAULT_HALF_HEIGHT
-from shackled.scene._files.written import write_scene
 from shackled.scene._staging import BACKGROUND
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -122,37 +121,6 @@ def test_every_key_in_toml(folder: Path) -> None:
 def test_json_has_the_same_keys(folder: Path) -> None:
     (folder / "scene.toml").write_text(TOML)
     assert load(folder / "scene.toml") == scene_of(folder, **tomllib.loads(TOML))
-
-
-def test_what_is_written_loads_as_the_same(tmp_path: Path) -> None:
-    mesh = Mesh(np.array([[0, 0, 0], [1 / 3, 0, 0], [0, 1e-9, 1e9]]), [[0, 1, 2]], [[1, 2, 3], [4, 5, 6], [7, 8, 9]])
-    smooth = Mesh(mesh.positions, mesh.faces, mesh.colors, [[0, 0, 1], [0, 1, 0], [1, 0, 0]])
-    scene = Scene(
-        [
-            Object(mesh, (1, 2, 3), (0.1, 0.2, 0.3, 0.4), 0.7, Material("unlit"), False, True, 0.125),
-            Object(smooth, material=Material("smooth", 1, 2, 3, 4)),
-        ],
-        Camera((1, 2, 3), (4, 5, 6), (0, 0, 1), "orthographic", 12.5, -3),
-        [
-            Light("point", (1, 2, 3), (4, 5, 6)),
-            Light("directional", (1, 0, 0)),
-            Light("spot", (1, 2, 3), (4, 5, 6), (0, 0, 1), 7, 8),
-        ],
-        Background((1, 2, 3), (4, 5, 6)),
-        (10, 20, 30),
-        True,
-        17,
-        19,
-        True,
-        Hemisphere("red"),
-        Rim("green", 16),
-        Fog("blue", 0, 1e-9),
-        Tone(0, True),
-    )
-    write_scene(scene, tmp_path / "scene.json")
-    assert load(tmp_path / "scene.json") == scene
-    write_scene(Scene([]), tmp_path / "empty.json")
-    assert load(tmp_path / "empty.json") == Scene([])
 
 
 def test_defaults_show_all_that_is_there(folder: Path) -> None:
