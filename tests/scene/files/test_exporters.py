@@ -113,8 +113,7 @@ CASES = {
     "options before a name with spaces": board("map_Kd -blendu on -blendv off -cc off -clamp ON -bm 0.5 -mm 0 1"
         " -boost 2 -imfchan r -texres 512 -type sphere -o 0 0 0 2 my wood.png", "2 my wood.png", wrap="clamp"),
     "options that are not drawn": board(
-        "map_Kd -mm 0.5 2 -t 0 0 0 -what 1 on wood.png",
-        notes=("1 -mm statement of its materials left out", "1 -what statement of its materials left out"),
+        "map_Kd -mm 0.5 2 -t 0 0 0 wood.png", notes=("1 -mm statement of its materials left out",)
     ),
     "a name like an option": board("map_Kd my -s.png", "my -s.png"),
     "other images": board(

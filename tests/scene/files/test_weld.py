@@ -12,7 +12,7 @@ def test_equal_positions_become_one_vertex() -> None:
     mesh = weld([*SQUARE, *SQUARE, [9, 9, 9]], [[0, 1, 2], [4, 6, 7]])
     assert mesh.positions.tolist() == SQUARE
     assert mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3]]
-    points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-0.0, 0.0, -0.0], [0, 1, 0], [-1, 0, 0]]
+    points: list[list[float]] = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-0.0, 0.0, -0.0], [0, 1, 0], [-1, 0, 0]]
     assert len(weld(points, [[0, 1, 2], [3, 4, 5]]).positions) == 4
 
 

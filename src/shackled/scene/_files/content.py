@@ -16,7 +16,7 @@ from ...untrusted import read_json, read_toml
 MAX_BYTES = 256 * 2**20
 
 #: Numbers that are none, as programs of Windows write them.
-_NAN = re.compile(r"(?<!\S)-?(1\.#(IND|INF|QNAN|SNAN)\d*|nan\(\w*\))(?!\S)", re.IGNORECASE)
+_NAN = re.compile(r"(?<!\S)[-+]?(1\.#(IND|INF|QNAN|SNAN)\d*|nan\(\w*\))(?!\S)", re.IGNORECASE)
 
 _AT_ONCE = getattr(os, "O_NONBLOCK", 0)
 
@@ -53,10 +53,7 @@ def read_text(path: Path) -> str:
 
 
 def plain_text(data: bytes) -> str:
-    """Return the text in bytes, with line ends of Unix, and with nan for what Windows writes for it, such as -1.#IND.
-
-    What is not UTF-8, as in old files, is taken as the code page of Windows.
-    """
+    """Return text, UTF-8 or else of the code page of Windows, with line ends of Unix, and nan for what is -1.#IND."""
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:

@@ -53,10 +53,7 @@ class MeshPart:
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """An image of a file, and how it is to be sampled. name: for messages, with the path of the file.
-
-    image: RGB, or RGBA if its alpha counts. wraps: along u and v. cutoff: of a `Texture`.
-    """
+    """An image, RGB, or RGBA if its alpha counts, and how it is sampled. name: for messages, with the path."""
 
     image: Image.Image
     name: str
@@ -70,10 +67,7 @@ class Picture:
         return self.image.mode == "RGBA" or any(np.ptp(np.asarray(self.image), axis=(0, 1)))
 
     def is_plain(self, uvs: Array) -> bool:
-        """Return whether every triangle shows one colour only, as where colours are kept in a palette image.
-
-        uvs: of corners, (m, 3, 2). Triangles that reach beyond the image do not count as plain.
-        """
+        """Return whether each triangle, (m, 3, 2), is within the image and shows one colour, as of a palette."""
         if self.image.mode == "RGBA":
             return False
         pixels = np.asarray(self.image).astype(np.int64)
@@ -97,10 +91,7 @@ class Picture:
         return not (across + down).any()
 
     def texture(self, uvs: Array, count: int) -> tuple[Texture, Array]:
-        """Return the texture, and the coordinates of corners, (m, 3, 2), on it.
-
-        uvs: of corners, (m, 3, 2), finite. count: how many textures the file has. An InputWarning tells what changes.
-        """
+        """Return the texture of a file with so many, and where corners, (m, 3, 2), are on it; warn of what changes."""
         image, uvs = self.image, uvs.copy()
         outside = [bool((axis < -_ROUNDING).any() or (axis > 1 + _ROUNDING).any()) for axis in np.moveaxis(uvs, 2, 0)]
         wraps: list[Wrap] = []
@@ -143,8 +134,7 @@ def split(
 ) -> list[MeshPart]:
     """Return the triangles as meshes, one for each look that some of them have.
 
-    corners: (m, 3), rows of `positions`. colors, normals, uvs: of corners. look: (m,), the place in `looks` of that of
-    each triangle.
+    corners: (m, 3), rows of `positions`. colors, normals, uvs: of corners. look: (m,), places in `looks`.
     """
     textures = len({each.picture for each in looks if each.picture is not None})
     parts = []
@@ -161,9 +151,8 @@ def split(
 
 
 def under(picture: Picture, uvs: Array, colors: Array) -> tuple[Array, bool]:
-    """Return the colours of corners, (m, 3, n), that show a picture, and whether they need it as a texture.
-
-    They are white; or those of the picture, where each triangle shows one colour of it.
+    """Return white for the corners of triangles, (m, 3, n), or their colours on a picture of which each shows only one;
+    and whether they need the picture as a texture.
     """
     shown = np.array(colors, dtype=np.float64)
     shown[..., :3] = 255
@@ -200,10 +189,7 @@ def finite_uvs(uvs: ArrayLike, name: str) -> Array:
 
 
 def given_normals(normals: Array | None, positions: Array, corners: NDArray[np.int64], name: str) -> Array | None:
-    """Return the normals of corners, (m, 3, 3), from those of vertices, (n, 3); None if there are none.
-
-    Zeros, and normals that are not finite, of which an InputWarning tells, are replaced by computed ones.
-    """
+    """Return normals of corners, (m, 3, 3), of those of vertices, (n, 3): computed where these are 0 or not finite."""
     if normals is None:
         return None
     bad = np.asarray(~np.isfinite(normals).all(axis=1))

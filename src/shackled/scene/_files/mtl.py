@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -21,8 +22,6 @@ _OPTION = re.compile(
     r"|(bm|boost|texres|imfchan|type)\s+(\S+))(?!\S)",
     re.IGNORECASE,
 )
-#: An option that is in no specification, before the name.
-_OTHER_OPTION = re.compile(rf"-[A-Za-z_]+(?:\s+(?:on|off|{_NUMBER}))*\s+", re.IGNORECASE)
 #: The values without effect of options that are not drawn. Of the others, any: there are neither mipmaps nor bumps.
 _DEFAULTS = {"t": (0.0, 0.0, 0.0), "mm": (0.0, 1.0)}
 
@@ -111,7 +110,9 @@ def _parse(folders: tuple[Path, ...], text: str) -> dict[str, ObjMaterial]:
             material, given = ObjMaterial(), set()
             materials[material_name(line)] = material
         elif key in ("kd", "ke", "d", "tr"):
-            values = _numbers(words[words[:1] == ["-halo"] :])
+            values = []
+            with suppress(ValueError):
+                values = [float(word) for word in words[words[:1] == ["-halo"] :]]
             if len(values) not in (1, 3, 4) or not np.isfinite(values).all():
                 material.left_out.add(keyword)
             elif key == "kd":
@@ -134,14 +135,6 @@ def _parse(folders: tuple[Path, ...], text: str) -> dict[str, ObjMaterial]:
     return materials
 
 
-def _numbers(words: Sequence[str]) -> list[float]:
-    """Return numbers; none if one of the words is something else."""
-    try:
-        return [float(word) for word in words]
-    except ValueError:
-        return []
-
-
 def _map(
     material: ObjMaterial, folders: tuple[Path, ...], text: str
 ) -> tuple[Map | None, Sequence[float], Sequence[float]]:
@@ -150,7 +143,7 @@ def _map(
     scale: Sequence[float] = (1.0, 1.0)
     offset: Sequence[float] = (0.0, 0.0)
     for several, numbers, switch, state, *_ in _OPTION.findall(text):
-        option, values = (several or switch).lower(), tuple(_numbers(numbers.split()))
+        option, values = (several or switch).lower(), tuple(map(float, numbers.split()))
         if option == "s":
             scale = (values[0], *values[1:2], 1.0)[:2]
         elif option == "o":
@@ -160,7 +153,4 @@ def _map(
         elif option in _DEFAULTS and values != _DEFAULTS[option][: len(values)]:
             material.left_out.add(f"-{option}")
     name = _OPTION.sub(" ", text).strip()
-    while other := _OTHER_OPTION.match(name):
-        material.left_out.add(other[0].split()[0])
-        name = name[other.end() :]
     return Map(unquoted(name), folders, wrap) if name else None, scale, offset

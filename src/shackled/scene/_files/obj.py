@@ -7,7 +7,6 @@ vertex has.
 from __future__ import annotations
 
 import io
-import math
 import re
 from array import array
 from collections import Counter
@@ -35,10 +34,6 @@ Ints = NDArray[np.int64]
 
 ABSENT = -1
 
-#: A comment behind numbers, of which one may be -1.#IND.
-_COMMENT = re.compile(r"#(?!IND|INF|[QS]NAN)")
-#: What C libraries of Windows write in place of a number, and Python does not read.
-_NO_NUMBER = re.compile(r"[-+]?(?:1\.#\w+|nan\(\w*\))", re.IGNORECASE)
 #: Lines whose backslash at the end belongs to a comment or a name.
 _OF_NAMES = re.compile(r"\s*(?:#|(?:usemtl|mtllib|g|o)\s.*\S\\\s*$)")
 #: ZBrush's colours of vertices, in comments: mask, red, green and blue, two hexadecimal digits each.
@@ -68,13 +63,13 @@ class _Lines:
     def __init__(self, path: Path) -> None:
         self.path = path
         self.positions, self.texcoords, self.normals = array("d"), array("d"), array("d")
-        self.vertex_colors: dict[int, list[float]] = {}
+        self.vertex_colors = dict[int, list[float]]()
         self.polypaint = bytearray()
         self.corners, self.faces = array("q"), array("q")
-        self.material_numbers: dict[str, int] = {"": 0}
-        self.materials: dict[str, ObjMaterial] = {}
+        self.material_numbers = {"": 0}
+        self.materials = dict[str, ObjMaterial]()
         self.has_library = False
-        self.left_out: Counter[str] = Counter()
+        self.left_out = Counter[str]()
 
 
 class _Drawn(NamedTuple):
@@ -95,7 +90,7 @@ def _read_lines(path: Path) -> _Lines:
     for number, line in lines:
         while "\\" in line and line.rstrip().endswith("\\") and not _OF_NAMES.match(line):
             line = line.rstrip()[:-1] + " " + next(lines, (0, ""))[1]
-        words = (_COMMENT.split(line)[0] if "#" in line else line).split()
+        words = line.partition("#")[0].split()
         if not words:
             if line.startswith(_POLYPAINT):
                 with suppress(ValueError):  # else a comment after all
@@ -131,11 +126,8 @@ def _read_lines(path: Path) -> _Lines:
 
 
 def _numbers(words: list[str], least: int) -> list[float]:
-    """Return the numbers behind a keyword, NaN for those that are none. ValueError for other words, or too few."""
-    try:
-        values = [float(word) for word in words[1:]]
-    except ValueError:
-        values = [math.nan if _NO_NUMBER.fullmatch(word) else float(word) for word in words[1:]]
+    """Return the numbers behind a keyword. ValueError for other words, or too few."""
+    values = [float(word) for word in words[1:]]
     if len(values) < least:
         raise ValueError
     return values
@@ -151,10 +143,7 @@ def _add_corners(obj: _Lines, corners: list[str]) -> None:
 
 
 def _number(word: str, count: int) -> int:
-    """Return the number of a vertex from 0; files count from 1, or back from the latest with -1.
-
-    A number out of range becomes `count` or more.
-    """
+    """Return a number from 0, `count` or more if it is out of range; files count from 1, or from -1 backward."""
     number = int(word)
     if number > 0:
         return number - 1

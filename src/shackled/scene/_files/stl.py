@@ -72,12 +72,9 @@ def _binary(path: Path, data: bytes) -> tuple[Array, Array | None]:
 
 
 def _colors(path: Path, header: bytes, attributes: NDArray[np.int64]) -> Array | None:
-    """Return the colours of facets, 0..255 with alpha, (n, 1, 4); None if there are none.
-
-    An attribute has five bits for each of red, green and blue. Its highest bit says in Magics that the facet has the
-    colour of the header, in the other programs that it has one of its own. Many programs write the colour of the header
-    only, and 0 as all attributes.
-    """
+    """Return the colours of facets, 0..255 with alpha, (n, 1, 4); None if there are none."""
+    # five bits for each of red, green and blue; the highest one says in Magics that the facet has the colour of the
+    # header, else that it has its own. Many programs write the colour of the header only, and 0 as all attributes
     own = attributes >= 1 << 15
     default = np.array([*DEFAULT_COLOR, 255])
     shifts = [10, 5, 0]

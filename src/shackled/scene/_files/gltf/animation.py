@@ -22,10 +22,7 @@ _NEAR = 0.9995
 
 
 def posed(gltf: Document, nodes: Sequence[Table], animation: str | int, time: float) -> list[Table]:
-    """Return the nodes as an animation, by its name or number, puts them at a time in seconds.
-
-    Before its first keyframe, and after its last one, they are as there.
-    """
+    """Return the nodes where an animation puts them at a time in seconds, as at its nearest end outside of it."""
     keys = gltf.named(animation, "animations", "animation")
     samplers = keys.tables("samplers")
     moved: list[dict[str, Any]] = [dict(node.values) for node in nodes]

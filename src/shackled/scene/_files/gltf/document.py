@@ -39,11 +39,7 @@ _SURFACES = "KHR_materials_"
 
 
 class Document:
-    """A document, and what its parts refer to.
-
-    decoded: the elements of accessors that are compressed, by their places. images: likewise, RGBA; None for those that
-    cannot be read.
-    """
+    """A document, and what it refers to. decoded: elements of compressed accessors, by their places; images: RGBA."""
 
     def __init__(self, path: Path) -> None:
         """Read a file. InputError for what asks for another reader."""
@@ -80,10 +76,7 @@ class Document:
         self._extensions |= set(extensions) - _KNOWN
 
     def leave_out(self, what: str, where: str, sentence: str = "{}") -> None:
-        """Keep, for a note, that something at a place in the document is left out.
-
-        what: a noun, which gets its count. sentence: around it.
-        """
+        """Keep, for a note, that something at a place is left out. what: a noun; sentence: around its count."""
         self._left_out.setdefault((what, sentence), set()).add(where)
 
     def left_out(self) -> list[str]:

@@ -26,10 +26,7 @@ _FILE_WRAPS: dict[int, FileWrap] = {10497: "repeat", 33071: "clamp", 33648: "mir
 
 
 def _picture(gltf: Document, texture: Table, has_alpha: bool) -> Picture | None:
-    """Return the image of a texture with its sampler; None, with a warning, if it cannot be had.
-
-    has_alpha: whether its alpha counts.
-    """
+    """Return a texture; None, with a warning, if its image cannot be had. has_alpha: whether its alpha counts."""
     webp = texture.table("extensions").table("EXT_texture_webp")
     keys = webp if "source" in webp else texture
     place = keys.place("source")
@@ -119,10 +116,8 @@ def surface_of(gltf: Document, primitive: Table) -> Surface | None:
 
 
 def _gloss(keys: Table, is_older: bool) -> tuple[float, float] | None:
-    """Return roughness and metalness.
-
-    A roughness by texture is not read, and one that is left out, of 1 by the specification, is often not meant.
-    """
+    """Return roughness and metalness, if they are told without a texture."""
+    # a roughness that is left out, of 1 by the specification, is often not meant
     if is_older:
         return None if "specularGlossinessTexture" in keys else (1 - keys.number("glossinessFactor", 1), 0.0)
     if "roughnessFactor" not in keys or "metallicRoughnessTexture" in keys:
@@ -131,11 +126,7 @@ def _gloss(keys: Table, is_older: bool) -> tuple[float, float] | None:
 
 
 def colors_of(vertices: Vertices, surface: Surface | None, where: str) -> tuple[Array, float]:
-    """Return the colours of vertices with alpha, (n, 4), 0..255, without those of a texture; and the opacity of the
-    material.
-
-    Only materials that are blended have either.
-    """
+    """Return colours of vertices with alpha, (n, 4), 0..255, without a texture's; and the opacity of the material."""
     vertex_colors = vertices.values("COLOR_0", "VEC3", "VEC4")
     if surface is None and vertex_colors is None:
         return np.full((len(vertices.used), 4), (*DEFAULT_COLOR, 255), dtype=np.float64), 1.0

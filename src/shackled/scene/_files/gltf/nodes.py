@@ -120,10 +120,7 @@ def morphed(vertices: Vertices, primitive: Table, weights: Array, name: str, val
 
 
 def skinned(vertices: Vertices, node: Table, nodes: Mapping[int, Node]) -> Array | None:
-    """Return the matrix, (n, 4, 4), that puts each vertex into the world; None without a skin.
-
-    It is the mean of those of the joints. The place of the node itself has no effect then, says glTF.
-    """
+    """Return the mean of the matrices of joints, (n, 4, 4), that puts vertices into the world; None without a skin."""
     if "skin" not in node or "JOINTS_0" not in vertices.attributes:
         return None
     gltf = vertices.gltf
