@@ -127,7 +127,7 @@ def locate(input: str | os.PathLike[str]) -> Path | Piece | Link:
 
 
 def _unplaced(part: MeshPart, up: Axis = "y") -> Object:
-    """Return a part of a model as an object, which `look_at` is to place. up: the axis that points up."""
+    """Return a part of a model, of which an axis points up, as an object that `look_at` is to place."""
     material = evolve(MESH_STAGING.material, **part.material)
     return Object(part.mesh, (0, 0, 0), upright(up), material=material, opacity=part.opacity, two_sided=part.two_sided)
 
@@ -142,13 +142,9 @@ def _model(path: Path, look: Mapping[str, Any], **pose: Any) -> list[Object]:
 def _in_their_places(parts: list[Object], name: str) -> Scene:
     """Return parts of a model, shaded as when they are staged, but in their own places. name: for notes."""
     staged = look_at(parts, {}, name=name)
-    return evolve(
-        staged,
-        objects=[
-            evolve(each, position=(0, 0, 0), rotation=part.rotation, scale=1)
-            for each, part in zip(staged.objects, parts, strict=True)
-        ],
-    )
+    pairs = zip(staged.objects, parts, strict=True)
+    back = [evolve(each, position=(0, 0, 0), rotation=part.rotation, scale=1) for each, part in pairs]
+    return evolve(staged, objects=back)
 
 
 def pose_of(look: dict[str, Any]) -> dict[str, Any]:
@@ -176,7 +172,9 @@ def _made(thing: Any, look: Mapping[str, Any]) -> Mesh | list[Object] | Scene:
     if isinstance(thing, Link):
         return thing.scene()
     if isinstance(thing, Piece):
-        return _in_default_look(thing)
+        scene, side = thing.make(), MESH_STAGING.side
+        # each scene of the showcase has its own look; other pieces have that of mesh files
+        return evolve(scene, width=side, height=side, antialias=True) if thing.dataset in DATASETS else scene
     if isinstance(thing, Object):
         return _staged([thing], look)
     if is_trimesh(thing):
@@ -191,13 +189,6 @@ def _made(thing: Any, look: Mapping[str, Any]) -> Mesh | list[Object] | Scene:
         "a path, the name of a piece, a Mesh, (vertices, faces), a Scene or a mesh of trimesh is needed, not "
         f"{thing!r:.60}"
     )
-
-
-def _in_default_look(piece: Piece) -> Scene:
-    """Return the scene of a piece with the size and the antialiasing of mesh files."""
-    side, scene = MESH_STAGING.side, piece.make()
-    # each scene of the showcase has its own
-    return evolve(scene, width=side, height=side, antialias=True) if piece.dataset in DATASETS else scene
 
 
 def _is_input(thing: Any) -> bool:
@@ -242,12 +233,10 @@ def _combined(things: Sequence[Any], look: Mapping[str, Any]) -> list[Object] | 
         _stand_in_a_row(objects, pieces)
     if not scenes:
         return _staged(objects, look)
-    differ = [
-        each.name
-        for each in fields(Scene)
-        if any(getattr(other, each.name) != getattr(scenes[0], each.name) for other in scenes[1:])
-        and each.name not in ("objects", *(("width", "height") if "size" in look else ()))
-    ]
+    names = [each.name for each in fields(Scene) if each.name != "objects"]
+    if "size" in look:
+        names = [name for name in names if name not in ("width", "height")]
+    differ = [name for name in names if any(getattr(other, name) != getattr(scenes[0], name) for other in scenes)]
     if differ:
         raise InputError(
             f"the scenes of the list differ in {', '.join(differ)}: give a list of their objects, [*one.objects, "

@@ -67,7 +67,7 @@ def test_crease(tmp_path: Path, mesh: dict[str, Any]) -> None:
         ({"objects": [{"mesh": {"piece": "teapott"}}]}, r"mesh.piece: there is no piece 'teapott'; did you mean"),
         ({"objects": [{"mesh": {"piece": "../a.obj"}}]}, "there is no piece"),
         ({"objects": [{"mesh": {"piece": 3}}]}, r"objects\[0\].mesh.piece must be the name of a piece, not 3"),
-        ({"objects": [{"mesh": {**TEAPOT, "object": 1}}]}, r"mesh.object must be from 0 to 0 for teapot, not 1"),
+        ({"objects": [{"mesh": {**TEAPOT, "object": 1}}]}, r"mesh.object is 1, but there are 1 objects"),
         ({"objects": [{"mesh": {**TEAPOT, "faces": []}}]}, r"unknown key 'faces' in objects\[0\].mesh"),
         ({"objects": [{"mesh": TEAPOT, "crease": 181}]}, r"objects\[0\].crease must be a finite number from 0 to 180"),
     ],

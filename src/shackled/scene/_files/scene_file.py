@@ -9,6 +9,7 @@ import base64
 import math
 import os
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +29,7 @@ from .._look import view_of
 from .._mesh import Mesh
 from .._object import Material, Object
 from .._scene import Scene
-from .._settings import Kind, Part, Setting, exclude, settings_of
+from .._settings import Kind, Part, exclude, settings_of
 from .._staging import BACKGROUND, DEFAULT_SIDE, Viewpoint, frame, key_light, painted_object
 from .._texture import FILTERS, WRAPS, Texture
 from .._upright import AXES, axis_of_file, upright
@@ -42,6 +43,7 @@ from .written import MESH, keys_of
 
 SCENES = (".toml", ".json")
 
+_Read = Callable[[Table, str], Any]
 
 #: `creator`: a table of the Creator, which has no effect here.
 _SCENE = keys_of("scene", "size", "camera", "objects", "tone", "creator")
@@ -96,9 +98,9 @@ def scene_of(document: Mapping[str, Any], folder: Path | None) -> Scene:
 def _settings(keys: Table, part: Part) -> dict[str, Any]:
     """Return the settings of a part of a scene that a table has."""
     return {
-        setting.name: setting.check(_READ[setting.kind](keys, setting), keys.place(setting.name))
-        for setting in settings_of(part)
-        if setting.name in keys
+        each.name: each.check(_READ[each.kind](keys, each.name), keys.place(each.name))
+        for each in settings_of(part)
+        if each.name in keys
     }
 
 
@@ -112,47 +114,42 @@ def _size(table: Table) -> tuple[int, int]:
     return sides[0], sides[1]
 
 
-def _background(keys: Table, setting: Setting) -> Background:
-    value = keys.get(setting.name)
-    return _effect(keys, setting) if isinstance(value, Mapping) else Background(keys.color(setting.name))
+def _background(keys: Table, name: str) -> Any:
+    is_table = isinstance(keys.get(name), Mapping)
+    return _effect(Background, keys, name, top=Table.color, bottom=Table.color) if is_table else keys.color(name)
 
 
-def _effect(keys: Table, setting: Setting) -> Any:
+def _effect(kind: type[Any], keys: Table, name: str, **reads: _Read) -> Any:
     """Return what a table has the fields of; those that it must have are those without a default."""
-    kind, reads = _EFFECTS[setting.kind]
-    inside = keys.table(setting.name, tuple(reads))
+    inside = keys.table(name, tuple(reads))
     needed = {each.name for each in fields(kind) if each.default is NOTHING}
     given = {name: read(inside, name) for name, read in reads.items() if name in inside or name in needed}
     with about(inside.where):
         return kind(**given)
 
 
-#: The classes of what is given as a table, and how their fields are read.
-_EFFECTS: dict[Kind, tuple[Any, dict[str, Callable[[Table, str], Any]]]] = {
-    "background": (Background, {"top": Table.color, "bottom": Table.color}),
-    "hemisphere": (Hemisphere, {"sky": Table.color, "ground": Table.color}),
-    "rim": (Rim, {"color": Table.color, "power": Table.whole}),
-    "fog": (Fog, {"color": Table.color, "near": Table.number, "far": Table.number}),
-    "ground": (
-        Ground,
-        {
-            "color": Table.color,
-            **dict.fromkeys(("height", "radius", "inner"), Table.number),
-            "center": lambda keys, name: keys.numbers(name, (0, 0)),
-        },
-    ),
-}
-#: How the values of kinds are read, besides the range.
-_READ: dict[Kind, Callable[[Table, Setting], Any]] = {
-    "whole": lambda keys, setting: keys.whole(setting.name),
-    "number": lambda keys, setting: keys.number(setting.name),
-    "vector": lambda keys, setting: keys.numbers(setting.name, (0, 0, 0)),
-    "flag": lambda keys, setting: keys.flag(setting.name),
-    "color": lambda keys, setting: keys.color(setting.name),
+#: How the values of kinds are read, besides their ranges and choices.
+_READ: dict[Kind, _Read] = {
+    "whole": Table.whole,
+    "number": Table.number,
+    "vector": lambda keys, name: keys.numbers(name, (0, 0, 0)),
+    "flag": Table.flag,
+    "color": Table.color,
+    "choice": Table.get,
+    "lights": lambda keys, name: [_light(part, where) for where, part in keys.rows(name)],
     "background": _background,
-    "choice": lambda keys, setting: keys.choice(setting.name, setting.choices),
-    "lights": lambda keys, setting: [_light(part, where) for where, part in keys.rows(setting.name)],
-    **dict.fromkeys(("hemisphere", "rim", "fog", "ground"), _effect),
+    "hemisphere": partial(_effect, Hemisphere, sky=Table.color, ground=Table.color),
+    "rim": partial(_effect, Rim, color=Table.color, power=Table.whole),
+    "fog": partial(_effect, Fog, color=Table.color, near=Table.number, far=Table.number),
+    "ground": partial(
+        _effect,
+        Ground,
+        color=Table.color,
+        height=Table.number,
+        radius=Table.number,
+        inner=Table.number,
+        center=lambda keys, name: keys.numbers(name, (0, 0)),
+    ),
 }
 
 
@@ -243,11 +240,13 @@ def _parts(keys: Table, where: str, folder: Path | None) -> list[MeshPart]:
     if isinstance(value, Mapping) and "piece" in value:
         return [MeshPart(_mesh_of_piece(keys.table("mesh", _PIECE)))]
     inside = keys.table("mesh", MESH)
+    # with alpha if the first row has one
+    has_alpha = any(isinstance(row, list) and len(row) == 4 for _, row in inside.rows("colors")[:1])
     with about(inside.where):
         mesh = Mesh(
             inside.matrix("positions"),
             inside.matrix("faces", whole=True),
-            _colors(inside) if "colors" in inside else None,
+            inside.matrix("colors", whole=True, width=3 + has_alpha) if "colors" in inside else None,
             inside.matrix("normals") if "normals" in inside else None,
             inside.matrix("uvs", width=2) if "uvs" in inside else None,
             inside.series("opacities") if "opacities" in inside else None,
@@ -266,20 +265,12 @@ def _mesh_of_piece(keys: Table) -> Mesh:
     # a dataset is made of scenes
     from ...datasets import require
 
-    name, index = keys.get("piece"), keys.whole("object", 0)
+    name = keys.get("piece")
     if not isinstance(name, str):
         raise InputError(f"{keys.place('piece')} must be the name of a piece, not {name!r:.60}")
     with about(keys.place("piece")):
         objects = require(name).make().objects
-    if not 0 <= index < len(objects):
-        raise InputError(f"{keys.place('object')} must be from 0 to {len(objects) - 1} for {name}, not {index}")
-    return objects[index].mesh
-
-
-def _colors(mesh: Table) -> NDArray[Any]:
-    """Return rows of red, green and blue, or with alpha if the first row has one."""
-    _, first = next(iter(mesh.rows("colors")), ("", None))
-    return mesh.matrix("colors", whole=True, width=4 if isinstance(first, list) and len(first) == 4 else 3)
+    return objects[keys.index("object", len(objects), "objects", 0)].mesh
 
 
 def _texture(surface: Table, folder: Path | None) -> Texture:

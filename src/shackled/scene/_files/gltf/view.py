@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from attrs import evolve
@@ -49,8 +50,7 @@ def _camera(gltf: Document, nodes: Mapping[int, Node], name: str | int) -> Camer
         raise InputError(f"no node has {keys.where}")
     kind = keys.choice("type", ("perspective", "orthographic"))
     lens = keys.table(kind)
-    perspective = kind == "perspective"
-    half_height = math.tan(lens.number("yfov") / 2) if perspective else lens.number("ymag")
+    half_height = math.tan(lens.number("yfov") / 2) if kind == "perspective" else lens.number("ymag")
     eye, back = node.matrix[:3, 3], _unit(node.matrix[:3, 2])
     with about(keys.where):
         return Camera(eye, eye - back, node.matrix[:3, 1], kind, half_height, lens.number("znear"))
@@ -70,15 +70,13 @@ def _lights(gltf: Document, nodes: Mapping[int, Node], middle: NDArray[np.float6
         strength = light.number("intensity", 1)
         if kind != "directional":
             strength /= max(float(np.sum((place - middle) ** 2)), 1e-12)
+        given: dict[str, Any] = {}
+        if kind == "spot":
+            cone = light.table("spot")
+            inner, outer = cone.number("innerConeAngle", 0), cone.number("outerConeAngle", math.pi / 4)
+            given = {"direction": -back, "inner_angle": math.degrees(inner), "outer_angle": math.degrees(outer)}
         with about(light.where):
-            if kind == "directional":
-                made = Light.directional(toward=back)
-            elif kind == "point":
-                made = Light.point(place)
-            else:
-                cone = light.table("spot")
-                inner, outer = cone.number("innerConeAngle", 0), cone.number("outerConeAngle", math.pi / 4)
-                made = Light.spot(place, -back, inner_angle=math.degrees(inner), outer_angle=math.degrees(outer))
+            made = Light(kind, back if kind == "directional" else place, **given)
         found.append((strength, np.array(light.numbers("color", (1, 1, 1))), made))
     most = max((strength * color.max() for strength, color, _ in found), default=0)
     found = sorted((each for each in found if most > 0), key=lambda each: -each[0])
