@@ -299,8 +299,11 @@ class _Surfaces:
         self.colors[own] = np.where(has_own, self.colors[own], to_bytes(material.color, largest=1))
         red, green, blue = to_bytes(material.emission, largest=1).astype(int).tolist()
         look = Look(None, (red, green, blue), material.opacity)
-        self.look[own] = self._number(look)
-        picture = self._picture(material.texture)
+        self.look[own] = self.looks.setdefault(look, len(self.looks))
+        image = material.texture
+        if image is not None and image not in self.pictures:
+            self.pictures[image] = picture_beside(self.obj.path, image.folders, image.name, image.wrap, image.alpha)
+        picture = self.pictures[image] if image is not None else None
         if picture is None:
             return
         with np.errstate(all="ignore"):
@@ -315,16 +318,7 @@ class _Surfaces:
             self.notes["triangle", REPLACED] += replaced(self.colors[own[has_place & has_own.any(axis=(1, 2))]])
             self.colors[textured], needs_it = under(picture, uvs, self.colors[textured])
         if needs_it:
-            self.look[textured] = self._number(replace(look, picture=picture))
-
-    def _number(self, look: Look) -> int:
-        return self.looks.setdefault(look, len(self.looks))
-
-    def _picture(self, image: Map | None) -> Picture | None:
-        """Return the picture of an image; None, with a warning, if it cannot be read."""
-        if image is not None and image not in self.pictures:
-            self.pictures[image] = picture_beside(self.obj.path, image.folders, image.name, image.wrap, image.alpha)
-        return self.pictures[image] if image else None
+            self.look[textured] = self.looks.setdefault(replace(look, picture=picture), len(self.looks))
 
 
 def _vertex_colors(obj: _Lines, count: int) -> tuple[NDArray[np.bool_], Floats]:

@@ -1,10 +1,9 @@
 """Scenes of the original Shackled contracts, as JSON.
 
-Exact: geometry, position and scale, camera, culling, wireframe, background, invert. The original's
-light is one directional light, purely additive: the colour of the surface shows in full, and a highlight and a diffuse
-term are added to it. Here the ambient coefficient is 1, so that the colour shows in full; the highlight is that of the
-original; the diffuse term is multiplied by the colour of the surface, as it should be, and with `k = lightDiffPower /
-|lightPos|^2` not cut to an integer. Not expressible, and left out: `lightAmbiPower` (a colour added everywhere), and a
+Exact: geometry, position and scale, camera, culling, wireframe, background, invert. The original's light is one
+directional light that adds a highlight and a diffuse term to the colour of the surface. Here the ambient coefficient is
+1, so that the colour shows in full, too; the diffuse term is multiplied by the colour of the surface, and `k =
+lightDiffPower / |lightPos|^2` is not cut to an integer. Left out: `lightAmbiPower` (a colour added everywhere), and a
 diffuse colour of another hue than the specular one, of which the mean is taken while there is a highlight.
 """
 
@@ -34,10 +33,9 @@ ORTHOGRAPHIC_UNITS = 500
 def original_scene(document: Mapping[str, Any]) -> Scene:
     """Return the scene of the original's JSON.
 
-    Its parameters stand at the top level or under `renderParams`; `verts`, `faces` and `canvasDim` are needed, the
-    others have defaults, and keys that it does not know are passed over. `rotation`, if there, is in degrees about x,
-    then y, then z, through the origin of the mesh. A scene without faces is one of background only. InputError names
-    the key that is wrong.
+    Its parameters stand at the top level or under `renderParams`; `verts`, `faces` and `canvasDim` are needed.
+    `rotation`, if there, is in degrees about x, then y, then z. Without faces it is one of background only. InputError
+    names the key that is wrong.
     """
     keys = Table({**Table(document, "").table("renderParams").values, **document}, "")
     for key in ("canvasDim", "verts", "faces"):

@@ -21,10 +21,8 @@ PICTURE = ".png"
 #: The kind of the chunk, and its keyword; and all chunks of text.
 CHUNK, KEYWORD = b"zTXt", b"shackled"
 TEXTS = (CHUNK, b"tEXt", b"iTXt")
-#: The most bytes of the chunk that are written unless asked for.
-MAX_CHUNK = 64 * 1024
-#: The most characters of its text that are written unless asked for: Pillow opens no picture with more.
-MAX_TEXT = 2**20
+#: The most bytes of the chunk, and characters of its text, that are written unless asked for: Pillow opens no more.
+MAX_CHUNK, MAX_TEXT = 64 * 1024, 2**20
 #: The most characters that are written or read at all; libpng passes over more.
 LONGEST_TEXT = 8_000_000
 

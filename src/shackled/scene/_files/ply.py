@@ -306,7 +306,10 @@ def read_ply(path: Path) -> list[MeshPart]:
             "a mesh needs an element vertex with x, y and z, and an element face with a list vertex_indices; this file"
             f" has the elements {', '.join(elements) or 'none'}"
         )
-    sizes, numbers = polygons[0], _whole(polygons[1])
+    bad = np.flatnonzero(polygons[1] % 1 != 0)
+    if len(bad):
+        raise InputError(f"the numbers of vertices must be whole, not {polygons[1][bad[0]]}")
+    sizes, numbers = polygons[0], polygons[1].astype(np.int64)
     is_strips = face.name == "tristrips"
     if is_strips:
         numbers = _strips(sizes, numbers)
@@ -324,13 +327,6 @@ def read_ply(path: Path) -> list[MeshPart]:
     _tell_what_is_left(path, elements)
     # the last one is that of _NONE
     return split(positions, corners, colors, normals, uvs, picture, [*map(Look, opened), Look()])
-
-
-def _whole(numbers: Array) -> Ints:
-    bad = np.flatnonzero(numbers % 1 != 0)
-    if len(bad):
-        raise InputError(f"the numbers of vertices must be whole, not {numbers[bad[0]]}")
-    return numbers.astype(np.int64)
 
 
 def _strips(sizes: Ints, numbers: Ints) -> Ints:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import math
 from dataclasses import dataclass, replace
-from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,8 +57,7 @@ class Surface:
     """A material.
 
     factor: linear red, green, blue and alpha. texture: where the base colour texture is told. gloss: roughness and
-    metalness, 0..1; None if the file does not say. cutoff: alpha below it is not seen; None if it all is. has_alpha:
-    whether the alpha of the texture counts.
+    metalness, 0..1; None if the file does not say. cutoff: alpha below it is not seen; None if it all is.
     """
 
     factor: tuple[float, ...] = (1.0, 1.0, 1.0, 1.0)
@@ -70,7 +68,11 @@ class Surface:
     is_blended: bool = False
     is_two_sided: bool = False
     cutoff: float | None = None
-    has_alpha: bool = False
+
+    @property
+    def has_alpha(self) -> bool:
+        """Whether the alpha of the texture counts."""
+        return self.is_blended or (self.cutoff is not None and self.cutoff > 0)
 
 
 def surface_of(gltf: Document, primitive: Table) -> Surface | None:
@@ -102,17 +104,10 @@ def surface_of(gltf: Document, primitive: Table) -> Surface | None:
         gltf.leave_out("texture", material.where, "{} of roughness")
     mode = material.choice("alphaMode", ("OPAQUE", "MASK", "BLEND"), "OPAQUE")
     cutoff = material.number("alphaCutoff", 0.5) if mode == "MASK" else None
-    return Surface(
-        color,
-        shown,
-        None if is_unlit else _gloss(keys, _GLOSSINESS in extensions),
-        (0, 0, 0) if is_unlit else cast(Color, tuple(to_srgb(emitted).astype(int).tolist())),
-        is_unlit,
-        mode == "BLEND",
-        material.flag("doubleSided", False),
-        cutoff,
-        mode == "BLEND" or (cutoff is not None and cutoff > 0),
-    )
+    gloss = None if is_unlit else _gloss(keys, _GLOSSINESS in extensions)
+    red, green, blue = (0, 0, 0) if is_unlit else to_srgb(emitted).astype(int).tolist()
+    two_sided = material.flag("doubleSided", False)
+    return Surface(color, shown, gloss, (red, green, blue), is_unlit, mode == "BLEND", two_sided, cutoff)
 
 
 def _gloss(keys: Table, is_older: bool) -> tuple[float, float] | None:

@@ -139,8 +139,8 @@ def skinned(vertices: Vertices, node: Table, nodes: Mapping[int, Node]) -> Array
     if joints.size and not 0 <= joints.min() <= joints.max() < len(matrices):
         raise InputError(f"a vertex hangs on joint {joints.max()}, but {skin.where} has {len(matrices)}")
     found = np.zeros((len(joints), 4, 4))
-    for column in range(joints.shape[1]):
-        found += weights[:, column, None, None] * matrices[joints[:, column]]
+    for weight, joint in zip(weights.T, joints.T, strict=True):
+        found += weight[:, None, None] * matrices[joint]
     return found
 
 
