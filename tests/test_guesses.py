@@ -143,28 +143,6 @@ def test_a_guess_is_the_documented_way(number: int) -> None:
     assert guess == documented
 
 
-#: Guesses of files that are read or written.
-FILES = {
-    "t.gif": lambda name: s.turntable("cube", frames=2, size=SIDE).save(name),
-    "o.gif": lambda name: s.Animation(turns(), duration=100).save(name),
-    "x.webp": lambda name: cube().save(name),
-    "x.jpg": lambda name: cube().save(name),
-    "m.obj": lambda name: BOX.export(name),
-    "m.stl": lambda name: BOX.export(name),
-    "m.glb": lambda name: BOX.export(name),
-}
-
-
-@pytest.mark.parametrize("name", FILES)
-def test_files(name: str) -> None:
-    FILES[name](name)
-    if name.startswith("m."):
-        assert s.load(Path(name), SIDE, up_axis="y").triangles == 12
-        return
-    with PillowImage.open(name) as picture:
-        assert picture.size == (SIDE, SIDE)
-
-
 @pytest.mark.parametrize("on", [NOWHERE, shackled.Nodes(NOWHERE, timeout=2)], ids=["address", "Nodes"])
 def test_a_node_is_asked(on: Any) -> None:
     with pytest.raises(NodeUnreachableError, match=r"the node 127\.0\.0\.1:1 cannot be reached"):

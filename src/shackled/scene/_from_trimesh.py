@@ -20,7 +20,7 @@ def part_of(value: Any) -> MeshPart:
     visual: Any = getattr(value, "visual", None)
     uvs = getattr(visual, "uv", None)
     if not is_trimesh(value) or getattr(visual, "kind", None) != "texture":
-        return MeshPart(mesh_of(value), {})
+        return MeshPart(mesh_of(value))
     material = visual.material
     factor = getattr(material, "baseColorFactor", None)
     # trimesh keeps the linear factor as bytes

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
+import re
 import struct
 import warnings
 from pathlib import Path
@@ -62,9 +62,6 @@ def off(header: str = "OFF", behind: str = "", of_face: str = "", more: str = ""
 
 BYTES = "".join(f"property uchar {name}\n" for name in ("red", "green", "blue", "alpha"))
 STRIP = ply().replace(b"element face", b"element tristrips").replace(b"4 0 1 2 3", b"5 0 1 3 2 -1")
-BINARY_OFF = (
-    b"OFF BINARY\n" + struct.pack(">3i12f", 4, 1, 0, *itertools.chain(*SQUARE)) + struct.pack(">6i", 4, 0, 1, 2, 3, 0)
-)
 TEXTURE = "comment TextureFile blue.png\n"
 BEHIND = "what is behind its facets is left out: {}"
 SAYS = "its header says {}; there are 2, which are read"
@@ -118,8 +115,6 @@ FILES: dict[str, tuple[bytes, tuple[tuple[int, ...], ...], list[str]]] = {
     "geomview.off": (off("CNOFF", "0 0 1 1.0 0 0 1.0"), (RED, RED), []),
     "alpha.off": (off("COFF", "255 0 0 128"), (PALE, PALE), []),
     "alpha-of-face.off": (off(of_face="1.0 0 0 0.5"), (PALE, PALE), []),
-    "homogeneous.off": (off("4OFF", "1"), (GREY, GREY), []),
-    "binary.off": (BINARY_OFF, (GREY, GREY), []),
     "st.off": (
         off("STOFF", "0.5 0.5"),
         (GREY, GREY),
@@ -169,6 +164,24 @@ def test_triangles_without_area(tmp_path: Path, extension: str) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert read_mesh(path).triangles == 3
+
+
+#: An arrow head, from a corner that does not see all of it.
+ARROW = "0 2 0\n-1 0 0\n0 1 0\n1 0 0\n"
+CONCAVE = {
+    "obj": re.sub("(?m)^", "v ", ARROW.strip()) + "\nf 2 3 4 1\n",
+    "ply": ply().decode().partition("end_header")[0] + f"end_header\n{ARROW}4 1 2 3 0\n",
+    "off": f"OFF\n4 1 0\n{ARROW}4 1 2 3 0\n",
+}
+
+
+@pytest.mark.parametrize("extension", CONCAVE)
+def test_a_concave_polygon_is_filled_as_it_is(tmp_path: Path, extension: str) -> None:
+    path = tmp_path / f"arrow.{extension}"
+    path.write_text(CONCAVE[extension])
+    mesh = read_mesh(path)
+    a, b, c = np.moveaxis(mesh.positions[mesh.faces], 1, 0)
+    assert sorted((np.cross(b - a, c - a)[:, 2] / 2).tolist()) == [0.5, 0.5]
 
 
 @pytest.mark.parametrize("size", [1e-300, 1e-9, 1, 1e9, 1.5e308])

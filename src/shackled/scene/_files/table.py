@@ -59,10 +59,7 @@ class Table:
 
     def number(self, key: str, default: float | None = None) -> float:
         """Return a finite number."""
-        value: Any = self.values.get(key, default)
-        if not is_number(value):
-            raise InputError(f"{self.place(key)} must be a number, not {value!r:.60}")
-        return float(value)
+        return _number(self.values.get(key, default), self.place(key))
 
     def whole(self, key: str, default: int | None = None) -> int:
         """Return a whole number that is not negative."""
@@ -70,6 +67,13 @@ class Table:
         if not is_number(value) or value < 0 or value % 1:
             raise InputError(f"{self.place(key)} must be a whole number, at least 0, not {value!r:.60}")
         return int(value)
+
+    def index(self, key: str, count: int, kind: str, default: int | None = None) -> int:
+        """Return the number of one of `count` things of a kind."""
+        number = self.whole(key, default)
+        if number >= count:
+            raise InputError(f"{self.place(key)} is {number}, but there are {count} {kind}, numbered from 0")
+        return number
 
     def numbers(self, key: str, default: tuple[float, ...]) -> tuple[float, ...]:
         """Return as many numbers as the default has."""
@@ -80,19 +84,15 @@ class Table:
 
     def series(self, key: str) -> NDArray[np.float64]:
         """Return a list of numbers, (n,)."""
-        for place, value in self.rows(key):
-            if not is_number(value):
-                raise InputError(f"{place} must be a number, not {value!r:.60}")
-        return np.array([value for _, value in self.rows(key)], dtype=np.float64)
+        return np.array([_number(value, place) for place, value in self.rows(key)], dtype=np.float64)
 
     def matrix(self, key: str, whole: bool = False, width: int = 3) -> NDArray[Any]:
         """Return rows of `width` numbers, (n, width), none if the key is absent; integers if they must be whole."""
         rows, kind = self.rows(key), "whole numbers" if whole else "numbers"
         count = {2: "two", 3: "three", 4: "four"}[width]
         for place, row in rows:
-            if not isinstance(row, list) or len(row) != width or not all(is_number(value) for value in row):
-                raise InputError(f"{place} must be {count} {kind}, not {row!r:.60}")
-            if whole and not all(value % 1 == 0 and abs(value) < 2**53 for value in row):
+            is_row = isinstance(row, list) and len(row) == width and all(is_number(value) for value in row)
+            if not is_row or (whole and not all(value % 1 == 0 and abs(value) < 2**53 for value in row)):
                 raise InputError(f"{place} must be {count} {kind}, not {row!r:.60}")
         table: NDArray[Any] = np.array([row for _, row in rows], dtype=np.int64 if whole else np.float64)
         return table.reshape(-1, width)
@@ -120,7 +120,11 @@ class Table:
             raise InputError(f"{self.place(key)} must be {COLORS}, not {value!r:.60}")
         return color(list(value), self.place(key))
 
-    def rows(self, key: str) -> list[tuple[str, object]]:
+    def tables(self, key: str) -> list[Table]:
+        """Return the tables of a list; none if the key is absent."""
+        return [Table(value, where) for where, value in self.rows(key)]
+
+    def rows(self, key: str) -> list[tuple[str, Any]]:
         """Return the parts of a list, each with its place; none if the key is absent."""
         value = self.values.get(key, [])
         if not isinstance(value, list):
@@ -135,6 +139,12 @@ def about(where: str) -> Iterator[None]:
         yield
     except InputError as error:
         raise InputError(f"{where}: {error}") from None
+
+
+def _number(value: Any, place: str) -> float:
+    if not is_number(value):
+        raise InputError(f"{place} must be a number, not {value!r:.60}")
+    return float(value)
 
 
 def is_number(value: object) -> bool:

@@ -78,20 +78,16 @@ def _fields(value: object, part: Part) -> dict[str, Any]:
 def _texture_keys(texture: Texture | None) -> dict[str, Any]:
     if texture is None:
         return {}
-    pixels = base64.b64encode(texture.pixels.tobytes()).decode("ascii")
-    sides = {"width": texture.width, "height": texture.height}
-    keys = {**sides, "filter": texture.filter, "wrap": texture.wrap, "pixels": pixels}
-    if texture.alpha is not None:
-        keys |= {"alpha": base64.b64encode(texture.alpha.tobytes()).decode("ascii"), "cutoff": texture.cutoff}
-    return {"texture": keys}
+    names = ("width", "height", "filter", "wrap", "cutoff")[: 4 if texture.alpha is None else 5]
+    levels = {"pixels": texture.pixels, "alpha": texture.alpha}
+    packed = {name: base64.b64encode(each.tobytes()).decode() for name, each in levels.items() if each is not None}
+    return {"texture": {**{name: getattr(texture, name) for name in names}, **packed}}
 
 
 def _plain(value: Any) -> Any:
     """Return what JSON has for an array, or for a background, a light or an effect."""
-    if isinstance(value, Background | Hemisphere | Rim | Fog):
-        return asdict(value)
-    if isinstance(value, Ground):
-        return {name: found for name, found in asdict(value).items() if found is not None}
+    if isinstance(value, Background | Hemisphere | Rim | Fog | Ground):
+        return asdict(value, filter=lambda _, found: found is not None)
     if not isinstance(value, Light):
         return value.tolist()
     place = "direction" if value.kind == "directional" else "position"
