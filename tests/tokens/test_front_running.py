@@ -41,7 +41,7 @@ def test_the_owner_goes_on(node: Node, capsys: pytest.CaptureFixture[str]) -> No
     assert f"this collection is deployed at {plan.address} on chain 31337 already" in said.err
     assert f"Shackled Icons: {plan.address}\n" in said.out
     assert [icon.name for icon in icons_of(collection)] == ["Tetrahedron"]
-    assert collection.state().allow_list_signer == development_accounts()[5].address
+    assert collection.contract.account("allowListSigner") == development_accounts()[5].address
     assert AddressBook().find(31337, KIND.contract) == bytes.fromhex(plan.address[2:])
     # and again where it stopped
     blocks = node.rpc("eth_blockNumber")
@@ -58,4 +58,4 @@ def test_between_the_price_and_the_transaction(node: Node) -> None:
     collection, receipt = launch(plan, owner)
     assert (collection.address, receipt) == (plan.address, None)
     assert owner.balance() == before
-    assert collection.state().owner == terms.owner
+    assert collection.contract.account("owner") == terms.owner

@@ -17,7 +17,7 @@ def shown(number: int, **changes: str) -> TokenView:
     PillowImage.fromarray(np.full((4, 4, 3), number, np.uint8)).save(stream, "png")
     traits: dict[str, Trait] = {"Kind": changes.get("kind", "plain"), "Size": number}
     name = changes.get("name", f"Token #{number}")
-    picture = Metadata(name, "<b>", traits, "image/png", stream.getvalue(), {}, 1234)
+    picture = Metadata(name, "<b>", traits, stream.getvalue(), {}, "data:")
     return TokenView(
         changes.get("collection", "Things"), "0x" + "ab" * 20, number, "0x" + "cd" * 20, True, picture, 5_000_000
     )
@@ -71,12 +71,12 @@ def test_json_has_an_object_for_each_token() -> None:
 def test_costs_stand_beside_those_of_the_original() -> None:
     costs = [
         ActionCost("own", 12_345),
-        ActionCost("mint 5", 89_000, (712_000, 712_000)),
-        ActionCost("uri", 5 * 10**6, (57 * 10**8, 144 * 10**8)),
+        ActionCost("mint 5", 89_000, 712_000),
+        ActionCost("uri", 5 * 10**6, 57 * 10**8),
     ]
     assert comparison(costs) == [
         ("action", "gas", "original", "times less"),
         ("own", "12,345", "-", "-"),
         ("mint 5", "89,000", "712 k", "8.0"),
-        ("uri", "5,000,000", "5,700 M to 14,400 M", "1,140 to 2,880"),
+        ("uri", "5,000,000", "5,700 M", "1,140"),
     ]

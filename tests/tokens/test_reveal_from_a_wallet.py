@@ -29,8 +29,8 @@ def collection(running_node: Node, users: list[str]) -> Collection:
     owner = Transactor(running_node.connection, development_accounts()[OWNER])
     terms = CollectionTerms(running_node.accounts[OWNER], running_node.accounts[OWNER])
     made, _ = launch(plan_launch(owner.connection, KINDS["genesis"], terms), owner)
-    perform(owner, made.contract, "setPhase", 2)
-    perform(owner, made.contract, "mint", 1, value=made.contract.call("price"))
+    perform(owner, made.contract.prepare("setPhase", 2))
+    perform(owner, made.contract.prepare("mint", 1, value=made.contract.call("price")))
     return made
 
 

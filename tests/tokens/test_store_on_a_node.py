@@ -146,7 +146,7 @@ def test_the_price_is_known_before_an_account_is_named(shackled: Shackled) -> No
         (("token", "deploy", "icons", "--icons", "nothing"), 2, "there is no piece 'nothing'"),
         (("token", "deploy", "icons", "--icons", "heart,heart"), 2, "icons/heart is named twice"),
         (("token", "deploy", "icons", "--icons", "bunny"), 2, "bunny must not be stored"),
-        (("token", "deploy", "icons", "--supply", "1", "--reserve", "2"), 2, "no more in the reserve"),
+        (("token", "deploy", "icons", "--supply", "1", "--reserve", "2"), 2, "the reserve of an icon must be"),
         (("token", "deploy", "genesis", "--icons", "heart"), 2, "--icons and --supply are for collections of icons"),
         (("token", "mint", "--icon", "heart", "-c", "genesis"), 2, "the address book has no genesis collection"),
     ],
