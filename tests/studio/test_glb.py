@@ -280,7 +280,7 @@ def test_the_studio_models_what_it_keeps(tmp_path: Path) -> None:
     assert uri == "data:model/gltf-binary;base64," + base64.b64encode(glb).decode()
     files = [glb]
     for packed in (pack(POT, True), pack(TENT, False)):
-        (storing,) = store_mesh(packed, studio, chain=world.chain)
+        (storing,) = store_mesh("mesh", compact(packed), studio, world.chain)
         world.run(studio, storing.data, created=True)
         plain = world.store("storeMesh(bytes)", packed)
         assert storing.content == compact(packed)

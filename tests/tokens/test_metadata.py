@@ -11,7 +11,7 @@ from PIL import Image as PillowImage
 
 from shackled.errors import VerificationError
 from shackled.tokens import MAX_LENGTH, read_data_uri
-from shackled.tokens._metadata import read_token_uri, shrink
+from shackled.tokens._metadata import read_token_uri
 
 PIXELS = np.arange(48, dtype=np.uint8).reshape(4, 4, 3)
 
@@ -72,7 +72,7 @@ CLEAR = picture("png", np.zeros((2, 2, 4), np.uint8))
         (data_uri("application/json", b"{"), "not valid JSON"),
         (data_uri("application/json", b"\xff"), "not valid JSON"),
         (data_uri("application/json", b"[" * 60_000), "not valid JSON"),
-        (data_uri("application/json", b'{"a": NaN}'), "NaN is not a number"),
+        (data_uri("application/json", b'{"a": NaN}'), "not JSON compliant"),
         (data_uri("application/json", b'{"name": 1e999}'), "not JSON compliant"),
         (data_uri("application/json", b'{"name": "\\ud800"}'), "surrogates not allowed"),
         (data_uri("application/json", TWICE), "'name' occurs twice"),
@@ -101,15 +101,3 @@ def test_what_marketplaces_do_not_understand_is_refused_in_one_line(uri: str, sa
 
 def test_parameters_of_a_data_uri_are_passed_over() -> None:
     assert read_data_uri("data:text/plain;charset=utf-8;base64,YWI=", "it") == ("text/plain", b"ab")
-
-
-def test_squares_become_pixels_again() -> None:
-    large = PIXELS.repeat(4, axis=0).repeat(4, axis=1)
-    for enlarged in (PIXELS, large):
-        small = shrink(enlarged, 4, 4)
-        assert small is not None
-        np.testing.assert_array_equal(small, PIXELS)
-    assert shrink(large, 3, 4) is None
-    assert shrink(PIXELS, 8, 8) is None
-    large[5, 5, 0] ^= 1
-    assert shrink(large, 4, 4) is None

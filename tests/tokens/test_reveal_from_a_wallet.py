@@ -71,7 +71,7 @@ def test_a_wallet_reveals(node: Node, collection: Collection, shackled: Shackled
     genesis = node.contract("GenesisCollection", collection.address)
     function, arguments = genesis.decode_function_input(call["data"])
     assert function.fn_name == "reveal"
-    assert arguments == {"rounds": [0], "headers": [encode_header(node.web3.eth.get_block(block))]}
+    assert arguments == {"rounds": [0], "headers": [encode_header(node.connection.block(block))]}
     assert send(node, call) <= int(call["gas"], 16)
     assert genesis.functions.randomnessOf(0).call() == node.web3.eth.get_block(block)["mixHash"]
     # there is nothing more
@@ -105,7 +105,7 @@ def test_a_block_to_come_is_reported_or_waited_for(
         assert not Path("calls.json").exists()
     # one block less would do for the contract, but no node would simulate the call
     with pytest.raises(RevertError):
-        collection.contract.call("reveal", [0], [encode_header(node.web3.eth.get_block(block))])
+        collection.contract.call("reveal", [0], [encode_header(node.connection.block(block))])
     pauses: list[float] = []
 
     def one_block(seconds: float) -> None:

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from ..chain import GAS_LEFT, Connection, describe_revert
-from ..errors import ChainError, InputError, NodeError, OutOfGasError, RevertError
+from ..artifacts import artifact
+from ..chain import Connection, describe_revert
+from ..errors import InputError, NodeError, RevertError
 from ..ethereum import checksum_address, to_hex
 from ._contract import PHASES, Contract
 from ._metadata import MAX_LENGTH, Metadata, read_token_uri
@@ -79,18 +80,7 @@ class Collection:
             if error.data and describe_revert(error.data) != "OutOfGas()":
                 raise
             # an inner call that runs out of gas reverts without data, except that of the renderer to its engine
-            raise OutOfGasError(
-                f"the {self.connection.name} allows a read call too little gas for tokenURI{self._allowed_gas()}: "
-                "raise its limit, or use another node"
-            ) from None
-
-    def _allowed_gas(self) -> str:
-        """Return how much gas the node allows a call, for a message; empty if that is unknown."""
-        try:
-            left = int.from_bytes(self.connection.data("eth_call", {"data": to_hex(GAS_LEFT)}, "latest"), "big")
-        except ChainError:
-            return ""
-        return f", about {left:,}" if 0 < left < 1 << 64 else ""
+            raise self.contract.too_little_gas("tokenURI") from None
 
     def metadata(self, token: int) -> Metadata:
         """Return the metadata of a token, from its `tokenURI`. Raises VerificationError if it is invalid or too long.
@@ -127,15 +117,13 @@ def open_collection(node: Connection | str, address: str, editions: bool = False
     node: a node, or its URL. editions: also accept the collection of editions, which has no sale.
     """
     connection = Connection(node) if isinstance(node, str) else node
+    interface = artifact(EDITIONS.contract).interface
+    try:
+        answer = connection.data("eth_call", {"to": address, "data": to_hex(interface.encode("name"))}, "latest")
+        title = interface.decode("name", answer)
+    except (RevertError, ValueError):
+        title = ""
     for kind in (*KINDS.values(), *([EDITIONS] if editions else [])):
-        try:
-            if Contract(connection, kind.contract, address).call("name") == kind.title:
-                return Collection(connection, kind, address)
-        except RevertError:
-            continue
-        except NodeError as error:
-            # the message of a node may contain anything: compare the whole phrase of `Contract.call`
-            if f"the address {address} is not a {kind.contract} " in str(error):
-                continue
-            raise
+        if kind.title == title:
+            return Collection(connection, kind, address)
     raise InputError(f"there is no Shackled collection at {address} on chain {connection.chain_id}")

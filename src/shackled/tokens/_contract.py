@@ -52,10 +52,7 @@ class Contract:
         except RevertError as error:
             raise explained(error) from None
         except OutOfGasError:
-            raise OutOfGasError(
-                f"the {self.connection.name} allows a read call too little gas for {function}: "
-                "raise its limit, or use another node"
-            ) from None
+            raise self.too_little_gas(function) from None
         try:
             return self.interface.decode(function, answer)
         except ValueError:
@@ -63,6 +60,13 @@ class Contract:
             raise NodeError(
                 f"the address {self.address} is not a {self.name} on chain {self.connection.chain_id}: {what}"
             ) from None
+
+    def too_little_gas(self, function: str) -> OutOfGasError:
+        """Return the error for a read call that runs out of gas."""
+        return OutOfGasError(
+            f"the {self.connection.name} allows a read call too little gas for {function}: raise its limit, or use "
+            "another node"
+        )
 
     def account(self, function: str, *arguments: Any) -> str:
         """Return the address that a function returns, with its checksum."""

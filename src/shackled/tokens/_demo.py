@@ -225,14 +225,12 @@ def development_accounts(count: int = ACCOUNTS) -> list[LocalAccount]:
 
 def development_transactors(connection: Connection, max_fee: int | None) -> list[Transactor]:
     """Return transactors of the accounts of a fresh anvil. Raises InputError if the node is anything else."""
-    if connection.chain_id != CHAIN_ID:
-        raise InputError(
-            f"the demo needs a fresh anvil, with chain id {CHAIN_ID}; the {connection.name} belongs to chain "
-            f"{connection.chain_id}, where public keys must not be used"
-        )
     version = str(connection.request("web3_clientVersion"))
-    if not version.lower().startswith("anvil"):
-        raise InputError(f"the demo needs a fresh anvil, and the {connection.name} is {version[:60]!r}")
+    if connection.chain_id != CHAIN_ID or not version.lower().startswith("anvil"):
+        raise InputError(
+            f"the demo needs a fresh anvil with chain id {CHAIN_ID}, since its keys are public; the {connection.name} "
+            f"is {version[:60]!r} of chain {connection.chain_id}"
+        )
     transactors = [Transactor(connection, account, max_fee=max_fee) for account in development_accounts()]
     for transactor in transactors:
         if transactor.balance() < FUNDS:

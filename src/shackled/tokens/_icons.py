@@ -176,14 +176,12 @@ def licence_of(source: Path | Piece | Link, stated: str | None) -> str:
                 "use of changed copies, and nothing can be removed from a chain"
             )
         return source.licence
-    if stated is None:
+    words = " ".join((stated or "").split())
+    if not words:
         raise InputError(
             f"check the licence of {source} yourself, and state it with `licence`, for instance CC0-1.0 or "
             "'my own work'"
         )
-    words = " ".join(stated.split())
-    if not words:
-        raise InputError("`licence` is empty: state it, for instance CC0-1.0 or 'my own work'")
     if not allows(words):
         raise InputError(
             f"{source} must not be stored under the licence {words!r}: it is not known to allow commercial use of "

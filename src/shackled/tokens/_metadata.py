@@ -103,16 +103,6 @@ def decode_picture(picture: bytes) -> NDArray[np.uint8]:
         raise VerificationError(f"the picture of the token is not a complete PNG file: {error}") from None
 
 
-def shrink(pixels: NDArray[np.uint8], width: int, height: int) -> NDArray[np.uint8] | None:
-    """Undo the enlargement of a picture of `width` x `height` pixels to squares; None if it is not one."""
-    factor = pixels.shape[1] // width
-    if factor == 0 or pixels.shape[:2] != (height * factor, width * factor):
-        return None
-    small = pixels[::factor, ::factor]
-    whole = small.repeat(factor, axis=0).repeat(factor, axis=1)
-    return small if np.array_equal(whole, pixels) else None
-
-
 def _document(uri: str, max_length: int) -> dict[str, Any]:
     length = len(uri.encode())
     if length > max_length:
@@ -123,8 +113,8 @@ def _document(uri: str, max_length: int) -> dict[str, Any]:
     if media_type != "application/json":
         raise VerificationError(f"the tokenURI has the type {media_type}, not application/json")
     try:
-        document = read_json(content.decode(), object_pairs_hook=_once, parse_constant=_no_number)
-        # this reader accepts lone surrogates and huge numbers, which most others do not
+        document = read_json(content.decode(), object_pairs_hook=_once)
+        # this reader accepts lone surrogates, NaN and huge numbers, which most others do not
         json.dumps(document, ensure_ascii=False, allow_nan=False).encode()
     except (UnicodeDecodeError, ValueError, RecursionError) as error:
         raise VerificationError(f"the tokenURI is not valid JSON: {' '.join(str(error).split())[:100]}") from None
@@ -138,10 +128,6 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     if len(set(keys)) < len(keys):
         raise ValueError(f"{next(key for key in keys if keys.count(key) > 1)!r} occurs twice")
     return dict(pairs)
-
-
-def _no_number(text: str) -> Any:
-    raise ValueError(f"{text} is not a number")
 
 
 def _text(document: dict[str, Any], key: str) -> str:

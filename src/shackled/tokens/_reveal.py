@@ -58,7 +58,7 @@ def reveal_calls(collection: Collection, rounds: list[Round]) -> dict[str, Call]
     """Return the transactions that reveal rounds whose blocks are not missing, in order, by their purpose.
 
     If block hashes are no longer available on the chain, the first ones prove them. Every header is compared with the
-    hash that the collection has of its block, or proves. Raises NodeError or InputError if one differs.
+    hash that the collection has of its block, or proves. Raises NodeError if one differs.
     """
     hashes = {each.block: _hash_of(collection, each.block) for each in rounds}
     calls = dict(_proofs(collection, hashes))
@@ -82,18 +82,15 @@ def price_calls(connection: Connection, calls: Sequence[Call], fees: Fees, sende
 
 
 def header_of(collection: Collection, number: int, expected: bytes) -> bytes:
-    """Return the RLP header of a block from the node. expected: the hash of the block that the collection has.
+    """Return the RLP header of a block from the node. Raises NodeError if it is invalid.
 
-    Raises NodeError if a field is invalid or the hash is another one, InputError if the header has not the hash that
-    the block states.
+    expected: the hash of the block that the collection has.
     """
-    name, block = collection.connection.name, collection.connection.block(number)
+    name = collection.connection.name
     try:
-        header = encode_header(block)
-    except InputError:
-        raise
-    except (OverflowError, TypeError, ValueError):
-        raise NodeError(f"the {name} returned invalid fields of block {number:,}: {block!r:.60}") from None
+        header = encode_header(collection.connection.block(number))
+    except InputError as error:
+        raise NodeError(f"the {name} returned an invalid block {number:,}: {error}") from None
     found = keccak256(header)
     if found != expected:
         raise NodeError(
@@ -171,27 +168,27 @@ def check_randomness(connection: Connection, any_chain: bool = False) -> None:
         )
     # a block hash is available from the next block on
     for block in blocks[-2:-1]:
-        found = _seen_hash(connection, block)
-        if found not in ("", str(block.get("hash")).lower()):
-            raise TransactionError(
-                f"tokens could never be revealed on chain {chain}: its contracts see {found} as the hash of block "
-                f"{quantity(block['number']):,}, whose header has {block.get('hash')!s:.66}"
-            )
+        _check_header(connection, block)
 
 
-def _seen_hash(connection: Connection, block: dict[str, Any]) -> str:
-    """Return the hash of a block as contracts see it, "" if the node does not say. TransactionError for odd headers."""
+def _check_header(connection: Connection, block: dict[str, Any]) -> None:
+    """Raise TransactionError if the function `reveal` would refuse a header."""
+    never = f"tokens could never be revealed on chain {connection.chain_id}"
     try:
-        encode_header(block)
-        number = quantity(block.get("number"))
-    except (OverflowError, TypeError, ValueError) as error:
+        number, found = quantity(block.get("number")), to_hex(keccak256(encode_header(block)))
+    except (OverflowError, ValueError) as error:
+        raise TransactionError(f"{never}, whose headers are not Ethereum's: {error}") from None
+    if found != str(block.get("hash")).lower():
         raise TransactionError(
-            f"tokens could never be revealed on chain {connection.chain_id}, whose headers are not Ethereum's: {error}"
-        ) from None
+            f"{never}, whose headers have other fields than Ethereum's: that of block {number:,} has the hash {found}, "
+            f"not {block.get('hash')!s:.66}"
+        )
     program = HASH_PROGRAM[0] + number.to_bytes(8, "big").hex() + HASH_PROGRAM[1]
     try:
-        return to_hex(connection.data("eth_call", {"data": "0x" + program}, "latest"))
+        seen = to_hex(connection.data("eth_call", {"data": "0x" + program}, "latest"))
     except NoAnswerError:
         raise
     except (NodeError, RevertError):
-        return ""  # some nodes refuse calls without a receiver
+        return  # some nodes refuse calls without a receiver
+    if seen != found:
+        raise TransactionError(f"{never}: its contracts see {seen} as the hash of block {number:,}, which has {found}")

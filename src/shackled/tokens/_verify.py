@@ -6,26 +6,20 @@ import base64
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ..artifacts import artifact
 from ..chain import CHAIN_ID, EmbeddedChain
 from ..deploy import Deployer, deployment, local_chain
 from ..errors import ChainError, NodeError, OutOfGasError, VerificationError
 from ..ethereum import checksum_address, keccak256, to_hex, word
-from ..image import decode_bmp
 from ..studio import STUDIO, stored_codes
 from ._collection import EDITIONS, Collection, CollectionKind
 from ._editions import Edition, edition_at
 from ._icons import CollectionIcon, icon_at
 from ._launch import CollectionTerms, creation_code, immutable_values, parts_of
-from ._metadata import Metadata, read_data_uri, shrink
+from ._metadata import Metadata, read_data_uri
 
 #: The type of the EIP-712 domain of permissions.
 DOMAIN = b"EIP712Domain(string name,string version,uint256 chainId,address verifyingContract)"
-#: Side of the canvas, in pixels.
-SIDE = 128
 
 
 @dataclass(frozen=True)
@@ -72,20 +66,21 @@ def check_collection_code(collection: Collection) -> None:
     values = immutable_values(code, runtime)
     # a local run of the constructor with unique numbers shows where it writes each of them
     sentinels = CollectionTerms("0x" + "11" * 20, "0x" + "11" * 20, price=0xABCDEF01, reserve=513, per_transaction=77)
-    trial, local_chain_id, local_block = trial_code(kind, sentinels)
+    parts = parts_of(kind.contract)
+    trial = deployment(kind.contract, creation_code(kind, parts, sentinels), [each.name for each in parts]).code
     chain_id, place = collection.connection.chain_id, word(collection.contract.place)
-    meaning = {word(sentinels.per_transaction): {word(call("perTransaction"))}}
-    meaning |= {word(getattr(sentinels, term)): {word(call(term))} for term in kind.terms}
-    meaning |= {value: {value} for value in _fixed_values(kind)}
-    meaning[word(local_chain_id)] = {word(chain_id)}
-    if kind.hidden:
-        meaning.setdefault(word(local_block), set()).add(word(call("firstBlock")))
+    meaning = {word(sentinels.per_transaction): word(call("perTransaction")), word(CHAIN_ID): word(chain_id)}
+    meaning |= {word(getattr(sentinels, term)): word(call(term)) for term in kind.terms}
+    meaning |= {value: value for value in _fixed_values(kind)}
     for at, value in immutable_values(trial, runtime).items():
-        # the others are the address, and a hash of it
-        domain = {place if int.from_bytes(value, "big") < 1 << 160 else _domain(kind, chain_id, place)}
-        allowed = meaning.get(value, domain)
-        if values[at] not in allowed:
-            raise VerificationError(f"its code has {to_hex(values[at])} at byte {at:,}, not {to_hex(min(allowed))}")
+        if value in meaning:
+            wanted = meaning[value]
+        elif int.from_bytes(value, "big") < 1 << 64:
+            wanted = word(call("firstBlock"))
+        else:
+            wanted = place if int.from_bytes(value, "big") < 1 << 160 else _domain(kind, chain_id, place)
+        if values[at] != wanted:
+            raise VerificationError(f"its code has {to_hex(values[at])} at byte {at:,}, not {to_hex(wanted)}")
 
 
 def check_token(collection: Collection, token: int, local: EmbeddedChain) -> Check:
@@ -110,11 +105,8 @@ def check_token(collection: Collection, token: int, local: EmbeddedChain) -> Che
         seed, _ = local.ask("GenesisMetadata", "settle", drawn)
         if seed != call("seedOf", token):
             return Check(what, "its seed does not follow from its block and its number")
-        uri = local.ask("GenesisMetadata", "tokenURI", token, drawn)
-        if metadata.uri != _of_chain(uri, collection.connection.chain_id):
-            return Check(what, "its tokenURI differs from the one computed here from its seed")
-        bmp = local.ask("Genesis", "render", seed)
-        return Check(what, "" if _same_picture(metadata.pixels, bmp) else "its picture differs from that of its seed")
+        uri = _of_chain(local.ask("GenesisMetadata", "tokenURI", token, drawn), collection.connection.chain_id)
+        return Check(what, "" if metadata.uri == uri else "its tokenURI differs from the one computed from its seed")
     except OutOfGasError as error:
         return Check(what, unread=str(error))
     except NodeError:
@@ -149,22 +141,6 @@ def _of_chain(uri: str, chain_id: int) -> str:
     media_type, content = read_data_uri(uri, "the metadata")
     content = content.replace(f":{CHAIN_ID}/render/0x".encode(), f":{chain_id}/render/0x".encode())
     return f"data:{media_type};base64,{base64.b64encode(content).decode()}"
-
-
-def _same_picture(pixels: NDArray[np.uint8], bmp: bytes) -> bool:
-    small = shrink(pixels, SIDE, SIDE)
-    return small is not None and bool((small == decode_bmp(bmp, SIDE, SIDE)).all())
-
-
-def trial_code(kind: CollectionKind, terms: CollectionTerms) -> tuple[bytes, int, int]:
-    """Return the code of a collection from a local run of its constructor, and the chain id and block number there."""
-    local, parts = local_chain(), parts_of(kind.contract)
-    made = deployment(kind.contract, creation_code(kind, parts, terms), [each.name for each in parts], local)
-    probe = bytes.fromhex("c0de") + bytes(17) + b"\xff"
-    # CHAINID PUSH0 MSTORE NUMBER PUSH1 32 MSTORE PUSH1 64 PUSH0 RETURN
-    local.put(probe, bytes.fromhex("465f524360205260405ff3"))
-    answer = local.run(probe, b"").output
-    return made.code, int.from_bytes(answer[:32], "big"), int.from_bytes(answer[32:], "big")
 
 
 def _fixed_values(kind: CollectionKind) -> set[bytes]:
