@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import json
-import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from eth_account import Account
 from PIL import Image as PillowImage
 from web3 import Web3
 
@@ -19,10 +17,8 @@ from shackled.artifacts import artifact
 from shackled.chain import AddressBook, Connection
 from shackled.cli.app import run
 from shackled.deploy import local_chain
-from shackled.errors import ChainError, NodeError, RevertError
+from shackled.errors import ChainError, NodeError
 from shackled.tokens import Contract, check_collection_code, check_token, open_collection, read_allow_list
-from shackled.tokens._contract import simulate
-from shackled.tokens._demo import development_accounts
 from shackled.tokens._launch import immutable_places
 
 OWNER, ALICE, BOB, CAROL = range(4)
@@ -62,15 +58,6 @@ def test_the_same_collection_is_not_deployed_twice(node: Node, address: str, sha
         "transaction": None,
         "gas": 0,
     }
-
-
-def test_costs_are_reported_and_nothing_is_sent_unasked(node: Node, address: str, shackled: Shackled) -> None:
-    before = node.web3.eth.block_number
-    said = shackled("token", "deploy", "genesis", "--salt", "5", user=OWNER, expect=2)
-    words = r"price: about .* for gas \(.* estimated by the node, .* counted locally\); at most .* ether in total"
-    assert re.search(words, said.err)
-    assert "nothing was sent" in said.error
-    assert node.web3.eth.block_number == before
 
 
 @pytest.mark.parametrize(
@@ -156,28 +143,6 @@ def test_royalties_are_changed_by_the_owner(node: Node, address: str, shackled: 
     assert contract.functions.royaltyInfo(0, 1000).call() == [node.accounts[6], 25]
     shackled("token", "royalty", 7.5, "--receiver", node.accounts[OWNER], "--yes", user=OWNER)
     assert contract.functions.royaltyInfo(0, 1000).call() == [node.accounts[OWNER], 75]
-
-
-def test_a_keystore_signs_too(
-    node: Node, address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, shackled: Shackled
-) -> None:
-    keystore = tmp_path / "keystore.json"
-    key = development_accounts()[OWNER].key
-    keystore.write_text(json.dumps(Account.encrypt(key, "a password", kdf="pbkdf2", iterations=1000)))
-    monkeypatch.setenv("SHACKLED_PASSWORD", "another")
-    said = shackled("token", "phase", "public", "--account", keystore, "--yes", expect=2)
-    assert "the password is wrong" in said.error
-    assert "another" not in said.error
-    monkeypatch.setenv("SHACKLED_PASSWORD", "a password")
-    assert "open for all" in shackled("token", "phase", "public", "--account", keystore, "--yes").out
-
-
-def test_a_wrong_price_is_reported_in_words(node: Node, address: str) -> None:
-    collection = open_collection(Connection(node.url), address)
-    node.transact(node.contract("GenesisCollection", address).functions.setPhase(2), node.accounts[OWNER])
-    call = collection.contract.prepare("mint", 1, value=15 * 10**16)
-    with pytest.raises(RevertError, match=r"^the price is 0.2 ether, but 0.15 ether was sent$"):
-        simulate(collection.connection, call, bytes.fromhex(node.accounts[BOB][2:]))
 
 
 def test_changed_code_is_found(node: Node, address: str, shackled: Shackled) -> None:

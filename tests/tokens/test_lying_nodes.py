@@ -12,12 +12,11 @@ from typing import Any
 import pytest
 
 from nodes import Node
+from open_sales import open_sale
 from proxies import Liar
 from shackled.chain import VARIABLE
 from shackled.cli.app import run
-from shackled.deploy import Transactor
-from shackled.tokens import KINDS, CollectionTerms, launch, plan_launch, plan_storage, store
-from shackled.tokens._contract import perform
+from shackled.tokens import plan_storage, store
 from shackled.tokens._demo import development_accounts
 
 ETHER, GWEI = 10**18, 10**9
@@ -59,11 +58,7 @@ def _contracts(running_node: Node, tmp_path_factory: pytest.TempPathFactory) -> 
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv(VARIABLE, str(tmp_path_factory.mktemp("book") / "addresses.json"))
         patch.setenv("KEY", development_accounts()[USER].key.hex())
-        owner = Transactor(running_node.connection, development_accounts()[0])
-        terms = CollectionTerms("0x" + owner.address.hex(), "0x" + owner.address.hex())
-        collection, _ = launch(plan_launch(running_node.connection, KINDS["genesis"], terms), owner)
-        perform(owner, collection.contract.prepare("setPhase", 2))
-        perform(owner, collection.contract.prepare("mint", 1, value=collection.contract.call("price")))
+        owner, _ = open_sale(running_node.connection)
         running_node.mine(200)
         store(plan_storage(running_node.connection, []), owner)
         running_node.rpc("anvil_setNextBlockBaseFeePerGas", hex(GWEI))

@@ -11,14 +11,12 @@ import pytest
 from commands import Shackled
 from forged_blocks import forged
 from nodes import Node
+from open_sales import open_sale
 from proxies import Liar
 from shackled.cli.app import run
-from shackled.deploy import Transactor
 from shackled.errors import RevertError
 from shackled.ethereum import encode_header
-from shackled.tokens import KINDS, Collection, CollectionTerms, launch, plan_launch
-from shackled.tokens._contract import perform
-from shackled.tokens._demo import development_accounts
+from shackled.tokens import Collection
 
 OWNER, WALLET = 0, 5
 
@@ -26,12 +24,7 @@ OWNER, WALLET = 0, 5
 @pytest.fixture(scope="module")
 def collection(running_node: Node, users: list[str]) -> Collection:
     """A collection with a token of round 0, minted in the last block."""
-    owner = Transactor(running_node.connection, development_accounts()[OWNER])
-    terms = CollectionTerms(running_node.accounts[OWNER], running_node.accounts[OWNER])
-    made, _ = launch(plan_launch(owner.connection, KINDS["genesis"], terms), owner)
-    perform(owner, made.contract.prepare("setPhase", 2))
-    perform(owner, made.contract.prepare("mint", 1, value=made.contract.call("price")))
-    return made
+    return open_sale(running_node.connection)[1]
 
 
 @pytest.fixture(autouse=True)
