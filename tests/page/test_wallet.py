@@ -21,10 +21,9 @@ from shackled.cli.app import run
 from shackled.deploy import Transactor, local_chain
 from shackled.errors import NodeError
 from shackled.ethereum import checksum_address
-from shackled.tokens import KINDS, Collection, CollectionTerms, launch, plan_launch
+from shackled.tokens import KINDS, Collection, CollectionTerms, address_of, launch, plan_launch
 from shackled.tokens._contract import perform
 from shackled.tokens._demo import development_accounts
-from shackled.tokens._editions import editions_address
 from shackled.tokens._icons import ALLOWED_LICENCES
 from shackled.tokens._metadata import read_token_uri
 
@@ -114,7 +113,7 @@ class Node:
     def read(self, function: str, *arguments: Any) -> Any:
         """What the collection of editions answers."""
         interface = artifact("Editions").interface
-        call = {"to": editions_address(), "data": "0x" + interface.encode(function, *arguments).hex()}
+        call = {"to": address_of("Editions"), "data": "0x" + interface.encode(function, *arguments).hex()}
         return interface.decode(function, self.node.connection.data("eth_call", call, "latest"))
 
 
@@ -129,8 +128,8 @@ def started() -> Iterator[Node]:
         owner = Transactor(node.connection, development_accounts()[OWNER])
         account = checksum_address(owner.address)
         genesis, _ = launch(plan_launch(owner.connection, KINDS["genesis"], CollectionTerms(account, account)), owner)
-        perform(owner, genesis.contract, "setPhase", 2)
-        perform(owner, genesis.contract, "mint", 1, value=genesis.contract.call("price"))
+        perform(owner, genesis.contract.prepare("setPhase", 2))
+        perform(owner, genesis.contract.prepare("mint", 1, value=genesis.contract.call("price")))
         yield Node(node, genesis)
 
 
@@ -362,7 +361,7 @@ def test_the_chain_is_offered(visitor: Visitor, node: Node, known: bool) -> None
 
 def test_a_chain_that_the_wallet_must_be_told(visitor: Visitor, node: Node) -> None:
     node.chain = 1
-    dialog = connected(visitor(book={"4242": {"Editions": editions_address()}}), "edition")
+    dialog = connected(visitor(book={"4242": {"Editions": address_of("Editions")}}), "edition")
     press(dialog, "switch-4242")
     trouble(dialog, "The wallet does not know chain 4242: add it there")
 
@@ -437,7 +436,7 @@ def test_another_picture_is_told(visitor: Visitor, node: Node) -> None:
     press(dialog, "add")
     dialog.locator("[data-name=token]").wait_for()
     asked, other = (artifact("Editions").interface.encode("tokenURI", each) for each in (1, 0))
-    first = node.node.rpc("eth_call", {"to": editions_address(), "data": "0x" + other.hex()}, "latest")
+    first = node.node.rpc("eth_call", {"to": address_of("Editions"), "data": "0x" + other.hex()}, "latest")
     node.lies["eth_call"] = lambda data, call: first if call[0]["data"] == "0x" + asked.hex() else data
     dialog = connected(visitor(BOLT | {"size": [16, 16]}), "edition")
     press(dialog, "add")
@@ -520,7 +519,9 @@ def test_tokens_of_the_address_book(
     node.chain = 1
     dialog = connected(visitor(book=book), "mint")
     dialog.get_by_text("No collection is known on Ethereum").wait_for()
-    perform(Transactor(node.node.connection, development_accounts()[OWNER]), node.genesis.contract, "setPhase", 0)
+    perform(
+        Transactor(node.node.connection, development_accounts()[OWNER]), node.genesis.contract.prepare("setPhase", 0)
+    )
     press(dialog, f"switch-{CHAIN}")
     dialog.get_by_role("radio", name="Genesis").check(force=True)
     trouble(dialog, "The sale is closed")

@@ -21,7 +21,7 @@ from shackled.errors import RenderError
 from shackled.ethereum import intrinsic_gas
 from shackled.scene import from_euler, pack, rotate, stage
 from shackled.studio import StoreTransaction, storage_address, store_scene
-from shackled.studio._compact_mesh import split_mesh
+from shackled.studio._compact_mesh import compact, split_mesh
 from shackled.studio._storage import compress_zeros, expand_zeros, quantize, store_mesh
 
 STUDIO = b"\x11" * 20
@@ -71,7 +71,7 @@ def test_a_large_mesh(world: World) -> None:
     n = 5000
     faces = random.integers(0, n, (2000, 3))
     packed = pack(Mesh(random.integers(-32768, 32768, (n, 3)), faces, random.integers(0, 256, (n, 3))))
-    storings = store_mesh(packed, world.address("Studio"), chain=world.chain)
+    storings = store_mesh("mesh", compact(packed), world.address("Studio"), world.chain)
     assert [s.what for s in storings] == ["mesh, part 1 of 3", "mesh, part 2 of 3", "mesh, part 3 of 3", "mesh, joined"]
     happens(world, storings)
     world.chain._codes.update(world.codes)

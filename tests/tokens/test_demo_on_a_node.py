@@ -45,7 +45,7 @@ def test_the_demo_plays_both_collections_through(node: Node, tmp_path: Path, sha
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (("--chain-id", "1"), "belongs to chain 1, where public keys must not be used"),
+        (("--chain-id", "1"), " of chain 1"),
         (("--balance", "5"), "has 5 ether"),
         (("--mnemonic-random",), "has 0 ether"),
     ],

@@ -34,19 +34,6 @@ def pointer(s: Stage) -> str:
     return str(s.icons.call("iconAt", 0)[1])
 
 
-def test_each_token_is_one_of_an_icon(s: Stage) -> None:
-    for icon, quantity in ((0, 2), (1, 3), (0, 1)):
-        s.icons.send("mint", icon, quantity, sender=s.alice, value=quantity * PRICES[icon])
-    kinds = [0, 0, 1, 1, 1, 0]
-    assert [s.icons.call("iconOf", token) for token in range(6)] == kinds
-    for token in (1, 3, 5):
-        s.icons.send("transferFrom", s.alice, s.bob, token, sender=s.alice)
-    assert [s.icons.call("iconOf", token) for token in range(6)] == kinds
-    sold = [s.icons.call("iconAt", icon)[6] for icon in range(2)]
-    assert sold == [3, 3]
-    assert s.world.balance(s.icons.address) == 3 * sum(PRICES)
-
-
 def test_each_icon_has_its_own_supply(s: Stage) -> None:
     s.icons.send("mint", 0, 10, sender=s.alice, value=10 * PRICES[0])
     assert s.icons.call("left", 0) == 0
@@ -71,14 +58,9 @@ def test_payments_and_quantities(s: Stage) -> None:
         with refused("Quantity", quantity, LIMIT):
             s.icons.send("mintReserve", 0, s.bob, quantity, sender=s.owner)
     for icon in (2, 2**24, 2**256 - 1):
-        for function, arguments in (
-            ("mint", (icon, 1)),
-            ("left", (icon,)),
-            ("iconAt", (icon,)),
-            ("renderIcon", (icon,)),
-        ):
+        for function, *more in (("mint", 1), ("left",), ("iconAt",), ("renderIcon",)):
             with refused("UnknownIcon", icon, 2):
-                s.icons.send(function, *arguments, sender=s.alice)
+                s.icons.send(function, icon, *more, sender=s.alice)
 
 
 def test_the_allow_list_counts_all_icons_together(s: Stage) -> None:
@@ -101,6 +83,9 @@ def test_a_permission_must_be_signed(s: Stage) -> None:
 
 def test_icons_are_added_until_the_collection_is_sealed(s: Stage) -> None:
     c, scene = fresh(s), pointer(s)
+    for supply, reserve in ((0, 0), (5, 6)):
+        with refused("Supply", supply, reserve):
+            c.send("add", "One", scene, 4, ETHER, supply, reserve, sender=s.owner)
     with refused("NoIcons"):
         c.send("seal", sender=s.owner)
     receipt = c.send("add", "One", scene, 4, ETHER, 5, 1, sender=s.owner)
@@ -124,12 +109,6 @@ def test_icons_are_added_until_the_collection_is_sealed(s: Stage) -> None:
         c.send("seal", sender=s.owner)
     assert (c.call("isSealed"), c.call("iconCount")) == (True, 1)
     assert c.call("iconAt", 0) == ("One", scene, 4, ETHER, 5, 1, 0, 0)
-
-
-@pytest.mark.parametrize(("supply", "reserve"), [(0, 0), (5, 6)])
-def test_supplies_that_make_no_sense_are_refused(s: Stage, supply: int, reserve: int) -> None:
-    with refused("Supply", supply, reserve):
-        fresh(s).send("add", "One", pointer(s), 4, ETHER, supply, reserve, sender=s.owner)
 
 
 def test_no_price_times_quantity_overflows(s: Stage) -> None:
@@ -169,8 +148,6 @@ def test_render_takes_the_number_of_a_token(s: Stage) -> None:
     assert [s.icons.call("render", token) for token in range(3)] == [pictures[1], pictures[1], pictures[0]]
     with refused("OwnerQueryForNonexistentToken"):
         s.icons.call("render", 3)
-    with refused("UnknownIcon", 2, 2):
-        s.icons.call("renderIcon", 2)
 
 
 def test_a_token_turns(s: Stage) -> None:
@@ -220,14 +197,9 @@ def test_a_receiver_that_calls_back_changes_no_icon(s: Stage) -> None:
 
 
 def test_only_the_owner_may(s: Stage) -> None:
-    for function, arguments in (
-        ("mintReserve", (0, s.bob, 1)),
-        ("setPhase", (1,)),
-        ("withdraw", (s.bob,)),
-        ("seal", ()),
-    ):
+    for function, *arguments in (("mintReserve", 0, s.bob, 1), ("setPhase", 1), ("withdraw", s.bob), ("seal",)):
         with refused("OwnableUnauthorizedAccount", s.bob):
-            s.icons.send(function, *arguments, sender=s.bob)
+            s.icons.send(str(function), *arguments, sender=s.bob)
 
 
 def test_the_scenes_cannot_be_changed(s: Stage) -> None:

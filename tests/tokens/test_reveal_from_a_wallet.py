@@ -11,14 +11,12 @@ import pytest
 from commands import Shackled
 from forged_blocks import forged
 from nodes import Node
+from open_sales import open_sale
 from proxies import Liar
 from shackled.cli.app import run
-from shackled.deploy import Transactor
 from shackled.errors import RevertError
 from shackled.ethereum import encode_header
-from shackled.tokens import KINDS, Collection, CollectionTerms, launch, plan_launch
-from shackled.tokens._contract import perform
-from shackled.tokens._demo import development_accounts
+from shackled.tokens import Collection
 
 OWNER, WALLET = 0, 5
 
@@ -26,12 +24,7 @@ OWNER, WALLET = 0, 5
 @pytest.fixture(scope="module")
 def collection(running_node: Node, users: list[str]) -> Collection:
     """A collection with a token of round 0, minted in the last block."""
-    owner = Transactor(running_node.connection, development_accounts()[OWNER])
-    terms = CollectionTerms(running_node.accounts[OWNER], running_node.accounts[OWNER])
-    made, _ = launch(plan_launch(owner.connection, KINDS["genesis"], terms), owner)
-    perform(owner, made.contract, "setPhase", 2)
-    perform(owner, made.contract, "mint", 1, value=made.contract.call("price"))
-    return made
+    return open_sale(running_node.connection)[1]
 
 
 @pytest.fixture(autouse=True)
@@ -71,7 +64,7 @@ def test_a_wallet_reveals(node: Node, collection: Collection, shackled: Shackled
     genesis = node.contract("GenesisCollection", collection.address)
     function, arguments = genesis.decode_function_input(call["data"])
     assert function.fn_name == "reveal"
-    assert arguments == {"rounds": [0], "headers": [encode_header(node.web3.eth.get_block(block))]}
+    assert arguments == {"rounds": [0], "headers": [encode_header(node.connection.block(block))]}
     assert send(node, call) <= int(call["gas"], 16)
     assert genesis.functions.randomnessOf(0).call() == node.web3.eth.get_block(block)["mixHash"]
     # there is nothing more
@@ -105,7 +98,7 @@ def test_a_block_to_come_is_reported_or_waited_for(
         assert not Path("calls.json").exists()
     # one block less would do for the contract, but no node would simulate the call
     with pytest.raises(RevertError):
-        collection.contract.call("reveal", [0], [encode_header(node.web3.eth.get_block(block))])
+        collection.contract.call("reveal", [0], [encode_header(node.connection.block(block))])
     pauses: list[float] = []
 
     def one_block(seconds: float) -> None:

@@ -37,7 +37,7 @@ def metadata(w3: Web3) -> str:
 
 
 @pytest.mark.parametrize("delay", [1, 2, 255, 256, 257, 400])
-def test_reveal_on_a_node(w3: Web3, metadata: str, delay: int) -> None:
+def test_reveal_on_a_node(running_node: Node, w3: Web3, metadata: str, delay: int) -> None:
     owner, alice, bob = (w3.eth.accounts[number] for number in range(3))
     genesis = deploy(w3, "GenesisCollection", metadata, PRICE, 10, (owner, 5, owner, 500))
     call = genesis.functions
@@ -47,7 +47,7 @@ def test_reveal_on_a_node(w3: Web3, metadata: str, delay: int) -> None:
     assert traits(document(call.tokenURI(1).call())) == {"Revealed": "No"}
     # the transaction is in the next block; nodes estimate its gas as if it were in the last one
     w3.provider.make_request("anvil_mine", [hex(block + delay - 1 - w3.eth.block_number)])  # type: ignore[arg-type]
-    header = encode_header(w3.eth.get_block(block))
+    header = encode_header(running_node.connection.block(block))
     receipt = w3.eth.wait_for_transaction_receipt(call.reveal([0], [header]).transact({"from": bob, "gas": 500_000}))
     assert receipt["blockNumber"] == block + delay
     randomness = bytes(w3.eth.get_block(block)["mixHash"])

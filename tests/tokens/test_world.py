@@ -61,7 +61,7 @@ class Both:
 
     def header(self, block: int) -> bytes:
         """The node's header of a block, whose hash the world knows then."""
-        header = encode_header(self.node.web3.eth.get_block(block))
+        header = encode_header(self.node.connection.block(block))
         self.world.accounts[HISTORY].storage[block % HISTORY_LENGTH] = int.from_bytes(keccak(header))
         return header
 

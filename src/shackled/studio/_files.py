@@ -13,7 +13,7 @@ from .._on import Nodes, On
 from ..animation import DURATION, check_duration
 from ..artifacts import artifact
 from ..chain import ContractChain, NodeChain, open_chain, open_node, returned_bytes
-from ..checks import number
+from ..checks import vector, whole
 from ..errors import InputError, VerificationError
 from ..ethereum import intrinsic_gas
 from ..image import data_uri
@@ -69,15 +69,14 @@ def make_apng(
     nothing leaves the picture. on: the name of an EVM, or Nodes, of which the first is called and its answer compared
     with that of the embedded EVM, unless `verify` is "none".
     """
-    vector = np.asarray(axis, dtype=np.float64)
-    if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
-        raise InputError(f"the axis of a turn must be three numbers, not all zero, not {axis!r:.60}")
-    vector = vector / np.abs(vector).max()
+    around = vector(axis, "the axis of a turn")
+    if not around.any():
+        raise InputError("the axis of a turn must not be (0, 0, 0)")
     words = (
-        _whole(frames, "the number of frames of a turntable", 2, MOST_FRAMES),
+        whole(frames, "the number of frames of a turntable", 2, MOST_FRAMES),
         check_duration(duration),
-        _whole(scale, "the scale of a picture", 1, MOST_SCALE),
-        *(round(part * ONE) for part in vector.tolist()),
+        whole(scale, "the scale of a picture", 1, MOST_SCALE),
+        *(round(part * ONE) for part in (around / np.abs(around).max()).tolist()),
         int(hold),
     )
     data = encode(artifact("Turntable").selectors["animate"], scene, None, *words)
@@ -91,12 +90,6 @@ def make_glb(scene: Scene, on: On | None = None, gas_limit: int | None = None) -
     """
     data = encode(artifact("GlbEncoder").selectors["encode"], scene)
     return _made("GlbEncoder", data, "model/gltf-binary", on, gas_limit)
-
-
-def _whole(value: float, what: str, least: int, most: int) -> int:
-    if number(value, what, least, most) != int(value):
-        raise InputError(f"{what} must be a whole number, not {value!r}")
-    return int(value)
 
 
 def _made(contract: str, data: bytes, media_type: str, on: On | None, gas_limit: int | None) -> ContractFile:

@@ -20,6 +20,7 @@ from ..deploy import (
     Transactor,
     create,
     current_fees,
+    in_order,
     make_quotes,
 )
 from ..errors import VerificationError
@@ -28,7 +29,6 @@ from ..image import Image, decode_bmp
 from ..scene import Scene
 from ..studio import STUDIO, StoreTransaction, store_scene
 from ._contract import Contract
-from ._launch import address_of, parts_of
 
 #: The Studio has two functions called `render`.
 RENDER = "render(address)"
@@ -84,25 +84,24 @@ def plan_storage(connection: Connection, wanted: Iterable[SceneToStore], fees: F
     fees: None uses the current ones. Each scene is rendered first, so that errors occur before anything is paid.
     """
     fees = current_fees(connection) if fees is None else fees
-    parts = parts_of(STUDIO, itself=True)
-    studio = address_of(parts, STUDIO)
+    parts = in_order([STUDIO])
+    place = parts[-1].address
     stored: dict[bytes, tuple[str, StoreTransaction]] = {}
     pointers = []
     for each in wanted:
         render(each.scene)
-        transactions = store_scene(each.scene, bytes.fromhex(studio[2:]), each.position_bits, each.normal_bits)
+        transactions = store_scene(each.scene, place, each.position_bits, each.normal_bits)
         pointers.append(checksum_address(transactions[-1].pointer))
         for transaction in transactions:
             stored.setdefault(transaction.pointer, (each.name, transaction))
     is_there = read_all(partial(_is_stored, connection), list(stored))
     missing = [part for part, is_stored in zip(stored.values(), is_there, strict=True) if not is_stored]
     plan = Deployer(connection).plan(parts, fees)
-    place = bytes.fromhex(studio[2:])
     calls = [Call(place, each.data, each.gas, needs=plan.codes) for _, each in missing]
     quotes = make_quotes(connection, calls, fees, plan.quotes)
     quoted = (QuotedStorage(*named, quote) for named, quote in zip(missing, quotes, strict=True))
     codes = {pointer: each.code for pointer, (_, each) in stored.items()}
-    return StoragePlan(plan, studio, tuple(quoted), tuple(pointers), codes)
+    return StoragePlan(plan, checksum_address(place), tuple(quoted), tuple(pointers), codes)
 
 
 def store(

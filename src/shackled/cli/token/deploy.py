@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -26,8 +26,8 @@ from ..output import print_json, print_line, print_note, print_table
 
 if TYPE_CHECKING:
     from ...datasets import Piece
-    from ...deploy import DeploymentStep, Receipt, Transactor
-    from ...tokens import Collection, CollectionKind, CollectionTerms, Launch, SetupStep, StoragePlan
+    from ...deploy import DeploymentStep, Quote, Receipt, Transactor
+    from ...tokens import Collection, CollectionKind, CollectionTerms, Launch, StoragePlan
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class TermsOptions:
     ] = None
     allow_list: Annotated[
         Path | None,
-        option("--allow-list", "Allow list: lines of account,quantity, or an OpenZeppelin tree as JSON.", "FILE"),
+        option("--allow-list", "Allow list: lines of account,quantity.", "FILE"),
     ] = None
     signer: Annotated[
         str | None, option("--signer", "Account that signs permissions to mint before the public sale.", "ADDRESS")
@@ -88,7 +88,7 @@ class TermsOptions:
                 raise InputError("--icons and --supply are for collections of icons")
             return []
         chosen = chosen_pieces(self.icons)
-        check_sale(chosen, *self.of_each_icon)
+        check_sale(*self.of_each_icon[1:])
         return chosen
 
     def list_wanted(self) -> tuple[bytes, str | None] | None:
@@ -161,7 +161,7 @@ def deploy(
     setup = plan_setup(connection, plan, fees, list_wanted, icons_wanted, codes, quotes)
     if chosen:
         print_note(f"with {len(chosen)} icons: {', '.join(piece.title for piece in chosen)}")
-    quotes += [each.quote for each in setup]
+    quotes += setup.values()
     if quotes:
         payer.confirm(transactor, quotes)
     else:
@@ -194,7 +194,7 @@ def _print_place(kind: CollectionKind, plan: Launch, chain_id: int) -> None:
 
 
 def _launch(
-    plan: Launch, storage: StoragePlan | None, setup: Sequence[SetupStep], transactor: Transactor
+    plan: Launch, storage: StoragePlan | None, setup: Mapping[str, Quote], transactor: Transactor
 ) -> tuple[Collection, Receipt | None, int]:
     """Send what is missing; return the collection, the receipt of its deployment, and the gas of all."""
     from ...tokens import launch, store
@@ -208,10 +208,10 @@ def _launch(
     deployed, receipt = launch(plan, transactor, report)
     if storage is not None:
         store(storage, transactor, report)
-    for each in setup:
-        done = transactor.send(each.quote)
+    for what, quote in setup.items():
+        done = transactor.send(quote)
         spent.append(done.gas)
-        print_note(f"{each.what}, {done.gas:,} gas, transaction {done.hash}")
+        print_note(f"{what}, {done.gas:,} gas, transaction {done.hash}")
     return deployed, receipt, sum(spent)
 
 

@@ -87,7 +87,7 @@ def add(
     gas = add_gas(terms, stored_codes(collection.connection, studio, scene))
     tokens = "any number of tokens" if supply is None else plural(supply, "token")
     title = f"add {name}, {tokens} at {ether(terms.price)}; this cannot be changed later"
-    receipt = payer.send(collection, title, "add", *terms.arguments, gas=gas)
+    receipt = payer.send(collection, title, collection.contract.prepare("add", *terms.arguments, gas=gas))
     added = edition_at(collection, added_number(receipt.logs, collection.address))
     added.check(str(payer.signer.address), terms)
     numbers = minted_tokens(receipt.logs, collection.address)
@@ -108,14 +108,14 @@ def mint(
     as_json: Json = False,
 ) -> None:
     """Mint tokens of an edition. Prints the price first."""
-    from ...tokens import edition_at, edition_mint_call, minted_tokens
+    from ...tokens import edition_at, minted_tokens
 
     collection = which.open(exact=True)
     chosen = edition_at(collection, edition)
-    call = edition_mint_call(chosen, quantity)
+    call = collection.contract.prepare("mint", edition, quantity, value=quantity * chosen.price)
     left = "" if chosen.supply == OPEN else f", {chosen.left} left"
     title = f"mint {quantity} of {chosen.name} by {chosen.artist}{left}"
-    receipt = payer.send(collection, title, call.function, *call.arguments, value=call.value)
+    receipt = payer.send(collection, title, call)
     numbers = minted_tokens(receipt.logs, collection.address)
     if as_json:
         print_json({"tokens": numbers, "transaction": receipt.hash, "gas": receipt.gas, "wei": call.value})
@@ -174,7 +174,7 @@ def close(edition: Number, which: EditionsOptions, payer: TokenPayerOptions) -> 
     collection = which.open()
     chosen = edition_at(collection, edition)
     title = f"close {chosen.name} with {plural(chosen.minted, 'token')}; this cannot be undone"
-    receipt = payer.send(collection, title, "close", edition)
+    receipt = payer.send(collection, title, collection.contract.prepare("close", edition))
     print_line(f"edition {edition} is closed; {receipt.gas:,} gas")
 
 
@@ -185,7 +185,7 @@ def withdraw(
     to: Annotated[str | None, option("--to", "Receiver; default: you.", "ADDRESS")] = None,
 ) -> None:
     """Withdraw the proceeds of your editions."""
-    from ...tokens import edition_at, editions_of, withdraw_gas, withdrawn
+    from ...tokens import edition_at, editions_of, withdraw_call, withdrawn
 
     account = str(payer.signer.address)
     receiver = account if to is None else parse_checksum_address(to, "--to")
@@ -201,6 +201,5 @@ def withdraw(
         return
     numbers = [each.number for each in found]
     title = f"send {ether(total)} of {plural(len(found), 'edition')} to {receiver}"
-    gas = withdraw_gas(collection, numbers, receiver)
-    receipt = payer.send(collection, title, "withdraw", numbers, receiver, gas=gas)
+    receipt = payer.send(collection, title, withdraw_call(collection, numbers, receiver))
     print_line(f"{ether(withdrawn(receipt.logs, collection.address))} sent to {receiver}; {receipt.gas:,} gas")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from ...chain import AddressBook
 from ...errors import InputError
@@ -14,11 +14,9 @@ from ..option import option
 from ..output import print_note
 
 if TYPE_CHECKING:
-    from ...deploy import Receipt
+    from ...deploy import Call, Receipt
     from ...tokens import Collection
 
-#: The phases of a sale as they are typed, in the order of the contract's numbers.
-PHASES = ("closed", "allow-list", "public")
 #: The largest number of an argument.
 MAX_NUMBER = 2**64 - 1
 
@@ -93,23 +91,12 @@ class IconsOptions(CollectionOptions):
 class TokenPayerOptions(PayerOptions):
     """The account that signs and pays for transactions to a collection."""
 
-    def send(
-        self,
-        collection: Collection,
-        title: str,
-        function: str,
-        *arguments: Any,
-        value: int = 0,
-        gas: int | None = None,
-    ) -> Receipt:
-        """Print the price of a transaction, ask for consent, and send it.
-
-        title: what it does. value: in wei. gas: see `plan`.
-        """
+    def send(self, collection: Collection, title: str, call: Call) -> Receipt:
+        """Print the price of a transaction, ask for consent, and send it. title: what it does."""
         from ...tokens import plan
 
         transactor = self.transactor(collection.connection)
-        quote = plan(transactor, collection.contract, function, *arguments, value=value, gas=gas)
+        quote = plan(transactor, call)
         print_note(f"{collection.name} on chain {collection.connection.chain_id}: {title}")
         self.confirm(transactor, [quote])
         receipt = transactor.send(quote)

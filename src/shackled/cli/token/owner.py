@@ -10,11 +10,12 @@ from typing import Annotated
 from ...checks import choice, number
 from ...errors import InputError
 from ...ethereum import checksum_address, ether, parse_ether
+from ...tokens import PHASES
 from ...whole_file import write_output
 from ..chain_options import SignerOptions, parse_checksum_address
 from ..option import argument, is_from_environment, option
 from ..output import print_line
-from .options import MAX_NUMBER, PHASES, CollectionOptions, IconsOptions, TokenPayerOptions
+from .options import MAX_NUMBER, CollectionOptions, IconsOptions, TokenPayerOptions
 
 
 def phase(
@@ -23,10 +24,10 @@ def phase(
     payer: TokenPayerOptions,
 ) -> None:
     """Set the phase of the sale, which says who may mint. For the owner."""
-    number = PHASES.index(choice(to, "the phase", PHASES))
+    number = list(PHASES).index(choice(to, "the phase", PHASES))
     collection = which.open()
-    receipt = payer.send(collection, f"set the sale to {to}", "setPhase", number)
-    print_line(f"{collection.name} is {collection.state().phase_name}; {receipt.gas:,} gas")
+    receipt = payer.send(collection, f"set the sale to {to}", collection.contract.prepare("setPhase", number))
+    print_line(f"{collection.name} is {PHASES[collection.phase()]}; {receipt.gas:,} gas")
 
 
 def withdraw(
@@ -39,11 +40,12 @@ def withdraw(
 
     collection = which.open()
     receiver = str(payer.signer.address) if to is None else parse_checksum_address(to, "--to")
-    balance = collection.state().balance
+    balance = collection.balance()
     if not balance:
         print_line("there is nothing to withdraw")
         return
-    receipt = payer.send(collection, f"send {ether(balance)} to {receiver}", "withdraw", receiver)
+    call = collection.contract.prepare("withdraw", receiver)
+    receipt = payer.send(collection, f"send {ether(balance)} to {receiver}", call)
     print_line(f"{ether(withdrawn(receipt.logs, collection.address))} sent to {receiver}; {receipt.gas:,} gas")
 
 
@@ -57,9 +59,9 @@ def royalty(
     parts = round(100 * number(percent, "the royalty", 0, 10))
     given = None if receiver is None else parse_checksum_address(receiver, "--receiver")
     collection = which.open()
-    address = collection.state().royalty_receiver if given is None else given
+    address = given or checksum_address(bytes.fromhex(collection.contract.call("royaltyInfo", 0, 0)[0][2:]))
     title = f"set royalties of {parts / 100:g} % for {address}"
-    receipt = payer.send(collection, title, "setRoyalty", address, parts)
+    receipt = payer.send(collection, title, collection.contract.prepare("setRoyalty", address, parts))
     print_line(f"royalties are {parts / 100:g} % for {address}; {receipt.gas:,} gas")
 
 
@@ -71,7 +73,8 @@ def transfer_ownership(
     """Offer a collection to a new owner, who must accept it. For the owner."""
     address = parse_checksum_address(to, "the new owner")
     collection = which.open()
-    receipt = payer.send(collection, f"offer it to {address}", "transferOwnership", address)
+    call = collection.contract.prepare("transferOwnership", address)
+    receipt = payer.send(collection, f"offer it to {address}", call)
     print_line(f"{address} can accept it: shackled token accept-ownership; {receipt.gas:,} gas")
 
 
@@ -79,16 +82,16 @@ def accept_ownership(which: CollectionOptions, payer: TokenPayerOptions) -> None
     """Accept the ownership of a collection that was offered to you."""
     collection = which.open()
     signer = str(payer.signer.address)
-    pending = checksum_address(bytes.fromhex(collection.contract.call("pendingOwner")[2:]))
+    pending = collection.contract.account("pendingOwner")
     if pending != signer:
         offered = "is not offered to anyone" if int(pending, 16) == 0 else f"is offered to {pending}, not to {signer}"
         raise InputError(f"{collection.name} {offered}")
-    receipt = payer.send(collection, "accept its ownership", "acceptOwnership")
-    print_line(f"{collection.name} belongs to {collection.state().owner}; {receipt.gas:,} gas")
+    receipt = payer.send(collection, "accept its ownership", collection.contract.prepare("acceptOwnership"))
+    print_line(f"{collection.name} belongs to {collection.contract.account('owner')}; {receipt.gas:,} gas")
 
 
 def allow_list(
-    file: Annotated[Path, argument("Lines of account,quantity, or an OpenZeppelin tree as JSON.", "FILE")],
+    file: Annotated[Path, argument("Lines of account,quantity.", "FILE")],
     which: CollectionOptions,
     payer: TokenPayerOptions,
     output: Annotated[
@@ -110,8 +113,10 @@ def allow_list(
     if which.rpc is None or (is_from_environment("rpc") and not payer.is_given):
         return
     collection = which.open()
-    trusted = collection.state().allow_list_signer if signer is None else parse_checksum_address(signer, "--signer")
-    receipt = payer.send(collection, "set the allow list", "setAllowList", allowed.root, trusted)
+    given = None if signer is None else parse_checksum_address(signer, "--signer")
+    trusted = given or collection.contract.account("allowListSigner")
+    call = collection.contract.prepare("setAllowList", allowed.root, trusted)
+    receipt = payer.send(collection, "set the allow list", call)
     print_line(f"{collection.name} has this allow list now; {receipt.gas:,} gas")
 
 
@@ -130,7 +135,7 @@ def permit(
     seconds = 86400 * number(days, "--days", 0, 36_500)
     collection = which.open()
     signer = signing.signer
-    trusted = collection.state().allow_list_signer
+    trusted = collection.contract.account("allowListSigner")
     if not int(trusted, 16):
         raise InputError(
             "the collection accepts no permissions yet: its owner sets a signer with shackled token allow-list FILE "
@@ -162,7 +167,7 @@ def add(
     from ...tokens import SCALE, SceneToStore, add_call, check_sale, chosen_pieces, plan_storage, token_scene
 
     wei = parse_ether(price, "--price")
-    check_sale([], wei, supply, reserve)
+    check_sale(supply, reserve)
     pieces = [] if pointer is not None else chosen_pieces(name)
     if len(pieces) > 1:
         raise InputError("one icon can be added at a time")
@@ -177,8 +182,7 @@ def add(
     arguments = (name, place, SCALE, wei, supply, reserve)
     # fails before the confirmation if the scene cannot be drawn
     codes = stored_codes(collection.connection, local_chain().address(STUDIO), bytes.fromhex(place[2:]))
-    gas = add_call(collection.contract.interface, collection.address, arguments, codes).gas
-    receipt = payer.send(collection, f"add {name}", "add", *arguments, gas=gas)
+    receipt = payer.send(collection, f"add {name}", add_call(collection.contract, arguments, codes))
     print_line(f"{name} is added; {receipt.gas:,} gas")
 
 
@@ -188,5 +192,6 @@ def seal(which: IconsOptions, payer: TokenPayerOptions) -> None:
 
     collection = which.open()
     icons = icons_of(collection)
-    receipt = payer.send(collection, f"seal the collection with {len(icons)} icons", "seal")
+    title = f"seal the collection with {len(icons)} icons"
+    receipt = payer.send(collection, title, collection.contract.prepare("seal"))
     print_line(f"{collection.name} is sealed with {len(icons)} icons; {receipt.gas:,} gas")

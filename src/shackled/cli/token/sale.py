@@ -23,7 +23,7 @@ from .options import MAX_NUMBER, AnyCollectionOptions, CollectionOptions, TokenP
 
 if TYPE_CHECKING:
     from ...deploy import Quote
-    from ...tokens import Collection, ContractCall, Round
+    from ...tokens import Collection, Round
 
 #: Seconds between two requests while waiting for a block.
 PAUSE = 4.0
@@ -50,7 +50,7 @@ def mint(
     as_json: Json = False,
 ) -> None:
     """Mint tokens. Prints the price first."""
-    from ...tokens import find_icon, mint_call, minted_tokens
+    from ...tokens import find_icon, mint_call, minted_tokens, read_allow_list, read_allowance
 
     if sum(each is not None for each in (allow_list, permission, reserve_to)) > 1:
         raise InputError("--allow-list, --permission and --reserve-to exclude each other: give one of them")
@@ -63,10 +63,12 @@ def mint(
     chosen = None if icon is None else find_icon(collection, icon)
     number = None if chosen is None else chosen.number
     account = str(payer.signer.address)
-    call = mint_call(collection, account, quantity, allow_list, permission, receiver, number)
+    listed = None if allow_list is None else read_allow_list(allow_list)
+    allowed = None if permission is None else read_allowance(permission)
+    call = mint_call(collection, account, quantity, listed, allowed, receiver, number)
     first = collection.minted()
     title = f"mint {quantity}" if chosen is None else f"mint {quantity} of {chosen.name}, {chosen.left} left"
-    receipt = payer.send(collection, title, call.function, *call.arguments, value=call.value)
+    receipt = payer.send(collection, title, call)
     numbers = minted_tokens(receipt.logs, collection.address)
     if as_json:
         print_json({"tokens": numbers, "transaction": receipt.hash, "gas": receipt.gas, "wei": call.value})
@@ -88,7 +90,7 @@ def reveal(
 ) -> None:
     """Reveal the tokens whose blocks are mined. Anyone can do this."""
     from ...deploy import current_fees
-    from ...tokens import hidden_rounds, price_calls, price_wallet_calls, reveal_calls
+    from ...tokens import hidden_rounds, price_calls, reveal_calls
 
     check_calldata(calldata)
     collection = which.open()
@@ -106,25 +108,24 @@ def reveal(
     ready = _ready_rounds(collection, rounds, wait)
     transactor = None if calldata is not None else payer.transactor(collection.connection)
     calls = reveal_calls(collection, ready)
-    if transactor is None:
-        quotes = price_wallet_calls(collection, calls, current_fees(collection.connection, payer.max_wei))
-    else:
-        quotes = price_calls(transactor, collection, calls)
-    proofs = sum(call.function != "reveal" for call in calls)
+    fees = current_fees(collection.connection, payer.max_wei)
+    sender = None if transactor is None else transactor.address
+    quotes = price_calls(collection.connection, list(calls.values()), fees, sender)
+    named = dict(zip(calls, quotes, strict=True))
+    proofs = sum(not name.startswith("reveal") for name in named)
     more = f", and {plural(proofs, 'transaction')} to prove old blocks" if proofs else ""
     print_note(plural(len(ready), "round") + more)
     if calldata is not None:
         print_price(quotes)
-        named = {_name_of(call): quote for call, quote in zip(calls, quotes, strict=True)}
         write_calls(calldata, collection.connection.chain_id, named, as_json)
         if not as_json:
             _print_pasting(quotes, calldata)
     elif transactor is not None:
         payer.confirm(transactor, quotes)
         receipts = []
-        for call, quote in zip(calls, quotes, strict=True):
+        for name, quote in named.items():
             receipts.append(transactor.send(quote))
-            done = f"{'revealed' if call.function == 'reveal' else 'proved older blocks'}; {receipts[-1].gas:,} gas"
+            done = f"{'revealed' if name.startswith('reveal') else 'proved older blocks'}; {receipts[-1].gas:,} gas"
             (print_note if as_json else print_line)(done)
         if as_json:
             hashes = [receipt.hash for receipt in receipts]
@@ -138,13 +139,11 @@ def reveal(
 
 def _ready_rounds(collection: Collection, rounds: list[Round], wait: bool) -> list[Round]:
     """Return the rounds that can be revealed now; with `wait`, wait for all. InputError if there are none."""
-    from ...tokens import latest_block
-
-    latest = latest_block(collection)
+    latest = collection.connection.number("eth_blockNumber")
     while wait and (missing := rounds[-1].missing_blocks(latest)):
         print_note(f"waiting for block {rounds[-1].block:,}: {plural(missing, 'more block')}")
         time.sleep(PAUSE)
-        latest = latest_block(collection)
+        latest = collection.connection.number("eth_blockNumber")
     ready = [each for each in rounds if not each.missing_blocks(latest)]
     if not ready:
         raise InputError(
@@ -152,14 +151,6 @@ def _ready_rounds(collection: Collection, rounds: list[Round], wait: bool) -> li
             f"wait for {plural(rounds[0].missing_blocks(latest), 'more block')}, or add --wait"
         )
     return ready
-
-
-def _name_of(call: ContractCall) -> str:
-    """Return the purpose of a call; no two calls of a reveal have the same one."""
-    if call.function != "reveal":
-        return f"prove blocks before {call.arguments[0]}"
-    numbers = call.arguments[0]
-    return f"reveal {plural(len(numbers), 'round')}, {', '.join(map(str, numbers))}"
 
 
 def _print_pasting(quotes: list[Quote], path: Path) -> None:
@@ -188,5 +179,5 @@ def transfer(
     if owner != signer:
         raise InputError(f"token {token_id} belongs to {owner}, not to {signer}")
     title = f"transfer #{token_id} to {receiver}"
-    receipt = payer.send(collection, title, SAFE_TRANSFER, owner, receiver, token_id)
+    receipt = payer.send(collection, title, collection.contract.prepare(SAFE_TRANSFER, owner, receiver, token_id))
     print_line(f"#{token_id} belongs to {collection.owner_of(token_id)}; {receipt.gas:,} gas")

@@ -10,14 +10,14 @@ from ...animation import DURATION
 from ...errors import InputError, VerificationError
 from ...ethereum import amount, ether
 from ...image import check_output, one_of
-from ...tokens import EDITIONS
+from ...tokens import EDITIONS, PHASES
 from ...whole_file import check_output_file, write_output
 from ..chain_options import Json, NodeOptions, parse_checksum_address
 from ..look_options import parse_size
 from ..option import argument, option
 from ..output import print_json, print_line, print_table
 from ..progress import LateBar
-from .options import MAX_NUMBER, PHASES, AnyCollectionOptions, CollectionOptions
+from .options import MAX_NUMBER, AnyCollectionOptions, CollectionOptions
 
 
 def show(
@@ -33,7 +33,7 @@ def show(
 
     if output is not None:
         check_output(output)
-    view = read_view(which.open(), token_id)
+    view = read_view(which.open(), token_id, measured=True)
     metadata = view.metadata
     if output is not None:
         metadata.save(output)
@@ -60,27 +60,28 @@ def list_(which: CollectionOptions, as_json: Json = False) -> None:
     if which.collection == EDITIONS.name:
         raise InputError("editions have no sale phases: shackled token edition list lists them")
     collection = which.open()
-    state = collection.state()
+    owner, phase, balance = collection.contract.account("owner"), collection.phase(), collection.balance()
     with LateBar("reading tokens") as bar:
         icons = [] if collection.kind.hidden else icons_of(collection)
         views = list(read_views(collection, bar.set))
     if as_json:
         print_json(
             {
-                "collection": state.name,
+                "collection": collection.name,
                 "address": collection.address,
                 "chain_id": collection.connection.chain_id,
-                "owner": state.owner,
-                "phase": PHASES[state.phase],
-                "minted": state.minted,
-                "balance": amount(state.balance),
+                "owner": owner,
+                "phase": phase,
+                "minted": len(views),
+                "balance": amount(balance),
                 "icons": [each.document() for each in icons],
                 "tokens": [each.summary() for each in views],
             }
         )
         return
-    print_line(f"{state.name} at {collection.address}: {state.phase_name}, {state.minted:,} minted")
-    print_line(f"owner {state.owner}, {ether(state.balance)} to withdraw, royalties {state.royalty / 100:g} %")
+    print_line(f"{collection.name} at {collection.address}: {PHASES[phase]}, {len(views):,} minted")
+    royalty = collection.contract.call("royaltyInfo", 0, 10_000)[1]
+    print_line(f"owner {owner}, {ether(balance)} to withdraw, royalties {royalty / 100:g} %")
     if icons:
         print()
         rows = [(str(e.number), e.name, amount(e.price), str(e.supply), str(e.left), e.scene) for e in icons]
@@ -107,7 +108,7 @@ def picture(
 ) -> None:
     """Render a stored scene on a chain."""
     from ...studio import ANIMATE, STUDIO
-    from ...tokens import Contract, address_of, parts_of
+    from ...tokens import Contract, address_of
 
     place = parse_checksum_address(pointer, "the pointer")
     calls: dict[str, tuple[Any, ...]] = {
@@ -129,7 +130,7 @@ def picture(
         changes = (16 if size else 0, (0, 0, 0, 0), 0, (0, 0), 0, (width, height))
         calls[kind] = (ANIMATE, place, spin, changes)
     check_output_file(output, "picture")
-    studio = Contract(node.connect(), STUDIO, address_of(parts_of(STUDIO, itself=True), STUDIO))
+    studio = Contract(node.connect(), STUDIO, address_of(STUDIO))
     content = studio.call(*calls[kind])
     content = content.encode() if isinstance(content, str) else content
     write_output(output, content)
@@ -148,7 +149,9 @@ def verify(
     collection = which.open()
     local = local_chain()
     failed = unread = 0
-    wanted = range(collection.minted()) if not numbers else [collection.token(each).number for each in numbers]
+    for each in numbers or ():
+        collection.owner_of(each)
+    wanted = numbers or range(collection.minted())
     for check in chain(check_code(collection), (check_token(collection, each, local) for each in wanted)):
         failed += bool(check.failure)
         unread += bool(check.unread)
