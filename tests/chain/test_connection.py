@@ -7,11 +7,8 @@ import pickle
 import re
 import socket
 import threading
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from datetime import UTC, datetime, timedelta, timezone
-from email.utils import format_datetime
 from typing import Any
 
 import pytest
@@ -72,39 +69,25 @@ def test_an_answer() -> None:
         (
             Reply(b"", 429),
             NodeBusyError,
-            "limits the rate of requests (HTTP status 429); try again later, or use another node",
+            "limits the rate of requests (HTTP status 429); try again later, or",
         ),
         (Reply(b"", 503), NodeBusyError, "HTTP status 503: it is not available now"),
+        (Reply(b"", 503, {"Retry-After": "2.5"}), NodeBusyError, "requests (HTTP status 503); try again in 3 s"),
         (Reply(b"<h1>no</h1>", 413), TooLargeError, "of this size (no): use a smaller `size`"),
         (Reply(b"", 413), TooLargeError, "answer of this size: use a smaller `size`"),
-        (
-            Reply(b"", 503, {"Retry-After": "2.5"}),
-            NodeBusyError,
-            "limits the rate of requests (HTTP status 503); try again in 3 s",
-        ),
-        (Reply(b"", 500), NodeUnreachableError, "HTTP status 500: it is temporarily unavailable"),
-        (Reply(b"", 599), NodeUnreachableError, "HTTP status 599: it is temporarily unavailable"),
-        (Reply(b"", 499), NodeError, "HTTP status 499; check its address"),
-        (Reply(b"", 502), NodeUnreachableError, "HTTP status 502: it is temporarily unavailable"),
-        *[
-            (Reply(b"", status), NodeTimeoutError, f"HTTP status {status}: it took too long")
-            for status in (408, 504, 522, 524)
-        ],
-        *[(Reply(b"", status), NodeError, f"HTTP status {status}: it needs a key") for status in (401, 403, 407)],
+        *[(Reply(b"", code), NodeUnreachableError, f"{code}: it is temporarily unavail") for code in (500, 502, 599)],
+        *[(Reply(b"", code), NodeTimeoutError, f"{code}: it took too long") for code in (408, 504, 522, 524)],
+        *[(Reply(b"", code), NodeError, f"status {code}: it needs a key") for code in (401, 403, 407)],
+        *[(Reply(b"", code), NodeError, f"status {code}: there is no node at this path") for code in (404, 405)],
+        *[(Reply(b"", code), NodeError, f"status {code}: it redirects requests") for code in (300, 301, 399)],
+        *[(Reply(b"", code), NodeError, f"status {code}; check its address") for code in (299, 400, 499)],
         (
             Reply(b'{"jsonrpc": "2.0", "id": 999, "error": {"code": -32600, "message": "authenticate"}}', 401),
             NodeError,
             "HTTP status 401: it needs a key",
         ),
         (failure("invalid project id", -32002, status=401), NodeError, "answered: invalid project id"),
-        (Reply(b"", 404), NodeError, "HTTP status 404: there is no node at this path"),
-        (Reply(b"", 405), NodeError, "HTTP status 405: there is no node at this path"),
-        (Reply(b"", 299), NodeError, "HTTP status 299; check its address"),
         (Reply(b"\xff no", 418), NodeError, "(\ufffd no)"),
-        (Reply(b"", 300), NodeError, "HTTP status 300: it redirects requests"),
-        (Reply(b"", 399), NodeError, "HTTP status 399: it redirects requests"),
-        (Reply(b"", 400), NodeError, "HTTP status 400; check its address"),
-        (Reply(b"", 301, {"Location": "https://elsewhere"}), NodeError, "it redirects requests"),
         (Reply(b"teapot", 418), NodeError, "HTTP status 418 (teapot); check its address"),
         (Reply(b"<p>a  <b>tea</b>\n pot" + b"!" * 99, 418), NodeError, f"(a tea pot{'!' * 91}...); check"),
         (Reply(b"x" * 100, 418), NodeError, f"({'x' * 100}); check"),
@@ -221,21 +204,11 @@ def test_what_nodes_say(kind: type[ChainError], code: int, message: str) -> None
 
 
 @pytest.mark.parametrize(
-    "data",
-    ["0x1234abcd", "Reverted 0x1234abcd", {"data": "0x1234abcd"}, {"message": "no", "data": {"result": "0x1234abcd"}}],
-)
-def test_what_a_contract_says_wherever_it_is(data: Any) -> None:
-    with pytest.raises(RevertError) as error:
-        ask(failure("execution reverted: out of gas is not what it is", 3, data))
-    assert error.value.data == bytes.fromhex("1234abcd")
-    assert revert_data("Reverted 0x123") is None
-    assert revert_data(None) is None
-
-
-@pytest.mark.parametrize(
     ("data", "expected"),
     [
         ("0x", b""),
+        (None, None),
+        ("Reverted 0x1234abcd", b"\x12\x34\xab\xcd"),
         (" 0xABcd ", b"\xab\xcd"),
         ("0x1234 56", None),
         ("10x12", None),
@@ -248,14 +221,16 @@ def test_what_a_contract_says_wherever_it_is(data: Any) -> None:
     ],
 )
 def test_the_bytes_of_a_revert(data: Any, expected: bytes | None) -> None:
+    """They tell more than words."""
     assert revert_data(data) == expected
+    if expected:
+        with pytest.raises(RevertError) as error:
+            ask(failure("execution reverted: out of gas is not what it is", -32000, data))
+        assert error.value.data == expected
 
 
 def test_reverts_whose_words_are_of_something_else() -> None:
     """The contract may say anything: its data tells, then the number, and only then words."""
-    with pytest.raises(RevertError, match=r"^the call was reverted: out of gas$") as error:
-        ask(failure("out of gas", -32000, "0x12"))
-    assert error.value.data == b"\x12"
     with pytest.raises(RevertError) as error:
         ask(failure("request timed out", 3))
     assert error.value.data == b""
@@ -358,26 +333,11 @@ def test_a_busy_node_is_not_waited_for_too_long() -> None:
     assert pickle.loads(pickle.dumps(error.value)).retry_after == 3600
 
 
-@pytest.mark.skipif(not hasattr(time, "tzset"), reason="the time zone cannot be set here")
-def test_when_to_try_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    soon = format_datetime(datetime.now(UTC) + timedelta(seconds=90), usegmt=True)
-    assert 80 < (retry_after({"Retry-After": soon}) or 0) <= 90
-    assert retry_after({"Retry-After": "Wed, 21 Oct 2015 07:28:00 GMT"}) == 0
-    assert retry_after({"Retry-After": "soon"}) is None
-    assert retry_after({"Retry-After": "nan"}) is None
-    assert retry_after({"Retry-After": " 1.5 "}) == 1.5
-    assert retry_after({"Retry-After": "-3"}) == 0
-    assert retry_after({"Retry-After": " "}) is None
-    east = format_datetime(datetime.now(timezone(timedelta(hours=9))) + timedelta(seconds=90))
-    assert 80 < (retry_after({"Retry-After": east}) or 0) <= 90
-    # a date without a time zone is in that of Greenwich, wherever this runs
-    monkeypatch.setenv("TZ", "Pacific/Auckland")
-    time.tzset()
-    try:
-        assert 80 < (retry_after({"Retry-After": soon.replace("GMT", "-0000")}) or 0) <= 90
-    finally:
-        monkeypatch.undo()
-        time.tzset()
+@pytest.mark.parametrize(
+    ("value", "seconds"), [(" 1.5 ", 1.5), ("-3", 0), ("soon", None), ("nan", None), ("inf", None), (" ", None)]
+)
+def test_when_to_try_again(value: str, seconds: float | None) -> None:
+    assert retry_after({"Retry-After": value}) == seconds
     assert retry_after({}) is None
 
 

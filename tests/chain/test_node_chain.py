@@ -29,7 +29,7 @@ from shackled.errors import (
     RevertError,
     WrongChainError,
 )
-from shackled.ethereum import checksum_address, intrinsic_gas
+from shackled.ethereum import checksum_address
 from shackled.gas import search, suffices
 from shackled.scene import Rectangle, encode
 
@@ -375,7 +375,7 @@ def test_a_node_without_overrides_and_creation_calls(bare: Anvil) -> None:
 
     with (
         serving(answer) as url,
-        pytest.raises(NodeError, match="missing to address: it supports neither state overrides nor creation") as error,
+        pytest.raises(NodeError, match="missing to address: it has no state overrides, and the cont") as error,
     ):
         open_node(url).draw(SCENES["smooth"])
     assert "run shackled deploy, or use another node" in str(error.value)
@@ -420,11 +420,6 @@ def test_what_was_packed_is_unpacked(bare: Anvil, name: str) -> None:
         packed += deflate.compress(stream[1000:]) + deflate.flush()
         if len(packed) < MAX_INIT_CODE - 6000:
             assert unpacked(bare, packed) == data
-
-
-def test_intrinsic_gas_is_told(bare: Anvil) -> None:
-    data = encode(artifact("Renderer").selectors["render"], SCENES["empty"])
-    assert open_node(bare.url).draw(SCENES["empty"]).intrinsic_gas == intrinsic_gas(data)
 
 
 def test_public_limits(embedded: EmbeddedChain) -> None:

@@ -173,7 +173,7 @@ def _deploy(
     collection, _ = launch(
         plan,
         owner,
-        lambda step, receipts: demo.costs.append(ActionCost(f"deploy {step.name}", sum(each.gas for each in receipts))),
+        lambda name, _, receipt: demo.costs.append(ActionCost(f"deploy {name}", receipt.gas)),
     )
     return collection
 
