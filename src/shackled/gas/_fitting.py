@@ -59,11 +59,10 @@ STEPS: tuple[tuple[_Name, Callable[[_Settings], int]], ...] = (
 
 @dataclass(frozen=True)
 class Fitted:
-    """A scene that fits, a sentence that says what was done, and the number of calls that found it."""
+    """A scene that fits, and a sentence that says what was done."""
 
     scene: Scene
     sentence: str
-    tries: int
 
 
 def fit_scene(scene: Scene, what: str, crease: float | None = None) -> Fitted:
@@ -85,7 +84,6 @@ class _Fitting:
         self._place = "one transaction" if limit.kind == "transaction" else f"a read call of {limit.node}"
         triangles = max((each.mesh.triangles for each in scene.objects), default=0)
         self._asked = _Settings(int(scene.antialias), max(scene.width, scene.height), triangles)
-        self._tries = 0
         self._simpler = {triangles: scene}
 
     def run(self) -> Fitted:
@@ -162,7 +160,6 @@ class _Fitting:
         intrinsic = intrinsic_gas(data)
         if max(intrinsic, floor_gas(data)) > self._limit.gas:
             return None
-        self._tries += 1
         try:
             return intrinsic + self._chain.call("Renderer", data, self._limit.gas - intrinsic).gas
         except OutOfGasError:
@@ -182,7 +179,7 @@ class _Fitting:
         words = self._words(settings)
         used = f"{gas:,} of {self._limit.gas:,} gas"
         how = f"to fit {self._place}, the picture is drawn {words}" if words else f"the picture fits {self._place}"
-        return Fitted(self._scene_of(settings), f"{how}: {used}", self._tries)
+        return Fitted(self._scene_of(settings), f"{how}: {used}")
 
     def _words(self, settings: _Settings) -> str:
         """Return how a picture is drawn, where that is not as it was asked for."""
