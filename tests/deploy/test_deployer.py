@@ -27,7 +27,7 @@ from shackled.deploy import (
 )
 from shackled.deploy._contract import PROXY_CODE
 from shackled.errors import ChainError, InputError, TransactionError, WrongChainError
-from shackled.ethereum import PROXY, SALT, checksum_address, create2_address, keccak256, parse_address, to_hex
+from shackled.ethereum import PROXY, SALT, checksum_address, create2_address, keccak256, to_hex
 
 
 @pytest.fixture
@@ -58,10 +58,8 @@ def missing(plan: Plan) -> list[str]:
 
 def test_addresses_come_from_the_code() -> None:
     # the first and the last example of EIP-1014 are of other deployers: the formula is checked with the proxy's
-    hashed = keccak256(b"\xff" + PROXY + SALT + keccak256(b"\x00"))
-    assert create2_address(b"\x00") == hashed[12:]
+    assert create2_address(b"\x00") == keccak256(b"\xff" + PROXY + SALT + keccak256(b"\x00"))[12:]
     assert checksum_address(PROXY) == "0x4e59b44847b379578588920cA78FbF26c0B4956C"
-    assert parse_address(checksum_address(PROXY), "it") == PROXY
 
 
 def test_the_contracts_that_are_deployed(wanted: list[Deployment]) -> None:
