@@ -16,14 +16,24 @@ import pytest
 from attrs import evolve
 from PIL import Image as PillowImage
 
-from shackled import Animation, Camera, Image, InputError, Light, Mesh, Object, OutputError, RenderError, Scene, render
-from shackled._on import Embedded
+from shackled import (
+    Animation,
+    Camera,
+    Image,
+    InputError,
+    Light,
+    Mesh,
+    Object,
+    OutputError,
+    Processes,
+    RenderError,
+    Scene,
+    render,
+)
 from shackled.animation import check_animation
 from shackled.artifacts import artifact
-from shackled.chain import CallResult, RevmChain, open_chain
-from shackled.errors import OutOfGasError
+from shackled.chain import RevmChain, open_chain
 from shackled.image import FORMATS, check_output, decode_bmp
-from shackled.parallel import Counter
 from shackled.scene import encode
 
 #: Formats that are only near.
@@ -216,49 +226,27 @@ def test_each_format_holds_the_pixels(image: Image) -> None:
 
 
 def test_counts_are_calls_of_their_own(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Made at the first access, on the same chain and in tiles that are no larger; the gas is that of `render`."""
-    made: list[bytes] = []
+    """Made at the first access, in the EVM that drew the picture; the gas is that of `render`."""
+    asked: list[str | None] = []
 
-    def counted(to: bytes, data: bytes, gas_limit: int) -> CallResult:
-        made.append(data[:4])
-        return run(to, data, gas_limit)
+    def counted(scene: Scene, evm: str | None) -> tuple[int, int]:
+        asked.append(evm)
+        return open_chain().count(scene)
 
-    chain = RevmChain()
-    expected = chain.count(SCENE)
-    run = chain._run
-    monkeypatch.setattr(chain, "_run", counted)
-    selectors = artifact("Renderer").selectors
-    for tile, draws, counts in ((None, ["render"], ["renderCounted"]), ((37, 7), ["renderTile"] * 3, TILES)):
-        made.clear()
-        image = render(SCENE, on=chain, tile=tile)
+    monkeypatch.setattr("shackled.parallel.count", counted)
+    expected = RevmChain().count(SCENE)
+    for on, evm in ((None, None), ("pyevm", "pyevm"), (RevmChain(), None), (Processes(2), None)):
+        image = render(SCENE, on=on)
+        assert asked == []
         assert repr(image).endswith(" gas>")
-        assert made == [selectors[each] for each in draws]
-        made.clear()
-        assert (image.triangles, image.covered_pixels) == expected == (image.triangles, image.covered_pixels)
-        assert made == [selectors[each] for each in counts]
-    assert "Embedded" not in repr(image.counter)
-    copied = pickle.loads(pickle.dumps(image))
-    made.clear()
-    assert (copied.triangles, copied.covered_pixels) == expected
-    # the chain stayed where it was, so the embedded EVM counts
-    assert made == []
-
-
-#: Strips of seven rows, of which each shares one with the next: 0 to 6, 6 to 12, 12 to 18, 18 to 20.
-TILES = ["renderTileCounted"] * 7
-
-
-def test_a_strip_that_takes_too_much_gas_is_halved() -> None:
-    chain = RevmChain(300_000)
-    with pytest.raises(OutOfGasError):
-        chain.count(SCENE)
-    assert Counter(Embedded(chain), 37 * 21)(SCENE) == RevmChain().count(SCENE)
+        for each in (image, pickle.loads(pickle.dumps(image))):
+            assert (each.triangles, each.covered_pixels) == expected
+        assert asked == [evm, evm]
+        asked.clear()
 
 
 def test_a_picture_of_unknown_scene_has_no_counts(image: Image) -> None:
     assert evolve(image, scene=None).triangles is None
-    # one without means is counted in the embedded EVM
-    assert evolve(image, counter=None).covered_pixels == image.covered_pixels
 
 
 def test_a_folder_that_cannot_be_written_to(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -115,7 +115,7 @@ def test_counts_of_strips_that_share_a_row(name: str, rows: int) -> None:
     """Without those of the shared rows they are the counts of the whole: so are pictures of several calls counted."""
     scene = SCENES[name]()
     total = np.zeros(2, int)
-    for sign, strip in strips(range(SIDE), rows):
+    for sign, strip in strips(SIDE, rows):
         total += sign * np.array(chain().count(scene, Rectangle(0, strip.start, SIDE, len(strip))))
     assert tuple(total) == chain().count(scene)
 

@@ -20,7 +20,7 @@ from .scene import Background, LookOptions, Scene, full_turn
 from .words import with_words
 
 if TYPE_CHECKING:
-    from .parallel import Counter, Listener
+    from .parallel import Listener
 
 
 @with_words
@@ -155,7 +155,7 @@ def film(
     from .parallel import render_frames
 
     drawn = [each for scene in scenes for each in _twice(scene)] if transparent else scenes
-    images = render_frames(drawn, place, bounds, listener, keep).images
+    images = render_frames(drawn, place, bounds, listener, keep)
     if transparent:
         images = [uncovered(*both) for both in zip(images[::2], images[1::2], scenes, strict=True)]
     return Animation(images, duration)
@@ -171,14 +171,14 @@ def draw(
     scenes: Sequence[Scene], place: Place, bounds: Bounds, listener: Listener | None = None, keep: Path | None = None
 ) -> list[Image]:
     """Render scenes of one size, by one call each or by several."""
-    from .parallel import Counter, render_frames
+    from .parallel import render_frames
 
     if isinstance(place, Embedded) and all(is_one_call(place, scene, bounds) for scene in scenes):
-        return [render_whole(scene, place.opened(), Counter(place)) for scene in scenes]
-    return render_frames(scenes, place, bounds, listener, keep).images
+        return [render_whole(scene, place.opened(), place.evm) for scene in scenes]
+    return render_frames(scenes, place, bounds, listener, keep)
 
 
-def render_whole(scene: Scene, chain: Chain, counter: Counter) -> Image:
+def render_whole(scene: Scene, chain: Chain, evm: str | None = None) -> Image:
     """Render a scene by one call."""
     started = time.perf_counter()
     drawing = chain.draw(scene)
@@ -191,7 +191,7 @@ def render_whole(scene: Scene, chain: Chain, counter: Counter) -> Image:
         made_by=chain.name,
         seconds=seconds,
         scene=scene,
-        counter=counter,
+        evm=evm,
     )
 
 

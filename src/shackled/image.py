@@ -52,7 +52,7 @@ class Image(Value):
     made_by: the EVM, node or cluster. seconds: the duration of the call, which == ignores.
     scene: None if it is not known. calls: the number of calls that made it. call_gas: the gas of the most expensive of
     them.
-    counter: counts triangles and covered pixels of the scene where the picture was made; None for the embedded EVM.
+    evm: the name of the embedded EVM that counts triangles and covered pixels; None for the default.
     alpha: (H, W) uint8, from 0 where there is nothing to 255; None for a picture with a background.
     """
 
@@ -65,7 +65,7 @@ class Image(Value):
     scene: Scene | None = None
     calls: int = 1
     alpha: Pixels | None = field(default=None, converter=_alpha, eq=array_key)
-    counter: Callable[[Scene], tuple[int, int]] | None = field(default=None, eq=False)
+    evm: str | None = field(default=None, eq=False)
     call_gas: int | None = None
 
     def __attrs_post_init__(self) -> None:
@@ -93,8 +93,8 @@ class Image(Value):
     def triangles(self) -> int | None:
         """The number of triangles after culling and clipping; None if the scene is not known.
 
-        Counted by the contract at the first access of this or `covered_pixels`, in calls of `renderCounted` where the
-        picture was made. Raises the errors of `render`.
+        Counted by the contract, in the embedded EVM, at the first access of this or `covered_pixels`. Raises the errors
+        of `render`.
         """
         return self._counts[0]
 
@@ -107,11 +107,9 @@ class Image(Value):
     def _counts(self) -> tuple[int, int] | tuple[None, None]:
         if self.scene is None:
             return None, None
-        if self.counter is not None:
-            return self.counter(self.scene)
-        from .chain import open_chain
+        from .parallel import count
 
-        return open_chain().count(self.scene)
+        return count(self.scene, self.evm)
 
     @property
     def sha256(self) -> str:
@@ -293,7 +291,7 @@ def uncovered(black: Image, white: Image, scene: Scene | None = None) -> Image:
         calls=black.calls + white.calls,
         call_gas=most(image.call_gas for image in both),
         alpha=alpha,
-        counter=black.counter,
+        evm=black.evm,
     )
 
 

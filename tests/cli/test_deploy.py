@@ -20,7 +20,6 @@ from shackled.artifacts import artifact
 from shackled.chain import VARIABLE
 from shackled.cli.app import run
 from shackled.deploy import deployments
-from shackled.ethereum import PROXY
 
 PASSWORD = "a pass phrase 77"
 
@@ -108,8 +107,8 @@ def test_json(node: Anvil, book: Path, deploy: Command) -> None:
     arguments = ["--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--json", "--contracts", "Renderer"]
     told = json.loads(deploy(*arguments).out)
     engines = artifact("Renderer").parts
-    assert [each["name"] for each in told["contracts"]] == ["deployment proxy", *engines, "Renderer"]
-    assert [each["deployed_now"] for each in told["contracts"]] == [False, *[True] * len(engines), True]
+    assert [each["name"] for each in told["contracts"]] == [*engines, "Renderer"]
+    assert [each["deployed_now"] for each in told["contracts"]] == [True] * (len(engines) + 1)
     assert (told["chain_id"], len(told["transactions"])) == (31337, len(engines) + 1)
     assert told["gas"] == sum(each.gas for each in deployments(["Renderer"]))
     assert told["wei"] > 0
@@ -130,20 +129,11 @@ def test_a_wallet_sends_the_transactions(node: Anvil, folder: Path, deploy: Comm
     assert "all contracts are deployed already" in deploy("--rpc", node.url, "--contracts", "PngEncoder").out
 
 
-def test_a_wallet_cannot_deploy_the_proxy(node: Anvil, folder: Path, deploy: Command) -> None:
-    node.rpc("anvil_setCode", "0x" + PROXY.hex(), "0x")
-    told = deploy("--rpc", node.url, "--calldata", "calls.json")
-    assert told.code != 0
-    assert "no deterministic-deployment proxy" in told.err
-    assert not (folder / "calls.json").exists()
-
-
 def test_what_artists_need_can_be_named(node: Anvil, deploy: Command) -> None:
     names = "Studio,PngEncoder"
     arguments = ["--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--json", "--contracts", names]
     told = json.loads(deploy(*arguments).out)
     assert [each["name"] for each in told["contracts"]] == [
-        "deployment proxy",
         *artifact("Renderer").parts,
         "Renderer",
         "PngEncoder",

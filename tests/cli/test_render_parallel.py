@@ -116,8 +116,8 @@ def test_nodes_as_they_are(capsys: pytest.CaptureFixture[str], monkeypatch: pyte
         (["--gas-limit", "-1"], "--gas-limit must be a whole number of gas from 1"),
         (["--rpc", "localhost:8545"], "--rpc must be the address of a node"),
         (["--rpc", "http://127.0.0.1:1", "--evm", "revm"], "--rpc and --evm exclude each other"),
-        (["--rpc", "http://127.0.0.1:1", "--cluster", "local"], "--rpc and --cluster exclude each other"),
-        (["--cluster", "teapot"], "--cluster must be local or an address such as tcp://host:8786, not 'teapot'"),
+        (["--rpc", "http://127.0.0.1:1", "--cluster", "tcp://127.0.0.1:1"], "--rpc and --cluster exclude each other"),
+        (["--cluster", "local"], "a cluster needs the address of its scheduler, such as tcp://host:8786, not 'local'"),
         (
             ["--evm", "http://127.0.0.1:1"],
             "--evm is the name of an EVM: give --rpc for the node 'http://127.0.0.1:1'",

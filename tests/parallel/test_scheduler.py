@@ -51,7 +51,7 @@ class Shaky:
         self.lock = threading.Lock()
         self.begun = threading.Event()
 
-    def render(self, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
+    def render(self, scene: Scene, tile: Rectangle) -> Drawing:
         with self.lock:
             number, self.calls = self.calls, self.calls + 1
         self.begun.set()
@@ -64,9 +64,6 @@ class Shaky:
         if self.gas_told is not None:
             piece = replace(piece, gas=self.gas_told)
         return replace(piece, bmp=piece.bmp[:-4] + b"\x01\x02\x03\x04") if self.lies else piece
-
-    def count(self, slot: int, scene: Scene, tile: Rectangle) -> tuple[int, int]:
-        return open_chain().count(scene, tile)
 
     def close(self) -> None:
         pass
@@ -259,9 +256,9 @@ def test_a_place_that_begins_to_lie(tmp_path: Path) -> None:
             return first or self.asked > len(PARTS) // 2
 
     class Turncoat(Shaky):
-        def render(self, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
+        def render(self, scene: Scene, tile: Rectangle) -> Drawing:
             self.lies = self.calls > 0
-            return super().render(slot, scene, tile)
+            return super().render(scene, tile)
 
     def wait(n: int, tile: Rectangle) -> None:
         assert found_out.wait(60)
@@ -277,8 +274,8 @@ def test_a_place_that_begins_to_lie(tmp_path: Path) -> None:
 
 def test_half_a_picture_is_no_picture() -> None:
     class Cutter(Shaky):
-        def render(self, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
-            piece = super().render(slot, scene, tile)
+        def render(self, scene: Scene, tile: Rectangle) -> Drawing:
+            piece = super().render(scene, tile)
             return replace(piece, bmp=piece.bmp[: len(piece.bmp) // 2])
 
     with pytest.raises(RenderError, match=r"^the cutter answers wrongly for the tile .*: the contract "):

@@ -102,7 +102,7 @@ class RevmChain(EmbeddedChain):
     def __init__(self, gas_limit: int = DEFAULT_GAS_LIMIT, is_stoppable: bool = False) -> None:
         """Take the default gas limit of calls, and whether `stop` works, which makes them slower."""
         super().__init__(gas_limit)
-        self._is_stoppable, self._is_stopped = is_stoppable, False
+        self.is_stoppable, self._is_stopped = is_stoppable, False
         self._all: WeakSet[Instance] = WeakSet()
         self._free: list[Instance] = []
         self._lock = threading.Lock()
@@ -162,7 +162,7 @@ class RevmChain(EmbeddedChain):
         self._free.append(evm)
 
     def _new(self) -> Instance:
-        evm = Instance(self._is_stoppable)
+        evm = Instance(self.is_stoppable)
         self._all.add(evm)
         return evm
 

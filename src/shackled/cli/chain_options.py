@@ -26,7 +26,7 @@ from .output import print_json, print_line, print_note
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
 
-    from ..deploy import DeploymentStep, Plan, Quote, Receipt, Transactor
+    from ..deploy import Plan, Quote, Receipt, Transactor
 
 #: The environment variable with the password of a keystore file.
 PASSWORD = "SHACKLED_PASSWORD"
@@ -209,25 +209,13 @@ def write_calls(path: Path, chain_id: int, quotes: Mapping[str, Quote], as_json:
 
 
 def wallet_calls(plan: Plan) -> dict[str, Quote]:
-    """Return the transactions by which a wallet deploys what is missing, in order, by their purpose.
-
-    InputError if the chain has no deployment proxy, whose transaction is signed already.
-    """
-    quotes = {}
-    for step in plan.missing:
-        if step.deployment is None or step.quote is None:
-            raise InputError(
-                "the chain has no deterministic-deployment proxy, which --calldata cannot deploy: "
-                "run `shackled deploy` with an account first"
-            )
-        quotes[f"deploy {step.name}"] = step.quote
-    return quotes
+    """Return the transactions by which a wallet deploys what is missing, in order, by their purpose."""
+    return {f"deploy {step.name}": step.quote for step in plan.steps if step.quote is not None}
 
 
-def print_step(step: DeploymentStep, receipts: Sequence[Receipt], to_stdout: bool = False) -> None:
+def print_step(name: str, address: bytes, receipt: Receipt, to_stdout: bool = False) -> None:
     """Print what was deployed or stored, and the gas that it used."""
-    gas = sum(receipt.gas for receipt in receipts)
-    text = f"{step.name}: at {checksum_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}"
+    text = f"{name}: at {checksum_address(address)}, {receipt.gas:,} gas, transaction {receipt.hash}"
     (print_line if to_stdout else print_note)(text)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -80,7 +81,7 @@ def deploy(
         # while nothing is paid yet
         deployer.book.check()
         _write_verification(folder, connection.chain_id, wanted)
-        report = None if as_json else lambda step, done: print_step(step, done, to_stdout=True)
+        report = None if as_json else partial(print_step, to_stdout=True)
         receipts = deployer.execute(plan, transactor, report)
     else:
         deployer.record(wanted)
@@ -114,12 +115,12 @@ def _print_plan(plan: Plan, connection: Connection, to_stderr: bool) -> None:
     rows = []
     for step in plan.steps:
         row = [step.name, checksum_address(step.address)]
-        if step.is_deployed:
+        if step.quote is None:
             rows.append([*row, "deployed", "", "", ""])
             continue
-        estimate = None if step.quote is None else step.quote.estimate
-        estimated = "unknown" if estimate is None else f"{estimate:,}"
-        rows.append([*row, f"{step.gas:,}", estimated, rounded(step.cost), at_most(step.ceiling)])
+        quote = step.quote
+        estimated = "unknown" if quote.estimate is None else f"{quote.estimate:,}"
+        rows.append([*row, f"{quote.call.gas:,}", estimated, rounded(quote.likely), at_most(quote.ceiling)])
     rows.append(["total", "", f"{plan.gas:,}", "", rounded(plan.cost), at_most(plan.ceiling)])
     print_table(("contract", "address", "gas", "estimate", "ether", "at most"), rows, to_stderr=to_stderr)
     print_rollup_fee(plan.quotes, to_stderr)

@@ -25,9 +25,6 @@ from .progress import JobProgress
 from .several import Inputs, inputs_of, outputs_of, render_all
 from .streams import FORMATS as KINDS
 
-#: The address that stands for a cluster on this machine.
-LOCAL = "local"
-
 Evm = Annotated[str | None, option("--evm", f"EVM to draw in: {', '.join(CHAINS)}; default: revm.", "NAME", "Where")]
 
 
@@ -63,9 +60,7 @@ class WhereOptions:
     ] = None
     cluster: Annotated[
         str | None,
-        option(
-            "--cluster", "A dask scheduler, as tcp://host:8786, or local for one on this machine.", "ADDRESS", "Where"
-        ),
+        option("--cluster", "Address of a dask scheduler, as tcp://host:8786.", "ADDRESS", "Where"),
     ] = None
     gas_limit: Annotated[
         int | None, option("--gas-limit", "Gas limit of a call; the picture is split to fit.", "GAS", "Where")
@@ -106,9 +101,7 @@ class WhereOptions:
             if value is not None and not rpc:
                 raise InputError(f"{name} needs --rpc")
         if cluster is not None:
-            if cluster != LOCAL and ":" not in cluster:
-                raise InputError(f"--cluster must be {LOCAL} or an address such as tcp://host:8786, not {cluster!r}")
-            return Cluster(None if cluster == LOCAL else cluster, jobs, evm, self.verify)
+            return Cluster(cluster, evm, self.verify)
         if rpc:
             calls = 1 if jobs is None else jobs
             return Nodes(*rpc, address=self.address, timeout=self.rpc_timeout, jobs=calls, verify=self.verify)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from ..chain import ContractChain
@@ -67,10 +67,7 @@ class GasReport:
             "engine_gas": self.exact.engine_gas,
             "searched_gas": self.search.gas,
             "search_calls": self.search.calls,
-            "search_steps": [
-                {"limit": step.limit, "enough": step.enough, "lower": step.lower, "upper": step.upper}
-                for step in self.search.steps
-            ],
+            "search_steps": [asdict(step) for step in self.search.steps],
             "margin": {"gas": self.margin.gas, "kept": self.margin.kept, "after": self.margin.after},
             "intrinsic_gas": self.exact.intrinsic_gas,
             "stages": None if self.profile is None else self.profile.stages(),

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import groupby
+from typing import NamedTuple
 
 from ..artifacts import artifact
 from ..chain import CallResult, ContractChain, returned_bytes
@@ -29,12 +30,11 @@ class EngineCall:
     result: CallResult
 
 
-@dataclass(frozen=True)
-class _Object:
-    number: int
-    position: int
+class _Object(NamedTuple):
     engine: str
     is_blended: bool
+    number: int
+    position: int
 
 
 def engine_calls(scene: Scene, chain: ContractChain) -> list[EngineCall]:
@@ -61,11 +61,7 @@ def _calls(uniforms: bytes, chain: ContractChain) -> Iterator[EngineCall]:
     invert = _load(uniforms, _place(layout.INVERT))
     for run in runs:
         is_last = run is runs[-1]
-        values = {
-            layout.OBJECT_COUNT: len(run),
-            layout.RETURNS_DEPTHS: not is_last,
-            layout.INVERT: invert if is_last else 0,
-        }
+        values = {layout.OBJECT_COUNT: len(run), layout.RETURNS_DEPTHS: not is_last, layout.INVERT: invert * is_last}
         if run:
             values |= {layout.OBJECTS: run[0].position, layout.OBJECT_FIRST: run[0].number}
         if drawn:
@@ -93,12 +89,11 @@ def _runs(data: bytes) -> list[list[_Object]]:
             engine = "AntialiasedSmoothEngine"
         elif is_blended or flags & WIREFRAME or mode & (layout.IS_SMOOTH | layout.IS_SPOT_LIT):
             engine = kind + "FragmentEngine"
-        objects.append(_Object(number, position, "EffectsEngine" if has_effects else engine, is_blended))
+        objects.append(_Object("EffectsEngine" if has_effects else engine, is_blended, number, position))
         position += _load(data, position)
-    runs = [(key, list(run)) for key, run in groupby(objects, lambda each: (each.engine, each.is_blended))]
+    runs = [list(run) for _, run in groupby(objects, lambda each: each[:2])]
     # a stable sort: blended objects come last
-    ordered = [run for _, run in sorted(runs, key=lambda each: each[0][1])]
-    return ordered or [[]]
+    return sorted(runs, key=lambda run: run[0].is_blended) or [[]]
 
 
 def _place(register: int) -> int:

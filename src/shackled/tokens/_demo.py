@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..chain import Connection
-from ..deploy import Call, DeploymentStep, Receipt, Transactor, local_chain, signer_class
+from ..deploy import Call, Receipt, Transactor, local_chain, signer_class
 from ..errors import InputError, VerificationError
 from ..ethereum import ETHER, checksum_address, ether
 from ..whole_file import make_output_folder, write_output
@@ -168,8 +168,8 @@ class Demo:
         salt = self.connection.number("eth_blockNumber")
         plan = plan_launch(self.connection, kind, CollectionTerms(_name(owner), _name(owner), salt=salt))
 
-        def record(step: DeploymentStep, receipts: Sequence[Receipt]) -> None:
-            self.costs.append(ActionCost(f"deploy {step.name}", sum(each.gas for each in receipts)))
+        def record(name: str, address: bytes, receipt: Receipt) -> None:
+            self.costs.append(ActionCost(f"deploy {name}", receipt.gas))
 
         return launch(plan, owner, record)[0]
 

@@ -13,7 +13,6 @@ from ..deploy import (
     Call,
     Deployer,
     Deployment,
-    DeploymentStep,
     Fees,
     Plan,
     Quote,
@@ -131,7 +130,7 @@ def plan_launch(
 def launch(
     launch: Launch,
     transactor: Transactor,
-    report: Callable[[DeploymentStep, Sequence[Receipt]], None] | None = None,
+    report: Callable[[str, bytes, Receipt], None] | None = None,
 ) -> tuple[Collection, Receipt | None]:
     """Deploy the missing contracts, then the collection, and compare its code.
 
@@ -147,7 +146,7 @@ def launch(
         receipt = create(transactor, launch.quote, lambda: _is_deployed(connection, kind, place), kind.title, place)
     deployer.book.write(connection.chain_id, {kind.contract: place})
     if report is not None and receipt is not None:
-        report(DeploymentStep(kind.contract, place, False), [receipt])
+        report(kind.contract, place, receipt)
     return Collection(connection, kind, launch.address), receipt
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
 
@@ -12,7 +12,6 @@ from ..chain import Connection, read_all
 from ..deploy import (
     Call,
     Deployer,
-    DeploymentStep,
     Fees,
     Plan,
     Quote,
@@ -107,7 +106,7 @@ def plan_storage(connection: Connection, wanted: Iterable[SceneToStore], fees: F
 def store(
     storage: StoragePlan,
     transactor: Transactor,
-    report: Callable[[DeploymentStep, Sequence[Receipt]], None] | None = None,
+    report: Callable[[str, bytes, Receipt], None] | None = None,
 ) -> list[Receipt]:
     """Deploy missing contracts, store missing parts of scenes, and return the receipts of the latter.
 
@@ -125,7 +124,7 @@ def store(
         receipts.append(receipt)
         if report is not None:
             name = f"{quoted.name}, {each.what}, {each.size:,} bytes"
-            report(DeploymentStep(name, each.pointer, False), [receipt])
+            report(name, each.pointer, receipt)
     return receipts
 
 

@@ -26,7 +26,7 @@ from ..output import print_json, print_line, print_note, print_table
 
 if TYPE_CHECKING:
     from ...datasets import Piece
-    from ...deploy import DeploymentStep, Quote, Receipt, Transactor
+    from ...deploy import Quote, Receipt, Transactor
     from ...tokens import Collection, CollectionKind, CollectionTerms, Launch, StoragePlan
 
 
@@ -201,9 +201,9 @@ def _launch(
 
     spent: list[int] = []
 
-    def report(step: DeploymentStep, receipts: Sequence[Receipt]) -> None:
-        spent.extend(each.gas for each in receipts)
-        print_step(step, receipts)
+    def report(name: str, address: bytes, receipt: Receipt) -> None:
+        spent.append(receipt.gas)
+        print_step(name, address, receipt)
 
     deployed, receipt = launch(plan, transactor, report)
     if storage is not None:

@@ -40,9 +40,6 @@ def generate_on_chain(seed: bytes, chain: Chain | None = None) -> tuple[GenesisP
 
 def picture_on_chain(piece: GenesisPiece, chain: Chain | None = None) -> Image:
     """Return the picture of a piece, 128 x 128 pixels, made by one call from its seed alone."""
-    from ..._on import Embedded
-    from ...parallel import Counter
-
     place = open_chain() if chain is None else chain
     started = time.perf_counter()
     result = call("render", piece.seed, place)
@@ -56,7 +53,6 @@ def picture_on_chain(piece: GenesisPiece, chain: Chain | None = None) -> Image:
         made_by=place.name,
         seconds=seconds,
         scene=piece.scene(),
-        counter=Counter(Embedded(place)),
     )
 
 
