@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import click
 
@@ -31,27 +31,22 @@ if TYPE_CHECKING:
 #: The environment variable with the password of a keystore file.
 PASSWORD = "SHACKLED_PASSWORD"
 
-MaxFee = Annotated[
-    float | None,
-    option(
-        "--max-fee",
-        "Maximum fee per gas, in gwei. Default: twice the base fee plus a tip of at most 3 gwei; the command then "
-        "stops if the node suggests a higher tip, reports no base fee, or estimates more than 10 times the usual gas.",
-        "GWEI",
-    ),
-]
-Json = Annotated[bool, option("--json", "Print JSON instead of text.")]
-Calldata = Annotated[
-    Path | None, option("--calldata", "Write the transactions to a JSON file for a wallet, and send nothing.", "FILE")
-]
+MAX_FEE = option(
+    "--max-fee",
+    "Maximum fee per gas, in gwei. Default: twice the base fee plus a tip of at most 3 gwei; the command then "
+    "stops if the node suggests a higher tip, reports no base fee, or estimates more than 10 times the usual gas.",
+    "GWEI",
+)
+JSON = option("--json", "Print JSON instead of text.")
+CALLDATA = option("--calldata", "Write the transactions to a JSON file for a wallet, and send nothing.", "FILE")
 
 
 @dataclass(frozen=True)
 class NodeOptions:
     """The node that a command uses."""
 
-    rpc: Annotated[str | None, option("--rpc", "URL of a node of the chain.", "URL", envvar="SHACKLED_RPC")] = None
-    chain_id: Annotated[int | None, option("--chain-id", "Stop unless the node belongs to this chain.", "N")] = None
+    rpc: str | None = option("--rpc", "URL of a node of the chain.", "URL", envvar="SHACKLED_RPC")
+    chain_id: int | None = option("--chain-id", "Stop unless the node belongs to this chain.", "N")
 
     def check(self) -> str:
         """Return the URL of the node. InputError without --rpc."""
@@ -73,15 +68,12 @@ class NodeOptions:
 class SignerOptions:
     """The account that signs."""
 
-    account: Annotated[
-        Path | None,
-        option(
-            "--account", f"Keystore file of the account. The password is prompted for, or read from {PASSWORD}.", "FILE"
-        ),
-    ] = None
-    private_key_env: Annotated[
-        str | None, option("--private-key-env", "Environment variable with the private key of the account.", "NAME")
-    ] = None
+    account: Path | None = option(
+        "--account", f"Keystore file of the account. The password is prompted for, or read from {PASSWORD}.", "FILE"
+    )
+    private_key_env: str | None = option(
+        "--private-key-env", "Environment variable with the private key of the account.", "NAME"
+    )
 
     @property
     def is_given(self) -> bool:
@@ -120,8 +112,8 @@ class SignerOptions:
 class PayerOptions(SignerOptions):
     """The account that signs and pays, the maximum price of gas, and whether to ask before sending."""
 
-    max_fee: MaxFee = None
-    yes: Annotated[bool, option("--yes -y", "Send without asking.")] = False
+    max_fee: float | None = MAX_FEE
+    yes: bool = option("--yes -y", "Send without asking.")
 
     @property
     def max_wei(self) -> int | None:

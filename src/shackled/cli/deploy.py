@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from ..chain import PATIENCE, Connection
 from ..errors import InputError
 from ..ethereum import GWEI, at_most, checksum_address, rounded
 from .chain_options import (
-    Calldata,
+    CALLDATA,
     NodeOptions,
     PayerOptions,
     check_calldata,
@@ -29,24 +29,20 @@ if TYPE_CHECKING:
 def deploy(
     node: NodeOptions,
     payer: PayerOptions,
-    contracts: Annotated[
-        str | None,
-        option(
-            "--contracts",
-            "Comma-separated names: Engine, FragmentEngine, AntialiasedEngine, AntialiasedFragmentEngine, "
-            "AntialiasedSmoothEngine, EffectsEngine, Effects, Renderer, Original, Genesis, PngEncoder, Turntable, "
-            "GlbEncoder, Studio, Library, Web, Editions, GenesisMetadata. Default: all but GenesisMetadata. "
-            "Required contracts are added.",
-            "NAMES",
-        ),
-    ] = None,
-    calldata: Calldata = None,
-    as_json: Annotated[bool, option("--json", "Print one JSON object instead of text.")] = False,
-    standard_json: Annotated[
-        Path | None,
-        option("--standard-json", "Folder for the input of source verification; default: deployed-CHAIN.", "DIR"),
-    ] = None,
-    rpc_timeout: Annotated[float, option("--rpc-timeout", "Timeout of a call to the node.", "SECONDS")] = PATIENCE,
+    contracts: str | None = option(
+        "--contracts",
+        "Comma-separated names: Engine, FragmentEngine, AntialiasedEngine, AntialiasedFragmentEngine, "
+        "AntialiasedSmoothEngine, EffectsEngine, Effects, Renderer, Original, Genesis, PngEncoder, Turntable, "
+        "GlbEncoder, Studio, Library, Web, Editions, GenesisMetadata. Default: all but GenesisMetadata. "
+        "Required contracts are added.",
+        "NAMES",
+    ),
+    calldata: Path | None = CALLDATA,
+    as_json: bool = option("--json", "Print one JSON object instead of text."),
+    standard_json: Path | None = option(
+        "--standard-json", "Folder for the input of source verification; default: deployed-CHAIN.", "DIR"
+    ),
+    rpc_timeout: float = option("--rpc-timeout", "Timeout of a call to the node.", "SECONDS", default=PATIENCE),
 ) -> None:
     """Deploy the contracts, at the same addresses on every chain. Prints the price first and skips what exists."""
     from ..deploy import CONTRACTS, STANDARD, Deployer, current_fees, deployments

@@ -5,8 +5,10 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Callable
-from inspect import Parameter
-from typing import Annotated, Any
+from functools import partial
+from typing import Any
+
+import click
 
 from .._load import load, load_frames, load_picture, locate
 from ..datasets import Piece
@@ -25,7 +27,7 @@ from ..scene import (
     checked_look,
 )
 from .command import COMMON
-from .option import argument, option
+from .option import argument, option, parameter
 from .progress import LateBar
 
 
@@ -100,24 +102,36 @@ def parse_light(text: str) -> Light:
     return Light(kind, vector, color, parse_vector(rest[1], "--light"), inner, outer)
 
 
-#: The type of a value for click, its metavar, and its converter.
-_KINDS: dict[Kind, tuple[Any, str | None, Callable[[Any, str], Any]]] = {
-    "size": (str, "SIZE", parse_size),
-    "whole": (int, "N", lambda value, name: value),
-    "count": (str, f"N|{ALL}", lambda text, name: int(text) if text.isdecimal() else text),
-    "number": (float, "NUMBER", lambda value, name: value),
-    "vector": (str, "X,Y,Z", parse_vector),
-    "rotation": (str, "X,Y,Z", parse_vector),
-    "flag": (bool, None, lambda value, name: value),
-    "color": (str, "COLOR", lambda text, name: text),
-    "background": (str, "COLOR[,COLOR]", lambda text, name: parse_colors(text, name)),
-    "choice": (str, "KIND", lambda text, name: text),
-    "hemisphere": (str, "SKY[,GROUND]", lambda text, name: parse_colors(text, name)),
-    "rim": (str, "COLOR[,EXPONENT]", lambda text, name: parse_color_and(("exponent",), text, name)),
-    "ground": (str, "COLOR", lambda text, name: text),
-    "fog": (str, "COLOR[,NEAR,FAR]", lambda text, name: parse_color_and(("near", "far"), text, name)),
-    "lights": (list[str], "KIND:X,Y,Z[:COLOR]", lambda texts, name: [parse_light(text) for text in texts] or None),
-    "entry": (str, "NAME|N", lambda text, name: text),
+#: The metavar of a setting, and the type of its value for click.
+_KINDS: dict[Kind, tuple[str | None, Any]] = {
+    "size": ("SIZE", str),
+    "whole": ("N", int),
+    "count": (f"N|{ALL}", str),
+    "number": ("NUMBER", float),
+    "vector": ("X,Y,Z", str),
+    "rotation": ("X,Y,Z", str),
+    "flag": (None, bool),
+    "color": ("COLOR", str),
+    "background": ("COLOR[,COLOR]", str),
+    "choice": ("KIND", str),
+    "hemisphere": ("SKY[,GROUND]", str),
+    "rim": ("COLOR[,EXPONENT]", str),
+    "ground": ("COLOR", str),
+    "fog": ("COLOR[,NEAR,FAR]", str),
+    "lights": ("KIND:X,Y,Z[:COLOR]", tuple[str, ...]),
+    "entry": ("NAME|N", str),
+}
+#: The converters of values that are written differently than in Python.
+_PARSERS: dict[Kind, Callable[[Any, str], Any]] = {
+    "size": parse_size,
+    "count": lambda text, _: int(text) if text.isdecimal() else text,
+    "vector": parse_vector,
+    "rotation": parse_vector,
+    "background": parse_colors,
+    "hemisphere": parse_colors,
+    "rim": partial(parse_color_and, ("exponent",)),
+    "fog": partial(parse_color_and, ("near", "far")),
+    "lights": lambda texts, _: [parse_light(text) for text in texts],
 }
 
 #: Additions to the help, where values are written differently than in Python.
@@ -132,30 +146,30 @@ _MORE = {
 }
 
 
-class LookGroup:
-    """The options of a look."""
-
-    def parameters(self) -> list[Parameter]:
-        """Return a parameter for each setting."""
-        return [_parameter(each) for each in SETTINGS]
-
-    def take(self, values: dict[str, Any]) -> dict[str, Any]:
-        """Return the settings that were given, by name. `--background none` is --transparent where that exists."""
-        if "transparent" in values and (values["background"] or "").strip().lower() == "none":
-            values |= {"background": None, "transparent": True}
-        given = {setting: values.pop(setting.name) for setting in SETTINGS}
-        look = {
-            setting.name: _KINDS[setting.kind][2](value, setting.option)
-            for setting, value in given.items()
-            if value is not None
-        }
-        checked_look(look)
-        return look
+def look_options() -> list[click.Parameter]:
+    """Return the options of a look."""
+    return [_option(each) for each in SETTINGS]
 
 
-Look = Annotated[dict[str, Any], LookGroup()]
+def take_look(values: dict[str, Any]) -> dict[str, Any]:
+    """Remove the settings from the values of a command, and return those that were given.
+
+    `--background none` is --transparent where that exists.
+    """
+    if "transparent" in values and (values["background"] or "").strip().lower() == "none":
+        values |= {"background": None, "transparent": True}
+    given = {each: values.pop(each.name) for each in SETTINGS}
+    look = {
+        each.name: _PARSERS[each.kind](value, each.option) if each.kind in _PARSERS else value
+        for each, value in given.items()
+        if value not in (None, ())
+    }
+    checked_look(look)
+    return look
+
+
 #: What a look is of.
-Input = Annotated[str, argument("Mesh file, scene file, or name of a piece.", "INPUT")]
+INPUT = argument("Mesh file, scene file, or name of a piece.", "INPUT")
 
 #: The option of commands that can make a picture fit.
 FIT = option(
@@ -192,11 +206,10 @@ def load_frames_with(input: str, frames: int, look: dict[str, Any]) -> tuple[lis
         return load_frames(input, frames, **look)
 
 
-def _parameter(setting: Setting) -> Parameter:
-    kind, metavar, _ = _KINDS[setting.kind]
+def _option(setting: Setting) -> click.Parameter:
+    metavar, kind = _KINDS[setting.kind]
     if setting.kind == "number" and setting.unit:
         metavar = setting.unit.upper()
-    text = f"{setting.help}{_MORE.get(setting.name, '')}"
     panel = None if setting.name in COMMON else setting.group
-    declared = option(setting.option, text, metavar, panel)
-    return Parameter(setting.name, Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[kind | None, declared])
+    declared = option(setting.option, f"{setting.help}{_MORE.get(setting.name, '')}", metavar, panel)
+    return parameter(setting.name, kind if kind == tuple[str, ...] else kind | None, declared)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from .._load import load, locate
 from ..chain import Connection
@@ -13,8 +13,8 @@ from ..ethereum import checksum_address
 from ..image import FORMATS, check_output, one_of
 from ..scene import ALL, READERS
 from .chain_options import (
-    Calldata,
-    Json,
+    CALLDATA,
+    JSON,
     NodeOptions,
     PayerOptions,
     check_calldata,
@@ -34,25 +34,20 @@ if TYPE_CHECKING:
 
 
 def store(
-    input: Annotated[str, argument("A dataset piece, or a mesh or scene file.", "INPUT")],
     node: NodeOptions,
     payer: PayerOptions,
-    licence: Annotated[
-        str | None, option("--licence", "Licence of a mesh or scene file; check it yourself.", "TEXT")
-    ] = None,
-    output: Annotated[
-        str | None, option("-o --output", f"Write the picture as rendered on the chain: {one_of(FORMATS)}.", "FILE")
-    ] = None,
-    size: Annotated[str | None, option("--size", "Pixels, as 128 or 320x200.", "SIZE")] = None,
-    max_triangles: Annotated[
-        int | None, option("--max-triangles", "Simplify meshes of more triangles than this.", "N")
-    ] = None,
-    position_bits: Annotated[
-        int | None,
-        option("--position-bits", "Round positions to a grid of 2^N steps, 4 to 16, to save gas. Default: exact.", "N"),
-    ] = None,
-    calldata: Calldata = None,
-    as_json: Json = False,
+    input: str = argument("A dataset piece, or a mesh or scene file.", "INPUT"),
+    licence: str | None = option("--licence", "Licence of a mesh or scene file; check it yourself.", "TEXT"),
+    output: str | None = option(
+        "-o --output", f"Write the picture as rendered on the chain: {one_of(FORMATS)}.", "FILE"
+    ),
+    size: str | None = option("--size", "Pixels, as 128 or 320x200.", "SIZE"),
+    max_triangles: int | None = option("--max-triangles", "Simplify meshes of more triangles than this.", "N"),
+    position_bits: int | None = option(
+        "--position-bits", "Round positions to a grid of 2^N steps, 4 to 16, to save gas. Default: exact.", "N"
+    ),
+    calldata: Path | None = CALLDATA,
+    as_json: bool = JSON,
 ) -> None:
     """Store an object on a chain; any contract can then draw it.
 
@@ -127,7 +122,7 @@ def store(
 
 def list_(
     node: NodeOptions,
-    as_json: Json = False,
+    as_json: bool = JSON,
 ) -> None:
     """List the items: bounds, triangles, bytes, gas to store, pointers; with --rpc, whether they are stored."""
     from ..chain import read_all
@@ -173,9 +168,9 @@ def _row(item: dict[str, Any]) -> list[str]:
 def store_items(
     node: NodeOptions,
     payer: PayerOptions,
-    names: Annotated[list[str] | None, argument("Items to store; default: all.", "NAME")] = None,
-    calldata: Calldata = None,
-    as_json: Json = False,
+    names: tuple[str, ...] = argument("Items to store; default: all.", "NAME"),
+    calldata: Path | None = CALLDATA,
+    as_json: bool = JSON,
 ) -> None:
     """Store items of the library on a chain. Skips stored items; prints the price first; cannot be undone."""
     from ..deploy import current_fees

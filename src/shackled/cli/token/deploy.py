@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 from ...checks import choice, number
 from ...errors import InputError
@@ -13,8 +13,8 @@ from ...ethereum import parse_ether
 from ...tokens import ICON_PRICE, KINDS, SCALE
 from ...whole_file import check_output_folder
 from ..chain_options import (
-    Json,
-    MaxFee,
+    JSON,
+    MAX_FEE,
     NodeOptions,
     PayerOptions,
     parse_checksum_address,
@@ -34,32 +34,19 @@ if TYPE_CHECKING:
 class TermsOptions:
     """The terms of a new collection."""
 
-    price: Annotated[
-        str | None, option("--price", "Price of a token, in ether. Default: 0.15, or 0.02 for icons.", "ETHER")
-    ] = None
-    reserve: Annotated[
-        int | None, option("--reserve", "Tokens reserved for the team. Default: 20, or 1 of each icon.", "N")
-    ] = None
-    icons: Annotated[
-        str | None, option("--icons", "Comma-separated names, such as heart,diamond. Default: all icons.", "NAMES")
-    ] = None
-    supply: Annotated[int | None, option("--supply", "Tokens of each icon. Default: 100.", "N")] = None
-    per_transaction: Annotated[int, option("--per-transaction", "Maximum number of tokens per call.", "N")] = 5
-    royalty: Annotated[float, option("--royalty", "Share of the price of resales, 0 to 10.", "PERCENT")] = 5
-    royalty_receiver: Annotated[
-        str | None, option("--royalty-receiver", "Receiver of royalties. Default: the owner.", "ADDRESS")
-    ] = None
-    owner: Annotated[
-        str | None, option("--owner", "Owner of the collection. Default: the paying account.", "ADDRESS")
-    ] = None
-    allow_list: Annotated[
-        Path | None,
-        option("--allow-list", "Allow list: lines of account,quantity, or an OpenZeppelin tree as JSON.", "FILE"),
-    ] = None
-    signer: Annotated[
-        str | None, option("--signer", "Account that signs permissions to mint before the public sale.", "ADDRESS")
-    ] = None
-    salt: Annotated[int, option("--salt", "Number that changes the address of the collection.", "N")] = 0
+    price: str | None = option("--price", "Price of a token, in ether. Default: 0.15, or 0.02 for icons.", "ETHER")
+    reserve: int | None = option("--reserve", "Tokens reserved for the team. Default: 20, or 1 of each icon.", "N")
+    icons: str | None = option("--icons", "Comma-separated names, such as heart,diamond. Default: all icons.", "NAMES")
+    supply: int | None = option("--supply", "Tokens of each icon. Default: 100.", "N")
+    per_transaction: int = option("--per-transaction", "Maximum number of tokens per call.", "N", default=5)
+    royalty: float = option("--royalty", "Share of the price of resales, 0 to 10.", "PERCENT", default=5)
+    royalty_receiver: str | None = option("--royalty-receiver", "Receiver of royalties. Default: the owner.", "ADDRESS")
+    owner: str | None = option("--owner", "Owner of the collection. Default: the paying account.", "ADDRESS")
+    allow_list: Path | None = option(
+        "--allow-list", "Allow list: lines of account,quantity, or an OpenZeppelin tree as JSON.", "FILE"
+    )
+    signer: str | None = option("--signer", "Account that signs permissions to mint before the public sale.", "ADDRESS")
+    salt: int = option("--salt", "Number that changes the address of the collection.", "N", default=0)
 
     @property
     def wei(self) -> int | None:
@@ -123,14 +110,14 @@ class TermsOptions:
 
 
 def deploy(
-    collection: Annotated[str, argument("genesis or icons.", "COLLECTION")],
     node: NodeOptions,
     payer: PayerOptions,
     options: TermsOptions,
-    any_chain: Annotated[
-        bool, option("--any-chain", "Deploy Genesis on a chain other than Ethereum, its test networks and anvil's.")
-    ] = False,
-    as_json: Json = False,
+    collection: str = argument("genesis or icons.", "COLLECTION"),
+    any_chain: bool = option(
+        "--any-chain", "Deploy Genesis on a chain other than Ethereum, its test networks and anvil's."
+    ),
+    as_json: bool = JSON,
 ) -> None:
     """Deploy a collection and the contracts that it calls. Prints the price first and skips what exists."""
     from ...tokens import SceneToStore, check_randomness, plan_launch, plan_setup, plan_storage, token_scene
@@ -216,9 +203,9 @@ def _launch(
 
 
 def demo(
-    output: Annotated[Path, option("-o --output", "Folder for gallery.html and tokens.json.", "DIR")],
-    rpc: Annotated[str | None, option("--rpc", "URL of a fresh anvil.", "URL", envvar="SHACKLED_RPC")] = None,
-    max_fee: MaxFee = None,
+    output: Path = option("-o --output", "Folder for gallery.html and tokens.json.", "DIR"),
+    rpc: str | None = option("--rpc", "URL of a fresh anvil.", "URL", envvar="SHACKLED_RPC"),
+    max_fee: float | None = MAX_FEE,
 ) -> None:
     """Run both collections on a fresh anvil: deploy, mint as several users, reveal, read, transfer, withdraw.
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 from ...checks import number
 from ...errors import VerificationError
 from ...ethereum import amount, ether, parse_ether
 from ...tokens import OPEN
 from ...values import plural
-from ..chain_options import Json, NodeOptions, parse_checksum_address
+from ..chain_options import JSON, NodeOptions, parse_checksum_address
 from ..option import argument, option
 from ..output import print_json, print_line, print_table
 from ..progress import LateBar
@@ -19,17 +19,16 @@ from .options import MAX_NUMBER, TokenPayerOptions
 if TYPE_CHECKING:
     from ...tokens import Collection
 
-Number = Annotated[int, argument("Number of the edition.", "EDITION", min=0, max=MAX_NUMBER)]
+NUMBER = argument("Number of the edition.", "EDITION", min=0, max=MAX_NUMBER)
 
 
 @dataclass(frozen=True)
 class EditionsOptions(NodeOptions):
     """The collection of editions that a command uses, and the node."""
 
-    collection: Annotated[
-        str | None,
-        option("-c --collection", "Address of the collection. Default: the same on every chain.", "ADDRESS"),
-    ] = None
+    collection: str | None = option(
+        "-c --collection", "Address of the collection. Default: the same on every chain.", "ADDRESS"
+    )
 
     def open(self, exact: bool = False) -> Collection:
         """Return the collection. InputError if it is not on the chain.
@@ -54,17 +53,17 @@ class EditionsOptions(NodeOptions):
 
 
 def add(
-    pointer: Annotated[str, argument("Address of the stored scene, from `shackled store`.", "POINTER")],
-    name: Annotated[str, argument("Name of the edition, 1 to 64 bytes.", "NAME")],
     which: EditionsOptions,
     payer: TokenPayerOptions,
-    price: Annotated[str, option("--price", "Price of a token, in ether; may be 0.", "ETHER")],
-    supply: Annotated[int | None, option("--supply", "Maximum number of tokens. Default: no limit.", "N")] = None,
-    royalty: Annotated[float, option("--royalty", "Share of the price of resales, 0 to 10.", "PERCENT")] = 5,
-    copies: Annotated[int, option("--copies", "Tokens minted to you free of charge, 0 to 100.", "N")] = 1,
-    scale: Annotated[int, option("--scale", "Side of the square that each pixel becomes.", "N", min=1, max=8)] = 4,
-    model: Annotated[bool, option("--model", "Add the scene as a GLB model to the metadata (animation_url).")] = False,
-    as_json: Json = False,
+    pointer: str = argument("Address of the stored scene, from `shackled store`.", "POINTER"),
+    name: str = argument("Name of the edition, 1 to 64 bytes.", "NAME"),
+    price: str = option("--price", "Price of a token, in ether; may be 0.", "ETHER"),
+    supply: int | None = option("--supply", "Maximum number of tokens. Default: no limit.", "N"),
+    royalty: float = option("--royalty", "Share of the price of resales, 0 to 10.", "PERCENT", default=5),
+    copies: int = option("--copies", "Tokens minted to you free of charge, 0 to 100.", "N", default=1),
+    scale: int = option("--scale", "Side of the square that each pixel becomes.", "N", min=1, max=8, default=4),
+    model: bool = option("--model", "Add the scene as a GLB model to the metadata (animation_url)."),
+    as_json: bool = JSON,
 ) -> None:
     """Add a scene as an edition, of which anyone can mint tokens. It cannot be changed later."""
     from ...deploy import local_chain
@@ -101,11 +100,11 @@ def add(
 
 
 def mint(
-    edition: Number,
     which: EditionsOptions,
     payer: TokenPayerOptions,
-    quantity: Annotated[int, argument("Number of tokens, 1 to 100.", "N", min=1, max=100)] = 1,
-    as_json: Json = False,
+    edition: int = NUMBER,
+    quantity: int = argument("Number of tokens, 1 to 100.", "N", min=1, max=100, default=1),
+    as_json: bool = JSON,
 ) -> None:
     """Mint tokens of an edition. Prints the price first."""
     from ...tokens import edition_at, edition_mint_call, minted_tokens
@@ -128,8 +127,8 @@ def mint(
 
 def list_(
     which: EditionsOptions,
-    artist: Annotated[str | None, option("--artist", "Only the editions of this account.", "ADDRESS")] = None,
-    as_json: Json = False,
+    artist: str | None = option("--artist", "Only the editions of this account.", "ADDRESS"),
+    as_json: bool = JSON,
 ) -> None:
     """List the editions, with the amounts that their artists can withdraw."""
     from ...tokens import editions_of
@@ -167,7 +166,11 @@ def list_(
         print_table(("edition", "name", "ether", "supply", "minted", "sale", "to withdraw", "artist", "scene"), rows)
 
 
-def close(edition: Number, which: EditionsOptions, payer: TokenPayerOptions) -> None:
+def close(
+    which: EditionsOptions,
+    payer: TokenPayerOptions,
+    edition: int = NUMBER,
+) -> None:
     """Close an edition: no more tokens can be minted. Cannot be undone. For its artist."""
     from ...tokens import edition_at
 
@@ -181,8 +184,8 @@ def close(edition: Number, which: EditionsOptions, payer: TokenPayerOptions) -> 
 def withdraw(
     which: EditionsOptions,
     payer: TokenPayerOptions,
-    editions: Annotated[list[int] | None, argument("Editions; default: all of yours.", "EDITION", min=0)] = None,
-    to: Annotated[str | None, option("--to", "Receiver; default: you.", "ADDRESS")] = None,
+    editions: tuple[int, ...] = argument("Editions; default: all of yours.", "EDITION", min=0),
+    to: str | None = option("--to", "Receiver; default: you.", "ADDRESS"),
 ) -> None:
     """Withdraw the proceeds of your editions."""
     from ...tokens import edition_at, editions_of, withdraw_gas, withdrawn

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...chain import AddressBook
 from ...errors import InputError
@@ -28,9 +28,9 @@ class CollectionOptions(NodeOptions):
     """The collection that a command uses, and the node."""
 
     accepts_editions: ClassVar[bool] = False
-    collection: Annotated[
-        str, option("-c --collection", "Name in the address book, genesis or icons, or an ADDRESS.", "COLLECTION")
-    ] = "genesis"
+    collection: str = option(
+        "-c --collection", "Name in the address book, genesis or icons, or an ADDRESS.", "COLLECTION", default="genesis"
+    )
 
     def open(self) -> Collection:
         """Return the collection. InputError if there is none of that name or at that address."""
@@ -67,19 +67,21 @@ class AnyCollectionOptions(CollectionOptions):
     """Any collection, and the node: for commands that accept every token."""
 
     accepts_editions = True
-    collection: Annotated[
-        str,
-        option("-c --collection", "editions; genesis or icons, from the address book; or an ADDRESS.", "COLLECTION"),
-    ] = "genesis"
+    collection: str = option(
+        "-c --collection",
+        "editions; genesis or icons, from the address book; or an ADDRESS.",
+        "COLLECTION",
+        default="genesis",
+    )
 
 
 @dataclass(frozen=True)
 class IconsOptions(CollectionOptions):
     """The collection of icons that a command uses, and the node."""
 
-    collection: Annotated[
-        str, option("-c --collection", "The name icons, from the address book, or an ADDRESS.", "COLLECTION")
-    ] = "icons"
+    collection: str = option(
+        "-c --collection", "The name icons, from the address book, or an ADDRESS.", "COLLECTION", default="icons"
+    )
 
     def open(self) -> Collection:
         """Return the collection. InputError if it is missing or has no icons."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import time
 from pathlib import Path
-from typing import Annotated
 
 from ...checks import choice, number
 from ...errors import InputError
@@ -18,9 +17,9 @@ from .options import MAX_NUMBER, PHASES, CollectionOptions, IconsOptions, TokenP
 
 
 def phase(
-    to: Annotated[str, argument(", ".join(PHASES) + ".", "PHASE")],
     which: CollectionOptions,
     payer: TokenPayerOptions,
+    to: str = argument(", ".join(PHASES) + ".", "PHASE"),
 ) -> None:
     """Set the phase of the sale, which says who may mint. For the owner."""
     number = PHASES.index(choice(to, "the phase", PHASES))
@@ -32,7 +31,7 @@ def phase(
 def withdraw(
     which: CollectionOptions,
     payer: TokenPayerOptions,
-    to: Annotated[str | None, option("--to", "Receiver; default: the owner.", "ADDRESS")] = None,
+    to: str | None = option("--to", "Receiver; default: the owner.", "ADDRESS"),
 ) -> None:
     """Withdraw the ether of the sale. For the owner."""
     from ...tokens import withdrawn
@@ -48,10 +47,10 @@ def withdraw(
 
 
 def royalty(
-    percent: Annotated[float, argument("Share of the price of resales, 0 to 10.", "PERCENT")],
     which: CollectionOptions,
     payer: TokenPayerOptions,
-    receiver: Annotated[str | None, option("--receiver", "Receiver; default: unchanged.", "ADDRESS")] = None,
+    percent: float = argument("Share of the price of resales, 0 to 10.", "PERCENT"),
+    receiver: str | None = option("--receiver", "Receiver; default: unchanged.", "ADDRESS"),
 ) -> None:
     """Set the royalty on resales, and its receiver. For the owner."""
     parts = round(100 * number(percent, "the royalty", 0, 10))
@@ -64,9 +63,9 @@ def royalty(
 
 
 def transfer_ownership(
-    to: Annotated[str, argument("The new owner.", "ADDRESS")],
     which: CollectionOptions,
     payer: TokenPayerOptions,
+    to: str = argument("The new owner.", "ADDRESS"),
 ) -> None:
     """Offer a collection to a new owner, who must accept it. For the owner."""
     address = parse_checksum_address(to, "the new owner")
@@ -88,15 +87,11 @@ def accept_ownership(which: CollectionOptions, payer: TokenPayerOptions) -> None
 
 
 def allow_list(
-    file: Annotated[Path, argument("Lines of account,quantity, or an OpenZeppelin tree as JSON.", "FILE")],
     which: CollectionOptions,
     payer: TokenPayerOptions,
-    output: Annotated[
-        Path | None, option("-o --output", "Write the tree as OpenZeppelin's StandardMerkleTree, .json.", "FILE")
-    ] = None,
-    signer: Annotated[
-        str | None, option("--signer", "Account that signs permissions; default: unchanged.", "ADDRESS")
-    ] = None,
+    file: Path = argument("Lines of account,quantity, or an OpenZeppelin tree as JSON.", "FILE"),
+    output: Path | None = option("-o --output", "Write the tree as OpenZeppelin's StandardMerkleTree, .json.", "FILE"),
+    signer: str | None = option("--signer", "Account that signs permissions; default: unchanged.", "ADDRESS"),
 ) -> None:
     """Print the root of an allow list; with --rpc, set it in a collection. For the owner."""
     from ...tokens import read_allow_list
@@ -116,12 +111,12 @@ def allow_list(
 
 
 def permit(
-    who: Annotated[str, argument("The account that may mint.", "ACCOUNT")],
     which: CollectionOptions,
     signing: SignerOptions,
-    quantity: Annotated[int, argument("Number of tokens in all.", "N", min=1, max=MAX_NUMBER)] = 1,
-    output: Annotated[Path | None, option("-o --output", "File to write; default: print it.", "FILE")] = None,
-    days: Annotated[float, option("--days", "Days until it expires.", "DAYS", min=0)] = 30,
+    who: str = argument("The account that may mint.", "ACCOUNT"),
+    quantity: int = argument("Number of tokens in all.", "N", min=1, max=MAX_NUMBER, default=1),
+    output: Path | None = option("-o --output", "File to write; default: print it.", "FILE"),
+    days: float = option("--days", "Days until it expires.", "DAYS", min=0, default=30),
 ) -> None:
     """Sign a permission to mint for one account; sends no transaction. For the signer of the collection."""
     from ...tokens import sign_allowance
@@ -148,13 +143,13 @@ def permit(
 
 
 def add(
-    name: Annotated[str, argument("A dataset piece; with POINTER, the name of the icon.", "NAME")],
     which: IconsOptions,
     payer: TokenPayerOptions,
-    pointer: Annotated[str | None, argument("Address of the stored scene, from `shackled store`.", "POINTER")] = None,
-    price: Annotated[str, option("--price", "Price of a token, in ether.", "ETHER")] = "0.02",
-    supply: Annotated[int, option("--supply", "Number of tokens.", "N")] = 100,
-    reserve: Annotated[int, option("--reserve", "Number of these tokens reserved for the team.", "N")] = 1,
+    name: str = argument("A dataset piece; with POINTER, the name of the icon.", "NAME"),
+    pointer: str | None = argument("Address of the stored scene, from `shackled store`.", "POINTER"),
+    price: str = option("--price", "Price of a token, in ether.", "ETHER", default="0.02"),
+    supply: int = option("--supply", "Number of tokens.", "N", default=100),
+    reserve: int = option("--reserve", "Number of these tokens reserved for the team.", "N", default=1),
 ) -> None:
     """Add an icon, whose scene is stored already, to a collection that is not sealed. For the owner."""
     from ...deploy import local_chain

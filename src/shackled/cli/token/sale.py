@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 from ...errors import InputError
 from ...ethereum import checksum_address, to_hex
 from ...values import plural
 from ..chain_options import (
-    Calldata,
-    Json,
+    CALLDATA,
+    JSON,
     check_calldata,
     parse_checksum_address,
     print_price,
@@ -34,20 +34,16 @@ SAFE_TRANSFER = "safeTransferFrom(address,address,uint256)"
 def mint(
     which: CollectionOptions,
     payer: TokenPayerOptions,
-    quantity: Annotated[int, argument("Number of tokens.", "N", min=1, max=MAX_NUMBER)] = 1,
-    allow_list: Annotated[
-        Path | None, option("--allow-list", "The allow list that the owner published, with your account.", "FILE")
-    ] = None,
-    permission: Annotated[
-        Path | None, option("--permission", "Mint with a permission from `shackled token permit`.", "FILE")
-    ] = None,
-    icon: Annotated[
-        str | None, option("--icon", "Name or number of the icon, in a collection of icons.", "NAME")
-    ] = None,
-    reserve_to: Annotated[
-        str | None, option("--reserve-to", "Mint from the reserve, for this account. For the owner.", "ADDRESS")
-    ] = None,
-    as_json: Json = False,
+    quantity: int = argument("Number of tokens.", "N", min=1, max=MAX_NUMBER, default=1),
+    allow_list: Path | None = option(
+        "--allow-list", "The allow list that the owner published, with your account.", "FILE"
+    ),
+    permission: Path | None = option("--permission", "Mint with a permission from `shackled token permit`.", "FILE"),
+    icon: str | None = option("--icon", "Name or number of the icon, in a collection of icons.", "NAME"),
+    reserve_to: str | None = option(
+        "--reserve-to", "Mint from the reserve, for this account. For the owner.", "ADDRESS"
+    ),
+    as_json: bool = JSON,
 ) -> None:
     """Mint tokens. Prints the price first."""
     from ...tokens import find_icon, mint_call, minted_tokens
@@ -82,9 +78,9 @@ def mint(
 def reveal(
     which: CollectionOptions,
     payer: TokenPayerOptions,
-    wait: Annotated[bool, option("--wait", "Wait for blocks that are not mined yet.")] = False,
-    calldata: Calldata = None,
-    as_json: Json = False,
+    wait: bool = option("--wait", "Wait for blocks that are not mined yet."),
+    calldata: Path | None = CALLDATA,
+    as_json: bool = JSON,
 ) -> None:
     """Reveal the tokens whose blocks are mined. Anyone can do this."""
     from ...deploy import current_fees
@@ -176,10 +172,10 @@ def _print_pasting(quotes: list[Quote], path: Path) -> None:
 
 
 def transfer(
-    token_id: Annotated[int, argument("Number of the token.", "ID", min=0, max=MAX_NUMBER)],
-    to: Annotated[str, argument("The new owner.", "ADDRESS")],
     which: AnyCollectionOptions,
     payer: TokenPayerOptions,
+    token_id: int = argument("Number of the token.", "ID", min=0, max=MAX_NUMBER),
+    to: str = argument("The new owner.", "ADDRESS"),
 ) -> None:
     """Transfer a token to another account."""
     receiver = parse_checksum_address(to, "the receiver")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import chain
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 from ...animation import DURATION
 from ...errors import InputError, VerificationError
@@ -12,7 +12,7 @@ from ...ethereum import amount, ether
 from ...image import check_output, one_of
 from ...tokens import EDITIONS
 from ...whole_file import check_output_file, write_output
-from ..chain_options import Json, NodeOptions, parse_checksum_address
+from ..chain_options import JSON, NodeOptions, parse_checksum_address
 from ..look_options import parse_size
 from ..option import argument, option
 from ..output import print_json, print_line, print_table
@@ -21,12 +21,12 @@ from .options import MAX_NUMBER, PHASES, AnyCollectionOptions, CollectionOptions
 
 
 def show(
-    token_id: Annotated[int, argument("Number of the token.", "ID", min=0, max=MAX_NUMBER)],
     which: AnyCollectionOptions,
-    output: Annotated[
-        Path | None, option("-o --output", "File for the picture; unchanged if it has the token's format.", "FILE")
-    ] = None,
-    as_json: Json = False,
+    token_id: int = argument("Number of the token.", "ID", min=0, max=MAX_NUMBER),
+    output: Path | None = option(
+        "-o --output", "File for the picture; unchanged if it has the token's format.", "FILE"
+    ),
+    as_json: bool = JSON,
 ) -> None:
     """Show the traits of a token, and save its picture, both from its `tokenURI`."""
     from ...tokens import read_view
@@ -53,7 +53,10 @@ def show(
         print_line(f"{key:{width}}  {value}")
 
 
-def list_(which: CollectionOptions, as_json: Json = False) -> None:
+def list_(
+    which: CollectionOptions,
+    as_json: bool = JSON,
+) -> None:
     """List the tokens with owners and traits, and the state of the collection."""
     from ...tokens import icons_of, read_views
 
@@ -91,19 +94,15 @@ def list_(which: CollectionOptions, as_json: Json = False) -> None:
 
 
 def picture(
-    pointer: Annotated[str, argument("Address of the stored scene, from `shackled store`.", "POINTER")],
     node: NodeOptions,
-    output: Annotated[
-        Path, option("-o --output", "Output file: a picture, .png or .svg, or a 3D model, .glb.", "FILE")
-    ],
-    scale: Annotated[int, option("--scale", "Side of the square that each pixel becomes.", "N", min=1, max=8)] = 4,
-    turntable: Annotated[
-        int | None, option("--turntable", "Animated PNG of a full turn in this many frames.", "FRAMES", min=2, max=360)
-    ] = None,
-    duration: Annotated[
-        int, option("--duration", "Duration of a frame.", "MILLISECONDS", min=20, max=10_000)
-    ] = DURATION,
-    size: Annotated[str | None, option("--size", "Pixels of a frame, as 64 or 80x60.", "SIZE")] = None,
+    pointer: str = argument("Address of the stored scene, from `shackled store`.", "POINTER"),
+    output: Path = option("-o --output", "Output file: a picture, .png or .svg, or a 3D model, .glb.", "FILE"),
+    scale: int = option("--scale", "Side of the square that each pixel becomes.", "N", min=1, max=8, default=4),
+    turntable: int | None = option(
+        "--turntable", "Animated PNG of a full turn in this many frames.", "FRAMES", min=2, max=360
+    ),
+    duration: int = option("--duration", "Duration of a frame.", "MILLISECONDS", min=20, max=10_000, default=DURATION),
+    size: str | None = option("--size", "Pixels of a frame, as 64 or 80x60.", "SIZE"),
 ) -> None:
     """Render a stored scene on a chain."""
     from ...studio import ANIMATE, STUDIO
@@ -139,7 +138,7 @@ def picture(
 
 def verify(
     which: AnyCollectionOptions,
-    numbers: Annotated[list[int] | None, argument("Tokens; default: all.", "ID")] = None,
+    numbers: tuple[int, ...] = argument("Tokens; default: all.", "ID"),
 ) -> None:
     """Compare the code, the seeds and the pictures of a collection with those computed here."""
     from ...deploy import local_chain
