@@ -13,7 +13,6 @@ from .chain_options import (
     CALLDATA,
     NodeOptions,
     PayerOptions,
-    check_calldata,
     print_rollup_fee,
     print_step,
     wallet_calls,
@@ -49,16 +48,14 @@ def deploy(
 
     node.check()
     payer.check()
-    check_calldata(calldata)
     names = STANDARD if contracts is None else [name.strip() for name in contracts.split(",") if name.strip()]
     if not names:
         raise InputError(f"--contracts is empty: name one or more of {', '.join(CONTRACTS)}")
-    max_fee = payer.max_wei
     wanted = deployments(names)
     connection = node.connect(rpc_timeout)
     deployer = Deployer(connection)
     deployer.book.entries(connection.chain_id)  # report a damaged file before anything is paid
-    plan = deployer.plan(wanted, current_fees(connection, max_fee))
+    plan = deployer.plan(wanted, current_fees(connection, payer.max_fee))
     folder = standard_json or Path(f"deployed-{connection.chain_id}")
     receipts: list[Receipt] = []
     if plan.missing:

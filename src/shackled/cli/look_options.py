@@ -39,7 +39,7 @@ def parse_sides(text: str, name: str) -> tuple[int, int]:
     return int(match[1]), int(match[2] or match[1])
 
 
-def parse_size(text: str, name: str = "--size") -> tuple[int, int]:
+def parse_size(text: str, name: str) -> tuple[int, int]:
     """Return width and height of a picture, as `parse_sides`."""
     width, height = parse_sides(text, name)
     if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
@@ -102,7 +102,7 @@ def parse_light(text: str) -> Light:
     return Light(kind, vector, color, parse_vector(rest[1], "--light"), inner, outer)
 
 
-#: The metavar of a setting, and the type of its value for click.
+#: The metavar of a setting, and the type of its value.
 _KINDS: dict[Kind, tuple[str | None, Any]] = {
     "size": ("SIZE", str),
     "whole": ("N", int),
@@ -110,7 +110,7 @@ _KINDS: dict[Kind, tuple[str | None, Any]] = {
     "number": ("NUMBER", float),
     "vector": ("X,Y,Z", str),
     "rotation": ("X,Y,Z", str),
-    "flag": (None, bool),
+    "flag": (None, bool | None),
     "color": ("COLOR", str),
     "background": ("COLOR[,COLOR]", str),
     "choice": ("KIND", str),
@@ -156,14 +156,10 @@ def take_look(values: dict[str, Any]) -> dict[str, Any]:
 
     `--background none` is --transparent where that exists.
     """
-    if "transparent" in values and (values["background"] or "").strip().lower() == "none":
+    if "transparent" in values and str(values["background"] or "").lower() == "none":
         values |= {"background": None, "transparent": True}
-    given = {each: values.pop(each.name) for each in SETTINGS}
-    look = {
-        each.name: _PARSERS[each.kind](value, each.option) if each.kind in _PARSERS else value
-        for each, value in given.items()
-        if value not in (None, ())
-    }
+    given = {each.name: values.pop(each.name) for each in SETTINGS}
+    look = {name: value for name, value in given.items() if value not in (None, ())}
     checked_look(look)
     return look
 
@@ -211,5 +207,6 @@ def _option(setting: Setting) -> click.Parameter:
     if setting.kind == "number" and setting.unit:
         metavar = setting.unit.upper()
     panel = None if setting.name in COMMON else setting.group
-    declared = option(setting.option, f"{setting.help}{_MORE.get(setting.name, '')}", metavar, panel)
-    return parameter(setting.name, kind if kind == tuple[str, ...] else kind | None, declared)
+    text = f"{setting.help}{_MORE.get(setting.name, '')}"
+    declared = option(setting.option, text, metavar, panel, required=False, parse=_PARSERS.get(setting.kind))
+    return parameter(setting.name, kind, declared)

@@ -17,7 +17,6 @@ from .chain_options import (
     JSON,
     NodeOptions,
     PayerOptions,
-    check_calldata,
     print_price,
     print_step,
     wallet_calls,
@@ -41,7 +40,7 @@ def store(
     output: str | None = option(
         "-o --output", f"Write the picture as rendered on the chain: {one_of(FORMATS)}.", "FILE"
     ),
-    size: str | None = option("--size", "Pixels, as 128 or 320x200.", "SIZE"),
+    size: tuple[int, int] | None = option("--size", "Pixels, as 128 or 320x200.", "SIZE", parse=parse_size),
     max_triangles: int | None = option("--max-triangles", "Simplify meshes of more triangles than this.", "N"),
     position_bits: int | None = option(
         "--position-bits", "Round positions to a grid of 2^N steps, 4 to 16, to save gas. Default: exact.", "N"
@@ -61,21 +60,19 @@ def store(
             "--calldata sends nothing, so no chain can draw the picture that --output writes: leave one out"
         )
     path = None if output is None else check_output(output)
-    check_calldata(calldata)
-    pixels = None if size is None else parse_size(size)
     source = locate(input)
     terms = licence_of(source, licence)
     node.check()
     payer.check()
     # a token is drawn by nodes of all kinds, of which many allow a call too little gas for antialiased meshes
     is_mesh = not isinstance(source, Piece) and source.suffix.lower() in READERS
-    thing = (token_scene(source) if pixels is None else source.make()) if isinstance(source, Piece) else source
+    thing = (token_scene(source) if size is None else source.make()) if isinstance(source, Piece) else source
     # what is stored can be drawn at any size
-    scene = load(thing, pixels, max_triangles=max_triangles or ALL, antialias=False if is_mesh else None)
+    scene = load(thing, size, max_triangles=max_triangles or ALL, antialias=False if is_mesh else None)
     wanted = SceneToStore(input, scene, position_bits)
     connection = node.connect()
     with LateBar("reading the chain"):
-        storage = plan_storage(connection, [wanted], current_fees(connection, payer.max_wei))
+        storage = plan_storage(connection, [wanted], current_fees(connection, payer.max_fee))
     pointer = storage.pointers[0]
     if isinstance(source, Piece) and source.notice:
         print_note(source.notice)
@@ -179,12 +176,11 @@ def store_items(
 
     node.check()
     payer.check()
-    check_calldata(calldata)
     with LateBar("reading items"):
         wanted = chosen_items(names or ())
         connection = node.connect()
         scenes = [SceneToStore(each.name, each.scene) for each in wanted]
-        plan = plan_storage(connection, scenes, current_fees(connection, payer.max_wei))
+        plan = plan_storage(connection, scenes, current_fees(connection, payer.max_fee))
     if plan.pointers != tuple(checksum_address(each.pointer) for each in wanted):
         raise InputError("the Studio of this chain is not that of this version: see `shackled deploy`")
     gas: int | None = 0
