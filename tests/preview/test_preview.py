@@ -164,26 +164,27 @@ def test_watched_sources(tmp_path: Path) -> None:
     assert names == {"foundry.toml", "src/Token.sol", "src/lib/Own.sol", "src/out/Own.sol"}
 
 
-def test_values_of_all_types() -> None:
-    pair = {"type": "tuple[]", "components": [{"type": "uint8"}, {"type": "string"}]}
-    for text, parameter, value in (
-        ("0x10", {"type": "uint256"}, 16),
-        ("-1_000", {"type": "int16"}, -1000),
-        ("true", {"type": "bool"}, True),
-        ("0x00ff", {"type": "bytes"}, b"\0\xff"),
-        ("a, b", {"type": "string"}, "a, b"),
-        ('"a"', {"type": "string"}, "a"),
-        ("[[1, 2], [3, 4]]", {"type": "uint8[2][]"}, [[1, 2], [3, 4]]),
-        ('[[1, "a"]]', pair, [(1, "a")]),
-        ("[true]", {"type": "bool[]"}, [True]),
-        ("[1, 2]", {"type": "uint8[2]"}, [1, 2]),
-        ("255", {"type": "uint8"}, 255),
-        ("-32768", {"type": "int16"}, -32768),
-    ):
-        assert parse_value(text, parameter, "it") == value
-    for text, kind in (("yes", "bool"), ("1", "uint8[]"), ("0x1", "bytes"), ("[[1]]", "uint8[]"), ("0x12", "address")):
-        with pytest.raises(InputError, match="it"):
-            parse_value(text, {"type": kind}, "it")
+PAIRS = {"type": "tuple[]", "components": [{"type": "uint8"}, {"type": "string"}]}
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "value"),
+    [
+        ("0x10", "uint256", 16),
+        ("-1_000", "int16", -1000),
+        ("true", "bool", True),
+        ("0x00ff", "bytes", b"\0\xff"),
+        ("a, b", "string", "a, b"),
+        ('"a"', "string", "a"),
+        ("[[1, 2], [3, 4]]", "uint8[2][]", [[1, 2], [3, 4]]),
+        ('[[1, "a"]]', PAIRS, [(1, "a")]),
+        ("[true]", "bool[]", [True]),
+        ("255", "uint8", 255),
+        ("-32768", "int16", -32768),
+    ],
+)
+def test_values_of_all_types(text: str, kind: Any, value: Any) -> None:
+    assert parse_value(text, {"type": kind} if isinstance(kind, str) else kind, "it") == value
 
 
 @pytest.mark.parametrize(
@@ -194,14 +195,19 @@ def test_values_of_all_types() -> None:
         ("99999", "int16", "it must be an int16, -32768 to 32767, not 99999"),
         (str(1 << 255), "int256", "it must be an int256, -2^255 to 2^255 - 1, not 5789"),
         ("9" * 5000, "uint256", "it must be a uint256, 0 to 2^256 - 1, not '999"),
+        ("yes", "bool", "it must be true or false, not 'yes'"),
+        ("0x1", "bytes", "it must be a bytes in hexadecimal, not '0x1'"),
+        ("0x12", "address", "it must be an address"),
         ("0x" + "00" * 33, "bytes32", "it must be a bytes32, 32 bytes in hexadecimal, not 33 bytes"),
+        ("1", "uint8[]", "it must be a JSON list, for uint8[], not '1'"),
+        ("[[1]]", "uint8[]", "it must have a value for uint8, not [1]"),
         ("[1]", "uint8[2]", "it must have a list of 2 values for uint8[2], not [1]"),
         ("[[300]]", "uint8[][]", "it must be a uint8, 0 to 255, not 300"),
         ("[null]", "string[]", "it must have a value for string, not null"),
         ("\udce9", "string", "it must be a string"),
     ],
 )
-def test_values_out_of_range(text: str, kind: str, message: str) -> None:
+def test_values_that_do_not_fit(text: str, kind: str, message: str) -> None:
     with pytest.raises(InputError) as raised:
         parse_value(text, {"type": kind}, "it")
     assert str(raised.value).startswith(message)
@@ -273,7 +279,12 @@ def test_documents_that_are_right() -> None:
     assert judge_picture(base64.b64decode(picture().partition(",")[2])).problems == []
 
 
-HOSTILE = {
+def one(**fields: Any) -> str:
+    """Return the URI of a token that is right but for these fields."""
+    return uri({"name": "One", "image": picture()} | fields)
+
+
+WRONG = {
     "https://example.org/1": "not on the chain",
     "data:text/html,<p>": "has the type text/html, not application/json",
     uri("{"): "not valid JSON",
@@ -283,40 +294,24 @@ HOSTILE = {
     uri("[]"): "not an object",
     "data:application/json;base64,!": "not valid Base64",
     "data:application/json,%ff": "the tokenURI is not valid UTF-8: byte 0 is 0xff",
+    one(name=3): "there is no name",
+    one(description=[]): "description must be text",
+    one(background_color="#ffffff"): "six hexadecimal digits without #",
+    one(external_url="javascript:alert(1)"): "an address such as",
+    one(attributes=[{"trait_type": "a"}]): "attribute 0 has no value",
+    one(attributes=[{"value": 1, "display_type": {}}]): "display_type {} is none of",
+    one(animation_url="data:model/gltf-binary;base64,Z2xURg=="): "not a complete GLB",
+    one(image="data:text/html,<script>"): "image has the type text/html",
+    one(description="a" * 100_000): "bytes; marketplaces show no more than 100,000",
+    'data:application/json,{"name": "Token #1"}': "a # at position 38, where browsers end it: write %23",
 }
 
 
-@pytest.mark.parametrize(("given", "message"), HOSTILE.items(), ids=range(len(HOSTILE)))
-def test_documents_that_cannot_be_read(given: str, message: str) -> None:
-    (problem,) = judge(given).problems
-    assert message in problem
-
-
-WRONG = {
-    "name": (3, "there is no name"),
-    "description": ([], "description must be text"),
-    "background_color": ("#ffffff", "six hexadecimal digits without #"),
-    "external_url": ("javascript:alert(1)", "an address such as"),
-    "attributes": ([{"trait_type": "a"}], "attribute 0 has no value"),
-    "animation_url": ("data:model/gltf-binary;base64,Z2xURg==", "not a complete GLB"),
-    "attributes ": ([{"value": 1, "display_type": {}}], "display_type {} is none of"),
-    "image": ("data:text/html,<script>", "image has the type text/html"),
-}
-
-
-@pytest.mark.parametrize("key", WRONG)
-def test_fields_that_are_wrong(key: str) -> None:
-    value, message = WRONG[key]
-    (problem,) = judge(uri({"name": "One", "image": picture()} | {key.strip(): value})).problems
-    assert message in problem
-
-
-def test_token_uris_that_marketplaces_do_not_show() -> None:
-    fields = {"name": "One", "image": picture(), "description": "a" * 100_000}
-    (problem,) = judge("data:application/json," + json.dumps(fields)).problems
-    assert problem.endswith("bytes; marketplaces show no more than 100,000")
-    (problem,) = judge("data:application/json," + json.dumps({"name": "Token #1", "image": picture()})).problems
-    assert "the tokenURI has a # at position 38, where browsers end it: write %23" in problem
+@pytest.mark.parametrize(("given", "message"), WRONG.items(), ids=range(len(WRONG)))
+def test_documents_that_are_wrong(given: str, message: str) -> None:
+    first, *others = judge(given).problems
+    assert message in first
+    assert others == (["there is no image"] if "Token #1" in given else [])
 
 
 def film(kind: str, frames: int, side: int = 4) -> bytes:
