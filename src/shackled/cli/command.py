@@ -14,12 +14,6 @@ import click
 from .option import Argument, parameter
 from .output import STRICT
 
-#: Inputs, and the options that are needed most, which help lists first; those of a look without the title of a group.
-COMMON = (
-    *("input", "inputs", "output"),
-    *("size", "background", "color", "azimuth", "elevation", "max_triangles", "turntable"),
-)
-
 
 class Command(click.Command):
     """A command whose help also lists its arguments, and its options by title."""
@@ -50,10 +44,9 @@ def command(function: Callable[..., Any], name: str, more: Sequence[click.Parame
         found += [parameter(each.name, hints[each.name], each) for each in fields(kind)]
     has_look = any(each.kind is each.VAR_KEYWORD for each in given)
     if has_look:
-        from .look_options import look_options, take_look
+        from .look_options import take_look, with_look
 
-        found += look_options()
-        found.sort(key=lambda each: COMMON.index(each.name) if each.name in COMMON else len(COMMON))
+        found = with_look(found)
 
     def callback(**values: Any) -> Any:
         look = take_look(values) if has_look else {}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 from typing import Any
 
@@ -26,7 +26,6 @@ from ..scene import (
     Setting,
     checked_look,
 )
-from .command import COMMON
 from .option import argument, option, parameter
 from .progress import LateBar
 
@@ -146,9 +145,17 @@ _MORE = {
 }
 
 
-def look_options() -> list[click.Parameter]:
-    """Return the options of a look."""
-    return [_option(each) for each in SETTINGS]
+#: Inputs, and the options that are needed most, which help lists first; those of a look without the title of a group.
+COMMON = (
+    *("input", "inputs", "output"),
+    *("size", "background", "color", "azimuth", "elevation", "max_triangles", "turntable"),
+)
+
+
+def with_look(parameters: Iterable[click.Parameter]) -> list[click.Parameter]:
+    """Return the parameters of a command with the options of a look."""
+    found = [*parameters, *map(_option, SETTINGS)]
+    return sorted(found, key=lambda each: COMMON.index(each.name) if each.name in COMMON else len(COMMON))
 
 
 def take_look(values: dict[str, Any]) -> dict[str, Any]:
