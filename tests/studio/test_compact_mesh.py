@@ -16,8 +16,8 @@ from shackled import ChainError, InputError, Mesh, RenderError, load
 from shackled.chain import EmbeddedChain
 from shackled.datasets import teapot
 from shackled.scene import fit, pack
-from shackled.studio import storage_address
 from shackled.studio._compact_mesh import COMPACT, compact, split_mesh
+from shackled.studio._storage import storage_address
 
 
 def opened(stored: bytes, gas: int | None = None) -> bytes:

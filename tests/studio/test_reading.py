@@ -8,8 +8,8 @@ from shackled import Mesh, Scene
 from shackled.chain import Connection
 from shackled.errors import VerificationError
 from shackled.scene import Object, fit
-from shackled.studio import storage_address, stored_codes
-from shackled.studio._storage import SCENE, compress_zeros, encode_with_pointers, stored_meshes
+from shackled.studio import stored_codes
+from shackled.studio._storage import SCENE, compress_zeros, encode_with_pointers, storage_address, stored_meshes
 
 
 def test_the_meshes_of_a_scene_are_found() -> None:

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 from itertools import groupby
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 from ..checks import choice
 from ..datasets import DATASETS, Piece, PieceCost, cost, figures, pieces
@@ -27,12 +27,9 @@ def _check_dataset(name: str | None) -> str | None:
 
 
 def list_(
-    dataset: Annotated[
-        str | None,
-        argument(f"{', '.join(DATASETS)}; all by default.", "DATASET"),
-    ] = None,
-    as_json: Annotated[bool, option("--json", "Print a list of JSON objects.")] = False,
-    every: Annotated[bool, option("--all", "List each Genesis piece.")] = False,
+    dataset: str | None = argument(f"{', '.join(DATASETS)}; all by default.", "DATASET"),
+    as_json: bool = option("--json", "Print a list of JSON objects."),
+    every: bool = option("--all", "List each Genesis piece."),
 ) -> None:
     """List the pieces with their triangles, gas at 128 x 128, and licence."""
     wanted = _check_dataset(dataset)
@@ -89,16 +86,10 @@ def _summary(rows: Sequence[tuple[Piece, PieceCost]]) -> tuple[str, str, str, st
 
 
 def fetch(
-    names: Annotated[list[str], argument("Names of models, as in `shackled datasets list`.", "NAME")],
-    own: Annotated[
-        Path | None,
-        option("--from", "Local mesh file or archive to use instead of a download.", "FILE"),
-    ] = None,
-    cache: Annotated[
-        Path | None,
-        option("--cache", "Cache folder; $SHACKLED_CACHE or that of the system by default.", "DIR"),
-    ] = None,
-    again: Annotated[bool, option("--again", "Prepare models again even if they are in the cache.")] = False,
+    names: tuple[str, ...] = argument("Names of models, as in `shackled datasets list`.", "NAME", required=True),
+    own: Path | None = option("--from", "Local mesh file or archive to use instead of a download.", "FILE"),
+    cache: Path | None = option("--cache", "Cache folder; $SHACKLED_CACHE or that of the system by default.", "DIR"),
+    again: bool = option("--again", "Prepare models again even if they are in the cache."),
 ) -> None:
     """Download third-party models, clean and simplify them, and keep the result."""
     from ..datasets import VARIABLE
@@ -135,11 +126,8 @@ def _fetch(model: Any, own: Path | None, again: bool) -> None:
 
 
 def showcase(
-    names: Annotated[
-        list[str] | None,
-        argument("Scenes, such as glass; all by default.", "NAME"),
-    ] = None,
-    output: Annotated[Path, option("-o --output", "Output folder.", "DIR")] = Path("showcase"),
+    names: tuple[str, ...] = argument("Scenes, such as glass; all by default.", "NAME"),
+    output: Path = option("-o --output", "Output folder.", "DIR", default=Path("showcase")),
 ) -> None:
     """Render the scenes of the showcase into a folder, with a page (index.html) and a contact sheet (sheet.png)."""
     from ..datasets.showcase import draw_showcase
@@ -157,16 +145,10 @@ def showcase(
 
 
 def gallery(
-    outputs: Annotated[
-        list[Path] | None,
-        option("-o --output", "Output file, .html or .png; can be repeated.", "FILE"),
-    ] = None,
-    dataset: Annotated[
-        str | None,
-        argument(f"{', '.join(DATASETS)}; all by default.", "DATASET"),
-    ] = None,
-    every: Annotated[bool, option("--all", f"Show all Genesis pieces instead of {GENESIS_SHOWN}.")] = False,
-    jobs: Annotated[int | None, option("--jobs", "Number of worker processes; one per core by default.", min=1)] = None,
+    outputs: tuple[Path, ...] = option("-o --output", "Output file, .html or .png; can be repeated.", "FILE"),
+    dataset: str | None = argument(f"{', '.join(DATASETS)}; all by default.", "DATASET"),
+    every: bool = option("--all", f"Show all Genesis pieces instead of {GENESIS_SHOWN}."),
+    jobs: int | None = option("--jobs", "Number of worker processes; one per core by default.", min=1),
 ) -> None:
     """Render all pieces into a self-contained HTML page or a contact sheet. Finished drawings are cached."""
     from ..datasets import draw_all, page, sheet

@@ -6,7 +6,7 @@ import json
 import sys
 import time
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 from .._load import locate
 from ..datasets import Piece
@@ -16,7 +16,7 @@ from ..studio import make_glb
 from ..web import check_page
 from ..web import export as write_page
 from ..whole_file import check_output_file
-from .look_options import Input, Look, load_with
+from .look_options import INPUT, load_with
 from .option import option
 from .progress import LateBar
 
@@ -26,17 +26,15 @@ SLOW = 2_000_000_000
 
 
 def export(
-    input: Input,
-    output: Annotated[
-        str | None,
-        option("-o --output", "File to write: a page, .html, or a model, .glb. Named after INPUT by default.", "FILE"),
-    ] = None,
-    title: Annotated[
-        str | None, option("--title", "Title of the page (default: that of the piece, or the name of FILE).", "TEXT")
-    ] = None,
-    as_json: Annotated[bool, option("--json", "Print a JSON object instead of text.")] = False,
-    *,
-    look: Look,
+    input: str = INPUT,
+    output: str | None = option(
+        "-o --output", "File to write: a page, .html, or a model, .glb. Named after INPUT by default.", "FILE"
+    ),
+    title: str | None = option(
+        "--title", "Title of the page (default: that of the piece, or the name of FILE).", "TEXT"
+    ),
+    as_json: bool = option("--json", "Print a JSON object instead of text."),
+    **look: Any,
 ) -> None:
     """Write a scene as an interactive HTML page of one file, which needs no network, or as a .glb model.
 

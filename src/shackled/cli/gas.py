@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 from ..chain import CHAINS, PATIENCE, NodeChain, open_chain, open_node
 from ..errors import InputError
@@ -21,7 +21,7 @@ from ..gas import (
 )
 from ..values import plural
 from ..whole_file import check_output_file, write_output
-from .look_options import FIT, Input, Look, load_with
+from .look_options import FIT, INPUT, load_with
 from .option import option
 from .output import print_json, print_line, print_table
 from .progress import LateBar
@@ -32,50 +32,31 @@ ROWS = 20
 
 
 def gas(
-    input: Input,
-    *,
-    look: Look,
-    evm: Annotated[
-        str | None,
-        option("--evm", f"EVM to measure in: {', '.join(CHAINS)}; default: revm.", "NAME"),
-    ] = None,
-    rpc: Annotated[
-        str | None,
-        option("--rpc", "Node that also counts the gas, and runs the search.", "URL", envvar="SHACKLED_RPC"),
-    ] = None,
-    address: Annotated[str | None, option("--address", "Address of a renderer on the node's chain.", "ADDRESS")] = None,
-    rpc_timeout: Annotated[
-        float | None, option("--rpc-timeout", f"Timeout of a call to the node (default: {PATIENCE:g}).", "SECONDS")
-    ] = None,
-    fit: Annotated[str | None, FIT] = None,
-    as_json: Annotated[bool, option("--json", "Print a JSON object instead of tables.")] = False,
-    profile: Annotated[
-        str | None,
-        option(
-            "--profile",
-            "Also show gas by function and line, and write a flame graph, an .svg file.",
-            "FILE",
-        ),
-    ] = None,
-    opcodes: Annotated[
-        bool,
-        option(
-            "--opcodes",
-            "Also show gas by kind of opcode, by stage, and with --profile by function: stack, jumps, memory.",
-        ),
-    ] = False,
-    stages: Annotated[bool, option("--stages/--no-stages", "Show gas by stage.")] = True,
-    gas_price: Annotated[float, option("--gas-price", "Gas price in gwei.", "GWEI")] = 1.0,
-    eth_price: Annotated[float | None, option("--eth-price", "Price of one ether in US dollars.", "USD")] = None,
-    lower: Annotated[
-        int, option("--lower", "Lower bound of the search: an insufficient gas limit.", "GAS", "Search")
-    ] = 0,
-    upper: Annotated[
-        int | None,
-        option(
-            "--upper", "Upper bound of the search: a sufficient gas limit. Default: found by doubling.", "GAS", "Search"
-        ),
-    ] = None,
+    input: str = INPUT,
+    evm: str | None = option("--evm", f"EVM to measure in: {', '.join(CHAINS)}; default: revm.", "NAME"),
+    rpc: str | None = option(
+        "--rpc", "Node that also counts the gas, and runs the search.", "URL", envvar="SHACKLED_RPC"
+    ),
+    address: str | None = option("--address", "Address of a renderer on the node's chain.", "ADDRESS"),
+    rpc_timeout: float | None = option(
+        "--rpc-timeout", f"Timeout of a call to the node (default: {PATIENCE:g}).", "SECONDS"
+    ),
+    fit: str | None = FIT,
+    as_json: bool = option("--json", "Print a JSON object instead of tables."),
+    profile: str | None = option(
+        "--profile", "Also show gas by function and line, and write a flame graph, an .svg file.", "FILE"
+    ),
+    opcodes: bool = option(
+        "--opcodes", "Also show gas by kind of opcode, by stage, and with --profile by function: stack, jumps, memory."
+    ),
+    stages: bool = option("--stages/--no-stages", "Show gas by stage.", default=True),
+    gas_price: float = option("--gas-price", "Gas price in gwei.", "GWEI", default=1.0),
+    eth_price: float | None = option("--eth-price", "Price of one ether in US dollars.", "USD"),
+    lower: int = option("--lower", "Lower bound of the search: an insufficient gas limit.", "GAS", "Search", default=0),
+    upper: int | None = option(
+        "--upper", "Upper bound of the search: a sufficient gas limit. Default: found by doubling.", "GAS", "Search"
+    ),
+    **look: Any,
 ) -> None:
     """Measure the gas of a picture: exactly, by binary search, by stage and by line, and compare it with limits."""
     path = None if profile is None else _check_profile(profile)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
 
 from ..datasets.genesis import GenesisPiece
 from ..errors import InputError
@@ -15,28 +15,13 @@ from .progress import LateBar
 
 
 def genesis(
-    seeds: Annotated[
-        list[str] | None,
-        argument("Seeds of 64 hexadecimal digits, or numbers from 0 to 1023.", "SEED"),
-    ] = None,
-    as_json: Annotated[bool, option("--json", "Print a JSON object per line: seed, traits, mesh, colours.")] = False,
-    output: Annotated[
-        str | None,
-        option("-o --output", f"Output file for the picture of one SEED: {one_of(FORMATS)}.", "FILE"),
-    ] = None,
-    sheet: Annotated[
-        str | None,
-        option("--sheet", "Output file for all 1024 pieces in one picture, .png.", "FILE"),
-    ] = None,
-    count: Annotated[int | None, option("--count", "Number of pieces.", "N", "Sheet")] = None,
-    size: Annotated[
-        int | None,
-        option("--size", "Pixels per piece, 128 by default.", "N", "Sheet"),
-    ] = None,
-    workers: Annotated[
-        int | None,
-        option("--jobs", "Number of worker processes; one per core by default.", "N", "Sheet", min=1),
-    ] = None,
+    seeds: tuple[str, ...] = argument("Seeds of 64 hexadecimal digits, or numbers from 0 to 1023.", "SEED"),
+    as_json: bool = option("--json", "Print a JSON object per line: seed, traits, mesh, colours."),
+    output: str | None = option("-o --output", f"Output file for the picture of one SEED: {one_of(FORMATS)}.", "FILE"),
+    sheet: str | None = option("--sheet", "Output file for all 1024 pieces in one picture, .png.", "FILE"),
+    count: int | None = option("--count", "Number of pieces.", "N", "Sheet"),
+    size: int | None = option("--size", "Pixels per piece, 128 by default.", "N", "Sheet"),
+    workers: int | None = option("--jobs", "Number of worker processes; one per core by default.", "N", "Sheet", min=1),
 ) -> None:
     """Generate Genesis pieces from seeds in the contract, or render the whole collection.
 
@@ -56,7 +41,7 @@ def genesis(
     _sheet(sheet, count, size, workers)
 
 
-def _pieces(seeds: list[str], as_json: bool, output: str | None) -> None:
+def _pieces(seeds: Sequence[str], as_json: bool, output: str | None) -> None:
     from ..datasets.genesis import generate_on_chain, parse_seed
 
     if output is not None and len(seeds) > 1:

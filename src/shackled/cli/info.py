@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Sequence
 from contextlib import ExitStack, nullcontext
 from dataclasses import asdict, dataclass
-from typing import Annotated, Any
+from typing import Any
 
 from attrs import evolve
 
@@ -21,7 +21,7 @@ from .option import option, with_options
 from .output import print_json, print_line
 from .picture import Source, fits_of_made
 from .progress import LateBar
-from .several import Inputs, inputs_of
+from .several import INPUTS, inputs_of
 from .streams import FORMATS, STREAM, as_stdin
 
 #: The sides of the pictures whose gas is told, in pixels.
@@ -29,13 +29,12 @@ SIDES = (128, 256, 512)
 
 
 def info(
-    inputs: Inputs,
-    gas: Annotated[bool, option("--gas/--no-gas", "Draw it, to count the gas of pictures and where they fit.")] = True,
-    kind: Annotated[
-        str | None,
-        option("--format", f"Format of standard input: {', '.join(FORMATS)}; default: by its content.", "FORMAT"),
-    ] = None,
-    as_json: Annotated[bool, option("--json", "Print a JSON object instead of text, for each input.")] = False,
+    inputs: tuple[str, ...] = INPUTS,
+    gas: bool = option("--gas/--no-gas", "Draw it, to count the gas of pictures and where they fit.", default=True),
+    kind: str | None = option(
+        "--format", f"Format of standard input: {', '.join(FORMATS)}; default: by its content.", "FORMAT"
+    ),
+    as_json: bool = option("--json", "Print a JSON object instead of text, for each input."),
 ) -> None:
     """Tell what a file holds, what of it is left out, and what its pictures cost."""
     failed: list[Exception] = []

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 from .._on import Bounds, On, is_one_call, place_of
 from .._render import film, pace
@@ -47,26 +47,19 @@ class Source:
 class FilmOptions:
     """Which frames are rendered, if several are."""
 
-    turntable: Annotated[int | None, option("--turntable", "Render a full turn in this many frames.", "FRAMES")] = None
-    frames: Annotated[
-        int | None,
-        option("--frames", "Render an animation, the first one by default, in this many frames.", "N", "glTF files"),
-    ] = None
-    duration: Annotated[
-        int | None,
-        option(
-            "--duration",
-            f"Duration of a frame (default: {DURATION}, or the pace of the animation of the file).",
-            "MILLISECONDS",
-            "Turntable",
-        ),
-    ] = None
-    one_call: Annotated[
-        bool,
-        option(
-            "--one-call", "Make the whole animated PNG in one call of a contract, as for a token.", None, "Turntable"
-        ),
-    ] = False
+    turntable: int | None = option("--turntable", "Render a full turn in this many frames.", "FRAMES")
+    frames: int | None = option(
+        "--frames", "Render an animation, the first one by default, in this many frames.", "N", "glTF files"
+    )
+    duration: int | None = option(
+        "--duration",
+        f"Duration of a frame (default: {DURATION}, or the pace of the animation of the file).",
+        "MILLISECONDS",
+        "Turntable",
+    )
+    one_call: bool = option(
+        "--one-call", "Make the whole animated PNG in one call of a contract, as for a token.", None, "Turntable"
+    )
 
     @property
     def is_film(self) -> bool:

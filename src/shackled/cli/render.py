@@ -7,7 +7,7 @@ import sys
 from contextlib import ExitStack, redirect_stderr
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Any
 
 from PIL import Image as PillowImage
 
@@ -18,65 +18,50 @@ from ..errors import InputError
 from ..image import FORMATS, check_alpha, one_of
 from ..scene import PICTURE
 from ..whole_file import check_output_folder, make_output_folder, write_output
-from .look_options import FIT, Input, Look, load_with, parse_sides
+from .look_options import FIT, INPUT, load_with, parse_sides
 from .option import is_from_environment, option
 from .picture import FilmOptions, Task, render_to
 from .progress import JobProgress
-from .several import Inputs, inputs_of, outputs_of, render_all
+from .several import INPUTS, inputs_of, outputs_of, render_all
 from .streams import FORMATS as KINDS
 
-Evm = Annotated[str | None, option("--evm", f"EVM to draw in: {', '.join(CHAINS)}; default: revm.", "NAME", "Where")]
+EVM = option("--evm", f"EVM to draw in: {', '.join(CHAINS)}; default: revm.", "NAME", "Where")
 
 
 @dataclass(frozen=True)
 class WhereOptions:
     """Where calls run, and how a picture is split."""
 
-    evm: Evm = None
-    jobs: Annotated[
-        int | None,
-        option(
-            "--jobs",
-            "Number of concurrent calls on this machine, of processes if there are several inputs, or of concurrent "
-            "calls per node.",
-            "N",
-            "Where",
-        ),
-    ] = None
-    rpc: Annotated[
-        list[str] | None,
-        option(
-            "--rpc",
-            "Node to render on, with or without deployed contracts; may be repeated to share the work.",
-            "URL",
-            "Where",
-            envvar="SHACKLED_RPC",
-        ),
-    ] = None
-    address: Annotated[str | None, option("--address", "Address of a deployed renderer.", "ADDRESS", "Where")] = None
-    rpc_timeout: Annotated[
-        float | None,
-        option("--rpc-timeout", f"Timeout of a call to a node (default: {PATIENCE:g}).", "SECONDS", "Where"),
-    ] = None
-    cluster: Annotated[
-        str | None,
-        option("--cluster", "Address of a dask scheduler, as tcp://host:8786.", "ADDRESS", "Where"),
-    ] = None
-    gas_limit: Annotated[
-        int | None, option("--gas-limit", "Gas limit of a call; the picture is split to fit.", "GAS", "Where")
-    ] = None
-    tile: Annotated[
-        str | None, option("--tile", "Split the picture into parts of this size, as 128 or 1024x64.", "SIZE", "Where")
-    ] = None
-    verify: Annotated[
-        str | None,
-        option(
-            "--verify",
-            f"Pixels from nodes to verify locally: {', '.join(VERIFY)}; all by default, some of large pictures.",
-            "PART",
-            "Where",
-        ),
-    ] = None
+    evm: str | None = EVM
+    jobs: int | None = option(
+        "--jobs",
+        "Number of concurrent calls on this machine, of processes if there are several inputs, or of concurrent "
+        "calls per node.",
+        "N",
+        "Where",
+    )
+    rpc: tuple[str, ...] = option(
+        "--rpc",
+        "Node to render on, with or without deployed contracts; may be repeated to share the work.",
+        "URL",
+        "Where",
+        envvar="SHACKLED_RPC",
+    )
+    address: str | None = option("--address", "Address of a deployed renderer.", "ADDRESS", "Where")
+    rpc_timeout: float | None = option(
+        "--rpc-timeout", f"Timeout of a call to a node (default: {PATIENCE:g}).", "SECONDS", "Where"
+    )
+    cluster: str | None = option("--cluster", "Address of a dask scheduler, as tcp://host:8786.", "ADDRESS", "Where")
+    gas_limit: int | None = option("--gas-limit", "Gas limit of a call; the picture is split to fit.", "GAS", "Where")
+    tile: str | None = option(
+        "--tile", "Split the picture into parts of this size, as 128 or 1024x64.", "SIZE", "Where"
+    )
+    verify: str | None = option(
+        "--verify",
+        f"Pixels from nodes to verify locally: {', '.join(VERIFY)}; all by default, some of large pictures.",
+        "PART",
+        "Where",
+    )
 
     @property
     def sides(self) -> tuple[int, int] | None:
@@ -109,49 +94,31 @@ class WhereOptions:
 
 
 def render(
-    inputs: Inputs,
-    output: Annotated[
-        str | None,
-        option(
-            "-o --output",
-            f"Output file: {one_of(FORMATS)}; of animations {one_of(FILMS)} or a folder. Named after INPUT by default. "
-            "Of several inputs a folder, as out/, or a pattern, as 'out/{stem}.webp'; - is standard output.",
-            "FILE",
-        ),
-    ] = None,
-    kind: Annotated[
-        str | None,
-        option(
-            "--format", f"Format of standard input: {', '.join(KINDS)}; default: by its content.", "FORMAT", "Files"
-        ),
-    ] = None,
-    scene: Annotated[
-        bool | None,
-        option(
-            "--scene/--no-scene",
-            "Write the scene into PNG files, which are then scene files too (default: if it takes at most 64 KB).",
-            None,
-            "Files",
-        ),
-    ] = None,
-    transparent: Annotated[
-        bool,
-        option(
-            "--transparent",
-            "Make the background transparent, at twice the gas; same as --background none.",
-            None,
-            "Canvas",
-        ),
-    ] = False,
-    fit: Annotated[str | None, FIT] = None,
-    as_json: Annotated[
-        bool, option("--json", "Print a JSON object instead of text, for each input.", None, "Files")
-    ] = False,
-    quiet: Annotated[bool, option("-q --quiet", "Print errors only, and what --json prints.", None, "Files")] = False,
-    *,
     film: FilmOptions,
     where: WhereOptions,
-    look: Look,
+    inputs: tuple[str, ...] = INPUTS,
+    output: str | None = option(
+        "-o --output",
+        f"Output file: {one_of(FORMATS)}; of animations {one_of(FILMS)} or a folder. Named after INPUT by default. "
+        "Of several inputs a folder, as out/, or a pattern, as 'out/{stem}.webp'; - is standard output.",
+        "FILE",
+    ),
+    kind: str | None = option(
+        "--format", f"Format of standard input: {', '.join(KINDS)}; default: by its content.", "FORMAT", "Files"
+    ),
+    scene: bool | None = option(
+        "--scene/--no-scene",
+        "Write the scene into PNG files, which are then scene files too (default: if it takes at most 64 KB).",
+        None,
+        "Files",
+    ),
+    transparent: bool = option(
+        "--transparent", "Make the background transparent, at twice the gas; same as --background none.", None, "Canvas"
+    ),
+    fit: str | None = FIT,
+    as_json: bool = option("--json", "Print a JSON object instead of text, for each input.", None, "Files"),
+    quiet: bool = option("-q --quiet", "Print errors only, and what --json prints.", None, "Files"),
+    **look: Any,
 ) -> None:
     """Render mesh files, scene files or pieces of datasets."""
     with ExitStack() as stack:
@@ -194,11 +161,10 @@ def render(
 
 
 def stages(
-    input: Input,
-    output: Annotated[str, option("-o --output", "Folder for the pictures.", "DIR")],
-    *,
-    look: Look,
-    evm: Evm = None,
+    input: str = INPUT,
+    output: str = option("-o --output", "Folder for the pictures.", "DIR"),
+    evm: str | None = EVM,
+    **look: Any,
 ) -> None:
     """Draw the result of each stage of the pipeline: six pictures, and a strip of all."""
     from ..stages import draw_stages, strip

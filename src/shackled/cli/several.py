@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, redirect_stderr
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Literal
 
 from .._load import locate
 from .._on import Processes
@@ -28,10 +28,9 @@ from .progress import LateBar, Notes
 from .streams import STREAM, is_output, stdin_file
 
 #: The argument of commands with several inputs.
-Inputs = Annotated[
-    list[str],
-    argument("Mesh or scene files, names of pieces, folders of mesh files, or - for standard input.", "INPUT"),
-]
+INPUTS = argument(
+    "Mesh or scene files, names of pieces, folders of mesh files, or - for standard input.", "INPUT", required=True
+)
 #: What stands for the name of an input, without folder and extension, in a pattern of outputs.
 STEM = "{stem}"
 #: The name of the picture of standard input.

@@ -9,14 +9,18 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import count
 
+from .._load import load, locate
 from ..artifacts import known_errors
 from ..chain import RevmChain, describe_revert
-from ..deploy import CONTRACTS
+from ..datasets import Piece
+from ..deploy import CONTRACTS, deployments
 from ..errors import InputError
 from ..ethereum import Errors, error_table, intrinsic_gas, keccak256, word
 from ..evm import Answer, Instance, Status
+from ..scene import READERS
+from ..studio import STUDIO, store_scene
+from ..tokens import token_scene
 from ._arguments import Call, constructor_arguments, contract_of
-from ._library import library_codes
 from ._project import Compiled
 
 #: Of a deployment or a call that changes something, and of one that only reads; it ends endless loops.
@@ -62,7 +66,9 @@ class World:
         #: Code of the contracts of the package and of what the Studio stores, by address.
         self.codes = {**chain.codes(), **(stored or {})}
         if _needs_library(contract, addresses["Library"]):
-            self.codes |= library_codes(addresses["Library"], addresses["Studio"])
+            from ..library import items
+
+            self.codes |= {part.pointer: part.code for item in items() for part in item.transactions}
         self._creation = contract.creation + constructor_arguments(contract, given, addresses)
         self.errors: Errors = {**known_errors(), **error_table(contract.abi)}
         #: Transactions that take more gas than one may, each in one line.
@@ -138,6 +144,18 @@ class World:
         """Set the block of the following calls: seconds pass, and the random value follows from the number."""
         seconds = SECONDS_PER_BLOCK * (number - FIRST_BLOCK)
         evm.set_block(number, self._now + seconds, keccak256(b"shackled preview" + word(number)))
+
+
+def stored_scene(input: str) -> dict[bytes, bytes]:
+    """Return the code of the contracts in which the Studio stores a scene, by address; the last is the scene itself.
+
+    input: a piece of a dataset, a mesh or a scene file. The scene is that of `shackled store`.
+    """
+    source = locate(input)
+    is_mesh = not isinstance(source, Piece) and source.suffix.lower() in READERS
+    thing = token_scene(source) if isinstance(source, Piece) else source
+    scene = load(thing, antialias=False if is_mesh else None)
+    return {each.pointer: each.code for each in store_scene(scene, deployments([STUDIO])[-1].address)}
 
 
 def _needs_library(contract: Compiled, library: bytes) -> bool:

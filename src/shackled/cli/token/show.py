@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import chain
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 from ...animation import DURATION
 from ...errors import InputError, VerificationError
@@ -12,28 +12,28 @@ from ...ethereum import amount, ether
 from ...image import check_output, one_of
 from ...tokens import EDITIONS, PHASES
 from ...whole_file import check_output_file, write_output
-from ..chain_options import Json, NodeOptions, parse_checksum_address
+from ..chain_options import JSON, NodeOptions
 from ..look_options import parse_size
 from ..option import argument, option
 from ..output import print_json, print_line, print_table
 from ..progress import LateBar
-from .options import MAX_NUMBER, AnyCollectionOptions, CollectionOptions
+from .options import POINTER, SCALE, TOKEN, CollectionOptions
 
 
 def show(
-    token_id: Annotated[int, argument("Number of the token.", "ID", min=0, max=MAX_NUMBER)],
-    which: AnyCollectionOptions,
-    output: Annotated[
-        Path | None, option("-o --output", "File for the picture; unchanged if it has the token's format.", "FILE")
-    ] = None,
-    as_json: Json = False,
+    which: CollectionOptions,
+    token_id: int = TOKEN,
+    output: Path | None = option(
+        "-o --output", "File for the picture; unchanged if it has the token's format.", "FILE"
+    ),
+    as_json: bool = JSON,
 ) -> None:
     """Show the traits of a token, and save its picture, both from its `tokenURI`."""
     from ...tokens import read_view
 
     if output is not None:
         check_output(output)
-    view = read_view(which.open(), token_id, measured=True)
+    view = read_view(which.open(or_editions=True), token_id, measured=True)
     metadata = view.metadata
     if output is not None:
         metadata.save(output)
@@ -53,7 +53,10 @@ def show(
         print_line(f"{key:{width}}  {value}")
 
 
-def list_(which: CollectionOptions, as_json: Json = False) -> None:
+def list_(
+    which: CollectionOptions,
+    as_json: bool = JSON,
+) -> None:
     """List the tokens with owners and traits, and the state of the collection."""
     from ...tokens import icons_of, read_views
 
@@ -92,29 +95,24 @@ def list_(which: CollectionOptions, as_json: Json = False) -> None:
 
 
 def picture(
-    pointer: Annotated[str, argument("Address of the stored scene, from `shackled store`.", "POINTER")],
     node: NodeOptions,
-    output: Annotated[
-        Path, option("-o --output", "Output file: a picture, .png or .svg, or a 3D model, .glb.", "FILE")
-    ],
-    scale: Annotated[int, option("--scale", "Side of the square that each pixel becomes.", "N", min=1, max=8)] = 4,
-    turntable: Annotated[
-        int | None, option("--turntable", "Animated PNG of a full turn in this many frames.", "FRAMES", min=2, max=360)
-    ] = None,
-    duration: Annotated[
-        int, option("--duration", "Duration of a frame.", "MILLISECONDS", min=20, max=10_000)
-    ] = DURATION,
-    size: Annotated[str | None, option("--size", "Pixels of a frame, as 64 or 80x60.", "SIZE")] = None,
+    pointer: str = POINTER,
+    output: Path = option("-o --output", "Output file: a picture, .png or .svg, or a 3D model, .glb.", "FILE"),
+    scale: int = SCALE,
+    turntable: int | None = option(
+        "--turntable", "Animated PNG of a full turn in this many frames.", "FRAMES", min=2, max=360
+    ),
+    duration: int = option("--duration", "Duration of a frame.", "MILLISECONDS", min=20, max=10_000, default=DURATION),
+    size: tuple[int, int] | None = option("--size", "Pixels of a frame, as 64 or 80x60.", "SIZE", parse=parse_size),
 ) -> None:
     """Render a stored scene on a chain."""
     from ...studio import ANIMATE, STUDIO
     from ...tokens import Contract, address_of
 
-    place = parse_checksum_address(pointer, "the pointer")
     calls: dict[str, tuple[Any, ...]] = {
-        ".png": ("renderPNG(address,uint256)", place, scale),
-        ".svg": ("renderSVG(address,uint256)", place, scale),
-        ".glb": ("glb(address)", place),
+        ".png": ("renderPNG(address,uint256)", pointer, scale),
+        ".svg": ("renderSVG(address,uint256)", pointer, scale),
+        ".glb": ("glb(address)", pointer),
     }
     kind = output.suffix.lower()
     if kind not in calls:
@@ -124,11 +122,10 @@ def picture(
     if turntable is not None:
         if kind != ".png":
             raise InputError(f"the turntable {output} must end in .png")
-        width, height = (0, 0) if size is None else parse_size(size)
         # the axis (0, 1, 0) as Q32, the camera moved back; changes of the canvas only
         spin = (turntable, duration, scale, (0, 1 << 32, 0), True)
-        changes = (16 if size else 0, (0, 0, 0, 0), 0, (0, 0), 0, (width, height))
-        calls[kind] = (ANIMATE, place, spin, changes)
+        changes = (16 if size else 0, (0, 0, 0, 0), 0, (0, 0), 0, size or (0, 0))
+        calls[kind] = (ANIMATE, pointer, spin, changes)
     check_output_file(output, "picture")
     studio = Contract(node.connect(), STUDIO, address_of(STUDIO))
     content = studio.call(*calls[kind])
@@ -139,15 +136,14 @@ def picture(
 
 
 def verify(
-    which: AnyCollectionOptions,
-    numbers: Annotated[list[int] | None, argument("Tokens; default: all.", "ID")] = None,
+    which: CollectionOptions,
+    numbers: tuple[int, ...] = argument("Tokens; default: all.", "ID"),
 ) -> None:
     """Compare the code, the seeds and the pictures of a collection with those computed here."""
     from ...deploy import local_chain
     from ...tokens import check_code, check_token
 
-    collection = which.open()
-    local = local_chain()
+    collection, local = which.open(or_editions=True), local_chain()
     failed = unread = 0
     for each in numbers or ():
         collection.owner_of(each)
