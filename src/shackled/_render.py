@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
 
@@ -13,14 +13,14 @@ from attrs import evolve
 from ._load import Thing, load_frames, load_picture
 from ._on import Bounds, Embedded, On, Place, is_one_call, place_of
 from .animation import DURATION, DURATIONS, Animation
-from .chain import Chain
+from .chain import Drawing
 from .errors import InputError, warn
 from .image import Image, decode_bmp, uncovered
 from .scene import Background, LookOptions, Scene, full_turn
 from .words import with_words
 
 if TYPE_CHECKING:
-    from .parallel import Counter, Listener
+    from .parallel import Listener
 
 
 @with_words
@@ -171,27 +171,29 @@ def draw(
     scenes: Sequence[Scene], place: Place, bounds: Bounds, listener: Listener | None = None, keep: Path | None = None
 ) -> list[Image]:
     """Render scenes of one size, by one call each or by several."""
-    from .parallel import Counter, render_frames
+    from .parallel import render_frames
 
     if isinstance(place, Embedded) and all(is_one_call(place, scene, bounds) for scene in scenes):
-        return [render_whole(scene, place.opened(), Counter(place)) for scene in scenes]
+        return [render_whole(scene, place, place.opened().draw) for scene in scenes]
     return render_frames(scenes, place, bounds, listener, keep).images
 
 
-def render_whole(scene: Scene, chain: Chain, counter: Counter) -> Image:
-    """Render a scene by one call."""
+def render_whole(scene: Scene, place: Embedded, draw: Callable[[Scene], Drawing]) -> Image:
+    """Render a scene by one call. draw: makes it."""
+    from .parallel import Counter
+
     started = time.perf_counter()
-    drawing = chain.draw(scene)
+    drawing = draw(scene)
     seconds = time.perf_counter() - started
     return Image(
-        pixels=decode_bmp(drawing.bmp, scene.width, scene.height),
-        bmp=drawing.bmp,
-        gas=drawing.gas,
-        intrinsic_gas=drawing.intrinsic_gas,
-        made_by=chain.name,
-        seconds=seconds,
-        scene=scene,
-        counter=counter,
+        decode_bmp(drawing.bmp, scene.width, scene.height),
+        drawing.bmp,
+        drawing.gas,
+        drawing.intrinsic_gas,
+        place.opened().name,
+        seconds,
+        scene,
+        counter=Counter(place),
     )
 
 

@@ -69,10 +69,8 @@ def _object(piece: Piece, figures: PieceCost) -> dict[str, Any]:
 def _line(piece: Piece, figures: PieceCost) -> tuple[str, str, str, str, str]:
     triangles = "-" if figures.triangles is None else f"{figures.triangles:,}"
     gas = "-" if figures.gas is None else f"{figures.gas:,}"
-    terms = piece.licence if piece.commercial else f"{piece.licence} (not for commercial use)"
-    if not piece.ready():
-        terms += f"; run: shackled datasets fetch {piece.name}"
-    return piece.name, triangles, gas, piece.title, terms
+    to_fetch = "" if piece.ready() else f"; run: shackled datasets fetch {piece.name}"
+    return piece.name, triangles, gas, piece.title, f"{piece.terms}{to_fetch}"
 
 
 def _summary(rows: Sequence[tuple[Piece, PieceCost]]) -> tuple[str, str, str, str, str]:

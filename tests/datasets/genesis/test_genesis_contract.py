@@ -25,8 +25,7 @@ from original_scenes import genesis_document
 from shackled import Light, render
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
-from shackled.datasets.genesis import COUNT, GenesisPiece, generate, parse_seed, picture_on_chain, seed_of
-from shackled.datasets.genesis._collection import find, pieces
+from shackled.datasets.genesis import COUNT, GenesisPiece, find, generate, parse_seed, picture_on_chain, pieces, seed_of
 from shackled.datasets.genesis._contract import call, decode_piece
 from shackled.errors import InputError, RenderError
 from shackled.ethereum import keccak256
@@ -61,11 +60,6 @@ def vector(piece: GenesisPiece) -> list[str | int]:
     return [*names, piece.prisms, int(piece.wireframe), int(piece.invert), digest(piece)[:32]]
 
 
-def vectors() -> dict[str, list[str | int]]:
-    found: dict[str, list[str | int]] = json.loads(VECTORS.read_text("utf-8"))
-    return found
-
-
 def seeds() -> Iterator[bytes]:
     """Of the collection, others, and four that are hardly random."""
     yield from (seed_of(number) for number in range(SEEDS))
@@ -74,7 +68,7 @@ def seeds() -> Iterator[bytes]:
 
 
 def test_pieces_are_those_of_the_model() -> None:
-    expected = vectors()
+    expected: dict[str, list[str | int]] = json.loads(VECTORS.read_text("utf-8"))
     assert list(expected) == [seed.hex() for seed in seeds()]
     kinds = set()
     for seed, row in expected.items():
@@ -90,18 +84,6 @@ def test_pieces_are_those_of_the_original() -> None:
     assert {number: digests[number] for number in ORIGINAL} == ORIGINAL
     whole = hashlib.sha256("".join(digests).encode()).hexdigest()
     assert whole == "886afc766687b5b269ac075ef7b459c25053e6312655d5b704e716316b59decc"
-
-
-def test_a_piece() -> None:
-    piece = generate(seed_of(3))
-    assert piece.seed.hex() == "4d3e28f746c4f4e200a8302ae65d4f6fd8a76f08915a294e7deed915354747e6"
-    assert (piece.structure, piece.chroma, piece.pseudosymmetry) == ("Uniform", "Sunset", "Diagonal")
-    assert (piece.prisms, piece.wireframe, piece.culling, piece.invert) == (4, True, False, False)
-    assert piece.background == ((250, 103, 247), (157, 104, 250))
-    assert piece.verts[:4] == [(-268, 650, -183), (-622, 650, -108), (-432, 344, -81), (-230, 689, -1)]
-    far, near = [(87, 0, 128), (0, 0, 122), (0, 0, 119)], [(148, 0, 255), (142, 0, 255), (220, 0, 255)]
-    assert piece.cols[:6] == far + near
-    assert piece.faces[6:9] == [(3, 5, 2), (9, 10, 11), (10, 9, 6)]
 
 
 @pytest.mark.parametrize(
@@ -142,9 +124,7 @@ def test_picture_is_that_of_the_scene(number: int) -> None:
     assert image.bmp == expected.bmp
     assert (image.triangles, image.covered_pixels) == (expected.triangles, expected.covered_pixels)
     assert (image.covered_pixels or 0) > 300
-    assert image.gas is not None
-    assert expected.gas is not None
-    assert image.gas > expected.gas
+    assert (image.gas or 0) > (expected.gas or 0)
 
 
 @pytest.mark.parametrize("function", ["renderDataURI", "renderSVG"])
@@ -209,8 +189,7 @@ def test_tags_know_their_lengths() -> None:
 
 
 def test_the_collection() -> None:
-    names = [piece.name for piece in pieces()]
-    assert names == [f"genesis/{number}" for number in range(COUNT)]
+    assert [piece.name for piece in pieces()] == [f"genesis/{number}" for number in range(COUNT)]
     piece = find("12")
     assert piece is not None
     assert (piece.name, piece.dataset) == ("genesis/12", "genesis")

@@ -10,8 +10,7 @@ from string import Template
 
 from ...whole_file import write_output
 from .. import Piece, Thumbnail, figures, sheet
-from ._collection import pieces
-from ._scenes import SIZE
+from ._scenes import SIZE, pieces
 
 #: The scene that is drawn as a turntable, its frames, and their duration in milliseconds.
 TURNED, FRAMES, DURATION = "showcase/rocket", 16, 90
