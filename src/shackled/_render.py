@@ -57,10 +57,15 @@ def render(
     """
     scene, place, bounds = load_picture(thing, size, **look), place_of(on), Bounds(gas_limit, tile)
     if fit is not None:
+        from .gas import fit_scene
+
         for name, given in (("tile", tile), ("gas_limit", gas_limit)):
             if given is not None:
                 raise InputError(f"`fit` and `{name}` exclude each other: give one of them")
-        scene = _fitted(scene, fit, look)
+        found = fit_scene(scene, fit, look.get("crease"))
+        if found.scene != scene:
+            warn(found.sentence)
+        scene = found.scene
     if not transparent:
         return draw([scene], place, bounds, listener, keep)[0]
     black, white = draw(_twice(scene), place, bounds, listener, keep)
@@ -195,12 +200,3 @@ def render_whole(scene: Scene, place: Embedded, draw: Callable[[Scene], Drawing]
         scene,
         counter=Counter(place),
     )
-
-
-def _fitted(scene: Scene, fit: str, look: LookOptions) -> Scene:
-    from .gas import fit_scene
-
-    found = fit_scene(scene, fit, look.get("crease"))
-    if found.scene != scene:
-        warn(found.sentence)
-    return found.scene

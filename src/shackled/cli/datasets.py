@@ -139,7 +139,7 @@ def showcase(
     ] = None,
     output: Annotated[Path, option("-o --output", "Output folder.", "DIR")] = Path("showcase"),
 ) -> None:
-    """Render the scenes of the showcase into a folder, with a page (index.html) and a contact sheet (sheet.png)."""
+    """Render the scenes of the showcase into a folder, with a contact sheet (sheet.png)."""
     from ..datasets.showcase import draw_showcase
     from ..datasets.showcase import pieces as scenes
 
@@ -151,7 +151,7 @@ def showcase(
     width = max(len(piece.name) for piece in chosen)
     for drawing in draw_showcase(output, chosen):
         print(f"{drawing.name:{width}}  {figures(drawing)}", flush=True)
-    print(f"{output / 'index.html'}: {plural(len(chosen), 'scene')}")
+    print(f"{output / 'sheet.png'}: {plural(len(chosen), 'scene')}")
 
 
 def gallery(
