@@ -23,13 +23,8 @@ def test_a_call_takes_the_time_that_it_runs() -> None:
 def test_the_table_has_two_digits() -> None:
     text = estimates({"a block": 15e6}, {"a second": 500e6})
     lines = text.splitlines()
-    assert [cell.strip() for cell in lines[0].strip("|").split("|")] == [
-        "what",
-        "gas",
-        CCRI_2022.name,
-        CCAF_2023.name,
-        "one computer",
-    ]
+    names = ["what", "gas", CCRI_2022.name, CCAF_2023.name, "one computer"]
+    assert [cell.strip() for cell in lines[0].strip("|").split("|")] == names
     # 2,601,000 kWh and 870 t in 2,629,800 blocks
     assert "| 990 Wh, 330 g |" in lines[2]
     assert "| 2,900 Wh, 1,100 g |" in lines[2]
