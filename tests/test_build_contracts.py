@@ -154,8 +154,6 @@ def test_lines_of_documentation_stand_before_declarations_that_have_none() -> No
     assert "function freeMemory() pure returns (uint256) {" in found
     assert any(line.startswith("function load(") for line in found)
     assert not any("ZERO_SLOT" in line or "function reserveRegisters" in line for line in found)
-    # functions of assembly are none of the syntax tree of Solidity
-    assert not [1 for i in comment_lines.places("    function f() {}\n            function g() {}") if i != 0]
     sources = {"words/Memory.sol": text, "of-a-library.sol": text}
     made = comment_lines.commented(sources, 5, Random(1))
     assert made["of-a-library.sol"] == text

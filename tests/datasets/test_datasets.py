@@ -50,12 +50,6 @@ def test_every_piece_is_found_by_its_name(everything: list[Piece]) -> None:
     assert sum(piece.dataset == "genesis" for piece in everything) == 1024
 
 
-def test_any_seed_is_a_piece() -> None:
-    scene = shackled.load(f"genesis/{'5a' * 32}")
-    assert scene.objects
-    assert (shackled.render(scene).covered_pixels or 0) > 0
-
-
 @pytest.mark.parametrize(
     ("name", "close"),
     [
@@ -106,23 +100,6 @@ def test_a_file_wins(folder: Path) -> None:
     assert len(shackled.load(Path("icons/diamond")).objects) >= 1
 
 
-@pytest.mark.parametrize(
-    ("name", "message"),
-    [
-        ("teapto", "teapto does not exist, and there is no piece 'teapto'; did you mean teapot"),
-        ("teapot.obj", "teapot.obj does not exist"),
-        ("picture.xyz", "picture.xyz is neither a mesh nor a scene file by its extension"),
-        ("bunny", "bunny has not been fetched; run: shackled datasets fetch bunny"),
-    ],
-)
-def test_mistakes_are_one_line(name: str, message: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["render", name]) == 2
-    output, messages = capsys.readouterr()
-    assert output == ""
-    assert messages.startswith(f"shackled: {message}")
-    assert messages.count("\n") == 1
-
-
 @pytest.mark.parametrize("name", ["teapot", "icons/diamond", "genesis/12"])
 def test_pieces_are_rendered_by_name(name: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["render", name, "--json", "--size", "128", "--no-antialias"]) == 0
@@ -134,15 +111,6 @@ def test_pieces_are_rendered_by_name(name: str, folder: Path, capsys: pytest.Cap
     assert report["gas"] == table()[name].gas
     with PillowImage.open(folder / report["output"]) as picture:
         assert (np.array(picture) == shackled.render(require(name).make()).pixels).all()
-
-
-def test_the_look_of_a_piece_can_be_changed() -> None:
-    plain = shackled.render("teapot", size=64).pixels
-    changes = ("--rotate=0,40,0", "--color=#30a0ff", "--background=#000000", "--wireframe", "--invert")
-    for change in (*changes, "--unlit", "--light=point:3,3,3", "--orthographic", "--fov=30", "--max-triangles=200"):
-        assert run(["render", "teapot", "--size", "64", "-o", "out.png", change]) == 0
-        with PillowImage.open("out.png") as picture:
-            assert (np.array(picture) != plain).any(), change
 
 
 def test_who_is_to_be_named_is_named(capsys: pytest.CaptureFixture[str]) -> None:

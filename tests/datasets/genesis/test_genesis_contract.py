@@ -19,10 +19,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from attrs import evolve
 
 from original_scenes import genesis_document
-from shackled import Light, render
+from shackled import render
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
 from shackled.datasets.genesis import COUNT, GenesisPiece, find, generate, parse_seed, picture_on_chain, pieces, seed_of
@@ -32,7 +31,6 @@ from shackled.ethereum import keccak256
 from shackled.scene import encode
 from shackled.scene._files.original import original_scene
 
-SOURCES = Path(__file__).resolve().parents[3] / "contracts" / "src" / "genesis"
 VECTORS = Path(__file__).with_name("pieces.json")
 
 #: The median and the mean of the gas are over as many of the collection.
@@ -100,21 +98,16 @@ def test_seeds_without_a_piece(seed: bytes, error: str) -> None:
             call(function, seed)
 
 
-def test_scene_is_that_of_the_piece() -> None:
-    for number in range(24):
-        scene = generate(seed_of(number)).scene()
-        assert call("scene", seed_of(number)).output == encode(bytes(4), scene)[4:]
-        assert encode(b"", scene) == encode(b"", original_scene(genesis_document(number)))
-
-
-def test_traits_are_those_of_the_piece() -> None:
-    for number in range(24):
-        seed = seed_of(number)
-        piece, output = generate(seed), call("traits", seed).output
-        words = [int.from_bytes(output[at : at + 32], "big") for at in range(32, len(output), 32)]
-        assert words[3:6] == [piece.prisms, piece.wireframe, piece.invert]
-        for name, place in zip((piece.structure, piece.chroma, piece.pseudosymmetry), words, strict=False):
-            assert output[32 + place :].startswith(len(name).to_bytes(32, "big") + name.encode())
+@pytest.mark.parametrize("number", range(24))
+def test_scene_and_traits_are_those_of_the_piece(number: int) -> None:
+    seed = seed_of(number)
+    piece, output = generate(seed), call("traits", seed).output
+    assert call("scene", seed).output == encode(bytes(4), piece.scene())[4:]
+    assert encode(b"", piece.scene()) == encode(b"", original_scene(genesis_document(number)))
+    words = [int.from_bytes(output[at : at + 32], "big") for at in range(32, len(output), 32)]
+    assert words[3:6] == [piece.prisms, piece.wireframe, piece.invert]
+    for name, place in zip((piece.structure, piece.chroma, piece.pseudosymmetry), words, strict=False):
+        assert output[32 + place :].startswith(len(name).to_bytes(32, "big") + name.encode())
 
 
 @pytest.mark.parametrize("number", [0, 3, 4, 16])
@@ -135,20 +128,6 @@ def test_other_formats_are_those_of_the_renderer(function: str) -> None:
     assert call(function, seed_of(5)).output == expected
 
 
-def test_light_comes_from_the_left() -> None:
-    scene = generate(seed_of(15)).scene()
-    image = picture_on_chain(generate(seed_of(15)))
-    brightened = image.pixels.astype(int) - render(evolve(scene, lights=[])).pixels
-    assert brightened.min() == 0
-    # black and green prisms, and a white light: black faces turn grey
-    red, green, blue = brightened.reshape(-1, 3).T
-    lit = (red > 20) & (green == red) & (blue == red)
-    assert lit.sum() > 100
-    # from the right, it is other faces that are lit
-    mirrored = render(evolve(scene, lights=[Light("directional", (50, 0, 0))])).pixels.astype(int)
-    assert ((mirrored - image.pixels).reshape(-1, 3)[lit] < 0).all()
-
-
 @pytest.mark.parametrize(
     ("function", "median", "mean"),
     [("generate", 850_000, 950_000), ("render", 4_000_000, 4_000_000), ("traits", 500_000, 600_000)],
@@ -159,33 +138,6 @@ def test_gas(function: str, median: int, mean: int) -> None:
     assert statistics.mean(gas) <= mean
     # the longest search for places that there is, and the most fragments
     assert max(gas) <= 5 * median
-
-
-def test_the_constants_are_sines() -> None:
-    """Those of the original, whose table is rough: sin 30, sin 60 and cos 12 degrees are known to the last digit."""
-    text = (SOURCES / "Trigonometry.sol").read_text("utf-8")
-    table = bytes.fromhex("".join(re.findall(r'hex"([0-9a-f]+)"', text)))
-    sines = [int.from_bytes(table[at : at + 8], "big", signed=True) for at in range(0, len(table), 8)]
-    exact = np.sin(np.radians(30 * np.arange(15)))
-    assert np.abs(np.array(sines, float) / 1e18 - exact).max() < 5e-6
-    assert (sines[1], sines[3]) == (499997878680004681, 10**18)
-    found = {
-        (name, int(degrees)): int(value) for name, degrees, value in re.findall(r"(SINE|COSINE)_(\d+) = (-?\d+);", text)
-    }
-    assert len(found) == 6
-    assert (found["SINE", 12], found["COSINE", 12]) == (207911222804296399, 978145476420477720)
-    assert (found["SINE", 30], found["COSINE", 30]) == (499997878680004681, 866021797929900604)
-    assert found["SINE", 348] == -207911314539570042
-    for (name, degrees), value in found.items():
-        function = np.sin if name == "SINE" else np.cos
-        assert abs(value / 1e18 - function(np.radians(degrees))) < 5e-6, (name, degrees)
-
-
-def test_tags_know_their_lengths() -> None:
-    text = "".join(path.read_text("utf-8") for path in SOURCES.glob("*.sol"))
-    tags = re.findall(r'Tag\.wrap\(bytes32\("(\w+)"\) \| bytes32\(uint256\((\d+)\)\)\)', text)
-    assert len(tags) >= 30
-    assert [tag for tag, length in tags if len(tag) != int(length)] == []
 
 
 def test_the_collection() -> None:
