@@ -7,8 +7,8 @@ import hashlib
 import json
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -29,9 +29,8 @@ ROOT = Path(__file__).resolve().parent.parent
 @pytest.mark.parametrize("look", ["unlit", "matte"])
 def test_gas_is_linear_in_triangles_and_pixels(look: str) -> None:
     scenes = _linear.squares(look) + _linear.cubes(look)
-    triangles = np.array([scene.triangles for scene in scenes], float)
-    pixels = np.array([scene.width * scene.height for scene in scenes], float)
-    found = fits.fit([triangles, pixels], np.array([gas(scene) for scene in scenes], float))
+    triangles, pixels, spent = np.array([(s.triangles, s.width * s.height, gas(s)) for s in scenes], float).T
+    found = fits.fit([triangles, pixels], spent)
     assert found.r2 >= 0.998
     assert min(found.coefficients) > 0
 
@@ -57,9 +56,8 @@ def test_the_workload_is_that_of_the_picture() -> None:
 
 
 def test_the_story_has_the_results() -> None:
-    result = subprocess.run(
-        [sys.executable, "-m", "benchmarks.story", "--check"], cwd=ROOT, capture_output=True, text=True
-    )
+    command = [sys.executable, "-m", "benchmarks.story", "--check"]
+    result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert result.returncode == 0, result.stderr
 
 
@@ -108,18 +106,12 @@ def test_the_stages_add_up() -> None:
 # ---- beyond the paper ----
 
 
-@pytest.mark.parametrize(
-    ("name", "text"),
-    [
-        ("gas_model", lambda: gas_model.text(gas_model.recorded())),
-        ("ray_marcher", lambda: ray_marcher.text(ray_marcher.recorded())),
-        ("money", lambda: money.text(*money.recorded())),
-        ("look_quality", lambda: look_quality.text(look_quality.recorded())),
-    ],
-)
-def test_the_page_has_the_recorded_figures(name: str, text: Callable[[], str]) -> None:
+@pytest.mark.parametrize("module", [gas_model, ray_marcher, money, look_quality], ids=lambda each: each.__name__)
+def test_the_page_has_the_recorded_figures(module: Any) -> None:
+    name, recorded = module.__name__.rpartition(".")[2], module.recorded()
+    text = module.text(*recorded) if isinstance(recorded, tuple) else module.text(recorded)
     page = (ROOT / "benchmarks" / "README.md").read_text("utf-8")
-    assert f"<!-- begin {name} -->\n{text()}\n<!-- end {name} -->" in page, f"run python -m benchmarks.{name}"
+    assert f"<!-- begin {name} -->\n{text}\n<!-- end {name} -->" in page, f"run python -m benchmarks.{name}"
 
 
 def test_the_workload_of_clients_runs() -> None:

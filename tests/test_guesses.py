@@ -151,12 +151,8 @@ def test_a_node_is_asked(on: Any) -> None:
 
 #: Guesses, and words of the error that name what is right.
 NAMED: dict[str, tuple[Callable[[], Any], str]] = {
-    "Mesh.load": (lambda: s.Mesh.load("x.obj"), "shackled.load(path) returns a scene"),
-    "Scene().add": (lambda: s.Scene().add(MESH), "objects"),
-    "scene.add": (lambda: s.load("cube").add(MESH), "give all objects to Scene([...])"),
     "Object of a name": (lambda: s.Object("cube"), "shackled.load('cube') has objects"),
     "scenes that differ": (lambda: s.render([s.load("cube"), s.load("teapot")]), "[*one.objects, *other.objects]"),
-    "depth": (lambda: cube().depth, "depths are not returned"),
     "depth=": (lambda: cube(depth=True), "depths are not returned"),
     "intensity": (lambda: s.Light(position=(1, 2, 3), color="white", intensity=2), "`exposure` multiplies all light"),
     "intensity of a point": (lambda: point(intensity=2), "`exposure` multiplies all light"),
@@ -175,17 +171,12 @@ NAMED: dict[str, tuple[Callable[[], Any], str]] = {
     "rotate=45": (lambda: cube(rotate=45), "`rotate` must be x, y, z in degrees"),
     "rotate=(1, 2)": (lambda: cube(rotate=(1, 2)), "`rotate` must be x, y, z in degrees"),
     "a stream": (lambda: s.load(io.BytesIO(b"v 0 0 0")), "a path, the name of a piece, a Mesh, (vertices, faces), "),
-    "gas()": (lambda: s.gas("cube"), "shackled.gas is a package: call one of its functions, "),
     "scale": (lambda: s.Object(MESH, scale=(1, 2, 1)), "the scale of an object must be a number"),
     "nothing": (lambda: s.render([], size=SIDE), "vertices and faces are needed"),
     "nan": (lambda: s.render((np.full((3, 3), np.nan), [(0, 1, 2)])), "not a finite number: [nan, nan, nan]"),
     "ground=True": (lambda: cube(ground=True), "`ground` must be red, green and blue"),
     "scene.save": (lambda: s.load("teapot").save("teapot.glb"), "must end in .json; the command `shackled export`"),
     "export": (lambda: s.export("cube", "cube.glb"), "must end in .html; the command `shackled export`"),
-    "to_trimesh": (
-        lambda: s.Mesh(BOX.vertices, BOX.faces).to_trimesh(),
-        "trimesh.Trimesh(mesh.positions, mesh.faces, ",
-    ),
     "shininess": (lambda: s.Material(shininess=12.5), "must be a whole number from 1 to 128, not 12.5"),
     "both words": (lambda: s.Mesh(MESH.positions, MESH.faces, colors="red", color="red"), "are the same: give one"),
     "fov and half_height": (lambda: s.Camera(fov=40, half_height=1), "exclude each other: give one of them"),

@@ -42,16 +42,6 @@ def test_figures_are_those_of_the_snapshot(recorded: looks.Figures) -> None:
     assert {name: recorded[name] for name in same} == same, "run python -m benchmarks.looks"
 
 
-def test_rows_have_their_figures(recorded: looks.Figures) -> None:
-    lines = looks.table(recorded).splitlines()
-    assert len(lines) == 2 + len(looks.ROWS)
-    assert all(len(row.names) == len(row.before) for row in looks.ROWS)
-    (row,) = (line for line in lines if line.startswith("| 15 objects of the cost table, smooth"))
-    assert row.split(" | ")[1] == "16.0M, 2.19 x"
-    figures = recorded | {"smooth": 9_876_543, "smooth, x": 1.3456}
-    assert "| 9.88M, 1.35 x |" in looks.table(figures)
-
-
 def test_ratios_are_those_of_sums() -> None:
     scenes = [staged_teapot("flat", 16), load("cube", size=16)]
     found = looks.ratios({looks.SMOOTH: scenes, looks.RATIOS["icons"]: scenes[:1]})

@@ -34,17 +34,12 @@ def test_packages_of_the_system(commands: list[tuple[object, ...]], monkeypatch:
     assert commands == []
 
 
-@pytest.mark.parametrize("said", ["v20.0.0\n", "v22.19.1", "v100.0.0"])
-def test_node_that_is_new_enough(said: str) -> None:
-    prepare.check_node(said)
-
-
-@pytest.mark.parametrize("said", ["v18.20.4\n", "v8.0.0", "", "nodejs"])
-def test_node_that_is_not(said: str) -> None:
-    with pytest.raises(
-        SystemExit, match=r"Node 20 or newer is needed, this is (v18\.20\.4|v8\.0\.0|of an unknown|nodejs)"
-    ):
+def test_node_that_is_new_enough() -> None:
+    for said in ("v20.0.0\n", "v22.19.1", "v100.0.0"):
         prepare.check_node(said)
+    for said, shown in (("v18.20.4\n", "v18.20.4"), ("v8.0.0", "v8.0.0"), ("", "of an unknown"), ("nodejs", "nodejs")):
+        with pytest.raises(SystemExit, match=f"Node 20 or newer is needed, this is {shown}"):
+            prepare.check_node(said)
 
 
 def test_node_is_looked_at(commands: list[tuple[object, ...]], monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,18 +13,14 @@ REPOSITORY, SITE = "https://host.example/owner/shackled", "https://site.example/
 
 
 @pytest.fixture
-def published(monkeypatch: pytest.MonkeyPatch) -> None:
+def tool(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The addresses of the project, as somebody may write them."""
     project = addresses.project()
-    # as somebody may write them
-    project["tool"]["shackled"] = {"repository": REPOSITORY + "/", "documentation": SITE}
+    project["tool"]["shackled"] = request.param
     monkeypatch.setattr(addresses, "project", lambda: project)
 
 
-@pytest.fixture
-def unpublished(monkeypatch: pytest.MonkeyPatch) -> None:
-    project = addresses.project()
-    project["tool"]["shackled"] = {"repository": "", "documentation": ""}
-    monkeypatch.setattr(addresses, "project", lambda: project)
+published = pytest.mark.parametrize("tool", [{"repository": REPOSITORY + "/", "documentation": SITE}], indirect=True)
 
 
 def test_the_citation_names_the_repository() -> None:
@@ -32,7 +28,8 @@ def test_the_citation_names_the_repository() -> None:
     assert named == list(filter(None, [addresses.addresses()["repository"]]))
 
 
-@pytest.mark.usefixtures("unpublished")
+@pytest.mark.parametrize("tool", [{"repository": "", "documentation": ""}], indirect=True)
+@pytest.mark.usefixtures("tool")
 def test_without_addresses_nothing_names_one() -> None:
     assert addresses.urls() == {}
     assert addresses.with_addresses({"name": "a"}, "web") == {"name": "a"}
@@ -43,7 +40,8 @@ def test_without_addresses_nothing_names_one() -> None:
     assert addresses.for_an_index("[costs](#what-it-costs)") == "[costs](#what-it-costs)"
 
 
-@pytest.mark.usefixtures("published")
+@published
+@pytest.mark.usefixtures("tool")
 def test_with_addresses() -> None:
     found = addresses.urls()
     assert found["Repository"] == REPOSITORY
@@ -61,7 +59,8 @@ def test_with_addresses() -> None:
     assert (site.repo_url, site.repo_name, site.site_url) == (REPOSITORY, "owner/shackled", f"{SITE}/")
 
 
-@pytest.mark.usefixtures("published")
+@published
+@pytest.mark.usefixtures("tool")
 def test_links_of_a_folder_and_code() -> None:
     text = "[a](../docs/b.md#c) `[d](e)` [`f`](g.md)\n```\n[h](i)\n```\n"
     base = f"{REPOSITORY}/blob/v{addresses.project()['project']['version']}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
 
@@ -13,7 +13,7 @@ from attrs import evolve
 from ._load import Thing, load_frames, load_picture
 from ._on import Bounds, Embedded, On, Place, is_one_call, place_of
 from .animation import DURATION, DURATIONS, Animation
-from .chain import Chain
+from .chain import Drawing
 from .errors import InputError, warn
 from .image import Image, decode_bmp, uncovered
 from .scene import Background, LookOptions, Scene, full_turn
@@ -57,10 +57,15 @@ def render(
     """
     scene, place, bounds = load_picture(thing, size, **look), place_of(on), Bounds(gas_limit, tile)
     if fit is not None:
+        from .gas import fit_scene
+
         for name, given in (("tile", tile), ("gas_limit", gas_limit)):
             if given is not None:
                 raise InputError(f"`fit` and `{name}` exclude each other: give one of them")
-        scene = _fitted(scene, fit, look)
+        found = fit_scene(scene, fit, look.get("crease"))
+        if found.scene != scene:
+            warn(found.sentence)
+        scene = found.scene
     if not transparent:
         return draw([scene], place, bounds, listener, keep)[0]
     black, white = draw(_twice(scene), place, bounds, listener, keep)
@@ -174,31 +179,23 @@ def draw(
     from .parallel import render_frames
 
     if isinstance(place, Embedded) and all(is_one_call(place, scene, bounds) for scene in scenes):
-        return [render_whole(scene, place.opened(), place.evm) for scene in scenes]
+        chain, evm = place.opened(), place.evm
+        return [render_whole(scene, chain.draw, chain.name, evm) for scene in scenes]
     return render_frames(scenes, place, bounds, listener, keep)
 
 
-def render_whole(scene: Scene, chain: Chain, evm: str | None = None) -> Image:
-    """Render a scene by one call."""
+def render_whole(scene: Scene, draw: Callable[[Scene], Drawing], made_by: str, evm: str | None = None) -> Image:
+    """Render a scene by one call. draw: makes it. made_by, evm: see `Image`."""
     started = time.perf_counter()
-    drawing = chain.draw(scene)
+    drawing = draw(scene)
     seconds = time.perf_counter() - started
     return Image(
         pixels=decode_bmp(drawing.bmp, scene.width, scene.height),
         bmp=drawing.bmp,
         gas=drawing.gas,
         intrinsic_gas=drawing.intrinsic_gas,
-        made_by=chain.name,
+        made_by=made_by,
         seconds=seconds,
         scene=scene,
         evm=evm,
     )
-
-
-def _fitted(scene: Scene, fit: str, look: LookOptions) -> Scene:
-    from .gas import fit_scene
-
-    found = fit_scene(scene, fit, look.get("crease"))
-    if found.scene != scene:
-        warn(found.sentence)
-    return found.scene

@@ -23,10 +23,9 @@ from .image import (
     Format,
     Image,
     as_array,
-    check_alpha,
     check_extension,
-    check_scene,
     data_uri,
+    encoded,
     gas_in_short,
     indexed,
     one_of,
@@ -39,7 +38,7 @@ from .mp4 import check_mp4, encode_mp4
 from .scene import PICTURE
 from .values import plural
 from .whole_file import check_output_file, check_output_folder, make_output_folder, write_output
-from .words import Words, with_duration, words_of
+from .words import with_duration, words_of
 
 if TYPE_CHECKING:
     from .studio import ContractFile
@@ -62,7 +61,7 @@ def _frames(frames: Iterable[Image | ArrayLike]) -> tuple[Image, ...]:
 
 @words_of("fps", read=with_duration)
 @frozen(repr=False)
-class Animation(Words):
+class Animation:
     """Frames as a contract made them, all of one size, repeated endlessly. They are its members: len, [n] and `for`.
 
     frames: Images, or pixels, (H, W, 3). duration: of each frame in milliseconds, 20..10,000. file: the APNG, if a
@@ -131,13 +130,7 @@ class Animation(Words):
         and needs the extra `mp4`; the others are exact. Frames with alpha need ".png" or ".webp".
         scene: whether an APNG carries the scene of its first frame, as in `Image.encode`; that of a contract does not.
         """
-        extension = check_extension(extension, FORMATS)
-        if self.frames[0].alpha is not None:
-            check_alpha(extension, FORMATS)
-        if extension == PICTURE:
-            return _encode_apng(self, scene)
-        check_scene(scene, extension)
-        return FORMATS[extension].encode(self)
+        return encoded(self, self.frames[0].alpha is not None, extension, FORMATS, scene)
 
     def save(
         self, file: str | os.PathLike[str] | BinaryIO, extension: str | None = None, scene: bool | None = None
@@ -186,7 +179,7 @@ def _encode(animation: Animation, pictures: Sequence[PillowImage.Image], name: s
     return pillow_bytes(pictures[0], name, **more, **options)
 
 
-def _encode_gif(animation: Animation) -> bytes:
+def _encode_gif(animation: Animation, _: bool | None) -> bytes:
     pictures = indexed([frame.pixels for frame in animation.frames])
     return _encode(animation, pictures, "GIF", optimize=False, disposal=1)
 
@@ -202,8 +195,8 @@ def _encode_apng(animation: Animation, scene: bool | None = None) -> bytes:
 FORMATS: dict[str, Format[Animation]] = {
     ".gif": Format("image/gif", _encode_gif),
     PICTURE: Format("image/png", _encode_apng, has_alpha=True),
-    ".webp": Format("image/webp", lambda film: _encode(film, film.to_pil(), "WEBP", **WEBP), has_alpha=True),
-    MP4: Format("video/mp4", lambda film: encode_mp4([frame.pixels for frame in film.frames], film.duration)),
+    ".webp": Format("image/webp", lambda film, _: _encode(film, film.to_pil(), "WEBP", **WEBP), has_alpha=True),
+    MP4: Format("video/mp4", lambda film, _: encode_mp4([frame.pixels for frame in film.frames], film.duration)),
 }
 
 

@@ -8,10 +8,8 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from attrs import Attribute
 
-from .words import Words
 
-
-class Value(Words):
+class Value:
     """A base of frozen attrs classes with arrays.
 
     Unpickling calls the constructor, because NumPy does not restore that an array is read-only.

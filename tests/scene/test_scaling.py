@@ -12,8 +12,9 @@ import pytest
 from attrs import evolve
 
 from shackled import Light, Material, Mesh, Object, Scene, Texture, load
-from shackled.scene import components, decode, encode_scene_file, full_turn, render_call, simplify_scene
+from shackled.scene import decode, encode_scene_file, full_turn, render_call, simplify_scene
 from shackled.scene._crease import creased
+from shackled.scene._mesh import components
 
 #: How many times as much is asked for, and how many times as many calls that may take, which is 64 where each object
 #: looks at all others.

@@ -66,10 +66,8 @@ def _object(piece: Piece, figures: PieceCost) -> dict[str, Any]:
 def _line(piece: Piece, figures: PieceCost) -> tuple[str, str, str, str, str]:
     triangles = "-" if figures.triangles is None else f"{figures.triangles:,}"
     gas = "-" if figures.gas is None else f"{figures.gas:,}"
-    terms = piece.licence if piece.commercial else f"{piece.licence} (not for commercial use)"
-    if not piece.ready():
-        terms += f"; run: shackled datasets fetch {piece.name}"
-    return piece.name, triangles, gas, piece.title, terms
+    to_fetch = "" if piece.ready() else f"; run: shackled datasets fetch {piece.name}"
+    return piece.name, triangles, gas, piece.title, f"{piece.terms}{to_fetch}"
 
 
 def _summary(rows: Sequence[tuple[Piece, PieceCost]]) -> tuple[str, str, str, str, str]:
@@ -129,7 +127,7 @@ def showcase(
     names: tuple[str, ...] = argument("Scenes, such as glass; all by default.", "NAME"),
     output: Path = option("-o --output", "Output folder.", "DIR", default=Path("showcase")),
 ) -> None:
-    """Render the scenes of the showcase into a folder, with a page (index.html) and a contact sheet (sheet.png)."""
+    """Render the scenes of the showcase into a folder, with a contact sheet (sheet.png)."""
     from ..datasets.showcase import draw_showcase
     from ..datasets.showcase import pieces as scenes
 
@@ -141,7 +139,7 @@ def showcase(
     width = max(len(piece.name) for piece in chosen)
     for drawing in draw_showcase(output, chosen):
         print(f"{drawing.name:{width}}  {figures(drawing)}", flush=True)
-    print(f"{output / 'index.html'}: {plural(len(chosen), 'scene')}")
+    print(f"{output / 'sheet.png'}: {plural(len(chosen), 'scene')}")
 
 
 def gallery(

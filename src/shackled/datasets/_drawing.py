@@ -21,12 +21,11 @@ from platformdirs import user_cache_path
 from ..artifacts import RENDERER, artifact
 from ..chain import open_chain
 from ..errors import InputError
-from ..image import decode_bmp
-from ..scene import Scene, encode, resize
+from ..image import decode_bmp, pillow_bytes
+from ..scene import encode, resize
 from ..whole_file import write_whole
 from ..workers import each
-from . import require
-from ._piece import Piece
+from . import Piece, require
 
 #: The environment variable that names the cache folder.
 VARIABLE = "SHACKLED_CACHE"
@@ -36,12 +35,7 @@ SIZE = 128
 
 @dataclass(frozen=True)
 class Thumbnail:
-    """A drawing of a piece.
-
-    triangles: number of triangles of its meshes.
-    gas: gas of the execution, or None.
-    png: the PNG file.
-    """
+    """A drawing of a piece: the triangles of its meshes, the gas of the execution, and the PNG file."""
 
     name: str
     triangles: int
@@ -56,24 +50,16 @@ class PieceCost(NamedTuple):
     gas: int | None
 
 
-# ---- the cache ----
-
-
 def cache_folder() -> Path:
     """Return the folder of SHACKLED_CACHE, or else that of the system for such files; it may not exist yet."""
     chosen = os.environ.get(VARIABLE)
-    if chosen:
-        return Path(chosen)
-    return user_cache_path("shackled")
+    return Path(chosen) if chosen else user_cache_path("shackled")
 
 
 def keep(path: Path, data: bytes) -> None:
     """Write a file of the cache, and its folder if it is not there. OSError if it cannot be written."""
     path.parent.mkdir(parents=True, exist_ok=True)
     write_whole(path, data)
-
-
-# ---- what pieces cost ----
 
 
 @cache
@@ -87,30 +73,40 @@ def cost(piece: Piece) -> PieceCost:
     """Return the cost of a piece: measured before, or else by drawing it, if it has been fetched."""
     if piece.name in table():
         return table()[piece.name]
-    if not piece.ready():
-        return PieceCost(None, None)
-    try:
-        drawing = draw(piece)
-    except InputError:  # the fetched model is damaged, which an attempt to render it reports
-        return PieceCost(None, None)
-    return PieceCost(drawing.triangles, drawing.gas)
-
-
-# ---- drawing ----
+    # a fetched model may be damaged, which an attempt to render it reports
+    with suppress(InputError):
+        if piece.ready():
+            drawing = draw(piece)
+            return PieceCost(drawing.triangles, drawing.gas)
+    return PieceCost(None, None)
 
 
 def draw(piece: Piece, size: int = SIZE) -> Thumbnail:
     """Return the drawing of a piece, size x size pixels, from the cache or else by the contracts."""
     scene = resize(piece.make(), size)
-    triangles = scene.triangles
-    path = cache_folder() / "drawings" / f"{_key(scene)}.png"
-    kept = _read(path)
-    if kept is None:
+    key = hashlib.sha256(_contracts() + encode(b"", scene)).hexdigest()
+    path = cache_folder() / "drawings" / f"{key}.png"
+    try:
+        png = path.read_bytes()
+        with PillowImage.open(io.BytesIO(png), formats=["PNG"]) as picture:
+            picture.load()
+            return Thumbnail(piece.name, scene.triangles, int(picture.info["gas"]), png)
+    except (OSError, ValueError, KeyError, SyntaxError):  # not kept, or damaged
         drawing = open_chain().draw(scene)
-        kept = _png(drawing.bmp, scene, drawing.gas), drawing.gas
-        with suppress(OSError):  # if it cannot be kept, it is drawn again next time
-            keep(path, kept[0])
-    return Thumbnail(piece.name, triangles, kept[1], kept[0])
+    info = PngInfo()
+    info.add_text("gas", str(drawing.gas))
+    pixels = decode_bmp(drawing.bmp, scene.width, scene.height)
+    png = pillow_bytes(PillowImage.fromarray(pixels), "png", pnginfo=info)
+    with suppress(OSError):  # if it cannot be kept, it is drawn again next time
+        keep(path, png)
+    return Thumbnail(piece.name, scene.triangles, drawing.gas, png)
+
+
+@cache
+def _contracts() -> bytes:
+    """Return what tells the contracts that draw from others."""
+    codes = b"".join(artifact(name).runtime for name in RENDERER)
+    return open_chain().name.encode() + hashlib.sha256(codes).digest()
 
 
 def draw_all(pieces: Iterable[Piece], size: int = SIZE, processes: int | None = None) -> Iterator[Thumbnail]:
@@ -128,34 +124,3 @@ def draw_all(pieces: Iterable[Piece], size: int = SIZE, processes: int | None = 
 
 def _draw_named(size: int, name: str) -> Thumbnail:
     return draw(require(name), size)
-
-
-def _key(scene: Scene) -> str:
-    """Return a key of the call and of the contracts that answer it."""
-    return hashlib.sha256(_contracts() + encode(b"", scene)).hexdigest()
-
-
-@cache
-def _contracts() -> bytes:
-    codes = b"".join(artifact(name).runtime for name in RENDERER)
-    return open_chain().name.encode() + hashlib.sha256(codes).digest()
-
-
-def _png(bmp: bytes, scene: Scene, gas: int | None) -> bytes:
-    info = PngInfo()
-    info.add_text("gas", "" if gas is None else str(gas))
-    stream = io.BytesIO()
-    PillowImage.fromarray(decode_bmp(bmp, scene.width, scene.height)).save(stream, "png", pnginfo=info)
-    return stream.getvalue()
-
-
-def _read(path: Path) -> tuple[bytes, int | None] | None:
-    """Return a drawing and its gas, if the file exists and is not damaged."""
-    try:
-        data = path.read_bytes()
-        with PillowImage.open(io.BytesIO(data), formats=["PNG"]) as picture:
-            gas = picture.info["gas"]
-            picture.load()
-        return data, int(gas) if gas else None
-    except (OSError, ValueError, KeyError, SyntaxError):
-        return None

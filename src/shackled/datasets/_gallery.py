@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import io
 from collections.abc import Mapping, Sequence
 from html import escape
@@ -12,8 +11,8 @@ from string import Template
 from PIL import Image as PillowImage
 from PIL import ImageDraw, ImageFont
 
-from ._drawing import Thumbnail
-from ._piece import Piece
+from ..image import data_uri, pillow_bytes
+from . import Piece, Thumbnail
 
 #: Sizes in the contact sheet, in pixels.
 CELL, LABEL, GAP = 128, 32, 8
@@ -50,9 +49,7 @@ def sheet(
             picture.paste(small.convert("RGB").resize(cell, PillowImage.Resampling.NEAREST), (x, y))
         pen.text((x, y + cell[1] + 2), _fitting(piece.name, font, cell[0]), INK, font)
         pen.text((x, y + cell[1] + 15), _fitting(figures(drawing, "tri."), font, cell[0]), FAINT, font)
-    stream = io.BytesIO()
-    picture.save(stream, "png")
-    return stream.getvalue()
+    return pillow_bytes(picture, "png")
 
 
 def _card(piece: Piece, drawing: Thumbnail | None) -> str:
@@ -60,16 +57,14 @@ def _card(piece: Piece, drawing: Thumbnail | None) -> str:
         command = f"shackled datasets fetch {piece.name}"
         image, caption = f'<div class="absent"><code>{escape(command)}</code></div>', "not fetched"
     else:
-        data = base64.b64encode(drawing.png).decode()
-        image = f'<img src="data:image/png;base64,{data}" alt="{escape(piece.title)}" loading="lazy">'
+        image = f'<img src="{data_uri("image/png", drawing.png)}" alt="{escape(piece.title)}" loading="lazy">'
         caption = figures(drawing)
-    terms = piece.licence if piece.commercial else f"{piece.licence} (not for commercial use)"
     credit = f'<p class="credit">{escape(piece.credit)}</p>' if piece.credit else ""
     words = escape(" ".join((piece.name, piece.title, piece.licence, piece.credit)).lower())
     return (
         f'<figure data-dataset="{escape(piece.dataset)}" data-words="{words}">{image}<figcaption>'
         f"<h2>{escape(piece.title)}</h2><code>{escape(piece.name)}</code><p>{escape(caption)}</p>{credit}"
-        f'<p class="licence">{escape(terms)}</p></figcaption></figure>'
+        f'<p class="licence">{escape(piece.terms)}</p></figcaption></figure>'
     )
 
 

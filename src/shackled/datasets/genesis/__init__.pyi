@@ -1,7 +1,5 @@
-from ._collection import COUNT, find, generate, parse_seed, pieces, seed_of
-from ._contract import generate_on_chain, picture_on_chain
-from ._piece import GenesisPiece
-from ._sheet import render_sheet
+from ._collection import COUNT, find, parse_seed, pieces, render_sheet, seed_of
+from ._contract import GenesisPiece, generate, generate_on_chain, picture_on_chain
 
 __all__ = [
     "COUNT",

@@ -1,16 +1,28 @@
-"""The Genesis collection, and the pieces of other seeds."""
+"""The Genesis collection, the pieces of other seeds, and all of them in one picture."""
 
 from __future__ import annotations
 
+import io
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from itertools import islice
+from math import isqrt
+from pathlib import Path
 
+from PIL import Image as PillowImage
+
+from ...checks import whole
 from ...errors import InputError
 from ...ethereum import keccak256
-from .. import Piece
-from ._piece import GenesisPiece
+from ...image import pillow_bytes
+from ...whole_file import check_output_file, write_output
+from .. import SIZE, Piece, draw_all
+from ._contract import generate
 
 COUNT = 1024
+
+#: Called with the number of finished pieces, and of all.
+Progress = Callable[[int, int], object]
 
 
 def seed_of(number: int) -> bytes:
@@ -46,12 +58,36 @@ def find(name: str) -> Piece | None:
 
 
 def _piece(label: str, seed: bytes) -> Piece:
-    title = f"Genesis {label}" if len(label) < 64 else f"Genesis {label[:8]}"
+    title = f"Genesis {label if len(label) < 64 else label[:8]}"
     return Piece(f"genesis/{label}", "genesis", title, "MIT", lambda: generate(seed).scene())
 
 
-def generate(seed: bytes) -> GenesisPiece:
-    """Generate the piece of a seed with the contract. RenderError for the rare seeds without a piece."""
-    from ._contract import generate_on_chain
+def render_sheet(
+    path: str | Path,
+    count: int = COUNT,
+    size: int = SIZE,
+    workers: int | None = None,
+    progress: Progress = lambda done, total: None,
+) -> None:
+    """Render the first `count` pieces, size x size pixels each, in rows, into one PNG.
 
-    return generate_on_chain(seed)[0]
+    workers: number of worker processes; None for one per core. Finished drawings are kept in the cache folder, so that
+    an interrupted run continues. InputError or OutputError if the file cannot be written.
+    """
+    path = Path(path)
+    if path.suffix.lower() != ".png":
+        raise InputError(f"the sheet {path} must end in .png")
+    check_output_file(path, "sheet")
+    whole(count, "the number of pieces of a sheet", 1, COUNT)
+    whole(size, "the size of a piece in pixels", 1, 1024)
+    shown = list(islice(pieces(), count))
+    places = {piece.name: place for place, piece in enumerate(shown)}
+    columns = isqrt(count - 1) + 1
+    sheet = PillowImage.new("RGB", (columns * size, -(-count // columns) * size))
+    progress(0, count)
+    for done, drawing in enumerate(draw_all(shown, size, workers), 1):
+        row, column = divmod(places[drawing.name], columns)
+        with PillowImage.open(io.BytesIO(drawing.png)) as picture:
+            sheet.paste(picture, (column * size, row * size))
+        progress(done, count)
+    write_output(path, pillow_bytes(sheet, "png"))

@@ -2,24 +2,68 @@
 
 from __future__ import annotations
 
-import time
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
 from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...artifacts import artifact
-from ...chain import CallResult, Chain, ContractChain, open_chain
+from ...chain import CallResult, Chain, ContractChain, Drawing, open_chain
 from ...errors import InputError, RenderError
-from ...image import Image, decode_bmp
-from ._piece import GenesisPiece, Point3
+from ...image import Image
+from ...scene import Background, Light, Material, Mesh, Object, Scene
 
 CONTRACT = "Genesis"
-#: The side of a picture, in pixels.
-SIDE = 128
 
 #: A packed mesh: its header, then vertices and colours, then faces (contracts/src/scene/Mesh.sol).
 HEADER, VERTEX, FACE = 5, np.dtype([("position", ">i2", 3), ("color", "u1", 3)]), np.dtype((">u2", 3))
+
+#: A vertex, a colour, or the corners of a face.
+Point3 = tuple[int, int, int]
+
+#: Every piece has full ambient light, and a light from the left.
+MATERIAL = Material("flat", ambient=1, diffuse=0.8, specular=1.2, shininess=10)
+LIGHT = Light("directional", (-50, 0, 0))
+POSITION = (0, 0, -2500)
+
+
+@dataclass(frozen=True)
+class GenesisPiece:
+    """The piece of a seed.
+
+    prisms: number of prisms. culling: whether faces that point away are left out. background: the colours of the top
+    and the bottom. verts: six vertices per prism. cols: their colours, red, green and blue, 0..255. faces: seven faces
+    per prism.
+    """
+
+    seed: bytes
+    structure: str
+    chroma: str
+    pseudosymmetry: str
+    prisms: int
+    wireframe: bool
+    culling: bool
+    invert: bool
+    background: tuple[Point3, Point3]
+    verts: Sequence[Point3]
+    cols: Sequence[Point3]
+    faces: Sequence[Point3]
+
+    def document(self) -> dict[str, Any]:
+        """Return the piece as a JSON object; `seed` is 64 hexadecimal digits."""
+        return asdict(self) | {"seed": self.seed.hex()}
+
+    def scene(self) -> Scene:
+        """Return the scene: 128 x 128 pixels, seen from the front, lit from the left."""
+        mesh = Mesh(self.verts, self.faces, self.cols)
+        return Scene(
+            [Object(mesh, POSITION, material=MATERIAL, cull=self.culling, wireframe=self.wireframe)],
+            lights=[LIGHT],
+            background=Background(*self.background),
+            invert=self.invert,
+        )
 
 
 def call(function: str, seed: bytes, chain: Chain | None = None) -> CallResult:
@@ -32,6 +76,11 @@ def call(function: str, seed: bytes, chain: Chain | None = None) -> CallResult:
     return place.call(CONTRACT, artifact(CONTRACT).interface.encode(function, seed))
 
 
+def generate(seed: bytes) -> GenesisPiece:
+    """Generate the piece of a seed with the contract. RenderError for the rare seeds without a piece."""
+    return generate_on_chain(seed)[0]
+
+
 def generate_on_chain(seed: bytes, chain: Chain | None = None) -> tuple[GenesisPiece, int]:
     """Return the piece of a seed, and the gas that making it took."""
     result = call("generate", seed, chain)
@@ -40,44 +89,31 @@ def generate_on_chain(seed: bytes, chain: Chain | None = None) -> tuple[GenesisP
 
 def picture_on_chain(piece: GenesisPiece, chain: Chain | None = None) -> Image:
     """Return the picture of a piece, 128 x 128 pixels, made by one call from its seed alone."""
+    from ..._render import render_whole
+
     place = open_chain() if chain is None else chain
-    started = time.perf_counter()
-    result = call("render", piece.seed, place)
-    seconds = time.perf_counter() - started
-    bmp = _decoded("render", result.output)
-    return Image(
-        pixels=decode_bmp(bmp, SIDE, SIDE),
-        bmp=bmp,
-        gas=result.gas,
-        intrinsic_gas=result.intrinsic_gas,
-        made_by=place.name,
-        seconds=seconds,
-        scene=piece.scene(),
-    )
+
+    def draw(_: Scene) -> Drawing:
+        result = call("render", piece.seed, place)
+        return Drawing(_decoded("render", result.output), result.gas, result.intrinsic_gas)
+
+    return render_whole(piece.scene(), draw, place.name)
 
 
 def decode_piece(seed: bytes, output: bytes) -> GenesisPiece:
     """Decode what `generate` returned, a struct Piece of contracts/src/genesis/Genesis.sol."""
     traits, background, culling, mesh = _decoded("generate", output)
-    structure, chroma, pseudosymmetry, prisms, wireframe, invert = traits
+    structure, chroma, symmetry, prisms, wireframe, invert = traits
     vertices, faces = (int.from_bytes(mesh[at : at + 2], "big") for at in (1, 3))
     end = HEADER + VERTEX.itemsize * vertices
     if len(mesh) != end + FACE.itemsize * faces:
         raise RenderError("the contract returned a mesh that is not complete")
     packed = np.frombuffer(mesh, VERTEX, vertices, HEADER)
+    top, bottom = ((color >> 16, color >> 8 & 255, color & 255) for color in background)
+    corners = np.frombuffer(mesh[end:], FACE.base).reshape(-1, 3)
+    verts, cols, triangles = (_triples(each) for each in (packed["position"], packed["color"], corners))
     return GenesisPiece(
-        seed=seed,
-        structure=structure,
-        chroma=chroma,
-        pseudosymmetry=pseudosymmetry,
-        prisms=prisms,
-        wireframe=wireframe,
-        culling=culling,
-        invert=invert,
-        background=(_color(background[0]), _color(background[1])),
-        verts=_triples(packed["position"]),
-        cols=_triples(packed["color"]),
-        faces=_triples(np.frombuffer(mesh[end:], FACE.base).reshape(-1, 3)),
+        *(seed, structure, chroma, symmetry, prisms, wireframe, culling, invert, (top, bottom), verts, cols, triangles)
     )
 
 
@@ -90,7 +126,3 @@ def _decoded(function: str, output: bytes) -> Any:
 
 def _triples(rows: NDArray[Any]) -> list[Point3]:
     return [cast(Point3, tuple(row)) for row in rows.tolist()]
-
-
-def _color(value: int) -> Point3:
-    return value >> 16, value >> 8 & 255, value & 255

@@ -3,25 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
-from ...scene import (
-    NORMAL_UNIT,
-    Background,
-    Camera,
-    Light,
-    LookOptions,
-    Material,
-    Mesh,
-    Object,
-    Scene,
-    stage,
-    view_axes,
-)
+from ...scene import NORMAL_UNIT, Background, Camera, Light, Material, Mesh, Object, Scene, stage, view_axes
 from .. import Piece
 from .modelling import Solid
 
@@ -40,28 +27,9 @@ LENS = 0.2
 #: Edges are sharp where a surface turns by more than these degrees.
 CREASE = 42.0
 
-
-@dataclass(frozen=True)
-class IconModel:
-    """A model with its pose, light and background."""
-
-    name: str
-    title: str
-    model: Callable[[], Solid]
-    material: Material
-    look: LookOptions
-    licence: str = "MIT"
-    crease: float = CREASE
-
-    def scene(self) -> Scene:
-        """Return the scene, 128 x 128 pixels."""
-        mesh = self.model().mesh(self.crease if self.material.shading == "smooth" else None)
-        scene = stage(mesh, material=self.material, **self.look)
-        return evolve(scene, objects=_cheaper(scene.objects[0], scene.camera))
-
-    def piece(self) -> Piece:
-        """Return the icon as a piece of the dataset."""
-        return Piece(f"icons/{self.name}", "icons", self.title, self.licence, self.scene)
+Model = Callable[[], Solid]
+#: All icons, in the order of their functions.
+ICONS: list[Piece] = []
 
 
 def icon(
@@ -76,24 +44,34 @@ def icon(
     margin: float = 0.06,
     licence: str = "MIT",
     crease: float = CREASE,
-) -> Callable[[Callable[[], Solid]], IconModel]:
-    """Declare an icon, named as the function that models it.
+) -> Callable[[Model], Model]:
+    """Add an icon to `ICONS`, named as the function that models it.
 
     top, bottom: the colours of the background. view: azimuth and elevation of the viewer; turn: of the model about x, y
     and z; all in degrees. light: direction toward the only light, in the directions right, up and toward the viewer.
     margin: as in `load`. crease: as in `Solid.mesh`.
     """
-    look = LookOptions(
-        rotate=turn,
-        azimuth=view[0],
-        elevation=view[1],
-        half_height=LENS,
-        margin=margin,
-        background=Background(top, bottom),
-        lights=Light("directional", np.asarray(light) @ np.stack(view_axes(*view))),
-        cull=True,
-    )
-    return lambda model: IconModel(model.__name__, title, model, material, look, licence, crease)
+
+    def decorated(model: Model) -> Model:
+        def scene() -> Scene:
+            staged = stage(
+                model().mesh(crease if material.shading == "smooth" else None),
+                material=material,
+                rotate=turn,
+                azimuth=view[0],
+                elevation=view[1],
+                half_height=LENS,
+                margin=margin,
+                background=Background(top, bottom),
+                lights=Light("directional", np.asarray(light) @ np.stack(view_axes(*view))),
+                cull=True,
+            )
+            return evolve(staged, objects=_cheaper(staged.objects[0], staged.camera))
+
+        ICONS.append(Piece(f"icons/{model.__name__}", "icons", title, licence, scene))
+        return model
+
+    return decorated
 
 
 def _cheaper(o: Object, camera: Camera) -> list[Object]:
@@ -112,17 +90,18 @@ def _cheaper(o: Object, camera: Camera) -> list[Object]:
     parts = []
     if flat.any():
         material = evolve(o.material, shading="flat")
-        parts.append(evolve(o, mesh=_part(o.mesh, faces[order[flat]], smooth=False), material=material))
+        parts.append(evolve(o, mesh=_part(o.mesh, faces[order[flat]], None), material=material))
     if not flat.all():
-        parts.append(evolve(o, mesh=_part(o.mesh, faces[order[~flat]], smooth=True)))
+        parts.append(evolve(o, mesh=_part(o.mesh, faces[order[~flat]], o.mesh.normals)))
     flat_is_nearer = flat.any() and distance[order[flat]].mean() < distance.mean()
     return parts if flat_is_nearer else parts[::-1]
 
 
-def _part(mesh: Mesh, faces: NDArray[np.int64], smooth: bool) -> Mesh:
+def _part(mesh: Mesh, faces: NDArray[np.int64], normals: NDArray[np.float64] | None) -> Mesh:
     """Return some of the faces, in that order, with the vertices that they need."""
-    columns: list[NDArray[np.float64]] = [mesh.positions, mesh.colors.astype(np.float64)]
-    if smooth and mesh.normals is not None:
-        columns.append(mesh.normals)
-    table, numbers = np.unique(np.hstack(columns)[faces.reshape(-1)], axis=0, return_inverse=True)
-    return Mesh(table[:, :3], numbers.reshape(-1, 3), table[:, 3:6].astype(np.uint8), table[:, 6:] if smooth else None)
+    table = np.hstack([mesh.positions, mesh.colors, *([] if normals is None else [normals])])
+    rows, numbers = np.unique(table[faces.reshape(-1)], axis=0, return_inverse=True)
+    has_normals = normals is not None
+    return Mesh(
+        rows[:, :3], numbers.reshape(-1, 3), rows[:, 3:6].astype(np.uint8), rows[:, 6:] if has_normals else None
+    )

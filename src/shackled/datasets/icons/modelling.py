@@ -9,12 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ... import checks
 from ...scene import Mesh, from_euler, rotate
+from ..common import shapes
 from .outlines import chamfered, inset, rectangle, regular, triangulate
 
 Array = NDArray[np.float64]
@@ -76,10 +78,7 @@ class Solid:
 
     def shaded(self, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1, 0)) -> Solid:
         """Return the solid in a gradient along an axis, from its lowest to its highest point."""
-        along = self.corners @ np.asarray(axis, dtype=np.float64)
-        part = ((along - along.min()) / np.ptp(along))[..., None]
-        start, end = (np.array(checks.color(color, "the colour of a solid")) for color in (low, high))
-        return replace(self, colors=np.rint(start + (end - start) * part).astype(np.uint8))
+        return replace(self, colors=shapes.gradient(self.corners @ np.asarray(axis, dtype=np.float64), low, high))
 
     # ---- the result ----
 
@@ -152,7 +151,7 @@ def loft(rings: ArrayLike, closed: bool = False) -> Solid:
         triangles += [_cap(points[0])[:, ::-1], _cap(points[-1])]
     corners = np.concatenate(triangles)
     corners = corners[_distinct(corners)]
-    return _outward(Solid(corners, np.full(corners.shape, 200, dtype=np.uint8)))
+    return _outward(_grey(corners))
 
 
 def prism(outline: ArrayLike, depth: float, bevel: float = 0) -> Solid:
@@ -241,22 +240,18 @@ def icosphere(radius: float, divisions: int) -> Solid:
     """Return a sphere about the origin of 20 * 4^divisions nearly equal triangles."""
     golden = (1 + 5**0.5) / 2
     pairs = [(s, t * golden) for s in (-1, 1) for t in (-1, 1)]
-    points = np.array([np.roll((0, *pair), axis) for axis in range(3) for pair in pairs], dtype=np.float64)
-    distance = np.linalg.norm(points[:, None] - points, axis=2)
-    near = np.isclose(distance, 2)
-    corners = points[
-        [(i, j, k) for i in range(12) for j in range(i) for k in range(j) if near[i, j] & near[j, k] & near[k, i]]
-    ]
+    points = np.array([np.roll((0, *pair), axis) for axis in range(3) for pair in pairs])
+    near = np.isclose(np.linalg.norm(points[:, None] - points, axis=2), 2)
+    numbers = [each for each in combinations(range(11, -1, -1), 3) if near[np.ix_(each, each)].sum() == 6]
+    corners = points[sorted(numbers)]
     inward = np.linalg.det(corners) < 0
     corners[inward] = corners[inward][:, ::-1]
     for _ in range(divisions):
         a, b, c = corners.transpose(1, 0, 2)
         d, e, f = a + b, b + c, c + a
-        parts = [(a, d, f), (d, b, e), (f, e, c), (d, e, f)]
-        corners = np.concatenate([np.stack(part, axis=1) for part in parts])
+        corners = np.concatenate([np.stack(part, axis=1) for part in ((a, d, f), (d, b, e), (f, e, c), (d, e, f))])
         corners /= np.linalg.norm(corners, axis=2, keepdims=True)
-    corners = radius * corners / np.linalg.norm(corners, axis=2, keepdims=True)
-    return Solid(corners, np.full(corners.shape, 200, dtype=np.uint8))
+    return _grey(radius * corners / np.linalg.norm(corners, axis=2, keepdims=True))
 
 
 def torus(radius: float, thickness: float, segments: int, sides: int) -> Solid:
@@ -316,6 +311,10 @@ def pixels(rows: Sequence[str], palette: dict[str, str], depth: float) -> Solid:
 
 def _at(outline: Array, z: float) -> Array:
     return np.column_stack([outline, np.full(len(outline), z)])
+
+
+def _grey(corners: Array) -> Solid:
+    return Solid(corners, np.full(corners.shape, 200, dtype=np.uint8))
 
 
 def _distinct(corners: Array) -> NDArray[np.bool_]:

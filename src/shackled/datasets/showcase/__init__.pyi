@@ -1,8 +1,7 @@
-from ._collection import find, pieces
 from ._drawing import draw_showcase
+from ._scenes import pieces
 
 __all__ = [
     "draw_showcase",
-    "find",
     "pieces",
 ]

@@ -28,7 +28,7 @@ from ...scene import (
     stage,
     view_axes,
 )
-from .. import require, teapot
+from .. import Piece, require, teapot
 from ..common import shapes
 
 Array = NDArray[np.float64]
@@ -41,8 +41,7 @@ UNLIT = Material("unlit")
 def _scene(
     objects: Sequence[Object], camera: Camera, lights: Sequence[Light], background: Background, **fields: Any
 ) -> Scene:
-    width, height = SIZE
-    return Scene(objects, camera, lights, background, width=width, height=height, antialias=True, **fields)
+    return Scene(objects, camera, lights, background, width=SIZE[0], height=SIZE[1], antialias=True, **fields)
 
 
 def _put(
@@ -75,14 +74,7 @@ def _terrain(xs: Array, zs: Array, height: float | Array) -> Mesh:
     """Return a surface over a grid, seen from above."""
     z, x = np.meshgrid(zs, xs, indexing="ij")
     points = np.stack([x, np.broadcast_to(height, x.shape), z], axis=-1).reshape(-1, 3)
-    return Mesh(points, _cells(*x.shape))
-
-
-def _cells(rows: int, columns: int) -> NDArray[np.int64]:
-    """Return two faces for each cell of a grid of vertices, counter-clockwise from row to column."""
-    number = np.arange(rows * columns).reshape(rows, columns)
-    a, b, c, d = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
-    return np.stack([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)], axis=-2).reshape(-1, 3)
+    return Mesh(points, shapes.cells(*x.shape))
 
 
 # ---- still life ----
@@ -119,14 +111,9 @@ def _goblet() -> Mesh:
 
 def _lathe(radius: ArrayLike, height: ArrayLike, around: int) -> Mesh:
     """Return the surface that a profile, from the top down, sweeps about the y axis."""
-    r, h = np.asarray(radius, np.float64), np.asarray(height, np.float64)
-
-    def surface(u: Array, v: Array) -> Array:
-        place = np.linspace(0, 1, len(r))
-        reach, y, angle = np.interp(1 - v, place, r), np.interp(1 - v, place, h), 2 * np.pi * u
-        return np.stack([reach * np.cos(angle), y, -reach * np.sin(angle)], axis=-1)
-
-    return shapes.patch(surface, around, len(r) - 1)
+    angle = 2 * np.pi * np.linspace(0, 1, around + 1)[:, None]
+    points = shapes.around(angle, np.asarray(height)[::-1], np.asarray(radius)[::-1])
+    return shapes.smooth(points.reshape(-1, 3), shapes.cells(*points.shape[:2]))
 
 
 def _chessboard(side: int = 12) -> Object:
@@ -189,12 +176,9 @@ def vase() -> Scene:
     radius, height = (np.interp(steps, along, corners[:, axis]) for axis in (0, 1))
     outward = np.stack([-np.gradient(height), np.gradient(radius)])
     u = np.linspace(0, 1, 57)[:, None]
-    ring = np.stack([np.cos(2 * np.pi * u), 0 * u, -np.sin(2 * np.pi * u)], axis=-1)
-    up = np.array([0.0, 1.0, 0.0])
-    points = radius[:, None] * ring + height[:, None] * up
-    normals = outward[0][:, None] * ring + outward[1][:, None] * up
+    points, normals = (shapes.around(2 * np.pi * u, y, x) for x, y in ((radius, height), outward))
     uvs = np.stack(np.broadcast_arrays(2 * u, 1 - height / 2.62), axis=-1)
-    faces = _cells(len(u), len(height))[:, ::-1]
+    faces = shapes.cells(len(u), len(height))[:, ::-1]
     mesh = Mesh(points.reshape(-1, 3), faces, "#ffffff", normals.reshape(-1, 3), uvs.reshape(-1, 2))
     clay = Material("smooth", ambient=0.42, diffuse=0.7, specular=0.45, shininess=36, texture=Texture(_bands()))
     return _scene(
@@ -274,13 +258,10 @@ def _fir(rng: np.random.Generator, x: float, y: float, z: float) -> Mesh:
 def _cone(top: float, bottom: float, low: float, high: float, sides: int, color: str, turn: float) -> Mesh:
     """Return the side of a cone, cut off unless its radius at the top is 0."""
     angle = turn + 2 * np.pi * np.arange(sides) / sides
-    ring = np.stack([np.cos(angle), 0 * angle, -np.sin(angle)], axis=1)
-    points = np.concatenate([bottom * ring + (0, low, 0), top * ring + (0, high, 0)])
+    points = np.concatenate([shapes.around(angle, y, radius) for y, radius in ((low, bottom), (high, top))])
     k, following = np.arange(sides), np.roll(np.arange(sides), -1)
-    faces = [np.stack([k, following, sides + k], axis=1)]
-    if top:
-        faces.append(np.stack([following, sides + following, sides + k], axis=1))
-    return painted(Mesh(points, np.concatenate(faces)), color)
+    lower, upper = (k, following, sides + k), (following, sides + following, sides + k)
+    return painted(Mesh(points, np.hstack([lower, upper] if top else [lower]).T), color)
 
 
 # ---- rim ----
@@ -420,3 +401,23 @@ def shell() -> Scene:
         rim=Rim("#ffe4c0", 5),
         tone=Tone(1.0, gamma=True),
     )
+
+
+def pieces() -> list[Piece]:
+    """Return all scenes, in the order in which they are shown."""
+    titles = {
+        still_life: "Still life with shadows, antialiased",
+        glass: "Glass: opacity and a rim",
+        vase: "A texture, and a ground",
+        forest: "Fog",
+        skull: "An icon with a rim",
+        knot: "Linear light and a filmic curve",
+        plaster: "Hemisphere light and shadows",
+        shell: "Light from sky and sand",
+        wires: "Wires, antialiased",
+        cornell_box: "The Cornell box, with shadows, in linear light",
+        genesis: "A piece of Genesis, antialiased",
+        rocket: "A turntable, made by a contract",
+    }
+    names = {make: make.__name__.replace("_", "-") for make in titles}
+    return [Piece(f"showcase/{names[make]}", "showcase", title, "MIT", make) for make, title in titles.items()]
