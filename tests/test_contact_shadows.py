@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from judge import judge, random_scene
+from judge import judge
 from pictures import draw
+from random_scenes import random_scene
 from shackled import Camera, Light, Material, Mesh, Object, Scene, Tone
 from shackled.datasets.common.shapes import sphere
 from shackled.scene import Rectangle, fit
