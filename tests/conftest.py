@@ -65,7 +65,6 @@ SLOW = (
     "test_examples.py",
     "test_golden.py",
     "test_open_edges.py",
-    "test_properties.py",
     "test_random_scenes.py",
     "test_runs.py",
     "test_shading_accuracy.py",

@@ -25,7 +25,7 @@ if __package__ in (None, ""):
 from benchmarks.shared import FOLDER
 
 from judge import Verdict, draw_in_tiles, judge, judge_pixels, render
-from judge.verdict import RARE
+from judge.verdict import table
 from pictures import call_data, draw
 from random_scenes import TAME, random_case, random_scene
 from shackled import load
@@ -61,16 +61,6 @@ def tasks(count: int, seed: int, only: list[str], small: bool) -> Iterator[tuple
     yield from ((kinds[i % len(kinds)], seed + i // len(kinds), int(small)) for i in range(count if kinds else 0))
     if "meshes" in only and not small:
         yield from (("meshes", str(path), size) for size in SIZES for path in sorted(MESHES.glob("*.ply")))
-
-
-def table(rows: dict[str, Verdict]) -> str:
-    """Return the counts as a table in Markdown, a line for each row."""
-    heads = ["", "scenes", "lit pixels", "interior", "mean error", "> 4", "> 8", "worst", "others outside", *RARE]
-    lines = [" | ".join(heads), "---|" * (len(heads) - 1) + "---"]
-    for name, r in rows.items():
-        counts = f"{r.scenes:,} | {r.lit:,} | {r.interior:,} | {r.mean:.3f} | {r.many:,} | {r.far:,} | {r.worst:.1f}"
-        lines.append(" | ".join([name, counts, f"{r.outside:,}", *(f"{r.explained[rule]:,}" for rule in RARE)]))
-    return "\n".join(f"| {line} |" if line[0] != "-" else f"|{line}|" for line in lines)
 
 
 def main() -> int:
