@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -15,10 +14,9 @@ from benchmarks.shared import FOLDER
 
 from judge import judge, judge_pixels, render
 from original_scenes import documents
-from pictures import Pixels, call, call_data, chain, draw, dynamic
-from random_scenes import KINDS, broken_call, random_case
-from shackled import Camera, Light, Material, Mesh, Object, RenderError, Scene, load
-from shackled.artifacts import artifact
+from pictures import Pixels, call, call_data, draw, dynamic
+from random_scenes import KINDS, random_case
+from shackled import Camera, Light, Material, Mesh, Object, Scene, load
 from shackled.image import decode_bmp
 from shackled.scene import Rectangle
 from shackled.scene._files.original import original_scene
@@ -57,23 +55,6 @@ def test_random_scenes(kind: str) -> None:
 def test_a_scene_that_a_faulty_contract_draws_wrongly() -> None:
     """Its depths change by more than their lane holds: an EffectsEngine took their eighths from the lane alone."""
     assert judge("lanes", load(Path(__file__).parent / "support" / "lanes.json")).faults == []
-
-
-def test_broken_calls() -> None:
-    """What is no scene is refused with an error of the interface; all else is a picture."""
-    outcomes: Counter[str] = Counter()
-    for seed in range(1, 501):
-        data = broken_call(seed, call_data("renderCounted", random_case(seed).scene))
-        try:
-            found = dynamic(chain().call("Renderer", data).output)[:2].decode()
-        except RenderError as error:
-            found = str(error).partition("(")[0]
-        outcomes[found] += 1
-    assert outcomes.pop("BM") > 50
-    assert outcomes.pop("the contract refused: the data of the call is not a scene that is encoded correctly") > 5
-    names = {name for name, _ in artifact("Renderer").errors.values()}
-    assert {text.removeprefix("the contract refused: ") for text in outcomes} <= names
-    assert len(outcomes) > 20
 
 
 @pytest.mark.parametrize(

@@ -9,13 +9,10 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from judge import judge
-from pictures import chain, draw
-from shackled import Camera, Ground, InputError, Light, Material, Mesh, Object, RenderError, Scene, load
-from shackled.artifacts import artifact
+from pictures import draw
+from shackled import Camera, Ground, InputError, Light, Material, Mesh, Object, Scene, load
 from shackled.datasets.common import shapes
-from shackled.scene import Rectangle, encode_scene, encode_scene_file, fit, painted
-from shackled.scene._codec import extensions
+from shackled.scene import encode_scene_file, fit, painted
 
 SIZE = 40
 
@@ -39,21 +36,7 @@ def still_life(**changes: Any) -> Scene:
     return evolve(scene, **changes)
 
 
-def is_right(scene: Scene) -> bool:
-    """Whether the judge finds no wrong pixel."""
-    return judge("shadows", scene).faults == []
-
-
 SUN, LAMP = Light("directional", (-0.6, 1.0, 0.5), shadow=True), Light("point", (2, 3, 2), shadow=True)
-
-
-def test_large_picture() -> None:
-    """Pictures of several bands and engines' runs."""
-    scene = still_life(width=160, height=160)
-    first, second = scene.objects
-    assert is_right(scene)
-    glass = evolve(scene, objects=[first, evolve(second, opacity=0.5)])
-    assert (draw(fit(glass), Rectangle(60, 70, 30, 20)) == draw(fit(glass))[70:90, 60:90]).all()
 
 
 def test_a_ground_fades() -> None:
@@ -84,27 +67,3 @@ def test_wrong_values() -> None:
         Ground("red", radius=0)
     with pytest.raises(InputError, match="must be below the second"):
         Object(Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]), fade=(2, 1))
-
-
-@pytest.mark.parametrize(
-    ("record", "error"),
-    [
-        (bytes([10, 0, 0, 0, 0]), "ExtensionSize"),
-        (bytes([10, 0, 2, 0, 1]) + (1).to_bytes(32, "big"), "ExtensionIndex"),
-        (bytes([10, 0, 0, 0, 1]) + (4).to_bytes(32, "big"), "ShadowRuleOutOfRange"),
-        (2 * (bytes([10, 0, 0, 0, 1]) + (1).to_bytes(32, "big")), "SeveralShadows"),
-        (bytes([11, 0, 0, 0, 1]) + bytes(32), "GroundOutOfRange"),
-        (bytes([14, 0, 0, 0, 0]), "UnknownExtension"),
-    ],
-)
-def test_wrong_records(record: bytes, error: str) -> None:
-    if error == "SeveralShadows":
-        # the second belongs to the second light
-        record = record[:39] + b"\x01" + record[40:]
-    scene = fit(still_life(ground=None, lights=[evolve(SUN, shadow=False), evolve(LAMP, shadow=False)]))
-    data = artifact("Renderer").selectors["render"] + (32).to_bytes(32, "big") + encode_scene(scene)
-    # the extensions are last
-    assert not extensions(scene)
-    data = data[:-32] + len(record).to_bytes(32, "big") + record + bytes(-len(record) % 32)
-    with pytest.raises(RenderError, match=error):
-        chain().call("Renderer", data)
