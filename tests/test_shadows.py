@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import permutations
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,7 @@ import pytest
 from attrs import evolve
 
 from pictures import draw
-from shackled import Camera, Ground, InputError, Light, Material, Mesh, Object, Scene, load
+from shackled import Camera, Ground, InputError, Light, Material, Mesh, Object, Scene, Tone, load
 from shackled.datasets.common import shapes
 from shackled.scene import encode_scene_file, fit, painted
 
@@ -67,3 +68,38 @@ def test_wrong_values() -> None:
         Ground("red", radius=0)
     with pytest.raises(InputError, match="must be below the second"):
         Object(Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]), fade=(2, 1))
+
+
+# ---- where surfaces meet ----
+
+
+def box(size: tuple[float, float, float], place: tuple[float, float, float] = (0, 0, 0)) -> Object:
+    """A gray box with edges of this size."""
+    corners = np.sign(shapes.cube().positions) / 2 * size + place
+    return Object(Mesh(corners, shapes.cube().faces, "#c8c8c8"), material=Material("flat", 0.2, 0.8, 0.0))
+
+
+def scene_of(objects: list[Object], light: Light) -> Scene:
+    """The objects before black, seen from above."""
+    return Scene(objects, Camera((0, 3, 4), (0, 0, 0)), [light], "#000000", width=64, height=64, antialias=True)
+
+
+@pytest.mark.parametrize("light", [SUN, LAMP], ids=["directional", "point"])
+def test_any_order(light: Light) -> None:
+    """A later object may hide samples of a fragment that is partly in shadow: the picture is the same in any order."""
+    objects = [box((4, 0.4, 4)), box((1, 2, 1), (0, 0.3, 0)), box((0.8, 0.9, 0.7), (0.1, 0.3, 1.0))]
+    first, *others = (draw(fit(scene_of(list(each), light))) for each in permutations(objects))
+    assert all((each == first).all() for each in others)
+
+
+@pytest.mark.parametrize("tone", [Tone(gamma=True), Tone(filmic=True)], ids=["gamma", "filmic"])
+def test_the_tone_curve_comes_first(tone: Tone) -> None:
+    """Pixels at the edge of a shadow are means of what is displayed, as those at outlines are."""
+    light = Light("directional", (0, 1, -1), shadow=True)
+    scene = evolve(scene_of([box((60, 0.4, 60)), box((1, 0.2, 1), (0.2, 6, -4.5))], light), tone=tone)
+    levels, numbers = np.unique(draw(fit(scene))[:, :, 0], return_counts=True)
+    low, high = levels[numbers > 100].astype(float)
+    assert high - low > 40
+    near = np.abs(levels[:, None] - np.linspace(low, high, 5)) <= 1
+    assert near.any(axis=1).all()
+    assert (numbers @ near > 4).all()

@@ -8,12 +8,13 @@ from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
 from made_scenes import painted
-from pictures import Pixels, chain, covered, draw, on_pixel_grid, pixel_grid_camera, unlit_scene, words
+from pictures import Pixels, chain, covered, draw, on_pixel_grid, pixel_grid_camera, soup, unlit_scene, words
 from random_scenes import random_case
 from shackled import Light, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
 from shackled.datasets import teapot
-from shackled.scene import from_euler, rotate, vertex_normals
+from shackled.scene import from_euler, look_at, rotate, vertex_normals
+from shackled.scene._look import MOST_TWO_SIDED
 from shackled.scene._object import Shading
 from test_fill_rule import edge_functions
 
@@ -71,6 +72,32 @@ def test_the_order_of_lights_and_of_objects(kind: str) -> None:
         assert levels(draw(evolve(scene, lights=scene.lights[::-1])), before).max() <= 1, seed
         difference = levels(draw(evolve(scene, objects=scene.objects[::-1])), before)
         assert (difference <= 1).mean() > (0.6 if kind == "contacts" else 0.98), seed
+
+
+@pytest.mark.parametrize("kind", ["plain", "antialiased", "effects", "textures"])
+def test_the_back_of_what_has_two_sides_looks_like_a_front(kind: str) -> None:
+    for seed in range(1, 9):
+        scene = random_case(seed, kind).scene
+        scene = evolve(scene, objects=[evolve(o, cull=False, two_sided=True) for o in scene.objects])
+        turned = [evolve(o, mesh=inside_out(o.mesh)) for o in scene.objects]
+        difference = levels(draw(evolve(scene, objects=turned)), draw(scene))
+        # faces that are turned away are moved back a little, which decides at edges
+        assert (difference <= 2).mean() > 0.98, seed
+
+
+def inside_out(mesh: Mesh) -> Mesh:
+    return evolve(mesh, faces=mesh.faces[:, ::-1], normals=None if mesh.normals is None else -mesh.normals)
+
+
+def test_large_meshes_have_two_sides_only_if_their_file_says_so() -> None:
+    """By default; each vertex would have a second record in memory."""
+    corners = np.random.default_rng(1).normal(size=(MOST_TWO_SIDED // 3 + 1, 3, 3))
+    large, small = soup(corners), soup(corners[:100])
+    for mesh, stated, expected in ((small, False, True), (large, False, False), (large, True, True)):
+        (thing,) = look_at([Object(mesh, two_sided=stated)], {}).objects
+        assert (thing.cull, thing.two_sided) == (False, expected)
+    (thing,) = look_at([Object(large, two_sided=True)], {"two_sided": False}).objects
+    assert not thing.two_sided
 
 
 # ---- Euler angles ----

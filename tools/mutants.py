@@ -57,9 +57,8 @@ RULES = [
     "tests/test_depth.py",
     "tests/test_rules.py",
     "tests/test_coincident_faces.py",
-    "tests/test_contact_shadows.py",
+    "tests/test_shadows.py",
     "tests/test_tile_culling.py",
-    "tests/test_mesh_space.py",
     "tests/test_transparent.py",
     "tests/test_random_scenes.py",
 ]
