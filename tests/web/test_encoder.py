@@ -18,12 +18,11 @@ from attrs import evolve
 from PIL import ImageColor
 
 import shackled
-from judge import random_scene
 from node_scripts import answers, bundled, needs_web
 from original_scenes import document as original_document
 from original_scenes import documents as original_documents
 from pictures import chain, dynamic
-from random_scenes import random_case
+from random_scenes import random_case, random_scene
 from shackled import Fog, Ground, InputError, Light, Mesh, Object, Rim, Scene, Tone, load
 from shackled.artifacts import artifact
 from shackled.datasets import pieces
