@@ -319,7 +319,7 @@ def test_a_transaction_of_which_nothing_is_heard_is_not_sent_again(visitor: Visi
 
 def test_the_chain_is_offered(visitor: Visitor, node: Node) -> None:
     node.chain = 1
-    page = visitor(book={chain: {"Editions": editions_address()} for chain in (str(CHAIN), "4242")})
+    page = visitor(book={chain: {"Editions": address_of("Editions")} for chain in (str(CHAIN), "4242")})
     dialog = connected(page, "edition")
     press(dialog, "switch-4242")
     trouble(dialog, "The wallet does not know chain 4242: add it there")
@@ -393,7 +393,7 @@ def test_another_picture_is_told(visitor: Visitor, node: Node) -> None:
     press(dialog, "add")
     dialog.locator("[data-name=token]").wait_for()
     asked, other = (artifact("Editions").interface.encode("tokenURI", each) for each in (1, 0))
-    first = node.node.rpc("eth_call", {"to": editions_address(), "data": "0x" + other.hex()}, "latest")
+    first = node.node.rpc("eth_call", {"to": address_of("Editions"), "data": "0x" + other.hex()}, "latest")
     node.lies["eth_call"] = lambda data, call, _: first if call[0]["data"] == "0x" + asked.hex() else data
     dialog = connected(visitor(BOLT | {"size": [16, 16]}), "edition")
     press(dialog, "add")

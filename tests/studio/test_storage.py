@@ -20,9 +20,9 @@ from shackled.datasets import teapot
 from shackled.errors import RenderError
 from shackled.ethereum import intrinsic_gas
 from shackled.scene import from_euler, pack, rotate, stage
-from shackled.studio import StoreTransaction, storage_address, store_scene
+from shackled.studio import StoreTransaction, store_scene
 from shackled.studio._compact_mesh import compact, split_mesh
-from shackled.studio._storage import compress_zeros, expand_zeros, quantize, store_mesh
+from shackled.studio._storage import compress_zeros, expand_zeros, quantize, storage_address, store_mesh
 
 STUDIO = b"\x11" * 20
 
