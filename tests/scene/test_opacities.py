@@ -13,7 +13,6 @@ from attrs import evolve
 from numpy.typing import NDArray
 from PIL import Image
 
-import shackled
 from pictures import draw
 from shackled import Camera, InputError, Light, Material, Mesh, Object, Scene, Texture, load
 from shackled.datasets.common import shapes
@@ -122,15 +121,6 @@ def test_creases_and_simplification_keep_them() -> None:
     assert np.abs(textured.opacities - textured.positions[:, 1] / np.ptp(BALL.positions[:, 1]) - 0.5).max() < 0.2
 
 
-def test_vertices_that_no_face_uses_are_left_out() -> None:
-    more = Mesh([[9, 9, 9], *CORNERS], np.array(FACES) + 1, opacities=[0.5, 0, 0.2, 1, 0.4])
-    (o,) = fit(scene_of(Object(more))).objects
-    assert o.mesh.opacities is not None
-    assert o.mesh.opacities.tolist() == np.asarray(SQUARE.opacities).tolist()
-    (o,) = fit(scene_of(Object(evolve(more, opacities=[0.5, 1, 1, 1, 1])))).objects
-    assert o.mesh.opacities is None
-
-
 def test_one_colour_for_all_keeps_them() -> None:
     (o,) = load([glass()], color="tomato").objects
     expected = [(255, 99, 71, alpha) for alpha in glass().mesh.rgba[:, 3]]
@@ -151,16 +141,6 @@ def test_records() -> None:
     assert records[:9] == b"\2\0\1\0\4\0\x80\0\0"
     assert records[9:14] == b"\10\0\1\0\2"
     assert records[14 + 64 :] == b"\t\0\1\0\1" + levels[0] + b"\t\0\2\0\2" + levels[1]
-
-
-def test_scene_files_links_and_pictures_keep_them(tmp_path: Path) -> None:
-    scene = scene_of(glass(), Object(SQUARE, opacity=0.5))
-    scene.save(tmp_path / "scene.json")
-    assert load(tmp_path / "scene.json") == scene
-    call = render_call(scene)
-    assert render_call(decode(call)) == call
-    shackled.render(scene).save(tmp_path / "scene.png")
-    assert render_call(load(tmp_path / "scene.png")) == call
 
 
 def test_a_scene_file(tmp_path: Path) -> None:

@@ -1,22 +1,11 @@
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from shackled.errors import InputError
 from shackled.scene import from_euler, rotate
-from shackled.scene._arithmetic import from_axis_angle, multiply
+from shackled.scene._arithmetic import from_axis_angle
 
 X, Y, Z = np.eye(3)
-
-
-@pytest.mark.parametrize(
-    ("degrees", "point", "turned"),
-    [((90, 0, 0), Y, Z), ((0, 90, 0), Z, X), ((0, 0, 90), X, Y), ((90, 90, 0), Y, X), ((90, 0, 90), X, Y)],
-)
-def test_euler_angles_turn_counterclockwise_about_x_then_y_then_z(
-    degrees: tuple[float, float, float], point: NDArray[np.float64], turned: NDArray[np.float64]
-) -> None:
-    np.testing.assert_allclose(rotate(from_euler(degrees), point), turned, atol=1e-12)
 
 
 def test_euler_angles_equal_the_product_of_matrices() -> None:
@@ -34,11 +23,6 @@ def test_whole_turns_are_none() -> None:
 def test_axis_and_quaternion_of_any_length() -> None:
     rotation = from_axis_angle((0, 0, 7), 90)
     np.testing.assert_allclose(rotate(1e9 * rotation, [[1, 0, 0], [0, 1, 5]]), [[0, 1, 0], [-1, 0, 5]], atol=1e-12)
-
-
-def test_multiply_does_the_second_after_the_first() -> None:
-    first, second = from_axis_angle(X, 90), from_axis_angle(Z, 90)
-    np.testing.assert_allclose(rotate(multiply(second, first), Y), rotate(second, rotate(first, Y)), atol=1e-12)
 
 
 def test_zero_is_refused() -> None:
