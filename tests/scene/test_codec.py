@@ -69,14 +69,10 @@ def test_a_whole_numbered_scene_passes_exactly() -> None:
         height=200,
     )
     ((canvas, camera, background, invert, ambient, lights, objects, more),) = decode(encode(SELECTOR, scene))
-    assert canvas == (320, 200)
-    assert more == b""
+    assert (canvas, more) == ((320, 200), b"")
     assert camera == ((0, 0, 0), (0, 0, -ONE), (0, ONE, 0), 0, round(ONE / 2.145), 2 * ONE)
     assert (background, invert, ambient) == ((0x010203, 0x040506), 1, 0x0A141E)
-    assert lights == (
-        (0, (ONE, 2 * ONE, 3 * ONE), 0x090807),
-        (1, (-100 * ONE, ONE // 2, 7 * ONE), 0xFFFFFF),
-    )
+    assert lights == ((0, (ONE, 2 * ONE, 3 * ONE), 0x090807), (1, (-100 * ONE, ONE // 2, 7 * ONE), 0xFFFFFF))
     ((mesh, position, rotation, scale, material, flags),) = objects
     assert mesh == bytes([0, 0, 3, 0, 1]) + bytes.fromhex(
         "0000 0000 0000 010203   03e8 0000 0000 040506   0000 03e8 0000 ff0080   0000 0001 0002"
@@ -116,13 +112,6 @@ def placed(scene: Scene) -> np.ndarray:
     return np.asarray(scene.objects[0].world_positions() - scene.camera.eye)
 
 
-def test_a_float_mesh_uses_the_whole_grid() -> None:
-    mesh = Mesh([[0.1, 0.2, 0.3], [0.9, 0.2, 0.3], [0.1, 0.25, 0.3]], [[0, 1, 2]])
-    positions = np.asarray(fit(scene_of(mesh)).objects[0].mesh.positions)
-    assert positions[:, 0].tolist() == [-32767, 32767, -32767]
-    assert np.abs(positions).max() == 32767
-
-
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 @pytest.mark.parametrize(("zoom", "bound"), [(1, 0.04), (100, 0.04), (1000, 0.15)])
 def test_corners_stay_in_place_however_near_one_looks(zoom: int, bound: float, projection: Projection) -> None:
@@ -147,7 +136,8 @@ def test_a_finer_grid_is_taken_only_where_it_shows() -> None:
     mesh = Mesh([[0.1, 0.2, 0.3], [0.9, 0.2, 0.3], [0.1, 0.25, 0.3]], [[0, 1, 2]])
     for half_height, wide in ((1.0, False), (0.001, True)):
         scene = Scene([Object(mesh)], Camera(eye=(0, 0, 3), target=(0, 0, 0), half_height=half_height))
-        assert (np.abs(fit(scene).objects[0].mesh.positions).max() > 32767) == wide
+        positions = np.abs(fit(scene).objects[0].mesh.positions)
+        assert positions.max() > 32767 if wide else (positions[:, 0] == 32767).all()
 
 
 def test_worlds_far_from_the_origin_keep_their_precision() -> None:
@@ -175,9 +165,8 @@ def test_a_far_light_does_not_cost_the_meshes_their_precision() -> None:
 def test_directions_of_any_length_are_sent() -> None:
     scene = scene_of(lights=[Light("directional", (1e-200, 0, 0)), Light("directional", (0, -1e200, 0))])
     fitted = fit(evolve(scene, objects=[evolve(scene.objects[0], rotation=(0, 0, 0, 1e-30))]))
-    assert np.asarray(fitted.lights[0].vector).tolist() == [1, 0, 0]
-    assert np.asarray(fitted.lights[1].vector).tolist() == [0, -1, 0]
-    assert np.asarray(fitted.objects[0].rotation).tolist() == [0, 0, 0, 1]
+    assert [light.vector.tolist() for light in fitted.lights] == [[1, 0, 0], [0, -1, 0]]
+    assert fitted.objects[0].rotation.tolist() == [0, 0, 0, 1]
 
 
 def test_the_near_plane_is_chosen_by_the_extent() -> None:

@@ -319,10 +319,8 @@ def test_a_disc_that_is_no_ground_stays_an_object() -> None:
         found = decode(render_call(Scene(things, camera)))
         return len(found.objects), found.ground is not None
 
-    assert objects(ball, disc) == (1, True)
-    assert objects(disc) == (0, True)
-    assert objects(disc, disc) == (1, True)
-    assert objects(disc, ball) == (2, False)
+    found = [objects(*things) for things in ((ball, disc), (disc,), (disc, disc), (disc, ball))]
+    assert found == [(1, True), (0, True), (1, True), (2, False)]
     for other in (
         evolve(disc, cull=False),
         evolve(disc, opacity=0.5),
@@ -333,8 +331,8 @@ def test_a_disc_that_is_no_ground_stays_an_object() -> None:
         evolve(disc, fade=(1, 3)),
     ):
         assert objects(ball, other) == (2, False)
-    found = decode(render_call(Scene([ball, evolve(disc, fade=(1, 2))], camera)))
-    assert found.ground == Ground("tan", 0, 2, (0, 0), 1)
+    scene = decode(render_call(Scene([ball, evolve(disc, fade=(1, 2))], camera)))
+    assert scene.ground == Ground("tan", 0, 2, (0, 0), 1)
 
 
 @pytest.mark.parametrize(

@@ -77,13 +77,13 @@ def _pointed(light: Light) -> Light:
 
 
 def _check_view(camera: Camera) -> None:
-    eye, target, up = camera.eye, camera.target, camera.up
-    if (eye == target).all():
-        raise InputError(f"the camera's eye and target are the same point, {_show(eye)}")
+    forward, up = camera.target - camera.eye, camera.up
+    if not forward.any():
+        raise InputError("the camera's eye and target are the same point, ({:g}, {:g}, {:g})".format(*camera.eye))
     if not up.any():
         raise InputError("the camera's up must not be (0, 0, 0)")
-    if length(np.cross(unit(target - eye), unit(up))) < 1e-9:
-        raise InputError(f"the camera looks along its up direction, {_show(up)}; choose another up")
+    if length(np.cross(unit(forward), unit(up))) < 1e-9:
+        raise InputError("the camera looks along its up direction, ({:g}, {:g}, {:g}); choose another up".format(*up))
 
 
 def _prepare(o: Object) -> Object:
@@ -142,8 +142,7 @@ def _factor(scene: Scene) -> float:
         # what is so near to the eye is clear in fog that ends beyond
         reach = max(reach, min(scene.fog.far, 1024 * reach))
     exponent = REACH_EXPONENT - math.frexp(reach)[1] if reach else 0
-    if size:
-        exponent = min(exponent, SIZE_EXPONENT - math.frexp(size)[1])
+    exponent = min(exponent, SIZE_EXPONENT - math.frexp(size)[1]) if size else exponent
     return math.ldexp(1.0, min(max(exponent, -1000), 1000))
 
 
@@ -253,10 +252,6 @@ def _box(positions: Array) -> tuple[Array, float]:
 def _direction(v: Array) -> Array:
     low, high = DIRECTION_LENGTHS
     return v if low <= np.abs(v).max() <= high else unit(v)
-
-
-def _show(v: Array) -> str:
-    return f"({', '.join(f'{x:g}' for x in v)})"
 
 
 def divided(o: Object) -> list[Object]:

@@ -48,9 +48,8 @@ def pack(mesh: Mesh, smooth: bool = False) -> bytes:
     if smooth:
         normals = vertex_normals(positions, faces) if mesh.normals is None else units(mesh.normals)
         columns.append(_pack_normals(normals))
-    header = np.array([len(positions), len(faces)], dtype=">u2").tobytes()
-    kind = bytes([WIDE * wide + NORMALS * smooth])
-    return kind + header + np.hstack(columns).tobytes() + faces.astype(">u2").tobytes()
+    header = struct.pack(">BHH", WIDE * wide + NORMALS * smooth, len(positions), len(faces))
+    return header + np.hstack(columns).tobytes() + faces.astype(">u2").tobytes()
 
 
 def unpack(packed: bytes) -> Mesh:
@@ -94,10 +93,9 @@ def _pack_normals(normals: NDArray[np.float64]) -> NDArray[np.uint8]:
 def _unpack_normals(octets: NDArray[np.uint8]) -> NDArray[np.float64]:
     """Return vectors, (n, 3), that `_pack_normals` rounds to the same numbers, although it makes them unit vectors.
 
-    Those numbers do not always round to themselves at a length of exactly `NORMAL_UNIT`. Between them and a corner of
-    the cube of half a step around them, the nearest to the origin or the farthest from it, there is a point of that
-    length: the length of a corner never equals it, since the sum of three odd squares is 3 modulo 8. Numbers of other
-    lengths, which `_pack_normals` does not make, stay as they are.
+    Those do not always round to themselves at a length of exactly `NORMAL_UNIT`. Between them and a corner of the cube
+    of half a step around them, the nearest to the origin or the farthest from it, there is a point of that length: a
+    corner never has it, since the sum of three odd squares is 3 modulo 8. Numbers of other lengths stay as they are.
     """
     words = np.ascontiguousarray(octets).view(">u4").astype(np.int64)
     numbers = ((words >> np.array([22, 12, 2]) & 1023 ^ 512) - 512).astype(np.float64)
@@ -147,15 +145,11 @@ def _pack_image(texture: Texture, pixels: NDArray[np.uint8]) -> bytes:
     texels = pixels.reshape(-1, 3)
     colors, numbers = np.unique(texels, axis=0, return_inverse=True)
     bits = next((each for each in INDEX_BITS if len(colors) <= 1 << each), COLOR_BITS)
-    content = texels.tobytes() if bits == COLOR_BITS else _indexed(colors, numbers.reshape(-1), bits)
-    return bytes([flags, texture.width - 1, texture.height - 1, bits]) + content
-
-
-def _indexed(colors: NDArray[np.uint8], numbers: NDArray[np.int64], bits: int) -> bytes:
-    palette = np.zeros((1 << bits, 3), np.uint8)
-    palette[: len(colors)] = colors
-    digits = np.unpackbits(numbers.astype(np.uint8)[:, None], axis=1)[:, 8 - bits :]
-    return palette.tobytes() + np.packbits(digits).tobytes()
+    header = bytes([flags, texture.width - 1, texture.height - 1, bits])
+    if bits == COLOR_BITS:
+        return header + texels.tobytes()
+    digits = np.unpackbits(numbers.reshape(-1, 1).astype(np.uint8), axis=1)[:, 8 - bits :]
+    return header + colors.tobytes().ljust(3 << bits, b"\0") + np.packbits(digits).tobytes()
 
 
 def _pack_uvs(uvs: Floats) -> bytes:
