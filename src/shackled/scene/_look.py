@@ -69,9 +69,8 @@ def look_at(
     thing: also the parts of a model, as objects in its own coordinates. name: of the model, in warnings. around:
     points, (n, 3), of a model that are to fill the picture in place of its own.
     """
-    for setting in settings_of("file"):
-        if setting.name in look:
-            raise InputError(f"`{setting.name}` is for what is read of one glTF file")
+    if of_file := _given(look, "file"):
+        raise InputError(f"`{next(iter(of_file))}` is for what is read of one glTF file")
     if isinstance(thing, Scene) and not look:
         return thing
     view = None
