@@ -41,9 +41,6 @@ def pixels(scene: Scene) -> NDArray[np.int64]:
     return draw(fit(scene)).astype(int)
 
 
-# ---- what a mesh takes ----
-
-
 def test_they_are_multiples_of_a_255th() -> None:
     assert SQUARE.opacities is not None
     assert np.rint(255 * SQUARE.opacities).tolist() == [0, 51, 255, 102]
@@ -81,9 +78,6 @@ def test_opacities_that_are_none(values: dict[str, Any], message: str) -> None:
         Mesh(CORNERS, FACES, **values)
 
 
-# ---- what keeps them ----
-
-
 def test_corners_of_other_opacities_are_other_vertices() -> None:
     colors = np.full((2, 3, 4), 255)
     colors[1, :, 3] = [9, 255, 0]
@@ -109,9 +103,6 @@ def test_one_colour_for_all_keeps_them() -> None:
     (o,) = load([glass()], color="tomato").objects
     expected = [(255, 99, 71, alpha) for alpha in glass().mesh.rgba[:, 3]]
     assert (o.mesh.rgba == expected).all()
-
-
-# ---- calls, and files with scenes ----
 
 
 def test_records() -> None:
@@ -159,9 +150,6 @@ def test_records_that_are_wrong() -> None:
             decode(wrong)
 
 
-# ---- files ----
-
-
 def test_trimesh() -> None:
     levels = np.arange(16, dtype=np.uint8).reshape(4, 4)
     colored = trimesh.Trimesh(CORNERS, FACES, vertex_colors=levels, process=False)
@@ -197,9 +185,6 @@ def test_masks_of_trimesh(given: float | None, expected: int | None) -> None:
     """Without a cutoff it is a half, as in glTF; one of 0 hides nothing."""
     texture = part_with(alphaMode="MASK", alphaCutoff=given, baseColorTexture=IMAGE).material["texture"]
     assert (None if texture.alpha is None else texture.cutoff) == expected
-
-
-# ---- pictures ----
 
 
 def test_what_is_not_opaque_shows_what_is_behind() -> None:

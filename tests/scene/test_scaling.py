@@ -136,8 +136,6 @@ def test_long_creases() -> None:
             times.append(time.process_time() - start)
         return min(times)
 
-    # the ridge, a crease of 300 vertices, is smooth: no vertex of it is there twice
-    found = creased(ridge(300))
-    assert found.normals is not None
-    assert len(found.positions) == len(ridge(300).positions)
+    # the ridge, a crease, is smooth: no vertex of it is there twice
+    assert len(creased(ridge(300)).positions) == len(ridge(300).positions)
     assert seconds(ridge(8000)) < 3 * FACTOR * seconds(ridge(1000))
