@@ -23,7 +23,7 @@ from ._camera import Camera
 from ._light import Light
 from ._mesh import MAX_FACES, MAX_VERTICES, part_of_faces, vertex_normals
 from ._object import Object
-from ._packed import MAX_SHORT, MAX_WIDE, fits, is_integral
+from ._packed import MAX_SHORT, MAX_WIDE, bits_of
 from ._scene import Scene
 
 Array = NDArray[np.float64]
@@ -32,8 +32,8 @@ Array = NDArray[np.float64]
 MAX_COORDINATE = 2.0**26
 MIN_HALF_HEIGHT = 2.0**-12
 STEP = 2.0**-32
-#: A mesh of so many bits a coordinate must not be scaled by more.
-MAX_SCALE = {16: 2.0**12, 24: 2.0**4}
+#: A mesh of so many bits a coordinate must not be scaled by more; one of other coordinates is quantized.
+MAX_SCALE = {16: 2.0**12, 24: 2.0**4, None: -1.0}
 
 #: The largest step of a mesh's grid, in pixels, before a finer grid is used.
 STEP_IN_PIXELS = 1 / 32
@@ -110,7 +110,7 @@ def _is_exact(scene: Scene) -> bool:
     reach = max(map(abs, lengths))
     for o in scene.objects:
         positions = o.mesh.positions
-        if not is_integral(positions) or o.scale > MAX_SCALE[_bits(positions)]:
+        if o.scale > MAX_SCALE[bits_of(positions)]:
             return False
         lengths += [o.scale, *o.position]
         reach = max(reach, np.abs(o.position).max() + o.scale * np.abs(positions).max())
@@ -213,7 +213,7 @@ def _move_object(o: Object, scene: Scene, factor: float, near: float) -> Object:
     """Return the object about the eye. near: the distance of the near plane, times the factor."""
     positions = o.mesh.positions
     center, step = np.zeros(3), 1.0
-    if not is_integral(positions) or o.scale * factor > MAX_SCALE[_bits(positions)]:
+    if o.scale * factor > MAX_SCALE[bits_of(positions)]:
         # the radii of a fade are about the object's position, which therefore stays
         center, radius = _box(positions) if o.fade is None else (center, float(np.abs(positions).max()))
         step = radius / _steps(o, radius, scene, factor, near)
@@ -237,10 +237,6 @@ def _steps(o: Object, radius: float, scene: Scene, factor: float, near: float) -
         return MAX_SHORT
     # the contract's matrix is rounded to 2^-32 units a step: with more steps that would be more than one of them
     return int(min(max(math.sqrt(size * factor / STEP), MAX_SHORT), MAX_WIDE))
-
-
-def _bits(positions: Array) -> int:
-    return 16 if fits(positions, MAX_SHORT) else 24
 
 
 def _box(positions: Array) -> tuple[Array, float]:

@@ -39,16 +39,15 @@ def pack(mesh: Mesh, smooth: bool = False) -> bytes:
             f"a mesh has {len(positions):,} vertices and {len(faces):,} triangles; a contract takes {MAX_VERTICES:,}"
             f" and {MAX_FACES:,}: simplify it with `max_triangles`"
         )
-    if not is_integral(positions):
+    if (bits := bits_of(positions)) is None:
         raise InputError(f"a packed mesh needs whole coordinates from {-MAX_WIDE - 1:,} to {MAX_WIDE:,}")
     coordinates = np.ascontiguousarray(positions, dtype=">i4")
-    wide = not fits(positions, MAX_SHORT)
-    octets = coordinates.view(np.uint8).reshape(len(positions), 3, 4)[:, :, 1 if wide else 2 :]
+    octets = coordinates.view(np.uint8).reshape(len(positions), 3, 4)[:, :, 4 - bits // 8 :]
     columns = [octets.reshape(len(positions), -1), mesh.colors]
     if smooth:
         normals = vertex_normals(positions, faces) if mesh.normals is None else units(mesh.normals)
         columns.append(_pack_normals(normals))
-    header = struct.pack(">BHH", WIDE * wide + NORMALS * smooth, len(positions), len(faces))
+    header = struct.pack(">BHH", WIDE * (bits == 24) + NORMALS * smooth, len(positions), len(faces))
     return header + np.hstack(columns).tobytes() + faces.astype(">u2").tobytes()
 
 
@@ -73,14 +72,11 @@ def unpack(packed: bytes) -> Mesh:
     return Mesh(positions, corners, np.array(rows[:, 3 * size : 3 * size + 3]), normals)
 
 
-def is_integral(positions: NDArray[np.float64]) -> bool:
-    """Return whether all coordinates are whole numbers that a packed mesh can hold."""
-    return fits(positions, MAX_WIDE) and bool((positions % 1 == 0).all())
-
-
-def fits(positions: NDArray[np.float64], largest: int) -> bool:
-    """Return whether all coordinates lie in -largest-1..largest."""
-    return bool((positions <= largest).all() and (positions >= -largest - 1).all())
+def bits_of(positions: NDArray[np.float64]) -> int | None:
+    """Return how many bits each coordinate takes in a packed mesh, 16 or 24; None if one is no such whole number."""
+    low, high = positions.min(), positions.max()
+    sizes = [bits for bits, most in ((16, MAX_SHORT), (24, MAX_WIDE)) if -most - 1 <= low and high <= most]
+    return sizes[0] if sizes and (positions % 1 == 0).all() else None
 
 
 def _pack_normals(normals: NDArray[np.float64]) -> NDArray[np.uint8]:
