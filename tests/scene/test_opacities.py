@@ -13,11 +13,10 @@ from attrs import evolve
 from numpy.typing import NDArray
 from PIL import Image
 
-import shackled
 from pictures import draw
 from shackled import Camera, InputError, Light, Material, Mesh, Object, Scene, Texture, load
 from shackled.datasets.common import shapes
-from shackled.scene import MeshPart, decode, fit, objects_of, part_of, read_model, render_call, simplify, weld
+from shackled.scene import MeshPart, decode, fit, objects_of, part_of, render_call, simplify, weld
 from shackled.scene._codec import extensions
 from shackled.scene._crease import creased
 
@@ -42,9 +41,6 @@ def pixels(scene: Scene) -> NDArray[np.int64]:
     return draw(fit(scene)).astype(int)
 
 
-# ---- what a mesh takes ----
-
-
 def test_they_are_multiples_of_a_255th() -> None:
     assert SQUARE.opacities is not None
     assert np.rint(255 * SQUARE.opacities).tolist() == [0, 51, 255, 102]
@@ -65,28 +61,15 @@ def test_the_alpha_of_colours(kind: Any) -> None:
     assert evolve(mesh, colors="red").opacities is not None
 
 
-def test_the_alpha_of_one_colour_is_that_of_all() -> None:
-    mesh = Mesh(CORNERS, FACES, (1.0, 0.5, 0.0, 0.2))
-    assert mesh.rgba.tolist() == [[255, 128, 0, 51]] * 4
-    assert Mesh(CORNERS, FACES, (1, 2, 3, 255)).opacities is None
-
-
 @pytest.mark.parametrize(
     ("values", "message"),
     [
         ({"opacities": [0.5] * 3}, "a mesh of 4 vertices needs as many opacities, not 3"),
         ({"opacities": [0.5, 1.5, 1, 1]}, "the opacity of vertex 1 must be from 0 to 1, not 1.5"),
-        ({"opacities": [0.5, 1, -0.1, 1]}, "the opacity of vertex 2 must be from 0 to 1, not -0.1"),
         ({"opacities": [0.5, 1, 1, np.nan]}, "the opacity of vertex 3 must be from 0 to 1, not nan"),
         ({"opacities": "glass"}, "the opacities of a mesh must be numbers, one for each vertex"),
-        (
-            {"opacities": [[0.5]] * 4},
-            r"the opacities of a mesh must be numbers, one for each vertex, not of shape \(4, 1\)",
-        ),
-        (
-            {"opacities": [0.5] * 4, "colors": [(1, 2, 3, 4)] * 4},
-            "a mesh has opacities, or colours with an alpha below 255, not both",
-        ),
+        ({"opacities": [[0.5]] * 4}, r"the opacities of a mesh must be numbers, .* not of shape \(4, 1\)"),
+        ({"opacities": [0.5] * 4, "colors": [(1, 2, 3, 4)] * 4}, "a mesh has opacities, or colours with .* not both"),
         ({"colors": [(1, 2, 3, 256)] * 4}, "the colour of vertex 0 must be from 0 to 255"),
     ],
 )
@@ -95,15 +78,9 @@ def test_opacities_that_are_none(values: dict[str, Any], message: str) -> None:
         Mesh(CORNERS, FACES, **values)
 
 
-# ---- what keeps them ----
-
-
 def test_corners_of_other_opacities_are_other_vertices() -> None:
     colors = np.full((2, 3, 4), 255)
-    colors[1, :, 3] = [255, 255, 0]
-    mesh = weld(CORNERS, FACES, colors)
-    assert len(mesh.positions) == 4
-    colors[1, 0, 3] = 9
+    colors[1, :, 3] = [9, 255, 0]
     mesh = weld(CORNERS, FACES, colors)
     assert len(mesh.positions) == 5
     assert mesh.rgba[mesh.faces].tolist() == colors.tolist()
@@ -122,22 +99,10 @@ def test_creases_and_simplification_keep_them() -> None:
     assert np.abs(textured.opacities - textured.positions[:, 1] / np.ptp(BALL.positions[:, 1]) - 0.5).max() < 0.2
 
 
-def test_vertices_that_no_face_uses_are_left_out() -> None:
-    more = Mesh([[9, 9, 9], *CORNERS], np.array(FACES) + 1, opacities=[0.5, 0, 0.2, 1, 0.4])
-    (o,) = fit(scene_of(Object(more))).objects
-    assert o.mesh.opacities is not None
-    assert o.mesh.opacities.tolist() == np.asarray(SQUARE.opacities).tolist()
-    (o,) = fit(scene_of(Object(evolve(more, opacities=[0.5, 1, 1, 1, 1])))).objects
-    assert o.mesh.opacities is None
-
-
 def test_one_colour_for_all_keeps_them() -> None:
     (o,) = load([glass()], color="tomato").objects
     expected = [(255, 99, 71, alpha) for alpha in glass().mesh.rgba[:, 3]]
     assert (o.mesh.rgba == expected).all()
-
-
-# ---- calls, and files with scenes ----
 
 
 def test_records() -> None:
@@ -151,16 +116,6 @@ def test_records() -> None:
     assert records[:9] == b"\2\0\1\0\4\0\x80\0\0"
     assert records[9:14] == b"\10\0\1\0\2"
     assert records[14 + 64 :] == b"\t\0\1\0\1" + levels[0] + b"\t\0\2\0\2" + levels[1]
-
-
-def test_scene_files_links_and_pictures_keep_them(tmp_path: Path) -> None:
-    scene = scene_of(glass(), Object(SQUARE, opacity=0.5))
-    scene.save(tmp_path / "scene.json")
-    assert load(tmp_path / "scene.json") == scene
-    call = render_call(scene)
-    assert render_call(decode(call)) == call
-    shackled.render(scene).save(tmp_path / "scene.png")
-    assert render_call(load(tmp_path / "scene.png")) == call
 
 
 def test_a_scene_file(tmp_path: Path) -> None:
@@ -193,26 +148,6 @@ def test_records_that_are_wrong() -> None:
     for wrong in (*(call[: begin + at] + b"\1" + call[begin + at + 1 :] for at in (4, 31, -4)), opaque):
         with pytest.raises(InputError, match="the call is not the one that Shackled makes of its scene"):
             decode(wrong)
-
-
-# ---- files ----
-
-
-def test_ply(tmp_path: Path) -> None:
-    def read(kind: str, rows: Any) -> Mesh:
-        names = "".join(f"property {kind} {name}\n" for name in ("red", "green", "blue", "alpha"))
-        text = f"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n{names}"
-        text += "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-        for point, row in zip(CORNERS, rows, strict=False):
-            text += " ".join(map(str, [*point, *row])) + "\n"
-        path = tmp_path / "a.ply"
-        path.write_text(text + "3 0 1 2\n")
-        return read_model(path)[0].mesh
-
-    levels = [[1, 2, 3, 4], [5, 6, 7, 255], [8, 9, 10, 0]]
-    assert read("uchar", levels).rgba.tolist() == levels
-    assert read("float", [[0.2, 0.4, 0.6, 0.8]] * 3).rgba.tolist() == [[51, 102, 153, 204]] * 3
-    assert read("uchar", [[*row[:3], 255] for row in levels]).opacities is None
 
 
 def test_trimesh() -> None:
@@ -250,9 +185,6 @@ def test_masks_of_trimesh(given: float | None, expected: int | None) -> None:
     """Without a cutoff it is a half, as in glTF; one of 0 hides nothing."""
     texture = part_with(alphaMode="MASK", alphaCutoff=given, baseColorTexture=IMAGE).material["texture"]
     assert (None if texture.alpha is None else texture.cutoff) == expected
-
-
-# ---- pictures ----
 
 
 def test_what_is_not_opaque_shows_what_is_behind() -> None:

@@ -218,10 +218,7 @@ def units(rows: Any) -> Floats:
 def test_from_calls(seeds: range) -> None:
     for seed in seeds:
         scene = whole(seed)
-        call = render_call(scene)
-        found = decode(call)
-        assert_restored(found, scene)
-        assert render_call(found) == call
+        assert_restored(decode(render_call(scene)), scene)
 
 
 @pytest.mark.parametrize("seeds", [range(first, first + 100) for first in range(0, 400, 100)])
@@ -324,10 +321,8 @@ def test_a_disc_that_is_no_ground_stays_an_object() -> None:
         found = decode(render_call(Scene(things, camera)))
         return len(found.objects), found.ground is not None
 
-    assert objects(ball, disc) == (1, True)
-    assert objects(disc) == (0, True)
-    assert objects(disc, disc) == (1, True)
-    assert objects(disc, ball) == (2, False)
+    found = [objects(*things) for things in ((ball, disc), (disc,), (disc, disc), (disc, ball))]
+    assert found == [(1, True), (0, True), (1, True), (2, False)]
     for other in (
         evolve(disc, cull=False),
         evolve(disc, opacity=0.5),
@@ -338,8 +333,8 @@ def test_a_disc_that_is_no_ground_stays_an_object() -> None:
         evolve(disc, fade=(1, 3)),
     ):
         assert objects(ball, other) == (2, False)
-    found = decode(render_call(Scene([ball, evolve(disc, fade=(1, 2))], camera)))
-    assert found.ground == Ground("tan", 0, 2, (0, 0), 1)
+    scene = decode(render_call(Scene([ball, evolve(disc, fade=(1, 2))], camera)))
+    assert scene.ground == Ground("tan", 0, 2, (0, 0), 1)
 
 
 @pytest.mark.parametrize(

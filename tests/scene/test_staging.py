@@ -3,13 +3,13 @@ import pytest
 from numpy.typing import NDArray
 
 from shackled import load
+from shackled.datasets.common import shapes
 from shackled.errors import InputError
 from shackled.scene import Light, Material, Mesh, Scene, is_closed, painted, stage
 from shackled.scene._staging import signed_volume
 
-CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
-SIDES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-FACES = [face for a, b, c, d in SIDES for face in ((a, b, c), (a, c, d))]
+CORNERS = np.sign(shapes.cube().positions)
+FACES = shapes.cube().faces.tolist()
 BOX = Mesh(CORNERS * (1, 2, 3) * 100 + (1000, -50, 7), FACES)
 
 

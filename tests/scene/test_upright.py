@@ -92,8 +92,7 @@ def test_no_model_with_y_up_is_told_to_be_turned() -> None:
 
 def test_a_direction_of_a_model_is_its_upper_side() -> None:
     """Without a camera that it could tilt."""
-    same = load("z.obj", up=(0, 0, 2))
-    expected = load("z.obj", up_axis="z")
+    same, expected = load("z.obj", up=(0, 0, 2)), load("z.obj", up_axis="z")
     np.testing.assert_allclose(same.world_positions(), expected.world_positions(), atol=1e-12)
     np.testing.assert_allclose(same.camera.eye, expected.camera.eye, atol=1e-12)
     assert same.camera.up.tolist() == expected.camera.up.tolist() == [0, 1, 0]

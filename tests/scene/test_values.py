@@ -38,9 +38,6 @@ def scene(**changes: Any) -> Scene:
     return replace(Scene([Object(MESH)], Camera((0, 0, 5)), [Light("point", (1, 2, 3))]), **changes)
 
 
-# ---- what is equal ----
-
-
 @pytest.mark.parametrize(
     ("make", "changes"),
     [
@@ -84,9 +81,6 @@ def test_arrays_cannot_be_written_to() -> None:
 def test_a_change_shares_the_arrays_that_stay() -> None:
     assert replace(MESH, colors="red").positions is MESH.positions
     assert replace(MESH, colors="red").faces is MESH.faces
-
-
-# ---- numbers ----
 
 
 def test_colours_are_bytes_or_fractions() -> None:
@@ -188,9 +182,6 @@ def test_numbers_in_strings_are_numbers() -> None:
     assert Object(MESH, scale="2") == Object(MESH, scale=2)
 
 
-# ---- cameras, lights and places in other words ----
-
-
 @pytest.mark.parametrize("angles", [(0, 0, 0), (90, 0, 0), (20, -130, 55), (0, 180, 0), (179, 1, 178)], ids=str)
 def test_rotations_by_angles_and_by_matrix(angles: tuple[float, ...]) -> None:
     quaternion = shackled.euler(*angles)
@@ -230,9 +221,6 @@ def test_counts_and_bounds() -> None:
     assert Scene([]).bounds.tolist() == [[0, 0, 0]] * 2
 
 
-# ---- what is not given ----
-
-
 def test_objects_alone_are_staged() -> None:
     """They fill the picture, are lit, and stand before a background."""
     place = load("teapot").objects[0]
@@ -252,8 +240,6 @@ def test_objects_alone_are_staged() -> None:
     with pytest.raises(InputError, match="too large for a camera to be placed"):
         Scene([Mesh([(1e307, 0, 0), (0, 1e300, 0), (0, 0, 0)], FACES)])
 
-
-# ---- kinds ----
 
 ROTATION = "the rotation of an object must be"
 

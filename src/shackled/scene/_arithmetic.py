@@ -118,10 +118,7 @@ def multiply(second: ArrayLike, first: ArrayLike) -> Array:
 
 def rotate(quaternion: ArrayLike, points: ArrayLike) -> Array:
     """Return the points, (3,) or (n, 3), turned by a quaternion of any length but zero."""
-    q, p = vector(quaternion, "a rotation", 4), np.asarray(points, dtype=np.float64)
-    if not q.any():
-        raise InputError("a rotation must not be the zero quaternion; the identity is (0, 0, 0, 1)")
-    q = unit(q)
+    q, p = unit(_rotation(quaternion)), np.asarray(points, dtype=np.float64)
     t = 2 * cross(q[:3], p)
     return np.asarray(p + q[3] * t + cross(q[:3], t))
 
@@ -169,6 +166,10 @@ def rotation_of(value: ArrayLike, name: str = "a rotation") -> Floats:
         raise InputError(
             f"{name} must be x, y, z in degrees, a quaternion x, y, z, w, or a 3 x 3 matrix, not {value!r:.60}"
         )
+    return _rotation(value, name)
+
+
+def _rotation(value: ArrayLike, name: str = "a rotation") -> Floats:
     quaternion = vector(value, name, 4)
     if not quaternion.any():
         raise InputError(f"{name} must not be the zero quaternion; the identity is (0, 0, 0, 1)")

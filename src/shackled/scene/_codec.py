@@ -21,7 +21,6 @@ from . import _records as record
 from ._arithmetic import cosine
 from ._files.table import about
 from ._fit import fit
-from ._light import Light
 from ._object import Object
 from ._packed import pack, pack_alpha, pack_texture
 from ._scene import Scene
@@ -78,9 +77,7 @@ def encode_scene(scene: Scene) -> bytes:
         [
             scene.width,
             scene.height,
-            *_q32(camera.eye),
-            *_q32(camera.target),
-            *_q32(camera.up),
+            *_q32([*camera.eye, *camera.target, *camera.up]),
             PROJECTIONS[camera.projection],
             *_q32([camera.half_height, camera.near or 0.0]),
             _rgb(scene.background.top),
@@ -89,8 +86,13 @@ def encode_scene(scene: Scene) -> bytes:
             _rgb(scene.ambient_light),
         ]
     )
-    lights = _words([len(scene.lights)]) + b"".join(map(_light, scene.lights))
-    objects = _array_of_dynamic([encode_object(o) for o in scene.objects])
+    words = [len(scene.lights)]
+    for light in scene.lights:
+        words += [LIGHTS[light.kind], *_q32(light.vector), _rgb(light.color)]
+    lights = _words(words)
+    structs = [encode_object(o) for o in scene.objects]
+    *places, _ = accumulate(map(len, structs), initial=WORD * len(structs))
+    objects = _words([len(structs), *places]) + b"".join(structs)
     offsets = accumulate([len(lights), len(objects)], initial=len(head) + 3 * WORD)
     return head + _words(offsets) + lights + objects + _bytes(extensions(scene))
 
@@ -159,17 +161,11 @@ def _record(kind: int, index: int, content: bytes) -> bytes:
     return struct.pack(">BHH", kind, index, size) + content
 
 
-def _light(light: Light) -> bytes:
-    return _words([LIGHTS[light.kind], *_q32(light.vector), _rgb(light.color)])
-
-
 def encode_object(o: Object) -> bytes:
     """Return the struct Object of an object from `fit`."""
     material = o.material
     fields = [
-        *_q32(o.position),
-        *_q32(o.rotation),
-        *_q32([o.scale]),
+        *_q32([*o.position, *o.rotation, o.scale]),
         SHADINGS[material.shading],
         *_q32([material.ambient, material.diffuse, material.specular]),
         material.shininess,
@@ -181,11 +177,6 @@ def encode_object(o: Object) -> bytes:
 
 def _bytes(content: bytes) -> bytes:
     return _words([len(content)]) + content + bytes(-len(content) % 32)
-
-
-def _array_of_dynamic(items: list[bytes]) -> bytes:
-    *offsets, _ = accumulate(map(len, items), initial=WORD * len(items))
-    return _words([len(items), *offsets]) + b"".join(items)
 
 
 def _q32(values: ArrayLike) -> list[int]:

@@ -122,8 +122,7 @@ def _made(kind: Callable[..., Effect], value: Any, name: str) -> Effect | None:
 
 def fog_of(value: Any, name: str = "the fog") -> Fog | None:
     """Return fog, given as itself or as (colour, near, far)."""
-    found = fog_or_color(value, name)
-    if isinstance(found, tuple):
+    if isinstance(found := fog_or_color(value, name), tuple):
         raise InputError(f"{name} must be a shackled.Fog or (colour, near, far), not {value!r:.60}")
     return found
 

@@ -23,7 +23,7 @@ from ._camera import Camera
 from ._light import Light
 from ._mesh import MAX_FACES, MAX_VERTICES, part_of_faces, vertex_normals
 from ._object import Object
-from ._packed import MAX_SHORT, MAX_WIDE, fits, is_integral
+from ._packed import MAX_SHORT, MAX_WIDE, bits_of
 from ._scene import Scene
 
 Array = NDArray[np.float64]
@@ -32,8 +32,8 @@ Array = NDArray[np.float64]
 MAX_COORDINATE = 2.0**26
 MIN_HALF_HEIGHT = 2.0**-12
 STEP = 2.0**-32
-#: A mesh of so many bits a coordinate must not be scaled by more.
-MAX_SCALE = {16: 2.0**12, 24: 2.0**4}
+#: A mesh of so many bits a coordinate must not be scaled by more; one of other coordinates is quantized.
+MAX_SCALE = {16: 2.0**12, 24: 2.0**4, None: -1.0}
 
 #: The largest step of a mesh's grid, in pixels, before a finer grid is used.
 STEP_IN_PIXELS = 1 / 32
@@ -77,13 +77,13 @@ def _pointed(light: Light) -> Light:
 
 
 def _check_view(camera: Camera) -> None:
-    eye, target, up = camera.eye, camera.target, camera.up
-    if (eye == target).all():
-        raise InputError(f"the camera's eye and target are the same point, {_show(eye)}")
+    forward, up = camera.target - camera.eye, camera.up
+    if not forward.any():
+        raise InputError("the camera's eye and target are the same point, ({:g}, {:g}, {:g})".format(*camera.eye))
     if not up.any():
         raise InputError("the camera's up must not be (0, 0, 0)")
-    if length(np.cross(unit(target - eye), unit(up))) < 1e-9:
-        raise InputError(f"the camera looks along its up direction, {_show(up)}; choose another up")
+    if length(np.cross(unit(forward), unit(up))) < 1e-9:
+        raise InputError("the camera looks along its up direction, ({:g}, {:g}, {:g}); choose another up".format(*up))
 
 
 def _prepare(o: Object) -> Object:
@@ -110,7 +110,7 @@ def _is_exact(scene: Scene) -> bool:
     reach = max(map(abs, lengths))
     for o in scene.objects:
         positions = o.mesh.positions
-        if not is_integral(positions) or o.scale > MAX_SCALE[_bits(positions)]:
+        if o.scale > MAX_SCALE[bits_of(positions)]:
             return False
         lengths += [o.scale, *o.position]
         reach = max(reach, np.abs(o.position).max() + o.scale * np.abs(positions).max())
@@ -142,8 +142,7 @@ def _factor(scene: Scene) -> float:
         # what is so near to the eye is clear in fog that ends beyond
         reach = max(reach, min(scene.fog.far, 1024 * reach))
     exponent = REACH_EXPONENT - math.frexp(reach)[1] if reach else 0
-    if size:
-        exponent = min(exponent, SIZE_EXPONENT - math.frexp(size)[1])
+    exponent = min(exponent, SIZE_EXPONENT - math.frexp(size)[1]) if size else exponent
     return math.ldexp(1.0, min(max(exponent, -1000), 1000))
 
 
@@ -214,7 +213,7 @@ def _move_object(o: Object, scene: Scene, factor: float, near: float) -> Object:
     """Return the object about the eye. near: the distance of the near plane, times the factor."""
     positions = o.mesh.positions
     center, step = np.zeros(3), 1.0
-    if not is_integral(positions) or o.scale * factor > MAX_SCALE[_bits(positions)]:
+    if o.scale * factor > MAX_SCALE[bits_of(positions)]:
         # the radii of a fade are about the object's position, which therefore stays
         center, radius = _box(positions) if o.fade is None else (center, float(np.abs(positions).max()))
         step = radius / _steps(o, radius, scene, factor, near)
@@ -240,10 +239,6 @@ def _steps(o: Object, radius: float, scene: Scene, factor: float, near: float) -
     return int(min(max(math.sqrt(size * factor / STEP), MAX_SHORT), MAX_WIDE))
 
 
-def _bits(positions: Array) -> int:
-    return 16 if fits(positions, MAX_SHORT) else 24
-
-
 def _box(positions: Array) -> tuple[Array, float]:
     """Return the middle of the bounding box, and the largest distance from it along an axis."""
     low, high = positions.min(axis=0) / 2, positions.max(axis=0) / 2
@@ -253,10 +248,6 @@ def _box(positions: Array) -> tuple[Array, float]:
 def _direction(v: Array) -> Array:
     low, high = DIRECTION_LENGTHS
     return v if low <= np.abs(v).max() <= high else unit(v)
-
-
-def _show(v: Array) -> str:
-    return f"({', '.join(f'{x:g}' for x in v)})"
 
 
 def divided(o: Object) -> list[Object]:

@@ -69,9 +69,8 @@ def look_at(
     thing: also the parts of a model, as objects in its own coordinates. name: of the model, in warnings. around:
     points, (n, 3), of a model that are to fill the picture in place of its own.
     """
-    for setting in settings_of("file"):
-        if setting.name in look:
-            raise InputError(f"`{setting.name}` is for what is read of one glTF file")
+    if of_file := _given(look, "file"):
+        raise InputError(f"`{next(iter(of_file))}` is for what is read of one glTF file")
     if isinstance(thing, Scene) and not look:
         return thing
     view = None
@@ -103,7 +102,11 @@ def look_at(
     if by_normals and "two_sided" not in look:
         is_small = sum(len(each.mesh.positions) for each in objects if not each.cull) <= MOST_TWO_SIDED
         objects = [evolve(each, two_sided=not each.cull and (each.two_sided or is_small)) for each in objects]
-    scene = evolve(scene, objects=objects, tone=_tone(scene.tone, look), **chosen)
+    tone = scene.tone
+    if of_tone := _given(look, "tone"):
+        changed = evolve(tone or Tone(), **of_tone)
+        tone = None if changed == Tone() else changed
+    scene = evolve(scene, objects=objects, tone=tone, **chosen)
     if by_normals and "background" not in look:
         scene = evolve(scene, background=contrasting(scene.objects))
     if "preset" in look and "lights" not in look:
@@ -180,13 +183,6 @@ def _object(o: Object, look: Mapping[str, Any]) -> Object:
     shading = material.pop("shading", "smooth" if "crease" in look else o.material.shading)
     o = evolve(o, material=evolve(o.material, **material), **changes)
     return shaded(o, shading, look.get("crease"), anew="crease" in look)
-
-
-def _tone(tone: Tone | None, look: Mapping[str, Any]) -> Tone | None:
-    if not (chosen := _given(look, "tone")):
-        return tone
-    changed = evolve(tone or Tone(), **chosen)
-    return None if changed == Tone() else changed
 
 
 def _fog_between(scene: Scene, color: Color) -> Fog:

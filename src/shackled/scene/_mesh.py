@@ -54,17 +54,14 @@ def _faces(values: ArrayLike) -> NDArray[np.int64]:
     name = "the faces of a mesh"
     if not isinstance(values, np.ndarray) or values.dtype != np.int64:
         values = _floats(values, name, "rows of 3 numbers")
-    rows = _rows(_triangles(values), name)
+    if values.ndim == 2 and values.shape[1] == 4:
+        values = values[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    rows = _rows(values, name)
     bad = np.flatnonzero(~((rows % 1 == 0) & (np.abs(rows) < 2**53)).all(axis=1))
     if len(bad):
         named = ", ".join(f"{number:.17g}" for number in rows[bad[0]])
         raise InputError(f"face {bad[0]} names the vertices [{named}], which must be whole numbers")
     return fixed(rows, np.int64)
-
-
-def _triangles(faces: NDArray[Number]) -> NDArray[Number]:
-    """Return faces of 4 corners each cut in two, (2 m, 3), and others as they are."""
-    return faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3) if faces.ndim == 2 and faces.shape[1] == 4 else faces
 
 
 def _opacities(values: ArrayLike | None) -> Floats | None:

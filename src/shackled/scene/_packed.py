@@ -39,18 +39,16 @@ def pack(mesh: Mesh, smooth: bool = False) -> bytes:
             f"a mesh has {len(positions):,} vertices and {len(faces):,} triangles; a contract takes {MAX_VERTICES:,}"
             f" and {MAX_FACES:,}: simplify it with `max_triangles`"
         )
-    if not is_integral(positions):
+    if (bits := bits_of(positions)) is None:
         raise InputError(f"a packed mesh needs whole coordinates from {-MAX_WIDE - 1:,} to {MAX_WIDE:,}")
     coordinates = np.ascontiguousarray(positions, dtype=">i4")
-    wide = not fits(positions, MAX_SHORT)
-    octets = coordinates.view(np.uint8).reshape(len(positions), 3, 4)[:, :, 1 if wide else 2 :]
+    octets = coordinates.view(np.uint8).reshape(len(positions), 3, 4)[:, :, 4 - bits // 8 :]
     columns = [octets.reshape(len(positions), -1), mesh.colors]
     if smooth:
         normals = vertex_normals(positions, faces) if mesh.normals is None else units(mesh.normals)
         columns.append(_pack_normals(normals))
-    header = np.array([len(positions), len(faces)], dtype=">u2").tobytes()
-    kind = bytes([WIDE * wide + NORMALS * smooth])
-    return kind + header + np.hstack(columns).tobytes() + faces.astype(">u2").tobytes()
+    header = struct.pack(">BHH", WIDE * (bits == 24) + NORMALS * smooth, len(positions), len(faces))
+    return header + np.hstack(columns).tobytes() + faces.astype(">u2").tobytes()
 
 
 def unpack(packed: bytes) -> Mesh:
@@ -74,14 +72,11 @@ def unpack(packed: bytes) -> Mesh:
     return Mesh(positions, corners, np.array(rows[:, 3 * size : 3 * size + 3]), normals)
 
 
-def is_integral(positions: NDArray[np.float64]) -> bool:
-    """Return whether all coordinates are whole numbers that a packed mesh can hold."""
-    return fits(positions, MAX_WIDE) and bool((positions % 1 == 0).all())
-
-
-def fits(positions: NDArray[np.float64], largest: int) -> bool:
-    """Return whether all coordinates lie in -largest-1..largest."""
-    return bool((positions <= largest).all() and (positions >= -largest - 1).all())
+def bits_of(positions: NDArray[np.float64]) -> int | None:
+    """Return how many bits each coordinate takes in a packed mesh, 16 or 24; None if one is no such whole number."""
+    low, high = positions.min(), positions.max()
+    sizes = [bits for bits, most in ((16, MAX_SHORT), (24, MAX_WIDE)) if -most - 1 <= low and high <= most]
+    return sizes[0] if sizes and (positions % 1 == 0).all() else None
 
 
 def _pack_normals(normals: NDArray[np.float64]) -> NDArray[np.uint8]:
@@ -94,10 +89,9 @@ def _pack_normals(normals: NDArray[np.float64]) -> NDArray[np.uint8]:
 def _unpack_normals(octets: NDArray[np.uint8]) -> NDArray[np.float64]:
     """Return vectors, (n, 3), that `_pack_normals` rounds to the same numbers, although it makes them unit vectors.
 
-    Those numbers do not always round to themselves at a length of exactly `NORMAL_UNIT`. Between them and a corner of
-    the cube of half a step around them, the nearest to the origin or the farthest from it, there is a point of that
-    length: the length of a corner never equals it, since the sum of three odd squares is 3 modulo 8. Numbers of other
-    lengths, which `_pack_normals` does not make, stay as they are.
+    Those do not always round to themselves at a length of exactly `NORMAL_UNIT`. Between them and a corner of the cube
+    of half a step around them, the nearest to the origin or the farthest from it, there is a point of that length: a
+    corner never has it, since the sum of three odd squares is 3 modulo 8. Numbers of other lengths stay as they are.
     """
     words = np.ascontiguousarray(octets).view(">u4").astype(np.int64)
     numbers = ((words >> np.array([22, 12, 2]) & 1023 ^ 512) - 512).astype(np.float64)
@@ -147,15 +141,11 @@ def _pack_image(texture: Texture, pixels: NDArray[np.uint8]) -> bytes:
     texels = pixels.reshape(-1, 3)
     colors, numbers = np.unique(texels, axis=0, return_inverse=True)
     bits = next((each for each in INDEX_BITS if len(colors) <= 1 << each), COLOR_BITS)
-    content = texels.tobytes() if bits == COLOR_BITS else _indexed(colors, numbers.reshape(-1), bits)
-    return bytes([flags, texture.width - 1, texture.height - 1, bits]) + content
-
-
-def _indexed(colors: NDArray[np.uint8], numbers: NDArray[np.int64], bits: int) -> bytes:
-    palette = np.zeros((1 << bits, 3), np.uint8)
-    palette[: len(colors)] = colors
-    digits = np.unpackbits(numbers.astype(np.uint8)[:, None], axis=1)[:, 8 - bits :]
-    return palette.tobytes() + np.packbits(digits).tobytes()
+    header = bytes([flags, texture.width - 1, texture.height - 1, bits])
+    if bits == COLOR_BITS:
+        return header + texels.tobytes()
+    digits = np.unpackbits(numbers.reshape(-1, 1).astype(np.uint8), axis=1)[:, 8 - bits :]
+    return header + colors.tobytes().ljust(3 << bits, b"\0") + np.packbits(digits).tobytes()
 
 
 def _pack_uvs(uvs: Floats) -> bytes:

@@ -32,14 +32,6 @@ class Lamp:
     color: Color = field(default=WHITE, converter=checks.color)
 
 
-def _material(fields: Mapping[str, Any]) -> Material:
-    return Material(**fields)
-
-
-def _lamps(rows: Iterable[Iterable[Any]]) -> tuple[Lamp, ...]:
-    return tuple(Lamp(*row) for row in rows)
-
-
 @frozen
 class Preset:
     """A look.
@@ -49,8 +41,8 @@ class Preset:
 
     name: str
     help: str
-    material: Material = field(converter=_material)
-    lamps: tuple[Lamp, ...] = field(converter=_lamps)
+    material: Material
+    lamps: tuple[Lamp, ...]
     background: Background = field(converter=background_of)
     color: Color | None = field(default=None, converter=optional(checks.color))
     ambient_light: Color = field(default=WHITE, converter=checks.color)
@@ -77,10 +69,12 @@ class Preset:
         ]
 
 
-PRESETS = tuple(
-    Preset(name, **fields)
-    for name, fields in tomllib.loads(files(__package__).joinpath("presets.toml").read_text("utf-8")).items()
-)
+def _preset(name: str, material: Mapping[str, Any], lamps: Iterable[Iterable[Any]], **fields: Any) -> Preset:
+    return Preset(name, material=Material(**material), lamps=tuple(Lamp(*each) for each in lamps), **fields)
+
+
+_FIELDS = tomllib.loads(files(__package__).joinpath("presets.toml").read_text("utf-8"))
+PRESETS = tuple(_preset(name, **fields) for name, fields in _FIELDS.items())
 
 
 def preset_of(name: str) -> Preset:

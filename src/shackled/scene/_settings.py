@@ -45,9 +45,8 @@ Kind = _Plain | Literal["background", "lights", "hemisphere", "rim", "fog", "gro
 class Setting:
     """A setting of the look of a picture.
 
-    name: the keyword; `option` is --name with dashes, unless it is another. part: the class whose field this is, in
-    Python and in scene files; None for what only `load` and the command line take. limits, unit: for numbers. default:
-    shown in the help.
+    name: the keyword. part: the class whose field this is, in Python and in scene files; None for what only `load` and
+    the command line take. limits, unit: for numbers. default: shown in the help. option: --name, unless it is another.
     """
 
     name: str
@@ -108,11 +107,9 @@ def _entry(value: object, setting: Setting, name: str) -> str | int:
 
 
 def _count(value: object, setting: Setting, name: str) -> int | str:
-    if isinstance(value, str):
-        if value == ALL:
-            return ALL
+    if isinstance(value, str) and value != ALL:
         raise InputError(f"{name} must be a whole number, at least {setting.limits[0]:g}, or {ALL}, not {value!r:.60}")
-    return whole(value, name, *setting.limits)
+    return ALL if isinstance(value, str) else whole(value, name, *setting.limits)
 
 
 def _unless_none(made: Callable[[Any, str], Any]) -> Callable[[Any, Setting, str], Any]:
@@ -124,7 +121,7 @@ def _unless_none(made: Callable[[Any, str], Any]) -> Callable[[Any, Setting, str
 
 def _flag(value: object, setting: Setting, name: str) -> bool:
     # an antialiased picture has four samples per pixel
-    return True if setting.name == "antialias" and integer(value) == 4 else flag(value, name)
+    return (setting.name == "antialias" and integer(value) == 4) or flag(value, name)
 
 
 def size_of(value: int | tuple[int, int], name: str = "`size`") -> tuple[int, int]:
@@ -191,7 +188,7 @@ _DEFAULTS = {
 #: By groups, in the order in which they are shown.
 _GROUPS: dict[str, list[Setting]] = {
     "Canvas": [
-        Setting("size", "size", None, "Width and height of the picture.", (1, MAX_SIDE), unit="pixels"),
+        Setting("size", "size", None, "Width and height of the picture.", (1, MAX_SIDE), "pixels"),
         Setting(
             "max_triangles",
             "count",
@@ -222,11 +219,11 @@ _GROUPS: dict[str, list[Setting]] = {
             "camera",
             "Angle at which the camera stands above the horizon.",
             ELEVATIONS,
-            unit="degrees",
+            "degrees",
         ),
         Setting("margin", "number", "camera", "Free border, as a fraction of half the picture.", MARGINS),
         Setting(
-            "fov", "number", "camera", "Vertical field of view of a perspective camera.", FIELDS_OF_VIEW, unit="degrees"
+            "fov", "number", "camera", "Vertical field of view of a perspective camera.", FIELDS_OF_VIEW, "degrees"
         ),
         Setting(
             "half_height",
@@ -274,7 +271,7 @@ _GROUPS: dict[str, list[Setting]] = {
             None,
             "Compute normals for smooth shading, except across edges of more than this angle.",
             CREASES,
-            unit="degrees",
+            "degrees",
         ),
         Setting("smooth", "flag", None, "Same as --shading smooth.", option="--smooth"),
         Setting("unlit", "flag", None, "Same as --shading unlit.", option="--unlit"),
@@ -301,7 +298,7 @@ _GROUPS: dict[str, list[Setting]] = {
     ],
     "glTF files": [
         Setting("animation", "entry", "file", "Animation that poses the model."),
-        Setting("time", "number", "file", "Time in the animation.", (0, math.inf), unit="seconds"),
+        Setting("time", "number", "file", "Time in the animation.", (0, math.inf), "seconds"),
         Setting("use_camera", "entry", "file", "Camera of the file that is taken, with the lights there."),
     ],
 }
@@ -408,21 +405,16 @@ def _taken_apart(given: dict[str, Any]) -> dict[str, Any]:
     """Return keywords with the settings of a camera, a material, and a width and height in place of these."""
     if {"width", "height"} <= given.keys():
         given.setdefault("size", (given.pop("width"), given.pop("height")))
+    found: dict[str, Any] = {}
     if isinstance(camera := given.get("camera"), Camera):
-        fields = {name: getattr(camera, name) for name in ("eye", "target", "up", "half_height", "near")}
-        fields["orthographic"] = camera.projection == "orthographic"
-        given = _in_place_of("camera", fields, given)
+        del given["camera"]
+        names = ("eye", "target", "up", "near", *(() if "fov" in given else ("half_height",)))
+        found = {name: getattr(camera, name) for name in names if getattr(camera, name) is not None}
+        found["orthographic"] = camera.projection == "orthographic"
     if isinstance(material := given.get("material"), Material) and material.texture is None:
-        fields = {setting.name: getattr(material, setting.name) for setting in settings_of("material")}
-        given = _in_place_of("material", fields, given)
-    return given
-
-
-def _in_place_of(part: str, fields: dict[str, Any], given: dict[str, Any]) -> dict[str, Any]:
-    found = {name: value for name, value in fields.items() if value is not None}
-    if "fov" in given:
-        found.pop("half_height", None)
-    return found | {name: value for name, value in given.items() if name != part}
+        del given["material"]
+        found |= {setting.name: getattr(material, setting.name) for setting in settings_of("material")}
+    return found | given
 
 
 def exclude(given: Collection[str], quote: Callable[[str], str]) -> None:
