@@ -257,8 +257,12 @@ def test_keys(visit: Visit) -> None:
     assert all(each in shown for each in ("Turn", "Zoom", "Undo", "Wireframe", "Surprise"))
     page.page.keyboard.press("Escape")
     dialog.wait_for(state="detached")
+    seen = page.pixels()
     for key in ("l", "2", "h", "w", "c", "i", "a", "p", "f", "ArrowDown", "Shift+ArrowLeft", "+", "-", "0"):
         page.after(page.press(key))
+    while page.run("app.canUndo.value"):
+        last = page.after(page.press("Control+z"))
+    assert last == seen
     for key, name in (("Enter", "limits"), ("Control+s", "download")):
         page.press(key)()
         page.page.locator(f"#{name}").wait_for()

@@ -43,9 +43,8 @@ def test_it_asks_for_few_files_of_its_own(visit: Visit, server: Static) -> None:
             assert not re.search("""(src|href)=["']?/""", path.read_text())
 
 
-@pytest.mark.parametrize("viewport", [{}, PHONE], ids=["desk", "phone"])
-def test_from_disk(visit: Visit, tmp_path: Path, viewport: dict[str, int]) -> None:
-    page = visit(TOWN, disk=True, **viewport)
+def test_from_disk(visit: Visit, tmp_path: Path) -> None:
+    page = visit(TOWN, disk=True, **PHONE)
     assert page.settle() == drawn(TOWN, tmp_path).pixels.tobytes()
     page.after(lambda: page.drop(**{"mine.obj": OBJ.encode()}))
     page.after(page.press("i"))
