@@ -35,13 +35,9 @@ def test_with_the_keyboard_only(visit: Visit) -> None:
     page.page.keyboard.press("Tab")
     page.page.keyboard.press("Enter")
     assert page.run("document.activeElement.id") == "view"
-    seen = [page.pixels()]
-    for key in ("ArrowRight", "ArrowDown", "+", "Shift+ArrowLeft", "l", "w", "p"):
-        seen.append(page.after(lambda key=key: page.page.keyboard.press(key)))  # type: ignore[misc]
-    assert len(set(seen)) == len(seen)
-    while page.run("app.canUndo.value"):
-        last = page.after(lambda: page.page.keyboard.press("Control+z"))
-    assert last == seen[0]
+    shown = page.pixels()
+    assert page.after(lambda: page.page.keyboard.press("ArrowRight")) != shown
+    assert page.after(lambda: page.page.keyboard.press("Control+z")) == shown
     for name in DIALOGS:
         page.dialog(name)
         assert page.run("document.activeElement.closest('dialog')?.id") == name

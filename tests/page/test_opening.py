@@ -8,7 +8,6 @@ import json
 import random
 import zipfile
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from PIL import Image as PillowImage
@@ -113,21 +112,20 @@ def test_files(visit: Visit) -> None:
     assert not [each for each in page.run("app.toasts.value") if each["kind"] == "error"]
 
 
-def still_life() -> dict[str, Any]:
-    """Objects on a ground, in a light with shadow."""
-    return scene(
-        "cube",
-        {"mesh": {"piece": "cone", "object": 0}, "position": [2.5, 0, 0]},
-        size=[64, 48],
-        ground={"color": "#807060"},
-        lights=[{"kind": "directional", "direction": [1, 2, 1], "shadow": True}],
-        fog={"color": "#8892a2", "near": 4, "far": 20},
-    )
+#: Objects on a ground, in a light with shadow.
+STILL_LIFE = scene(
+    "cube",
+    {"mesh": {"piece": "cone", "object": 0}, "position": [2.5, 0, 0]},
+    size=[64, 48],
+    ground={"color": "#807060"},
+    lights=[{"kind": "directional", "direction": [1, 2, 1], "shadow": True}],
+    fog={"color": "#8892a2", "near": 4, "far": 20},
+)
 
 
 def files_of(folder: Path) -> dict[str, dict[str, bytes]]:
     """The still life in each form in which it can be dropped."""
-    image = drawn(still_life(), folder)
+    image = drawn(STILL_LIFE, folder)
     assert image.scene is not None
     image.save(folder / "a.png")
     image.scene.save(folder / "a.json")
@@ -140,7 +138,7 @@ def files_of(folder: Path) -> dict[str, dict[str, bytes]]:
         "png": {"a.png": (folder / "a.png").read_bytes()},
         "toml": {"scene.toml": toml, "part.obj": OBJ.encode()},
         "json": {"a.json": (folder / "a.json").read_bytes()},
-        "references": {"b.json": json.dumps(still_life()).encode()},
+        "references": {"b.json": json.dumps(STILL_LIFE).encode()},
         "zip": {"all.zip": packed.getvalue()},
     }
 
@@ -204,44 +202,31 @@ def test_what_is_told_of_files(visit: Visit) -> None:
 
 
 #: Links of the Creator that had a server, with size, an object, and pixels: means of a 4 x 4 grid.
-OLD_LINKS = {
-    "plain": (
-        "I6wUYmRKZmJuPlC6Vgc9cZhYINKGsVFtLQA",
-        [48, 32],
-        "3520547474937076943520544c3d78a0e6f56ec2de4a3e75673b80485b8e3d578a673b807f49967e4e987b50987f4996",
-    ),
-    "posed": (
-        "I0Ep9qgxAvrXEDNqDEEhYQwidI1QosdAzwJoFFIcYSQlHaRkYgg0ADmhmAG58IhJNjAxMAal4PyCxOTMkkqQ4eZAw7EmdyOgUhPU5J5okGSQbADy"
-        "GVp6NzFAJHdjo9paAA",
-        [40, 32],
-        "2f3f4f2f3e4e303e4e2f3f4f50607081515279494a525e6d71819176717c69606771819192a2b292a2b292a2b292a2b2",
-    ),
-    "lit": (
+OLD_LINKS = (
+    (
         "jVPLCsMgEPyXnKVoaoP0X0oJYlOhajAN7cV_746ERtMeghdd9jE74-xIDXGeKHMPmUfsX-4oc2DlosWzYFZrpTKKpeMEVKU63bZjy6sWSmlN4rBS"
         "BlHIYL038Zr91ZxFrg3zcw0Bcbqwf7ZhvyaTHKeBGZydxruJmTjgQgWRFK0rI9Wyi9_G8DIUkQnyDnW2NzCHAMwbbh2ho92Cz3PMm1wxY6Y4nCjD"
         "Phz9kqV06J3rvzg2DpZ8NbDkKX0A",
-        [40, 40],
+        40,
         "d7dee6ccc5cfccc5d0d6dde5ba97a9b18993b395a7b88f9db39bacb86d74b76c70b28e9aa9b6c5a8abb9a8abbaa9b6c5",
     ),
-    "genesis": (
+    (
         "I6wUZrQpUDWSt3G7GqgMLf2YGCCSj4lBbS0A",
-        [40, 40],
+        40,
         "0000000000000e03000000000000001e0c040101010000000101010202022016130101010101010b0401010101010101",
     ),
-}
+)
 
 
 def test_links_of_the_page_that_had_a_server(visit: Visit) -> None:
-    page = visit("?p=1" + OLD_LINKS["plain"][0])
-    for name, (text, size, colors) in OLD_LINKS.items():
-        if name != "plain":
-            page.after(lambda text=text: page.run("void (location.hash = argument)", f"#1{text}"))  # type: ignore[misc]
-        width, height = page.doc()["width"], page.doc()["height"]
-        assert [width, height] == size
-        picture = PillowImage.frombytes("RGB", (width, height), page.pixels())
+    """web/tests/creator-core.test.ts has the numbers of others."""
+    for text, side, colors in OLD_LINKS:
+        page = visit(f"?p=1{text}")
+        assert [page.doc()["width"], page.doc()["height"]] == [side, side]
+        picture = PillowImage.frombytes("RGB", (side, side), page.pixels())
         found = np.array(picture.resize((4, 4), PillowImage.Resampling.BOX)).ravel()
         expected = np.frombuffer(bytes.fromhex(colors), np.uint8).astype(int)
-        assert np.abs(found - expected).max() <= 3, name
+        assert np.abs(found - expected).max() <= 3
 
 
 def test_a_link_that_is_none_is_told_and_something_is_shown(visit: Visit) -> None:
@@ -279,24 +264,11 @@ def test_links_of_files(visit: Visit) -> None:
 # ---- what is kept ----
 
 
-#: Whether the inverted picture is what was last shown.
-AUTOSAVED = """new Promise(done => {
-    const opening = indexedDB.open('shackled-creator');
-    opening.onsuccess = () => {
-        const request = opening.result.transaction('things').objectStore('things').get('last');
-        request.onsuccess = () => {
-            opening.result.close();
-            done(request.result?.document.invert);
-        };
-    };
-})"""
-
-
 def test_what_is_kept(visit: Visit) -> None:
     page = visit(scene("cube"))
     page.after(lambda: page.drop(**{"mine.obj": OBJ.encode()}))
     shown = page.after(page.press("i"))
-    page.wait(AUTOSAVED)
+    page.kept()
     # the plain address remembers
     other = visit("", context=page.page.context)
     assert other.pixels() == shown

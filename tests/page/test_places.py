@@ -34,6 +34,16 @@ def test_it_asks_for_few_files_of_its_own(visit: Visit, server: Static) -> None:
     assert "unsafe-inline" not in policy
     assert "'unsafe-eval'" not in policy
 
+    # once all of it has been loaded, the page needs nobody: from a cache of the browser, or of IPFS
+    page.close()
+    page.dialog("limits")
+    page.page.locator("#limits tr.total").wait_for()
+    page.close()
+    page.page.context.set_offline(True)
+    asked = len(server.asked)
+    page.after(lambda: page.drag(40, 10))
+    page.after(page.click("look-gold"))
+    assert len(server.asked) == asked
     # all of it is small
     files = [path for path in PAGE.rglob("*") if path.is_file() and path.name not in ("preview.jpg", "LICENSES.txt")]
     assert sum(len(gzip.compress(path.read_bytes(), 9)) for path in files) <= MOST
@@ -43,9 +53,8 @@ def test_it_asks_for_few_files_of_its_own(visit: Visit, server: Static) -> None:
             assert not re.search("""(src|href)=["']?/""", path.read_text())
 
 
-@pytest.mark.parametrize("viewport", [{}, PHONE], ids=["desk", "phone"])
-def test_from_disk(visit: Visit, tmp_path: Path, viewport: dict[str, int]) -> None:
-    page = visit(TOWN, disk=True, **viewport)
+def test_from_disk(visit: Visit, tmp_path: Path) -> None:
+    page = visit(TOWN, disk=True, **PHONE)
     assert page.settle() == drawn(TOWN, tmp_path).pixels.tobytes()
     page.after(lambda: page.drop(**{"mine.obj": OBJ.encode()}))
     page.after(page.press("i"))
@@ -55,19 +64,6 @@ def test_from_disk(visit: Visit, tmp_path: Path, viewport: dict[str, int]) -> No
     (tmp_path / name).write_bytes(content)
     page.page.keyboard.press("Escape")
     page.after(lambda: page.drop(**{name: content}))
-
-
-def test_with_the_network_off(visit: Visit, server: Static) -> None:
-    """Once all of it has been loaded, the page needs nobody: from a cache of the browser, or of IPFS."""
-    page = visit(TOWN)
-    page.dialog("limits")
-    page.page.locator("#limits tr.total").wait_for()
-    page.page.keyboard.press("Escape")
-    page.page.context.set_offline(True)
-    asked = len(server.asked)
-    page.after(lambda: page.drag(40, 10))
-    page.after(page.click("look-gold"))
-    assert len(server.asked) == asked
 
 
 @pytest.fixture(scope="module")

@@ -16,7 +16,7 @@ from PIL import Image as PillowImage
 from tools import build_contracts as tool
 
 from compiler import needs_compiler
-from node_scripts import needs_web, run_script
+from node_scripts import asked, needs_web
 from pictures import local
 from shackled import load, render
 from shackled.artifacts import RENDERER
@@ -63,18 +63,14 @@ pytestmark = needs_web
 @pytest.fixture(scope="module")
 def programs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, dict[str, Any]]:
     """All programs of all cases."""
-    folder = tmp_path_factory.mktemp("programs")
-    asked, written = folder / "asked.json", folder / "written.json"
-    names = {case["piece"] for case in CASES.values()}
     content = {
-        "pieces": {name: json.loads(encode_scene_file(load(name))) for name in names},
+        "pieces": {name: json.loads(encode_scene_file(load(name))) for name in {c["piece"] for c in CASES.values()}},
         "cases": [{"item": {}, "opened": False, "link": LOCAL, **case} for case in CASES.values()],
         "evm": base64.b64encode(asset("evm.wasm")).decode(),
         "contracts": json.loads(asset("contracts.json")),
     }
-    asked.write_text(json.dumps(content))
-    run_script(Path(__file__).with_name("programs.ts"), folder, asked, written)
-    return dict(zip(CASES, json.loads(written.read_text()), strict=True))
+    script = Path(__file__).with_name("programs.ts")
+    return dict(zip(CASES, asked(script, tmp_path_factory.mktemp("programs"), content), strict=True))
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -15,7 +15,7 @@ from tools.page_server import Static
 from creator_page import OBJ, Creator, Visit, drawn, scene
 from nodes import anvil, needs_anvil
 from shackled import load, render
-from shackled.scene import full_turn, render_call
+from shackled.scene import render_call
 
 TOWN = scene(
     "cube",
@@ -86,29 +86,24 @@ def test_each_file_is_the_picture(visit: Visit, tmp_path: Path) -> None:
     assert offered.evaluate_all("all => all.map(each => Number(each.value))") == [1, 2, 3, 4]
 
 
-def test_a_page_that_turns(visit: Visit, browser: Any, tmp_path: Path) -> None:
+def test_what_turns(visit: Visit, tmp_path: Path) -> None:
+    """test_work.py has what is in a page that turns, and in turntables; test_export.py opens such a page."""
     page = visit(TOWN)
     page.dialog("download")
     name, content = page.file("take-page")
     assert name.endswith(".html")
-    (tmp_path / name).write_bytes(content)
-    digest = drawn(TOWN, tmp_path).sha256
-    with browser.new_page() as opened:
-        opened.goto((tmp_path / name).as_uri())
-        opened.wait_for_selector("shackled-view")
-        assert digest in opened.inner_text("main")
-        found = opened.evaluate(
-            """new Promise(resolve => {
-                const view = document.querySelector('shackled-view');
-                const look = () => view.picture ? resolve(view.picture.sha256) : setTimeout(look, 20);
-                look();
-            })"""
-        )
-    assert found == digest
-
-
-def test_turntables(visit: Visit) -> None:
-    page = visit(scene("torus-knot", size=256))
+    assert drawn(TOWN, tmp_path).sha256 in content.decode()
+    page.page.get_by_label("pictures").fill("6")
+    page.page.keyboard.press("Tab")
+    for kind in ("GIF", "APNG"):
+        page.page.get_by_role("radio", name=kind, exact=True).check(force=True)
+        name, content = page.file(f"take-{kind.lower()}")
+        assert name.startswith("cube")
+        with PillowImage.open(io.BytesIO(content)) as film:
+            assert film.n_frames == 6  # type: ignore[attr-defined]
+    # another is cancelled, and what comes next does not wait for it
+    page.close()
+    page.show(scene("torus-knot", size=256))
     page.dialog("download")
     button = page.page.locator("[data-name=take-gif]")
     button.click()
@@ -117,25 +112,8 @@ def test_turntables(visit: Visit) -> None:
     job.get_by_role("button", name="Cancel").click()
     job.wait_for(state="detached")
     assert button.is_enabled()
-    # and what comes next does not wait for it
     page.page.keyboard.press("Escape")
-    page.show(scene("cube", size=32))
-    page.after(page.click("piece-icons/heart"))
-    page.dialog("download")
-    page.page.get_by_label("pictures").fill("6")
-    page.page.keyboard.press("Tab")
-    turning = full_turn(load("icons/heart", size=32, antialias=False), 6)
-    # a GIF has 256 colours; the contract Turntable goes a little back
-    for kind, most in (("GIF", 3), ("APNG", 30)):
-        page.page.get_by_role("radio", name=kind, exact=True).check(force=True)
-        name, content = page.file(f"take-{kind.lower()}")
-        assert name.startswith("heart-turning.")
-        with PillowImage.open(io.BytesIO(content)) as film:
-            assert film.n_frames == 6  # type: ignore[attr-defined]
-            for place, frame in enumerate(turning):
-                film.seek(place)
-                shown = np.asarray(film.convert("RGB").resize((32, 32), PillowImage.Resampling.NEAREST)).astype(int)
-                assert np.abs(shown - render(frame).pixels).mean() < most
+    page.after(page.press("i"))
 
 
 def test_the_link_is_copied(visit: Visit, server: Static) -> None:

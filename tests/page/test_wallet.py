@@ -92,23 +92,24 @@ class Node:
         return {"result": self.lies[method](result, parameters, self) if method in self.lies else result}
 
     def own(self, method: str, parameters: list[Any]) -> Any:
-        if method in ("eth_accounts", "eth_requestAccounts"):
-            return [self.address]
-        if method == "eth_chainId":
-            return hex(self.chain)
-        if method == "wallet_switchEthereumChain":
-            chain = int(parameters[0]["chainId"], 16)
-            if chain not in self.known:
-                raise PermissionError("Unrecognized chain ID. Try adding the chain first.")
-            self.chain = chain
-            return None
-        if method == "wallet_addEthereumChain":
-            self.known.add(int(parameters[0]["chainId"], 16))
-            return None
-        if method == "eth_getCode" and self.chain != CHAIN:
-            return "0x"
-        if method == "eth_sendTransaction":
-            self.sent.append(parameters[0])
+        match method:
+            case "eth_accounts" | "eth_requestAccounts":
+                return [self.address]
+            case "eth_chainId":
+                return hex(self.chain)
+            case "wallet_switchEthereumChain":
+                chain = int(parameters[0]["chainId"], 16)
+                if chain not in self.known:
+                    raise PermissionError("Unrecognized chain ID. Try adding the chain first.")
+                self.chain = chain
+                return None
+            case "wallet_addEthereumChain":
+                self.known.add(int(parameters[0]["chainId"], 16))
+                return None
+            case "eth_getCode" if self.chain != CHAIN:
+                return "0x"
+            case "eth_sendTransaction":
+                self.sent.append(parameters[0])
         return self.node.rpc(method, *parameters)
 
     def read(self, function: str, *arguments: Any) -> Any:
@@ -158,6 +159,14 @@ def connected(page: Creator, name: str) -> Any:
     dialog = page.dialog(name)
     dialog.get_by_role("button", name="Connect <b>Toy</b> wallet").click()
     dialog.locator("[data-name=chain]").wait_for()
+    return dialog
+
+
+def added(page: Creator) -> Any:
+    """The dialog in which the picture was added as an edition."""
+    dialog = connected(page, "edition")
+    press(dialog, "add")
+    dialog.locator("[data-name=token]").wait_for()
     return dialog
 
 
@@ -389,9 +398,7 @@ def test_wallets_that_lie_or_change(visitor: Visitor, node: Node, method: str, l
 
 
 def test_another_picture_is_told(visitor: Visitor, node: Node) -> None:
-    dialog = connected(visitor(), "edition")
-    press(dialog, "add")
-    dialog.locator("[data-name=token]").wait_for()
+    added(visitor())
     asked, other = (artifact("Editions").interface.encode("tokenURI", each) for each in (1, 0))
     first = node.node.rpc("eth_call", {"to": address_of("Editions"), "data": "0x" + other.hex()}, "latest")
     node.lies["eth_call"] = lambda data, call, _: first if call[0]["data"] == "0x" + asked.hex() else data
@@ -413,9 +420,7 @@ def test_without_a_wallet(visit: Visit) -> None:
 
 
 def test_a_token_of_an_edition_is_minted(visitor: Visitor, node: Node) -> None:
-    dialog = connected(visitor(), "edition")
-    press(dialog, "add")
-    dialog.locator("[data-name=token]").wait_for()
+    added(visitor())
     node.account, node.sent = 2, []
     page = visitor()
     dialog = connected(page, "mint")
@@ -448,22 +453,16 @@ def test_tokens_of_the_address_book(
 ) -> None:
     monkeypatch.setenv(VARIABLE, str(tmp_path / "addresses.json"))
     monkeypatch.setenv("OWNER", development_accounts()[OWNER].key.hex())
-    rest = ["--rpc", node.node.url, "--private-key-env", "OWNER", "--yes"]
-    icons = ["-c", "icons"]
-    for command in (
-        ["deploy", "icons", "--icons", "heart,lightning", "--price", "0.02"],
-        ["seal"],
-        ["phase", "public", *icons],
-    ):
-        assert run(["token", *command, *rest]) == 0
+    for words in ("deploy icons --icons heart,lightning --price 0.02", "seal", "phase public -c icons"):
+        command = f"token {words} --rpc {node.node.url} --private-key-env OWNER --yes"
+        assert run(command.split()) == 0
     book = json.loads((tmp_path / "addresses.json").read_text())["chains"]
     book[str(CHAIN)]["GenesisCollection"] = node.genesis.address
     node.account = 3
     dialog = connected(visitor(book=book), "mint")
     dialog.get_by_role("radio", name="Icons").check(force=True)
-    dialog.get_by_text(
-        "“Lightning” as the collection has it, without your changes. Price: 0.02 ether, 99 left"
-    ).wait_for()
+    told = "“Lightning” as the collection has it, without your changes. Price: 0.02 ether, 99 left"
+    dialog.get_by_text(told).wait_for()
     press(dialog, "mint")
     dialog.get_by_text("Minted: token 0 of Shackled Icons is yours").wait_for()
     dialog.get_by_role("radio", name="Genesis").check(force=True)

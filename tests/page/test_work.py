@@ -19,7 +19,7 @@ from PIL import Image as PillowImage
 from PIL import ImageSequence
 
 import shackled
-from node_scripts import needs_web, run_script
+from node_scripts import asked, needs_web
 from pictures import chain, local
 from shackled import Ground, InputError, Light, Material, Mesh, Object, Scene, Texture
 from shackled.artifacts import artifact
@@ -86,11 +86,8 @@ class Answers:
         codes = {each: {"address": to_hex(local().address(each)), "code": to_hex(local().code(each))} for each in MORE}
         errors = {to_hex(key): error for each in (*MORE, STUDIO) for key, error in artifact(each).errors.items()}
         (self.folder / "more.json").write_text(json.dumps({"contracts": codes, "errors": errors}))
-        asked = self.folder / "asked"
         content = {"data": str(self.folder), "template": page_template(), "cases": self.cases}
-        asked.write_text(json.dumps(content), "utf-8")
-        run_script(SCRIPT, self.folder, asked, self.folder)
-        found = json.loads((self.folder / "answers.json").read_text("utf-8"))
+        found = asked(SCRIPT, self.folder, content)
         self.found = {case["name"]: each for case, each in zip(self.cases, found, strict=True)}
         return self
 
@@ -115,26 +112,26 @@ QUOTED: dict[str, dict[str, Any]] = {
 
 @pytest.fixture(scope="session")
 def answers(tmp_path_factory: pytest.TempPathFactory) -> Answers:
-    asked = Answers(tmp_path_factory.mktemp("work"))
-    asked.ask("selectors", "selectors")
+    work = Answers(tmp_path_factory.mktemp("work"))
+    work.ask("selectors", "selectors")
     for scene in DRAWN:
-        asked.ask(f"{scene}-png", "file", scene, format="png", scale=2)
-        asked.ask(f"{scene}-transparent", "file", scene, format="transparent", scale=1)
-        asked.ask(f"{scene}-stages", "stages", scene)
-    asked.ask("glb", "file", "textured", format="glb")
-    asked.ask("apng", "file", "edges", format="apng", frames=5, duration=90, scale=2)
-    asked.ask("gif", "gif", "edges", frames=5, duration=90, scale=2)
-    asked.ask("many", "gif", "teapot", frames=3, duration=50, scale=1)
-    asked.ask("page", "page", "teapot", title='<Tea> & "pot"', notice="By A & B")
-    asked.ask("genesis", "genesis", seed="7")
+        work.ask(f"{scene}-png", "file", scene, format="png", scale=2)
+        work.ask(f"{scene}-transparent", "file", scene, format="transparent", scale=1)
+        work.ask(f"{scene}-stages", "stages", scene)
+    work.ask("glb", "file", "textured", format="glb")
+    work.ask("apng", "file", "edges", format="apng", frames=5, duration=90, scale=2)
+    work.ask("gif", "gif", "edges", frames=5, duration=90, scale=2)
+    work.ask("many", "gif", "teapot", frames=3, duration=50, scale=1)
+    work.ask("page", "page", "teapot", title='<Tea> & "pot"', notice="By A & B")
+    work.ask("genesis", "genesis", seed="7")
     for name in QUOTED:
-        asked.ask(f"{name}-quote", "quote", name.partition(",")[0], **TERMS | QUOTED[name])
-    asked.ask("nameless", "quote", "edges", **TERMS | {"name": ""})
+        work.ask(f"{name}-quote", "quote", name.partition(",")[0], **TERMS | QUOTED[name])
+    work.ask("nameless", "quote", "edges", **TERMS | {"name": ""})
     for limit in ("transaction", "call", "edition"):
-        asked.ask(f"fits-{limit}", "fits", "edges", limit=limit)
-    asked.ask("fits-not", "fits", "large", limit="transaction")
-    asked.ask("too-large", "file", "large", format="png", scale=1000)
-    return asked.answer()
+        work.ask(f"fits-{limit}", "fits", "edges", limit=limit)
+    work.ask("fits-not", "fits", "large", limit="transaction")
+    work.ask("too-large", "file", "large", format="png", scale=1000)
+    return work.answer()
 
 
 def test_selectors(answers: Answers) -> None:
