@@ -13,7 +13,7 @@ import pytest
 import trimesh
 from numpy.typing import NDArray
 
-from mesh_files import POINTS
+from mesh_files import POINTS, refusal
 from mesh_files import GltfObject as File
 from shackled import load
 from shackled.errors import InputError, InputWarning
@@ -36,14 +36,6 @@ def read(file: File, folder: Path, *notes: str, **pose: Any) -> list[MeshPart]:
 def corners(file: File, folder: Path, *notes: str, **pose: Any) -> Values:
     (part,) = read(file, folder, *notes, **pose)
     return part.mesh.positions[part.mesh.faces]
-
-
-def refusal(file: File, folder: Path, **pose: Any) -> str:
-    path = file.write(folder)
-    with pytest.raises(InputError) as error:
-        read_model(path, **pose)
-    assert "\n" not in str(error.value)
-    return str(error.value).removeprefix(f"{path}: ")
 
 
 def about_z(degrees: float) -> list[float]:
@@ -126,7 +118,7 @@ def test_broken_skins(tmp_path: Path) -> None:
     ):
         other = copy.deepcopy(file)
         other.document["skins"][0] |= change
-        assert refusal(other, tmp_path).startswith(f"meshes[0].primitives[0]: {message}")
+        assert refusal(other.write(tmp_path)).startswith(f"meshes[0].primitives[0]: {message}")
 
 
 # ---- morph targets ----
@@ -216,7 +208,7 @@ def test_weights_and_joints_are_animated(tmp_path: Path) -> None:
 
 def test_animations_that_are_not_there(tmp_path: Path) -> None:
     file = File()
-    assert refusal(file, tmp_path, time=1) == "it has no animations"
+    assert refusal(file.write(tmp_path), time=1) == "it has no animations"
     for name in ("Walk", ""):
         file.animation("translation", [0, 1], [[0, 0, 0], [4, 0, 0]], name=name)
     file.animation("translation", [1, 0], [[0, 0, 0], [4, 0, 0]])
@@ -227,7 +219,7 @@ def test_animations_that_are_not_there(tmp_path: Path) -> None:
         (2, "animations[2].samplers[0].input must be times in ascending order"),
         (3, "animations[3].samplers[0] has 2 values for 2 keyframes of CUBICSPLINE"),
     ):
-        assert refusal(file, tmp_path, animation=animation) == message
+        assert refusal(file.write(tmp_path), animation=animation) == message
     file.document["animations"][1]["channels"].append({"sampler": 0, "target": {"path": "pointer"}})
     corners(file, tmp_path, "1 channel of the animation", animation="1")
 
@@ -248,7 +240,7 @@ def test_instances(tmp_path: Path) -> None:
     wanted = [np.add(POINTS, (1, 0, 1)), np.add(3 * times(matrix_about_z(90), POINTS), (0, 2, 1))]
     np.testing.assert_allclose(corners(file, tmp_path), wanted, atol=1e-3)
     attributes["SCALE"] = file.rows([[1, 1, 1]])
-    assert "must have as many elements in each, not [1, 2]" in refusal(file, tmp_path)
+    assert "must have as many elements in each, not [1, 2]" in refusal(file.write(tmp_path))
 
 
 def test_what_is_hidden_is_not_drawn(tmp_path: Path) -> None:
@@ -359,7 +351,7 @@ def test_what_trimesh_knows_of_a_material(tmp_path: Path) -> None:
 def test_alpha_below_the_cutoff(tmp_path: Path) -> None:
     file = File()
     file.material(alphaMode="MASK", pbrMetallicRoughness={"baseColorFactor": [1, 1, 1, 0.3]})
-    assert refusal(file, tmp_path) == "it has no triangles that are shown"
+    assert refusal(file.write(tmp_path)) == "it has no triangles that are shown"
     file.document["materials"][0]["alphaCutoff"] = 0.2
     read(file, tmp_path)
     file.primitive["attributes"]["COLOR_0"] = file.rows([[1, 1, 1, 1], [1, 1, 1, 1], [1, 1, 1, 0.5]])
@@ -399,7 +391,7 @@ def test_what_else_is_left_out(tmp_path: Path) -> None:
     read(file, tmp_path, *notes)
     del file.document["meshes"][0]["primitives"][0]
     told = "; ".join(["it has no triangles that are shown", *(f"left out: {note}" for note in notes)])
-    assert refusal(file, tmp_path) == told
+    assert refusal(file.write(tmp_path)) == told
 
 
 def test_the_camera_and_the_lights_of_a_file(tmp_path: Path) -> None:
@@ -483,8 +475,7 @@ def test_compression_by_meshopt_is_refused(tmp_path: Path) -> None:
     file.document["bufferViews"][0]["extensions"] = {"EXT_meshopt_compression": {"buffer": 1}}
     path = file.write(tmp_path)
     path.write_text(re.sub(r', "uri": "data:[^"]*"', "", path.read_text()))
-    with pytest.raises(InputError, match=r"bufferViews\[0\] is compressed with EXT_meshopt_compression, which"):
-        read_model(path)
+    assert refusal(path).startswith("bufferViews[0] is compressed with EXT_meshopt_compression, which")
 
 
 def draco_file(data: bytes) -> File:
@@ -510,7 +501,7 @@ def draco_file(data: bytes) -> File:
 
 def test_draco_needs_a_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "DracoPy", None)
-    told = refusal(draco_file(b"anything"), tmp_path)
+    told = refusal(draco_file(b"anything").write(tmp_path))
     assert re.fullmatch(r".*compressed with Draco, .* not installed: pip install 'shackled\[draco\]'", told)
 
 
@@ -526,4 +517,4 @@ def test_compression_by_draco(tmp_path: Path) -> None:
     assert len(found) == 2
     assert all(found & each for each in turns)
     assert part.mesh.colors.tolist() == [[255, 0, 0]] * len(part.mesh.positions)
-    assert "holds no data of Draco that can be read" in refusal(draco_file(data[:30]), tmp_path)
+    assert "holds no data of Draco that can be read" in refusal(draco_file(data[:30]).write(tmp_path))

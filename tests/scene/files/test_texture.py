@@ -1,3 +1,4 @@
+import pytest
 from PIL import Image
 
 from shackled.scene._texture import sample
@@ -13,21 +14,18 @@ def checker() -> Image.Image:
     return image
 
 
-def test_corners_of_the_image_are_its_corner_texels() -> None:
-    assert sample(checker(), [[0, 1], [1, 1], [0, 0], [1, 0]]).tolist() == [list(c) for c in (RED, GREEN, BLUE, WHITE)]
-
-
-def test_between_texels_colors_are_mixed() -> None:
-    assert sample(checker(), [[0.5, 1]]).tolist() == [[128, 128, 0]]
-    assert sample(checker(), [[0.5, 0.5]]).tolist() == [[128, 128, 128]]
-
-
-def test_beyond_its_borders_the_image_repeats() -> None:
-    assert sample(checker(), [[1.1, 0.1], [-0.9, 3.1]]).tolist() == sample(checker(), [[0.1, 0.1], [0.1, 0.1]]).tolist()
-
-
-def test_what_is_no_number_does_no_harm() -> None:
-    assert sample(checker(), [[float("nan"), float("inf")]]).tolist() == [list(BLUE)]
+@pytest.mark.parametrize(
+    ("coordinates", "expected"),
+    [
+        ([[0, 1], [1, 1], [0, 0], [1, 0]], [RED, GREEN, BLUE, WHITE]),
+        # between texels, and beyond the borders, where the image repeats
+        ([[0.5, 1], [0.5, 0.5]], [(128, 128, 0), (128, 128, 128)]),
+        ([[1.75, 1.75], [-1, 3]], [GREEN, BLUE]),
+        ([[float("nan"), float("inf")]], [BLUE]),
+    ],
+)
+def test_samples(coordinates: list[list[float]], expected: list[tuple[int, ...]]) -> None:
+    assert sample(checker(), coordinates).tolist() == [list(color) for color in expected]
 
 
 def test_palettes_and_greys_are_read() -> None:
