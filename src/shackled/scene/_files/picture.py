@@ -63,10 +63,9 @@ def read_picture(path: Path) -> Scene:
         found = [each for each in _chunks(data) if each[0] in TEXTS and each[1].startswith(KEYWORD + b"\0")]
         kinds = [kind for kind, _ in found]
         if kinds != [CHUNK]:
-            raise InputError(
-                f"the picture carries no scene: it needs one chunk {CHUNK.decode()} with the keyword {KEYWORD.decode()},"
-                f" not {b', '.join(kinds).decode() or 'none'}"
-            )
+            needed = f"one chunk {CHUNK.decode()} with the keyword {KEYWORD.decode()}"
+            there = b", ".join(kinds).decode() or "none"
+            raise InputError(f"the picture carries no scene: it needs {needed}, not {there}")
         content = found[0][1]
         call = _call(content[len(KEYWORD) + 1 :])
         with about(f"the chunk {KEYWORD.decode()}"):

@@ -75,10 +75,14 @@ class Surface:
         return self.is_blended or (self.cutoff is not None and self.cutoff > 0)
 
 
-def surface_of(gltf: Document, primitive: Table) -> Surface | None:
-    """Return the material of a primitive; None if it has none."""
+#: That of primitives without a material.
+PLAIN = Surface()
+
+
+def surface_of(gltf: Document, primitive: Table) -> Surface:
+    """Return the material of a primitive."""
     if "material" not in primitive:
-        return None
+        return PLAIN
     material = gltf.item(primitive, "material", "materials")
     extensions = material.table("extensions")
     gltf.uses(extensions.values)
@@ -120,12 +124,11 @@ def _gloss(keys: Table, is_older: bool) -> tuple[float, float] | None:
     return keys.number("roughnessFactor"), keys.number("metallicFactor", 1)
 
 
-def colors_of(vertices: Vertices, surface: Surface | None, where: str) -> tuple[Array, float]:
+def colors_of(vertices: Vertices, surface: Surface, where: str) -> tuple[Array, float]:
     """Return colours of vertices with alpha, (n, 4), 0..255, without a texture's; and the opacity of the material."""
     vertex_colors = vertices.values("COLOR_0", "VEC3", "VEC4")
-    if surface is None and vertex_colors is None:
+    if surface is PLAIN and vertex_colors is None:
         return np.full((len(vertices.used), 4), (*DEFAULT_COLOR, 255), dtype=np.float64), 1.0
-    surface = surface or Surface()
     *factor, opacity = surface.factor
     linear = np.ones((len(vertices.used), 4))
     linear[:, :3] *= factor
@@ -142,10 +145,10 @@ def colors_of(vertices: Vertices, surface: Surface | None, where: str) -> tuple[
     return np.hstack([to_srgb(linear[:, :3]), alpha]), opacity if surface.is_blended else 1.0
 
 
-def picture_on(vertices: Vertices, surface: Surface | None, where: str) -> tuple[Picture | None, Array]:
+def picture_on(vertices: Vertices, surface: Surface, where: str) -> tuple[Picture | None, Array]:
     """Return the image of the base colour texture, None if there is none, and where the vertices are on it, (n, 2)."""
     nowhere = np.zeros((len(vertices.used), 2))
-    if surface is None or surface.texture is None:
+    if surface.texture is None:
         return None, nowhere
     info = surface.texture
     transform = info.table("extensions").table("KHR_texture_transform")

@@ -33,7 +33,7 @@ class Piece:
     faces: NDArray[np.int64]
     colors: Array
     normals: Array
-    surface: Surface | None
+    surface: Surface
     picture: Picture | None
     uvs: Array
     opacity: float
@@ -42,15 +42,9 @@ class Piece:
     @property
     def group(self) -> tuple[object, ...]:
         """What pieces of one object have in common: the texture, light, and how they hide what is behind them."""
-        surface = self.surface or Surface()
-        return (
-            self.picture.name if self.picture else "",
-            self.opacity,
-            bool((self.colors[:, 3] < 255).any()),
-            surface.emission,
-            surface.is_unlit,
-            surface.is_two_sided,
-        )
+        surface, has_alpha = self.surface, bool((self.colors[:, 3] < 255).any())
+        name = self.picture.name if self.picture else ""
+        return name, self.opacity, has_alpha, surface.emission, surface.is_unlit, surface.is_two_sided
 
 
 def pieces_of(gltf: Document, node: Node, nodes: Mapping[int, Node]) -> Iterator[Piece]:
@@ -85,7 +79,7 @@ def pieces_of(gltf: Document, node: Node, nodes: Mapping[int, Node]) -> Iterator
         with about(where):
             surface = surface_of(gltf, keys)
             # textures and colours of vertices only lower the alpha
-            if surface is not None and surface.cutoff is not None and surface.factor[3] < surface.cutoff:
+            if surface.cutoff is not None and surface.factor[3] < surface.cutoff:
                 continue
             normals = np.zeros((len(used), 3))
             if (given := vertices.values("NORMAL", "VEC3")) is not None:
