@@ -70,6 +70,11 @@ class Surface:
     cutoff: float | None = None
 
     @property
+    def opacity(self) -> float:
+        """That of an object: only what is blended has one."""
+        return self.factor[3] if self.is_blended else 1.0
+
+    @property
     def has_alpha(self) -> bool:
         """Whether the alpha of the texture counts."""
         return self.is_blended or (self.cutoff is not None and self.cutoff > 0)
@@ -124,14 +129,12 @@ def _gloss(keys: Table, is_older: bool) -> tuple[float, float] | None:
     return keys.number("roughnessFactor"), keys.number("metallicFactor", 1)
 
 
-def colors_of(vertices: Vertices, surface: Surface, where: str) -> tuple[Array, float]:
-    """Return colours of vertices with alpha, (n, 4), 0..255, without a texture's; and the opacity of the material."""
+def colors_of(vertices: Vertices, surface: Surface, where: str) -> Array:
+    """Return colours of vertices with alpha, (n, 4), 0..255, without a texture's and the opacity of the material."""
     vertex_colors = vertices.values("COLOR_0", "VEC3", "VEC4")
     if surface is PLAIN and vertex_colors is None:
-        return np.full((len(vertices.used), 4), (*DEFAULT_COLOR, 255), dtype=np.float64), 1.0
-    *factor, opacity = surface.factor
-    linear = np.ones((len(vertices.used), 4))
-    linear[:, :3] *= factor
+        return np.full((len(vertices.used), 4), (*DEFAULT_COLOR, 255), dtype=np.float64)
+    linear = np.tile([*surface.factor[:3], 1.0], (len(vertices.used), 1))
     if vertex_colors is not None:
         most = np.iinfo(vertex_colors.dtype).max if vertex_colors.dtype.kind in "iu" else 1
         own = vertex_colors.astype(np.float64) / most
@@ -139,10 +142,10 @@ def colors_of(vertices: Vertices, surface: Surface, where: str) -> tuple[Array, 
         if len(bad):
             raise InputError(f"colour {bad[0]} must be finite numbers, not {own[bad[0]].tolist()}")
         linear[:, : own.shape[1]] *= np.clip(own, 0, 1)
-    if surface.cutoff is not None and (linear[:, 3] * opacity < surface.cutoff).any():
+    if surface.cutoff is not None and (linear[:, 3] * surface.factor[3] < surface.cutoff).any():
         vertices.gltf.leave_out("primitive", where, "the alpha of vertices of {}")
     alpha = np.rint(255 * linear[:, 3:]) if surface.is_blended else np.full((len(linear), 1), 255.0)
-    return np.hstack([to_srgb(linear[:, :3]), alpha]), opacity if surface.is_blended else 1.0
+    return np.hstack([to_srgb(linear[:, :3]), alpha])
 
 
 def picture_on(vertices: Vertices, surface: Surface, where: str) -> tuple[Picture | None, Array]:

@@ -112,4 +112,4 @@ def _join(pieces: Sequence[Piece], count: int) -> MeshPart:
         material["texture"], corner_uvs = picture.texture(uvs[corners], count)
     found = filled(positions, corners, normals[corners]) if normals.any() else None
     mesh = weld(positions, corners, corner_colors, found, corner_uvs)
-    return MeshPart(mesh, material, pieces[0].opacity, surface.is_two_sided)
+    return MeshPart(mesh, material, surface.opacity, surface.is_two_sided)
