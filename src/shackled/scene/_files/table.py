@@ -60,7 +60,7 @@ class Table:
 
     def number(self, key: str, default: float | None = None) -> float:
         """Return a finite number."""
-        return float(self._checked(key, default, is_number, "a number"))
+        return float(self._checked(key, default, _is_number, "a number"))
 
     def whole(self, key: str, default: int | None = None) -> int:
         """Return a whole number that is not negative."""
@@ -80,7 +80,7 @@ class Table:
 
     def series(self, key: str) -> NDArray[np.float64]:
         """Return a list of numbers, (n,)."""
-        return np.array([_check(value, place, is_number, "a number") for place, value in self.rows(key)], np.float64)
+        return np.array([_check(value, place, _is_number, "a number") for place, value in self.rows(key)], np.float64)
 
     def matrix(self, key: str, whole: bool = False, width: int = 3) -> NDArray[Any]:
         """Return rows of `width` numbers, (n, width), none if the key is absent; integers if they must be whole."""
@@ -133,16 +133,16 @@ def about(where: str) -> Iterator[None]:
         raise InputError(f"{where}: {error}") from None
 
 
-def is_number(value: object) -> bool:
+def _is_number(value: object) -> bool:
     """Return whether a value is a finite number, and not a truth value."""
     return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e300
 
 
 def _is_count(value: Any) -> bool:
-    return is_number(value) and value >= 0 and value % 1 == 0
+    return _is_number(value) and value >= 0 and value % 1 == 0
 
 
 def _is_row(value: Any, width: int | None = None, whole: bool = False) -> bool:
     """Return whether a value is a list of numbers; width: how many."""
-    is_list = isinstance(value, list | tuple) and width in (None, len(value)) and all(map(is_number, value))
+    is_list = isinstance(value, list | tuple) and width in (None, len(value)) and all(map(_is_number, value))
     return is_list and not (whole and any(each % 1 or abs(each) >= 2**53 for each in value))
