@@ -15,21 +15,7 @@ import trimesh
 from attrs import evolve
 
 import shackled
-from shackled import (
-    Background,
-    Camera,
-    Fog,
-    InputError,
-    Light,
-    Mesh,
-    Object,
-    Rim,
-    Scene,
-    Tone,
-    load,
-    render,
-    replace,
-)
+from shackled import Background, Camera, Fog, InputError, Light, Mesh, Object, Rim, Scene, Tone, load, render, replace
 from shackled.datasets import require
 from shackled.scene import SETTINGS, Hemisphere, LookOptions, look_at, read_mesh, rotate, write_obj
 from shackled.scene._staging import signed_volume

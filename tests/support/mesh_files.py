@@ -12,10 +12,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from shackled.scene import Mesh, read_mesh
+from shackled.errors import InputError
+from shackled.scene import Mesh, read_mesh, read_model
 
 #: The codes of kinds of numbers in glTF, and the types by how many of them there are.
 CODES = {"i1": 5120, "u1": 5121, "i2": 5122, "u2": 5123, "u4": 5125, "f4": 5126}
@@ -36,6 +38,18 @@ def read_with_notes(path: Path, content: str | bytes) -> tuple[Mesh, list[str]]:
     notes = [str(each.message) for each in told]
     assert all(note.startswith(f"{path}: ") and "\n" not in note for note in notes)
     return mesh, [note.removeprefix(f"{path}: ") for note in notes]
+
+
+def refusal(path: Path, content: str | bytes | None = None, read: Any = read_model, **options: Any) -> str:
+    """Write a file, if its content is given, and return why it is refused: one line, without its path."""
+    if content is not None:
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+    with pytest.raises(InputError) as error:
+        read(path, **options)
+    told = str(error.value)
+    assert told.startswith(str(path))
+    assert "\n" not in told
+    return told.removeprefix(str(path)).removeprefix(": ")
 
 
 def corner_colors(mesh: Mesh) -> list[list[list[int]]]:

@@ -22,6 +22,7 @@ from shackled.errors import InputWarning
 from shackled.scene import read_mesh, read_model, render_call, simplify
 from shackled.scene._files.model import TEXTURED
 from shackled.scene._packed import unpack_texture
+from shackled.scene._texture import sample
 
 Pixels = NDArray[np.uint8]
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=np.float32)
@@ -242,11 +243,7 @@ def test_an_obj_with_two_textures_and_a_color(tmp_path: Path) -> None:
     )
     plain, wood, bark = read_model(tmp_path / "a.obj")
     assert [part.mesh.triangles for part in (plain, wood, bark)] == [1, 2, 1]
-    assert [getattr(part.material.get("texture"), "wrap", None) for part in (plain, wood, bark)] == [
-        None,
-        "repeat",
-        "clamp",
-    ]
+    assert (plain.material, wood.material["texture"].wrap, bark.material["texture"].wrap) == ({}, "repeat", "clamp")
     # corners have their own coordinates, of which v is upward in the file
     assert np.asarray(wood.mesh.uvs)[wood.mesh.faces].tolist() == [[[0, 1], [1, 1], [1, 0]], [[1, 1], [1, 0], [0, 0]]]
     assert (len(wood.mesh.positions), (wood.mesh.colors == 255).all()) == (5, True)
@@ -254,9 +251,9 @@ def test_an_obj_with_two_textures_and_a_color(tmp_path: Path) -> None:
         assert read_mesh(tmp_path / "a.obj").triangles == 4
 
 
-def textured(pixels: Pixels | None = None) -> Object:
-    mesh = Mesh(SQUARE, FACES.reshape(-1, 3), [[255, 255, 255]] * 4, None, UVS)
-    return Object(mesh, material=Material(texture=Texture(pixels_of(6, 5) if pixels is None else pixels, "nearest")))
+def textured() -> Object:
+    mesh = Mesh(SQUARE, FACES.reshape(-1, 3), "white", uvs=UVS)
+    return Object(mesh, material=Material(texture=Texture(pixels_of(6, 5), "nearest")))
 
 
 def test_a_texture_by_its_path_in_a_scene_file(tmp_path: Path) -> None:
@@ -284,15 +281,6 @@ def test_a_texture_of_trimesh(tmp_path: Path) -> None:
     ours, theirs = load(path), load(mesh)
     assert texture_of(theirs) == texture_of(ours)
     assert shackled.render(theirs, 48).pixels.tolist() == shackled.render(ours, 48).pixels.tolist()
-
-
-def test_a_grey_texture_of_trimesh_with_16_bits() -> None:
-    levels = np.array([[0, 8192], [49152, 65535]], "<u2")
-    image = Image.frombytes("I;16", (2, 2), levels.tobytes())
-    library: Any = trimesh
-    visual = library.visual.TextureVisuals([(0, 0), (1, 0), (0, 1)], image=image)
-    mesh = trimesh.Trimesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)], visual=visual, process=False)
-    assert texture_of(load(mesh)).pixels[..., 0].tolist() == [[0, 32], [192, 255]]
 
 
 def test_one_color_for_all_is_without_texture() -> None:
@@ -356,3 +344,35 @@ def test_packed_bytes_that_are_wrong(place: int) -> None:
     data[place] = 255
     with pytest.raises(InputError, match="a packed texture"):
         unpack_texture(bytes(data), 4)
+
+
+# ---- samples ----
+
+RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
+
+
+def checker() -> Image.Image:
+    """Red and green above, blue and white below."""
+    image = Image.new("RGB", (2, 2))
+    for place, color in zip([(0, 0), (1, 0), (0, 1), (1, 1)], [RED, GREEN, BLUE, WHITE], strict=True):
+        image.putpixel(place, color)
+    return image
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "expected"),
+    [
+        ([[0, 1], [1, 1], [0, 0], [1, 0]], [RED, GREEN, BLUE, WHITE]),
+        # between texels, and beyond the borders, where the image repeats
+        ([[0.5, 1], [0.5, 0.5]], [(128, 128, 0), (128, 128, 128)]),
+        ([[1.75, 1.75], [-1, 3]], [GREEN, BLUE]),
+        ([[float("nan"), float("inf")]], [BLUE]),
+    ],
+)
+def test_samples(coordinates: list[list[float]], expected: list[tuple[int, ...]]) -> None:
+    assert sample(checker(), coordinates).tolist() == [list(color) for color in expected]
+
+
+def test_palettes_and_greys_are_read() -> None:
+    assert sample(Image.new("L", (1, 1), 77), [[0.3, 0.3]]).tolist() == [[77, 77, 77]]
+    assert sample(checker().convert("P"), [[0, 1]]).tolist() == [list(RED)]

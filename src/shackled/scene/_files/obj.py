@@ -196,13 +196,11 @@ def _drawn_faces(obj: _Lines) -> _Drawn:
 def _tell_of_statements(obj: _Lines) -> None:
     """Warn of statements that are left out. InputError if there are no faces."""
     shapes = [plural(obj.left_out[keyword], *names) for keyword, names in _SHAPES.items() if obj.left_out[keyword]]
-    if not obj.faces and shapes:
-        raise InputError(
-            f"it has no faces, only {', '.join(shapes)}; only faces are drawn, such as those of thin tubes in place of"
-            " lines and of small balls in place of points"
-        )
     if not obj.faces:
-        raise InputError(f"it has no faces ({len(obj.positions) // 3} vertices)")
+        raise InputError(
+            f"it has no faces, only {', '.join(shapes) or plural(len(obj.positions) // 3, 'vertex', 'vertices')}; only"
+            " faces are drawn, such as those of thin tubes in place of lines and of small balls in place of points"
+        )
     others = [
         plural(count, f"statement {keyword[:20]!r}", f"statements {keyword[:20]!r}")
         for keyword, count in obj.left_out.most_common(_MOST_STATEMENTS)

@@ -61,16 +61,12 @@ def read_picture(path: Path) -> Scene:
     data = read_bytes(path)
     with about(str(path)):
         found = [each for each in _chunks(data) if each[0] in TEXTS and each[1].startswith(KEYWORD + b"\0")]
-        if not found:
-            raise InputError(
-                f"the picture carries no scene: it has no chunk {CHUNK.decode()} with the keyword {KEYWORD.decode()},"
-                " in which Shackled writes one"
-            )
-        if len(found) > 1:
-            raise InputError(f"the picture carries {len(found)} scenes, in chunks {KEYWORD.decode()}; one is right")
-        kind, content = found[0]
-        if kind != CHUNK:
-            raise InputError(f"its scene is in a chunk {kind.decode()}, not {CHUNK.decode()}")
+        kinds = [kind for kind, _ in found]
+        if kinds != [CHUNK]:
+            needed = f"one chunk {CHUNK.decode()} with the keyword {KEYWORD.decode()}"
+            there = b", ".join(kinds).decode() or "none"
+            raise InputError(f"the picture carries no scene: it needs {needed}, not {there}")
+        content = found[0][1]
         call = _call(content[len(KEYWORD) + 1 :])
         with about(f"the chunk {KEYWORD.decode()}"):
             return decode(call)

@@ -44,15 +44,11 @@ def write_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
 
 def encode_scene_file(scene: Scene) -> bytes:
     """Return the bytes of a scene file in JSON, such that loading it gives the same scene."""
-    camera = scene.camera
     document = {
         "size": [scene.width, scene.height],
         **_fields(scene, "scene"),
         **({} if scene.tone is None else {"tone": _fields(scene.tone, "tone")}),
-        "camera": {
-            **{name: getattr(camera, name) for name in ("eye", "target", "up", "projection", "half_height")},
-            **({} if camera.near is None else {"near": camera.near}),
-        },
+        "camera": asdict(scene.camera, filter=_is_given),
         "objects": [
             {
                 "mesh": {name: value for name in MESH if (value := getattr(thing.mesh, name)) is not None},
@@ -67,6 +63,10 @@ def encode_scene_file(scene: Scene) -> bytes:
         ],
     }
     return f"{json.dumps(document, default=_plain)}\n".encode("ascii")
+
+
+def _is_given(_: object, value: object) -> bool:
+    return value is not None
 
 
 def _fields(value: object, part: Part) -> dict[str, Any]:
@@ -87,7 +87,7 @@ def _texture_keys(texture: Texture | None) -> dict[str, Any]:
 def _plain(value: Any) -> Any:
     """Return what JSON has for an array, or for a background, a light or an effect."""
     if isinstance(value, Background | Hemisphere | Rim | Fog | Ground):
-        return asdict(value, filter=lambda _, found: found is not None)
+        return asdict(value, filter=_is_given)
     if not isinstance(value, Light):
         return value.tolist()
     place = "direction" if value.kind == "directional" else "position"

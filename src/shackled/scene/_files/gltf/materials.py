@@ -70,15 +70,24 @@ class Surface:
     cutoff: float | None = None
 
     @property
+    def opacity(self) -> float:
+        """That of an object: only what is blended has one."""
+        return self.factor[3] if self.is_blended else 1.0
+
+    @property
     def has_alpha(self) -> bool:
         """Whether the alpha of the texture counts."""
         return self.is_blended or (self.cutoff is not None and self.cutoff > 0)
 
 
-def surface_of(gltf: Document, primitive: Table) -> Surface | None:
-    """Return the material of a primitive; None if it has none."""
+#: That of primitives without a material.
+PLAIN = Surface()
+
+
+def surface_of(gltf: Document, primitive: Table) -> Surface:
+    """Return the material of a primitive."""
     if "material" not in primitive:
-        return None
+        return PLAIN
     material = gltf.item(primitive, "material", "materials")
     extensions = material.table("extensions")
     gltf.uses(extensions.values)
@@ -120,15 +129,12 @@ def _gloss(keys: Table, is_older: bool) -> tuple[float, float] | None:
     return keys.number("roughnessFactor"), keys.number("metallicFactor", 1)
 
 
-def colors_of(vertices: Vertices, surface: Surface | None, where: str) -> tuple[Array, float]:
-    """Return colours of vertices with alpha, (n, 4), 0..255, without a texture's; and the opacity of the material."""
+def colors_of(vertices: Vertices, surface: Surface, where: str) -> Array:
+    """Return colours of vertices with alpha, (n, 4), 0..255, without a texture's and the opacity of the material."""
     vertex_colors = vertices.values("COLOR_0", "VEC3", "VEC4")
-    if surface is None and vertex_colors is None:
-        return np.full((len(vertices.used), 4), (*DEFAULT_COLOR, 255), dtype=np.float64), 1.0
-    surface = surface or Surface()
-    *factor, opacity = surface.factor
-    linear = np.ones((len(vertices.used), 4))
-    linear[:, :3] *= factor
+    if surface is PLAIN and vertex_colors is None:
+        return np.full((len(vertices.used), 4), (*DEFAULT_COLOR, 255), dtype=np.float64)
+    linear = np.tile([*surface.factor[:3], 1.0], (len(vertices.used), 1))
     if vertex_colors is not None:
         most = np.iinfo(vertex_colors.dtype).max if vertex_colors.dtype.kind in "iu" else 1
         own = vertex_colors.astype(np.float64) / most
@@ -136,16 +142,16 @@ def colors_of(vertices: Vertices, surface: Surface | None, where: str) -> tuple[
         if len(bad):
             raise InputError(f"colour {bad[0]} must be finite numbers, not {own[bad[0]].tolist()}")
         linear[:, : own.shape[1]] *= np.clip(own, 0, 1)
-    if surface.cutoff is not None and (linear[:, 3] * opacity < surface.cutoff).any():
+    if surface.cutoff is not None and (linear[:, 3] * surface.factor[3] < surface.cutoff).any():
         vertices.gltf.leave_out("primitive", where, "the alpha of vertices of {}")
     alpha = np.rint(255 * linear[:, 3:]) if surface.is_blended else np.full((len(linear), 1), 255.0)
-    return np.hstack([to_srgb(linear[:, :3]), alpha]), opacity if surface.is_blended else 1.0
+    return np.hstack([to_srgb(linear[:, :3]), alpha])
 
 
-def picture_on(vertices: Vertices, surface: Surface | None, where: str) -> tuple[Picture | None, Array]:
+def picture_on(vertices: Vertices, surface: Surface, where: str) -> tuple[Picture | None, Array]:
     """Return the image of the base colour texture, None if there is none, and where the vertices are on it, (n, 2)."""
     nowhere = np.zeros((len(vertices.used), 2))
-    if surface is None or surface.texture is None:
+    if surface.texture is None:
         return None, nowhere
     info = surface.texture
     transform = info.table("extensions").table("KHR_texture_transform")

@@ -77,12 +77,12 @@ def nodes_of(gltf: Document, animation: str | int | None, time: float | None) ->
 def _material(pieces: Sequence[Piece]) -> dict[str, Any]:
     """Return the fields of a Material; highlights are the mean of all pieces that tell of them, by area."""
     first = pieces[0].surface
-    if first is not None and first.is_unlit:
+    if first.is_unlit:
         return {"shading": "unlit"}
-    fields: dict[str, Any] = {"emission": first.emission} if first is not None and any(first.emission) else {}
+    fields: dict[str, Any] = {"emission": first.emission} if any(first.emission) else {}
     gloss, areas = [], []
     for piece in pieces:
-        if piece.surface is not None and piece.surface.gloss is not None:
+        if piece.surface.gloss is not None:
             a, b, c = piece.positions[piece.faces].transpose(1, 0, 2)
             gloss.append(piece.surface.gloss)
             areas.append(float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()))
@@ -112,4 +112,4 @@ def _join(pieces: Sequence[Piece], count: int) -> MeshPart:
         material["texture"], corner_uvs = picture.texture(uvs[corners], count)
     found = filled(positions, corners, normals[corners]) if normals.any() else None
     mesh = weld(positions, corners, corner_colors, found, corner_uvs)
-    return MeshPart(mesh, material, pieces[0].opacity, surface is not None and surface.is_two_sided)
+    return MeshPart(mesh, material, surface.opacity, surface.is_two_sided)
