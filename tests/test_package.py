@@ -38,7 +38,7 @@ EXTRA_OF = {
     "deploy/_transactor.py": "chain",
     "cli/chain_options.py": "chain",
     "tokens/": "chain",
-    "mp4.py": "mp4",
+    "animation.py": "mp4",
     "parallel/_cluster.py": "cluster",
     "scene/_files/gltf/draco.py": "draco",
     "web/_widget.py": "jupyter",

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import errno
-import gzip
 import hashlib
 import io
-import tarfile
 import threading
 import time
 import zipfile
@@ -200,14 +198,6 @@ def test_a_file_of_ones_own(ball: Model, server: Server, tmp_path: Path, obj: by
 
 def packed(kind: str, obj: bytes) -> bytes:
     stream = io.BytesIO()
-    if kind == "gz":
-        return gzip.compress(obj)
-    if kind.startswith("tar"):
-        with tarfile.open(fileobj=stream, mode=f"w:{kind[4:]}") as tar:  # type: ignore[call-overload]
-            info = tarfile.TarInfo("folder/ball.obj")
-            info.size = len(obj)
-            tar.addfile(info, io.BytesIO(obj))
-        return stream.getvalue()
     rows = [line.split() for line in obj.decode().splitlines()]
     vertices = "".join('<vertex x="{}" y="{}" z="{}"/>'.format(*row[1:]) for row in rows if row[0] == "v")
     faces = [[int(number) - 1 for number in row[1:]] for row in rows if row[0] == "f"]
@@ -228,10 +218,10 @@ def packed(kind: str, obj: bytes) -> bytes:
     return stream.getvalue()
 
 
-@pytest.mark.parametrize("kind", ["zip", "gz", "3mf", "tar", "tar.gz", "tar.xz", "tar.bz2"])
+@pytest.mark.parametrize("kind", ["zip", "3mf"])
 def test_archives(ball: Model, tmp_path: Path, cache: Path, obj: bytes, kind: str) -> None:
     whole, path = packed(kind, obj), tmp_path / f"ball.obj.{kind}"
-    for length in (5, 100, len(whole) // 2) if kind not in ("tar", "tar.bz2") else ():
+    for length in (5, 100, len(whole) // 2):
         path.write_bytes(whole[:length])
         with pytest.raises(InputError) as caught:
             take(ball, path)

@@ -47,8 +47,8 @@ def sheet(
         x, y = GAP + number % columns * width, GAP + number // columns * height
         with PillowImage.open(io.BytesIO(drawing.png)) as small:
             picture.paste(small.convert("RGB").resize(cell, PillowImage.Resampling.NEAREST), (x, y))
-        pen.text((x, y + cell[1] + 2), _fitting(piece.name, font, cell[0]), INK, font)
-        pen.text((x, y + cell[1] + 15), _fitting(figures(drawing, "tri."), font, cell[0]), FAINT, font)
+        pen.text((x, y + cell[1] + 2), piece.name, INK, font)
+        pen.text((x, y + cell[1] + 15), figures(drawing, "tri."), FAINT, font)
     return pillow_bytes(picture, "png")
 
 
@@ -72,12 +72,3 @@ def figures(drawing: Thumbnail, triangles: str = "triangles") -> str:
     """Return the triangles and the gas of a drawing in words."""
     gas = "" if drawing.gas is None else f", {drawing.gas / 1e6:.1f} M gas"
     return f"{drawing.triangles:,} {triangles}{gas}"
-
-
-def _fitting(text: str, font: ImageFont.FreeTypeFont | ImageFont.ImageFont, width: int) -> str:
-    """Return the text, cut to a width."""
-    if font.getlength(text) <= width:
-        return text
-    while font.getlength(f"{text}…") > width:
-        text = text[:-1]
-    return f"{text}…"

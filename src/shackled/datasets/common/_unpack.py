@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import gzip
 import io
-import lzma
-import tarfile
 import tempfile
 import warnings
 import zipfile
 import zlib
 from pathlib import Path, PurePosixPath
-from typing import Protocol
 from xml.etree import ElementTree
 
 import numpy as np
@@ -19,21 +15,11 @@ import numpy as np
 from ...errors import InputError, InputWarning
 from ...scene import MAX_BYTES, READERS, Mesh, read_mesh, weld
 
-#: What the kinds of packed files begin with; a tar has its mark further behind.
-ZIP, GZIP, XZ, BZIP2 = b"PK\3\4", b"\x1f\x8b", b"\xfd7zXZ", b"BZh"
-TAR_MARK = (257, b"ustar")
-
 MODEL_3MF = "3D/3dmodel.model"
-
-_BROKEN = (OSError, EOFError, zipfile.BadZipFile, tarfile.TarError, zlib.error, lzma.LZMAError, RuntimeError)
-
-
-class _Readable(Protocol):
-    def read(self, size: int, /) -> bytes: ...
 
 
 def read_model(path: Path) -> Mesh:
-    """Read the mesh of a mesh file, a 3MF, a gzipped mesh file, or the largest mesh file in a zip or tar archive.
+    """Read the mesh of a mesh file, a 3MF, or the largest mesh file in a zip archive.
 
     Materials and textures are ignored without a warning, since only the mesh of a model is fetched. InputError, one
     line that begins with the path, for anything that is wrong with the file.
@@ -42,69 +28,33 @@ def read_model(path: Path) -> Mesh:
         warnings.simplefilter("ignore", InputWarning)
         try:
             with path.open("rb") as file:
-                head = file.read(512)
-            if head.startswith(ZIP):
-                return _from_zip(path)
-            if head.startswith((GZIP, XZ, BZIP2)) or head[TAR_MARK[0] :].startswith(TAR_MARK[1]):
-                return _from_tar(path, head)
-        except _BROKEN as error:
-            reason = " ".join(str(getattr(error, "strerror", None) or error or type(error).__name__).split())
-            raise InputError(f"{path} cannot be read: {reason}") from None
-        return read_mesh(path)
+                if file.read(4) != b"PK\3\4":
+                    return read_mesh(path)
+            with zipfile.ZipFile(path) as archive:
+                return _from_zip(path, archive)
+        except (OSError, EOFError, zipfile.BadZipFile, zlib.error, RuntimeError) as error:
+            raise InputError(f"{path} cannot be read: {' '.join(str(error).split())}") from None
 
 
-def _from_zip(path: Path) -> Mesh:
-    with zipfile.ZipFile(path) as archive:
-        sizes = {info.filename: info.file_size for info in archive.infolist() if not info.is_dir()}
-        if MODEL_3MF in sizes:
-            return _read_3mf(path, _limited(archive.open(MODEL_3MF), path))
-        name = _largest_mesh(path, sizes)
-        with archive.open(name) as file:
-            return _read_packed(path, name, file)
-
-
-def _from_tar(path: Path, head: bytes) -> Mesh:
-    try:
-        archive = tarfile.open(path)  # noqa: SIM115
-    except tarfile.ReadError:
-        if not head.startswith(GZIP):
-            raise
-        # one packed file, "bunny.ply.gz"
-        with gzip.open(path) as packed:
-            return _read_packed(path, path.stem, packed)
-    with archive:
-        name = _largest_mesh(path, {info.name: info.size for info in archive.getmembers() if info.isfile()})
-        opened = archive.extractfile(name)
-        assert opened is not None  # it is a file
-        with opened:
-            return _read_packed(path, name, opened)
-
-
-def _largest_mesh(path: Path, sizes: dict[str, int]) -> str:
+def _from_zip(path: Path, archive: zipfile.ZipFile) -> Mesh:
+    sizes = {each.filename: each.file_size for each in archive.infolist()}
     meshes = [name for name in sizes if PurePosixPath(name).suffix.lower() in READERS]
-    if not meshes:
+    if not meshes and MODEL_3MF not in sizes:
         raise InputError(f"{path} contains no mesh file; known are {', '.join(READERS)}")
-    return max(meshes, key=lambda name: (sizes[name], name))
-
-
-def _read_packed(path: Path, name: str, file: _Readable) -> Mesh:
-    suffix = PurePosixPath(name).suffix.lower()
-    if suffix not in READERS:
-        raise InputError(f"{path} contains {PurePosixPath(name).name}, no mesh file; known are {', '.join(READERS)}")
+    name = MODEL_3MF if MODEL_3MF in sizes else max(meshes, key=lambda each: (sizes[each], each))
+    with archive.open(name) as file:
+        data = file.read(MAX_BYTES + 1)
+    if len(data) > MAX_BYTES:
+        raise InputError(f"{path} unpacks to more than {MAX_BYTES >> 20} MB, the most that is read")
+    if name == MODEL_3MF:
+        return _read_3mf(path, data)
     with tempfile.TemporaryDirectory() as folder:
-        unpacked = Path(folder, f"model{suffix}")
-        unpacked.write_bytes(_limited(file, path))
+        unpacked = Path(folder, f"model{PurePosixPath(name).suffix}")
+        unpacked.write_bytes(data)
         try:
             return read_mesh(unpacked)
         except InputError as error:
             raise InputError(str(error).replace(str(unpacked), f"{path}: {name}")) from None
-
-
-def _limited(file: _Readable, path: Path) -> bytes:
-    data = file.read(MAX_BYTES + 1)
-    if len(data) > MAX_BYTES:
-        raise InputError(f"{path} unpacks to more than {MAX_BYTES >> 20} MB, the most that is read")
-    return data
 
 
 def _read_3mf(path: Path, model: bytes) -> Mesh:

@@ -77,9 +77,6 @@ def _terrain(xs: Array, zs: Array, height: float | Array) -> Mesh:
     return Mesh(points, shapes.cells(*x.shape))
 
 
-# ---- still life ----
-
-
 def still_life() -> Scene:
     """Return the still life of examples/scene.toml in the light of a sun, with shadows."""
     glaze = Material("smooth", ambient=0.25, diffuse=0.85, specular=0.7, shininess=48)
@@ -126,9 +123,6 @@ def _chessboard(side: int = 12) -> Object:
     return Object(mesh, material=material)
 
 
-# ---- glass ----
-
-
 def glass() -> Scene:
     """Return bottles, a tumbler and marbles of glass before solid things, which shine through."""
     clear = Material("smooth", ambient=0.55, diffuse=0.6, specular=1.6, shininess=70)
@@ -157,9 +151,6 @@ def glass() -> Scene:
         ambient_light="#f0ece4",
         rim=Rim("#3c4048", 4),
     )
-
-
-# ---- texture ----
 
 
 def vase() -> Scene:
@@ -215,9 +206,6 @@ def _bands() -> Array:
     return np.where(black[..., None], glaze, clay)
 
 
-# ---- fog ----
-
-
 def forest() -> Scene:
     """Return firs on both sides of a valley, paler and paler in the haze of a morning."""
     rng = np.random.default_rng(12)
@@ -264,9 +252,6 @@ def _cone(top: float, bottom: float, low: float, high: float, sides: int, color:
     return painted(Mesh(points, np.hstack([lower, upper] if top else [lower]).T), color)
 
 
-# ---- rim ----
-
-
 def skull() -> Scene:
     """Return the icon of a skull in the dark, outlined by cold light."""
     scene = _piece("icons/skull", azimuth=-30, elevation=4, margin=0.12)
@@ -287,24 +272,15 @@ def _piece(name: str, **look: Any) -> Scene:
     return look_at(require(name).make(), {"size": SIZE, "antialias": True, **look})
 
 
-# ---- Genesis ----
-
-
 def genesis() -> Scene:
     """Return a piece of Genesis, antialiased."""
     return _piece("genesis/21")
-
-
-# ---- turntable ----
 
 
 def rocket() -> Scene:
     """Return the icon of a rocket, of which the showcase draws a turntable."""
     look = {"background": Background("#141638", "#3c2a68"), "ambient_light": (200, 205, 255), "margin": 0.04}
     return evolve(_piece("icons/rocket", **look), rim=Rim("#5c78ff", 3))
-
-
-# ---- tone ----
 
 
 def knot() -> Scene:
@@ -321,9 +297,6 @@ def knot() -> Scene:
         Background("#121018", "#2c2438"),
         tone=Tone(1.5, filmic=True, gamma=True),
     )
-
-
-# ---- hemisphere ----
 
 
 def plaster() -> Scene:
@@ -347,9 +320,6 @@ def plaster() -> Scene:
         hemisphere=Hemisphere("#7ea8e8", "#c0702c"),
         tone=Tone(1.15, gamma=True),
     )
-
-
-# ---- wires ----
 
 
 def wires() -> Scene:
@@ -376,17 +346,11 @@ def wires() -> Scene:
     )
 
 
-# ---- the Cornell box ----
-
-
 def cornell_box() -> Scene:
     """Return the Cornell box with shadows, its light added up in linear space."""
     scene = _piece("cornell-box")
     lamp = evolve(scene.lights[0], shadow=True)
     return evolve(scene, lights=[lamp], tone=Tone(0.9, filmic=True, gamma=True))
-
-
-# ---- hemisphere and rim ----
 
 
 def shell() -> Scene:
