@@ -33,7 +33,8 @@ def read_model(path: Path) -> Mesh:
             with zipfile.ZipFile(path) as archive:
                 return _from_zip(path, archive)
         except (OSError, EOFError, zipfile.BadZipFile, zlib.error, RuntimeError) as error:
-            raise InputError(f"{path} cannot be read: {' '.join(str(error).split())}") from None
+            reason = getattr(error, "strerror", None) or str(error) or type(error).__name__
+            raise InputError(f"{path} cannot be read: {reason}") from None
 
 
 def _from_zip(path: Path, archive: zipfile.ZipFile) -> Mesh:
