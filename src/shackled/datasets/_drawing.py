@@ -25,7 +25,7 @@ from ..image import decode_bmp, pillow_bytes
 from ..scene import encode, resize
 from ..whole_file import write_whole
 from ..workers import each
-from . import Piece, require
+from ._pieces import Piece, require
 
 #: The environment variable that names the cache folder.
 VARIABLE = "SHACKLED_CACHE"

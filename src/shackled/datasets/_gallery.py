@@ -12,7 +12,8 @@ from PIL import Image as PillowImage
 from PIL import ImageDraw, ImageFont
 
 from ..image import data_uri, pillow_bytes
-from . import Piece, Thumbnail
+from ._drawing import Thumbnail
+from ._pieces import Piece
 
 #: Sizes in the contact sheet, in pixels.
 CELL, LABEL, GAP = 128, 32, 8

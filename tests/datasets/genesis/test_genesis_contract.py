@@ -24,8 +24,18 @@ from original_scenes import genesis_document
 from shackled import render
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
-from shackled.datasets.genesis import COUNT, GenesisPiece, find, generate, parse_seed, picture_on_chain, pieces, seed_of
-from shackled.datasets.genesis._contract import call, decode_piece
+from shackled.datasets.genesis import (
+    COUNT,
+    GenesisPiece,
+    call,
+    decode_piece,
+    find,
+    generate,
+    parse_seed,
+    picture_on_chain,
+    pieces,
+    seed_of,
+)
 from shackled.errors import InputError, RenderError
 from shackled.ethereum import keccak256
 from shackled.scene import encode

@@ -1,15 +1,19 @@
-"""The scenes of the showcase. Lengths are about those of the still life, whose teapot is 3 high and stands on y = 0."""
+"""The showcase: twelve scenes that show the options of the renderer, and how they are drawn into a folder.
+
+Lengths are about those of the still life, whose teapot is 3 high and stands on y = 0.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
-from ...scene import (
+from ..scene import (
     Background,
     Camera,
     Fog,
@@ -28,14 +32,21 @@ from ...scene import (
     stage,
     view_axes,
 )
-from .. import Piece, require, teapot
-from ..common import shapes
+from ..whole_file import write_output
+from ._drawing import Thumbnail
+from ._gallery import sheet
+from ._pieces import Piece, require
+from ._teapot import teapot
+from .common import shapes
 
 Array = NDArray[np.float64]
 
 #: Of every scene.
 SIZE = (320, 240)
 UNLIT = Material("unlit")
+#: The scene that is drawn as a turntable, its frames, and their duration in milliseconds.
+TURNED, FRAMES, DURATION = "showcase/rocket", 16, 90
+COLUMNS = 4
 
 
 def _scene(
@@ -385,3 +396,28 @@ def pieces() -> list[Piece]:
     }
     names = {make: make.__name__.replace("_", "-") for make in titles}
     return [Piece(f"showcase/{names[make]}", "showcase", title, "MIT", make) for make, title in titles.items()]
+
+
+def draw_showcase(folder: Path, chosen: Sequence[Piece] = ()) -> Iterator[Thumbnail]:
+    """Draw scenes into a folder, which must exist, and yield each when it is done; then sheet.png.
+
+    chosen: the scenes; all if it is empty. OutputError where the disk is full or fails.
+    """
+    listed, drawings = chosen or pieces(), {}
+    for piece in listed:
+        drawing = drawings[piece.name] = _draw(piece)
+        write_output(folder / f"{piece.name.partition('/')[2]}.png", drawing.png)
+        yield drawing
+    write_output(folder / "sheet.png", sheet(listed, drawings, SIZE, min(COLUMNS, len(listed))))
+
+
+def _draw(piece: Piece) -> Thumbnail:
+    from .._render import render
+    from ..studio import make_apng
+
+    scene = piece.make()
+    if piece.name == TURNED:
+        film = make_apng(scene, FRAMES, DURATION, scale=SIZE[0] // scene.width)
+        return Thumbnail(piece.name, scene.triangles, film.gas, film.content)
+    image = render(scene)
+    return Thumbnail(piece.name, scene.triangles, image.gas, image.encode(".png"))

@@ -1,24 +1,39 @@
-"""Pieces and pictures from the contract."""
+"""Shackled Genesis: 1024 pieces of an on-chain generator. Every seed of 32 bytes gives a piece."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import io
+import re
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
+from itertools import islice
+from math import isqrt
+from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image as PillowImage
 
-from ...artifacts import artifact
-from ...chain import CallResult, Chain, ContractChain, Drawing, open_chain
-from ...errors import InputError, RenderError
-from ...image import Image
-from ...scene import Background, Light, Material, Mesh, Object, Scene
+from ..artifacts import artifact
+from ..chain import CallResult, Chain, ContractChain, Drawing, open_chain
+from ..checks import whole
+from ..errors import InputError, RenderError
+from ..ethereum import keccak256
+from ..image import Image, pillow_bytes
+from ..scene import Background, Light, Material, Mesh, Object, Scene
+from ..whole_file import check_output_file, write_output
+from ._drawing import SIZE, draw_all
+from ._pieces import Piece
 
+COUNT = 1024
 CONTRACT = "Genesis"
 
 #: A packed mesh: its header, then vertices and colours, then faces (contracts/src/scene/Mesh.sol).
 HEADER, VERTEX, FACE = 5, np.dtype([("position", ">i2", 3), ("color", "u1", 3)]), np.dtype((">u2", 3))
+
+#: Called with the number of finished pieces, and of all.
+Progress = Callable[[int, int], object]
 
 #: A vertex, a colour, or the corners of a face.
 Point3 = tuple[int, int, int]
@@ -89,8 +104,8 @@ def generate_on_chain(seed: bytes, chain: Chain | None = None) -> tuple[GenesisP
 
 def picture_on_chain(piece: GenesisPiece, chain: Chain | None = None) -> Image:
     """Return the picture of a piece, 128 x 128 pixels, made by one call from its seed alone."""
-    from ..._on import Embedded
-    from ..._render import render_whole
+    from .._on import Embedded
+    from .._render import render_whole
 
     place = open_chain() if chain is None else chain
 
@@ -127,3 +142,71 @@ def _decoded(function: str, output: bytes) -> Any:
 
 def _triples(rows: NDArray[Any]) -> list[Point3]:
     return [cast(Point3, tuple(row)) for row in rows.tolist()]
+
+
+def seed_of(number: int) -> bytes:
+    """Return the seed of a piece of the collection, from 0 to 1023."""
+    if not 0 <= number < COUNT:
+        raise InputError(f"the pieces of the collection are numbered from 0 to {COUNT - 1}, not {number}")
+    return keccak256(f"shackled-{number}".encode("ascii"))
+
+
+def parse_seed(text: str) -> bytes:
+    """Return the seed of 64 hexadecimal digits, with or without 0x, or of the number of a piece."""
+    if re.fullmatch(r"(0[xX])?[0-9a-fA-F]{64}", text):
+        return bytes.fromhex(text[-64:])
+    if re.fullmatch(r"0|[1-9][0-9]{0,3}", text) and int(text) < COUNT:
+        return seed_of(int(text))
+    raise InputError(
+        f"a seed must be 64 hexadecimal digits, with or without 0x, or a number from 0 to {COUNT - 1}, not {text!r:.80}"
+    )
+
+
+def pieces() -> Iterator[Piece]:
+    """Return the pieces of the collection."""
+    return (_piece(str(number), seed_of(number)) for number in range(COUNT))
+
+
+def find(name: str) -> Piece | None:
+    """Return the piece of a number or seed, as `parse_seed` reads it; None if it is neither."""
+    try:
+        seed = parse_seed(name)
+    except InputError:
+        return None
+    return _piece(name if len(name) < 64 else seed.hex(), seed)
+
+
+def _piece(label: str, seed: bytes) -> Piece:
+    title = f"Genesis {label if len(label) < 64 else label[:8]}"
+    return Piece(f"genesis/{label}", "genesis", title, "MIT", lambda: generate(seed).scene())
+
+
+def render_sheet(
+    path: str | Path,
+    count: int = COUNT,
+    size: int = SIZE,
+    workers: int | None = None,
+    progress: Progress = lambda done, total: None,
+) -> None:
+    """Render the first `count` pieces, size x size pixels each, in rows, into one PNG.
+
+    workers: number of worker processes; None for one per core. Finished drawings are kept in the cache folder, so that
+    an interrupted run continues. InputError or OutputError if the file cannot be written.
+    """
+    path = Path(path)
+    if path.suffix.lower() != ".png":
+        raise InputError(f"the sheet {path} must end in .png")
+    check_output_file(path, "sheet")
+    whole(count, "the number of pieces of a sheet", 1, COUNT)
+    whole(size, "the size of a piece in pixels", 1, 1024)
+    shown = list(islice(pieces(), count))
+    places = {piece.name: place for place, piece in enumerate(shown)}
+    columns = isqrt(count - 1) + 1
+    sheet = PillowImage.new("RGB", (columns * size, -(-count // columns) * size))
+    progress(0, count)
+    for done, drawing in enumerate(draw_all(shown, size, workers), 1):
+        row, column = divmod(places[drawing.name], columns)
+        with PillowImage.open(io.BytesIO(drawing.png)) as picture:
+            sheet.paste(picture, (column * size, row * size))
+        progress(done, count)
+    write_output(path, pillow_bytes(sheet, "png"))
