@@ -33,8 +33,7 @@ from ..scene import (
     view_axes,
 )
 from ..whole_file import write_output
-from ._drawing import Thumbnail
-from ._gallery import sheet
+from ._drawing import Thumbnail, sheet
 from ._pieces import Piece, require
 from ._teapot import teapot
 from .common import shapes
