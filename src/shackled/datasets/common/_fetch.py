@@ -48,9 +48,8 @@ def take(model: Model, path: Path) -> bool:
     InputError if it is not a readable mesh.
     """
     if not path.is_file():
-        raise InputError(
-            f"{path} {'is no file' if path.exists() else 'does not exist'}; a mesh file or archive is needed"
-        )
+        wrong = "is no file" if path.exists() else "does not exist"
+        raise InputError(f"{path} {wrong}; a mesh file or archive is needed")
     mesh = _prepared(model, path)
     same = checksum(path.read_bytes(), model.checksum) == model.checksum
     _save(model, mesh, own=not same)

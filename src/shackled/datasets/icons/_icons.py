@@ -47,10 +47,8 @@ SPARKLING = Material("flat", ambient=0.58, diffuse=0.54, specular=0.4, shininess
 
 #: Toward the light, right, up and toward the viewer: from the upper left, low enough for upright objects.
 LIGHT = (-0.45, 0.5, 0.9)
-
 #: `half_height` of the camera: a long lens, with little perspective distortion.
 LENS = 0.2
-
 #: Edges are sharp where a surface turns by more than these degrees.
 CREASE = 42.0
 
