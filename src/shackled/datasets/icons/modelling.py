@@ -43,8 +43,6 @@ class Solid:
     def __add__(self, other: Solid) -> Solid:
         return union(self, other)
 
-    # ---- moving ----
-
     def moved(self, x: float = 0, y: float = 0, z: float = 0) -> Solid:
         """Return the solid moved."""
         return replace(self, corners=self.corners + np.array((x, y, z)))
@@ -61,8 +59,6 @@ class Solid:
         """Return the mirror image, left and right exchanged."""
         return self.scaled(x=-1)
 
-    # ---- colouring ----
-
     def painted(self, color: ArrayLike, where: Where | None = None) -> Solid:
         """Return the solid in one colour, or only the triangles whose centres, (m, 3), `where` selects."""
         mask = np.ones(len(self.corners), dtype=bool) if where is None else where(self.corners.mean(axis=1))
@@ -72,8 +68,6 @@ class Solid:
     def shaded(self, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1, 0)) -> Solid:
         """Return the solid in a gradient along an axis, from its lowest to its highest point."""
         return replace(self, colors=shapes.gradient(self.corners @ np.asarray(axis, dtype=np.float64), low, high))
-
-    # ---- the result ----
 
     def volume(self) -> float:
         """Return the sum of the volumes of the parts."""
