@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 from itertools import islice
 from math import isqrt
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
 from ..artifacts import artifact
@@ -35,8 +34,8 @@ HEADER, VERTEX, FACE = 5, np.dtype([("position", ">i2", 3), ("color", "u1", 3)])
 #: Called with the number of finished pieces, and of all.
 Progress = Callable[[int, int], object]
 
-#: A vertex, a colour, or the corners of a face.
-Point3 = tuple[int, int, int]
+#: Colours, vertices, or corners of faces: three numbers each.
+Rows = list[list[int]]
 
 #: Every piece has full ambient light, and a light from the left.
 MATERIAL = Material("flat", ambient=1, diffuse=0.8, specular=1.2, shininess=10)
@@ -61,10 +60,10 @@ class GenesisPiece:
     wireframe: bool
     culling: bool
     invert: bool
-    background: tuple[Point3, Point3]
-    verts: Sequence[Point3]
-    cols: Sequence[Point3]
-    faces: Sequence[Point3]
+    background: Rows
+    verts: Rows
+    cols: Rows
+    faces: Rows
 
     def document(self) -> dict[str, Any]:
         """Return the piece as a JSON object; `seed` is 64 hexadecimal digits."""
@@ -125,11 +124,11 @@ def decode_piece(seed: bytes, output: bytes) -> GenesisPiece:
     if len(mesh) != end + FACE.itemsize * faces:
         raise RenderError("the contract returned a mesh that is not complete")
     packed = np.frombuffer(mesh, VERTEX, vertices, HEADER)
-    top, bottom = ((color >> 16, color >> 8 & 255, color & 255) for color in background)
+    colors = [[color >> 16, color >> 8 & 255, color & 255] for color in background]
     corners = np.frombuffer(mesh[end:], FACE.base).reshape(-1, 3)
-    verts, cols, triangles = (_triples(each) for each in (packed["position"], packed["color"], corners))
+    verts, cols, triangles = (each.tolist() for each in (packed["position"], packed["color"], corners))
     return GenesisPiece(
-        *(seed, structure, chroma, symmetry, prisms, wireframe, culling, invert, (top, bottom), verts, cols, triangles)
+        *(seed, structure, chroma, symmetry, prisms, wireframe, culling, invert, colors, verts, cols, triangles)
     )
 
 
@@ -138,10 +137,6 @@ def _decoded(function: str, output: bytes) -> Any:
         return artifact(CONTRACT).interface.decode(function, output)
     except ValueError:
         raise RenderError(f"the contract returned {len(output)} bytes that do not hold a piece") from None
-
-
-def _triples(rows: NDArray[Any]) -> list[Point3]:
-    return [cast(Point3, tuple(row)) for row in rows.tolist()]
 
 
 def seed_of(number: int) -> bytes:
