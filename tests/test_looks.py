@@ -45,12 +45,8 @@ def test_figures_are_those_of_the_snapshot(recorded: looks.Figures) -> None:
 def test_ratios_are_those_of_sums() -> None:
     scenes = [staged_teapot("flat", 16), load("cube", size=16)]
     found = looks.ratios({looks.SMOOTH: scenes, looks.RATIOS["icons"]: scenes[:1]})
-    plain, smoothed = ([gas(evolve(scene, antialias=flag)) for scene in scenes] for flag in (False, True))
-    assert found == {
-        "icons, x": smoothed[0] / plain[0],
-        "smooth, x": sum(smoothed) / sum(plain),
-        "smooth": sum(smoothed) / 2,
-    }
+    plain, smooth = ([gas(evolve(scene, antialias=flag)) for scene in scenes] for flag in (False, True))
+    assert found == {"icons, x": smooth[0] / plain[0], "smooth, x": sum(smooth) / sum(plain), "smooth": sum(smooth) / 2}
 
 
 def test_what_is_lowered() -> None:
