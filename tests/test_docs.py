@@ -78,10 +78,10 @@ def test_the_code_of_a_page_runs(page: Path, folder: Path) -> None:
     exec(compile(code, str(page), "exec"), {"shackled": shackled, **triangle})
 
 
-@pytest.mark.parametrize("page", [*sorted(DOCS.glob("*.md")), ROOT / "README.md"], ids=lambda page: page.stem)
-def test_the_commands_of_a_page_exist(page: Path) -> None:
+def test_the_commands_of_pages_exist() -> None:
     """With the options that are shown."""
-    for line in re.findall(r"^(?:\$ )?(?:\.venv/bin/)?(shackled [a-z].*)$", page.read_text("utf-8"), re.MULTILINE):
+    texts = "\n".join(page.read_text("utf-8") for page in [*DOCS.glob("*.md"), ROOT / "README.md"])
+    for line in re.findall(r"^(?:\$ )?(?:\.venv/bin/)?(shackled [a-z].*)$", texts, re.MULTILINE):
         words = shlex.split(line, comments=True)[1:]
         command: click.Command | None = app
         while words and isinstance(command, click.Group):
@@ -91,15 +91,11 @@ def test_the_commands_of_a_page_exist(page: Path) -> None:
         assert {word for word in words if word.startswith("-")} - {"--help"} <= known, line
 
 
-@pytest.mark.parametrize(
-    "page",
-    [*sorted(DOCS.glob("*.md")), *(ROOT / name / "README.md" for name in (".", "contracts", "benchmarks"))],
-    ids=lambda page: page.relative_to(ROOT).as_posix(),
-)
-def test_the_files_that_a_page_names_exist(page: Path) -> None:
+def test_the_files_that_pages_name_exist() -> None:
     """By their paths, or the ends of these."""
-    named = set(re.findall(r"`([\w./-]*\w\.(?:py|sol|toml))`", page.read_text("utf-8")))
-    assert [name for name in sorted(named) if not any(path.endswith(f"/{name}") for path in sources())] == []
+    for page in [*DOCS.glob("*.md"), *(ROOT / name / "README.md" for name in (".", "contracts", "benchmarks"))]:
+        for name in set(re.findall(r"`([\w./-]*\w\.(?:py|sol|toml))`", page.read_text("utf-8"))):
+            assert any(path.endswith(f"/{name}") for path in sources()), f"{page}: {name}"
 
 
 @cache

@@ -50,7 +50,6 @@ SAME: list[tuple[Callable[[], Any], Callable[[], Any]]] = [
     (lambda: s.render(trimesh.Scene([BOX]), size=SIDE), lambda: s.render(shackled.Object(MESH), size=SIDE)),
     (lambda: s.render((np.array(BOX.vertices), np.array(BOX.faces)), SIDE), lambda: s.render(MESH, SIDE)),
     (lambda: s.render(vertices=BOX.vertices, faces=BOX.faces), lambda: s.render(MESH)),
-    (lambda: s.render(BOX.vertices, BOX.faces), lambda: s.render(MESH)),
     (lambda: s.load([BOX, BALL], SIDE).triangles, lambda: len(BOX.faces) + len(BALL.faces)),
     (lambda: s.load(["cube", "teapot"]).triangles, lambda: sum(s.load(each).triangles for each in ("cube", "teapot"))),
     (
@@ -159,6 +158,7 @@ NAMED: dict[str, tuple[Callable[[], Any], str]] = {
     "PointLight": (lambda: s.PointLight(position=(1, 2, 3)), "shackled.Light.point"),
     "toward or direction": (lambda: s.Light.directional((0, 1, 0)), "toward=, the way from the scene to the light, or"),
     "a place of the sun": (lambda: s.Light(kind="directional", position=(0, 1, 0)), "give toward=, the way"),
+    "two arguments": (lambda: s.render(BOX.vertices, BOX.faces), "vertices and faces are one argument, in ()"),
     "size": (lambda: s.render("cube", "out.png"), "`save` of what is returned writes"),
     "output=": (lambda: cube(output="out.png"), "`save` of what is returned writes"),
     "background": (lambda: s.load("cube", background="transparent"), "give `transparent` for a picture without"),

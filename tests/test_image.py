@@ -63,14 +63,6 @@ def test_render_fills_every_field(image: Image) -> None:
     assert image.seconds > 0
 
 
-def test_sizes(image: Image) -> None:
-    assert render(SCENE, size=8).pixels.shape == (8, 8, 3)
-    assert (render(SCENE, size=(37, 21)).pixels == image.pixels).all()
-    for size in (0, 2049, (5, 0), "big", (1, 2, 3), 1.5):
-        with pytest.raises(InputError):
-            render(SCENE, size=size)  # type: ignore[arg-type]
-
-
 @pytest.mark.parametrize("extension", [*FORMATS, ".PNG"])
 def test_files_hold_the_pixels_of_the_contract(image: Image, tmp_path: Path, extension: str) -> None:
     """Of few colours, so that all formats can; those of a JPEG are near."""

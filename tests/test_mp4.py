@@ -61,6 +61,6 @@ def test_a_file_is_written_and_refused(tmp_path: Path, monkeypatch: pytest.Monke
     clear = Animation([Image(each, alpha=each[:, :, 0]) for each in FRAMES])
     with pytest.raises(InputError, match=r"a transparent picture needs a \.png or \.webp file: \.mp4 has no alpha"):
         clear.encode(".mp4")
-    monkeypatch.setattr("shackled.mp4.find_spec", lambda name: None)
+    monkeypatch.setattr("shackled.animation.find_spec", lambda name: None)
     with pytest.raises(InputError, match=r"^an \.mp4 file needs a package .*: pip install 'shackled\[mp4\]'$"):
         check_animation(tmp_path / "b.mp4")

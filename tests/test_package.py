@@ -38,7 +38,7 @@ EXTRA_OF = {
     "deploy/_transactor.py": "chain",
     "cli/chain_options.py": "chain",
     "tokens/": "chain",
-    "mp4.py": "mp4",
+    "animation.py": "mp4",
     "parallel/_cluster.py": "cluster",
     "scene/_files/gltf/draco.py": "draco",
     "web/_widget.py": "jupyter",
@@ -88,15 +88,19 @@ def test_what_is_imported_is_declared() -> None:
     assert {canonicalize_name(each.name) for each in everything} <= found
 
 
-def test_the_extras_are_those_of_the_tests() -> None:
-    """With the same markers: no extra builds from its sources what the tests are run without."""
-    tested = {str(Requirement(line)) for line in PROJECT["dependency-groups"]["dev"]}
-    assert {str(each) for lines in EXTRAS.values() for each in lines} <= tested
-    (pyrevm,) = EXTRAS["pyrevm"]
-    assert pyrevm.marker is not None
-    assert [pyrevm.marker.evaluate({"python_version": each}) for each in ("3.11", "3.12", "3.13", "3.14")] == [
-        *(True, True, False, False)
-    ]
+def test_the_extras_are_those_of_the_tests_and_every_platform_needs_the_same() -> None:
+    """No extra builds from its sources what the tests are run without; the EVM runs wherever wasmtime does."""
+    extras = [each for lines in EXTRAS.values() for each in lines]
+    assert {str(each) for each in extras} <= {str(Requirement(line)) for line in PROJECT["dependency-groups"]["dev"]}
+    (pyrevm,) = (each.marker for each in extras if each.marker is not None)
+    assert EXTRAS["pyrevm"][0].marker is pyrevm
+    found = [pyrevm.evaluate({"python_version": each}) for each in ("3.11", "3.12", "3.13", "3.14")]
+    assert found == [True, True, False, False]
+    assert [each.name for each in NEEDED if each.marker is not None] == ["fast-simplification"]
+    names = {each.name for each in NEEDED}
+    assert "wasmtime" in names
+    # without builds for some platforms, or without a licence
+    assert not names & {"py-evm", "pyrevm"}
 
 
 def test_meshes_are_simplified_where_there_are_wheels() -> None:
@@ -169,16 +173,6 @@ def test_no_imports_form_a_circle() -> None:
         graph[name] = needed & modules.keys() - {name}
     assert "shackled.scene._mesh" in graph["shackled.scene._scene"]
     TopologicalSorter(graph).prepare()  # raises an error that names the circle
-
-
-def test_every_platform_needs_the_same() -> None:
-    """The EVM of the package runs wherever wasmtime does, and tools/platforms.py says where."""
-    assert [each.name for each in NEEDED if each.marker is not None] == ["fast-simplification"]
-    names = {each.name for each in NEEDED}
-    assert "wasmtime" in names
-    # without builds for some platforms, or without a licence; nothing else runs where pyrevm has no wheel
-    assert not names & {"py-evm", "pyrevm"}
-    assert {each.name for lines in EXTRAS.values() for each in lines if each.marker is not None} == {"pyrevm"}
 
 
 def test_notices_of_all_whose_code_is_compiled_in() -> None:

@@ -6,6 +6,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -51,17 +52,14 @@ def test_node_is_looked_at(commands: list[tuple[object, ...]], monkeypatch: pyte
     assert commands == []
 
 
+@pytest.mark.parametrize("target", [prepare.prepare_package, prepare.prepare_dev])
 def test_versions_are_those_that_were_tried(
-    commands: list[tuple[object, ...]], monkeypatch: pytest.MonkeyPatch
+    target: Callable[[], None], commands: list[tuple[object, ...]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(prepare, "make_venv", lambda: None)
     monkeypatch.setattr(Path, "touch", lambda path: None)
-    for target in (prepare.prepare_package, prepare.prepare_dev):
-        commands.clear()
-        target()
-        assert commands
-        for command in commands:
-            assert command[command.index("--constraint") + 1] == prepare.CONSTRAINTS
+    target()
+    assert {command[command.index("--constraint") + 1] for command in commands} == {prepare.CONSTRAINTS}
 
 
 def test_constraints_are_of_one_python() -> None:

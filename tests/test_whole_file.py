@@ -47,9 +47,8 @@ def test_links_stay_and_their_files_are_written(tmp_path: Path) -> None:
 
 @needs_posix
 def test_links_that_lead_nowhere(tmp_path: Path) -> None:
-    (tmp_path / "a.png").symlink_to("b.png")
-    (tmp_path / "b.png").symlink_to("a.png")
-    (tmp_path / "c.png").symlink_to("missing/c.png")
+    for name, leads in (("a.png", "b.png"), ("b.png", "a.png"), ("c.png", "missing/c.png")):
+        (tmp_path / name).symlink_to(leads)
     for name in ("a.png", "c.png"):
         with pytest.raises(InputError, match=f"{name} cannot be written: "):
             write_output(tmp_path / name, b"1")

@@ -7,6 +7,8 @@ import os
 import tempfile
 import webbrowser
 from collections.abc import Iterable, Iterator, Sequence
+from fractions import Fraction
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -17,11 +19,12 @@ from PIL import Image as PillowImage
 from PIL import ImageSequence
 
 from .checks import number
-from .errors import InputError
+from .errors import InputError, not_installed
 from .image import (
     WEBP,
     Format,
     Image,
+    Pixels,
     as_array,
     check_extension,
     data_uri,
@@ -34,7 +37,6 @@ from .image import (
     total,
     write_open,
 )
-from .mp4 import check_mp4, encode_mp4
 from .scene import PICTURE
 from .values import plural
 from .whole_file import check_output_file, check_output_folder, make_output_folder, write_output
@@ -189,6 +191,41 @@ def _encode_apng(animation: Animation, scene: bool | None = None) -> bytes:
         return animation.file.content
     options = png_options(animation.frames[0], scene)
     return _encode(animation, animation.to_pil(), "PNG", default_image=False, **options)
+
+
+#: How near to the frames it is: 0 is exact, and 18 is taken as hardly to be told from that.
+_QUALITY = "12"
+#: Units of time in a second: milliseconds.
+_UNITS = 1000
+
+
+def check_mp4() -> None:
+    """Raise an InputError if MP4 files cannot be written here."""
+    if find_spec("av") is None:
+        raise not_installed("an .mp4 file", "mp4")
+
+
+def encode_mp4(frames: Sequence[Pixels], duration: int) -> bytes:
+    """Return the file of frames, (H, W, 3), each shown for `duration` milliseconds. InputError as `check_mp4`.
+
+    Every player shows such files, whose colours have half the size, so sides are even: an odd one gets one more pixel.
+    """
+    check_mp4()
+    import av
+
+    file = io.BytesIO()
+    height, width = (side + side % 2 for side in frames[0].shape[:2])
+    with av.open(file, "w", format="mp4") as container:
+        stream = container.add_stream("libx264", rate=Fraction(_UNITS, duration), options={"crf": _QUALITY})
+        stream.width, stream.height, stream.pix_fmt = width, height, "yuv420p"
+        stream.codec_context.time_base = Fraction(1, _UNITS)
+        for number, pixels in enumerate(frames):
+            more = (height - pixels.shape[0], width - pixels.shape[1])
+            frame = av.VideoFrame.from_ndarray(np.pad(pixels, [(0, more[0]), (0, more[1]), (0, 0)], "edge"), "rgb24")
+            frame.pts, frame.time_base = number * duration, Fraction(1, _UNITS)
+            container.mux(stream.encode(frame))
+        container.mux(stream.encode(None))
+    return file.getvalue()
 
 
 #: The formats of `Animation.save`, by extension; a name without one is a folder.

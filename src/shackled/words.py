@@ -109,11 +109,8 @@ def with_words(function: Callable[P, R]) -> Callable[P, R]:
     @wraps(function)
     def understanding(*args: Any, **given: Any) -> Any:
         given = in_our_words(function.__name__, given)
-        if "thing" in named:
-            if {"vertices", "faces"} <= given.keys():
-                given["thing"] = (given.pop("vertices"), given.pop("faces"))
-            elif len(args) > 1 and _is_rows(args[0]) and _is_rows(args[1]):
-                args = ((args[0], args[1]), *args[2:])
+        if "thing" in named and {"vertices", "faces"} <= given.keys():
+            given["thing"] = (given.pop("vertices"), given.pop("faces"))
         if "transparent" in named and str(given.get("background")).strip().lower() == "transparent":
             given = {**given, "background": None, "transparent": True}
         if "duration" in named:
@@ -123,14 +120,6 @@ def with_words(function: Callable[P, R]) -> Callable[P, R]:
         return function(*args, **given)
 
     return understanding
-
-
-def _is_rows(value: Any) -> bool:
-    """Return whether a value is a table, such as the vertices or the faces of a mesh."""
-    try:
-        return not isinstance(value, str) and hasattr(value[0], "__len__")
-    except (TypeError, LookupError):
-        return False
 
 
 def with_duration(given: Given) -> Given:

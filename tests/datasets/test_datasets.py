@@ -16,9 +16,9 @@ import shackled
 from shackled.cli.app import run
 from shackled.datasets import DATASETS, Piece, PieceCost, cost, draw_all, find, page, pieces, require, sheet
 from shackled.datasets._drawing import draw, table
-from shackled.datasets.common import models
+from shackled.datasets.common import models, shapes
 from shackled.errors import InputError
-from shackled.scene import Mesh, write_obj
+from shackled.scene import write_obj
 
 
 @pytest.fixture(autouse=True)
@@ -36,9 +36,6 @@ def everything() -> list[Piece]:
 def test_every_piece_is_found_by_its_name(everything: list[Piece]) -> None:
     names = [piece.name for piece in everything]
     assert len(names) == len(set(names))
-    assert [piece.dataset for piece in everything] == sorted(
-        (piece.dataset for piece in everything), key=list(DATASETS).index
-    )
     for piece in everything:
         assert piece.name.startswith(DATASETS[piece.dataset])
         assert piece.title
@@ -51,41 +48,29 @@ def test_every_piece_is_found_by_its_name(everything: list[Piece]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "close"),
+    ("names", "hint"),
     [
-        ("teapt", "mean teapot?"),
-        ("cornelbox", "cornell-box"),
-        ("Teapot", "mean teapot?"),
-        ("common/teapot", "mean teapot?"),
-        ("diamond", "mean icons/diamond?"),
-        ("icons/diamnd", "mean icons/diamond?"),
-        ("ico", None),
-        ("icons/x", None),
-        ("icons/", None),
-        ("../x", None),
-        ("", None),
+        ("teapt Teapot common/teapot", "did you mean teapot? "),
+        ("cornelbox", "did you mean cornell-box? "),
+        ("diamond icons/diamnd", "did you mean icons/diamond? "),
+        ("ico icons/x icons/ ../x", ""),
     ],
 )
-def test_unknown_names(name: str, close: str | None) -> None:
-    assert find(name) is None
-    with pytest.raises(InputError) as caught:
-        require(name)
-    message = str(caught.value)
-    assert message.startswith(f"there is no piece {name!r}; ")
-    assert message.endswith("`shackled datasets list` shows all")
-    assert close in message if close else "did you mean" not in message
-    assert "\n" not in message
-    with pytest.raises(InputError):
-        shackled.load(name)
+def test_unknown_names(names: str, hint: str) -> None:
+    for name in names.split():
+        assert find(name) is None
+        with pytest.raises(InputError) as caught:
+            require(name)
+        assert str(caught.value) == f"there is no piece {name!r}; {hint}`shackled datasets list` shows all"
 
 
 @pytest.mark.parametrize("name", ["genesis/1024", "genesis/-1", "genesis/x", "genesis/"])
 def test_pieces_of_genesis_have_numbers(name: str) -> None:
     assert find(name) is None
-    with pytest.raises(InputError) as caught:
+    with pytest.raises(
+        InputError, match=f"^there is no piece '{name}'; after genesis/ comes a number from 0 to 1023, or"
+    ):
         require(name)
-    known = "0 to 1023, or the 64 hexadecimal digits of a seed"
-    assert str(caught.value) == f"there is no piece {name!r}; after genesis/ comes a number from {known}"
 
 
 def test_a_file_wins(folder: Path) -> None:
@@ -202,23 +187,8 @@ def test_the_page_stands_alone() -> None:
     assert evil.count("<script>") == 1
 
 
-def test_the_sheet(folder: Path) -> None:
-    wanted = [require(name) for name in ("cube", "cone", "torus", "bunny")]
-    drawings = {piece.name: draw(piece) for piece in wanted if piece.ready()}
-    with PillowImage.open(io.BytesIO(sheet(wanted, drawings))) as picture:
-        pixels = np.array(picture)
-    with PillowImage.open(io.BytesIO(drawings["cube"].png)) as picture:
-        assert (pixels[8:136, 8:136] == np.array(picture)).all()
-    assert (pixels[138:160, 8:136] < 100).any()  # a label
-    with PillowImage.open(io.BytesIO(sheet([], {}))) as picture:
-        assert picture.size[0] > 0
-
-
 def test_the_command_gallery(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (folder / "own.obj").write_text("")
-    write_obj(
-        Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]), "own.obj"
-    )
+    write_obj(shapes.tetrahedron(), "own.obj")
     assert run(["datasets", "fetch", "cow", "--from", "own.obj"]) == 0
     assert run(["datasets", "gallery", "common", "-o", "g.html", "-o", "g.png", "--jobs", "1"]) == 0
     output = capsys.readouterr().out
@@ -227,21 +197,18 @@ def test_the_command_gallery(folder: Path, capsys: pytest.CaptureFixture[str]) -
     assert output.endswith(f"g.html: {len(list(pieces('common')))} pieces\ng.png: {len(built)} pieces\n")
     assert html.count("data:image/png") == len(built)
     assert "that of your own file (not for commercial use)" in html
-    with PillowImage.open("g.png") as picture:
-        assert picture.size[0] > 600
+    with PillowImage.open("g.png") as picture, PillowImage.open(io.BytesIO(draw(built[0]).png)) as first:
+        pixels = np.array(picture)
+        assert (pixels[8:136, 8:136] == np.array(first)).all()
+    assert (pixels[138:160, 8:136] < 100).any()  # a label
+    assert sheet([], {}).startswith(b"\x89PNG")
 
 
-@pytest.mark.parametrize(
-    ("output", "message"),
-    [
-        ("g.gif", "the gallery g.gif must end in .html or .png"),
-        ("no/g.png", "the folder no of the gallery g.png does not exist"),
-        ("folder.html", "folder.html is a folder, not the file of a gallery"),
-    ],
-)
-def test_galleries_that_cannot_be_written(
-    folder: Path, output: str, message: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_galleries_that_cannot_be_written(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (folder / "folder.html").mkdir()
-    assert run(["datasets", "gallery", "-o", output]) == 2
-    assert capsys.readouterr().err == f"shackled: {message}\n"
+    for output, message in (
+        ("g.gif", "the gallery g.gif must end in .html or .png"),
+        ("folder.html", "folder.html is a folder, not the file of a gallery"),
+    ):
+        assert run(["datasets", "gallery", "-o", output]) == 2
+        assert capsys.readouterr().err == f"shackled: {message}\n"

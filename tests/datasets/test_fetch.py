@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import errno
-import gzip
 import hashlib
 import io
-import tarfile
 import threading
 import time
 import zipfile
@@ -200,14 +198,6 @@ def test_a_file_of_ones_own(ball: Model, server: Server, tmp_path: Path, obj: by
 
 def packed(kind: str, obj: bytes) -> bytes:
     stream = io.BytesIO()
-    if kind == "gz":
-        return gzip.compress(obj)
-    if kind.startswith("tar"):
-        with tarfile.open(fileobj=stream, mode=f"w:{kind[4:]}") as tar:  # type: ignore[call-overload]
-            info = tarfile.TarInfo("folder/ball.obj")
-            info.size = len(obj)
-            tar.addfile(info, io.BytesIO(obj))
-        return stream.getvalue()
     rows = [line.split() for line in obj.decode().splitlines()]
     vertices = "".join('<vertex x="{}" y="{}" z="{}"/>'.format(*row[1:]) for row in rows if row[0] == "v")
     faces = [[int(number) - 1 for number in row[1:]] for row in rows if row[0] == "f"]
@@ -228,10 +218,10 @@ def packed(kind: str, obj: bytes) -> bytes:
     return stream.getvalue()
 
 
-@pytest.mark.parametrize("kind", ["zip", "gz", "3mf", "tar", "tar.gz", "tar.xz", "tar.bz2"])
+@pytest.mark.parametrize("kind", ["zip", "3mf"])
 def test_archives(ball: Model, tmp_path: Path, cache: Path, obj: bytes, kind: str) -> None:
     whole, path = packed(kind, obj), tmp_path / f"ball.obj.{kind}"
-    for length in (5, 100, len(whole) // 2) if kind not in ("tar", "tar.bz2") else ():
+    for length in (5, 100, len(whole) // 2):
         path.write_bytes(whole[:length])
         with pytest.raises(InputError) as caught:
             take(ball, path)
@@ -266,21 +256,21 @@ def test_the_command(ball: Model, capsys: pytest.CaptureFixture[str], tmp_path: 
 
 
 @pytest.mark.parametrize(
-    ("arguments", "code", "message"),
+    ("arguments", "message"),
     [
-        (["fetch", "bal"], 2, "there is no model 'bal' to fetch; there are ball"),
-        (["fetch", "ball", "ball", "--from", "x.obj"], 2, "--from needs exactly one NAME"),
-        (["fetch", "ball", "--from", "x.obj"], 2, "x.obj does not exist; a mesh file or archive is needed"),
-        (["fetch", "ball", "--from", "."], 2, ". is no file; a mesh file or archive is needed"),
-        (["fetch", "ball"], 1, "127.0.0.1"),
+        ("bal", "there is no model 'bal' to fetch; there are ball"),
+        ("ball ball --from x.obj", "--from needs exactly one NAME"),
+        ("ball --from x.obj", "x.obj does not exist; a mesh file or archive is needed"),
+        ("ball --from .", ". is no file; a mesh file or archive is needed"),
+        ("ball", "127.0.0.1"),
     ],
 )
 @pytest.mark.usefixtures("ball")
 def test_mistakes_are_one_line(
-    server: Server, capsys: pytest.CaptureFixture[str], arguments: list[str], code: int, message: str
+    server: Server, capsys: pytest.CaptureFixture[str], arguments: str, message: str
 ) -> None:
     server.cut_after = 5
-    assert run(["datasets", *arguments]) == code
+    assert run(["datasets", "fetch", *arguments.split()]) == (1 if arguments == "ball" else 2)
     output, messages = capsys.readouterr()
     assert output == ""
     assert messages.splitlines()[-1].startswith("shackled: ")

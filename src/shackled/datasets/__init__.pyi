@@ -1,5 +1,4 @@
-from ._drawing import SIZE, VARIABLE, PieceCost, Thumbnail, cache_folder, cost, draw_all, keep
-from ._gallery import figures, page, sheet
+from ._drawing import SIZE, VARIABLE, PieceCost, cache_folder, cost, draw_all, figures, keep, page, sheet
 from ._pieces import DATASETS, Piece, find, pieces, require
 from ._teapot import teapot
 
@@ -9,7 +8,6 @@ __all__ = [
     "VARIABLE",
     "Piece",
     "PieceCost",
-    "Thumbnail",
     "cache_folder",
     "cost",
     "draw_all",

@@ -7,7 +7,7 @@ from shackled.datasets import Piece
 from shackled.datasets.common.shapes import joined
 from shackled.datasets.icons import _icons
 from shackled.datasets.icons import pieces as icons
-from shackled.datasets.icons._icon import CREASE
+from shackled.datasets.icons._icons import CREASE
 from shackled.scene import Mesh, is_closed
 
 #: EIP-7825.

@@ -1,19 +1,27 @@
-"""Download and preparation of models."""
+"""Download, unpacking and preparation of models."""
 
 from __future__ import annotations
 
 import hashlib
+import io
+import tempfile
+import warnings
+import zipfile
+import zlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
+from pathlib import Path, PurePosixPath
+from xml.etree import ElementTree
 
-from ...errors import FetchError, InputError
-from ...scene import MAX_BYTES, Mesh, about
+import numpy as np
+
+from ...errors import FetchError, InputError, InputWarning
+from ...scene import MAX_BYTES, READERS, Mesh, about, read_mesh, weld
 from .. import cache_folder, keep
 from ._clean import prepare
 from ._models import Model, save_mesh
-from ._unpack import read_model
 
+MODEL_3MF = "3D/3dmodel.model"
 #: Timeouts in seconds: of a connection, and between parts of the file.
 TIMEOUT = (10, 30)
 #: Bytes that are read at a time.
@@ -40,9 +48,8 @@ def take(model: Model, path: Path) -> bool:
     InputError if it is not a readable mesh.
     """
     if not path.is_file():
-        raise InputError(
-            f"{path} {'is no file' if path.exists() else 'does not exist'}; a mesh file or archive is needed"
-        )
+        wrong = "is no file" if path.exists() else "does not exist"
+        raise InputError(f"{path} {wrong}; a mesh file or archive is needed")
     mesh = _prepared(model, path)
     same = checksum(path.read_bytes(), model.checksum) == model.checksum
     _save(model, mesh, own=not same)
@@ -122,3 +129,66 @@ def _on_disk(model: Model) -> Iterator[None]:
     except OSError as error:
         reason = error.strerror or error
         raise FetchError(f"{model.name}: the cache {cache_folder()} cannot be used: {reason}") from None
+
+
+def read_model(path: Path) -> Mesh:
+    """Read the mesh of a mesh file, a 3MF, or the largest mesh file in a zip archive.
+
+    Materials and textures are ignored without a warning, since only the mesh of a model is fetched. InputError, one
+    line that begins with the path, for anything that is wrong with the file.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", InputWarning)
+        try:
+            with path.open("rb") as file:
+                if file.read(4) != b"PK\3\4":
+                    return read_mesh(path)
+            with zipfile.ZipFile(path) as archive:
+                return _from_zip(path, archive)
+        except (OSError, EOFError, zipfile.BadZipFile, zlib.error, RuntimeError) as error:
+            reason = getattr(error, "strerror", None) or str(error) or type(error).__name__
+            raise InputError(f"{path} cannot be read: {reason}") from None
+
+
+def _from_zip(path: Path, archive: zipfile.ZipFile) -> Mesh:
+    sizes = {each.filename: each.file_size for each in archive.infolist()}
+    meshes = [name for name in sizes if PurePosixPath(name).suffix.lower() in READERS]
+    if not meshes and MODEL_3MF not in sizes:
+        raise InputError(f"{path} contains no mesh file; known are {', '.join(READERS)}")
+    name = MODEL_3MF if MODEL_3MF in sizes else max(meshes, key=lambda each: (sizes[each], each))
+    with archive.open(name) as file:
+        data = file.read(MAX_BYTES + 1)
+    if len(data) > MAX_BYTES:
+        raise InputError(f"{path} unpacks to more than {MAX_BYTES >> 20} MB, the most that is read")
+    if name == MODEL_3MF:
+        return _read_3mf(path, data)
+    with tempfile.TemporaryDirectory() as folder:
+        unpacked = Path(folder, f"model{PurePosixPath(name).suffix}")
+        unpacked.write_bytes(data)
+        try:
+            return read_mesh(unpacked)
+        except InputError as error:
+            raise InputError(str(error).replace(str(unpacked), f"{path}: {name}")) from None
+
+
+def _read_3mf(path: Path, model: bytes) -> Mesh:
+    """Read all meshes of a 3MF, each in its own coordinates."""
+    positions: list[list[float]] = []
+    faces: list[list[int]] = []
+    first = 0
+    try:
+        for _, element in ElementTree.iterparse(io.BytesIO(model), events=("end",)):
+            kind = element.tag.rpartition("}")[2]
+            if kind == "vertex":
+                positions.append([float(element.attrib[axis]) for axis in ("x", "y", "z")])
+            elif kind == "triangle":
+                faces.append([first + int(element.attrib[corner]) for corner in ("v1", "v2", "v3")])
+            elif kind == "mesh":
+                first = len(positions)
+            if kind in ("vertex", "triangle", "mesh"):
+                element.clear()
+        if not faces:
+            raise ValueError("it has no triangles")
+        return weld(np.array(positions), np.array(faces))
+    except (InputError, KeyError, ValueError, ElementTree.ParseError) as error:
+        raise InputError(f"{path} is not a 3MF file that can be read: {error}") from None

@@ -103,10 +103,8 @@ class Model:
 @cache
 def models() -> dict[str, Model]:
     """Return all models by name."""
-    text = files(__package__).joinpath("models.toml").read_text("utf-8")
-    return {
-        name: Model(name=name, size=entry.pop("bytes", None), **entry) for name, entry in tomllib.loads(text).items()
-    }
+    entries = tomllib.loads(files(__package__).joinpath("models.toml").read_text("utf-8"))
+    return {name: Model(name=name, size=entry.pop("bytes", None), **entry) for name, entry in entries.items()}
 
 
 def model(name: str) -> Model:
@@ -124,12 +122,8 @@ def pieces() -> list[Piece]:
 def save_mesh(mesh: Mesh, path: Path) -> None:
     """Write a prepared mesh. OSError if it cannot be written."""
     stream = io.BytesIO()
-    np.savez_compressed(
-        stream,
-        positions=mesh.positions.astype(np.float32),
-        faces=mesh.faces.astype(np.uint16),
-        colors=mesh.colors,
-    )
+    positions, faces = mesh.positions.astype(np.float32), mesh.faces.astype(np.uint16)
+    np.savez_compressed(stream, positions=positions, faces=faces, colors=mesh.colors)
     keep(path, stream.getvalue())
 
 

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from ... import checks
 from ...scene import Mesh, from_euler, rotate
 from ..common import shapes
-from .outlines import chamfered, inset, rectangle, regular, triangulate
+from .outlines import arc, chamfered, inset, rectangle, regular, triangulate
 
 Array = NDArray[np.float64]
 Where = Callable[[Array], NDArray[np.bool_]]
@@ -43,8 +43,6 @@ class Solid:
     def __add__(self, other: Solid) -> Solid:
         return union(self, other)
 
-    # ---- moving ----
-
     def moved(self, x: float = 0, y: float = 0, z: float = 0) -> Solid:
         """Return the solid moved."""
         return replace(self, corners=self.corners + np.array((x, y, z)))
@@ -55,20 +53,11 @@ class Solid:
 
     def scaled(self, x: float = 1, y: float = 1, z: float = 1) -> Solid:
         """Return the solid scaled about the origin; a negative factor mirrors it, and faces still point outward."""
-        return self.bent(lambda points: points * (x, y, z))
+        return _outward(replace(self, corners=self.corners * (x, y, z)))
 
     def mirrored(self) -> Solid:
         """Return the mirror image, left and right exchanged."""
         return self.scaled(x=-1)
-
-    def bent(self, function: Callable[[Array], Array]) -> Solid:
-        """Return the solid with a function applied to its points, (n, 3).
-
-        The function may mirror the solid, but not turn it inside out in any other way.
-        """
-        return _outward(replace(self, corners=function(self.corners.reshape(-1, 3)).reshape(-1, 3, 3)))
-
-    # ---- colouring ----
 
     def painted(self, color: ArrayLike, where: Where | None = None) -> Solid:
         """Return the solid in one colour, or only the triangles whose centres, (m, 3), `where` selects."""
@@ -79,8 +68,6 @@ class Solid:
     def shaded(self, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1, 0)) -> Solid:
         """Return the solid in a gradient along an axis, from its lowest to its highest point."""
         return replace(self, colors=shapes.gradient(self.corners @ np.asarray(axis, dtype=np.float64), low, high))
-
-    # ---- the result ----
 
     def volume(self) -> float:
         """Return the sum of the volumes of the parts."""
@@ -173,11 +160,8 @@ def revolve(profile: ArrayLike, segments: int, closed: bool = False) -> Solid:
     """
     circle = regular(segments, 1.0, 180 / segments)
     radius, y = np.asarray(profile, dtype=np.float64).T
-    rings = np.empty((len(radius), segments, 3))
-    rings[..., 0] = radius[:, None] * circle[:, 0]
-    rings[..., 1] = y[:, None]
-    rings[..., 2] = radius[:, None] * circle[:, 1]
-    return loft(rings, closed)
+    x, z = radius[:, None] * circle[:, 0], radius[:, None] * circle[:, 1]
+    return loft(np.stack(np.broadcast_arrays(x, y[:, None], z), axis=-1), closed)
 
 
 def sweep(outline: ArrayLike, path: ArrayLike, closed: bool = False, scales: Sequence[float] | None = None) -> Solid:
@@ -230,8 +214,7 @@ def cone(radius: float, height: float, segments: int) -> Solid:
 
 def sphere(radius: float, segments: int, rings: int) -> Solid:
     """Return a sphere about the origin of 2 * segments * (rings - 1) triangles."""
-    angles = np.linspace(-90, 90, rings + 1)
-    profile = np.stack([np.cos(np.radians(angles)), np.sin(np.radians(angles))], axis=1) * radius
+    profile = arc(radius, -90, 90, rings)
     profile[[0, -1], 0] = 0
     return revolve(profile, segments)
 
@@ -271,9 +254,7 @@ def link(length: float, width: float, thickness: float, steps: int, sides: int) 
 
     length, width: between the centres of opposite rods. thickness: the radius of the rod.
     """
-    radius = width / 2
-    angles = np.radians(np.linspace(-90, 90, steps + 1))
-    half = np.stack([(length - width) / 2 + radius * np.cos(angles), radius * np.sin(angles), 0 * angles], axis=1)
+    half = _at(arc(width / 2, -90, 90, steps, ((length - width) / 2, 0)), 0)
     return tube(np.vstack([half, half * (-1, -1, 1)]), thickness, sides, closed=True)
 
 

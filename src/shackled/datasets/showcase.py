@@ -1,15 +1,19 @@
-"""The scenes of the showcase. Lengths are about those of the still life, whose teapot is 3 high and stands on y = 0."""
+"""The showcase: twelve scenes that show the options of the renderer, and how they are drawn into a folder.
+
+Lengths are about those of the still life, whose teapot is 3 high and stands on y = 0.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
-from ...scene import (
+from ..scene import (
     Background,
     Camera,
     Fog,
@@ -28,14 +32,20 @@ from ...scene import (
     stage,
     view_axes,
 )
-from .. import Piece, require, teapot
-from ..common import shapes
+from ..whole_file import write_output
+from ._drawing import Thumbnail, sheet
+from ._pieces import Piece, require
+from ._teapot import teapot
+from .common import shapes
 
 Array = NDArray[np.float64]
 
 #: Of every scene.
 SIZE = (320, 240)
 UNLIT = Material("unlit")
+#: The scene that is drawn as a turntable, its frames, and their duration in milliseconds.
+TURNED, FRAMES, DURATION = "showcase/rocket", 16, 90
+COLUMNS = 4
 
 
 def _scene(
@@ -75,9 +85,6 @@ def _terrain(xs: Array, zs: Array, height: float | Array) -> Mesh:
     z, x = np.meshgrid(zs, xs, indexing="ij")
     points = np.stack([x, np.broadcast_to(height, x.shape), z], axis=-1).reshape(-1, 3)
     return Mesh(points, shapes.cells(*x.shape))
-
-
-# ---- still life ----
 
 
 def still_life() -> Scene:
@@ -126,9 +133,6 @@ def _chessboard(side: int = 12) -> Object:
     return Object(mesh, material=material)
 
 
-# ---- glass ----
-
-
 def glass() -> Scene:
     """Return bottles, a tumbler and marbles of glass before solid things, which shine through."""
     clear = Material("smooth", ambient=0.55, diffuse=0.6, specular=1.6, shininess=70)
@@ -157,9 +161,6 @@ def glass() -> Scene:
         ambient_light="#f0ece4",
         rim=Rim("#3c4048", 4),
     )
-
-
-# ---- texture ----
 
 
 def vase() -> Scene:
@@ -215,9 +216,6 @@ def _bands() -> Array:
     return np.where(black[..., None], glaze, clay)
 
 
-# ---- fog ----
-
-
 def forest() -> Scene:
     """Return firs on both sides of a valley, paler and paler in the haze of a morning."""
     rng = np.random.default_rng(12)
@@ -264,9 +262,6 @@ def _cone(top: float, bottom: float, low: float, high: float, sides: int, color:
     return painted(Mesh(points, np.hstack([lower, upper] if top else [lower]).T), color)
 
 
-# ---- rim ----
-
-
 def skull() -> Scene:
     """Return the icon of a skull in the dark, outlined by cold light."""
     scene = _piece("icons/skull", azimuth=-30, elevation=4, margin=0.12)
@@ -287,24 +282,15 @@ def _piece(name: str, **look: Any) -> Scene:
     return look_at(require(name).make(), {"size": SIZE, "antialias": True, **look})
 
 
-# ---- Genesis ----
-
-
 def genesis() -> Scene:
     """Return a piece of Genesis, antialiased."""
     return _piece("genesis/21")
-
-
-# ---- turntable ----
 
 
 def rocket() -> Scene:
     """Return the icon of a rocket, of which the showcase draws a turntable."""
     look = {"background": Background("#141638", "#3c2a68"), "ambient_light": (200, 205, 255), "margin": 0.04}
     return evolve(_piece("icons/rocket", **look), rim=Rim("#5c78ff", 3))
-
-
-# ---- tone ----
 
 
 def knot() -> Scene:
@@ -321,9 +307,6 @@ def knot() -> Scene:
         Background("#121018", "#2c2438"),
         tone=Tone(1.5, filmic=True, gamma=True),
     )
-
-
-# ---- hemisphere ----
 
 
 def plaster() -> Scene:
@@ -347,9 +330,6 @@ def plaster() -> Scene:
         hemisphere=Hemisphere("#7ea8e8", "#c0702c"),
         tone=Tone(1.15, gamma=True),
     )
-
-
-# ---- wires ----
 
 
 def wires() -> Scene:
@@ -376,17 +356,11 @@ def wires() -> Scene:
     )
 
 
-# ---- the Cornell box ----
-
-
 def cornell_box() -> Scene:
     """Return the Cornell box with shadows, its light added up in linear space."""
     scene = _piece("cornell-box")
     lamp = evolve(scene.lights[0], shadow=True)
     return evolve(scene, lights=[lamp], tone=Tone(0.9, filmic=True, gamma=True))
-
-
-# ---- hemisphere and rim ----
 
 
 def shell() -> Scene:
@@ -421,3 +395,28 @@ def pieces() -> list[Piece]:
     }
     names = {make: make.__name__.replace("_", "-") for make in titles}
     return [Piece(f"showcase/{names[make]}", "showcase", title, "MIT", make) for make, title in titles.items()]
+
+
+def draw_showcase(folder: Path, chosen: Sequence[Piece] = ()) -> Iterator[Thumbnail]:
+    """Draw scenes into a folder, which must exist, and yield each when it is done; then sheet.png.
+
+    chosen: the scenes; all if it is empty. OutputError where the disk is full or fails.
+    """
+    listed, drawings = chosen or pieces(), {}
+    for piece in listed:
+        drawing = drawings[piece.name] = _draw(piece)
+        write_output(folder / f"{piece.name.partition('/')[2]}.png", drawing.png)
+        yield drawing
+    write_output(folder / "sheet.png", sheet(listed, drawings, SIZE, min(COLUMNS, len(listed))))
+
+
+def _draw(piece: Piece) -> Thumbnail:
+    from .._render import render
+    from ..studio import make_apng
+
+    scene = piece.make()
+    if piece.name == TURNED:
+        film = make_apng(scene, FRAMES, DURATION, scale=SIZE[0] // scene.width)
+        return Thumbnail(piece.name, scene.triangles, film.gas, film.content)
+    image = render(scene)
+    return Thumbnail(piece.name, scene.triangles, image.gas, image.encode(".png"))
