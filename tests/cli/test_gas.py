@@ -155,7 +155,7 @@ def test_opcodes(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_mistakes_are_told_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
     Path("folder.svg").mkdir()
-    assert "use one of revm, pyrevm, pyevm" in error(capsys, 2, "--evm", "reference")
+    assert "must be one of revm, pyrevm, pyevm" in error(capsys, 2, "--evm", "moon")
     assert "an .svg file" in error(capsys, 2, "--profile", "flame.png")
     assert "does not exist" in error(capsys, 2, "--profile", "nowhere/flame.svg")
     assert "is a folder" in error(capsys, 2, "--profile", "folder.svg")

@@ -229,7 +229,6 @@ WRONG = [
     (["render", "shape.obj", "--size", "big"], "WIDTHxHEIGHT"),
     (["render", "shape.obj", "--size", "-5"], "--size"),
     (["render", "shape.obj", "--evm", "moon"], "--evm must be one of revm, pyrevm, pyevm, not 'moon'"),
-    (["render", "shape.obj", "--evm", "reference"], "is gone: use one of revm, pyrevm, pyevm"),
     (["render", "shape.obj", "--rotate", "1,2"], "--rotate must be three numbers"),
     (["render", "shape.obj", "--rotate", "nan,0,0"], "finite"),
     (["render", "shape.obj", "--eye", "a,b,c"], "--eye must be three numbers"),

@@ -125,7 +125,7 @@ def test_nodes_as_they_are(capsys: pytest.CaptureFixture[str], monkeypatch: pyte
         (["--rpc-timeout", "5"], "--rpc-timeout needs --rpc"),
         (["--verify", "all"], "--verify needs --rpc or --cluster"),
         (["--rpc", "http://127.0.0.1:1", "--verify", "most"], "--verify must be one of all, some, none, not 'most'"),
-        (["--evm", "reference", "--jobs", "2"], "is gone: use one of revm, pyrevm, pyevm"),
+        (["--evm", "moon", "--jobs", "2"], "--evm must be one of revm, pyrevm, pyevm"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, list) else "",
 )

@@ -380,7 +380,7 @@ def _probe(connection: Connection) -> _Probed:
             # prefer calls that do not ask for an amount
             return max(found, key=lambda each: (each.gas, not each.named))
     # without creation calls, only deployed contracts can be called
-    return _Probed(False, connection.block_gas_limit(), False, creations=False)
+    return _Probed(False, connection.block_number_of("gasLimit") or 0, False, creations=False)
 
 
 def _limit(gas: int | None) -> bytes:

@@ -20,7 +20,7 @@ from ..errors import (
     TransactionError,
 )
 from ..ethereum import GWEI, checksum_address, rounded, to_hex
-from ._quote import Call, Fees, Quote, base_fee, current_fees, make_quote, rollup_fee, with_rollup_fees
+from ._quote import Call, Fees, Quote, current_fees, make_quote, rollup_fee, with_rollup_fees
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
@@ -53,11 +53,7 @@ class Transactor:
     """Sends the transactions of one account, one after the other. Failures raise TransactionError."""
 
     def __init__(
-        self,
-        connection: Connection,
-        account: LocalAccount,
-        patience: float = PATIENCE,
-        max_fee: int | None = None,
+        self, connection: Connection, account: LocalAccount, patience: float = PATIENCE, max_fee: int | None = None
     ) -> None:
         """Take the account that signs. patience: seconds to wait for a receipt. max_fee: see `current_fees`."""
         self.connection, self.patience, self.max_fee = connection, patience, max_fee
@@ -109,7 +105,7 @@ class Transactor:
                 f"the {self.connection.name} now estimates {needed:,} gas for a transaction that was quoted with at "
                 f"most {quote.gas:,}: it was not sent; run the command again for a new quote"
             )
-        base = base_fee(self.connection)
+        base = self.connection.block_number_of("baseFeePerGas")
         if base is not None and base > quote.fees.most:
             raise TransactionError(
                 f"the price of gas has risen to {base / GWEI:,.12g} gwei, and at most {quote.fees.most / GWEI:,.12g} "
@@ -185,10 +181,9 @@ class Transactor:
             if self._count("latest") <= transaction["nonce"]:
                 replaced_since = None
                 return None
-            now = time.monotonic()
-            replaced_since = now if replaced_since is None else replaced_since
+            replaced_since = replaced_since or time.monotonic()
             # it may have been mined since the first request, or another node of the host may have answered the second
-            if now - replaced_since < SETTLED:
+            if time.monotonic() - replaced_since < SETTLED:
                 return None
             raise TransactionError(
                 f"the transaction {digest} was replaced: another one of {self.name} with the same nonce, "
@@ -234,20 +229,16 @@ class Transactor:
         started, pause, reported = time.monotonic(), 0.05, False
         end = started + self.patience
         while True:
-            failure: NodeError | None = None
             try:
                 answer = ask()
-                if answer is not None:
+                if answer is not None or time.monotonic() + pause > end:
                     return answer
-            except NoAnswerError as error:
-                failure = error
+            except NoAnswerError:
+                if time.monotonic() + pause > end:
+                    raise
             if self.on_delay is not None and not reported and time.monotonic() - started > DELAY:
                 reported = True
                 self.on_delay(f"waiting for {what}")
-            if time.monotonic() + pause > end:
-                if failure is not None:
-                    raise failure
-                return None
             time.sleep(pause)
             pause = min(2.0, pause * 1.5)
 
