@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import pickle
 import re
-import socket
 import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import pytest
@@ -321,37 +317,6 @@ def test_a_busy_node_is_not_waited_for_too_long() -> None:
 def test_when_to_try_again(value: str, seconds: float | None) -> None:
     assert retry_after({"Retry-After": value}) == seconds
     assert retry_after({}) is None
-
-
-@contextmanager
-def closing() -> Iterator[str]:
-    """A server that closes each connection after one answer, without saying so."""
-
-    def serve() -> None:
-        while True:
-            try:
-                connection, _ = listener.accept()
-            except OSError:
-                return
-            with connection, connection.makefile("rb") as lines:
-                size = 0
-                while (line := lines.readline()) not in (b"\r\n", b""):
-                    if line.lower().startswith(b"content-length:"):
-                        size = int(line.split(b":")[1])
-                number = json.loads(lines.read(size))["id"]
-                body = json.dumps({"jsonrpc": "2.0", "id": number, "result": "0x1"}).encode()
-                connection.sendall(b"HTTP/1.1 200 OK\r\nContent-Length: %d\r\n\r\n%s" % (len(body), body))
-
-    with socket.create_server(("127.0.0.1", 0)) as listener:
-        threading.Thread(target=serve, daemon=True).start()
-        yield f"http://127.0.0.1:{listener.getsockname()[1]}"
-        listener.shutdown(socket.SHUT_RDWR)
-
-
-def test_connections_that_were_closed_meanwhile() -> None:
-    with closing() as url:
-        connection = Connection(url)
-        assert [connection.number("eth_blockNumber") for _ in range(5)] == [1] * 5
 
 
 def test_the_wrong_chain() -> None:

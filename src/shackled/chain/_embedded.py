@@ -45,11 +45,8 @@ class EmbeddedChain(ContractChain):
         self._addresses: dict[str, bytes] = {}
 
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
-        """Call a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
-
-        Raises RenderError if the contract reverts, OutOfGasError if the gas does not suffice.
-        """
-        return self._run(self.address(contract), data, self.gas_limit if gas_limit is None else gas_limit)
+        """Call a contract, as `ContractCaller.call`."""
+        return self.run(self.address(contract), data, gas_limit)
 
     def address(self, contract: str) -> bytes:
         """Return the address of a contract, the same as `shackled deploy` gives it on every chain."""
@@ -108,10 +105,7 @@ class RevmChain(EmbeddedChain):
         self._lock = threading.Lock()
 
     def stop(self) -> None:
-        """End the calls that run in other threads, and all later ones, by ChainError.
-
-        What is not stoppable ends by itself.
-        """
+        """End the calls that run in other threads, and all later ones, by ChainError."""
         with self._lock:
             self._is_stopped = True
             for evm in self._all:
