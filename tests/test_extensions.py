@@ -14,7 +14,8 @@ import judge
 from pictures import chain, counts, draw, dynamic
 from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, RenderError, Scene
 from shackled.artifacts import artifact
-from shackled.chain._node import engines
+from shackled.chain import engine_calls
+from shackled.chain._runs import ANTIALIASED, EFFECTS, PLAIN, engines
 from shackled.image import decode_bmp
 from shackled.scene import Rectangle, encode, encode_scene, fit, render_call
 from shackled.scene._codec import ONE, extensions
@@ -348,42 +349,29 @@ def test_values_at_their_bounds(data: bytes) -> None:
     assert judge.judge_pixels("bounds", drawn, judge.render(call)).faults == []
 
 
-PLAIN = ["Engine", "FragmentEngine"]
-FOUR_SAMPLES = ["AntialiasedEngine", "AntialiasedFragmentEngine"]
-SMOOTH = ["AntialiasedSmoothEngine"]
-
-
 def test_engines_of_a_call() -> None:
+    """Those that a creation call brings are those that the Renderer calls."""
+
+    def found(data: bytes) -> tuple[str, ...]:
+        return engines(data[4 + int.from_bytes(data[4:36], "big") :], chain())
+
     spots, opacity, antialias = record(1, 1, DOWN), record(2, 2, HALF), record(3, 0, b"")
-    assert engines(with_records(mixed(), spots + opacity + antialias)) == FOUR_SAMPLES
-    assert engines(with_records(mixed(), spots + antialias + record(4, 0, bytes(6)))) == ["EffectsEngine", "Effects"]
-    for data in (b"", spots + opacity):
-        assert engines(with_records(mixed(), data)) == PLAIN
-    # other functions of the Renderer, and data that are no call at all
+    assert found(with_records(mixed(), spots + opacity + antialias)) == ANTIALIASED[:2]
+    assert found(with_records(mixed(), spots + antialias + record(4, 0, bytes(6)))) == EFFECTS
+    for data in (with_records(mixed(), b""), with_records(mixed(), spots + opacity), b"", bytes(4), bytes(100)):
+        assert found(data) == PLAIN
     tile = encode(artifact("Renderer").selectors["renderTile"], evolve(mixed(), antialias=True), Rectangle(0, 0, 8, 8))
-    assert engines(tile) == FOUR_SAMPLES
-    # of antialiased scenes: by light, projection, material and flags
+    assert found(tile) == ANTIALIASED[:2]
     smooth = scene_of(box(1.0, material=Material("smooth")), lights=[Light("point", (0, 0, 9))], antialias=True)
-    flat = box(1.0)
-    orthographic = evolve(smooth, camera=Camera(projection="orthographic"))
     for scene, needed in (
-        (smooth, SMOOTH),
-        (orthographic, FOUR_SAMPLES[1:]),
-        (evolve(orthographic, lights=[Light("directional", (0, 0, 9))]), SMOOTH),
-        (evolve(smooth, lights=[]), FOUR_SAMPLES[:1]),
-        (evolve(smooth, lights=2 * [*smooth.lights]), SMOOTH),
-        (evolve(smooth, lights=3 * [*smooth.lights]), FOUR_SAMPLES[1:]),
-        (evolve(orthographic, lights=[Light("directional", (0, 0, 9)), *smooth.lights]), FOUR_SAMPLES[1:]),
-        (evolve(smooth, objects=[]), FOUR_SAMPLES[:1]),
-        (evolve(smooth, objects=[flat]), FOUR_SAMPLES[:1]),
-        (evolve(smooth, objects=[flat, *smooth.objects]), [FOUR_SAMPLES[0], *SMOOTH]),
-        (evolve(smooth, objects=[evolve(flat, wireframe=True), *smooth.objects]), [FOUR_SAMPLES[1], *SMOOTH]),
-        (evolve(smooth, objects=[box(1.0, material=Material("smooth", 1, 1, 1, 1))]), FOUR_SAMPLES[1:]),
-        (evolve(smooth, objects=[box(1.0, material=Material("smooth", 1, 1, 0, 1))]), SMOOTH),
+        (smooth, ANTIALIASED[2:]),
+        (evolve(smooth, camera=Camera(projection="orthographic")), ANTIALIASED[1:2]),
+        (evolve(smooth, objects=[]), ANTIALIASED[:1]),
+        (evolve(smooth, objects=[box(1.0), *smooth.objects]), ANTIALIASED[::2]),
+        (evolve(smooth, objects=[evolve(box(1.0), wireframe=True), *smooth.objects]), ANTIALIASED[1:]),
     ):
-        assert engines(render_call(scene)) == needed
-    for data in (b"", tile[:4], tile[:100], artifact("Renderer").selectors["engineCall"]):
-        assert engines(data) == PLAIN
+        assert found(render_call(scene)) == needed
+        assert {each.engine for each in engine_calls(scene, chain())} == set(needed) or not scene.objects
 
 
 def test_objects_far_down_the_scene_cannot_have_records() -> None:

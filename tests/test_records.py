@@ -39,7 +39,7 @@ from shackled import (
     load,
 )
 from shackled.artifacts import artifact
-from shackled.gas._runs import engine_calls
+from shackled.chain import engine_calls
 from shackled.image import decode_bmp
 from shackled.scene import (
     Hemisphere,

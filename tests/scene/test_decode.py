@@ -28,11 +28,11 @@ from shackled import (
 )
 from shackled.chain import open_chain
 from shackled.datasets import pieces
-from shackled.scene import ANTIALIAS, NORMAL_UNIT, Hemisphere, Projection, decode, fit, pack, render_call
+from shackled.scene import NORMAL_UNIT, Hemisphere, Projection, decode, fit, pack, render_call
 from shackled.scene._arithmetic import cosine
 from shackled.scene._object import Shading
 from shackled.scene._packed import unpack
-from shackled.scene._records import FOG, HEMISPHERE, OPACITY_OF, RIM, SPOT, TONE
+from shackled.scene._records import ANTIALIAS, FOG, HEMISPHERE, OPACITY_OF, RIM, SPOT, TONE
 
 TRIANGLE = Mesh([[0, 0, 0], [1000, 0, 0], [0, 1000, 0]], [[0, 1, 2]], [[1, 2, 3], [4, 5, 6], [255, 0, 128]])
 SCENE = Scene(
