@@ -81,10 +81,7 @@ class EmbeddedChain(ContractChain):
 
     @abstractmethod
     def create(self, name: str, creation: bytes) -> bytes:
-        """Run creation code, with its arguments, and return the runtime code.
-
-        name: for the message of the ChainError that is raised if the constructor reverts.
-        """
+        """Run creation code, with its arguments, and return the runtime code. ChainError, with `name`, if it fails."""
 
     @abstractmethod
     def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:

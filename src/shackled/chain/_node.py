@@ -46,10 +46,7 @@ class NodeChain(ContractCaller):
     """
 
     def __init__(self, connection: Connection, local: EmbeddedChain, address: bytes | None = None) -> None:
-        """Prepare calls; nothing is sent yet.
-
-        local: an EVM with the code of the contracts. address: of the deployed renderer to call.
-        """
+        """Prepare calls. local: an EVM with the code of the contracts. address: of the deployed renderer to call."""
         self.connection = connection
         self._local = local
         self._address = address
@@ -117,15 +114,16 @@ class NodeChain(ContractCaller):
         Raises RenderError if `address` was given and is not that of a renderer.
         """
         with self._lock:
-            if contract not in self._places:
-                if self._address is None:
-                    known = self._book.find(self.connection.chain_id, contract)
-                    places = [each for each in (self._local.address(contract), known) if each is not None]
-                    found = next((each for each in places if self._stands(contract, each)), None)
-                else:
-                    found = self._named(contract, self._address) if contract in RENDERER else None
-                self._places[contract] = found
-            return self._places[contract]
+            if contract in self._places:
+                return self._places[contract]
+            if self._address is None:
+                known = self._book.find(self.connection.chain_id, contract)
+                places = [each for each in (self._local.address(contract), known) if each is not None]
+                found = next((each for each in places if self._stands(contract, each)), None)
+            else:
+                found = self._named(contract, self._address) if contract in RENDERER else None
+            self._places[contract] = found
+            return found
 
     def _named(self, contract: str, renderer: bytes) -> bytes:
         """Return the address of the given renderer, or of one of its engines."""
@@ -240,10 +238,7 @@ class NodeChain(ContractCaller):
         raise NodeError(f"the {self.connection.name} does not return the data of a reverted creation call")
 
     def _below(self, contract: str, data: bytes) -> list[str]:
-        """Return the contracts that a call of a contract needs, each before those that it needs itself.
-
-        The Renderer calls those of its engines that draw the scene.
-        """
+        """Return the contracts that a call needs, each before those that it needs; engines only if they draw."""
         parts = artifact(contract).parts
         if contract == "Renderer":
             parts = list(engines(data[4 + int.from_bytes(data[4:36], "big") :], self._local))

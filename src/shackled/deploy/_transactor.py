@@ -98,28 +98,9 @@ class Transactor:
 
         Raises TransactionError, and sends nothing, if the transaction would now cost more than the quote.
         """
+        if risen := self._risen(quote):
+            raise TransactionError(f"{risen} were quoted: the transaction was not sent; run the command again")
         call = quote.call
-        needed = self.estimate(call)
-        if needed > quote.gas:
-            raise TransactionError(
-                f"the {self.connection.name} now estimates {needed:,} gas for a transaction that was quoted with at "
-                f"most {quote.gas:,}: it was not sent; run the command again for a new quote"
-            )
-        base = self.connection.block_number_of("baseFeePerGas")
-        if base is not None and base > quote.fees.most:
-            raise TransactionError(
-                f"the price of gas has risen to {base / GWEI:,.12g} gwei, and at most {quote.fees.most / GWEI:,.12g} "
-                "were quoted: the transaction was not sent; run the command again"
-            )
-        if quote.rollup_fee is not None:
-            fee = rollup_fee(self.connection, quote)
-            # no field of a transaction limits it; it can rise by an eighth before the next block of the other chain
-            if fee is None or 9 * fee > 8 * quote.rollup_fee:
-                now = "no bound of it any more" if fee is None else f"{rounded(fee)} ether"
-                raise TransactionError(
-                    f"the fee for data on L1 has risen: the chain tells {now}, and at most {rounded(quote.rollup_fee)} "
-                    "were quoted: the transaction was not sent; run the command again"
-                )
         nonce = self._count("pending")
         if nonce >= 1 << 64:
             raise NodeError(f"the {self.connection.name} reports an impossible nonce of {self.name}: {nonce:,}")
@@ -153,6 +134,21 @@ class Transactor:
             raise
         self._nonce = transaction["nonce"] + 1
         return receipt
+
+    def _risen(self, quote: Quote) -> str:
+        """Return what costs more now than was quoted; or nothing."""
+        needed, base = self.estimate(quote.call), self.connection.block_number_of("baseFeePerGas")
+        if needed > quote.gas:
+            return f"the {self.connection.name} now estimates {needed:,} gas for this, and at most {quote.gas:,}"
+        if base is not None and base > quote.fees.most:
+            most = f"{quote.fees.most / GWEI:,.12g}"
+            return f"the price of gas has risen to {base / GWEI:,.12g} gwei, and at most {most}"
+        fee = None if quote.rollup_fee is None else rollup_fee(self.connection, quote)
+        # no field of a transaction limits it; it can rise by an eighth before the next block of the other chain
+        if quote.rollup_fee is not None and (fee is None or 9 * fee > 8 * quote.rollup_fee):
+            now = "no bound of it any more" if fee is None else f"{rounded(fee)} ether"
+            return f"the fee for data on L1 has risen: the chain tells {now}, and at most {rounded(quote.rollup_fee)}"
+        return ""
 
     def wait_for_pending(self) -> None:
         """Wait until all transactions of the account are mined. Raises TransactionError if it takes too long."""
@@ -222,10 +218,7 @@ class Transactor:
         return ""
 
     def wait(self, ask: Callable[[], Any], what: str = "the node") -> Any:
-        """Call `ask` until it returns something, and return that; None after `patience` seconds.
-
-        Nodes that do not answer are asked again. what: what is waited for, for `on_delay`.
-        """
+        """Call `ask`, again if a node does not answer, until it returns something; None after `patience` seconds."""
         started, pause, reported = time.monotonic(), 0.05, False
         end = started + self.patience
         while True:

@@ -31,10 +31,7 @@ class _Box:
 
 
 def flame_graph(profile: Profile, name: str) -> str:
-    """Return the SVG document. The width of a box is its gas; its tooltip shows the figure.
-
-    Calls that all of a stage have in common, such as that of the Engine, are left out.
-    """
+    """Return the SVG document. Calls that all of a stage have in common, such as that of the Engine, are left out."""
     root = _Box()
     common = {}
     for stage in STAGES:
