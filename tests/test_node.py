@@ -19,8 +19,8 @@ from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
 from shackled.datasets import teapot
-from shackled.scene import SHADINGS, Rectangle, encode, fit, pack
-from shackled.scene._codec import LIGHTS, PROJECTIONS, extensions
+from shackled.scene import Rectangle, encode, fit, pack
+from shackled.scene._codec import LIGHTS, PROJECTIONS, SHADINGS, extensions
 
 pytestmark = needs_anvil
 

@@ -90,9 +90,6 @@ def test_chains_by_name() -> None:
     assert set(CHAINS) == {"revm", "pyrevm", "pyevm"}
     with pytest.raises(InputError, match=r"^the chain must be one of revm, pyrevm, pyevm, not 'hardhat'$"):
         open_chain("hardhat")
-    gone = "^the chain 'reference', a renderer in NumPy, is gone: use one of revm, pyrevm, pyevm$"
-    with pytest.raises(InputError, match=gone):
-        open_chain("reference")
 
 
 def test_a_chain_that_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:

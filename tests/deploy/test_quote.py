@@ -137,25 +137,17 @@ def test_what_cannot_be_estimated_is_as_dear_as_the_dearest() -> None:
     assert [quote.estimate for quote in node.quotes(call(1), call(2))] == [50_000, None]
 
 
-def test_the_node_is_given_the_contracts_that_will_be_there() -> None:
-    node = Estimates({"0x01": 150_000})
-    (quote,) = node.quotes(call(1, needs=True))
-    assert quote.estimate == 150_000
-    (parameters,) = node.asked
-    assert parameters[1:] == ["latest", {"0x" + "33" * 20: {"code": "0x6001"}}]
-    assert parameters[0]["from"] == "0x" + "11" * 20
-
-
-def test_a_node_that_knows_no_overrides_is_asked_without() -> None:
-    node = Estimates({"0x01": 150_000}, knows_overrides=False)
-    (quote,) = node.quotes(call(1, needs=True))
-    assert quote.estimate == 150_000
-    assert [len(parameters) for parameters in node.asked] == [3, 1]
-    # others are asked once
+@pytest.mark.parametrize(("knows", "asked"), [(True, [3]), (False, [3, 1])])
+def test_the_node_is_given_the_contracts_that_will_be_there(knows: bool, asked: list[int]) -> None:
+    """Nodes that know no overrides are asked without, and about others once."""
+    node = Estimates({"0x01": 150_000, "0x02": None}, knows)
+    assert node.quotes(call(1, needs=True))[0].estimate == 150_000
+    assert [len(parameters) for parameters in node.asked] == asked
+    assert node.asked[0][1:] == ["latest", {"0x" + "33" * 20: {"code": "0x6001"}}]
+    assert node.asked[0][0]["from"] == "0x" + "11" * 20
     node.asked.clear()
-    node.by_data["0x02"] = None
     assert node.quotes(call(2))[0].estimate is None
-    assert [len(parameters) for parameters in node.asked] == [1]
+    assert len(node.asked) == 1
 
 
 def test_a_node_that_gives_no_answer_ends_the_quotes() -> None:

@@ -7,11 +7,10 @@ from attrs import evolve
 
 from shackled import InputError, RenderError, Scene
 from shackled.artifacts import artifact
-from shackled.chain import open_chain
+from shackled.chain import engine_calls, open_chain
 from shackled.errors import OutOfGasError
 from shackled.gas import SearchStep, margin, measure, render_call, search, suffices
 from shackled.gas._limits import KEPT, floor_gas, needed_for
-from shackled.gas._runs import engine_calls
 from shackled.gas._search import FIRST_LIMIT
 
 NAMES = ("smooth", "clipped, wires, inverted", "empty")

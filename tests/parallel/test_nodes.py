@@ -129,14 +129,6 @@ def test_a_lie_in_any_tile_is_found(node: str, spun: list[Image], lie: int) -> N
         assert re.search("answers wrongly for the tile .*; it is left out, and 1 part is rendered again", warning)
 
 
-def test_a_lie_in_a_whole_picture_is_found(node: str) -> None:
-    with (
-        proxy(node, at(0, "wrong")) as url,
-        pytest.raises(ChainError, match="answers wrongly for the picture: its picture is not what the contracts draw"),
-    ):
-        render_frames([SCENE], Nodes(url))
-
-
 def test_what_is_not_compared_may_be_wrong(node: str, spun: list[Image]) -> None:
     with proxy(node, at(3, "wrong")) as url:
         job = render_frames(SPIN, Nodes(url, verify="none"), Bounds(tile=(64, 16)))

@@ -54,10 +54,7 @@ class AddressBook:
             raise self._unwritable(PermissionError(errno.EACCES, "its folder is not writable"))
 
     def write(self, chain_id: int, addresses: Mapping[str, bytes]) -> None:
-        """Add or replace addresses of a chain.
-
-        Raises InputError if the file cannot be read, OutputError if it cannot be written; then it has not changed.
-        """
+        """Add or replace addresses of a chain. Raises InputError or OutputError; then the file has not changed."""
         chains = self._read()
         known = chains.get(str(chain_id), {})
         chains[str(chain_id)] = known | {name: checksum_address(address) for name, address in addresses.items()}

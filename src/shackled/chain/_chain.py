@@ -97,10 +97,7 @@ class ContractChain(ContractCaller):
 
 
 def returned_bytes(output: bytes, field: int) -> bytes:
-    """Return the ABI field `field`, of type bytes, of a function's output.
-
-    Unlike `Interface.decode`, it copies the bytes once only.
-    """
+    """Return the ABI field `field`, of type bytes; unlike `Interface.decode`, it copies the bytes once only."""
     start = int.from_bytes(output[32 * field : 32 * field + 32], "big")
     length = int.from_bytes(output[start : start + 32], "big") if start + 32 <= len(output) else len(output)
     if start + 32 + length > len(output):

@@ -165,19 +165,13 @@ def revert_data(data: Any) -> bytes | None:
 
 
 def revert_error(data: bytes, gas_limit: int) -> ChainError:
-    """Return the error for a call that a contract reverted.
-
-    data: of the revert. gas_limit: of the call, for the message of an OutOfGasError.
-    """
+    """Return the error for a reverted call. data: of the revert. gas_limit: of the call, for an OutOfGasError."""
     description = describe_revert(data)
     return out_of_gas(gas_limit) if description == "OutOfGas()" else RenderError(f"the contract refused: {description}")
 
 
 def describe_revert(data: bytes, errors: Errors | None = None) -> str:
-    """Write the data of a revert as text, such as "CanvasSize(width=0, height=17)".
-
-    errors: that it may be, by selector; None for those of the contracts of the package.
-    """
+    """Write the data of a revert as text, such as "CanvasSize(width=0, height=17)". errors: by selector; None: ours."""
     if not data:
         return "the data of the call is not a scene that is encoded correctly"
     found = decode_error(data, known_errors() if errors is None else errors)

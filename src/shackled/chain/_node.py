@@ -20,18 +20,15 @@ from ..errors import (
     WrongChainError,
 )
 from ..ethereum import checksum_address, intrinsic_gas, to_hex, word
-from ..scene import ANTIALIAS, LONG_KINDS, RECORD_HEADER, SHADINGS, TWO_SIDED, WIREFRAME
 from ._address_book import AddressBook
 from ._chain import ContractCaller, NodeResult
 from ._connection import Connection
 from ._embedded import DEFAULT_GAS_LIMIT, EmbeddedChain
 from ._failures import SAID, TOO_LITTLE_GAS, out_of_gas, revert_error
+from ._runs import ANTIALIASED, engines
 
 #: Maximum size of the data of a call that creates a contract (EIP-3860).
 MAX_INIT_CODE = 49152
-
-#: The contracts that draw antialiased pictures. A creation call brings these or, for other pictures, fewer.
-ANTIALIASED = ("AntialiasedEngine", "AntialiasedFragmentEngine", "AntialiasedSmoothEngine")
 
 #: Address at which a state override places the contract Meter, which counts gas.
 METER = bytes.fromhex("5ac61ed000000000000000000000000000000002")
@@ -39,16 +36,6 @@ METER = bytes.fromhex("5ac61ed000000000000000000000000000000002")
 #: A program that returns the remaining gas: GAS PUSH0 MSTORE, an empty MCOPY, PUSH1 32 PUSH0 RETURN.
 #: Like the contracts, it needs the rules of Cancun.
 GAS_LEFT = bytes.fromhex("5a5f525f5f5f5e60205ff3")
-
-
-#: Bytes of a light in calldata.
-LIGHT_SIZE = 5 * 32
-#: The least bytes of a mesh with normals of so many vertices as AntialiasedSmoothEngine takes with two sides.
-TWO_SIDED_MESH = 32767 * 12
-#: Bytes from the beginning of a scene in calldata to its projection, and to the offsets of its lights, objects and
-#: extensions; from the beginning of an object to its shading, specular coefficient, shininess and flags.
-PROJECTION, LIGHTS, OBJECTS, EXTENSIONS = (place * 32 for place in (11, 18, 19, 20))
-OBJECT_FIELDS = tuple(place * 32 for place in (9, 12, 13, 14))
 
 
 class NodeChain(ContractCaller):
@@ -59,10 +46,7 @@ class NodeChain(ContractCaller):
     """
 
     def __init__(self, connection: Connection, local: EmbeddedChain, address: bytes | None = None) -> None:
-        """Prepare calls; nothing is sent yet.
-
-        local: an EVM with the code of the contracts. address: of the deployed renderer to call.
-        """
+        """Prepare calls. local: an EVM with the code of the contracts. address: of the deployed renderer to call."""
         self.connection = connection
         self._local = local
         self._address = address
@@ -130,15 +114,16 @@ class NodeChain(ContractCaller):
         Raises RenderError if `address` was given and is not that of a renderer.
         """
         with self._lock:
-            if contract not in self._places:
-                if self._address is None:
-                    known = self._book.find(self.connection.chain_id, contract)
-                    places = [each for each in (self._local.address(contract), known) if each is not None]
-                    found = next((each for each in places if self._stands(contract, each)), None)
-                else:
-                    found = self._named(contract, self._address) if contract in RENDERER else None
-                self._places[contract] = found
-            return self._places[contract]
+            if contract in self._places:
+                return self._places[contract]
+            if self._address is None:
+                known = self._book.find(self.connection.chain_id, contract)
+                places = [each for each in (self._local.address(contract), known) if each is not None]
+                found = next((each for each in places if self._stands(contract, each)), None)
+            else:
+                found = self._named(contract, self._address) if contract in RENDERER else None
+            self._places[contract] = found
+            return found
 
     def _named(self, contract: str, renderer: bytes) -> bytes:
         """Return the address of the given renderer, or of one of its engines."""
@@ -253,13 +238,10 @@ class NodeChain(ContractCaller):
         raise NodeError(f"the {self.connection.name} does not return the data of a reverted creation call")
 
     def _below(self, contract: str, data: bytes) -> list[str]:
-        """Return the contracts that a call of a contract needs, each before those that it needs itself.
-
-        The Renderer calls those of its engines that draw the scene.
-        """
+        """Return the contracts that a call needs, each before those that it needs; engines only if they draw."""
         parts = artifact(contract).parts
         if contract == "Renderer":
-            parts = engines(data)
+            parts = list(engines(data[4 + int.from_bytes(data[4:36], "big") :], self._local))
         # whose calls have a scene in the same place
         below = data if contract == "Turntable" else b""
         return parts + [each for part in parts for each in self._below(part, below)]
@@ -276,50 +258,6 @@ class NodeChain(ContractCaller):
             return 0
         sizes = [(len(self._local.code(name)), len(artifact(name).creation)) for name in (*ANTIALIASED, "Renderer")]
         return 6_000_000 + sum(200 * code + 200 * packed for code, packed in sizes)
-
-
-def engines(data: bytes) -> list[str]:
-    """Return the contracts that may draw the scene of a call of the Renderer; those of plain scenes if it has none.
-
-    Of the three for antialiased scenes only those that are needed, as Materials.sol and Runs.sol say, since together
-    they leave little space in a creation call.
-    """
-    scene = 4 + _word(data, 4)
-    place = scene + _word(data, scene + EXTENSIONS)
-    end = place + 32 + _word(data, place)
-    place, last = place + 32, 0
-    alone = place + RECORD_HEADER == end
-    while place + RECORD_HEADER <= min(end, len(data)):
-        # kinds ascend
-        last = data[place]
-        size = int.from_bytes(data[place + 3 : place + RECORD_HEADER], "big")
-        place += RECORD_HEADER + size * (32 if last >= LONG_KINDS else 1)
-    if last > ANTIALIAS:
-        return ["EffectsEngine", "Effects"]
-    if last != ANTIALIAS:
-        return ["Engine", "FragmentEngine"]
-    lights, objects = (scene + _word(data, scene + offset) for offset in (LIGHTS, OBJECTS))
-    lamps, is_orthographic = _word(data, lights), _word(data, scene + PROJECTION)
-    is_point = any(_word(data, lights + 32 + LIGHT_SIZE * lamp) for lamp in range(min(lamps, 2)))
-    is_quadratic = lamps <= 2 and not (is_point and is_orthographic)
-    needed = set() if alone else {"AntialiasedFragmentEngine"}
-    first = objects + 32
-    for at in range(first, min(first + 32 * _word(data, objects), len(data)), 32):
-        thing = first + _word(data, at)
-        shading, specular, shininess, flags = (_word(data, thing + each) for each in OBJECT_FIELDS)
-        is_smooth = shading == SHADINGS["smooth"] and lamps != 0
-        is_broad = shininess == 1 and specular != 0
-        if flags & WIREFRAME or (is_smooth and (is_broad or not is_quadratic)):
-            needed.add("AntialiasedFragmentEngine")
-        else:
-            needed.add("AntialiasedSmoothEngine" if is_smooth else "AntialiasedEngine")
-            if is_smooth and flags == TWO_SIDED and _word(data, thing + _word(data, thing)) > TWO_SIDED_MESH:
-                needed.add("AntialiasedFragmentEngine")
-    return [name for name in ANTIALIASED if name in needed] or ["AntialiasedEngine"]
-
-
-def _word(data: bytes, place: int) -> int:
-    return int.from_bytes(data[place : place + 32], "big")
 
 
 @dataclass(frozen=True)
@@ -380,7 +318,7 @@ def _probe(connection: Connection) -> _Probed:
             # prefer calls that do not ask for an amount
             return max(found, key=lambda each: (each.gas, not each.named))
     # without creation calls, only deployed contracts can be called
-    return _Probed(False, connection.block_gas_limit(), False, creations=False)
+    return _Probed(False, connection.block_number_of("gasLimit") or 0, False, creations=False)
 
 
 def _limit(gas: int | None) -> bytes:

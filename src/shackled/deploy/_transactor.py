@@ -20,7 +20,7 @@ from ..errors import (
     TransactionError,
 )
 from ..ethereum import GWEI, checksum_address, rounded, to_hex
-from ._quote import Call, Fees, Quote, base_fee, current_fees, make_quote, rollup_fee, with_rollup_fees
+from ._quote import Call, Fees, Quote, current_fees, make_quote, rollup_fee, with_rollup_fees
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
@@ -53,11 +53,7 @@ class Transactor:
     """Sends the transactions of one account, one after the other. Failures raise TransactionError."""
 
     def __init__(
-        self,
-        connection: Connection,
-        account: LocalAccount,
-        patience: float = PATIENCE,
-        max_fee: int | None = None,
+        self, connection: Connection, account: LocalAccount, patience: float = PATIENCE, max_fee: int | None = None
     ) -> None:
         """Take the account that signs. patience: seconds to wait for a receipt. max_fee: see `current_fees`."""
         self.connection, self.patience, self.max_fee = connection, patience, max_fee
@@ -102,28 +98,9 @@ class Transactor:
 
         Raises TransactionError, and sends nothing, if the transaction would now cost more than the quote.
         """
+        if risen := self._risen(quote):
+            raise TransactionError(f"{risen} were quoted: the transaction was not sent; run the command again")
         call = quote.call
-        needed = self.estimate(call)
-        if needed > quote.gas:
-            raise TransactionError(
-                f"the {self.connection.name} now estimates {needed:,} gas for a transaction that was quoted with at "
-                f"most {quote.gas:,}: it was not sent; run the command again for a new quote"
-            )
-        base = base_fee(self.connection)
-        if base is not None and base > quote.fees.most:
-            raise TransactionError(
-                f"the price of gas has risen to {base / GWEI:,.12g} gwei, and at most {quote.fees.most / GWEI:,.12g} "
-                "were quoted: the transaction was not sent; run the command again"
-            )
-        if quote.rollup_fee is not None:
-            fee = rollup_fee(self.connection, quote)
-            # no field of a transaction limits it; it can rise by an eighth before the next block of the other chain
-            if fee is None or 9 * fee > 8 * quote.rollup_fee:
-                now = "no bound of it any more" if fee is None else f"{rounded(fee)} ether"
-                raise TransactionError(
-                    f"the fee for data on L1 has risen: the chain tells {now}, and at most {rounded(quote.rollup_fee)} "
-                    "were quoted: the transaction was not sent; run the command again"
-                )
         nonce = self._count("pending")
         if nonce >= 1 << 64:
             raise NodeError(f"the {self.connection.name} reports an impossible nonce of {self.name}: {nonce:,}")
@@ -158,6 +135,21 @@ class Transactor:
         self._nonce = transaction["nonce"] + 1
         return receipt
 
+    def _risen(self, quote: Quote) -> str:
+        """Return what costs more now than was quoted; or nothing."""
+        needed, base = self.estimate(quote.call), self.connection.block_number_of("baseFeePerGas")
+        if needed > quote.gas:
+            return f"the {self.connection.name} now estimates {needed:,} gas for this, and at most {quote.gas:,}"
+        if base is not None and base > quote.fees.most:
+            most = f"{quote.fees.most / GWEI:,.12g}"
+            return f"the price of gas has risen to {base / GWEI:,.12g} gwei, and at most {most}"
+        fee = None if quote.rollup_fee is None else rollup_fee(self.connection, quote)
+        # no field of a transaction limits it; it can rise by an eighth before the next block of the other chain
+        if quote.rollup_fee is not None and (fee is None or 9 * fee > 8 * quote.rollup_fee):
+            now = "no bound of it any more" if fee is None else f"{rounded(fee)} ether"
+            return f"the fee for data on L1 has risen: the chain tells {now}, and at most {rounded(quote.rollup_fee)}"
+        return ""
+
     def wait_for_pending(self) -> None:
         """Wait until all transactions of the account are mined. Raises TransactionError if it takes too long."""
 
@@ -185,10 +177,9 @@ class Transactor:
             if self._count("latest") <= transaction["nonce"]:
                 replaced_since = None
                 return None
-            now = time.monotonic()
-            replaced_since = now if replaced_since is None else replaced_since
+            replaced_since = replaced_since or time.monotonic()
             # it may have been mined since the first request, or another node of the host may have answered the second
-            if now - replaced_since < SETTLED:
+            if time.monotonic() - replaced_since < SETTLED:
                 return None
             raise TransactionError(
                 f"the transaction {digest} was replaced: another one of {self.name} with the same nonce, "
@@ -227,27 +218,20 @@ class Transactor:
         return ""
 
     def wait(self, ask: Callable[[], Any], what: str = "the node") -> Any:
-        """Call `ask` until it returns something, and return that; None after `patience` seconds.
-
-        Nodes that do not answer are asked again. what: what is waited for, for `on_delay`.
-        """
+        """Call `ask`, again if a node does not answer, until it returns something; None after `patience` seconds."""
         started, pause, reported = time.monotonic(), 0.05, False
         end = started + self.patience
         while True:
-            failure: NodeError | None = None
             try:
                 answer = ask()
-                if answer is not None:
+                if answer is not None or time.monotonic() + pause > end:
                     return answer
-            except NoAnswerError as error:
-                failure = error
+            except NoAnswerError:
+                if time.monotonic() + pause > end:
+                    raise
             if self.on_delay is not None and not reported and time.monotonic() - started > DELAY:
                 reported = True
                 self.on_delay(f"waiting for {what}")
-            if time.monotonic() + pause > end:
-                if failure is not None:
-                    raise failure
-                return None
             time.sleep(pause)
             pause = min(2.0, pause * 1.5)
 

@@ -57,9 +57,8 @@ class Instance:
         """Start without contracts. is_stoppable: whether `stop` works, which makes calls slower."""
         self._engine, self._store, instance = start(is_stoppable)
         self._is_stopped = False
-        self._exports = instance.exports(self._store)
+        self._exports: Any = instance.exports(self._store)
         self._memory: Any = self._exports["memory"]
-        self._functions: dict[str, Any] = {}
         self._codes: dict[bytes, bytes] = {}
 
     def stop(self) -> None:
@@ -142,11 +141,9 @@ class Instance:
         return bytes(self._memory.read(self._store, place, place + size)) if size else b""
 
     def _run(self, function: str, *values: int) -> Any:
-        if function not in self._functions:
-            self._functions[function] = self._exports[function]
         busy.add(self._store)
         try:
-            return self._functions[function](self._store, *values)
+            return self._exports[function](self._store, *values)
         except Exception as error:
             import wasmtime
 

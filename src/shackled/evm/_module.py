@@ -153,10 +153,7 @@ def _compiled(is_small: bool, is_stoppable: bool) -> tuple[wasmtime.Engine, wasm
 
 
 def _load(engine: wasmtime.Engine, path: Path) -> wasmtime.Module | None:
-    """Return the module of a cache file.
-
-    None if there is none, another user could have written it, it is damaged, or wasmtime or the machine differ.
-    """
+    """Return the module of a cache file; None if others could have written it, it is damaged, or wasmtime differs."""
     import wasmtime
 
     try:

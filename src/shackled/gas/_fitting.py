@@ -111,13 +111,10 @@ class _Fitting:
         raise InputError(f"nothing that is left of the picture fits {self._place}, even {self._words(now)}{remark}")
 
     def _highest(self, name: _Name, best: _Settings, gas: int, high: int) -> tuple[_Settings, int]:
-        """Return the highest setting below `high`, which does not fit, that fits; and its gas. best: one that does.
-
-        Gas is nearly linear in pixels and in triangles, so that few tries come near the limit.
-        """
+        """Return the highest setting below `high`, which does not fit, that fits, and its gas. best: one that does."""
         power = 2 if name == "side" else 1
         step = SIDE_STEP if name == "side" else max(1, round(TRIANGLE_STEP * high))
-        # at first as if all gas were that of pixels or triangles: too low
+        # gas is nearly linear in both; at first as if all of it were that of pixels or triangles: too low
         x, y = 0.0, 0.0
         while gas < NEAR * self._limit.gas:
             low: int = getattr(best, name)

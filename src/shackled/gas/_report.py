@@ -6,11 +6,11 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from ..chain import ContractChain
+from ..chain import ContractChain, NodeChain
 from ..scene import Scene
 from ._limits import ExactGas, Fit, Margin, fits_of, margin, measure, render_call
 from ._profile import Profile, profile
-from ._search import Caller, Search, SearchStep, search, suffices
+from ._search import Search, SearchStep, search, suffices
 
 GWEI_PER_ETHER = 10**9
 
@@ -92,7 +92,7 @@ def make_report(
     upper: int | None = None,
     stages: bool = True,
     on_step: Callable[[SearchStep], None] | None = None,
-    searched: Caller | None = None,
+    searched: NodeChain | None = None,
 ) -> GasReport:
     """Measure a render, search for its gas limit between two bounds, and trace it.
 

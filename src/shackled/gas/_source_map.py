@@ -89,10 +89,7 @@ def source_map(contract: str) -> SourceMap:
 
 
 def instruction_sources(code: bytes, entries: str) -> Iterator[tuple[int, int, int, int, str]]:
-    """Yield, for each instruction, its position, the number of its source (-1: none), begin, end and jump.
-
-    entries: the compiler's source map.
-    """
+    """Yield position, number of the source (-1: none), begin, end and jump of each instruction of a source map."""
     fields = ["0", "0", "-1", "-"]
     for at, entry in zip(_instructions(code), entries.split(";"), strict=False):
         # begin:length:source:jump:..., where empty fields repeat the entry before

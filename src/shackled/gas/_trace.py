@@ -59,13 +59,10 @@ def trace(contract: str, data: bytes) -> tuple[CallFrame, CallResult]:
 
 
 def _frames(functions: list[tuple[int, str, int]]) -> list[CallFrame]:
-    """Return the frame of each function: the number of its caller, which comes before it, its contract and its entry.
-
-    No function of the contracts calls itself. Where one is entered below itself, the compiler has joined the ends of
-    several functions, so that its end was not seen: it is the frame that is open.
-    """
+    """Return the frame of each function: number of its caller, which comes before it, contract and entry."""
     frames: list[CallFrame] = []
-    # the frames from the outermost to that of a function
+    # the frames from the outermost to that of a function. No function calls itself: where one is entered below itself,
+    # the compiler has joined the ends of several, so that its end was not seen
     ways: dict[CallFrame, list[CallFrame]] = {}
     for parent, contract, entry in functions:
         way = ways[frames[parent]] if parent < len(frames) else []

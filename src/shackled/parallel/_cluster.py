@@ -62,12 +62,7 @@ class ClusterBackend:
                 raise
             raise RenderError(f"no dask scheduler answers at {address}: {_line(error)}") from None
         self.slots = AHEAD * workers
-        self._name = f"dask cluster, {open_chain(chain).name}, {workers} worker" + ("s" if workers != 1 else "")
-
-    @property
-    def name(self) -> str:
-        """Return the kind of cluster and the number of workers."""
-        return self._name
+        self.name = f"dask cluster, {open_chain(chain).name}, {workers} worker" + ("s" if workers != 1 else "")
 
     def render(self, scene: Scene, tile: Rectangle) -> Drawing:
         """Render a part on any free worker."""
@@ -133,10 +128,7 @@ def _facts_function() -> Any:
 
 
 def _greet(address: str) -> None:
-    """Connect to a scheduler once; raise an error if none answers.
-
-    A client would wait without limit for a server that accepts connections and is no scheduler.
-    """
+    """Connect to a scheduler once: a client would wait without limit for a server that is no scheduler."""
     from distributed.comm.core import connect
     from distributed.security import Security
 

@@ -10,9 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from .._on import Bounds, Nodes, On, Place, place_of
-from ..chain import Drawing
+from ..chain import BAND_PIXELS, Drawing
 from ..errors import caller
-from ..gas import BAND_PIXELS
 from ..image import Image, decode_bmp, most, total
 from ..scene import Rectangle, Scene
 from ._backends import SAMPLE, Backend, Part, Verifier

@@ -312,27 +312,23 @@ class Scheduler:
             state.until = time.monotonic() + random.uniform(least, max(least, min(pause, LONGEST_PAUSE)) * 1.25)
 
     def _too_much(self, state: BackendState, part: Part, error: BaseException) -> None:
-        pixels = area(part.tile)
+        """Cut a part; drop a backend that finds many too large, if there are others."""
         state.misses += 1
-        others = [each for each in self._states if each is not state and not each.left]
+        others = any(each is not state and not each.left for each in self._states)
+        tiles = halves(part.tile)
         if not isinstance(error, OutOfGasError):
             # gas depends on what is visible; the size of an answer and its time depend on the number of pixels
-            state.capacity = min(state.capacity, max(area(tile) for tile in halves(part.tile)))
-        able = not isinstance(error, OutOfGasError) and any(each.capacity >= pixels for each in others)
-        parts = [part] if able else [Part(part.frame, tile) for tile in halves(part.tile)]
-        if len(parts) == 1 and not others:
+            state.capacity = min(state.capacity, max(map(area, tiles)))
+        if len(tiles) == 1 and not others:
             tile = f"a tile of {part.tile.width} x {part.tile.height} pixels"
             text = f"{error}; {tile} cannot be split: use fewer triangles (`max_triangles`)"
             if isinstance(error, OutOfGasError) and state.backend.gas is not None and not state.backend.untrusted:
                 text = f"{error} even for {tile}; raise `gas_limit` or use `max_triangles`"
             self._error = type(error)(text)
             return
-        self._put_first(parts)
+        self._put_first([Part(part.frame, tile) for tile in tiles])
         if others and state.misses >= (TIMEOUTS if isinstance(error, NodeTimeoutError) else MISSES):
             self._leave(state, error)
-        elif able:
-            # so that another backend takes it
-            state.until = time.monotonic() + PAUSE * 2**state.misses
 
     def _leave(self, state: BackendState, error: BaseException) -> None:
         """Drop a backend, and requeue its parts that were not compared if it answered wrongly."""

@@ -7,18 +7,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import groupby
 from typing import NamedTuple
 
 from ..artifacts import artifact
-from ..chain import CallResult, ContractChain, returned_bytes
+from ..errors import ChainError
+from ..ethereum import word
 from ..scene import WIREFRAME, Rectangle, Scene, encode
 from . import _layout as layout
+from ._chain import CallResult, ContractChain, returned_bytes
 
 #: As in Pipeline.sol.
 BAND_PIXELS = 16384
 #: Bytes of an answer before its pixels.
 HEAD = 0x40
+#: The contracts that draw pictures with four samples per pixel, with effects, and others.
+ANTIALIASED = ("AntialiasedEngine", "AntialiasedFragmentEngine", "AntialiasedSmoothEngine")
+EFFECTS, PLAIN = ("EffectsEngine", "Effects"), ("Engine", "FragmentEngine")
 
 
 @dataclass(frozen=True)
@@ -49,6 +55,25 @@ def engine_calls(scene: Scene, chain: ContractChain) -> list[EngineCall]:
         top = max(0, bottom - rows)
         calls += _calls(_uniforms(scene, Rectangle(0, top, scene.width, bottom - top), chain), chain)
     return calls
+
+
+@lru_cache(4)
+def engines(scene: bytes, chain: ContractChain) -> tuple[str, ...]:
+    """Return the contracts that may draw an ABI-encoded scene; those of plain scenes if it is none.
+
+    Of the three for antialiased scenes only those that are needed: together they leave little space in a creation call.
+    """
+    call = artifact("Renderer").selectors["engineCall"] + word(0xA0) + bytes(64) + scene[:64] + scene
+    try:
+        uniforms = returned_bytes(chain.call("Renderer", call).output, 0)
+    except ChainError:
+        return PLAIN
+    if _load(uniforms, _place(layout.EFFECTS_OFFSET)):
+        return EFFECTS
+    if not _load(uniforms, _place(layout.FRAME_IS_ANTIALIASED)):
+        return PLAIN
+    needed = {each.engine for run in _runs(uniforms) for each in run}
+    return tuple(name for name in ANTIALIASED if name in needed) or ANTIALIASED[:1]
 
 
 def _uniforms(scene: Scene, tile: Rectangle, chain: ContractChain) -> bytes:
