@@ -148,5 +148,5 @@ def test_a_node_that_lies_about_the_hash_too_is_caught_by_the_simulation(
     lies["eth_call"] = lambda answer, parameters: reported["hash"] if parameters[0]["data"] == asked else answer
     with Liar(lies).before(node.url) as url:
         assert run(["token", "reveal", "--calldata", "calls.json", "--rpc", url]) == 1
-    assert "header" in capsys.readouterr().err.splitlines()[-1]
+    assert "WrongHeader" in capsys.readouterr().err.splitlines()[-1]
     assert not Path("calls.json").exists()

@@ -143,13 +143,11 @@ class Edition:
 def open_editions(connection: Connection, address: str | None = None) -> Collection:
     """Return the collection of editions on a chain. address: None is the usual one. Raises InputError without it."""
     collection = Collection(connection, EDITIONS, address or address_of(EDITIONS.contract))
-    if not connection.code(collection.contract.place):
+    if not connection.code(collection.contract.place) or collection.name != EDITIONS.title:
         raise InputError(
             f"there is no collection of editions at {collection.address} on chain {connection.chain_id}: "
             "run shackled deploy `contracts` Editions"
         )
-    if collection.name != EDITIONS.title:
-        raise InputError(f"the contract at {collection.address} is not a collection of editions")
     return collection
 
 
