@@ -14,7 +14,7 @@ import numpy as np
 from PIL import Image as PillowImage
 from PIL import ImageSequence
 from tools.tokens.merkle import leaf
-from tools.tokens.stage import ALLOW_LIST, CLOSED, ICONS, LIMIT, PUBLIC, Stage, icon_scene, store_scene
+from tools.tokens.stage import ALLOW_LIST, CLOSED, ICONS, LIMIT, PUBLIC, Stage, icon_scene
 from tools.tokens.world import ETHER, ZERO, Contract, Refused
 
 from adversaries import adversary
@@ -184,11 +184,3 @@ def test_only_the_owner_may(s: Stage) -> None:
     for function, *arguments in (("mintReserve", 0, s.bob, 1), ("setPhase", 1), ("withdraw", s.bob), ("seal",)):
         with refused("OwnableUnauthorizedAccount", s.bob):
             s.icons.send(str(function), *arguments, sender=s.bob)
-
-
-def test_the_scenes_cannot_be_changed(s: Stage) -> None:
-    """What is kept is code that begins with an instruction that ends every call; the same scene has the same place."""
-    for icon, name in enumerate(ICONS):
-        place = s.icons.call("iconAt", icon)[1]
-        assert s.world.of(place).code[0] == 0
-        assert store_scene(s.studio, icon_scene(name)) == place
