@@ -279,9 +279,8 @@ REFUSED = {
 
 @pytest.mark.parametrize(("order", "error"), [(order, error) for error in REFUSED for order in REFUSED[error].split()])
 def test_steps_that_are_refused(probe: Probe, order: str, error: str) -> None:
-    with pytest.raises(
-        RenderError, match=rf"error 0x{keccak256(error.encode())[:4].hex()}|: {error.partition('(')[0]}\("
-    ):
+    selector, name = keccak256(error.encode())[:4].hex(), error.partition("(")[0]
+    with pytest.raises(RenderError, match=rf"error 0x{selector}|: {name}\("):
         stepped(probe, order)
 
 

@@ -87,12 +87,6 @@ class Edition:
     scale: int
     model: bool
 
-    @classmethod
-    def from_answer(cls, number: int, answer: Sequence[Any]) -> Edition:
-        """Return an edition from what the contract returns for `editionAt`."""
-        artist, scene = (checksum_address(bytes.fromhex(answer[place][2:])) for place in (0, 9))
-        return cls(number, artist, scene, answer[10], *answer[1:9])
-
     @property
     def left(self) -> int:
         """Number of tokens that can still be minted."""
@@ -153,7 +147,9 @@ def open_editions(connection: Connection, address: str | None = None) -> Collect
 
 def edition_at(collection: Collection, number: int) -> Edition:
     """Return an edition by its number. Raises RevertError if there is none."""
-    return Edition.from_answer(number, collection.contract.call("editionAt", number))
+    found = collection.contract.call("editionAt", number)
+    artist, scene = (checksum_address(bytes.fromhex(found[place][2:])) for place in (0, 9))
+    return Edition(number, artist, scene, found[10], *found[1:9])
 
 
 def editions_of(collection: Collection, artist: str | None = None, report: Report | None = None) -> list[Edition]:
