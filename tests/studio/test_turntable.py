@@ -18,7 +18,7 @@ from tools.ledger import World, call_data
 from tools.png_code import SIGNATURE, encode_png
 
 from evms import Ours, pyevm_call, pyrevm_call
-from shackled import Background, Camera, ChainError, Light, Material, Mesh, Object, RenderError, Scene, load, render
+from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene, load, render
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
 from shackled.ethereum import word
@@ -95,15 +95,6 @@ def test_each_frame_is_the_scene_turned(world: World, count: int, delay: int, sc
         assert (file.info["loop"], file.info["duration"]) == (0, delay)
     uri = world.call("Studio", f"animateDataURI(address,{SPIN})", pointer, spin)
     assert uri == "data:image/png;base64," + base64.b64encode(png).decode()
-
-
-def test_pillow_writes_the_same_frames() -> None:
-    png = animate(SCENE)
-    first, *others = (PillowImage.fromarray(each) for each in frames_of(png))
-    file = io.BytesIO()
-    first.save(file, "PNG", save_all=True, append_images=others, loop=0, duration=80, default_image=False)
-    theirs = frames_of(file.getvalue())
-    assert all(np.array_equal(a, b) for a, b in zip(theirs, frames_of(png), strict=True))
 
 
 def test_changes_come_first(world: World) -> None:
@@ -233,15 +224,6 @@ def test_every_evm_agrees() -> None:
     assert len(decode(["bytes"], ours.output)[0]) > 200
     assert pyrevm_call(codes, address, data, 10**8) == ours
     assert pyevm_call(codes, address, data, 10**8) == ours
-
-
-def test_an_address_without_code_is_no_part() -> None:
-    chain = open_chain()
-    parts = [chain.address("Renderer"), chain.address("PngEncoder")]
-    for place in range(2):
-        given = [b"\x77" * 20 if at == place else part for at, part in enumerate(parts)]
-        with pytest.raises(ChainError, match="could not be deployed"):
-            chain.create("Turntable", artifact("Turntable").creation + b"".join(map(word, given)))
 
 
 def test_chromium_plays_it(browser: Any, tmp_path: Path) -> None:

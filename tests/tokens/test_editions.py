@@ -220,12 +220,9 @@ def test_tokens_show_their_scene_for_ever(show: Show) -> None:
         show.call("tokenURI", 3)
 
 
-def test_the_collection_speaks_of_itself(shared: Show) -> None:
-    found = document(shared.editions.call("contractURI"))
-    assert (found["name"], found["symbol"]) == ("Shackled Editions", "SHKE")
-    assert "Anybody can add scenes" in found["description"]
-    # nobody can choose its picture, which is that of tokens of Genesis before they are revealed
-    hidden = document(shared.s.metadata.call("hiddenURI", 0, 0))
+def test_nobody_can_choose_the_picture_of_the_collection(shared: Show) -> None:
+    """It is that of tokens of Genesis before they are revealed."""
+    found, hidden = document(shared.call("contractURI")), document(shared.s.metadata.call("hiddenURI", 0, 0))
     assert np.array_equal(pixels(found["image"]), pixels(hidden["image"]))
 
 

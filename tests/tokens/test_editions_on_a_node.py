@@ -6,6 +6,7 @@ import json
 import re
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any, cast
 
 import numpy as np
@@ -195,21 +196,13 @@ def test_the_address_is_that_of_the_contracts() -> None:
     assert f"EDITIONS = {address_of('Editions')};" in addresses
 
 
-def test_the_collection_may_be_full() -> None:
-    class Full:
-        """As many editions as the contract allows, and more."""
+@pytest.mark.parametrize(("count", "error"), [(2**24, LookupError), (2**24 + 1, NodeError)])
+def test_the_collection_may_be_full(count: int, error: type[Exception]) -> None:
+    """As many editions as the contract allows are read, and no more."""
 
-        connection = Connection("http://127.0.0.1:1")
+    def call(function: str, *numbers: int) -> int:
+        return {"editionCount": count}[function]
 
-        def __init__(self, count: int) -> None:
-            self.contract, self.count = self, count
-
-        def call(self, function: str, *numbers: int) -> Any:
-            if numbers:
-                raise LookupError("an edition is read")
-            return self.count
-
-    with pytest.raises(LookupError):
-        editions_of(cast("Collection", Full(2**24)))
-    with pytest.raises(NodeError, match="impossible number of editions, 16,777,217"):
-        editions_of(cast("Collection", Full(2**24 + 1)))
+    contract, connection = SimpleNamespace(call=call), Connection("http://127.0.0.1:1")
+    with pytest.raises(error, match=r"editionAt|impossible number of editions, 16,777,217"):
+        editions_of(cast("Collection", SimpleNamespace(contract=contract, connection=connection)))

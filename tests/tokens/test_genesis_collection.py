@@ -93,15 +93,6 @@ def test_there_is_nothing_to_see_of_tokens_that_are_not_there(revealed: Stage) -
                 revealed.genesis.call(function, token)
 
 
-def test_the_collection_speaks_of_itself(revealed: Stage) -> None:
-    found = document(revealed.genesis.call("contractURI"))
-    assert list(found) == ["name", "symbol", "description", "banner_image", "image"]
-    assert found["description"].endswith(f" {INDEPENDENT}")
-    assert (found["name"], found["symbol"]) == ("Shackled Genesis", "SHKG")
-    assert (found["name"], found["symbol"]) == tuple(revealed.genesis.call(each) for each in ("name", "symbol"))
-    assert pixels(found["image"]).shape == (512, 512, 3)
-
-
 def test_nothing_of_it_can_be_changed() -> None:
     """No function writes generator, renderer, metadata, price, supply or a round that is revealed."""
     s = stage()

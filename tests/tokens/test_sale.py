@@ -7,8 +7,6 @@ from typing import Any
 
 import pytest
 from eth_account import Account
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
@@ -26,14 +24,6 @@ SIGNER = Account.from_key(KEY).address
 # ---- the public sale ----
 
 
-def test_mint_pays_exactly_and_gives_tokens(s: Stage) -> None:
-    receipt = s.genesis.send("mint", 3, sender=s.alice, value=3 * PRICE)
-    assert [values["tokenId"] for name, values in receipt.events if name == "Transfer"] == [0, 1, 2]
-    assert [s.genesis.call("ownerOf", token) for token in range(3)] == [s.alice] * 3
-    assert s.genesis.call("balanceOf", s.alice) == s.genesis.call("totalSupply") == 3
-    assert s.world.balance(s.genesis.address) == 3 * PRICE
-
-
 def test_other_payments_and_quantities_are_refused(s: Stage) -> None:
     for sent in (0, PRICE - 1, PRICE + 1, 2 * PRICE, 100 * ETHER):
         with refused("Payment", sent, PRICE):
@@ -45,13 +35,6 @@ def test_other_payments_and_quantities_are_refused(s: Stage) -> None:
         with refused("Quantity", quantity, LIMIT):
             s.genesis.send("mintReserve", s.alice, quantity, sender=s.owner)
     assert s.world.balance(s.alice) == 1000 * ETHER
-
-
-@pytest.mark.parametrize("phase", [CLOSED, ALLOW_LIST])
-def test_only_the_public_phase_sells_to_all(s: Stage, phase: int) -> None:
-    s.genesis.send("setPhase", phase, sender=s.owner)
-    with refused("WrongPhase", phase, PUBLIC):
-        s.genesis.send("mint", 1, sender=s.alice, value=PRICE)
 
 
 def test_the_last_token_is_sold_and_no_further(s: Stage) -> None:
@@ -140,21 +123,6 @@ def test_without_a_list_there_is_no_proof(s: Stage) -> None:
     with refused("AllowanceNotSigned", ZERO):
         permission = (s.alice, 1, 2**40)
         mint_signed(s, permission, bytes(65))
-
-
-@settings(max_examples=10)
-@given(st.integers(0, 2**256 - 1), st.integers(0, 2**256 - 1))
-def test_no_quantity_overflows_an_allowance(quantity: int, allowed: int) -> None:
-    s = stage()
-    s.genesis.send("setPhase", ALLOW_LIST, sender=s.owner)
-    s.genesis.send("setAllowList", leaf(s.alice, allowed), ZERO, sender=s.owner)
-    try:
-        s.genesis.send("mintWithProof", quantity, allowed, [], sender=s.alice, value=quantity * PRICE % ETHER)
-    except Refused as error:
-        assert error.name in ("Quantity", "AllowanceExceeded")  # noqa: PT017
-        assert quantity == 0 or quantity > LIMIT or quantity > allowed
-    else:
-        assert 0 < quantity <= min(LIMIT, allowed)
 
 
 # ---- the allow-list: by signature ----
@@ -286,16 +254,6 @@ def test_ownership_changes_in_two_steps_and_is_never_given_up(s: Stage) -> None:
 
 
 # ---- the ether ----
-
-
-def test_the_owner_fetches_all_of_it(s: Stage) -> None:
-    s.mint(4)
-    treasury = account("treasury")
-    receipt = s.genesis.send("withdraw", treasury, sender=s.owner)
-    assert receipt.events == [("Withdrawn", {"to": treasury, "amount": 4 * PRICE})]
-    assert (s.world.balance(s.genesis.address), s.world.balance(treasury)) == (0, 4 * PRICE)
-    s.genesis.send("withdraw", treasury, sender=s.owner)
-    assert s.world.balance(treasury) == 4 * PRICE
 
 
 def test_who_refuses_ether_blocks_nothing(s: Stage) -> None:

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 import numpy as np
-from attrs import frozen
+from attrs import field, frozen
 from numpy.typing import ArrayLike
 
 from .._on import Nodes, On
@@ -27,21 +27,18 @@ MOST_SCALE = 8
 ONE = 1 << 32
 
 
-@frozen(repr=False)
+@frozen
 class ContractFile:
     """A file, byte for byte as a contract made it.
 
     gas: of the execution; None where it is not counted. made_by: the EVM or node.
     """
 
-    content: bytes
+    content: bytes = field(repr=False)
     media_type: str
     gas: int | None
     intrinsic_gas: int
     made_by: str
-
-    def __repr__(self) -> str:
-        return f"<ContractFile {self.media_type}, {len(self.content):,} bytes>"
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the file atomically."""

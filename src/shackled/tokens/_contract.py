@@ -182,16 +182,12 @@ SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
     ),
     "NotSealed": lambda v: "the set of icons is not sealed yet: the owner has to seal the collection first",
     "AlreadySealed": lambda v: "the set of icons is sealed: none can be added",
-    "NoIcons": lambda v: "a collection without icons cannot be sealed",
-    "NameLength": lambda v: f"a name has 1 to {v['longest']} bytes, not {v['length']}",
     "UnknownEdition": lambda v: f"there is no edition {v['edition']}: the collection has {v['editions']}",
     "NotTheArtist": lambda v: (
         f"only its artist {v['artist']} may do this with edition {v['edition']}, not {v['account']}"
     ),
     "AlreadyClosed": lambda v: f"edition {v['edition']} is closed: no more tokens of it can be minted",
     "NothingKept": lambda v: f"no scene is stored at {v.get('scene', v.get('pointer'))}",
-    "NotAScene": lambda v: f"the data stored at {v['pointer']} is not a scene",
-    "WrongHeader": lambda v: f"the header is not that of block {v['blockNumber']:,}",
     "OwnerQueryForNonexistentToken": lambda v: "there is no such token",
     "URIQueryForNonexistentToken": lambda v: "there is no such token",
     "TransferToNonERC721ReceiverImplementer": lambda v: "the receiver is a contract that does not accept tokens",

@@ -55,7 +55,7 @@ def run_demo(connection: Connection, folder: Path, report: Callable[[str], None]
 
     Raises InputError if the node is not a fresh anvil, VerificationError if a result is wrong.
     """
-    demo = Demo(connection, development_transactors(connection, max_fee), folder, report)
+    demo = Demo(connection, development_transactors(connection, max_fee), report)
     make_output_folder(folder)
     demo.read(demo.sell_genesis())
     demo.read(demo.sell_icons())
@@ -68,31 +68,20 @@ def run_demo(connection: Connection, folder: Path, report: Callable[[str], None]
         ("tokenURI, bytes", f"at most {max(token.metadata.length for token in demo.tokens):,}"),
     ]
     html = page("Shackled: tokens rendered on chain", INTRODUCTION, demo.tokens, facts, demo.costs)
-    write_output(demo.gallery, html.encode())
-    write_output(demo.listing, tokens_json(demo.tokens).encode())
+    write_output(folder / GALLERY, html.encode())
+    write_output(folder / LISTING, tokens_json(demo.tokens).encode())
     return demo
 
 
 @dataclass
 class Demo:
-    """A demonstration, and its result: files, gas of every action, and all tokens. report: called with each step."""
+    """A demonstration, and its result: gas of every action, and all tokens. report: called with each step."""
 
     connection: Connection
     users: list[Transactor]
-    folder: Path
     report: Callable[[str], None]
     costs: list[ActionCost] = field(default_factory=list)
     tokens: list[TokenView] = field(default_factory=list)
-
-    @property
-    def gallery(self) -> Path:
-        """The page with all tokens."""
-        return self.folder / GALLERY
-
-    @property
-    def listing(self) -> Path:
-        """The JSON list of all tokens."""
-        return self.folder / LISTING
 
     def sell_genesis(self) -> Collection:
         """Sell tokens to an allow list, then to everyone, and reveal them with another account."""

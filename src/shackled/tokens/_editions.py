@@ -87,12 +87,6 @@ class Edition:
     scale: int
     model: bool
 
-    @classmethod
-    def from_answer(cls, number: int, answer: Sequence[Any]) -> Edition:
-        """Return an edition from what the contract returns for `editionAt`."""
-        artist, scene = (checksum_address(bytes.fromhex(answer[place][2:])) for place in (0, 9))
-        return cls(number, artist, scene, answer[10], *answer[1:9])
-
     @property
     def left(self) -> int:
         """Number of tokens that can still be minted."""
@@ -143,19 +137,19 @@ class Edition:
 def open_editions(connection: Connection, address: str | None = None) -> Collection:
     """Return the collection of editions on a chain. address: None is the usual one. Raises InputError without it."""
     collection = Collection(connection, EDITIONS, address or address_of(EDITIONS.contract))
-    if not connection.code(collection.contract.place):
+    if not connection.code(collection.contract.place) or collection.name != EDITIONS.title:
         raise InputError(
             f"there is no collection of editions at {collection.address} on chain {connection.chain_id}: "
             "run shackled deploy `contracts` Editions"
         )
-    if collection.name != EDITIONS.title:
-        raise InputError(f"the contract at {collection.address} is not a collection of editions")
     return collection
 
 
 def edition_at(collection: Collection, number: int) -> Edition:
     """Return an edition by its number. Raises RevertError if there is none."""
-    return Edition.from_answer(number, collection.contract.call("editionAt", number))
+    found = collection.contract.call("editionAt", number)
+    artist, scene = (checksum_address(bytes.fromhex(found[place][2:])) for place in (0, 9))
+    return Edition(number, artist, scene, found[10], *found[1:9])
 
 
 def editions_of(collection: Collection, artist: str | None = None, report: Report | None = None) -> list[Edition]:

@@ -63,11 +63,6 @@ class CollectionTerms:
         if int(self.owner, 16) == 0:
             raise InputError("the owner cannot be the address 0")
 
-    @property
-    def struct(self) -> tuple[str, int, str, int]:
-        """The struct Terms of contracts/src/tokens/Collection.sol."""
-        return self.owner, self.per_transaction, self.royalty_receiver, self.royalty
-
 
 def parts_of(contract: str) -> list[Deployment]:
     """Return the contracts that a contract needs, in the order of deployment."""
@@ -107,7 +102,8 @@ def creation_code(kind: CollectionKind, parts: Sequence[Deployment], terms: Coll
     """Return the creation code of a collection, with the arguments of its constructor."""
     built, places = artifact(kind.contract), {part.name: part.address for part in parts}
     arguments = [*(places[name] for name in built.parts), *(getattr(terms, term) for term in kind.terms)]
-    return built.creation + built.interface.construct(*arguments, terms.struct)
+    struct = (terms.owner, terms.per_transaction, terms.royalty_receiver, terms.royalty)
+    return built.creation + built.interface.construct(*arguments, struct)
 
 
 def plan_launch(

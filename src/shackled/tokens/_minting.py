@@ -53,11 +53,7 @@ def mint_call(
     return prepare("mint", *which, quantity, value=value)
 
 
-ALLOWANCE_FIELDS = [
-    {"name": "account", "type": "address"},
-    {"name": "quantity", "type": "uint256"},
-    {"name": "deadline", "type": "uint256"},
-]
+FIELDS = {"account": "address", "quantity": "uint256", "deadline": "uint256"}
 
 
 @dataclass(frozen=True)
@@ -99,8 +95,9 @@ def sign_allowance(
         "chainId": collection.connection.chain_id,
         "verifyingContract": collection.address,
     }
+    types = {"Allowance": [{"name": name, "type": kind} for name, kind in FIELDS.items()]}
     message = {"account": account, "quantity": quantity, "deadline": deadline}
-    signed = signer.sign_message(encode_typed_data(domain, {"Allowance": ALLOWANCE_FIELDS}, message))
+    signed = signer.sign_message(encode_typed_data(domain, types, message))
     return Allowance(account, quantity, deadline, bytes(signed.signature))
 
 

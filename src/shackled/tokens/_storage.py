@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
@@ -134,15 +133,13 @@ def read_back(connection: Connection, studio: str, pointer: str, wanted: SceneTo
     Raises VerificationError if it is wrong; if the scene was stored exactly, all bytes are compared.
     """
     contract = Contract(connection, STUDIO, studio)
-    started = time.perf_counter()
     bmp: bytes = contract.call(RENDER, pointer)
-    seconds = time.perf_counter() - started
     pixels = decode_bmp(bmp, wanted.scene.width, wanted.scene.height)
     if wanted.position_bits is None and wanted.normal_bits == 10 and bmp != render(wanted.scene).bmp:
         raise VerificationError(
             f"the picture of {wanted.name} on chain {connection.chain_id} differs from the one computed here"
         )
-    return Image(pixels, bmp, contract.gas(RENDER, pointer), None, connection.name, seconds)
+    return Image(pixels, bmp, contract.gas(RENDER, pointer), None, connection.name)
 
 
 def _is_stored(connection: Connection, pointer: bytes) -> bool:

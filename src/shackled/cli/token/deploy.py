@@ -187,5 +187,5 @@ def demo(
     result = run_demo(NodeOptions(rpc).connect(), output, print_note, max_fee)
     head, *rows = comparison(result.costs)
     print_table(head, rows)
-    print_line(f"{result.gallery}: {len(result.tokens)} tokens, read through tokenURI")
-    print_line(f"{result.listing}")
+    print_line(f"{output / 'gallery.html'}: {len(result.tokens)} tokens, read through tokenURI")
+    print_line(f"{output / 'tokens.json'}")
