@@ -14,7 +14,7 @@ from ...tokens import EDITIONS
 from ...whole_file import check_output_file, write_output
 from ..chain_options import JSON, NodeOptions
 from ..look_options import parse_size
-from ..option import argument, option
+from ..option import argument, need, option
 from ..output import print_json, print_line, print_table
 from ..progress import LateBar
 from .options import PHASES, POINTER, SCALE, TOKEN, CollectionOptions
@@ -116,8 +116,7 @@ def picture(
     kind = output.suffix.lower()
     if kind not in calls:
         raise InputError(f"the picture {output} must end in {one_of(calls)}")
-    if turntable is None and size is not None:
-        raise InputError("--size needs --turntable: a stored scene has its size")
+    need("--turntable: a stored scene has its size", turntable, {"--size": size})
     if turntable is not None:
         if kind != ".png":
             raise InputError(f"the turntable {output} must end in .png")
