@@ -156,13 +156,7 @@ class PayerOptions(SignerOptions):
         return Transactor(connection, self.signer, max_fee=self.max_fee)
 
     def send(
-        self,
-        collection: Collection,
-        title: str,
-        function: str,
-        *arguments: Any,
-        value: int = 0,
-        gas: int | None = None,
+        self, collection: Collection, title: str, function: str, *arguments: Any, value: int = 0, gas: int | None = None
     ) -> Receipt:
         """Print the price of a transaction to a collection, ask for consent, and send it.
 

@@ -53,10 +53,7 @@ def show(
         print_line(f"{key:{width}}  {value}")
 
 
-def list_(
-    which: CollectionOptions,
-    as_json: bool = JSON,
-) -> None:
+def list_(which: CollectionOptions, as_json: bool = JSON) -> None:
     """List the tokens with owners and traits, and the state of the collection."""
     from ...tokens import icons_of, read_views
 
@@ -133,10 +130,7 @@ def picture(
     print_line(f"{output}: {len(content):,} bytes" + ("" if gas is None else f", {gas:,} gas"))
 
 
-def verify(
-    which: CollectionOptions,
-    numbers: tuple[int, ...] = argument("Tokens; default: all.", "ID"),
-) -> None:
+def verify(which: CollectionOptions, numbers: tuple[int, ...] = argument("Tokens; default: all.", "ID")) -> None:
     """Compare the code, the seeds and the pictures of a collection with those computed here."""
     from ...deploy import local_chain
     from ...tokens import check_code, check_token
