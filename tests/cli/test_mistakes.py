@@ -121,7 +121,6 @@ MISTAKES = {
     "gas shape.obj --opcodes --no-stages": "--no-stages and --opcodes exclude",
     "gas shape.obj --gas-price -1": "--gas-price",
     "gas shape.obj --eth-price nan": "--eth-price",
-    "gas shape.obj --size 8 --no-stages --lower 9 --upper 9": "0 <= lower < upper",
     # others
     "genesis": "a SEED is missing: 64 hexadecimal digits or a number from 0 to 1023; or give --sheet FILE",
     "genesis 1024": "a seed must be 64 hexadecimal digits, with or without 0x, or a number from 0 to 1023, not '1024'",

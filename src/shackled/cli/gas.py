@@ -54,10 +54,6 @@ def gas(
     stages: bool = option("--stages/--no-stages", "Show gas by stage.", default=True),
     gas_price: float = option("--gas-price", "Gas price in gwei.", "GWEI", default=1.0),
     eth_price: float | None = option("--eth-price", "Price of one ether in US dollars.", "USD"),
-    lower: int = option("--lower", "Lower bound of the search: an insufficient gas limit.", "GAS", "Search", default=0),
-    upper: int | None = option(
-        "--upper", "Upper bound of the search: a sufficient gas limit. Default: found by doubling.", "GAS", "Search"
-    ),
     **look: Any,
 ) -> None:
     """Measure the gas of a picture: exactly, by binary search, by stage and by line, and compare it with limits."""
@@ -70,7 +66,7 @@ def gas(
     node = _open_node(rpc, address, rpc_timeout)
     scene = load_with(input, look, fit)
     with LateBar("searching") as bar:
-        report = make_report(scene, place, lower, upper, stages, show_steps(as_json, bar), node)
+        report = make_report(scene, place, stages=stages, on_step=show_steps(as_json, bar), searched=node)
         counted = None if node is None else node.call("Renderer", render_call(scene))
     if path is not None and report.profile is not None:
         write_output(path, flame_graph(report.profile, input).encode())

@@ -140,12 +140,12 @@ def render_all(sources: Sequence[Source], paths: Sequence[Path | None], task: Ta
                 bar.print(line)
             if isinstance(result, Done):
                 if report is not None:
-                    bar.print_result(json.dumps(result.report) if report == "json" else plain(result.line))
+                    bar.print(json.dumps(result.report) if report == "json" else plain(result.line), to_stdout=True)
             else:
                 text = with_options(str(result))
                 failed.append(ShackledError(text if name in text else f"{name}: {text}"))
                 if report == "json":
-                    bar.print_result(json.dumps({"input": name, "error": text}))
+                    bar.print(json.dumps({"input": name, "error": text}), to_stdout=True)
             bar.set(number, len(work))
     summary = f"{len(work) - len(failed)} rendered, {len(failed)} failed"
     if failed:
