@@ -25,9 +25,10 @@ from original_scenes import genesis_document
 from shackled import Light, render
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
-from shackled.datasets.genesis import COUNT, GenesisPiece, generate, parse_seed, picture_on_chain, seed_of
+from shackled.datasets.genesis import COUNT, generate, parse_seed, picture_on_chain, seed_of
 from shackled.datasets.genesis._collection import find, pieces
 from shackled.datasets.genesis._contract import call, decode_piece
+from shackled.datasets.genesis._piece import GenesisPiece
 from shackled.errors import InputError, RenderError
 from shackled.ethereum import keccak256
 from shackled.scene import encode
