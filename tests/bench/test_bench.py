@@ -84,7 +84,7 @@ def test_without_a_name_all_are_made(
             return [folder / name]
 
     monkeypatch.setattr(Runner, "run", lambda self, name: Nothing())
-    for options in ([], ["--all"], ["--quick"]):
+    for options in ([], ["--quick"]):
         made.clear()
         assert run(["bench", "-o", str(tmp_path), *options]) == 0
         assert made == list(EXPERIMENTS)

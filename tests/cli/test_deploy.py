@@ -113,6 +113,7 @@ def test_a_wallet_sends_the_transactions(node: Anvil, deploy: Shackled) -> None:
     (call,) = json.loads(Path("calls.json").read_text("utf-8"))["calls"]
     assert call.pop("name") == "deploy PngEncoder"
     node.rpc("eth_sendTransaction", call | {"from": node.rpc("eth_accounts")[1]})
+    node.rpc("evm_mine")
     assert "all contracts are deployed already" in deploy(words).out
 
 

@@ -54,17 +54,6 @@ def test_one_json_object_says_it_all(report: Any, shackled: Shackled) -> None:
     assert {entry["limit"] for entry in found["fits"]} >= {1 << 24, 50_000_000, 100_000_000}
 
 
-def test_limits_of_the_search_and_no_stages(report: Any, shackled: Shackled) -> None:
-    whole = report("--no-stages")
-    assert whole["stages"] is None
-    least = whole["searched_gas"]
-    near = report(f"--no-stages --lower {least - 8} --upper {least + 8}")
-    assert near["searched_gas"] == least
-    assert near["search_calls"] == 5 < whole["search_calls"]
-    said = shackled("gas shape.obj --size 8 --no-stages --upper 1000", expect=1)
-    assert "1,000 gas, the upper limit of the search" in said.error
-
-
 @pytest.mark.parametrize(
     "words",
     [
@@ -133,6 +122,7 @@ def test_profiles_and_opcodes(report: Any, shackled: Shackled) -> None:
 @needs_anvil
 def test_a_node_counts_too(report: Any, shackled: Shackled, monkeypatch: pytest.MonkeyPatch) -> None:
     here = report("--no-stages")
+    assert here["stages"] is None
     with anvil() as node:
         found = report(f"--no-stages --rpc {node.url} --rpc-timeout 60")
         name = f"{node.connection.name} (state override)"

@@ -20,7 +20,7 @@ from ..ethereum import GWEI, at_most, checksum_address, ether, parse_address, ro
 from ..untrusted import plain
 from ..values import plural
 from ..whole_file import check_output_file, write_output
-from .option import option
+from .option import exclude, option
 from .output import print_json, print_line, print_note
 
 if TYPE_CHECKING:
@@ -117,8 +117,7 @@ class SignerOptions:
 
     def check(self) -> None:
         """Raise InputError if two accounts were named, or if none can sign here."""
-        if self.account is not None and self.private_key_env is not None:
-            raise InputError("--account and --private-key-env exclude each other: give one of them")
+        exclude("--account", self.account, {"--private-key-env": self.private_key_env})
         if self.is_given:
             from ..deploy import signer_class
 

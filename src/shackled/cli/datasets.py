@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from functools import partial
 from itertools import groupby
 from pathlib import Path
 from typing import Any
@@ -21,19 +22,16 @@ from .progress import LateBar
 #: Number of Genesis pieces in a gallery without --all.
 GENESIS_SHOWN = 48
 
-
-def _check_dataset(name: str | None) -> str | None:
-    return name if name is None else choice(name, "the dataset", tuple(DATASETS))
+DATASET = argument(f"{', '.join(DATASETS)}; all by default.", "DATASET", parse=partial(choice, choices=tuple(DATASETS)))
 
 
 def list_(
-    dataset: str | None = argument(f"{', '.join(DATASETS)}; all by default.", "DATASET"),
+    dataset: str | None = DATASET,
     as_json: bool = option("--json", "Print a list of JSON objects."),
     every: bool = option("--all", "List each Genesis piece."),
 ) -> None:
     """List the pieces with their triangles, gas at 128 x 128, and licence."""
-    wanted = _check_dataset(dataset)
-    rows = [(piece, cost(piece)) for piece in pieces(wanted)]
+    rows = [(piece, cost(piece)) for piece in pieces(dataset)]
     if as_json:
         print(json.dumps([_object(piece, figures) for piece, figures in rows], ensure_ascii=False))
         return
@@ -41,12 +39,9 @@ def list_(
         members = list(group)
         print(f"{name}: {len(members):,} pieces")
         lines = [_summary(members)] if name == "genesis" and not every else [_line(*row) for row in members]
-        widths = [max(len(line[column]) for line in lines) for column in range(4)]
-        for line in lines:
-            print(
-                f"  {line[0]:{widths[0]}}  {line[1]:>{widths[1]}} triangles  {line[2]:>{widths[2]}} gas"
-                f"  {line[3]:{widths[3]}}  {line[4]}"
-            )
+        a, b, c, d, _ = (max(map(len, column)) for column in zip(*lines, strict=True))
+        for piece, triangles, gas, title, terms in lines:
+            print(f"  {piece:{a}}  {triangles:>{b}} triangles  {gas:>{c}} gas  {title:{d}}  {terms}")
 
 
 def _object(piece: Piece, figures: PieceCost) -> dict[str, Any]:
@@ -71,16 +66,13 @@ def _line(piece: Piece, figures: PieceCost) -> tuple[str, str, str, str, str]:
 
 
 def _summary(rows: Sequence[tuple[Piece, PieceCost]]) -> tuple[str, str, str, str, str]:
-    triangles = [figures.triangles for _, figures in rows if figures.triangles is not None]
-    gas = [figures.gas for _, figures in rows if figures.gas is not None]
-    first, last = rows[0][0], rows[-1][0]
-    return (
-        f"{first.name} .. {last.name}",
-        f"{min(triangles):,} to {max(triangles):,}" if triangles else "-",
-        f"{min(gas):,} to {max(gas):,}" if gas else "-",
-        "",
-        first.licence,
-    )
+    def span(values: Iterable[int | None]) -> str:
+        known = [value for value in values if value is not None]
+        return f"{min(known):,} to {max(known):,}" if known else "-"
+
+    (first, _), (last, _) = rows[0], rows[-1]
+    triangles, gas = span(figures.triangles for _, figures in rows), span(figures.gas for _, figures in rows)
+    return f"{first.name} .. {last.name}", triangles, gas, "", first.licence
 
 
 def fetch(
@@ -106,19 +98,15 @@ def _fetch(model: Any, own: Path | None, again: bool) -> None:
 
     terms = "" if model.commercial else "; not for commercial use"
     print(f"{model.name}: {model.title} by {model.author}; licence: {model.licence}{terms}", file=sys.stderr)
-    if own is not None:
-        if not take(model, own):
-            print(
-                f"{model.name}: {own} is not the published file, so its checksum was not compared;"
-                " check its licence yourself",
-                file=sys.stderr,
-            )
-    else:
+    if own is None:
         with LateBar(model.name, 0) as bar:
             done = fetch(model, again, bar.set)
         if not done:
             source = "from a local file; --again downloads the published one" if model.is_own() else "already"
             print(f"{model.name}: it is in the cache {source}", file=sys.stderr)
+    elif not take(model, own):
+        note = "is not the published file, so its checksum was not compared; check its licence yourself"
+        print(f"{model.name}: {own} {note}", file=sys.stderr)
     name, triangles, gas, *_ = _line(model.piece(), cost(model.piece()))
     print(f"{name}: {triangles} triangles, {gas} gas; shackled render {name}")
 
@@ -144,24 +132,22 @@ def showcase(
 
 def gallery(
     outputs: tuple[Path, ...] = option("-o --output", "Output file, .html or .png; can be repeated.", "FILE"),
-    dataset: str | None = argument(f"{', '.join(DATASETS)}; all by default.", "DATASET"),
+    dataset: str | None = DATASET,
     every: bool = option("--all", f"Show all Genesis pieces instead of {GENESIS_SHOWN}."),
     jobs: int | None = option("--jobs", "Number of worker processes; one per core by default.", min=1),
 ) -> None:
     """Render all pieces into a self-contained HTML page or a contact sheet. Finished drawings are cached."""
     from ..datasets import draw_all, page, sheet
 
-    wanted = _check_dataset(dataset)
     paths = outputs or [Path("gallery.html")]
     for path in paths:
         if path.suffix.lower() not in (".html", ".png"):
             raise InputError(f"the gallery {path} must end in .html or .png")
         check_output_file(path, "gallery")
-    shown, genesis = [], 0
-    for piece in pieces(wanted):
-        genesis += piece.dataset == "genesis"
-        if every or piece.dataset != "genesis" or genesis <= GENESIS_SHOWN:
-            shown.append(piece)
+    found = list(pieces(dataset))
+    genesis = [piece for piece in found if piece.dataset == "genesis"]
+    left_out = set() if every else {piece.name for piece in genesis[GENESIS_SHOWN:]}
+    shown = [piece for piece in found if piece.name not in left_out]
     ready = [piece for piece in shown if piece.ready()]
     drawings = {}
     with LateBar("drawing") as bar:

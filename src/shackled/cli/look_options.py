@@ -10,7 +10,7 @@ from typing import Any
 
 import click
 
-from .._load import load, load_frames, load_picture, locate
+from .._load import load, load_picture, locate
 from ..datasets import Piece
 from ..errors import InputError
 from ..scene import (
@@ -201,12 +201,6 @@ def load_with(input: str, look: dict[str, Any], fit: str | None = None, is_pictu
         fitted = fit_scene(scene, fit, look.get("crease"))
     print(f"shackled: note: {fitted.sentence}", file=sys.stderr)
     return fitted.scene
-
-
-def load_frames_with(input: str, frames: int, look: dict[str, Any]) -> tuple[list[Scene], float]:
-    """Return the scenes of an animation of a glTF file, with a look, and its length in seconds."""
-    with LateBar("reading"):
-        return load_frames(input, frames, **look)
 
 
 def _option(setting: Setting) -> click.Parameter:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import Field, field
 from pathlib import Path
 from typing import Any, get_args
 
 import click
 from click.core import ParameterSource
+
+from ..errors import InputError
 
 #: The options of parameters that messages of the library name in backticks.
 OPTIONS = {
@@ -106,6 +108,24 @@ def parameter(name: str, kind: Any, declared: Field[Any]) -> click.Parameter:
         return Option([name, *names], panel, help=text, **more)
     more["metavar"] = (metavar if more["required"] else f"[{metavar}]") + "..." * is_many
     return Argument(name, text, nargs=-1 if is_many else 1, **more)
+
+
+def exclude(name: str, value: object, others: Mapping[str, object]) -> None:
+    """Raise InputError if an option was given, and another one that it excludes."""
+    for other, given in others.items():
+        if _is_given(value) and _is_given(given):
+            raise InputError(f"{name} and {other} exclude each other: give one of them")
+
+
+def need(needed: str, is_there: object, given: Mapping[str, object]) -> None:
+    """Raise InputError if one of these options was given without the one that it needs."""
+    for name, value in given.items():
+        if _is_given(value) and not is_there:
+            raise InputError(f"{name} needs {needed}")
+
+
+def _is_given(value: object) -> bool:
+    return value is not None and value is not False and value != ()
 
 
 def is_from_environment(name: str) -> bool:

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..errors import InputError, VerificationError
+from ..errors import VerificationError
 from ..ethereum import checksum_address
 from ..untrusted import plain
-from .option import argument, option
+from .option import argument, need, option
 from .output import print_json, print_line, print_note, print_table
 from .progress import LateBar
 
@@ -57,8 +57,7 @@ def preview(
     """Show the tokens of a Solidity contract on a page that follows its sources, with the gas of each."""
     from ..preview import Project, Request
 
-    if not check and (as_json or output is not None):
-        raise InputError(f"{'--json' if as_json else '--output'} needs --check")
+    need("--check", check, {"--json": as_json, "--output": output})
     project = Project(source)
     stored = _stored(store or ())
     request = Request(

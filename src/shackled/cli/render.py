@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import sys
 from contextlib import ExitStack, redirect_stderr
 from dataclasses import dataclass
@@ -19,7 +20,7 @@ from ..image import FORMATS, check_alpha, one_of
 from ..scene import PICTURE
 from ..whole_file import check_output_folder, make_output_folder, write_output
 from .look_options import FIT, INPUT, load_with, parse_sides
-from .option import is_from_environment, option
+from .option import exclude, is_from_environment, need, option
 from .picture import FilmOptions, Task, render_to
 from .progress import JobProgress
 from .several import INPUTS, inputs_of, outputs_of, render_all
@@ -53,8 +54,8 @@ class WhereOptions:
     )
     cluster: str | None = option("--cluster", "Address of a dask scheduler, as tcp://host:8786.", "ADDRESS", "Where")
     gas_limit: int | None = option("--gas-limit", "Gas limit of a call; the picture is split to fit.", "GAS", "Where")
-    tile: str | None = option(
-        "--tile", "Split the picture into parts of this size, as 128 or 1024x64.", "SIZE", "Where"
+    tile: tuple[int, int] | None = option(
+        "--tile", "Split the picture into parts of this size, as 128 or 1024x64.", "SIZE", "Where", parse=parse_sides
     )
     verify: str | None = option(
         "--verify",
@@ -63,11 +64,6 @@ class WhereOptions:
         "Where",
     )
 
-    @property
-    def sides(self) -> tuple[int, int] | None:
-        """The sides of --tile."""
-        return None if self.tile is None else parse_sides(self.tile, "--tile")
-
     def on(self, rpc_is_set: bool) -> On | None:
         """Return where to render. InputError for options that exclude or need each other.
 
@@ -75,16 +71,11 @@ class WhereOptions:
         """
         evm, cluster, jobs = self.evm, self.cluster, self.jobs
         rpc = () if rpc_is_set and not (evm is None and cluster is None) else self.rpc or ()
-        if self.verify is not None and not rpc and cluster is None:
-            raise InputError("--verify needs --rpc or --cluster")
-        for name, given in (("--cluster", cluster), ("--evm", evm)):
-            if rpc and given is not None:
-                raise InputError(f"--rpc and {name} exclude each other: give one of them")
+        need("--rpc or --cluster", rpc or cluster, {"--verify": self.verify})
+        need("--rpc", rpc, {"--address": self.address, "--rpc-timeout": self.rpc_timeout})
+        exclude("--rpc", rpc, {"--cluster": cluster, "--evm": evm})
         if evm is not None and "://" in evm:
             raise InputError(f"--evm is the name of an EVM: give --rpc for the node {evm!r:.60}")
-        for name, value in (("--address", self.address), ("--rpc-timeout", self.rpc_timeout)):
-            if value is not None and not rpc:
-                raise InputError(f"{name} needs --rpc")
         if cluster is not None:
             return Cluster(cluster, evm, self.verify)
         if rpc:
@@ -131,33 +122,26 @@ def render(
         if transparent:
             for extension in extensions:
                 check_alpha(extension, FILMS if film.is_film else FORMATS)
-        on, sides = where.on(is_from_environment("rpc")), where.sides
+        on = where.on(is_from_environment("rpc"))
         place_of(on)
-        Bounds(where.gas_limit, sides)
+        Bounds(where.gas_limit, where.tile)
         if where.evm is not None:
             open_chain(where.evm)
-        exclusive = {
-            "--tile": where.tile,
-            "--gas-limit": where.gas_limit,
-            "--turntable": film.turntable,
-            "--frames": film.frames,
-        }
-        for name, given in exclusive.items():
-            if fit is not None and given is not None:
-                raise InputError(f"--fit and {name} exclude each other: give one of them")
-        if scene and film.one_call:
-            raise InputError("--scene and --one-call exclude each other: the contract's file has no scene")
-        if transparent and film.one_call:
-            raise InputError("--transparent and --one-call exclude each other: the contract's file has a background")
+        parts = {"--tile": where.tile, "--gas-limit": where.gas_limit}
+        exclude("--fit", fit, {**parts, "--turntable": film.turntable, "--frames": film.frames})
+        exclude("--scene", scene, {"--one-call": film.one_call})
+        exclude("--transparent", transparent, {"--one-call": film.one_call})
         if scene and extensions - {PICTURE}:
             raise InputError(f"--scene needs a {PICTURE} file, not {paths[0]}")
-        task = Task(look, fit, film, transparent, scene, on, where.gas_limit, sides)
+        task = Task(look, fit, film, transparent, scene, on, where.gas_limit, where.tile)
         if len(sources) > 1:
             render_all(sources, paths, task, "json" if as_json else None if quiet else "line")
             return
         done = render_to(sources[0], paths[0], task, JobProgress())
         if as_json or not quiet:
-            print(done.json if as_json else done.words, file=sys.stderr if paths[0] is None else sys.stdout)
+            print(
+                json.dumps(done.report) if as_json else done.words, file=sys.stderr if paths[0] is None else sys.stdout
+            )
 
 
 def stages(

@@ -117,10 +117,7 @@ def store(
     print_line(f"as tokens:    shackled token edition add {pointer} NAME --price ETHER")
 
 
-def list_(
-    node: NodeOptions,
-    as_json: bool = JSON,
-) -> None:
+def list_(node: NodeOptions, as_json: bool = JSON) -> None:
     """List the items: bounds, triangles, bytes, gas to store, pointers; with --rpc, whether they are stored."""
     from ..chain import read_all
     from ..library import items

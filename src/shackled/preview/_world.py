@@ -30,18 +30,11 @@ MAX_GAS = 1 << 24
 #: The block of the deployment; each transaction has a block of its own.
 FIRST_BLOCK = 20_000_000
 SECONDS_PER_BLOCK = 12
-#: Precompiled contracts of Cancun that the embedded EVM does not have.
-PRECOMPILED = {
-    1: "ecrecover",
-    2: "sha256",
-    3: "ripemd160",
-    5: "modexp",
-    6: "ecadd",
-    7: "ecmul",
-    8: "ecpairing",
-    9: "blake2f",
-    10: "kzg",
-}
+#: The precompiled contracts of Cancun from address 1 on, most of which the embedded EVM does not have.
+PRECOMPILED = (
+    *("ecrecover", "sha256", "ripemd160", "identity", "modexp"),
+    *("ecadd", "ecmul", "ecpairing", "blake2f", "kzg"),
+)
 
 
 class World:
@@ -94,7 +87,8 @@ class World:
         said = answer.output.decode(errors="replace")
         precompiled = re.search("precompiled contract 0x([0-9a-fA-F]+)", said)
         if precompiled:
-            name = PRECOMPILED.get(int(precompiled[1], 16), precompiled[0])
+            number = int(precompiled[1], 16)
+            name = PRECOMPILED[number - 1] if 0 < number <= len(PRECOMPILED) else precompiled[0]
             return f"it calls {name}, a precompiled contract that the embedded EVM does not have"
         if said in ("OpcodeNotFound", "NotActivated"):
             return "the embedded EVM has the rules of Cancun, and does not know an instruction: compile for cancun"
@@ -122,7 +116,8 @@ class World:
             raise InputError(f"{self.contract.name} cannot be deployed: {reason}")
         self.address = made.output
         problems = []
-        gas = made.gas + _creation_gas(self._creation)
+        # of the transaction, before the execution (EIP-2, EIP-3860)
+        gas = made.gas + intrinsic_gas(self._creation) + 32_000 + 2 * -(-len(self._creation) // 32)
         if gas > MAX_GAS:
             problems.append(_too_expensive(f"the deployment of {self.contract.name}", gas))
         for call in self.setup:
@@ -164,23 +159,18 @@ def _needs_library(contract: Compiled, library: bytes) -> bool:
     return library in contract.creation or "Library" in map(contract_of, taken)
 
 
-def _creation_gas(creation: bytes) -> int:
-    """Return the gas of a transaction that creates a contract before its execution (EIP-2, EIP-3860)."""
-    return intrinsic_gas(creation) + 32_000 + 2 * -(-len(creation) // 32)
-
-
 def _too_expensive(what: str, gas: int) -> str:
     return f"{what} takes {gas:,} gas, more than {MAX_GAS:,}, the most of one transaction"
 
 
 #: Fractional bits of the quantities in errors; of other errors the numbers are whole, or their scale is the fault.
-FRACTIONAL_BITS = {
-    **dict.fromkeys(("HalfHeightOutOfRange", "NearOutOfRange", "CameraOutOfRange", "LightOutOfRange"), 32),
-    **dict.fromkeys(("CoefficientOutOfRange", "ScaleOutOfRange", "RotationOutOfRange", "SpotOutOfRange"), 32),
-    **dict.fromkeys(("SpotAngles", "FogOutOfRange", "GroundOutOfRange", "AngleOutOfRange"), 32),
-    **dict.fromkeys(("SpotAnglesOutOfRange", "FieldOfViewOutOfRange", "HeightOutOfRange"), 32),
-    "OpacityOutOfRange": 24,
-    "ExposureOutOfRange": 16,
+FRACTIONAL_BITS = {"OpacityOutOfRange": 24, "ExposureOutOfRange": 16, "SpotAngles": 32}
+FRACTIONAL_BITS |= {
+    f"{name}OutOfRange": 32
+    for name in (
+        *("HalfHeight", "Near", "Camera", "Light", "Coefficient", "Scale", "Rotation", "Spot", "Fog", "Ground"),
+        *("Angle", "SpotAngles", "FieldOfView", "Height"),
+    )
 }
 ERROR_TEXT = re.compile(r"(\w+)\((.*)\)", re.DOTALL)
 QUANTITY = re.compile(r"\b(?!object=|light=)(\w+=)(-?\d+)\b")

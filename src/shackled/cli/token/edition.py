@@ -152,11 +152,7 @@ def list_(
         print_table(("edition", "name", "ether", "supply", "minted", "sale", "to withdraw", "artist", "scene"), rows)
 
 
-def close(
-    which: EditionsOptions,
-    payer: PayerOptions,
-    edition: int = NUMBER,
-) -> None:
+def close(which: EditionsOptions, payer: PayerOptions, edition: int = NUMBER) -> None:
     """Close an edition: no more tokens can be minted. Cannot be undone. For its artist."""
     from ...tokens import edition_at
 

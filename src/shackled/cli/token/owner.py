@@ -31,9 +31,7 @@ def phase(
 
 
 def withdraw(
-    which: CollectionOptions,
-    payer: PayerOptions,
-    to: str | None = address("--to", "Receiver; default: the owner."),
+    which: CollectionOptions, payer: PayerOptions, to: str | None = address("--to", "Receiver; default: the owner.")
 ) -> None:
     """Withdraw the ether of the sale. For the owner."""
     from ...tokens import withdrawn

@@ -10,7 +10,7 @@ from ...errors import InputError
 from ...ethereum import checksum_address, to_hex
 from ...values import plural
 from ..chain_options import CALLDATA, JSON, PayerOptions, address, parse_checksum_address, print_price, write_calls
-from ..option import argument, option
+from ..option import argument, exclude, option
 from ..output import print_json, print_line, print_note
 from .options import MAX_NUMBER, TOKEN, CollectionOptions
 
@@ -39,8 +39,8 @@ def mint(
     """Mint tokens. Prints the price first."""
     from ...tokens import find_icon, mint_call, minted_tokens, read_allow_list, read_allowance
 
-    if sum(each is not None for each in (allow_list, permission, reserve_to)) > 1:
-        raise InputError("--allow-list, --permission and --reserve-to exclude each other: give one of them")
+    exclude("--allow-list", allow_list, {"--permission": permission, "--reserve-to": reserve_to})
+    exclude("--permission", permission, {"--reserve-to": reserve_to})
     collection = which.open()
     if collection.kind.hidden and icon is not None:
         raise InputError(f"--icon is for collections of icons, and {collection.name} has none")

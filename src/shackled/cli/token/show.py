@@ -14,7 +14,7 @@ from ...tokens import EDITIONS, PHASES
 from ...whole_file import check_output_file, write_output
 from ..chain_options import JSON, NodeOptions
 from ..look_options import parse_size
-from ..option import argument, option
+from ..option import argument, need, option
 from ..output import print_json, print_line, print_table
 from ..progress import LateBar
 from .options import POINTER, SCALE, TOKEN, CollectionOptions
@@ -53,10 +53,7 @@ def show(
         print_line(f"{key:{width}}  {value}")
 
 
-def list_(
-    which: CollectionOptions,
-    as_json: bool = JSON,
-) -> None:
+def list_(which: CollectionOptions, as_json: bool = JSON) -> None:
     """List the tokens with owners and traits, and the state of the collection."""
     from ...tokens import icons_of, read_views
 
@@ -117,8 +114,7 @@ def picture(
     kind = output.suffix.lower()
     if kind not in calls:
         raise InputError(f"the picture {output} must end in {one_of(calls)}")
-    if turntable is None and size is not None:
-        raise InputError("--size needs --turntable: a stored scene has its size")
+    need("--turntable: a stored scene has its size", turntable, {"--size": size})
     if turntable is not None:
         if kind != ".png":
             raise InputError(f"the turntable {output} must end in .png")
@@ -135,10 +131,7 @@ def picture(
     print_line(f"{output}: {len(content):,} bytes" + ("" if gas is None else f", {gas:,} gas"))
 
 
-def verify(
-    which: CollectionOptions,
-    numbers: tuple[int, ...] = argument("Tokens; default: all.", "ID"),
-) -> None:
+def verify(which: CollectionOptions, numbers: tuple[int, ...] = argument("Tokens; default: all.", "ID")) -> None:
     """Compare the code, the seeds and the pictures of a collection with those computed here."""
     from ...deploy import local_chain
     from ...tokens import check_code, check_token
