@@ -41,6 +41,10 @@ class WorkerEndedError(RenderError):
     """The process ended before it answered; it may have been killed for lack of memory."""
 
 
+class _Traceback(Exception):
+    """Shows where in the worker an error was raised."""
+
+
 def each(
     function: Callable[[Item], Result],
     items: Iterable[Item],
@@ -98,9 +102,10 @@ class _Worker:
             with self._lock:
                 self._end()
             raise WorkerEndedError("a worker process ended; is there enough memory?") from None
-        if not succeeded:
-            raise content
-        return content  # type: ignore[no-any-return]
+        if succeeded:
+            return content  # type: ignore[no-any-return]
+        error, text = content
+        raise error from _Traceback(f"\n{text}")
 
     def close(self) -> None:
         """Kill the process, from any thread, and start none again."""
@@ -169,13 +174,11 @@ def _perform(question: bytes) -> bytes:
         function, item = pickle.loads(question)
         return pickle.dumps((True, function(item)), pickle.HIGHEST_PROTOCOL)
     except Exception as error:
-        where = f"in a worker process:\n{traceback.format_exc()}"
+        text = traceback.format_exc()
         try:
-            error.add_note(where)
-            answer = pickle.dumps((False, error))
+            answer = pickle.dumps((False, (error, text)))
             pickle.loads(answer)
         except Exception:  # some errors cannot be sent
-            sent = RenderError(" ".join(str(error).split()) or type(error).__name__)
-            sent.add_note(where)
-            answer = pickle.dumps((False, sent))
+            words = " ".join(str(error).split()) or type(error).__name__
+            answer = pickle.dumps((False, (RenderError(words), text)))
         return answer

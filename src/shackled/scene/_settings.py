@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
-from typing import Any, Final, Literal, TypedDict
+from typing import Any, Final, Literal, TypedDict, cast
 
+import numpy as np
 from attrs import Factory, evolve, field, frozen
 from numpy.typing import ArrayLike
 
@@ -45,8 +46,9 @@ Kind = _Plain | Literal["background", "lights", "hemisphere", "rim", "fog", "gro
 class Setting:
     """A setting of the look of a picture.
 
-    name: the keyword. part: the class whose field this is, in Python and in scene files; None for what only `load` and
-    the command line take. limits, unit: for numbers. default: shown in the help. option: --name, unless it is another.
+    name: the keyword; `option` is --name with dashes, unless it is another. part: the class whose field this is, in
+    Python and in scene files; None for what only `load` and the command line take. limits, unit: for numbers. default:
+    shown in the help.
     """
 
     name: str
@@ -93,23 +95,25 @@ class Setting:
 ALL: Final = "all"
 
 
-def _background(value: Any, setting: Setting, name: str) -> Background | None:
+def _background(value: Any, setting: Setting, name: str) -> Background:
     if isinstance(value, str) and value.strip().lower() == "transparent":
         raise InputError(f"{name} is a colour: give `transparent` for a picture without a background")
     return background_of(value)
 
 
 def _entry(value: object, setting: Setting, name: str) -> str | int:
-    entry = value if isinstance(value, str) else integer(value)
-    if entry is None:
+    number = None if isinstance(value, str) else integer(value)
+    if number is None and not isinstance(value, str):
         raise InputError(f"{name} must be a name, or a number from 0, not {value!r:.60}")
-    return entry
+    return value if isinstance(value, str) else cast(int, number)
 
 
 def _count(value: object, setting: Setting, name: str) -> int | str:
-    if isinstance(value, str) and value != ALL:
+    if isinstance(value, str):
+        if value == ALL:
+            return ALL
         raise InputError(f"{name} must be a whole number, at least {setting.limits[0]:g}, or {ALL}, not {value!r:.60}")
-    return ALL if isinstance(value, str) else whole(value, name, *setting.limits)
+    return whole(value, name, *setting.limits)
 
 
 def _unless_none(made: Callable[[Any, str], Any]) -> Callable[[Any, Setting, str], Any]:
@@ -121,20 +125,27 @@ def _unless_none(made: Callable[[Any, str], Any]) -> Callable[[Any, Setting, str
 
 def _flag(value: object, setting: Setting, name: str) -> bool:
     # an antialiased picture has four samples per pixel
-    return (setting.name == "antialias" and integer(value) == 4) or flag(value, name)
+    return True if setting.name == "antialias" and integer(value) == 4 else flag(value, name)
 
 
 def size_of(value: int | tuple[int, int], name: str = "`size`") -> tuple[int, int]:
     """Return width and height, of one number or two. InputError for anything else."""
-    side = integer(value)
     try:
-        width, height = map(integer, value) if side is None else (side, side)  # type: ignore[arg-type]
+        are_rows = np.ndim(value) > 1
+    except ValueError:  # of different lengths
+        are_rows = True
+    if are_rows:
+        raise InputError(f"{name} must be one number or (width, height); vertices and faces are one argument, in ()")
+    try:
+        side = integer(value)
+        width, height = value if side is None else (side, side)  # type: ignore[misc]
     except (TypeError, ValueError):
         hint = "; `save` of what is returned writes a file" if isinstance(value, str) else ""
         raise InputError(f"{name} must be one number or (width, height), not {value!r:.60}{hint}") from None
-    if width is None or height is None:
+    sides = integer(width), integer(height)
+    if None in sides:
         raise InputError(f"{name} must be whole numbers, not {value!r:.60}")
-    return width, height
+    return cast(tuple[int, int], sides)
 
 
 #: For each kind, what its values are, and their check.
@@ -188,7 +199,7 @@ _DEFAULTS = {
 #: By groups, in the order in which they are shown.
 _GROUPS: dict[str, list[Setting]] = {
     "Canvas": [
-        Setting("size", "size", None, "Width and height of the picture.", (1, MAX_SIDE), "pixels"),
+        Setting("size", "size", None, "Width and height of the picture.", (1, MAX_SIDE), unit="pixels"),
         Setting(
             "max_triangles",
             "count",
@@ -219,11 +230,11 @@ _GROUPS: dict[str, list[Setting]] = {
             "camera",
             "Angle at which the camera stands above the horizon.",
             ELEVATIONS,
-            "degrees",
+            unit="degrees",
         ),
         Setting("margin", "number", "camera", "Free border, as a fraction of half the picture.", MARGINS),
         Setting(
-            "fov", "number", "camera", "Vertical field of view of a perspective camera.", FIELDS_OF_VIEW, "degrees"
+            "fov", "number", "camera", "Vertical field of view of a perspective camera.", FIELDS_OF_VIEW, unit="degrees"
         ),
         Setting(
             "half_height",
@@ -271,7 +282,7 @@ _GROUPS: dict[str, list[Setting]] = {
             None,
             "Compute normals for smooth shading, except across edges of more than this angle.",
             CREASES,
-            "degrees",
+            unit="degrees",
         ),
         Setting("smooth", "flag", None, "Same as --shading smooth.", option="--smooth"),
         Setting("unlit", "flag", None, "Same as --shading unlit.", option="--unlit"),
@@ -298,7 +309,7 @@ _GROUPS: dict[str, list[Setting]] = {
     ],
     "glTF files": [
         Setting("animation", "entry", "file", "Animation that poses the model."),
-        Setting("time", "number", "file", "Time in the animation.", (0, math.inf), "seconds"),
+        Setting("time", "number", "file", "Time in the animation.", (0, math.inf), unit="seconds"),
         Setting("use_camera", "entry", "file", "Camera of the file that is taken, with the lights there."),
     ],
 }
@@ -402,19 +413,26 @@ def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _taken_apart(given: dict[str, Any]) -> dict[str, Any]:
-    """Return keywords with the settings of a camera, a material, and a width and height in place of these."""
+    """Return keywords with the settings of a camera or a material, and the size of a width and a height, in place of
+    these; one that is given as well changes it.
+    """
     if {"width", "height"} <= given.keys():
         given.setdefault("size", (given.pop("width"), given.pop("height")))
-    found: dict[str, Any] = {}
     if isinstance(camera := given.get("camera"), Camera):
-        del given["camera"]
-        names = ("eye", "target", "up", "near", *(() if "fov" in given else ("half_height",)))
-        found = {name: getattr(camera, name) for name in names if getattr(camera, name) is not None}
-        found["orthographic"] = camera.projection == "orthographic"
+        fields = {name: getattr(camera, name) for name in ("eye", "target", "up", "half_height", "near")}
+        fields["orthographic"] = camera.projection == "orthographic"
+        given = _in_place_of("camera", fields, given)
     if isinstance(material := given.get("material"), Material) and material.texture is None:
-        del given["material"]
-        found |= {setting.name: getattr(material, setting.name) for setting in settings_of("material")}
-    return found | given
+        fields = {setting.name: getattr(material, setting.name) for setting in settings_of("material")}
+        given = _in_place_of("material", fields, given)
+    return given
+
+
+def _in_place_of(part: str, fields: dict[str, Any], given: dict[str, Any]) -> dict[str, Any]:
+    found = {name: value for name, value in fields.items() if value is not None}
+    if "fov" in given:
+        found.pop("half_height", None)
+    return found | {name: value for name, value in given.items() if name != part}
 
 
 def exclude(given: Collection[str], quote: Callable[[str], str]) -> None:

@@ -1,5 +1,6 @@
-from ._icons import pieces
+from ._collection import find, pieces
 
 __all__ = [
+    "find",
     "pieces",
 ]

@@ -24,15 +24,19 @@ from .stl import read_stl
 _THIN = 1e-6
 
 
+def _alone(read: Callable[[Path], Mesh]) -> Callable[[Path], list[MeshPart]]:
+    return lambda path: [MeshPart(read(path), {})]
+
+
 #: The extensions of glTF files.
 GLTF = (".glb", ".gltf")
 
 READERS: dict[str, Callable[..., list[MeshPart]]] = {
     ".obj": read_obj,
     ".ply": read_ply,
-    ".stl": read_stl,
+    ".stl": _alone(read_stl),
     **dict.fromkeys(GLTF, read_gltf),
-    ".off": read_off,
+    ".off": _alone(read_off),
 }
 
 
