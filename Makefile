@@ -138,7 +138,7 @@ bench: $(DEV) opengl ## measure, and write the tables of benchmarks/, of the REA
 	$(BIN)/python -m tools.readme
 
 paper: $(DEV) $(NODE) ## repeat the experiments of the paper: benchmarks/results, benchmarks/README.md
-	$(BIN)/python -m tools.anvil $(BIN)/shackled bench --all -o benchmarks/results --rpc
+	$(BIN)/python -m tools.anvil $(BIN)/shackled bench -o benchmarks/results --rpc
 	$(BIN)/python -m benchmarks.story
 
 pictures: $(DEV) ## draw the pictures of the documentation, except those of tools/docs/draw_creator.py and draw_token_gallery.py
@@ -157,8 +157,8 @@ verify: $(DEV) $(NODE) ## compile each input with which explorers verify the con
 	VERIFY=all $(BIN)/pytest -n 2 tests/deploy/test_verification.py
 
 fuzz: $(DEV) ## compare the contracts with the judge over 2,000 random scenes, and with other EVMs
-	$(BIN)/python tests/judge --only tame close --count 2000
-	HYPOTHESIS_PROFILE=new $(BIN)/pytest -n 2 tests/evm tests/scene tests/test_bad_input_on_chain.py tests/test_properties.py
+	$(BIN)/python tests/judge --small --count 2000
+	HYPOTHESIS_PROFILE=new $(BIN)/pytest -n 2 tests/evm tests/scene
 
 models: $(DEV) ## render models of packages on npm and PyPI, which are downloaded: docs/conformance.md, build/models
 	$(BIN)/python -m tools.models

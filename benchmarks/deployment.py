@@ -39,6 +39,7 @@ from shackled.evm import Instance, Status
 from shackled.library import items
 from shackled.scene import fit, pack
 from shackled.studio import STUDIO, StoreTransaction
+from shackled.studio._compact_mesh import compact
 from shackled.studio._storage import quantize, store_mesh
 
 PAGE = ROOT / "docs" / "studio.md"
@@ -154,7 +155,7 @@ def mesh_costs() -> dict[str, Cost]:
         ("a smooth mesh of {} triangles, exact", exact, 10),
         ("the same on a grid of 2^11, normals of 6 bits", quantize(exact, 11), 6),
     ):
-        transactions = store_mesh(pack(o.mesh, smooth=True), studio, normal_bits, chain)
+        transactions = store_mesh("mesh", compact(pack(o.mesh, smooth=True), normal_bits), studio, chain)
         costs[name.format(len(o.mesh.faces))] = storing_cost(transactions)
     return costs
 

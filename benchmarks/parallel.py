@@ -16,14 +16,15 @@ from statistics import fmean
 
 from attrs import evolve
 from tools.anvil import Anvil, AnvilChain, find_anvil
+from tools.cluster import cluster
 
 from shackled import Cluster, Nodes, Processes, Scene
 from shackled._on import Place, place_of
 from shackled.bench import gas, millions, table
-from shackled.chain import open_chain
+from shackled.chain import RevmChain, open_chain
 from shackled.datasets import require
 from shackled.parallel import Listener
-from shackled.parallel._backends import Backend, Part, ThreadBackend
+from shackled.parallel._backends import Backend, ChainBackend, Part
 from shackled.parallel._scheduler import Scheduler
 from shackled.parallel._tiles import grid
 from shackled.scene import Rectangle, full_turn
@@ -123,8 +124,8 @@ def opened(stack: ExitStack) -> dict[str, list[Backend]]:
     wanted: dict[str, Place] = {
         "this process": place_of(None),
         "2 threads": Processes(2),
-        "dask, 1 worker": Cluster(jobs=1),
-        "dask, 2 workers": Cluster(jobs=2),
+        "dask, 1 worker": Cluster(stack.enter_context(cluster(1))[0]),
+        "dask, 2 workers": Cluster(stack.enter_context(cluster(2))[0]),
     }
     binary = find_anvil()
     if binary is None:
@@ -137,7 +138,7 @@ def opened(stack: ExitStack) -> dict[str, list[Backend]]:
         wanted["anvil, 2 calls at a time"] = Nodes(one.url, jobs=2)
         wanted["2 anvils"] = Nodes(one.url, two.url)
     # `Processes(1)` is this process: a thread shows what it costs that its calls can be stopped
-    found: dict[str, list[Backend]] = {"1 thread": [ThreadBackend(1)]}
+    found: dict[str, list[Backend]] = {"1 thread": [ChainBackend(RevmChain(is_stoppable=True))]}
     found |= {name: where.open(Listener()) for name, where in wanted.items()}
     for places in found.values():
         for place in places:

@@ -1,4 +1,4 @@
-"""Update benchmarks/README.md and docs/measurements.md from benchmarks/results, which `shackled bench --all` writes.
+"""Update benchmarks/README.md and docs/measurements.md from benchmarks/results, which `shackled bench -o` writes.
 
 python -m benchmarks.story            writes between the marks <!-- begin NAME --> and <!-- end NAME -->
 python -m benchmarks.story --check    writes nothing; fails if they are not up to date
@@ -45,7 +45,7 @@ def content(name: str) -> str | None:
         return None
     path = RESULTS / f"{name}.md"
     if not path.exists():
-        raise SystemExit(f"there is no {path.relative_to(ROOT)}: run `shackled bench --all -o benchmarks/results`")
+        raise SystemExit(f"there is no {path.relative_to(ROOT)}: run `shackled bench -o benchmarks/results`")
     return path.read_text("utf-8").partition("\n\n")[2].strip()
 
 

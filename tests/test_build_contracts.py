@@ -12,20 +12,26 @@ from random import Random
 import pytest
 from tools import build_contracts as tool
 from tools import comment_lines
-from tools.build_contracts import compile_once
 
 from compiler import needs_compiler
 from shackled.artifacts import RENDERER, artifact, contracts, source, standard_input
 
 ROOT = Path(__file__).resolve().parent.parent
+#: Bytes that every contract keeps free.
+ROOM = 500
+
+
+def build(monkeypatch: pytest.MonkeyPatch, folder: Path, group: str, files: dict[str, str]) -> None:
+    """Let the tool find that these are the files of a group, and write into a folder."""
+    monkeypatch.setattr(tool, "ARTIFACTS", folder)
+    monkeypatch.setattr(tool, "build", lambda **_: files)
+    monkeypatch.setattr(sys, "argv", ["build_contracts.py", "--group", group])
 
 
 def test_a_closed_pipe_leaves_no_old_artifacts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """As `tools/build_contracts.py | head -1`: what was built is written before anything is printed."""
     text = '{"contract": "Thing", "deployedBytecode": "00", "group": "calls"}\n'
-    monkeypatch.setattr(tool, "ARTIFACTS", tmp_path)
-    monkeypatch.setattr(tool, "build", lambda **_: {"Thing.json": text, tool.SOURCE_MAPS: "{}"})
-    monkeypatch.setattr(sys, "argv", ["build_contracts.py", "--group", "calls"])
+    build(monkeypatch, tmp_path, "calls", {"Thing.json": text, tool.SOURCE_MAPS: "{}"})
     (tmp_path / "Old.json").write_text(text)
     (tmp_path / "of-no-group.json").write_text("{}")
 
@@ -45,7 +51,9 @@ def test_every_contract_is_in_one_group(monkeypatch: pytest.MonkeyPatch) -> None
         built = json.loads((tool.ARTIFACTS / f"{name}.json").read_text("utf-8"))
         assert (built["group"], built["source"]) == (tool.group_of(name), found[name])
         assert built["settings"] == tool.settings_of(name)
-        assert built["settings"]["optimizer"]["runs"] == tool.GROUPS[built["group"]]["runs"]
+        # room below the limit of EIP-170, so that a repair fits
+        room = tool.MAX_RUNTIME_SIZE - len(artifact(name).runtime)
+        assert room >= ROOM, f"see tools/build_contracts.py --functions {name}"
     monkeypatch.setattr(tool, "GROUPS", {"one": {"contracts": [*found, "Engine", "Nothing"]}})
     with pytest.raises(SystemExit, match="each contract once: Engine, Nothing"):
         tool.find_contracts()
@@ -59,14 +67,12 @@ def test_inputs_of_the_package_are_those_of_the_sources() -> None:
 
 def test_groups_of_another_text_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """After `--group glb`, when a source that other groups share has changed; and the build fails."""
-    monkeypatch.setattr(tool, "ARTIFACTS", tmp_path)
+    build(monkeypatch, tmp_path, "glb", {"Glb.json": "{}"})
     sources = {"scene/Scene.sol": tool.digest("old"), "scene/Mesh.sol": tool.digest(source("scene/Mesh.sol") or "")}
     (tmp_path / "Engine.json").write_text(json.dumps({"group": "engine", "sources": sources}))
     assert tool.outdated(["glb"]) == ["compile the groups engine, too: scene/Scene.sol has changed"]
     assert tool.outdated(["engine"]) == []
-    monkeypatch.setattr(tool, "build", lambda **_: {"Glb.json": "{}"})
     monkeypatch.setattr(tool, "report_sizes", lambda _: True)
-    monkeypatch.setattr(sys, "argv", ["build_contracts.py", "--group", "glb"])
     assert tool.main() == 1
     assert (tmp_path / "Glb.json").read_text() == "{}"
 
@@ -94,32 +100,32 @@ def test_functions_that_grew_are_named(
         thing = {"contract": "Thing", "deployedBytecode": code, "group": "calls"}
         return {"Thing.json": json.dumps(thing), tool.SOURCE_MAPS: json.dumps(maps)}
 
-    built = files("5b5b5b", "0:1:0;10;11")
-    monkeypatch.setattr(tool, "ARTIFACTS", tmp_path)
     monkeypatch.setattr(tool, "outdated", lambda _: [])
-    monkeypatch.setattr(tool, "build", lambda **_: built)
-    monkeypatch.setattr(sys, "argv", ["build_contracts.py", "--group", "calls"])
-
-    def printed() -> list[str]:
+    for code, entries, said in (
+        ("5b5b5b", "0:1:0;10;11", []),  # nothing was there before
+        # three bytes more of f, one less of g
+        ("5b61ffff5b", "0:1:0;1;11", ["functions with more bytes than before:", "Thing: A.f 1 -> 4"]),
+        ("5b61ffff5b", "0:1:0;1;11", []),
+    ):
+        build(monkeypatch, tmp_path, "calls", files(code, entries))
         assert tool.main() == 0
-        return capsys.readouterr().out.splitlines()[1:]
-
-    # nothing was there before
-    assert printed() == []
-    # three bytes more of f, one less of g
-    built = files("5b61ffff5b", "0:1:0;1;11")
-    assert printed() == ["functions with more bytes than before:", "Thing: A.f 1 -> 4"]
-    assert printed() == []
+        assert capsys.readouterr().out.splitlines()[1:] == said
 
 
-#: Bytes below the limit of EIP-170 that every contract keeps free, so that a repair fits.
-ROOM = 500
-
-
-@pytest.mark.parametrize("name", contracts())
-def test_every_contract_has_room(name: str) -> None:
-    room = tool.MAX_RUNTIME_SIZE - len(artifact(name).runtime)
-    assert room >= ROOM, f"see tools/build_contracts.py --functions {name}"
+def test_bytes_are_counted_for_their_function() -> None:
+    """By hand: pushed values belong to their instruction, and an empty field repeats the one before."""
+    sources = {"0": {"name": "a.sol", "functions": [["A.g", 50, 10], ["A.f", 10, 20]]}}
+    # PUSH2 in f, PUSH1 in g; ADD before any function, DUP1 between the two, STOP behind both; two of no source
+    code = bytes.fromhex("610102600301800050fe")
+    entries = "10:5:0:-;59:1;9;30;60;1:1:-1;10"
+    assert tool.function_sizes(code, entries, sources) == {"A.f": 3, "A.g": 2, "a.sol": 3, "compiler": 2}
+    maps = json.loads((tool.ARTIFACTS / tool.SOURCE_MAPS).read_text("utf-8"))
+    for name in contracts():
+        code = artifact(name).runtime
+        counted = tool.function_sizes(code, maps["contracts"][name]["map"], maps["sources"])
+        assert counted.total() == len(code)
+        # most of it is ours
+        assert counted["compiler"] < 0.4 * len(code), name
 
 
 #: A constant that is not pushed but read from behind the code, at 27 gas in place of 3: PUSH0 MLOAD (what the scratch
@@ -130,15 +136,9 @@ READ_BY_CODECOPY = re.compile(rb"\x5f\x51\x60\x20\x61..\x5f\x39", re.DOTALL)
 @pytest.mark.parametrize("name", RENDERER)
 def test_no_constant_is_read_by_codecopy(name: str) -> None:
     """Below some number of runs, the compiler does that with large constants that are used often, in loops, too."""
+    assert READ_BY_CODECOPY.search(bytes.fromhex("5b5f5160206112345f395f51905f525b"))
     found = READ_BY_CODECOPY.search(artifact(name).runtime)
     assert found is None, f"at {found.start()}: see tools/gas_blocks.py; fewer uses, or more runs in groups.toml"
-
-
-def test_constants_read_by_codecopy_are_found() -> None:
-    code = bytes.fromhex("5b5f5160206112345f395f51905f525b")
-    found = READ_BY_CODECOPY.search(code)
-    assert found is not None
-    assert found.start() == 1
 
 
 def test_lines_of_documentation_stand_before_declarations_that_have_none() -> None:
@@ -148,8 +148,6 @@ def test_lines_of_documentation_stand_before_declarations_that_have_none() -> No
     assert "function freeMemory() pure returns (uint256) {" in found
     assert any(line.startswith("function load(") for line in found)
     assert not any("ZERO_SLOT" in line or "function reserveRegisters" in line for line in found)
-    # functions of assembly are none of the syntax tree of Solidity
-    assert not [1 for i in comment_lines.places("    function f() {}\n            function g() {}") if i != 0]
     sources = {"words/Memory.sol": text, "of-a-library.sol": text}
     made = comment_lines.commented(sources, 5, Random(1))
     assert made["of-a-library.sol"] == text
@@ -160,20 +158,15 @@ def test_lines_of_documentation_stand_before_declarations_that_have_none() -> No
 @needs_compiler
 def test_lines_of_documentation_change_no_byte() -> None:
     """All groups: tools/comment_lines.py."""
-    assert comment_lines.changes("antialiased-fragments", compile_once) == []
+    assert comment_lines.changes("antialiased-fragments", tool.compile_once) == []
 
 
-def test_no_line_of_the_contracts_is_too_long() -> None:
-    for path in (ROOT / "contracts" / "src").rglob("*.sol"):
-        for number, line in enumerate(path.read_text("utf-8").splitlines(), 1):
-            assert len(line) <= 140, f"{path.name}:{number}"
-
-
-def test_documentation_names_one_thing_a_tag() -> None:
+def test_documentation_names_one_thing_a_tag_in_lines_that_are_not_too_long() -> None:
     """In `@param a The ... b The ...` what is said of `b` would be part of the text of `a`."""
     inherited = "".join(path.read_text("utf-8") for path in (ROOT / "contracts" / "src" / "interfaces").glob("I*.sol"))
     for path in (ROOT / "contracts" / "src").rglob("*.sol"):
         text = path.read_text("utf-8")
+        assert max(map(len, text.splitlines())) <= 140, path.name
         for found in re.finditer(
             r"((?:^ *///.*\n)*)^ +function (\w+)\([^{;]*?\) (?:external|public)[^{;]*[{;]", text, re.MULTILINE
         ):

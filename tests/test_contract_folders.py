@@ -19,14 +19,12 @@ ATTACHED = {
 
 def imports() -> dict[str, set[str]]:
     """Return the files that each file of contracts/src imports from there."""
-    files = {path.relative_to(SOURCES).as_posix(): path.read_text("utf-8") for path in SOURCES.rglob("*.sol")}
-    return {
-        name: {
-            os.path.normpath(f"{folder_of(name)}/{target}")
-            for target in re.findall(r"""^import\b[^;"']*["'](\.[^"']+)["'];""", text, re.MULTILINE)
-        }
-        for name, text in files.items()
-    }
+    found = {}
+    for path in SOURCES.rglob("*.sol"):
+        name = path.relative_to(SOURCES).as_posix()
+        targets = re.findall(r"""^import\b[^;"']*["'](\.[^"']+)["'];""", path.read_text("utf-8"), re.MULTILINE)
+        found[name] = {os.path.normpath(f"{folder_of(name)}/{target}") for target in targets}
+    return found
 
 
 def folder_of(name: str) -> str:

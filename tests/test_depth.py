@@ -2,38 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 import pytest
 from attrs import evolve
 
 import judge
-from pictures import UNLIT, call_data, draw, recolored, soup, unlit_scene
+from pictures import UNLIT, call_data, draw, soup, unlit_scene
 from shackled import Camera, Light, Material, Mesh, Object, Scene
+from shackled.datasets.common.shapes import joined
 
 RED, GREEN, BLUE = (255, 0, 0), (0, 255, 0), (0, 0, 255)
-Projection = Literal["perspective", "orthographic"]
+SQUARE = [[0, 1, 2], [0, 2, 3]]
 CAMERAS = {
     "perspective": Camera(near=1),
     "orthographic": Camera(projection="orthographic", half_height=600.0, near=1),
 }
 
 
-def quad(*corners: tuple[float, float, float], color: tuple[int, int, int] = RED) -> Mesh:
-    a, b, c, d = corners
-    return soup([[a, b, c], [a, c, d]], color)
-
-
 def wall(z: float, size: float, color: tuple[int, int, int]) -> Mesh:
-    return quad((-size, -size, z), (size, -size, z), (size, size, z), (-size, size, z), color=color)
-
-
-def both(first: Mesh, second: Mesh) -> Mesh:
-    return soup(
-        [m.positions[face] for m in (first, second) for face in np.asarray(m.faces)],
-        [m.colors[face[0]] for m in (first, second) for face in np.asarray(m.faces)],
-    )
+    return Mesh(size * np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]) + [0, 0, z], SQUARE, color)
 
 
 @pytest.mark.parametrize("camera", CAMERAS.values(), ids=CAMERAS.keys())
@@ -43,47 +30,12 @@ def test_the_nearer_wins_in_any_order(camera: Camera, far: float, near: float) -
     behind, before = wall(far, 20000, BLUE), wall(near, size, RED)
     pictures = []
     for meshes in ((behind, before), (before, behind)):
-        pictures.append(draw(unlit_scene(both(*meshes), camera, 40)))
+        pictures.append(draw(unlit_scene(joined(*meshes), camera, 40)))
         things = [Object(mesh, material=UNLIT) for mesh in meshes]
         pictures.append(draw(unlit_scene(things, camera, 40)))
     assert all((picture == pictures[0]).all() for picture in pictures)
     assert (pictures[0][20, 20] == RED).all()
     assert (pictures[0][0, 0] == BLUE).all()
-
-
-def test_intersecting_quads_in_perspective() -> None:
-    """A wall across, and one that comes out of it along the plane x = -z - 1000 (where z < 0)."""
-    flat = wall(-1000, 600, RED)
-    slanted = quad((-500, -600, -500), (500, -600, -1500), (500, 600, -1500), (-500, 600, -500), color=BLUE)
-    for meshes in ((flat, slanted), (slanted, flat)):
-        picture = draw(unlit_scene(both(*meshes), Camera(near=1), 64))
-        # they cross at x = 0: the slanted one is in front on the left
-        assert (picture[:, 2:31] == BLUE).all()
-        assert (picture[2:62, 33:58] == RED).all()
-
-
-def test_the_line_of_intersection_is_where_depths_are_equal() -> None:
-    """Off the middle, where depth that is not perspective-correct would move it."""
-    x_cross = 300.0
-    flat = wall(-1200, 1000, RED)
-    # z = -1200 at x = 300
-    slanted = quad((-500, -600, -400), (800, -600, -1700), (800, 600, -1700), (-500, 600, -400), color=BLUE)
-    picture = draw(unlit_scene(both(flat, slanted), Camera(near=1), 128))
-    column = 64 + 64 * 2.145 * x_cross / 1200
-    rows = picture[40:88]
-    assert (rows[:, 30 : int(np.floor(column)) - 1] == BLUE).all()
-    assert (rows[:, int(np.ceil(column)) + 1 : 120] == RED).all()
-
-
-def test_intersecting_quads_orthographic() -> None:
-    camera = CAMERAS["orthographic"]
-    flat = wall(-1000, 600, RED)
-    slanted = quad((-500, -600, -400), (500, -600, -1400), (500, 600, -1400), (-500, 600, -400), color=BLUE)
-    picture = draw(unlit_scene(both(slanted, flat), camera, 120))
-    # they cross at x = 100, pixel 70; the slanted one begins at x = -500, pixel 10, and ends at pixel 110
-    assert (picture[:, 10:69] == BLUE).all()
-    assert (picture[:, 71:] == RED).all()
-    assert (picture[:, :10] == RED).all()
 
 
 def test_orthographic_depth_behind_the_eye() -> None:
@@ -103,53 +55,16 @@ def test_of_two_coplanar_triangles_the_first_wins(camera: Camera) -> None:
         points = np.rint(rng.uniform(-900, 900, (3, 3)) + np.array([0, 0, -2500]))
         first, second = soup(points, RED), soup(points, GREEN)
         alone = draw(unlit_scene(first, camera, 32))
-        assert (draw(unlit_scene(both(first, second), camera, 32)) == alone).all()
+        assert (draw(unlit_scene(joined(first, second), camera, 32)) == alone).all()
         things = [Object(mesh, material=UNLIT, cull=False) for mesh in (first, second)]
         assert (draw(unlit_scene(things, camera, 32)) == alone).all()
-
-
-def test_culling_and_both_sides() -> None:
-    front, back = wall(-1000, 300, RED), wall(-1000, 300, GREEN)
-    back = evolve(back, faces=back.faces[:, ::-1])
-    for mesh, cull, seen in ((front, True, True), (back, True, False), (front, False, True), (back, False, True)):
-        for camera in CAMERAS.values():
-            picture = draw(unlit_scene([Object(mesh, material=UNLIT, cull=cull)], camera, 20))
-            assert picture.any() == seen
-
-
-def test_orthographic_culling_goes_by_the_viewing_direction() -> None:
-    """A face far to the side, turned so that an eye point would see its other side."""
-    # its normal has a little of +z: toward the viewer
-    mesh = soup([[[500, -50, -1050], [510, -50, -1000], [505, 50, -1020]]], RED)
-    corners = mesh.positions
-    normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-    assert normal[2] > 0
-    mesh = soup([[[500, -50, -1000], [510, -50, -1050], [505, 50, -1020]]], RED)
-    corners = mesh.positions
-    normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-    assert normal[2] > 0 > normal @ -corners[0] * np.sign(normal @ corners[0])
-    for cull in (True, False):
-        scene = unlit_scene([Object(mesh, material=UNLIT, cull=cull)], CAMERAS["orthographic"], 128)
-        assert draw(scene).any()
-
-
-def test_objects_share_one_depth_buffer() -> None:
-    """Three walls that hide each other in turn."""
-    left = quad((-300, -100, -900), (100, -100, -1100), (100, 100, -1100), (-300, 100, -900), color=RED)
-    right = quad((-100, -100, -1100), (300, -100, -900), (300, 100, -900), (-100, 100, -1100), color=GREEN)
-    scene = unlit_scene([Object(m, material=UNLIT) for m in (left, right)], Camera(near=1), 65)
-    picture = draw(scene)
-    assert (draw(evolve(scene, objects=scene.objects[::-1])) == picture).all()
-    assert (picture[32, 24:31] == RED).all()
-    assert (picture[32, 34:41] == GREEN).all()
 
 
 @pytest.mark.parametrize("distance", [10.0, 1000.0, 30000.0])
 def test_depths_a_thousandth_apart(distance: float) -> None:
     """With the near plane at a thousandth of the distance."""
-    behind = recolored(wall(-1001, 400, BLUE), BLUE)
-    before = recolored(wall(-1000, 300, RED), RED)
-    things = [Object(m, scale=distance / 1000, material=UNLIT) for m in (before, behind)]
+    walls = wall(-1000, 300, RED), wall(-1001, 400, BLUE)
+    things = [Object(mesh, scale=distance / 1000, material=UNLIT) for mesh in walls]
     scene: Scene = unlit_scene(things, Camera(near=distance / 1000), 32)
     picture = draw(scene)
     assert (picture[16, 16] == RED).all()

@@ -40,6 +40,12 @@ MODEL = """ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty f
 element face 1\nproperty list uchar int vertex_indices\nend_header\n0 1 0\n-1 -1 0\n1 -1 0\n3 0 1 2\n"""
 
 
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
 def blocks(page: Path) -> list[str]:
     return re.findall(r"^```python\n(.*?)^```$", page.read_text("utf-8"), re.MULTILINE | re.DOTALL)
 
@@ -56,31 +62,26 @@ PAGES = [page for page in sorted(DOCS.glob("*.md")) if blocks(page)]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
-def test_the_code_of_a_page_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_code_of_a_page_runs(page: Path, folder: Path) -> None:
     code = ast.parse("\n".join(blocks(page)))
     imports = [statement for statement in code.body if isinstance(statement, ast.Import | ast.ImportFrom)]
     for statement in imports:
         if isinstance(statement, ast.ImportFrom) and (statement.module or "").startswith("shackled."):
             assert "._" not in (statement.module or "")
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "build").mkdir()
-    (tmp_path / "build" / "teapot.obj").write_text(TRIANGLE)
-    (tmp_path / "model.ply").write_text(MODEL)
-    write(tmp_path / "walk.gltf")
+    (folder / "build").mkdir()
+    (folder / "build" / "teapot.obj").write_text(TRIANGLE)
+    (folder / "model.ply").write_text(MODEL)
+    write(folder / "walk.gltf")
     if page.stem not in RUNNING:
         code.body = list(imports)
-    names: dict[str, Any] = {
-        "shackled": shackled,
-        "vertices": [(0, 1, 0), (-1, -1, 0), (1, -1, 0)],
-        "faces": [[0, 1, 2]],
-    }
-    exec(compile(code, str(page), "exec"), names)
+    triangle: dict[str, Any] = {"vertices": [(0, 1, 0), (-1, -1, 0), (1, -1, 0)], "faces": [[0, 1, 2]]}
+    exec(compile(code, str(page), "exec"), {"shackled": shackled, **triangle})
 
 
-@pytest.mark.parametrize("page", [*sorted(DOCS.glob("*.md")), ROOT / "README.md"], ids=lambda page: page.stem)
-def test_the_commands_of_a_page_exist(page: Path) -> None:
+def test_the_commands_of_pages_exist() -> None:
     """With the options that are shown."""
-    for line in re.findall(r"^(?:\$ )?(?:\.venv/bin/)?(shackled [a-z].*)$", page.read_text("utf-8"), re.MULTILINE):
+    texts = "\n".join(page.read_text("utf-8") for page in [*DOCS.glob("*.md"), ROOT / "README.md"])
+    for line in re.findall(r"^(?:\$ )?(?:\.venv/bin/)?(shackled [a-z].*)$", texts, re.MULTILINE):
         words = shlex.split(line, comments=True)[1:]
         command: click.Command | None = app
         while words and isinstance(command, click.Group):
@@ -90,15 +91,11 @@ def test_the_commands_of_a_page_exist(page: Path) -> None:
         assert {word for word in words if word.startswith("-")} - {"--help"} <= known, line
 
 
-@pytest.mark.parametrize(
-    "page",
-    [*sorted(DOCS.glob("*.md")), *(ROOT / name / "README.md" for name in (".", "contracts", "benchmarks"))],
-    ids=lambda page: page.relative_to(ROOT).as_posix(),
-)
-def test_the_files_that_a_page_names_exist(page: Path) -> None:
+def test_the_files_that_pages_name_exist() -> None:
     """By their paths, or the ends of these."""
-    named = set(re.findall(r"`([\w./-]*\w\.(?:py|sol|toml))`", page.read_text("utf-8")))
-    assert [name for name in sorted(named) if not any(path.endswith(f"/{name}") for path in sources())] == []
+    for page in [*DOCS.glob("*.md"), *(ROOT / name / "README.md" for name in (".", "contracts", "benchmarks"))]:
+        for name in set(re.findall(r"`([\w./-]*\w\.(?:py|sol|toml))`", page.read_text("utf-8"))):
+            assert any(path.endswith(f"/{name}") for path in sources()), f"{page}: {name}"
 
 
 @cache
@@ -121,19 +118,12 @@ def frames(path: Path) -> list[NDArray[np.uint8]]:
 
 
 @pytest.mark.parametrize(("picture", "command"), gallery(), ids=[Path(name).stem for name, _ in gallery()])
-def test_a_command_of_the_gallery_draws_its_picture(
-    picture: str, command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
+def test_a_command_of_the_gallery_draws_its_picture(picture: str, command: str, folder: Path) -> None:
     result = CliRunner().invoke(app, shlex.split(command), catch_exceptions=False)
     assert result.exit_code == 0, result.output
-    shown, drawn = frames(DOCS / picture), frames(tmp_path / Path(picture).name)
+    shown, drawn = frames(DOCS / picture), frames(folder / Path(picture).name)
     assert len(shown) == len(drawn)
     assert all(map(np.array_equal, shown, drawn)), "run python -m tools.docs.draw_gallery"
-
-
-def test_every_picture_of_the_gallery_has_a_command() -> None:
-    assert {f"images/gallery/{path.name}" for path in (DOCS / "images" / "gallery").iterdir()} == set(dict(gallery()))
 
 
 def test_the_reference_has_every_name_with_an_example() -> None:
@@ -151,17 +141,8 @@ def test_the_reference_has_every_name_with_an_example() -> None:
 def test_the_reference_of_the_contracts_is_complete() -> None:
     text = filled((DOCS / "contracts.md").read_text("utf-8"))
     assert MARK.search(text) is None
-    for name in (
-        "Renderer",
-        "Studio",
-        "PngEncoder",
-        "Turntable",
-        "GlbEncoder",
-        "Library",
-        "Genesis",
-        "Web",
-        "Editions",
-    ):
+    names = ("Renderer", "Studio", "PngEncoder", "Turntable", "GlbEncoder", "Library", "Genesis", "Web", "Editions")
+    for name in names:
         part = text.partition(f"\n## {name}\n")[2].partition("\n## ")[0] + text.partition("\n## Errors\n")[2]
         named = [entry["name"] for entry in artifact(name).abi if "name" in entry]
         assert [each for each in named if f"`{each}(" not in part] == []
@@ -169,26 +150,24 @@ def test_the_reference_of_the_contracts_is_complete() -> None:
     assert "| `render(Scene scene)` → `bytes` | call | Draws a scene. Returns: A Windows bitmap" in text
 
 
-def run(program: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(folder)
-    runpy.run_path(str(program), run_name="__main__")
+def run(name: str) -> None:
+    runpy.run_path(str(ROOT / "examples" / "programs" / f"{name}.py"), run_name="__main__")
 
 
-@pytest.mark.parametrize("program", [p for p in PROGRAMS if p.stem not in ON_A_NODE], ids=lambda program: program.stem)
-def test_a_program_runs(
-    program: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    run(program, tmp_path, monkeypatch)
-    assert capsys.readouterr().out or list(tmp_path.iterdir())
+@pytest.mark.parametrize("name", [program.stem for program in PROGRAMS if program.stem not in ON_A_NODE])
+def test_a_program_runs(name: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    run(name)
+    assert capsys.readouterr().out or list(folder.iterdir())
 
 
 @pytest.mark.parametrize("name", sorted(ON_A_NODE))
+@pytest.mark.usefixtures("folder")
 def test_a_program_runs_on_a_node(
-    name: str, node: Node, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    name: str, node: Node, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("SHACKLED_RPC", node.url)
     monkeypatch.setenv("KEY", KEY)
-    run(ROOT / "examples" / "programs" / f"{name}.py", tmp_path, monkeypatch)
+    run(name)
     assert "gas" in capsys.readouterr().out
 
 
@@ -200,20 +179,21 @@ def test_a_program_runs_on_a_node(
         ("trimesh_object", "this program needs trimesh: pip install trimesh"),
     ],
 )
-def test_a_program_says_in_a_line_what_it_lacks(
-    name: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+@pytest.mark.usefixtures("folder")
+def test_a_program_says_in_a_line_what_it_lacks(name: str, words: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "trimesh", None)
     monkeypatch.delenv("SHACKLED_RPC", raising=False)
     if name == "node":
         monkeypatch.setenv("SHACKLED_RPC", "http://127.0.0.1:1")
     with pytest.raises(SystemExit) as ended:
-        run(ROOT / "examples" / "programs" / f"{name}.py", tmp_path, monkeypatch)
+        run(name)
     assert str(ended.value.code).startswith(words)
     assert "\n" not in str(ended.value.code)
 
 
-def test_the_programs_are_short_and_listed() -> None:
+def test_the_gallery_is_complete() -> None:
+    """Each of its pictures has a command, and each program is short and listed."""
+    assert {f"images/gallery/{path.name}" for path in (DOCS / "images" / "gallery").iterdir()} == set(dict(gallery()))
     page = (DOCS / "gallery.md").read_text("utf-8")
     assert len(PROGRAMS) >= 12
     for program in PROGRAMS:
@@ -225,14 +205,7 @@ def test_the_programs_are_short_and_listed() -> None:
 
 def test_the_programs_have_strict_types() -> None:
     """As in a project of somebody else, without the configuration of this one."""
-    command = [
-        sys.executable,
-        "-m",
-        "mypy",
-        "--strict",
-        "--config-file=",
-        "--cache-dir=.mypy_cache/programs",
-        *map(str, PROGRAMS),
-    ]
+    options = ["--strict", "--config-file=", "--cache-dir=.mypy_cache/programs"]
+    command = [sys.executable, "-m", "mypy", *options, *map(str, PROGRAMS)]
     result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert result.returncode == 0, result.stdout + result.stderr

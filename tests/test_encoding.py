@@ -40,13 +40,15 @@ def header(bmp: bytes) -> tuple[int, ...]:
 @pytest.mark.parametrize("width", range(1, 10))
 @pytest.mark.parametrize("height", [1, 2, 7])
 def test_headers_and_padding(width: int, height: int) -> None:
-    scene = evolve(
-        Scene([], Camera(near=1), background=Background((10, 20, 30), (250, 130, 7))), width=width, height=height
-    )
-    bmp = dynamic(call("render", scene).output)
+    scene = Scene([], Camera(near=1), [], Background((10, 20, 30), (250, 130, 7)), width=width, height=height)
+    output = call("render", scene).output
+    bmp = dynamic(output)
     stride = (3 * width + 3) // 4 * 4
     size = stride * height
     assert len(bmp) == 54 + size
+    # offset, length, the file, zeros up to a whole word, and no more
+    assert len(output) == 64 + (54 + size + 31) // 32 * 32
+    assert not any(output[64 + 54 + size :])
     assert header(bmp) == (54 + size, 0, 0, 54, 40, width, height, 1, 24, 0, size, 2835, 2835, 0, 0)
     rows = np.frombuffer(bmp, np.uint8, offset=54).reshape(height, stride)
     assert not rows[:, 3 * width :].any()
@@ -58,17 +60,7 @@ def test_headers_and_padding(width: int, height: int) -> None:
         assert (pixels[-1] == (250, 130, 7)).all()
 
 
-def test_every_byte_of_an_answer() -> None:
-    """Offset, length, the file, zeros up to a whole word, and no more."""
-    for width in range(1, 10):
-        output = call("render", scene_of_size(width, 5)).output
-        size = int.from_bytes(output[32:64], "big")
-        assert int.from_bytes(output[:32], "big") == 32
-        assert len(output) == 64 + (size + 31) // 32 * 32
-        assert not any(output[64 + size :])
-
-
-@pytest.mark.parametrize(("width", "height"), [(16, 16), (33, 9), (1, 1), (2, 3), (130, 131), (1024, 3)])
+@pytest.mark.parametrize(("width", "height"), [(33, 9), (1, 1), (130, 131)])
 def test_all_entry_points_return_the_same_picture(width: int, height: int) -> None:
     scene = scene_of_size(width, height)
     bmp = dynamic(call("render", scene).output)
@@ -108,28 +100,21 @@ def test_the_svg_of_an_image_is_that_of_the_contract() -> None:
         assert np.array_equal(np.asarray(picture), image.pixels)
 
 
-@pytest.mark.parametrize(("width", "height"), [(1, 2), (5, 300), (300, 5), (3, 1024)])
+@pytest.mark.parametrize(("width", "height"), [(5, 1), (1, 2), (5, 300), (3, 1024)])
 def test_gradients_end_in_their_colors(width: int, height: int) -> None:
-    rng = np.random.default_rng(1)
-    for _ in range(5):
-        top, bottom = rng.integers(0, 256, (2, 3))
-        scene = Scene([], Camera(near=1), background=Background(top, bottom), width=width, height=height)
-        picture = draw(scene)
-        part = np.arange(height)[:, None, None] / (height - 1)
-        assert (picture[0] == top).all()
-        assert (picture[-1] == bottom).all()
-        assert np.abs(picture - (top + (bottom - top) * part)).max() <= 0.501
-        assert (draw(evolve(scene, invert=True)) == 255 - picture).all()
-
-
-def test_a_background_of_one_row_is_its_top() -> None:
-    assert (
-        draw(Scene([], Camera(near=1), background=Background((1, 2, 3), (4, 5, 6)), width=5, height=1)) == (1, 2, 3)
-    ).all()
+    """That of one row is its top."""
+    top, bottom = np.random.default_rng(1).integers(0, 256, (2, 3))
+    scene = Scene([], Camera(near=1), background=Background(top, bottom), width=width, height=height)
+    part = np.arange(height)[:, None, None] / max(height - 1, 1)
+    picture = draw(scene)
+    assert (picture[0] == top).all()
+    assert (picture[-1] == (bottom if height > 1 else top)).all()
+    assert np.abs(picture - (top + (bottom - top) * part)).max() <= 0.501
+    assert (draw(evolve(scene, invert=True)) == 255 - picture).all()
 
 
 def test_lit_pixels_are_those_that_are_covered() -> None:
-    for width, height in ((1, 1), (2, 3), (31, 17), (64, 64), (150, 140)):
+    for width, height in ((1, 1), (31, 17), (150, 140)):
         scene = scene_of_size(width, height)
         assert counts(scene)[1] == covered(evolve(scene, background=Background((0, 0, 0)))).sum()
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import runpy
 import sys
-from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal
@@ -16,21 +15,7 @@ import trimesh
 from attrs import evolve
 
 import shackled
-from shackled import (
-    Background,
-    Camera,
-    Fog,
-    InputError,
-    Light,
-    Mesh,
-    Object,
-    Rim,
-    Scene,
-    Tone,
-    load,
-    render,
-    replace,
-)
+from shackled import Background, Camera, Fog, InputError, Light, Mesh, Object, Rim, Scene, Tone, load, render, replace
 from shackled.datasets import require
 from shackled.scene import SETTINGS, Hemisphere, LookOptions, look_at, read_mesh, rotate, write_obj
 from shackled.scene._staging import signed_volume
@@ -39,38 +24,29 @@ BALL = trimesh.creation.icosphere(subdivisions=1)
 MESH = Mesh(BALL.vertices, BALL.faces)
 
 
-def staged(mesh: Mesh) -> Scene:
-    return look_at(mesh, {})
-
-
-def same(one: Scene, other: Scene) -> bool:
-    return one == other and (render(one, 16).pixels == render(other, 16).pixels).all()
-
-
 # ---- what is drawn ----
 
 
 @pytest.mark.parametrize(
-    "make",
+    "thing",
     [
-        lambda: MESH,
-        lambda: (BALL.vertices, BALL.faces),
-        lambda: [BALL.vertices.tolist(), BALL.faces.tolist()],
-        lambda: (BALL.vertices, BALL.faces, "#c8c8c8"),
-        lambda: trimesh.Trimesh(BALL.vertices, BALL.faces, process=False),
-        lambda: staged(MESH),
+        MESH,
+        (BALL.vertices, BALL.faces),
+        [BALL.vertices.tolist(), BALL.faces.tolist()],
+        (BALL.vertices, BALL.faces, "#c8c8c8"),
+        trimesh.Trimesh(BALL.vertices, BALL.faces, process=False),
+        look_at(MESH, {}),
     ],
     ids=["mesh", "arrays", "lists", "colours", "trimesh", "scene"],
 )
-def test_a_mesh_in_many_forms(make: Callable[[], Any]) -> None:
-    assert same(load(make()), staged(MESH))
+def test_a_mesh_in_many_forms(thing: Any) -> None:
+    assert load(thing) == look_at(MESH, {})
 
 
 def test_a_mesh_file(tmp_path: Path) -> None:
     write_obj(MESH, tmp_path / "ball.obj")
-    expected = render(staged(read_mesh(tmp_path / "ball.obj")))
-    assert render(tmp_path / "ball.obj") == expected
-    assert render(str(tmp_path / "ball.obj")) == expected
+    expected = render(look_at(read_mesh(tmp_path / "ball.obj"), {}))
+    assert render(tmp_path / "ball.obj") == render(str(tmp_path / "ball.obj")) == expected
 
 
 def test_objects_and_pieces() -> None:
@@ -85,8 +61,7 @@ def test_objects_and_pieces() -> None:
     assert load("cube", 128, antialias=False) == cube
     assert load("icons/coin").antialias
     assert load("showcase/glass") == require("showcase/glass").make()
-    scene = load("cube")
-    assert load(scene) is scene
+    assert load(scene := load("cube")) is scene
 
 
 def middles(scene: Scene) -> Any:
@@ -195,22 +170,16 @@ def test_scenes_of_trimesh() -> None:
     assert signed_volume(objects[1].mesh) > 0
 
 
-def test_colours_of_trimesh() -> None:
+@pytest.mark.parametrize("alpha", [255, 7])
+def test_colours_of_trimesh(alpha: int) -> None:
     rng = np.random.default_rng(3)
-    colors = rng.integers(0, 256, (len(BALL.vertices), 4)).astype(np.uint8)
-    colors[:, 3] = 255
-    painted = trimesh.Trimesh(BALL.vertices, BALL.faces, vertex_colors=colors, process=False)
-    assert Mesh.from_trimesh(painted).colors.tolist() == colors[:, :3].tolist()
-    faces = rng.integers(0, 256, (len(BALL.faces), 4)).astype(np.uint8)
-    faces[:, 3] = 255
-    mesh = Mesh.from_trimesh(trimesh.Trimesh(BALL.vertices, BALL.faces, face_colors=faces, process=False))
-    assert mesh.triangles == len(BALL.faces)
-    assert (mesh.colors[mesh.faces] == faces[:, None, :3]).all()
-    colors[0, 3] = 7
+    colors, faces = (rng.integers(0, 256, (len(each), 4)).astype(np.uint8) for each in (BALL.vertices, BALL.faces))
+    colors[:, 3] = faces[:, 3] = 255
+    colors[0, 3] = faces[0, 3] = alpha
     painted = trimesh.Trimesh(BALL.vertices, BALL.faces, vertex_colors=colors, process=False)
     assert Mesh.from_trimesh(painted).rgba.tolist() == colors.tolist()
-    faces[0, 3] = 7
     mesh = Mesh.from_trimesh(trimesh.Trimesh(BALL.vertices, BALL.faces, face_colors=faces, process=False))
+    assert mesh.triangles == len(BALL.faces)
     assert (mesh.rgba[mesh.faces] == faces[:, None]).all()
     with pytest.raises(InputError, match=r"^a trimesh\.Trimesh is needed, not 5"):
         Mesh.from_trimesh(5)
@@ -384,15 +353,9 @@ def test_looks_in_other_words() -> None:
         ({"hemisphere": "bluish"}, "`hemisphere` must be red, green and blue from 0 to 255, #rgb, #rrggbb, or "),
         ({"rim": ("white", 0)}, "the power of a rim must be a whole number from 1 to 16, not 0"),
         ({"fog": ("white", 4, 3)}, "the near distance of the fog, 4, must be below its far distance, 3"),
-        ({"exposure": -1}, "`exposure` must be a finite number from 0 to 64, not -1"),
         ({"shininess": 2.5}, "`shininess` must be a whole number from 1 to 128, not 2.5"),
         ({"crease": 30, "shading": "flat"}, "`crease` is for smooth shading, and excludes flat"),
-        ({"crease": 181}, "`crease` must be a finite number from 0 to 180, not 181"),
         ({"max_triangles": 0}, "`max_triangles` must be a whole number, at least 1, not 0"),
-        (
-            {"color": "reddish"},
-            "`color` must be red, green and blue from 0 to 255, #rgb, #rrggbb, or the name of a colour",
-        ),
         ({"size": "big"}, "`size` must be one number or (width, height), not 'big'"),
         ({"size": (1.5, 2)}, "`size` must be whole numbers, not (1.5, 2)"),
         ({"eye": "here"}, "`eye` must be 3 numbers, not 'here'"),
@@ -401,7 +364,6 @@ def test_looks_in_other_words() -> None:
         ({"lights": "white"}, "the lights of a scene must be a Light or a list of these, not 'white'"),
         ({"cull": "yes"}, "`cull` must be True or False, not 'yes'"),
         ({"animation": "Walk"}, "`animation` is for what is read of one glTF file"),
-        ({"time": 1}, "`time` is for what is read of one glTF file"),
         ({"animation": 1.5}, "`animation` must be a name, or a number from 0, not 1.5"),
         ({"time": -1}, "`time` must be a finite number, at least 0, not -1"),
         ({"shading": "toon"}, "`shading` must be one of unlit, flat, smooth, not 'toon'"),

@@ -6,16 +6,13 @@ import io
 import re
 import tarfile
 import zipfile
+from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
 from tools import models
 
-
-def package() -> models.Package:
-    return models.Package("npm", "@some/one", "1", "MIT", "package/a", ["x.obj", "b/y.glb.js"])
-
-
+PACKAGE = models.Package("npm", "@some/one", "1", "MIT", "package/a", ["x.obj", "b/y.glb.js"])
 #: Names in an archive, and whether they are needed.
 MEMBERS = {
     "package/a/x.obj": True,
@@ -31,40 +28,42 @@ OUTSIDE = "package/a/../../../outside.mtl"
 CONTENT = b'export default "data:model/gltf-binary;base64,Z2xURg=="'
 
 
-@pytest.mark.parametrize("suffix", [".whl", ".tgz"])
-def test_unpacking(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, suffix: str) -> None:
-    folder = tmp_path / "models"
-    monkeypatch.setattr(models, "FOLDER", folder)
-    archive = folder / "some-one-1" / "archive" / f"a{suffix}"
-    archive.parent.mkdir(parents=True)
-    names = [*MEMBERS, *([OUTSIDE] if suffix == ".whl" else [])]
-    if suffix == ".whl":
+@pytest.fixture
+def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder of the package."""
+    monkeypatch.setattr(models, "FOLDER", tmp_path / "models")
+    folder = tmp_path / "models" / "some-one-1"
+    (folder / "archive").mkdir(parents=True)
+    return folder
+
+
+def pack(archive: Path, names: Iterable[str]) -> None:
+    if archive.suffix == ".whl":
         with zipfile.ZipFile(archive, "w") as opened:
             for name in names:
                 opened.writestr(name, CONTENT)
-    else:
-        with tarfile.open(archive, "w:gz") as opened:
-            for name in names:
-                member = tarfile.TarInfo(name)
-                member.size = len(CONTENT)
-                opened.addfile(member, io.BytesIO(CONTENT))
-    found = dict(package().models())
+        return
+    with tarfile.open(archive, "w:gz") as packed:
+        for name in names:
+            member = tarfile.TarInfo(name)
+            member.size = len(CONTENT)
+            packed.addfile(member, io.BytesIO(CONTENT))
+
+
+@pytest.mark.parametrize(("suffix", "more"), [(".whl", [OUTSIDE]), (".tgz", [])])
+def test_unpacking(root: Path, suffix: str, more: list[str]) -> None:
+    pack(root / "archive" / f"a{suffix}", [*MEMBERS, *more])
+    found = dict(PACKAGE.models())
     assert {name: path.name for name, path in found.items()} == {"x.obj": "x.obj", "b/y.glb.js": "y.glb"}
     assert found["b/y.glb.js"].read_bytes() == b"glTF"
-    root = folder / "some-one-1"
     assert {name for name in MEMBERS if (root / name).is_file()} == {name for name, needed in MEMBERS.items() if needed}
-    assert not list(tmp_path.glob("outside*"))
-    assert not list(folder.glob("outside*"))
+    assert not [path for folder in root.parents[:2] for path in folder.glob("outside*")]
 
 
-def test_a_path_out_of_the_folder_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(models, "FOLDER", tmp_path / "models")
-    archive = tmp_path / "models" / "some-one-1" / "archive" / "a.tgz"
-    archive.parent.mkdir(parents=True)
-    with tarfile.open(archive, "w:gz") as opened:
-        opened.addfile(tarfile.TarInfo(OUTSIDE), io.BytesIO())
+def test_a_path_out_of_the_folder_is_refused(root: Path) -> None:
+    pack(root / "archive" / "a.tgz", [OUTSIDE])
     with pytest.raises(tarfile.OutsideDestinationError):
-        list(package().models())
+        list(PACKAGE.models())
 
 
 def test_the_page_has_the_models_of_the_table() -> None:

@@ -7,7 +7,6 @@ import json
 import re
 import sys
 import tomllib
-from collections.abc import Iterator
 from functools import cache
 from graphlib import TopologicalSorter
 from importlib import import_module
@@ -39,33 +38,44 @@ EXTRA_OF = {
     "deploy/_transactor.py": "chain",
     "cli/chain_options.py": "chain",
     "tokens/": "chain",
-    "mp4.py": "mp4",
+    "animation.py": "mp4",
     "parallel/_cluster.py": "cluster",
     "scene/_files/gltf/draco.py": "draco",
     "web/_widget.py": "jupyter",
 }
 
 
-def imported() -> Iterator[tuple[str, str]]:
-    """Each file of the package, with a module of somebody else that it imports."""
-    for path in sorted(PACKAGE.rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text())):
-            if isinstance(node, ast.Import):
-                names = [alias.name for alias in node.names]
-            elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
-                names = [node.module]
-            else:
-                continue
-            for name in names:
-                top = name.split(".")[0]
-                if top not in sys.stdlib_module_names and top != "shackled":
-                    yield path.relative_to(PACKAGE).as_posix(), top
+@cache
+def of_the_package(path: Path, for_types: bool = True) -> list[str]:
+    """Return the modules that a file imports, and the names that it takes from them, all absolute.
+
+    for_types: also those that only checkers of types import.
+    """
+    here = path.relative_to(PACKAGE.parent).with_suffix("").parts[:-1] if path.is_relative_to(PACKAGE) else ()
+    tree = ast.parse(path.read_text())
+    if not for_types:
+        tree.body = [node for node in tree.body if not ast.unparse(node).startswith("if TYPE_CHECKING:")]
+    found: list[str] = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            found += [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            base = [*here[: len(here) - node.level + 1]] if node.level else []
+            found += [".".join([*base, *filter(None, [node.module]), alias.name]) for alias in node.names]
+    return found
 
 
 def test_what_is_imported_is_declared() -> None:
     """By its own name, and not because something else needs it too."""
     found, distributions = set(), packages_distributions()
-    for file, module in imported():
+    imported = {
+        (path.relative_to(PACKAGE).as_posix(), name.partition(".")[0])
+        for path in PACKAGE.rglob("*.py")
+        for name in of_the_package(path)
+    }
+    for file, module in imported:
+        if module in sys.stdlib_module_names or module == "shackled":
+            continue
         declared = {canonicalize_name(each.name) for each in NEEDED}
         for start, extras in EXTRA_OF.items():
             if file.startswith(start):
@@ -78,51 +88,33 @@ def test_what_is_imported_is_declared() -> None:
     assert {canonicalize_name(each.name) for each in everything} <= found
 
 
-def test_the_extras_are_those_of_the_tests() -> None:
-    """With the same markers: no extra builds from its sources what the tests are run without."""
-    tested = {str(Requirement(line)) for line in PROJECT["dependency-groups"]["dev"]}
-    assert {str(each) for lines in EXTRAS.values() for each in lines} <= tested
-    (pyrevm,) = EXTRAS["pyrevm"]
-    assert pyrevm.marker is not None
-    assert [pyrevm.marker.evaluate({"python_version": each}) for each in ("3.11", "3.12", "3.13", "3.14")] == [
-        *(True, True, False, False)
-    ]
+def test_the_extras_are_those_of_the_tests_and_every_platform_needs_the_same() -> None:
+    """No extra builds from its sources what the tests are run without; the EVM runs wherever wasmtime does."""
+    extras = [each for lines in EXTRAS.values() for each in lines]
+    assert {str(each) for each in extras} <= {str(Requirement(line)) for line in PROJECT["dependency-groups"]["dev"]}
+    (pyrevm,) = (each.marker for each in extras if each.marker is not None)
+    assert EXTRAS["pyrevm"][0].marker is pyrevm
+    found = [pyrevm.evaluate({"python_version": each}) for each in ("3.11", "3.12", "3.13", "3.14")]
+    assert found == [True, True, False, False]
+    assert [each.name for each in NEEDED if each.marker is not None] == ["fast-simplification"]
+    names = {each.name for each in NEEDED}
+    assert "wasmtime" in names
+    # without builds for some platforms, or without a licence
+    assert not names & {"py-evm", "pyrevm"}
 
 
 def test_meshes_are_simplified_where_there_are_wheels() -> None:
     (marker,) = (each.marker for each in NEEDED if each.name == "fast-simplification")
     assert marker is not None
-    machines = {
-        "linux": {"x86_64": True, "aarch64": True, "armv7l": False, "riscv64": False},
-        "darwin": {"x86_64": True, "arm64": True},
-        "win32": {"AMD64": True, "ARM64": False, "x86": False},
-        "freebsd14": {"amd64": False},
-    }
-    for system, found in machines.items():
-        for machine, has_wheel in found.items():
-            assert marker.evaluate({"sys_platform": system, "platform_machine": machine}) == has_wheel, machine
-
-
-@cache
-def of_the_package(path: Path, for_types: bool = True) -> list[str]:
-    """Return the modules of the package that a file imports, and the names that it takes from them, all absolute.
-
-    for_types: also those that only checkers of types import.
-    """
-    return list(_of_the_package(path, for_types))
-
-
-def _of_the_package(path: Path, for_types: bool) -> Iterator[str]:
-    here = path.relative_to(PACKAGE.parent).with_suffix("").parts[:-1] if path.is_relative_to(PACKAGE) else ()
-    tree = ast.parse(path.read_text())
-    if not for_types:
-        tree.body = [node for node in tree.body if not ast.unparse(node).startswith("if TYPE_CHECKING:")]
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            base = [*here[: len(here) - node.level + 1]] if node.level else []
-            yield from (".".join([*base, *filter(None, [node.module]), alias.name]) for alias in node.names)
+    for system, machine, has_wheel in (
+        ("linux", "x86_64", True),
+        ("linux", "riscv64", False),
+        ("darwin", "arm64", True),
+        ("win32", "AMD64", True),
+        ("win32", "ARM64", False),
+        ("freebsd14", "amd64", False),
+    ):
+        assert marker.evaluate({"sys_platform": system, "platform_machine": machine}) == has_wheel, machine
 
 
 FACES = [path.parent for path in sorted(PACKAGE.rglob("__init__.pyi")) if path.parent != PACKAGE]
@@ -166,11 +158,10 @@ def test_no_imports_form_a_circle() -> None:
     """Of modules of the package, late imports included. A name of a package stands for the module that has it."""
     modules = {".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts): path for path in PACKAGE.rglob("*.py")}
     modules = {name.removesuffix(".__init__"): path for name, path in modules.items()}
+    names = {".".join(folder.relative_to(PACKAGE.parent).parts): folder for folder in [PACKAGE, *FACES]}
     homes = {
-        ".".join([*folder.relative_to(PACKAGE.parent).parts, alias.name]): ".".join(
-            [*folder.relative_to(PACKAGE.parent).parts, str(node.module)]
-        )
-        for folder in [PACKAGE, *FACES]
+        f"{face}.{alias.name}": f"{face}.{node.module}"
+        for face, folder in names.items()
         for node in ast.parse((folder / "__init__.pyi").read_text()).body
         if isinstance(node, ast.ImportFrom)
         for alias in node.names
@@ -184,38 +175,18 @@ def test_no_imports_form_a_circle() -> None:
     TopologicalSorter(graph).prepare()  # raises an error that names the circle
 
 
-def test_every_platform_needs_the_same() -> None:
-    """The EVM of the package runs wherever wasmtime does, and tools/platforms.py says where."""
-    assert [each.name for each in NEEDED if each.marker is not None] == ["fast-simplification"]
-    names = {each.name for each in NEEDED}
-    assert "wasmtime" in names
-    # without builds for some platforms, or without a licence
-    assert not names & {"py-evm", "pyrevm"}
-    # nothing else runs where pyrevm has no wheel
-    assert {each.name for lines in EXTRAS.values() for each in lines if each.marker is not None} == {"pyrevm"}
-
-
-def test_what_the_package_says_of_itself() -> None:
-    project = PROJECT["project"]
-    assert project["authors"]
-    assert project["keywords"]
-    for version in ("3.11", "3.12", "3.13", "3.14"):
-        assert f"Programming Language :: Python :: {version}" in project["classifiers"]
-    for name in project["license-files"]:
-        assert (ROOT / name).is_file()
-
-
 def test_notices_of_all_whose_code_is_compiled_in() -> None:
     """Each library of the sources, in the version that is installed, with its licence in full, and its contracts."""
     notices = (ROOT / "THIRD-PARTY-NOTICES").read_text()
     locked = json.loads((ROOT / "contracts" / "package-lock.json").read_text())["packages"]
     folders = {name.removeprefix("node_modules/"): entry for name, entry in locked.items() if name}
-    used = {
-        source
-        for contract in contracts()
-        for source in json.loads((PACKAGE / "artifacts" / f"{contract}.json").read_text())["sources"]
+    sources = {
+        name: json.loads((PACKAGE / "artifacts" / f"{name}.json").read_text())["sources"] for name in contracts()
     }
-    libraries = {name for name in folders for source in used if source.startswith(f"{name}/")}
+    users = {
+        name: {each for each in sources if any(s.startswith(f"{name}/") for s in sources[each])} for name in folders
+    }
+    libraries = {name for name in folders if users[name]}
     assert libraries >= {"@openzeppelin/contracts", "erc721a", "solady"}
     for name in libraries:
         section = notices.partition(f"{folders[name]['version']} ({name})")[2].partition("\n---")[2]
@@ -225,23 +196,14 @@ def test_notices_of_all_whose_code_is_compiled_in() -> None:
         shipped = ROOT / "contracts" / "node_modules" / name / "LICENSE.txt"
         if shipped.exists():
             assert shipped.read_text().strip() in notices
-        users = {
-            contract
-            for contract in contracts()
-            for source in json.loads((PACKAGE / "artifacts" / f"{contract}.json").read_text())["sources"]
-            if source.startswith(f"{name}/")
-        }
-        assert users <= set(re.findall(r"\w+", notices.partition("\n---")[0])), name
+        assert users[name] <= set(re.findall(r"\w+", notices.partition("\n---")[0])), name
 
 
-def test_the_package_of_the_contracts_has_the_same_notices() -> None:
-    contracts = ROOT / "contracts"
+def test_the_package_of_the_contracts() -> None:
+    """It has the same notices, and no program of a package runs when it is installed."""
     for name in ("LICENSE", "THIRD-PARTY-NOTICES"):
         assert name in build_package.NOTICES
-        assert (contracts / name).read_bytes() == (ROOT / name).read_bytes()
-
-
-def test_no_program_of_a_package_runs_when_it_is_installed() -> None:
+        assert (ROOT / "contracts" / name).read_bytes() == (ROOT / name).read_bytes()
     assert "ignore-scripts=true" in (ROOT / "contracts" / ".npmrc").read_text().splitlines()
 
 

@@ -12,18 +12,9 @@ README = (addresses.ROOT / "README.md").read_text("utf-8")
 REPOSITORY, SITE = "https://host.example/owner/shackled", "https://site.example/shackled"
 
 
-@pytest.fixture
-def published(monkeypatch: pytest.MonkeyPatch) -> None:
+def publish(monkeypatch: pytest.MonkeyPatch, repository: str, documentation: str) -> None:
     project = addresses.project()
-    # as somebody may write them
-    project["tool"]["shackled"] = {"repository": REPOSITORY + "/", "documentation": SITE}
-    monkeypatch.setattr(addresses, "project", lambda: project)
-
-
-@pytest.fixture
-def unpublished(monkeypatch: pytest.MonkeyPatch) -> None:
-    project = addresses.project()
-    project["tool"]["shackled"] = {"repository": "", "documentation": ""}
+    project["tool"]["shackled"] = {"repository": repository, "documentation": documentation}
     monkeypatch.setattr(addresses, "project", lambda: project)
 
 
@@ -32,8 +23,8 @@ def test_the_citation_names_the_repository() -> None:
     assert named == list(filter(None, [addresses.addresses()["repository"]]))
 
 
-@pytest.mark.usefixtures("unpublished")
-def test_without_addresses_nothing_names_one() -> None:
+def test_without_addresses_nothing_names_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    publish(monkeypatch, "", "")
     assert addresses.urls() == {}
     assert addresses.with_addresses({"name": "a"}, "web") == {"name": "a"}
     assert vars(addresses.on_config(SimpleNamespace())) == {}
@@ -43,8 +34,8 @@ def test_without_addresses_nothing_names_one() -> None:
     assert addresses.for_an_index("[costs](#what-it-costs)") == "[costs](#what-it-costs)"
 
 
-@pytest.mark.usefixtures("published")
-def test_with_addresses() -> None:
+def test_with_addresses(monkeypatch: pytest.MonkeyPatch) -> None:
+    publish(monkeypatch, REPOSITORY + "/", SITE)  # as somebody may write them
     found = addresses.urls()
     assert found["Repository"] == REPOSITORY
     assert found["Documentation"] == SITE
@@ -59,11 +50,8 @@ def test_with_addresses() -> None:
     assert package["homepage"] == SITE
     site = addresses.on_config(SimpleNamespace())
     assert (site.repo_url, site.repo_name, site.site_url) == (REPOSITORY, "owner/shackled", f"{SITE}/")
-
-
-@pytest.mark.usefixtures("published")
-def test_links_of_a_folder_and_code() -> None:
+    # links of a folder, and code
     text = "[a](../docs/b.md#c) `[d](e)` [`f`](g.md)\n```\n[h](i)\n```\n"
-    base = f"{REPOSITORY}/blob/v{addresses.project()['project']['version']}"
+    base = f"{REPOSITORY}/blob/{version}"
     made = f"[a]({base}/docs/b.md#c) `[d](e)` [`f`]({base}/web/g.md)\n```\n[h](i)\n```\n"
     assert addresses.for_an_index(text, "web") == made

@@ -106,13 +106,14 @@ def test_kinds_of_records() -> None:
     """The tables of the contracts say what those of Python do, and those of the package of contracts' authors too."""
     found, made = constants("Records.sol"), run_path(str(ROOT / "src" / "shackled" / "scene" / "_records.py"))
     names = {found["OF_SCENE"]: "scene", found["OF_LIGHT"]: "light", found["OF_OBJECT"]: "object", 0: None}
+    owners = {kind: owner for _, kind, owner, _, _ in TABLE["extensions"]["kinds"]}
     for kind in range(256):
-        assert names[found["RECORD_OWNERS"] >> 2 * kind & 3] == made["OWNERS"].get(kind)
+        assert names[found["RECORD_OWNERS"] >> 2 * kind & 3] == owners.get(kind)
         size = found["RECORD_SIZES"] >> 8 * kind & 255
         assert (None if size == found["ANY_WORDS"] else size) == made["SIZES"].get(kind, 0)
         assert kind < made["LONG_KINDS"] or size == found["ANY_WORDS"] or size % 32 == 0
     kinds = [kind for _, kind, *_ in TABLE["extensions"]["kinds"]]
-    assert kinds == sorted(set(kinds)) == list(made["OWNERS"])
+    assert kinds == sorted(set(kinds)) == list(made["SIZES"])
     web = (ROOT / "web" / "src" / "scene" / "records.ts").read_text("utf-8")
     for name, value in re.findall(r"^export const (\w+) = (\d+);", web, re.MULTILINE):
         assert found[name] == made[name] == int(value)

@@ -14,6 +14,7 @@ from attrs import evolve
 from judge import judge
 from pictures import call, call_data, chain, counts, covered, draw, dynamic, words
 from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene
+from shackled.parallel._tiles import grid
 from shackled.scene import Rectangle
 
 SQUARE = Mesh(
@@ -72,20 +73,25 @@ def test_kinds_in_any_order(order: tuple[str, ...], changes: dict[str, Any]) -> 
 @pytest.mark.parametrize("order", list(permutations(KINDS, 2)))
 def test_of_equal_depths_the_first_opaque_one_is_seen(order: tuple[str, str]) -> None:
     """Which engine draws it makes no difference; and what is not opaque comes last."""
-    objects = [
-        Object(colored(*color), **KINDS[kind] | {"material": Material("unlit")}, cull=False)
-        for kind, color in zip(order, ((250, 0, 0), (0, 0, 250)), strict=True)
-    ]
+    unlit, colors = {"material": Material("unlit"), "cull": False}, ((250, 0, 0), (0, 0, 250))
+    objects = [Object(colored(*color), **KINDS[kind] | unlit) for kind, color in zip(order, colors, strict=True)]
     scene = scene_of(*objects, background=Background((0, 0, 0)))
     check(scene)
     if "wire" not in order and "blended" not in order:
         assert tuple(draw(scene)[12, 16]) == (250, 0, 0)
 
 
-def test_unlit_and_smooth_at_equal_depth() -> None:
+def test_hidden_surfaces_of_both_engines() -> None:
+    """Depths are handed on: what another engine drew before hides what is behind it, pixel by pixel."""
     unlit = Object(colored(250, 0, 0), material=Material("unlit"), cull=False)
     smooth = Object(colored(0, 0, 250), material=Material("smooth", 1, 0, 0, 1), cull=False)
-    for first, second, seen in ((unlit, smooth, (250, 0, 0)), (smooth, unlit, (0, 0, 250))):
+    near, far = evolve(unlit, position=(0, 0, 10)), evolve(smooth, position=(20, 0, -30), scale=1.4)
+    for first, second, seen in (
+        (unlit, smooth, (250, 0, 0)),
+        (smooth, unlit, (0, 0, 250)),
+        (near, far, (250, 0, 0)),
+        (far, near, (250, 0, 0)),
+    ):
         scene = scene_of(first, second)
         check(scene)
         assert tuple(draw(scene)[12, 16]) == seen
@@ -137,12 +143,8 @@ def test_large_pictures_equal_their_tiles(size: tuple[int, int], changes: dict[s
     scene = scene_of(*objects, width=size[0], height=size[1], **changes)
     check(scene)
     whole = draw(scene)
-    rows = range(0, size[1], size[1] // 3 + 1)
-    for top in rows:
-        height = min(size[1] // 3 + 1, size[1] - top)
-        for left, width in ((0, size[0] // 2 - 1), (size[0] // 2 - 1, size[0] - size[0] // 2 + 1)):
-            part = draw(scene, Rectangle(left, top, width, height))
-            assert (part == whole[top : top + height, left : left + width]).all()
+    for tile in grid(*size, size[0] // 2 + 1, size[1] // 3 + 1):
+        assert (draw(scene, tile) == whole[tile.y : tile.y + tile.height, tile.x : tile.x + tile.width]).all()
 
 
 @pytest.mark.parametrize("count", [40, 300])
@@ -162,13 +164,3 @@ def test_texts_of_mixed_scenes(size: tuple[int, int]) -> None:
             (encoded,) = re.findall(r"data:image/bmp;base64,([0-9A-Za-z+/=]+)", text)
             assert base64.b64decode(encoded) == dynamic(call("render", scene).output)
         check(scene)
-
-
-def test_hidden_surfaces_of_both_engines() -> None:
-    """Depths are handed on: what another engine drew before hides what is behind it, pixel by pixel."""
-    near = Object(SQUARE, (0, 0, 10), material=Material("unlit"), cull=False)
-    far = Object(colored(0, 250, 0), (20, 0, -30), material=Material("smooth", 1, 0, 0, 1), cull=False, scale=1.4)
-    one, other = scene_of(near, far), scene_of(far, near)
-    check(one)
-    assert (draw(one) == draw(other)).all()
-    assert (np.asarray(draw(one))[12, 16] == (255, 80, 20)).all()

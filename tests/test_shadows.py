@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import permutations
 from pathlib import Path
 from typing import Any
 
@@ -9,13 +10,10 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from judge import judge
-from pictures import chain, draw
-from shackled import Camera, Ground, InputError, Light, Material, Mesh, Object, RenderError, Scene, load
-from shackled.artifacts import artifact
+from pictures import draw
+from shackled import Camera, Ground, InputError, Light, Material, Mesh, Object, Scene, Tone, load
 from shackled.datasets.common import shapes
-from shackled.scene import Rectangle, encode_scene, encode_scene_file, fit, painted
-from shackled.scene._codec import extensions
+from shackled.scene import encode_scene_file, fit, painted
 
 SIZE = 40
 
@@ -39,21 +37,7 @@ def still_life(**changes: Any) -> Scene:
     return evolve(scene, **changes)
 
 
-def is_right(scene: Scene) -> bool:
-    """Whether the judge finds no wrong pixel."""
-    return judge("shadows", scene).faults == []
-
-
 SUN, LAMP = Light("directional", (-0.6, 1.0, 0.5), shadow=True), Light("point", (2, 3, 2), shadow=True)
-
-
-def test_large_picture() -> None:
-    """Pictures of several bands and engines' runs."""
-    scene = still_life(width=160, height=160)
-    first, second = scene.objects
-    assert is_right(scene)
-    glass = evolve(scene, objects=[first, evolve(second, opacity=0.5)])
-    assert (draw(fit(glass), Rectangle(60, 70, 30, 20)) == draw(fit(glass))[70:90, 60:90]).all()
 
 
 def test_a_ground_fades() -> None:
@@ -86,25 +70,36 @@ def test_wrong_values() -> None:
         Object(Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]), fade=(2, 1))
 
 
-@pytest.mark.parametrize(
-    ("record", "error"),
-    [
-        (bytes([10, 0, 0, 0, 0]), "ExtensionSize"),
-        (bytes([10, 0, 2, 0, 1]) + (1).to_bytes(32, "big"), "ExtensionIndex"),
-        (bytes([10, 0, 0, 0, 1]) + (4).to_bytes(32, "big"), "ShadowRuleOutOfRange"),
-        (2 * (bytes([10, 0, 0, 0, 1]) + (1).to_bytes(32, "big")), "SeveralShadows"),
-        (bytes([11, 0, 0, 0, 1]) + bytes(32), "GroundOutOfRange"),
-        (bytes([14, 0, 0, 0, 0]), "UnknownExtension"),
-    ],
-)
-def test_wrong_records(record: bytes, error: str) -> None:
-    if error == "SeveralShadows":
-        # the second belongs to the second light
-        record = record[:39] + b"\x01" + record[40:]
-    scene = fit(still_life(ground=None, lights=[evolve(SUN, shadow=False), evolve(LAMP, shadow=False)]))
-    data = artifact("Renderer").selectors["render"] + (32).to_bytes(32, "big") + encode_scene(scene)
-    # the extensions are last
-    assert not extensions(scene)
-    data = data[:-32] + len(record).to_bytes(32, "big") + record + bytes(-len(record) % 32)
-    with pytest.raises(RenderError, match=error):
-        chain().call("Renderer", data)
+# ---- where surfaces meet ----
+
+
+def box(size: tuple[float, float, float], place: tuple[float, float, float] = (0, 0, 0)) -> Object:
+    """A gray box with edges of this size."""
+    corners = np.sign(shapes.cube().positions) / 2 * size + place
+    return Object(Mesh(corners, shapes.cube().faces, "#c8c8c8"), material=Material("flat", 0.2, 0.8, 0.0))
+
+
+def scene_of(objects: list[Object], light: Light) -> Scene:
+    """The objects before black, seen from above."""
+    return Scene(objects, Camera((0, 3, 4), (0, 0, 0)), [light], "#000000", width=64, height=64, antialias=True)
+
+
+@pytest.mark.parametrize("light", [SUN, LAMP], ids=["directional", "point"])
+def test_any_order(light: Light) -> None:
+    """A later object may hide samples of a fragment that is partly in shadow: the picture is the same in any order."""
+    objects = [box((4, 0.4, 4)), box((1, 2, 1), (0, 0.3, 0)), box((0.8, 0.9, 0.7), (0.1, 0.3, 1.0))]
+    first, *others = (draw(fit(scene_of(list(each), light))) for each in permutations(objects))
+    assert all((each == first).all() for each in others)
+
+
+@pytest.mark.parametrize("tone", [Tone(gamma=True), Tone(filmic=True)], ids=["gamma", "filmic"])
+def test_the_tone_curve_comes_first(tone: Tone) -> None:
+    """Pixels at the edge of a shadow are means of what is displayed, as those at outlines are."""
+    light = Light("directional", (0, 1, -1), shadow=True)
+    scene = evolve(scene_of([box((60, 0.4, 60)), box((1, 0.2, 1), (0.2, 6, -4.5))], light), tone=tone)
+    levels, numbers = np.unique(draw(fit(scene))[:, :, 0], return_counts=True)
+    low, high = levels[numbers > 100].astype(float)
+    assert high - low > 40
+    near = np.abs(levels[:, None] - np.linspace(low, high, 5)) <= 1
+    assert near.any(axis=1).all()
+    assert (numbers @ near > 4).all()

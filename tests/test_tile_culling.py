@@ -12,7 +12,7 @@ from attrs import evolve
 from judge.calldata import read
 from made_scenes import flat, teapot_scene
 from pictures import call, call_data, chain, covered, draw, dynamic
-from shackled import Background, Camera, Material, Mesh, Object, RenderError, Scene, load
+from shackled import Background, Camera, Material, Mesh, Object, RenderError, Scene
 from shackled.image import decode_bmp
 from shackled.parallel._counter import strips
 from shackled.parallel._tiles import grid
@@ -48,14 +48,11 @@ def above(scene: Scene) -> Scene:
 
 SCENES: dict[str, Callable[[], Scene]] = {
     "smooth": lambda: ready(teapot_scene(1)),
-    "flat, four lights": lambda: ready(flat(teapot_scene(4))),
     "wires": lambda: ready(objects(teapot_scene(1), wireframe=True, cull=False)),
-    "glass": lambda: ready(objects(teapot_scene(1), opacity=0.5, cull=False)),
+    "glass, inverted": lambda: ready(objects(flat(teapot_scene(4)), opacity=0.5, cull=False), invert=True),
     "from inside": lambda: ready(inside(flat(teapot_scene(1)))),
     "magnified": lambda: ready(through(flat(teapot_scene(1)))),
     "orthographic": lambda: ready(above(teapot_scene(1))),
-    "inverted": lambda: ready(flat(teapot_scene(1)), invert=True),
-    "an icon": lambda: ready(load("icons/bell")),
 }
 
 
@@ -110,12 +107,12 @@ def triangles_of(scene: Scene, tile: Rectangle) -> tuple[int, int]:
 
 
 @pytest.mark.parametrize("name", SCENES)
-@pytest.mark.parametrize("rows", [2, 3, 29, 90])
+@pytest.mark.parametrize("rows", [2, 29, 90])
 def test_counts_of_strips_that_share_a_row(name: str, rows: int) -> None:
     """Without those of the shared rows they are the counts of the whole: so are pictures of several calls counted."""
     scene = SCENES[name]()
     total = np.zeros(2, int)
-    for sign, strip in strips(range(SIDE), rows):
+    for sign, strip in strips(SIDE, rows):
         total += sign * np.array(chain().count(scene, Rectangle(0, strip.start, SIDE, len(strip))))
     assert tuple(total) == chain().count(scene)
 
@@ -156,7 +153,7 @@ def test_a_call_without_padding_at_its_end() -> None:
     """What is written behind the last face of the last mesh belongs to nobody."""
     first, second = moved(flat(teapot_scene(1)), (0, 0, 0), (0.5, 0, 0)).objects
     mesh = second.mesh
-    for faces in range(200, 208):
+    for faces in (200, 203, 206):
         few = evolve(second, mesh=evolve(mesh, faces=mesh.faces[:faces]))
         scene = ready(evolve(flat(teapot_scene(1)), objects=[first, few]))
         whole = draw(scene)
@@ -193,7 +190,7 @@ CALL, VERTEX, FACE = 110_000, 230, 25
 
 
 def test_a_tile_that_shows_nothing_costs_little() -> None:
-    for name in ("smooth", "flat, four lights", "wires"):
+    for name in ("smooth", "wires"):
         scene = SCENES[name]()
         mesh = scene.objects[0].mesh
         gas = call("renderTile", scene, Rectangle(0, 0, 20, 20)).gas

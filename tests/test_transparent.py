@@ -81,49 +81,40 @@ def enlarged(pixels: Pixels, scale: int) -> Pixels:
 # ---- in Python ----
 
 
-@pytest.mark.parametrize("antialias", [False, True])
-def test_before_its_own_background_it_is_the_picture(antialias: bool) -> None:
-    scene = glass(antialias)
+#: A ground that fades into the background, a shadow on it, fog, light and tone: none changes the background.
+EFFECTS: dict[str, Any] = {
+    "lights": [evolve(load("teapot").lights[0], shadow=True)],
+    "ground": Ground("#e0c8b0"),
+    "fog": Fog("#8090a0", 2, 12),
+    "hemisphere": Hemisphere("#405060", "#302010"),
+    "rim": Rim("#6070ff"),
+    "tone": Tone(1.5, filmic=True, gamma=True),
+}
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"antialias": False}, {}, {"invert": True}, EFFECTS],
+    ids=["plain", "antialiased", "inverted", "effects"],
+)
+def test_before_its_own_background_it_is_the_picture(changes: dict[str, Any]) -> None:
+    scene = glass(**changes)
     found = render(scene, transparent=True)
     assert found.alpha is not None
-    assert found.alpha.min() == 0
-    assert found.alpha.max() == 255
-    # the glass, and edges that are antialiased
-    between = np.unique(found.alpha[(found.alpha > 0) & (found.alpha < 255)])
-    assert (len(between) > 3) == antialias
-    assert 102 in between
+    behind = 255 - gradient() if scene.invert else gradient()
     # each of the three pictures is rounded, and so is alpha
-    assert np.abs(over(found, gradient()) - render(scene).pixels).max() <= 2
+    assert np.abs(over(found, behind) - render(scene).pixels).max() <= 2
     assert (found.pixels[found.alpha == 0] == 0).all()
-
-
-def test_inverted() -> None:
-    scene = glass(invert=True)
-    found = render(scene, transparent=True)
-    assert np.abs(over(found, 255 - gradient()) - render(scene).pixels).max() <= 2
+    # the glass, and edges that are antialiased
+    levels = set(np.unique(found.alpha).tolist())
+    assert {102, 255} <= levels
+    assert (len(levels) > 5) == scene.antialias
     plain = render(evolve(scene, invert=False), transparent=True)
     assert np.array_equal(np.asarray(found.alpha), np.asarray(plain.alpha))
-    solid = found.alpha == 255
-    assert (found.pixels[solid] == 255 - plain.pixels[solid]).all()
-
-
-def test_with_effects() -> None:
-    """A ground that fades into the background, a shadow on it, fog, light and tone: none changes the background."""
-    lamp = evolve(load("teapot").lights[0], shadow=True)
-    scene = glass(
-        lights=[lamp],
-        ground=Ground("#e0c8b0"),
-        fog=Fog("#8090a0", 2, 12),
-        hemisphere=Hemisphere("#405060", "#302010"),
-        rim=Rim("#6070ff"),
-        tone=Tone(1.5, filmic=True, gamma=True),
-    )
-    found = render(scene, transparent=True)
-    assert len(np.unique(np.asarray(found.alpha))) > 20
-    assert np.abs(over(found, gradient()) - render(scene).pixels).max() <= 2
 
 
 def test_opaque_objects_are_as_they_were() -> None:
+    """At the cost of two pictures."""
     scene = load("teapot", size=SIDE, antialias=False)
     found, picture = render(scene, transparent=True), render(scene)
     assert found.alpha is not None
@@ -131,15 +122,9 @@ def test_opaque_objects_are_as_they_were() -> None:
     shown = found.alpha == 255
     assert shown.sum() == picture.covered_pixels == found.covered_pixels
     assert (found.pixels[shown] == picture.pixels[shown]).all()
-
-
-def test_the_cost_is_that_of_two_pictures() -> None:
-    scene = load("cube", size=SIDE)
-    found = render(scene, transparent=True)
     backgrounds = ["black", "white"]
     assert found.gas == sum(render(evolve(scene, background=Background(each))).gas or 0 for each in backgrounds)
-    assert found.calls == 2
-    assert found.scene == scene
+    assert (found.calls, found.scene) == (2, scene)
 
 
 def test_in_tiles_it_is_the_same() -> None:
@@ -180,9 +165,6 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     ("options", "message"),
     [
         (["-o", "a.bmp"], "a transparent picture needs a .png .svg or .webp file: .bmp has no alpha channel"),
-        (["-o", "a.GIF"], "a transparent picture needs a .png .svg or .webp file: .gif has no alpha channel"),
-        (["-o", "a.jpeg"], "a transparent picture needs a .png .svg or .webp file: .jpeg has no alpha channel"),
-        (["-o", "a.tiff"], "must end in one of .png .bmp .svg .gif"),
         (["--turntable", "3"], "a transparent picture needs a .png or .webp file: .gif has no alpha channel"),
         (["--turntable", "3", "--one-call", "-o", "a.png"], "--transparent and --one-call exclude each other"),
     ],
@@ -254,13 +236,12 @@ def test_any_two_pictures(pictures: tuple[Pixels, Pixels], scale: int) -> None:
     assert (opened(encoded(black, white, scale)) == enlarged(expected, scale)).all()
 
 
-@pytest.mark.parametrize("shape", [(1, 1), (1, 1024), (300, 1), (2, 513), (64, 64)])
+@pytest.mark.parametrize("shape", [(1, 1), (1, 1024), (300, 1), (2, 513)])
 def test_odd_sizes(shape: tuple[int, int]) -> None:
     black, white = np.random.default_rng(2).integers(0, 256, (2, *shape, 3), np.uint8)
-    for first, second in ((black, white), (0 * black, 0 * white + 255), (black, black)):
+    for first, second in ((black, white), (0 * black, 0 * white + 255)):
         expected = uncovered(Image(first), Image(second)).channels
-        for scale in (1, 8):
-            assert (opened(encoded(first, second, scale)) == enlarged(expected, scale)).all()
+        assert (opened(encoded(first, second, 8)) == enlarged(expected, 8)).all()
 
 
 def test_pictures_that_do_not_belong_together() -> None:
@@ -275,9 +256,7 @@ def test_pictures_that_do_not_belong_together() -> None:
         chain().call("PngEncoder", data)
 
 
-@pytest.mark.parametrize(
-    "scene", [glass(), glass(invert=True), load("teapot", size=SIDE)], ids=["", "inverted", "plain"]
-)
+@pytest.mark.parametrize("scene", [glass(), glass(invert=True)], ids=["", "inverted"])
 def test_the_studio_draws_it(scene: Scene) -> None:
     expected = render(scene, transparent=True).channels
     for scale in (1, 4):

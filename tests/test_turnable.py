@@ -13,12 +13,7 @@ from tools.page_server import static
 from shackled import render
 
 ROOT = Path(__file__).resolve().parent.parent
-PAGE = """# Pictures
-
-![A crown](images/crown.png)
-
-![No scene](images/plain.png)
-"""
+PAGE = "# Pictures\n\n![A crown](images/crown.png)\n\n![No scene](images/plain.png)\n"
 
 
 @pytest.fixture

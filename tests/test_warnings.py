@@ -44,18 +44,17 @@ def large_texture() -> Any:
     "function", [shackled.load, shackled.render, shackled.turntable], ids=lambda each: each.__name__
 )
 def test_the_line_is_that_of_the_caller(function: Callable[..., object], obj: Path) -> None:
-    things: list[tuple[object, str]] = [
+    lines = Path(__file__).read_text().splitlines()
+    for thing, message in (
         (obj, "its materials are left out"),
         ([obj, obj], "its materials are left out"),
         (with_points(), "has no faces and is left out"),
         (large_texture(), "is reduced from 512 x 512"),
-    ]
-    for thing, message in things:
+    ):
         arguments = (thing, 2, 8) if function is shackled.turntable else (thing, 8)
         with pytest.warns(InputWarning, match=message) as told:
             function(*arguments)
         assert {each.filename for each in told} == {__file__}
-        lines = Path(__file__).read_text().splitlines()
         assert {lines[each.lineno - 1].strip() for each in told} == {"function(*arguments)"}
 
 

@@ -7,8 +7,23 @@ import pytest
 from attrs import evolve
 from numpy.typing import NDArray
 
-from pictures import UNLIT, WHITE, counts, covered, on_pixel_grid, pixel_grid_camera, recolored, unlit_scene
-from shackled import Camera, Mesh, Object, Scene
+from judge import render
+from judge.verdict import outside
+from pictures import (
+    UNLIT,
+    WHITE,
+    call_data,
+    counts,
+    covered,
+    draw,
+    on_pixel_grid,
+    pixel_grid_camera,
+    recolored,
+    unlit_scene,
+)
+from shackled import Camera, Light, Material, Mesh, Object, Scene
+from shackled.datasets.common import shapes
+from shackled.scene import fit
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -98,26 +113,15 @@ def test_a_clipped_plane_covers_each_pixel_once(seed: int) -> None:
     assert times.sum() > 800
 
 
-BOX_FACES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-
-
 def box(size: float) -> Mesh:
     """A cube of 12 triangles, seen from outside."""
-    corners = size * np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
-    faces = [(a, b, c) for a, b, c, _ in BOX_FACES] + [(a, c, d) for a, _, c, d in BOX_FACES]
-    return recolored(Mesh(corners, faces), WHITE)
+    return recolored(evolve(shapes.cube(), positions=np.sign(shapes.cube().positions) * size), WHITE)
 
 
-def torus(rings: int = 14, sides: int = 9) -> Mesh:
+def torus(across: int = 14, down: int = 9) -> Mesh:
     """A closed surface that hides parts of itself."""
-    u, v = np.meshgrid(2 * np.pi * np.arange(rings) / rings, 2 * np.pi * np.arange(sides) / sides, indexing="ij")
-    radius = 700 + 300 * np.cos(v)
-    points = np.stack([radius * np.cos(u), radius * np.sin(u), 300 * np.sin(v)], axis=-1)
-    number = np.arange(rings * sides).reshape(rings, sides)
-    a, b = number, np.roll(number, -1, axis=0)
-    c, d = np.roll(b, -1, axis=1), np.roll(a, -1, axis=1)
-    faces = np.concatenate([np.stack(corners, axis=-1).reshape(-1, 3) for corners in ((a, b, c), (a, c, d))])
-    return recolored(Mesh(np.rint(points.reshape(-1, 3)), faces), WHITE)
+    mesh = shapes.torus(0.7, 0.3, across, down)
+    return recolored(evolve(mesh, positions=np.rint(1000 * mesh.positions)), WHITE)
 
 
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
@@ -166,14 +170,29 @@ def test_a_room_from_within_has_no_holes(half_height: float, size: float) -> Non
         assert covered(unlit_scene(box(size), camera, 40, 30)).all()
 
 
-def test_walls_seen_from_within_are_back_faces() -> None:
-    room = Object(box(500), material=UNLIT, cull=True)
-    assert not covered(unlit_scene([room], Camera(near=1), 20)).any()
-
-
 def test_a_fine_mesh_has_no_gaps() -> None:
     """Hills of triangles smaller than a pixel, before a background that would show."""
     rng = np.random.default_rng(3)
     points, faces = jittered_grid(rng, 60)
     corners = np.rint(np.column_stack([1500 * points, rng.uniform(-15, 15, len(points)) - 1200]))
     assert covered(unlit_scene(Mesh(corners, faces, np.full((len(points), 3), 255)), Camera(near=1), 40)).all()
+
+
+#: One colour everywhere, so that a pixel shows how many of its samples are covered.
+PLAIN = Material("smooth", ambient=1.0, diffuse=0.0, specular=0.0)
+
+
+@pytest.mark.parametrize("mesh", [shapes.icosphere(1), shapes.icosphere(2), torus()], ids=["80", "320", "torus"])
+def test_each_sample_of_a_smooth_surface_is_covered_once(mesh: Mesh) -> None:
+    """From all sides, every third time so near that faces are clipped: exact where open edges are, whole elsewhere."""
+    rng = np.random.default_rng(len(mesh.faces))
+    thing = Object(recolored(mesh, WHITE), material=PLAIN, scale=1000 / np.linalg.norm(mesh.positions, axis=1).max())
+    for i in range(6):
+        direction = rng.normal(size=3)
+        eye = direction / np.linalg.norm(direction) * 1000 * (1.05 if i % 3 == 2 else rng.uniform(1.8, 4))
+        camera = Camera(tuple(eye), tuple(rng.normal(size=3) * 125), near=20)
+        sun = Light("directional", (1, 2, 3))
+        scene = fit(Scene([thing], camera, [sun], "black", width=48, height=48, antialias=True))
+        expected = render(call_data("render", scene))
+        # samples that are covered twice or never, or beyond the silhouette, are a quarter of white off
+        assert outside(draw(scene), expected.low, expected.high).max() <= 1

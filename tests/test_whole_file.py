@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import stat
 import threading
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -17,22 +16,17 @@ needs_posix = pytest.mark.skipif(os.name != "posix", reason="links, pipes and mo
 needs_full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
 
 
-@pytest.fixture
-def mask() -> Iterator[None]:
-    before = os.umask(0o027)
-    yield
-    os.umask(before)
-
-
 @needs_posix
-@pytest.mark.usefixtures("mask")
-def test_others_may_read_it_as_of_any_file(tmp_path: Path) -> None:
-    write_whole(tmp_path / "a", b"1")
-    assert stat.S_IMODE((tmp_path / "a").stat().st_mode) == 0o640
-    os.umask(0o022)
-    write_whole(tmp_path / "a", b"2")
-    assert stat.S_IMODE((tmp_path / "a").stat().st_mode) == 0o644
-    assert (tmp_path / "a").read_bytes() == b"2"
+@pytest.mark.parametrize(("mask", "mode"), [(0o027, 0o640), (0o022, 0o644)])
+def test_others_may_read_it_as_of_any_file(tmp_path: Path, mask: int, mode: int) -> None:
+    before = os.umask(mask)
+    try:
+        for data in (b"1", b"2"):
+            write_whole(tmp_path / "a", data)
+            assert stat.S_IMODE((tmp_path / "a").stat().st_mode) == mode
+            assert (tmp_path / "a").read_bytes() == data
+    finally:
+        os.umask(before)
 
 
 @needs_posix
@@ -53,9 +47,8 @@ def test_links_stay_and_their_files_are_written(tmp_path: Path) -> None:
 
 @needs_posix
 def test_links_that_lead_nowhere(tmp_path: Path) -> None:
-    (tmp_path / "a.png").symlink_to("b.png")
-    (tmp_path / "b.png").symlink_to("a.png")
-    (tmp_path / "c.png").symlink_to("missing/c.png")
+    for name, leads in (("a.png", "b.png"), ("b.png", "a.png"), ("c.png", "missing/c.png")):
+        (tmp_path / name).symlink_to(leads)
     for name in ("a.png", "c.png"):
         with pytest.raises(InputError, match=f"{name} cannot be written: "):
             write_output(tmp_path / name, b"1")

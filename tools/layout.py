@@ -1,6 +1,6 @@
 """Write the files that are made of contracts/layout.toml, the table of registers and packed words.
 
-python tools/layout.py            writes the files of contracts/src/words but Memory.sol, gas/_layout.py,
+python tools/layout.py            writes the files of contracts/src/words but Memory.sol, chain/_layout.py,
                                   scene/_records.py, and scene/records.ts of web/
 python tools/layout.py --check    writes nothing; fails if a file is not as it would be written
 
@@ -23,7 +23,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "contracts" / "layout.toml"
 FOLDER = ROOT / "contracts" / "src" / "words"
-PACKAGE = ROOT / "src" / "shackled" / "gas" / "_layout.py"
+PACKAGE = ROOT / "src" / "shackled" / "chain" / "_layout.py"
 #: The kinds of the records of Scene.extensions.
 KINDS = ROOT / "src" / "shackled" / "scene" / "_records.py"
 WEB_KINDS = ROOT / "web" / "src" / "scene" / "records.ts"
@@ -268,9 +268,7 @@ def kinds_of_packages(table: dict[str, Any]) -> tuple[str, str]:
     ]
     python = [f'"""{title}"""', "", *kind_lines, "", *number_lines, ""]
     python += [line for text, constant in single for line in (f"#: {text}", constant)]
-    python += ["#: What a record of each kind belongs to.", "OWNERS = {"]
-    python += [f'    {name}: "{owner}",' for name, _, owner, _, _ in part["kinds"]]
-    python += ["}", "#: Bytes of its content; None for any number of words.", "SIZES: dict[int, int | None] = {"]
+    python += ["#: Bytes of its content; None for any number of words.", "SIZES: dict[int, int | None] = {"]
     python += [f"    {name}: {None if size == 'words' else size}," for name, _, _, size, _ in part["kinds"]]
     web = [f"// {title}", "", *(f"export const {line};" for line in kind_lines), ""]
     web += [*(f"export const {line};" for line in number_lines), ""]
@@ -323,7 +321,7 @@ def python(sections: Iterator[Section], used: set[str]) -> str:
 
 
 def used_names() -> set[str]:
-    """Return the names that gas/_runs.py uses of gas/_layout.py, as `layout.NAME`."""
+    """Return the names that chain/_runs.py uses of chain/_layout.py, as `layout.NAME`."""
     return set(re.findall(r"\blayout\.([A-Z]\w+)", PACKAGE.with_name("_runs.py").read_text("utf-8")))
 
 

@@ -12,7 +12,7 @@ import argparse
 from pathlib import Path
 
 from shackled.library import Item, items
-from shackled.scene import SHADINGS
+from shackled.scene._codec import SHADINGS
 
 ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "contracts" / "src" / "library" / "ItemTable.sol"

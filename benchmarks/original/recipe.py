@@ -141,11 +141,11 @@ def documents(files: Path | None = None) -> Iterator[tuple[str, Document]]:
 def file_of(name: str, source: Source, files: Path | None) -> Path:
     """Return the file of a model, whose checksum is right; InputError otherwise."""
     if files is None:
-        return download(Model(name, name, "", "", False, [source.address], source.checksum))
+        return download(Model(name, name, "", "", False, source.address, source.checksum))
     path = files / source.address.rpartition("/")[2]
     if not path.is_file():
         raise InputError(f"{path} does not exist; it is {source.address}")
-    if (found := checksum(path, source.checksum)) != source.checksum:
+    if (found := checksum(path.read_bytes(), source.checksum)) != source.checksum:
         raise InputError(f"{path} is not {source.address}: its checksum is {found} instead of {source.checksum}")
     return path
 

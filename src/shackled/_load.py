@@ -127,7 +127,7 @@ def locate(input: str | os.PathLike[str]) -> Path | Piece | Link:
 
 
 def _unplaced(part: MeshPart, up: Axis = "y") -> Object:
-    """Return a part of a model as an object, which `look_at` is to place. up: the axis that points up."""
+    """Return a part of a model, of which an axis points up, as an object that `look_at` is to place."""
     material = evolve(MESH_STAGING.material, **part.material)
     return Object(part.mesh, (0, 0, 0), upright(up), material=material, opacity=part.opacity, two_sided=part.two_sided)
 
@@ -142,13 +142,9 @@ def _model(path: Path, look: Mapping[str, Any], **pose: Any) -> list[Object]:
 def _in_their_places(parts: list[Object], name: str) -> Scene:
     """Return parts of a model, shaded as when they are staged, but in their own places. name: for notes."""
     staged = look_at(parts, {}, name=name)
-    return evolve(
-        staged,
-        objects=[
-            evolve(each, position=(0, 0, 0), rotation=part.rotation, scale=1)
-            for each, part in zip(staged.objects, parts, strict=True)
-        ],
-    )
+    pairs = zip(staged.objects, parts, strict=True)
+    back = [evolve(each, position=(0, 0, 0), rotation=part.rotation, scale=1) for each, part in pairs]
+    return evolve(staged, objects=back)
 
 
 def pose_of(look: dict[str, Any]) -> dict[str, Any]:
@@ -176,47 +172,32 @@ def _made(thing: Any, look: Mapping[str, Any]) -> Mesh | list[Object] | Scene:
     if isinstance(thing, Link):
         return thing.scene()
     if isinstance(thing, Piece):
-        return _in_default_look(thing)
-    if isinstance(thing, Object) or _is_trimesh_scene(thing):
-        return _staged(_placed(thing), look)
+        scene, side = thing.make(), MESH_STAGING.side
+        # each scene of the showcase has its own look; other pieces have that of mesh files
+        return evolve(scene, width=side, height=side, antialias=True) if thing.dataset in DATASETS else scene
+    if isinstance(thing, Object):
+        return _staged([thing], look)
     if is_trimesh(thing):
-        return [_unplaced(part_of(thing))]
-    if not isinstance(thing, list | tuple):
-        raise InputError(
-            "a path, the name of a piece, a Mesh, (vertices, faces), a Scene or a mesh of trimesh is needed, not "
-            f"{thing!r:.60}"
-        )
-    if thing and _is_input(thing[0]):
-        return _combined(thing, look)
-    if 2 <= len(thing) <= 4:
-        return Mesh(*thing)
-    raise InputError(f"vertices and faces are needed, not {len(thing)} parts: {thing!r:.60}")
-
-
-def _in_default_look(piece: Piece) -> Scene:
-    """Return the scene of a piece with the size and the antialiasing of mesh files."""
-    side, scene = MESH_STAGING.side, piece.make()
-    # each scene of the showcase has its own
-    return evolve(scene, width=side, height=side, antialias=True) if piece.dataset in DATASETS else scene
-
-
-def _is_trimesh_scene(thing: object) -> bool:
-    return is_trimesh(thing) and hasattr(thing, "graph")
+        return _staged(list(objects_of(thing)), look) if hasattr(thing, "graph") else [_unplaced(part_of(thing))]
+    if isinstance(thing, list | tuple):
+        if thing and _is_input(thing[0]):
+            return _combined(thing, look)
+        if 2 <= len(thing) <= 4:
+            return Mesh(*thing)
+        raise InputError(f"vertices and faces are needed, not {len(thing)} parts: {thing!r:.60}")
+    raise InputError(
+        "a path, the name of a piece, a Mesh, (vertices, faces), a Scene or a mesh of trimesh is needed, not "
+        f"{thing!r:.60}"
+    )
 
 
 def _is_input(thing: Any) -> bool:
     """Return whether a member of a list is an input by itself; otherwise the list may be (vertices, faces)."""
     if isinstance(thing, list | tuple) and thing:
         first = thing[0]
-        are_arrays = (
-            2 <= len(thing) <= 4 and hasattr(first, "__len__") and len(first) > 0 and hasattr(first[0], "__len__")
-        )
-        return are_arrays or _is_input(first)
+        has_rows = hasattr(first, "__len__") and len(first) > 0 and hasattr(first[0], "__len__")
+        return (has_rows and 2 <= len(thing) <= 4) or _is_input(first)
     return isinstance(thing, str | os.PathLike | Piece | Link | Mesh | Object | Scene) or is_trimesh(thing)
-
-
-def _placed(thing: Any) -> list[Object]:
-    return [thing] if isinstance(thing, Object) else list(objects_of(thing))
 
 
 def _staged(objects: list[Object], look: Mapping[str, Any]) -> Scene:
@@ -236,33 +217,26 @@ def _combined(things: Sequence[Any], look: Mapping[str, Any]) -> list[Object] | 
             found = _located(thing)
             if isinstance(found, list | tuple) and found and _is_input(found[0]):
                 raise InputError("a list must not hold lists: give one list of all members")
-            if isinstance(found, Object) or _is_trimesh_scene(found):
-                parts = _placed(found)
-            elif isinstance(made := _made(found, look), Mesh):
-                parts = [Object(made)]
-            elif isinstance(made, Scene):
-                parts = list(made.objects)
-                if isinstance(found, Piece):
-                    pieces.append(slice(len(objects), len(objects) + len(parts)))
-                else:
-                    scenes.append(made)
-            else:
+            made = _made(found, look)
+            if isinstance(made, list):
                 model, models = [*model, *made], models + 1
-                name = str(found) if isinstance(found, Path) else "the mesh"
-                parts = list(_in_their_places(made, name).objects)
-        objects += parts
+                made = _in_their_places(made, str(found) if isinstance(found, Path) else "the mesh")
+            elif isinstance(made, Scene) and isinstance(found, Scene | Path | Link):
+                scenes.append(made)
+            parts = [Object(made)] if isinstance(made, Mesh) else made.objects
+            if isinstance(found, Piece):
+                pieces.append(slice(len(objects), len(objects) + len(parts)))
+            objects += parts
     if models == len(things):
         return model
     if len(pieces) > 1:
         _stand_in_a_row(objects, pieces)
     if not scenes:
         return _staged(objects, look)
-    differ = [
-        each.name
-        for each in fields(Scene)
-        if any(getattr(other, each.name) != getattr(scenes[0], each.name) for other in scenes[1:])
-        and each.name not in ("objects", *(("width", "height") if "size" in look else ()))
-    ]
+    names = [each.name for each in fields(Scene) if each.name != "objects"]
+    if "size" in look:
+        names = [name for name in names if name not in ("width", "height")]
+    differ = [name for name in names if any(getattr(other, name) != getattr(scenes[0], name) for other in scenes)]
     if differ:
         raise InputError(
             f"the scenes of the list differ in {', '.join(differ)}: give a list of their objects, [*one.objects, "

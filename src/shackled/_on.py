@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from attrs import field, frozen
 
-from .chain import CHAINS, DEFAULT_GAS_LIMIT, Chain, check_chain, check_timeout, check_url, open_chain, open_node
+from .chain import (
+    CHAINS,
+    DEFAULT_GAS_LIMIT,
+    Chain,
+    RevmChain,
+    check_chain,
+    check_timeout,
+    check_url,
+    open_chain,
+    open_node,
+)
 from .checks import choice, integer, whole
 from .errors import ChainError, InputError, NodeError, OutOfGasError
 from .ethereum import parse_address
@@ -44,6 +53,11 @@ class Embedded:
     chain: Chain | str | None = None
     verify: str | None = None
 
+    @property
+    def evm(self) -> str | None:
+        """Return the name of the EVM; None for a chain that the caller made."""
+        return self.chain if isinstance(self.chain, str) else None
+
     def opened(self) -> Chain:
         """Return the chain."""
         return open_chain(self.chain) if self.chain is None or isinstance(self.chain, str) else self.chain
@@ -52,9 +66,8 @@ class Embedded:
         """Return the backends of a job."""
         from .parallel import ChainBackend, limited
 
-        if self.chain is None or isinstance(self.chain, str):
-            return [ChainBackend(limited(self.chain, gas_limit), gas=gas_limit)]
-        return [ChainBackend(self.chain, gas=gas_limit)]
+        is_named = self.chain is None or isinstance(self.chain, str)
+        return [ChainBackend(limited(self.evm, gas_limit) if is_named else self.opened(), gas=gas_limit)]
 
 
 @frozen
@@ -77,10 +90,12 @@ class Processes:
 
     def open(self, listener: Listener, gas_limit: int | None = None) -> list[Backend]:
         """Return the backends of a job."""
-        from .parallel import ThreadBackend
+        from .parallel import ChainBackend
 
         if self.evm in (None, "revm"):
-            return [ThreadBackend(self.count, gas_limit)]
+            chain = RevmChain(gas_limit or DEFAULT_GAS_LIMIT, is_stoppable=True)
+            chain.address("Renderer")  # set up here, before several threads ask for it
+            return [ChainBackend(chain, self.count, gas=gas_limit)]
         listener.warned(f"{self.evm} holds the lock of the Python interpreter: its calls run one after the other")
         return Embedded(self.evm).open(listener, gas_limit)
 
@@ -103,9 +118,9 @@ def _timeout(value: float | None) -> float | None:
     return None if value is None else check_timeout(value)
 
 
-def _scheduler(value: str | None) -> str | None:
-    if value is not None and (not isinstance(value, str) or ":" not in value):
-        raise InputError(f"`address` must be that of a scheduler, such as tcp://host:8786, not {value!r:.60}")
+def _scheduler(value: str) -> str:
+    if not isinstance(value, str) or ":" not in value:
+        raise InputError(f"a cluster needs the address of its scheduler, such as tcp://host:8786, not {value!r:.60}")
     return value
 
 
@@ -155,10 +170,6 @@ class Nodes:
             raise last
         return backends
 
-    def only(self, urls: Sequence[str]) -> Nodes:
-        """Return some of the nodes."""
-        return Nodes(*urls, address=self.address, timeout=self.timeout, jobs=self.jobs or 1, verify=self.verify)
-
     def _open(self, url: str, gas_limit: int | None) -> Backend:
         from .parallel import ChainBackend
 
@@ -177,14 +188,12 @@ class Nodes:
 class Cluster:
     """A dask cluster (the extra `cluster`).
 
-    address: address of the scheduler, such as tcp://host:8786; None starts a cluster on this machine.
-    jobs: number of workers of a cluster on this machine; None for one per processor.
+    address: address of the scheduler, such as tcp://host:8786.
     evm: as in `Processes`.
     verify: as in `Nodes`; None compares nothing.
     """
 
-    address: str | None = field(default=None, converter=_scheduler)
-    jobs: int | None = field(default=None, converter=_jobs)
+    address: str = field(converter=_scheduler)
     evm: str | None = field(default=None, converter=_evm)
     verify: str | None = field(default=None, converter=_verify)
 
@@ -193,8 +202,7 @@ class Cluster:
         from .parallel import ClusterBackend
 
         # workers with the same contracts are trusted, unless `verify` is given
-        jobs = self.jobs or os.cpu_count() or 1
-        return [ClusterBackend(self.address, jobs, self.evm, gas_limit, self.verify is not None)]
+        return [ClusterBackend(self.address, self.evm, gas_limit, self.verify is not None)]
 
 
 #: Where calls run: in the EVM of this name, at the node of this address, in this EVM, or in one of these.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
 
@@ -13,14 +13,14 @@ from attrs import evolve
 from ._load import Thing, load_frames, load_picture
 from ._on import Bounds, Embedded, On, Place, is_one_call, place_of
 from .animation import DURATION, DURATIONS, Animation
-from .chain import Chain
+from .chain import Drawing
 from .errors import InputError, warn
 from .image import Image, decode_bmp, uncovered
 from .scene import Background, LookOptions, Scene, full_turn
 from .words import with_words
 
 if TYPE_CHECKING:
-    from .parallel import Counter, Listener
+    from .parallel import Listener
 
 
 @with_words
@@ -57,10 +57,15 @@ def render(
     """
     scene, place, bounds = load_picture(thing, size, **look), place_of(on), Bounds(gas_limit, tile)
     if fit is not None:
+        from .gas import fit_scene
+
         for name, given in (("tile", tile), ("gas_limit", gas_limit)):
             if given is not None:
                 raise InputError(f"`fit` and `{name}` exclude each other: give one of them")
-        scene = _fitted(scene, fit, look)
+        found = fit_scene(scene, fit, look.get("crease"))
+        if found.scene != scene:
+            warn(found.sentence)
+        scene = found.scene
     if not transparent:
         return draw([scene], place, bounds, listener, keep)[0]
     black, white = draw(_twice(scene), place, bounds, listener, keep)
@@ -155,7 +160,7 @@ def film(
     from .parallel import render_frames
 
     drawn = [each for scene in scenes for each in _twice(scene)] if transparent else scenes
-    images = render_frames(drawn, place, bounds, listener, keep).images
+    images = render_frames(drawn, place, bounds, listener, keep)
     if transparent:
         images = [uncovered(*both) for both in zip(images[::2], images[1::2], scenes, strict=True)]
     return Animation(images, duration)
@@ -171,34 +176,26 @@ def draw(
     scenes: Sequence[Scene], place: Place, bounds: Bounds, listener: Listener | None = None, keep: Path | None = None
 ) -> list[Image]:
     """Render scenes of one size, by one call each or by several."""
-    from .parallel import Counter, render_frames
+    from .parallel import render_frames
 
     if isinstance(place, Embedded) and all(is_one_call(place, scene, bounds) for scene in scenes):
-        return [render_whole(scene, place.opened(), Counter(place)) for scene in scenes]
-    return render_frames(scenes, place, bounds, listener, keep).images
+        chain, evm = place.opened(), place.evm
+        return [render_whole(scene, chain.draw, chain.name, evm) for scene in scenes]
+    return render_frames(scenes, place, bounds, listener, keep)
 
 
-def render_whole(scene: Scene, chain: Chain, counter: Counter) -> Image:
-    """Render a scene by one call."""
+def render_whole(scene: Scene, draw: Callable[[Scene], Drawing], made_by: str, evm: str | None = None) -> Image:
+    """Render a scene by one call. draw: makes it. made_by, evm: see `Image`."""
     started = time.perf_counter()
-    drawing = chain.draw(scene)
+    drawing = draw(scene)
     seconds = time.perf_counter() - started
     return Image(
         pixels=decode_bmp(drawing.bmp, scene.width, scene.height),
         bmp=drawing.bmp,
         gas=drawing.gas,
         intrinsic_gas=drawing.intrinsic_gas,
-        made_by=chain.name,
+        made_by=made_by,
         seconds=seconds,
         scene=scene,
-        counter=counter,
+        evm=evm,
     )
-
-
-def _fitted(scene: Scene, fit: str, look: LookOptions) -> Scene:
-    from .gas import fit_scene
-
-    found = fit_scene(scene, fit, look.get("crease"))
-    if found.scene != scene:
-        warn(found.sentence)
-    return found.scene

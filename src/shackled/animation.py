@@ -7,6 +7,8 @@ import os
 import tempfile
 import webbrowser
 from collections.abc import Iterable, Iterator, Sequence
+from fractions import Fraction
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -17,16 +19,16 @@ from PIL import Image as PillowImage
 from PIL import ImageSequence
 
 from .checks import number
-from .errors import InputError
+from .errors import InputError, not_installed
 from .image import (
     WEBP,
     Format,
     Image,
+    Pixels,
     as_array,
-    check_alpha,
     check_extension,
-    check_scene,
     data_uri,
+    encoded,
     gas_in_short,
     indexed,
     one_of,
@@ -35,11 +37,10 @@ from .image import (
     total,
     write_open,
 )
-from .mp4 import check_mp4, encode_mp4
 from .scene import PICTURE
 from .values import plural
 from .whole_file import check_output_file, check_output_folder, make_output_folder, write_output
-from .words import Words, with_duration, words_of
+from .words import with_duration, words_of
 
 if TYPE_CHECKING:
     from .studio import ContractFile
@@ -62,7 +63,7 @@ def _frames(frames: Iterable[Image | ArrayLike]) -> tuple[Image, ...]:
 
 @words_of("fps", read=with_duration)
 @frozen(repr=False)
-class Animation(Words):
+class Animation:
     """Frames as a contract made them, all of one size, repeated endlessly. They are its members: len, [n] and `for`.
 
     frames: Images, or pixels, (H, W, 3). duration: of each frame in milliseconds, 20..10,000. file: the APNG, if a
@@ -131,13 +132,7 @@ class Animation(Words):
         and needs the extra `mp4`; the others are exact. Frames with alpha need ".png" or ".webp".
         scene: whether an APNG carries the scene of its first frame, as in `Image.encode`; that of a contract does not.
         """
-        extension = check_extension(extension, FORMATS)
-        if self.frames[0].alpha is not None:
-            check_alpha(extension, FORMATS)
-        if extension == PICTURE:
-            return _encode_apng(self, scene)
-        check_scene(scene, extension)
-        return FORMATS[extension].encode(self)
+        return encoded(self, self.frames[0].alpha is not None, extension, FORMATS, scene)
 
     def save(
         self, file: str | os.PathLike[str] | BinaryIO, extension: str | None = None, scene: bool | None = None
@@ -186,7 +181,7 @@ def _encode(animation: Animation, pictures: Sequence[PillowImage.Image], name: s
     return pillow_bytes(pictures[0], name, **more, **options)
 
 
-def _encode_gif(animation: Animation) -> bytes:
+def _encode_gif(animation: Animation, _: bool | None) -> bytes:
     pictures = indexed([frame.pixels for frame in animation.frames])
     return _encode(animation, pictures, "GIF", optimize=False, disposal=1)
 
@@ -198,12 +193,47 @@ def _encode_apng(animation: Animation, scene: bool | None = None) -> bytes:
     return _encode(animation, animation.to_pil(), "PNG", default_image=False, **options)
 
 
+#: How near to the frames it is: 0 is exact, and 18 is taken as hardly to be told from that.
+_QUALITY = "12"
+#: Units of time in a second: milliseconds.
+_UNITS = 1000
+
+
+def check_mp4() -> None:
+    """Raise an InputError if MP4 files cannot be written here."""
+    if find_spec("av") is None:
+        raise not_installed("an .mp4 file", "mp4")
+
+
+def encode_mp4(frames: Sequence[Pixels], duration: int) -> bytes:
+    """Return the file of frames, (H, W, 3), each shown for `duration` milliseconds. InputError as `check_mp4`.
+
+    Every player shows such files, whose colours have half the size, so sides are even: an odd one gets one more pixel.
+    """
+    check_mp4()
+    import av
+
+    file = io.BytesIO()
+    height, width = (side + side % 2 for side in frames[0].shape[:2])
+    with av.open(file, "w", format="mp4") as container:
+        stream = container.add_stream("libx264", rate=Fraction(_UNITS, duration), options={"crf": _QUALITY})
+        stream.width, stream.height, stream.pix_fmt = width, height, "yuv420p"
+        stream.codec_context.time_base = Fraction(1, _UNITS)
+        for number, pixels in enumerate(frames):
+            more = (height - pixels.shape[0], width - pixels.shape[1])
+            frame = av.VideoFrame.from_ndarray(np.pad(pixels, [(0, more[0]), (0, more[1]), (0, 0)], "edge"), "rgb24")
+            frame.pts, frame.time_base = number * duration, Fraction(1, _UNITS)
+            container.mux(stream.encode(frame))
+        container.mux(stream.encode(None))
+    return file.getvalue()
+
+
 #: The formats of `Animation.save`, by extension; a name without one is a folder.
 FORMATS: dict[str, Format[Animation]] = {
     ".gif": Format("image/gif", _encode_gif),
     PICTURE: Format("image/png", _encode_apng, has_alpha=True),
-    ".webp": Format("image/webp", lambda film: _encode(film, film.to_pil(), "WEBP", **WEBP), has_alpha=True),
-    MP4: Format("video/mp4", lambda film: encode_mp4([frame.pixels for frame in film.frames], film.duration)),
+    ".webp": Format("image/webp", lambda film, _: _encode(film, film.to_pil(), "WEBP", **WEBP), has_alpha=True),
+    MP4: Format("video/mp4", lambda film, _: encode_mp4([frame.pixels for frame in film.frames], film.duration)),
 }
 
 

@@ -33,6 +33,11 @@ def number(value: object, name: str = "a value", low: float = -math.inf, high: f
     return result
 
 
+def optional_number(value: object, name: str = "a value", low: float = -math.inf) -> float | None:
+    """Return None for None, and otherwise the result of `number`."""
+    return None if value is None else number(value, name, low)
+
+
 def integer(value: object) -> int | None:
     """Return `value` as an int, if it is one of Python or NumPy; None for anything else, such as a truth value."""
     try:
@@ -146,7 +151,7 @@ def _rgba_of_text(text: str, name: str) -> tuple[int, int, int, int]:
     return red, green, blue, alpha
 
 
-def choice(value: object, name: str, choices: Iterable[str]) -> str:
+def choice(value: object, name: str = "a word", choices: Iterable[str] = ()) -> str:
     """Return `value`, if it is one of `choices`. InputError for anything else."""
     if value not in (known := tuple(choices)):
         raise InputError(f"{name} must be one of {', '.join(known)}, not {value!r:.60}")

@@ -41,13 +41,8 @@ def caller() -> Place:
     frame = sys._getframe()
     while frame.f_back is not None and frame.f_code.co_filename.startswith(_INSIDE):
         frame = frame.f_back
-    names = frame.f_globals
-    return (
-        frame.f_code.co_filename,
-        frame.f_lineno,
-        names.get("__name__") or "",
-        names.setdefault("__warningregistry__", {}),
-    )
+    code, names = frame.f_code, frame.f_globals
+    return code.co_filename, frame.f_lineno, names.get("__name__") or "", names.setdefault("__warningregistry__", {})
 
 
 def warn(message: str, category: type[Warning] = InputWarning, place: Place | None = None) -> None:

@@ -6,7 +6,6 @@ import base64
 import hashlib
 import io
 import os
-import struct
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
@@ -52,7 +51,7 @@ class Image(Value):
     made_by: the EVM, node or cluster. seconds: the duration of the call, which == ignores.
     scene: None if it is not known. calls: the number of calls that made it. call_gas: the gas of the most expensive of
     them.
-    counter: counts triangles and covered pixels of the scene where the picture was made; None for the embedded EVM.
+    evm: the name of the embedded EVM that counts triangles and covered pixels; None for the default.
     alpha: (H, W) uint8, from 0 where there is nothing to 255; None for a picture with a background.
     """
 
@@ -65,7 +64,7 @@ class Image(Value):
     scene: Scene | None = None
     calls: int = 1
     alpha: Pixels | None = field(default=None, converter=_alpha, eq=array_key)
-    counter: Callable[[Scene], tuple[int, int]] | None = field(default=None, eq=False)
+    evm: str | None = field(default=None, eq=False)
     call_gas: int | None = None
 
     def __attrs_post_init__(self) -> None:
@@ -93,8 +92,8 @@ class Image(Value):
     def triangles(self) -> int | None:
         """The number of triangles after culling and clipping; None if the scene is not known.
 
-        Counted by the contract at the first access of this or `covered_pixels`, in calls of `renderCounted` where the
-        picture was made. Raises the errors of `render`.
+        Counted by the contract, in the embedded EVM, at the first access of this or `covered_pixels`. Raises the errors
+        of `render`.
         """
         return self._counts[0]
 
@@ -107,11 +106,9 @@ class Image(Value):
     def _counts(self) -> tuple[int, int] | tuple[None, None]:
         if self.scene is None:
             return None, None
-        if self.counter is not None:
-            return self.counter(self.scene)
-        from .chain import open_chain
+        from .parallel import count
 
-        return open_chain().count(self.scene)
+        return count(self.scene, self.evm)
 
     @property
     def sha256(self) -> str:
@@ -135,13 +132,7 @@ class Image(Value):
         picture with alpha needs ".png", ".svg" or ".webp".
         scene: whether a PNG file carries the scene, from which `load` restores it; None if it takes at most 64 KB.
         """
-        extension = check_extension(extension, FORMATS)
-        if self.alpha is not None:
-            check_alpha(extension, FORMATS)
-        if extension == PICTURE:
-            return _encode_png(self, scene)
-        check_scene(scene, extension)
-        return FORMATS[extension].encode(self)
+        return encoded(self, self.alpha is not None, extension, FORMATS, scene)
 
     def save(
         self, file: str | os.PathLike[str] | BinaryIO, extension: str | None = None, scene: bool | None = None
@@ -188,15 +179,27 @@ class Format(Generic[Encoded]):
     """A file format: its media type, its encoder, and whether it keeps alpha."""
 
     media_type: str
-    encode: Callable[[Encoded], bytes]
+    encode: Callable[[Encoded, bool | None], bytes]
     has_alpha: bool = False
+
+
+def encoded(
+    made: Encoded, has_alpha: bool, extension: object, formats: Mapping[str, Format[Any]], scene: bool | None
+) -> bytes:
+    """Return the bytes of a file of a picture or an animation. scene: as in `Image.encode`."""
+    kind = check_extension(extension, formats)
+    if has_alpha:
+        check_alpha(kind, formats)
+    if scene and kind != PICTURE:
+        raise InputError(f"only a {PICTURE} file carries its scene, not {kind}")
+    return formats[kind].encode(made, scene)
 
 
 def _encode_png(image: Image, scene: bool | None = None) -> bytes:
     return pillow_bytes(image.to_pil(), "PNG", **png_options(image, scene))
 
 
-def _encode_svg(image: Image) -> bytes:
+def _encode_svg(image: Image, _: bool | None) -> bytes:
     # a PNG, since image servers draw nothing for a bitmap within an SVG
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {image.width} {image.height}">'
@@ -205,27 +208,22 @@ def _encode_svg(image: Image) -> bytes:
     ).encode()
 
 
-def _encode_gif(image: Image) -> bytes:
-    return pillow_bytes(indexed([image.pixels])[0], "GIF")
-
-
-def _encode_jpeg(image: Image) -> bytes:
-    # colours of full resolution: edges of one pixel stay sharp
-    return pillow_bytes(image.to_pil(), "JPEG", quality=95, subsampling=0)
-
-
 #: Pillow's options for a WebP file that keeps every byte.
 WEBP = {"lossless": True, "exact": True}
+#: Its colours have full resolution: edges of one pixel stay sharp.
+JPEG: Format[Image] = Format(
+    "image/jpeg", lambda image, _: pillow_bytes(image.to_pil(), "JPEG", quality=95, subsampling=0)
+)
 
 #: The formats of `Image.save`, by extension.
 FORMATS: dict[str, Format[Image]] = {
     PICTURE: Format("image/png", _encode_png, has_alpha=True),
-    ".bmp": Format("image/bmp", lambda image: image.bmp),
+    ".bmp": Format("image/bmp", lambda image, _: image.bmp),
     ".svg": Format("image/svg+xml", _encode_svg, has_alpha=True),
-    ".gif": Format("image/gif", _encode_gif),
-    ".jpg": Format("image/jpeg", _encode_jpeg),
-    ".jpeg": Format("image/jpeg", _encode_jpeg),
-    ".webp": Format("image/webp", lambda image: pillow_bytes(image.to_pil(), "WEBP", **WEBP), has_alpha=True),
+    ".gif": Format("image/gif", lambda image, _: pillow_bytes(indexed([image.pixels])[0], "GIF")),
+    ".jpg": JPEG,
+    ".jpeg": JPEG,
+    ".webp": Format("image/webp", lambda image, _: pillow_bytes(image.to_pil(), "WEBP", **WEBP), has_alpha=True),
 }
 
 
@@ -259,12 +257,6 @@ def png_options(image: Image, scene: bool | None = None) -> dict[str, PngInfo]:
     return {"pnginfo": texts}
 
 
-def check_scene(scene: bool | None, extension: str) -> None:
-    """Refuse a scene in a file that is not a PNG file."""
-    if scene:
-        raise InputError(f"only a {PICTURE} file carries its scene, not {extension}")
-
-
 def check_alpha(extension: str, formats: Mapping[str, Format[Any]]) -> None:
     """Refuse one of the formats if it does not keep alpha."""
     if not formats[extension].has_alpha:
@@ -293,24 +285,24 @@ def uncovered(black: Image, white: Image, scene: Scene | None = None) -> Image:
         calls=black.calls + white.calls,
         call_gas=most(image.call_gas for image in both),
         alpha=alpha,
-        counter=black.counter,
+        evm=black.evm,
     )
 
 
 def total(numbers: Iterable[int | None]) -> int | None:
     """Return a sum of gas; None if it was not counted everywhere."""
-    found = 0
-    for number in numbers:
-        if number is None:
-            return None
-        found += number
-    return found
+    return _of_all(sum, numbers)
 
 
 def most(numbers: Iterable[int | None]) -> int | None:
     """Return the largest gas; None if it was not counted everywhere."""
+    return _of_all(max, numbers)
+
+
+def _of_all(function: Callable[[list[int]], int], numbers: Iterable[int | None]) -> int | None:
     found = [*numbers]
-    return None if None in found else max(each for each in found if each is not None)
+    counted = [each for each in found if each is not None]
+    return function(counted) if len(counted) == len(found) else None
 
 
 def data_uri(media_type: str, data: bytes) -> str:
@@ -362,14 +354,7 @@ def gas_in_short(gas: int | None) -> str:
 
 def encode_bmp(pixels: Pixels) -> bytes:
     """Return a BMP of 24 bits a pixel as the contracts make it, of pixels (H, W, 3), rows from the top."""
-    height, width, _ = pixels.shape
-    rows = pixels[::-1, :, ::-1].reshape(height, 3 * width)
-    body = np.pad(rows, ((0, 0), (0, -3 * width % 4))).tobytes()
-    # 24 bits a pixel, 2835 pixels per metre (72 dots per inch)
-    header = struct.pack(
-        "<2sIIIIiiHHIIiiII", b"BM", 54 + len(body), 0, 54, 40, width, height, 1, 24, 0, len(body), 2835, 2835, 0, 0
-    )
-    return header + body
+    return pillow_bytes(PillowImage.fromarray(pixels), "BMP", dpi=(72, 72))
 
 
 def decode_bmp(data: bytes, width: int, height: int) -> NDArray[np.uint8]:
@@ -412,12 +397,8 @@ def indexed(frames: Sequence[Pixels]) -> list[PillowImage.Image]:
         for picture in pictures:
             picture.putpalette(table)
         return pictures
-    if len(frames) == 1:
-        return [PillowImage.fromarray(frames[0]).quantize(MOST_COLORS, dither=PillowImage.Dither.NONE)]
-    step = -(-len(frames) // SAMPLED)
-    sample = PillowImage.fromarray(np.concatenate(frames[::step]))
-    palette = PillowImage.new("P", (1, 1))
-    palette.putpalette(sample.quantize(MOST_COLORS, dither=PillowImage.Dither.NONE).getpalette() or [])
+    sample = PillowImage.fromarray(np.concatenate(frames[:: -(-len(frames) // SAMPLED)]))
+    palette = sample.quantize(MOST_COLORS, dither=PillowImage.Dither.NONE)
     return [PillowImage.fromarray(f).quantize(palette=palette, dither=PillowImage.Dither.NONE) for f in frames]
 
 

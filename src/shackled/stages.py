@@ -6,7 +6,6 @@ contracts return pixels only, so the points of stages 1 and 2 are projected here
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,7 +16,8 @@ from PIL import ImageDraw, ImageFont
 
 from .chain import Chain, open_chain
 from .image import decode_bmp
-from .scene import Background, Camera, Material, Mesh, Object, Scene, fit
+from .scene import Background, Material, Mesh, Object, Scene, fit
+from .values import plural
 
 Pixels = NDArray[np.uint8]
 Floats = NDArray[np.float64]
@@ -55,29 +55,18 @@ def draw_stages(scene: Scene, chain: Chain | None = None) -> list[Stage]:
     drawing = chain.draw(scene)
     triangles, lit_pixels = chain.count(scene)
     plain = evolve(scene, invert=False, antialias=False)
+    wires, fill = (over_nothing(evolve(plain, objects=list(map(to, plain.objects))), chain) for to in (edges, filled))
     gas = "" if drawing.gas is None else f", {drawing.gas:,} gas"
+    specified = f"{len(colors):,} points, {sent.triangles:,} faces"
+    composited = f"{scene.width} x {scene.height} pixels{gas}"
+    picture = decode_bmp(drawing.bmp, scene.width, scene.height)
     return [
-        Stage(
-            "1-vertices",
-            "Vertex specification",
-            f"{len(colors):,} points, {sent.triangles:,} faces",
-            specified_points(sent, colors),
-        ),
+        Stage("1-vertices", "Vertex specification", specified, specified_points(sent, colors)),
         Stage("2-projected", "Vertex shader", f"{on_canvas:,} points on the canvas", seen),
-        Stage(
-            "3-triangles",
-            "Primitive assembly",
-            f"{triangles:,} triangles left",
-            over_nothing(_each(plain, edges), chain),
-        ),
-        Stage("4-filled", "Rasterization", f"{lit_pixels:,} pixels covered", over_nothing(_each(plain, filled), chain)),
+        Stage("3-triangles", "Primitive assembly", f"{triangles:,} triangles left", wires),
+        Stage("4-filled", "Rasterization", f"{lit_pixels:,} pixels covered", fill),
         Stage("5-lit", "Fragment shader", _lights(scene), over_nothing(plain, chain)),
-        Stage(
-            "6-picture",
-            "Compositing",
-            f"{scene.width} x {scene.height} pixels{gas}",
-            decode_bmp(drawing.bmp, scene.width, scene.height),
-        ),
+        Stage("6-picture", "Compositing", composited, picture),
     ]
 
 
@@ -108,23 +97,15 @@ def projected_points(scene: Scene, colors: Pixels) -> tuple[Pixels, int]:
 def project(points: Floats, scene: Scene) -> tuple[Floats, Floats]:
     """Return where points of the world (n, 3) appear, in pixels from the top left corner, and their distances."""
     camera = scene.camera
-    right, up, forward = axes_of(camera)
-    away = points - camera.eye
-    distances = away @ forward
-    flat = np.stack([away @ right, -(away @ up)], axis=1) * scene.height / (2 * camera.half_height)
+    forward = camera.target - camera.eye
+    right = np.cross(forward, camera.up)
+    up = np.cross(right, forward)
+    x, y, distances = ((points - camera.eye) @ (axis / np.linalg.norm(axis)) for axis in (right, up, forward))
+    flat = np.stack([x, -y], axis=1) * scene.height / (2 * camera.half_height)
     if camera.projection == "perspective":
         # nothing is seen behind the eye
         flat /= np.where(distances > 0, distances, np.inf)[:, None]
     return flat + np.array([scene.width, scene.height]) / 2, distances
-
-
-def axes_of(camera: Camera) -> tuple[Floats, Floats, Floats]:
-    """Return the directions right, up and forward."""
-    forward = camera.target - camera.eye
-    right = np.cross(forward, camera.up)
-    up = np.cross(right, forward)
-    right, up, forward = (each / np.linalg.norm(each) for each in (right, up, forward))
-    return right, up, forward
 
 
 def with_points(pixels: Pixels, places: NDArray[np.float64], colors: ArrayLike, order: NDArray[np.float64]) -> Pixels:
@@ -156,11 +137,8 @@ def filled(o: Object) -> Object:
         return evolve(o, material=UNLIT)
     shades = DARKEST + (1 - DARKEST) * (np.arange(len(faces)) * GOLDEN % 1)
     colors = o.mesh.colors[faces] * shades[:, None, None]
-    split = Mesh(
-        o.mesh.positions[faces].reshape(-1, 3),
-        np.arange(faces.size).reshape(-1, 3),
-        np.rint(colors).astype(np.uint8).reshape(-1, 3),
-    )
+    corners = np.arange(faces.size).reshape(-1, 3)
+    split = Mesh(o.mesh.positions[faces].reshape(-1, 3), corners, np.rint(colors).astype(np.uint8).reshape(-1, 3))
     return evolve(o, mesh=split, material=UNLIT)
 
 
@@ -182,13 +160,9 @@ def nothing(scene: Scene) -> Pixels:
     return np.repeat(grey[:, :, None], 3, axis=2)
 
 
-def _each(scene: Scene, change: Callable[[Object], Object]) -> Scene:
-    return evolve(scene, objects=[change(o) for o in scene.objects])
-
-
 def _lights(scene: Scene) -> str:
     shadings = sorted({o.material.shading for o in scene.objects})
-    lights = f"{len(scene.lights)} light{'' if len(scene.lights) == 1 else 's'}"
+    lights = plural(len(scene.lights), "light")
     return f"{' and '.join(shadings)}, {lights}" if shadings else lights
 
 

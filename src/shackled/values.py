@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import numpy as np
 from attrs import Attribute
 
-from .words import Words
 
-
-class Value(Words):
+class Value:
     """A base of frozen attrs classes with arrays.
 
     Unpickling calls the constructor, because NumPy does not restore that an array is read-only.
@@ -24,12 +22,6 @@ class Value(Words):
         values = {each.name: getattr(self, each.name) for each in self.__attrs_attrs__}
         return _rebuild, (type(self), values)
 
-    def __copy__(self) -> Self:
-        return self
-
-    def __deepcopy__(self, _: dict[int, Any]) -> Self:
-        return self
-
 
 def _rebuild(kind: Callable[..., Any], values: dict[str, Any]) -> Any:
     return kind(**values)
@@ -41,22 +33,25 @@ def checked(name: str, *limits: object) -> dict[str, Any]:
 
 
 def with_names(_: type, fields: list[Attribute[Any]]) -> list[Attribute[Any]]:
-    """Hand the names and limits of `checked` to the converters of the fields; a `field_transformer` of attrs."""
-    return [_named(field) if "checked" in field.metadata else field for field in fields]
+    """Hand the names and limits of `checked` to the converters of the fields, and compare arrays by `array_key`.
+
+    It is a `field_transformer` of attrs.
+    """
+    return [_named(field).evolve(eq_key=array_key) for field in fields]
 
 
 def _named(field: Attribute[Any]) -> Attribute[Any]:
     convert: Callable[..., Any] = field.converter  # type: ignore[assignment]
-    arguments = field.metadata["checked"]
-    return field.evolve(converter=lambda value: convert(value, *arguments))
+    arguments = field.metadata.get("checked")
+    return field if arguments is None else field.evolve(converter=lambda value: convert(value, *arguments))
 
 
-def array_key(array: np.ndarray | None) -> object:
-    """Return what is compared and hashed in place of an array: arrays of the same numbers have the same key."""
-    if array is None:
-        return None
+def array_key(value: object) -> object:
+    """Return what is compared and hashed in place of a value: arrays of the same numbers have the same key."""
+    if not isinstance(value, np.ndarray):
+        return value
     # + 0.0: -0.0 equals 0.0
-    return array.shape, (array + 0.0 if array.dtype.kind == "f" else array).tobytes()
+    return value.shape, (value + 0.0 if value.dtype.kind == "f" else value).tobytes()
 
 
 def listed(names: Sequence[str]) -> str:

@@ -5,23 +5,17 @@ from __future__ import annotations
 import errno
 import os
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from .errors import InputError, OutputError
 
 #: Bytes of a file's name that are repeated in that of its temporary file; names have at most 255.
 NAME = 200
-#: Errors of a path, and not of the disk.
-WRONG_PATH = {
-    errno.EACCES,
-    errno.EISDIR,
-    errno.ELOOP,
-    errno.ENAMETOOLONG,
-    errno.ENOENT,
-    errno.ENOTDIR,
-    errno.EPERM,
-    errno.EROFS,
-}
+#: Errors of a path, and not of the disk: those that have classes, and the others.
+WRONG_PATH = (PermissionError, FileNotFoundError, IsADirectoryError, NotADirectoryError)
+WRONG_PATH_NUMBERS = (errno.ELOOP, errno.ENAMETOOLONG, errno.EROFS)
 
 
 def write_output(path: Path, data: bytes) -> None:
@@ -29,29 +23,21 @@ def write_output(path: Path, data: bytes) -> None:
 
     InputError where the path is wrong, OutputError where the disk is full or fails.
     """
-    try:
+    with _of_user(path):
         write_whole(path, data)
-    except OSError as error:
-        raise _failure(path, error) from None
 
 
 def make_output_folder(path: Path) -> None:
     """Make a folder that the user has named, and its parents. Errors as in `write_output`."""
-    try:
-        path.mkdir(parents=True, exist_ok=True)
-    except FileExistsError:
-        raise InputError(f"{path} is a file, not a folder to write to") from None
-    except OSError as error:
-        raise _failure(path, error) from None
+    with _of_user(path):
+        check_output_folder(path).mkdir(parents=True, exist_ok=True)
 
 
 def check_output_folder(path: Path) -> Path:
     """Return the path, if it is a folder or does not exist; otherwise InputError."""
-    try:
+    with _of_user(path):
         if path.exists() and not path.is_dir():
             raise InputError(f"{path} is a file, not a folder to write to")
-    except OSError as error:
-        raise _failure(path, error) from None
     return path
 
 
@@ -60,7 +46,7 @@ def check_output_file(path: Path, what: str, in_new_folder: bool = False) -> Pat
 
     what: the word for it in messages. in_new_folder: whether its folder will be made if it does not exist.
     """
-    try:
+    with _of_user(path):
         if path.is_dir():
             raise InputError(f"{path} is a folder, not the file of a {what}")
         is_special = path.exists() and not path.is_file()
@@ -69,8 +55,6 @@ def check_output_file(path: Path, what: str, in_new_folder: bool = False) -> Pat
             return path
         if not folder.is_dir():
             raise InputError(f"the folder {folder} of the {what} {path.name} does not exist")
-    except OSError as error:
-        raise _failure(path, error) from None
     if not is_special and not os.access(folder, os.W_OK):
         raise InputError(f"the {what} {path} cannot be written: nothing can be written to its folder")
     return path
@@ -101,9 +85,17 @@ def write_whole(path: Path, data: bytes, mode: int = 0o666) -> None:
             raise
 
 
-def _failure(path: Path, error: OSError) -> InputError | OutputError:
-    failure = OutputError(error.errno, error.strerror, str(path))
-    return InputError(str(failure)) if error.errno in WRONG_PATH else failure
+@contextmanager
+def _of_user(path: Path) -> Iterator[None]:
+    """Raise an InputError or OutputError for an OSError of a path that the user has named."""
+    try:
+        yield
+    except OSError as error:
+        if isinstance(error, OutputError):
+            raise
+        failure = OutputError(error.errno, error.strerror, str(path))
+        is_path = isinstance(error, WRONG_PATH) or error.errno in WRONG_PATH_NUMBERS
+        raise (InputError(str(failure)) if is_path else failure) from None
 
 
 def _umask() -> int:

@@ -41,10 +41,6 @@ class WorkerEndedError(RenderError):
     """The process ended before it answered; it may have been killed for lack of memory."""
 
 
-class _Traceback(Exception):
-    """Shows where in the worker an error was raised."""
-
-
 def each(
     function: Callable[[Item], Result],
     items: Iterable[Item],
@@ -102,10 +98,9 @@ class _Worker:
             with self._lock:
                 self._end()
             raise WorkerEndedError("a worker process ended; is there enough memory?") from None
-        if succeeded:
-            return content  # type: ignore[no-any-return]
-        error, text = content
-        raise error from _Traceback(f"\n{text}")
+        if not succeeded:
+            raise content
+        return content  # type: ignore[no-any-return]
 
     def close(self) -> None:
         """Kill the process, from any thread, and start none again."""
@@ -174,11 +169,13 @@ def _perform(question: bytes) -> bytes:
         function, item = pickle.loads(question)
         return pickle.dumps((True, function(item)), pickle.HIGHEST_PROTOCOL)
     except Exception as error:
-        text = traceback.format_exc()
+        where = f"in a worker process:\n{traceback.format_exc()}"
         try:
-            answer = pickle.dumps((False, (error, text)))
+            error.add_note(where)
+            answer = pickle.dumps((False, error))
             pickle.loads(answer)
         except Exception:  # some errors cannot be sent
-            words = " ".join(str(error).split()) or type(error).__name__
-            answer = pickle.dumps((False, (RenderError(words), text)))
+            sent = RenderError(" ".join(str(error).split()) or type(error).__name__)
+            sent.add_note(where)
+            answer = pickle.dumps((False, sent))
         return answer

@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import pickle
 import re
-import socket
 import threading
-import time
-from collections.abc import Iterator
-from contextlib import contextmanager
-from datetime import UTC, datetime, timedelta, timezone
-from email.utils import format_datetime
 from typing import Any
 
 import pytest
@@ -72,39 +65,25 @@ def test_an_answer() -> None:
         (
             Reply(b"", 429),
             NodeBusyError,
-            "limits the rate of requests (HTTP status 429); try again later, or use another node",
+            "limits the rate of requests (HTTP status 429); try again later, or",
         ),
         (Reply(b"", 503), NodeBusyError, "HTTP status 503: it is not available now"),
+        (Reply(b"", 503, {"Retry-After": "2.5"}), NodeBusyError, "requests (HTTP status 503); try again in 3 s"),
         (Reply(b"<h1>no</h1>", 413), TooLargeError, "of this size (no): use a smaller `size`"),
         (Reply(b"", 413), TooLargeError, "answer of this size: use a smaller `size`"),
-        (
-            Reply(b"", 503, {"Retry-After": "2.5"}),
-            NodeBusyError,
-            "limits the rate of requests (HTTP status 503); try again in 3 s",
-        ),
-        (Reply(b"", 500), NodeUnreachableError, "HTTP status 500: it is temporarily unavailable"),
-        (Reply(b"", 599), NodeUnreachableError, "HTTP status 599: it is temporarily unavailable"),
-        (Reply(b"", 499), NodeError, "HTTP status 499; check its address"),
-        (Reply(b"", 502), NodeUnreachableError, "HTTP status 502: it is temporarily unavailable"),
-        *[
-            (Reply(b"", status), NodeTimeoutError, f"HTTP status {status}: it took too long")
-            for status in (408, 504, 522, 524)
-        ],
-        *[(Reply(b"", status), NodeError, f"HTTP status {status}: it needs a key") for status in (401, 403, 407)],
+        *[(Reply(b"", code), NodeUnreachableError, f"{code}: it is temporarily unavail") for code in (500, 502, 599)],
+        *[(Reply(b"", code), NodeTimeoutError, f"{code}: it took too long") for code in (408, 504, 522, 524)],
+        *[(Reply(b"", code), NodeError, f"status {code}: it needs a key") for code in (401, 403, 407)],
+        *[(Reply(b"", code), NodeError, f"status {code}: there is no node at this path") for code in (404, 405)],
+        *[(Reply(b"", code), NodeError, f"status {code}: it redirects requests") for code in (300, 301, 399)],
+        *[(Reply(b"", code), NodeError, f"status {code}; check its address") for code in (299, 400, 499)],
         (
             Reply(b'{"jsonrpc": "2.0", "id": 999, "error": {"code": -32600, "message": "authenticate"}}', 401),
             NodeError,
             "HTTP status 401: it needs a key",
         ),
         (failure("invalid project id", -32002, status=401), NodeError, "answered: invalid project id"),
-        (Reply(b"", 404), NodeError, "HTTP status 404: there is no node at this path"),
-        (Reply(b"", 405), NodeError, "HTTP status 405: there is no node at this path"),
-        (Reply(b"", 299), NodeError, "HTTP status 299; check its address"),
         (Reply(b"\xff no", 418), NodeError, "(\ufffd no)"),
-        (Reply(b"", 300), NodeError, "HTTP status 300: it redirects requests"),
-        (Reply(b"", 399), NodeError, "HTTP status 399: it redirects requests"),
-        (Reply(b"", 400), NodeError, "HTTP status 400; check its address"),
-        (Reply(b"", 301, {"Location": "https://elsewhere"}), NodeError, "it redirects requests"),
         (Reply(b"teapot", 418), NodeError, "HTTP status 418 (teapot); check its address"),
         (Reply(b"<p>a  <b>tea</b>\n pot" + b"!" * 99, 418), NodeError, f"(a tea pot{'!' * 91}...); check"),
         (Reply(b"x" * 100, 418), NodeError, f"({'x' * 100}); check"),
@@ -124,45 +103,27 @@ def test_answers_over_http_that_are_none(reply: Reply, kind: type[ChainError], w
 WORDINGS = [
     # geth, erigon and those made of it
     (OutOfGasError, -32000, "out of gas"),
-    (OutOfGasError, -32000, "gas required exceeds allowance (50000000)"),
     (OutOfGasError, -32000, "err: intrinsic gas too low: have 21000, want 3000000 (supplied gas 21000)"),
     (OutOfGasError, -32000, "err: insufficient gas for floor data gas cost: have 5, want 9 (supplied gas 5)"),
-    (OutOfGasError, -32000, "contract creation code storage out of gas"),
     (TooLargeError, -32000, "max initcode size exceeded: code size 60000, limit 49152"),
-    (NodeTimeoutError, -32000, "execution aborted (timeout = 5s)"),
     (NodeTimeoutError, -32002, "request timed out"),
-    (TooLargeError, -32003, "response too large"),
     (NodeBusyError, -32000, "header not found"),
     (NodeBusyError, -32000, "missing trie node 45e9 (path )"),
     (WrongChainError, -32000, "invalid opcode: MCOPY"),
     # nethermind
     (OutOfGasError, -32015, "OutOfGas"),
-    (OutOfGasError, -32015, "VM execution error: intrinsic gas too low"),
     # besu
     (OutOfGasError, -32000, "Intrinsic gas exceeds gas limit"),
     (OutOfGasError, -32603, "INSUFFICIENT_GAS"),
-    (WrongChainError, -32603, "Invalid opcode: 0x5e"),
-    # reth
-    (OutOfGasError, -32003, "out of gas: gas required exceeds: 50000000"),
-    (OutOfGasError, -32003, "out of gas: gas exhausted during memory expansion: 50000000"),
-    (TooLargeError, -32008, "Response is too big"),
-    (TooLargeError, -32007, "Request is too big"),
     # anvil and hardhat
-    (OutOfGasError, -32003, "EVM error OutOfGas"),
     (OutOfGasError, -32003, "CallGasCostMoreThanGasLimit { initial_gas: 21000, gas_limit: 5 }"),
-    (OutOfGasError, -32603, "Transaction ran out of gas"),
     (OutOfGasError, -32000, "Transaction requires at least 30000 gas but got 21000"),
     (WrongChainError, -32603, "EVM error NotActivated"),
     # hosts
     (NodeBusyError, 429, "Your app has exceeded its compute units per second capacity."),
     (NodeBusyError, -32005, "daily request count exceeded, request rate limited"),
     (NodeBusyError, -32007, "50/second request limit reached - reduce calls per second"),
-    (NodeBusyError, -32090, "Too many requests, reason: call rate limit exhausted, retry in 10s"),
-    (TooLargeError, -32008, "Response size is larger than 150MB limit."),
     (TooLargeError, -32602, "response size exceeded"),
-    # neither
-    (NodeError, -32601, "the method eth_call does not exist/is not available"),
-    (NodeError, -32602, "invalid argument 0: json: cannot unmarshal"),
     (RevertError, -32000, "execution reverted"),
 ]
 
@@ -175,7 +136,7 @@ WORDS = {
         *("exceeds the gas limit", "greater than block gas limit", "exceeds allowance", "above the RPC gas cap"),
     ],
     TooLargeError: [
-        *("response size should not be greater than 10000", "response size is larger than 150MB"),
+        *("response size should not be greater than 10000", "response size is larger than 150MB", "response too large"),
         *("response is too big", "response exceeded 10 MB", "response too big", "oversized response"),
         *("request is too big", "request too large", "request too big", "oversized request"),
         *("request entity too large", "request size exceeded", "request body too large", "content length too large"),
@@ -221,21 +182,11 @@ def test_what_nodes_say(kind: type[ChainError], code: int, message: str) -> None
 
 
 @pytest.mark.parametrize(
-    "data",
-    ["0x1234abcd", "Reverted 0x1234abcd", {"data": "0x1234abcd"}, {"message": "no", "data": {"result": "0x1234abcd"}}],
-)
-def test_what_a_contract_says_wherever_it_is(data: Any) -> None:
-    with pytest.raises(RevertError) as error:
-        ask(failure("execution reverted: out of gas is not what it is", 3, data))
-    assert error.value.data == bytes.fromhex("1234abcd")
-    assert revert_data("Reverted 0x123") is None
-    assert revert_data(None) is None
-
-
-@pytest.mark.parametrize(
     ("data", "expected"),
     [
         ("0x", b""),
+        (None, None),
+        ("Reverted 0x1234abcd", b"\x12\x34\xab\xcd"),
         (" 0xABcd ", b"\xab\xcd"),
         ("0x1234 56", None),
         ("10x12", None),
@@ -248,14 +199,16 @@ def test_what_a_contract_says_wherever_it_is(data: Any) -> None:
     ],
 )
 def test_the_bytes_of_a_revert(data: Any, expected: bytes | None) -> None:
+    """They tell more than words."""
     assert revert_data(data) == expected
+    if expected:
+        with pytest.raises(RevertError) as error:
+            ask(failure("execution reverted: out of gas is not what it is", -32000, data))
+        assert error.value.data == expected
 
 
 def test_reverts_whose_words_are_of_something_else() -> None:
     """The contract may say anything: its data tells, then the number, and only then words."""
-    with pytest.raises(RevertError, match=r"^the call was reverted: out of gas$") as error:
-        ask(failure("out of gas", -32000, "0x12"))
-    assert error.value.data == b"\x12"
     with pytest.raises(RevertError) as error:
         ask(failure("request timed out", 3))
     assert error.value.data == b""
@@ -358,58 +311,12 @@ def test_a_busy_node_is_not_waited_for_too_long() -> None:
     assert pickle.loads(pickle.dumps(error.value)).retry_after == 3600
 
 
-@pytest.mark.skipif(not hasattr(time, "tzset"), reason="the time zone cannot be set here")
-def test_when_to_try_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    soon = format_datetime(datetime.now(UTC) + timedelta(seconds=90), usegmt=True)
-    assert 80 < (retry_after({"Retry-After": soon}) or 0) <= 90
-    assert retry_after({"Retry-After": "Wed, 21 Oct 2015 07:28:00 GMT"}) == 0
-    assert retry_after({"Retry-After": "soon"}) is None
-    assert retry_after({"Retry-After": "nan"}) is None
-    assert retry_after({"Retry-After": " 1.5 "}) == 1.5
-    assert retry_after({"Retry-After": "-3"}) == 0
-    assert retry_after({"Retry-After": " "}) is None
-    east = format_datetime(datetime.now(timezone(timedelta(hours=9))) + timedelta(seconds=90))
-    assert 80 < (retry_after({"Retry-After": east}) or 0) <= 90
-    # a date without a time zone is in that of Greenwich, wherever this runs
-    monkeypatch.setenv("TZ", "Pacific/Auckland")
-    time.tzset()
-    try:
-        assert 80 < (retry_after({"Retry-After": soon.replace("GMT", "-0000")}) or 0) <= 90
-    finally:
-        monkeypatch.undo()
-        time.tzset()
+@pytest.mark.parametrize(
+    ("value", "seconds"), [(" 1.5 ", 1.5), ("-3", 0), ("soon", None), ("nan", None), ("inf", None), (" ", None)]
+)
+def test_when_to_try_again(value: str, seconds: float | None) -> None:
+    assert retry_after({"Retry-After": value}) == seconds
     assert retry_after({}) is None
-
-
-@contextmanager
-def closing() -> Iterator[str]:
-    """A server that closes each connection after one answer, without saying so."""
-
-    def serve() -> None:
-        while True:
-            try:
-                connection, _ = listener.accept()
-            except OSError:
-                return
-            with connection, connection.makefile("rb") as lines:
-                size = 0
-                while (line := lines.readline()) not in (b"\r\n", b""):
-                    if line.lower().startswith(b"content-length:"):
-                        size = int(line.split(b":")[1])
-                number = json.loads(lines.read(size))["id"]
-                body = json.dumps({"jsonrpc": "2.0", "id": number, "result": "0x1"}).encode()
-                connection.sendall(b"HTTP/1.1 200 OK\r\nContent-Length: %d\r\n\r\n%s" % (len(body), body))
-
-    with socket.create_server(("127.0.0.1", 0)) as listener:
-        threading.Thread(target=serve, daemon=True).start()
-        yield f"http://127.0.0.1:{listener.getsockname()[1]}"
-        listener.shutdown(socket.SHUT_RDWR)
-
-
-def test_connections_that_were_closed_meanwhile() -> None:
-    with closing() as url:
-        connection = Connection(url)
-        assert [connection.number("eth_blockNumber") for _ in range(5)] == [1] * 5
 
 
 def test_the_wrong_chain() -> None:
@@ -421,18 +328,14 @@ def test_the_wrong_chain() -> None:
             connection.expect_chain(10)
 
 
-@pytest.mark.parametrize("value", [None, "0x123", "hello", 5, "0xzz"])
+@pytest.mark.parametrize("value", ["0x" + 65 * "1f", "0x" + 65 * "1", "0x1_0", " 0x1", "12", 7, None, ["0x1"], "0xzz"])
 def test_results_of_another_type(value: Any) -> None:
-    with serving(lambda _: result(value)) as url, pytest.raises(NodeError, match="returned invalid bytes"):
-        Connection(url).data("eth_call", {})
-
-
-@pytest.mark.parametrize(
-    "number", ["0x" + 20_000 * "9", "0x" + 65 * "1", "0x", "12", "0x1_0", " 0x1", 7, None, ["0x1"]]
-)
-def test_what_is_no_number_of_256_bits(number: Any) -> None:
-    with serving(lambda _: result(number)) as url, pytest.raises(NodeError, match="returned an invalid number"):
-        _ = Connection(url).chain_id
+    with serving(lambda _: result(value)) as url:
+        if value != "0x" + 65 * "1f":
+            with pytest.raises(NodeError, match="returned invalid bytes"):
+                Connection(url).data("eth_call", {})
+        with pytest.raises(NodeError, match="returned an invalid number"):
+            _ = Connection(url).chain_id
     with serving(lambda _: result("0x" + 64 * "f")) as url:
         assert Connection(url).number("eth_gasPrice") == 2**256 - 1
 

@@ -2,27 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
-from shackled.cli.app import run
-
-COMMANDS = {
-    "deploy": ("deploy",),
-    "store": ("store", "icons/die"),
-    "library": ("library", "store", "cube"),
-    "reveal": ("token", "reveal"),
-}
+from commands import Shackled
 
 
-@pytest.mark.parametrize("command", COMMANDS.values(), ids=COMMANDS)
-def test_a_file_that_cannot_be_written_is_told_before_the_node_is_asked(
-    command: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    node = ("--rpc", "http://127.0.0.1:1")
-    for path, words in ((tmp_path, "is a folder"), (tmp_path / "none" / "calls.json", "does not exist")):
-        assert run([*command, *node, "--calldata", str(path)]) == 2
-        said = capsys.readouterr().err
+@pytest.mark.parametrize("command", ["deploy", "store icons/die", "library store cube", "token reveal"])
+def test_a_file_that_cannot_be_written_is_told_before_the_node_is_asked(command: str, shackled: Shackled) -> None:
+    for path, words in ((".", "is a folder"), ("none/calls.json", "does not exist")):
+        said = shackled(f"{command} --rpc http://127.0.0.1:1 --calldata {path}", expect=2).err
         assert words in said
         assert "list of transactions" in said

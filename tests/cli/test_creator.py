@@ -13,21 +13,24 @@ from pathlib import Path
 
 import pytest
 
+from commands import Shackled
 from shackled import InputError
 from shackled.cli import creator
-from shackled.cli.app import run
 from shackled.datasets.genesis import seed_of
+
+
+def write(folder: Path, files: dict[str, str]) -> None:
+    for name, content in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(content, "utf-8")
 
 
 @pytest.fixture
 def page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A page of a few files, in place of the one that is built."""
     folder, one_file = tmp_path / "built" / "page", tmp_path / "built" / "creator.html"
-    (folder / "data").mkdir(parents=True)
-    (folder / "index.html").write_text("<p>page", "utf-8")
-    (folder / "data" / "evm.wasm").write_bytes(b"\0asm")
-    one_file.write_text("one", "utf-8")
-    (tmp_path / "built" / "secret.js").write_text("no", "utf-8")
+    write(tmp_path / "built", {"page/index.html": "<p>page", "page/data/evm.wasm": "\0asm"})
+    write(tmp_path / "built", {"creator.html": "one", "secret.js": "no"})
     monkeypatch.setattr(creator, "built_page", lambda: (folder, one_file))
     monkeypatch.setenv("SHACKLED_ADDRESS_BOOK", str(tmp_path / "addresses.json"))
     return folder
@@ -47,11 +50,8 @@ def test_files_of_the_page_only(page: Path) -> None:
 def test_an_input_comes_with_the_files_that_it_names(page: Path, tmp_path: Path) -> None:
     (tmp_path / "addresses.json").write_text('{"chains": {"1": {}}}', "utf-8")
     folder = tmp_path / "models"
-    (folder / "images").mkdir(parents=True)
-    (folder / "z.obj").write_text("mtllib z.mtl\nv 0 0 0\n", "utf-8")
-    (folder / "z.mtl").write_text("newmtl m\nmap_Kd images/wood%201.png\n", "utf-8")
-    (folder / "images" / "wood 1.png").write_bytes(b"wood")
-    (folder / "private.txt").write_text("no", "utf-8")
+    write(folder, {"z.obj": "mtllib z.mtl\nv 0 0 0\n", "z.mtl": "newmtl m\nmap_Kd images/wood%201.png\n"})
+    write(folder, {"images/wood 1.png": "wood", "private.txt": "no"})
     model = str(folder / "z.obj")
     assert json.loads(ask(page, "input.json", model) or b"") == {"names": ["z.obj", "z.mtl", "images/wood 1.png"]}
     assert ask(page, "input/images/wood 1.png", model) == b"wood"
@@ -75,13 +75,12 @@ def test_pieces_and_links(page: Path, tmp_path: Path) -> None:
         creator.first_answers(str(tmp_path / "none.obj"), page)
 
 
-def test_written_to_a_folder(page: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_written_to_a_folder(page: Path, tmp_path: Path, shackled: Shackled) -> None:
     out = tmp_path / "site"
-    assert run(["creator", "--out", str(out)]) == 0
+    shackled(f"creator --out {out}")
     assert (out / "data" / "evm.wasm").read_bytes() == b"\0asm"
     assert (out / "creator.html").read_text("utf-8") == "one"
-    assert run(["creator", "teapot", "--out", str(out)]) == 2
-    assert "leave out INPUT" in capsys.readouterr().err
+    assert "leave out INPUT" in shackled(f"creator teapot --out {out}", expect=2).err
 
 
 def test_without_a_built_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,7 +6,6 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,13 +13,11 @@ import pytest
 from eth_account import Account
 from tools.anvil import Anvil
 
-from commands import Said
+from commands import Said, Shackled
 from nodes import KEY, Reply, failure, forward, free_port, serving
 from shackled.artifacts import artifact
 from shackled.chain import VARIABLE
-from shackled.cli.app import run
 from shackled.deploy import deployments
-from shackled.ethereum import PROXY
 
 PASSWORD = "a pass phrase 77"
 
@@ -35,16 +32,12 @@ def book(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return path
 
 
-Command = Callable[..., Said]
-
-
 @pytest.fixture
-def deploy(folder: Path, capsys: pytest.CaptureFixture[str]) -> Command:
+def deploy(folder: Path, shackled: Shackled) -> Shackled:
     """Runs the command, and looks whether it printed or wrote a key or a password."""
 
-    def command(*arguments: str) -> Said:
-        code = run(["deploy", *arguments])
-        told = Said(code, *capsys.readouterr())
+    def command(words: str, expect: int = 0) -> Said:
+        told = shackled(f"deploy {words}", expect=expect)
         written = [path for path in folder.rglob("*") if path.is_file() and path.name != "keystore"]
         for text in [told.out, told.err, *(path.read_text("utf-8") for path in written)]:
             assert KEY[2:] not in text
@@ -54,25 +47,35 @@ def deploy(folder: Path, capsys: pytest.CaptureFixture[str]) -> Command:
     return command
 
 
-def test_deploying_twice(node: Anvil, book: Path, deploy: Command, capsys: pytest.CaptureFixture[str]) -> None:
-    told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes")
-    assert told.code == 0
-    for each in deployments():
+@pytest.fixture
+def paid(node: Anvil) -> str:
+    """The options of a command that sends."""
+    return f"--rpc {node.url} --private-key-env TEST_KEY --yes"
+
+
+def test_deploying_twice(node: Anvil, book: Path, paid: str, deploy: Shackled, shackled: Shackled) -> None:
+    told = deploy(f"{paid} --standard-json verify")
+    summary = json.loads(Path("verify/contracts.json").read_text("utf-8"))
+    assert summary["chainId"] == 31337
+    for each, entry in zip(deployments(), summary["contracts"], strict=True):
         address = json.loads(book.read_text("utf-8"))["chains"]["31337"][each.name]
         assert address.lower() == "0x" + each.address.hex()
         assert node.connection.data("eth_getCode", address, "latest") == each.code
         # in the table before, and when it was done
         assert told.out.count(address) == 2
         assert told.out.count(f"{each.gas:,}") == 2
+        # what verifies the source
+        assert entry["name"].endswith(f":{each.name}")
+        assert each.creation == artifact(each.name).creation + bytes.fromhex(entry["constructorArguments"])
+        source = json.loads(Path("verify", entry["standardInput"]).read_text("utf-8"))
+        assert entry["name"].split(":")[0] in source["sources"]
+        assert entry["compiler"].startswith("0.8.")
     assert f"on chain 31337, through the {node.connection.name}, at " in told.out
     blocks = node.rpc("eth_blockNumber")
-    told = deploy("--rpc", node.url)
-    assert told.code == 0
-    assert "all contracts are deployed already: nothing was sent" in told.out
+    assert "all contracts are deployed already: nothing was sent" in deploy(f"--rpc {node.url}").out
     assert node.rpc("eth_blockNumber") == blocks
     # and a render finds it
-    assert run(["render", "shape.obj", "--size", "8", "--rpc", node.url, "--json"]) == 0
-    assert "(deployed)" in json.loads(capsys.readouterr().out)["chain"]
+    assert "(deployed)" in shackled(f"render shape.obj --size 8 --rpc {node.url} --json").json["chain"]
 
 
 @pytest.mark.parametrize(
@@ -83,134 +86,74 @@ def test_deploying_twice(node: Anvil, book: Path, deploy: Command, capsys: pytes
         ("5f5ffd", "takes a fee for data on L1 as well, and tells no bound of it: the maximum does not include it"),
     ],
 )
-def test_the_fee_of_a_rollup_is_told(node: Anvil, deploy: Command, code: str, line: str) -> None:
-    arguments = ["--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--contracts", "Engine"]
+def test_the_fee_of_a_rollup_is_told(node: Anvil, paid: str, deploy: Shackled, code: str, line: str) -> None:
     node.rpc("anvil_setCode", "0x420000000000000000000000000000000000000F", "0x" + code)
-    told = deploy(*arguments)
-    assert (told.code, line in told.out) == (0, True)
-    assert "L1" not in deploy(*arguments).out
+    assert line in deploy(f"{paid} --contracts Engine").out
+    assert "L1" not in deploy(f"{paid} --contracts Engine").out
 
 
-def test_what_verifies_the_sources(node: Anvil, folder: Path, deploy: Command) -> None:
-    told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--standard-json", "verify")
-    assert told.code == 0
-    summary = json.loads((folder / "verify" / "contracts.json").read_text("utf-8"))
-    assert summary["chainId"] == 31337
-    for each, entry in zip(deployments(), summary["contracts"], strict=True):
-        assert entry["name"].endswith(f":{each.name}")
-        assert each.creation == artifact(each.name).creation + bytes.fromhex(entry["constructorArguments"])
-        source = json.loads((folder / "verify" / entry["standardInput"]).read_text("utf-8"))
-        assert entry["name"].split(":")[0] in source["sources"]
-        assert entry["compiler"].startswith("0.8.")
-
-
-def test_json(node: Anvil, book: Path, deploy: Command) -> None:
-    arguments = ["--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--json", "--contracts", "Renderer"]
-    told = json.loads(deploy(*arguments).out)
+def test_json(book: Path, paid: str, deploy: Shackled) -> None:
+    words = f"{paid} --json --contracts Renderer"
+    told = deploy(words).json
     engines = artifact("Renderer").parts
-    assert [each["name"] for each in told["contracts"]] == ["deployment proxy", *engines, "Renderer"]
-    assert [each["deployed_now"] for each in told["contracts"]] == [False, *[True] * len(engines), True]
+    assert [each["name"] for each in told["contracts"]] == [*engines, "Renderer"]
+    assert [each["deployed_now"] for each in told["contracts"]] == [True] * (len(engines) + 1)
     assert (told["chain_id"], len(told["transactions"])) == (31337, len(engines) + 1)
     assert told["gas"] == sum(each.gas for each in deployments(["Renderer"]))
     assert told["wei"] > 0
     assert (told["address_book"], told["standard_json"]) == (str(book), "deployed-31337")
-    told = json.loads(deploy(*arguments).out)
+    told = deploy(words).json
     assert (told["gas"], told["transactions"]) == (0, [])
     assert not any(each["deployed_now"] for each in told["contracts"])
 
 
-def test_a_wallet_sends_the_transactions(node: Anvil, folder: Path, deploy: Command) -> None:
-    told = deploy("--rpc", node.url, "--contracts", "PngEncoder", "--calldata", "calls.json")
-    assert told.code == 0
-    assert "nothing was sent: calls.json has 1 transaction" in told.err
-    (call,) = json.loads((folder / "calls.json").read_text("utf-8"))["calls"]
+def test_a_wallet_sends_the_transactions(node: Anvil, deploy: Shackled) -> None:
+    words = f"--rpc {node.url} --contracts PngEncoder"
+    assert "nothing was sent: calls.json has 1 transaction" in deploy(f"{words} --calldata calls.json").err
+    (call,) = json.loads(Path("calls.json").read_text("utf-8"))["calls"]
     assert call.pop("name") == "deploy PngEncoder"
-    sender = node.rpc("eth_accounts")[1]
-    node.rpc("eth_sendTransaction", call | {"from": sender})
-    assert "all contracts are deployed already" in deploy("--rpc", node.url, "--contracts", "PngEncoder").out
+    node.rpc("eth_sendTransaction", call | {"from": node.rpc("eth_accounts")[1]})
+    node.rpc("evm_mine")
+    assert "all contracts are deployed already" in deploy(words).out
 
 
-def test_a_wallet_cannot_deploy_the_proxy(node: Anvil, folder: Path, deploy: Command) -> None:
-    node.rpc("anvil_setCode", "0x" + PROXY.hex(), "0x")
-    told = deploy("--rpc", node.url, "--calldata", "calls.json")
-    assert told.code != 0
-    assert "no deterministic-deployment proxy" in told.err
-    assert not (folder / "calls.json").exists()
-
-
-def test_what_artists_need_can_be_named(node: Anvil, deploy: Command) -> None:
-    names = "Studio,PngEncoder"
-    arguments = ["--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--json", "--contracts", names]
-    told = json.loads(deploy(*arguments).out)
-    assert [each["name"] for each in told["contracts"]] == [
-        "deployment proxy",
-        *artifact("Renderer").parts,
-        "Renderer",
-        "PngEncoder",
-        "Turntable",
-        "GlbEncoder",
-        "Studio",
-    ]
-    for each in deployments(names.split(",")):
+def test_what_artists_need_can_be_named(node: Anvil, paid: str, deploy: Shackled) -> None:
+    told = deploy(f"{paid} --json --contracts Studio,PngEncoder").json
+    names = ["Renderer", "PngEncoder", "Turntable", "GlbEncoder", "Studio"]
+    assert [each["name"] for each in told["contracts"]] == [*artifact("Renderer").parts, *names]
+    for each in deployments(["Studio", "PngEncoder"]):
         assert node.connection.data("eth_getCode", "0x" + each.address.hex(), "latest") == each.code
 
 
-def test_what_a_node_says_is_no_command_for_the_terminal(node: Anvil, deploy: Command) -> None:
+def test_what_a_node_says_is_no_command_for_the_terminal(node: Anvil, deploy: Shackled, shackled: Shackled) -> None:
     owned = "\x1b]0;owned\x07\x1b[2J\x1b[1;1Hall is well\x1b[8m\x9b2J\u202e"
-
     with serving(lambda _: failure(owned)) as url:
-        told = deploy("--rpc", url, "--private-key-env", "TEST_KEY", "--yes", "--contracts", "Engine")
-    assert told.code == 1
+        told = deploy(f"--rpc {url} --private-key-env TEST_KEY --yes --contracts Engine", expect=1)
     assert "all is well" in told.err
     assert all(letter.isprintable() for letter in told.err.rstrip("\n"))
     for name in ("--account", "--standard-json"):
-        told = deploy("--rpc", node.url, "--yes", name, f"no\x1b[2Jfile/{owned}")
-        assert told.code == 2
+        told = shackled(f"deploy --rpc {node.url} --yes", name, f"no\x1b[2Jfile/{owned}", expect=2)
         assert all(letter.isprintable() for letter in told.err.rstrip("\n"))
 
 
-@pytest.mark.parametrize("fee", ["0", "-1", "nan", "1e12"])
-def test_prices_that_are_none(node: Anvil, deploy: Command, fee: str) -> None:
-    told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--max-fee", fee)
-    assert told.code == 2
-    assert told.err.startswith("shackled: --max-fee must be")
-
-
-def test_a_keystore(node: Anvil, folder: Path, deploy: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_keystore(node: Anvil, folder: Path, deploy: Shackled, monkeypatch: pytest.MonkeyPatch) -> None:
     keystore = Account.encrypt(bytes.fromhex(KEY[2:]), PASSWORD, kdf="pbkdf2", iterations=1000)
     (folder / "keystore").write_text(json.dumps(keystore))
-    arguments = ["--rpc", node.url, "--account", "keystore", "--contracts", "Engine", "--yes"]
-    told = deploy(*arguments)
-    assert told.code == 2
-    assert "there is no terminal to ask for the password of keystore: set SHACKLED_PASSWORD" in told.err
+    words = f"--rpc {node.url} --account keystore --contracts Engine --yes"
+    no_terminal = "there is no terminal to ask for the password of keystore: set SHACKLED_PASSWORD"
+    assert no_terminal in deploy(words, expect=2).err
     monkeypatch.setenv("SHACKLED_PASSWORD", PASSWORD[:-1])
-    told = deploy(*arguments)
-    assert told.code == 2
-    assert "the password is wrong" in told.err
+    assert "the password is wrong" in deploy(words, expect=2).err
     monkeypatch.setenv("SHACKLED_PASSWORD", PASSWORD)
-    assert deploy(*arguments).code == 0
+    deploy(words)
 
 
-def test_a_book_that_cannot_be_written(
-    node: Anvil, folder: Path, deploy: Command, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """It is told before anything is paid."""
-    (folder / "file").write_text("", "utf-8")
-    monkeypatch.setenv(VARIABLE, str(folder / "file" / "book.json"))
-    told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes")
-    assert told.code == 2
-    assert "book.json cannot be" in told.err
-    assert int(node.rpc("eth_blockNumber"), 16) == 0
-
-
-def test_nobody_to_ask_and_nobody_to_pay(node: Anvil, deploy: Command) -> None:
-    told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY")
-    assert told.code == 2
+def test_nobody_to_ask_and_nobody_to_pay(node: Anvil, deploy: Shackled) -> None:
+    told = deploy(f"--rpc {node.url} --private-key-env TEST_KEY", expect=2)
     assert "nothing was sent: there is no terminal to ask for consent; --yes" in told.err
     # what it would cost is told all the same
     assert all(f"{each.gas:,}" in told.out for each in deployments())
-    told = deploy("--rpc", node.url, "--yes")
-    assert told.code == 2
+    told = deploy(f"--rpc {node.url} --yes", expect=2)
     assert "--account FILE or --private-key-env NAME" in told.err
     assert int(node.rpc("eth_blockNumber"), 16) == 0
 
@@ -238,58 +181,50 @@ def test_asking(node: Anvil, folder: Path, answer: str, code: int, blocks: int) 
     assert KEY[2:] not in text
 
 
-def test_the_wrong_chain(node: Anvil, deploy: Command) -> None:
-    told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--chain-id", "1")
-    assert told.code == 1
-    assert "belongs to chain 31337, not to chain 1" in told.err
-    assert int(node.rpc("eth_blockNumber"), 16) == 0
-
-
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("words", "message"),
     [
-        ([], "--rpc is missing"),
-        (["--rpc", "nowhere"], "--rpc must be the address of a node"),
-        (["--rpc", "URL", "--contracts", "Nothing"], "there is no contract 'Nothing' to deploy"),
-        (["--rpc", "URL", "--contracts", ","], "--contracts is empty"),
-        (["--rpc", "URL", "--account", "none", "--yes"], "there is no keystore file none"),
-        (["--rpc", "URL", "--account", "shape.obj", "--yes"], "shape.obj is not a keystore file"),
-        (["--rpc", "URL", "--private-key-env", "NO_SUCH", "--yes"], "environment variable NO_SUCH"),
-        (["--rpc", "URL", "--private-key-env", KEY, "--yes"], "give the name of a variable, not the key"),
-        (["--rpc", "URL", "--account", "x", "--private-key-env", "TEST_KEY"], "give one of them"),
-        (["--rpc", "URL", "--rpc-timeout", "0"], "--rpc-timeout must be more than 0 seconds"),
+        ("", "--rpc is missing"),
+        ("--rpc nowhere", "--rpc must be the address of a node"),
+        ("--rpc URL --contracts Nothing", "there is no contract 'Nothing' to deploy"),
+        ("--rpc URL --contracts ,", "--contracts is empty"),
+        ("--rpc URL --account none --yes", "there is no keystore file none"),
+        ("--rpc URL --account shape.obj --yes", "shape.obj is not a keystore file"),
+        ("--rpc URL --private-key-env NO_SUCH --yes", "environment variable NO_SUCH"),
+        (f"--rpc URL --private-key-env {KEY} --yes", "give the name of a variable, not the key"),
+        ("--rpc URL --account x --private-key-env TEST_KEY", "give one of them"),
+        ("--rpc URL --rpc-timeout 0", "--rpc-timeout must be more than 0 seconds"),
+        *((f"PAID --max-fee {fee}", "--max-fee must be") for fee in ("0", "-1", "nan", "1e12")),
+        ("PAID --standard-json shape.obj", "shape.obj is a file, not a folder to write to"),
     ],
 )
-def test_bad_input(node: Anvil, deploy: Command, arguments: list[str], words: str) -> None:
-    told = deploy(*(node.url if each == "URL" else each for each in arguments))
-    assert told.code == 2
-    assert words in told.err
-    assert told.err.count("\n") == 1
+def test_bad_input(node: Anvil, paid: str, deploy: Shackled, words: str, message: str) -> None:
+    """It is told before anything is paid."""
+    told = deploy(words.replace("URL", node.url).replace("PAID", paid), expect=2)
+    assert message in told.error
+    assert int(node.rpc("eth_blockNumber"), 16) == 0
 
 
-def test_a_broken_book_is_told_first(node: Anvil, book: Path, deploy: Command) -> None:
+def test_a_broken_book_is_told_first(
+    node: Anvil, book: Path, paid: str, deploy: Shackled, monkeypatch: pytest.MonkeyPatch
+) -> None:
     book.parent.mkdir()
     book.write_text("{")
-    told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes")
-    assert told.code == 2
-    assert f"the address book {book} is damaged" in told.err
+    assert f"the address book {book} is damaged" in deploy(paid, expect=2).err
+    # one that cannot be written
+    monkeypatch.setenv(VARIABLE, str(book / "book.json"))
+    assert "book.json cannot be" in deploy(paid, expect=2).err
     assert int(node.rpc("eth_blockNumber"), 16) == 0
 
 
-def test_a_folder_that_cannot_be_written_is_told_first(node: Anvil, deploy: Command) -> None:
-    told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--standard-json", "shape.obj")
-    assert told.code == 2
-    assert "shape.obj is a file, not a folder to write to" in told.err
+def test_other_nodes(node: Anvil, paid: str, deploy: Shackled) -> None:
+    assert "belongs to chain 31337, not to chain 1" in deploy(f"{paid} --chain-id 1", expect=1).err
     assert int(node.rpc("eth_blockNumber"), 16) == 0
+    url = f"http://127.0.0.1:{free_port()}"
+    assert "cannot be reached" in deploy(f"--rpc {url} --private-key-env TEST_KEY", expect=1).err
 
 
-def test_no_node(deploy: Command) -> None:
-    told = deploy("--rpc", f"http://127.0.0.1:{free_port()}", "--private-key-env", "TEST_KEY")
-    assert told.code == 1
-    assert "cannot be reached" in told.err
-
-
-def test_errors_show_no_key(node: Anvil, deploy: Command) -> None:
+def test_errors_show_no_key(node: Anvil, deploy: Shackled) -> None:
     """Not even if a node repeats what it was sent, or the address has one."""
 
     def answer(request: dict[str, Any]) -> Reply:
@@ -298,7 +233,6 @@ def test_errors_show_no_key(node: Anvil, deploy: Command) -> None:
         return forward(node.url, request)
 
     with serving(answer) as url:
-        told = deploy("--rpc", f"{url}/v2/secret-of-the-node", "--private-key-env", "TEST_KEY", "--yes")
-    assert told.code == 1
+        told = deploy(f"--rpc {url}/v2/secret-of-the-node --private-key-env TEST_KEY --yes", expect=1)
     assert "the transaction was refused" in told.err
     assert "secret-of-the-node" not in told.err + told.out

@@ -7,59 +7,28 @@ import json
 import os
 import subprocess
 import sys
-from base64 import b64encode
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 from PIL import Image as PillowImage
+from trimesh.exchange.gltf import export_gltf
 
+from commands import Shackled
 from shackled import Mesh, load, render
-from shackled.cli.app import run
 from shackled.cli.streams import stdin_file
 from shackled.scene import render_call
 
 Command = Callable[..., "subprocess.CompletedProcess[bytes]"]
 
-TRIANGLE = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
-PLY = (
-    b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-    b"element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
-)
-BINARY_STL = bytes(80) + (1).to_bytes(4, "little") + np.array([(0, 0, 1), *TRIANGLE], "<f4").tobytes() + bytes(2)
-TEXT_STL = (
-    b"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n"
-)
-OBJ = b"# made by hand\n\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
-
-
-def gltf() -> bytes:
-    data = np.array(TRIANGLE, "<f4").tobytes()
-    uri = f"data:application/octet-stream;base64,{b64encode(data).decode()}"
-    document = {
-        "asset": {"version": "2.0"},
-        "buffers": [{"byteLength": len(data), "uri": uri}],
-        "bufferViews": [{"buffer": 0, "byteLength": len(data)}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-        "nodes": [{"mesh": 0}],
-        "scenes": [{"nodes": [0]}],
-    }
-    return json.dumps(document).encode()
-
-
-def glb() -> bytes:
-    text = gltf()
-    text += b" " * (-len(text) % 4)
-    words = (len(text) + 20, len(text))
-    return (
-        b"glTF"
-        + b"".join(
-            number.to_bytes(4, "little") for number in (2, words[0], words[1], int.from_bytes(b"JSON", "little"))
-        )
-        + text
-    )
+TRIANGLE: Any = trimesh.Trimesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+OBJ = "# made by hand\n\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+KINDS: dict[str, str | bytes] = {kind: TRIANGLE.export(file_type=kind) for kind in ("ply", "off", "glb", "stl")}
+KINDS |= {"text stl": TRIANGLE.export(file_type="stl_ascii"), "obj": OBJ}
+KINDS["gltf"] = export_gltf(trimesh.Scene(TRIANGLE), embed_buffers=True)["model.gltf"]  # type: ignore[no-untyped-call]
 
 
 @pytest.fixture
@@ -71,8 +40,9 @@ def shell(folder: Path) -> Command:
     return start
 
 
-def of_stdin(data: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(data)))
+def of_stdin(data: str | bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+    content = data.encode() if isinstance(data, str) else data
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(content)))
 
 
 @pytest.mark.parametrize("output", ["-", "/dev/stdout"])
@@ -107,20 +77,11 @@ def test_a_reader_that_leaves(shell: Command) -> None:
     assert "Traceback" not in done.stderr
 
 
-KINDS = {
-    ".ply": PLY,
-    ".obj": OBJ,
-    ".off": b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
-    ".gltf": gltf(),
-    ".glb": glb(),
-}
-
-
-@pytest.mark.parametrize("data", [*KINDS.values(), BINARY_STL, TEXT_STL], ids=[*KINDS, "binary .stl", "text .stl"])
-def test_formats_are_told_by_content(data: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("data", KINDS.values(), ids=KINDS)
+def test_formats_are_told_by_content(data: str | bytes, monkeypatch: pytest.MonkeyPatch, shackled: Shackled) -> None:
     of_stdin(data, monkeypatch)
-    assert run(["render", "-", "--size", "16", "-o", "a.png", "--unlit"]) == 0
-    expected = render(Mesh(TRIANGLE, [[0, 1, 2]]), 16, unlit=True).pixels
+    shackled("render - --size 16 -o a.png --unlit")
+    expected = render(Mesh(TRIANGLE.vertices, TRIANGLE.faces), 16, unlit=True).pixels
     with PillowImage.open("a.png") as picture:
         assert picture.getbbox() is not None
         assert np.array(picture).any(axis=2).sum() == expected.any(axis=2).sum()
@@ -141,41 +102,30 @@ def test_scenes_are_told_by_content(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize(
     ("data", "options", "message"),
     [
-        (b"", [], "standard input is empty"),
-        (b"something else", [], "the format of standard input is not told by its content: give --format obj|ply"),
-        (PLY, ["--format", "obj"], "standard input"),
-        (PLY, ["--format", "max"], "--format must be one of obj, ply, stl"),
-        (b"ply\nnonsense\n", [], "standard input"),
+        ("", "", "standard input is empty"),
+        ("something else", "", "the format of standard input is not told by its content: give --format obj|ply"),
+        (KINDS["ply"], "--format obj", "standard input"),
+        (OBJ, "--format max", "--format must be one of obj, ply, stl"),
+        ("ply\nnonsense\n", "", "standard input"),
     ],
 )
 def test_wrong_input(
-    data: bytes, options: list[str], message: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    data: str | bytes, options: str, message: str, monkeypatch: pytest.MonkeyPatch, shackled: Shackled
 ) -> None:
     of_stdin(data, monkeypatch)
-    assert run(["render", "-", *options]) == 2
-    messages = capsys.readouterr().err
+    messages = shackled(f"render - {options}", expect=2).err
     assert message in messages
     assert "shackled-" not in messages
     assert messages.count("\n") == 1
 
 
-def test_the_format_of_a_named_input_is_its_extension(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["render", "shape.obj", "--format", "obj"]) == 2
-    assert "--format is for -, standard input" in capsys.readouterr().err
-
-
-def test_notes_do_not_name_the_file_that_stores_it(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    data = b"mtllib no.mtl\n" + OBJ
-    of_stdin(data, monkeypatch)
-    assert run(["render", "-", "--size", "8"]) == 0
+def test_notes_do_not_name_the_file_that_stores_it(monkeypatch: pytest.MonkeyPatch, shackled: Shackled) -> None:
+    of_stdin("mtllib no.mtl\n" + OBJ, monkeypatch)
     told = "standard input: its materials are left out: no.mtl does not exist"
-    assert capsys.readouterr().err == f"shackled: note: {told}\n"
+    assert shackled("render - --size 8").err == f"shackled: note: {told}\n"
     assert Path("picture.png").is_file()
-    of_stdin(data, monkeypatch)
-    assert run(["info", "-", "--no-gas", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["notes"] == [told]
+    of_stdin("mtllib no.mtl\n" + OBJ, monkeypatch)
+    assert shackled("info - --no-gas --json").json["notes"] == [told]
 
 
 @pytest.mark.skipif(not hasattr(os, "openpty"), reason="there are no terminals here")

@@ -2,123 +2,113 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from attrs import evolve
 from numpy.typing import NDArray
 
-from judge import Picture, render
-from pictures import call_data
-from shackled import Scene
+from judge import Picture, Verdict, render
+from judge.verdict import MANY, MEAN_OF_SCENE, MOST
+from pictures import UNLIT, Pixels, call_data, draw
+from shackled import Background, Mesh, Object, Scene
+from shackled.scene import fit
 
-from . import contracts, opengl
-from .neighbours import around, interior, uniform
+from . import opengl
 from .world import before_camera
 
 Triangles = NDArray[np.int64]
+Array = NDArray[np.float64]
 
-#: Levels of 255 by which no pixel may be off, and by which few may be.
-MOST, MANY = 8.0, 4.0
 #: N.L of a light that may reach a surface or not: the corners of a mesh are rounded.
 GRAZING = 2.0**-11
-#: The share of the pixels that may be off by more than MANY: of all of a run, and of those of a built-in piece.
-SHARE_OF_RUN, SHARE_OF_PIECE = 1 / 10_000, 1 / 200
-#: Fewer scenes are no run.
-LEAST_RUN = 20
-#: The mean error over a run, and over the pixels of a scene.
-MEAN_OF_RUN, MEAN_OF_SCENE = 0.35, 0.6
+#: One in so many pixels of a built-in piece may be off by more than MANY levels.
+FEW_OF_PIECE = 200
+#: Triangles of an object of which each has corners of its own.
+MAX_TRIANGLES = 65535 // 3
+#: What a Verdict calls pixels that show another triangle than OpenGL's.
+ANOTHER = "another triangle"
 
 
 @dataclass(frozen=True)
-class Result:
-    """The comparison of one scene, or the sum of those of many.
+class Drawing:
+    """pixels: (H, W, 3). triangle: (H, W) the number of the triangle that is seen, -1 for none."""
 
-    scenes: how many. empty: in how many OpenGL draws nothing. pixels: that either drew. interior: those of which the
-    eight neighbours show the same triangle too; only their colours are compared. differing: pixels that show different
-    triangles. error: the sum of the errors of all channels. many: pixels off by more than MANY levels.
-    worst: the largest error. faults: what is out of bounds, in words.
+    pixels: Pixels
+    triangle: Triangles
+
+
+def picture(scene: Scene) -> Drawing:
+    """Draw a scene without wires by the contracts, and the numbers of its triangles as colours."""
+    scene = solid(scene)
+    numbers = 1 + np.arange(sum(len(o.mesh.faces) for o in scene.objects))
+    objects = list(_painted(scene.objects, numbers[:, None] >> [16, 8, 0] & 255))
+    painted = evolve(scene, objects=objects, lights=[], background=Background((0, 0, 0)), invert=False)
+    return Drawing(draw(scene), (draw(painted).astype(np.int64) << [16, 8, 0]).sum(axis=2) - 1)
+
+
+def solid(scene: Scene) -> Scene:
+    """Return the scene without wires, in the numbers that the contracts get."""
+    return fit(evolve(scene, objects=[o for o in scene.objects if not o.wireframe]))
+
+
+def _painted(objects: Iterable[Object], colors: NDArray[np.int64]) -> Iterator[Object]:
+    """The objects without light, each triangle in one colour of (n, 3)."""
+    count = 0
+    for o in objects:
+        for first in range(0, len(o.mesh.faces), MAX_TRIANGLES):
+            part = o.mesh.faces[first : first + MAX_TRIANGLES]
+            own = np.repeat(colors[count : count + len(part)], 3, axis=0)
+            mesh = Mesh(o.mesh.positions[part].reshape(-1, 3), np.arange(3 * len(part)).reshape(-1, 3), own)
+            yield evolve(o, mesh=mesh, material=UNLIT)
+            count += len(part)
+
+
+def compare(name: str, scene: Scene, is_piece: bool = False) -> Verdict:
+    """Draw a scene by the contracts and by OpenGL; `is_piece` adds the bound of built-in pieces.
+
+    Colours are compared in interior pixels: those whose eight neighbours show the same triangle, too.
     """
-
-    scenes: int = 0
-    empty: int = 0
-    pixels: int = 0
-    interior: int = 0
-    differing: int = 0
-    error: float = 0.0
-    many: int = 0
-    worst: float = 0.0
-    faults: list[str] = field(default_factory=list)
-
-    @property
-    def mean(self) -> float:
-        """The mean error of a channel."""
-        return self.error / max(3 * self.interior, 1)
-
-    def __add__(self, other: Result) -> Result:
-        sums = {each.name: getattr(self, each.name) + getattr(other, each.name) for each in fields(self)}
-        return Result(**sums | {"worst": max(self.worst, other.worst)})
-
-    def faults_of_run(self) -> list[str]:
-        """What is out of bounds, in any scene or in all of them together."""
-        found = list(self.faults)
-        if self.scenes < LEAST_RUN:
-            return found
-        if self.many > SHARE_OF_RUN * self.interior:
-            found.append(f"{self.many} of {self.interior} pixels are off by more than {MANY:g} levels")
-        if self.mean > MEAN_OF_RUN:
-            found.append(f"the mean error is {self.mean:.3f} levels")
-        return found
-
-
-def compare(name: str, scene: Scene, is_piece: bool = False) -> Result:
-    """Draws a scene by the contracts and by OpenGL; `is_piece` adds the bound of built-in pieces."""
     world = before_camera(scene)
-    ours, theirs = contracts.picture(scene), opengl.draw(world)
+    ours, theirs = picture(scene), opengl.draw(world)
     expected = 255 - theirs.color if scene.invert else theirs.color
     error = np.abs(ours.pixels - expected)
-    step = ~uniform(theirs.shining)
-    error[step] = beyond(ours.pixels, expected)[step]
+    # a highlight ends where its light does, not gradually: N.L decides, and is zero in the line between two pixels
+    step = ~(around(theirs.shining) == theirs.shining).all(axis=0)
+    error[step] = outside(ours.pixels, around(expected))[step]
     inner = interior(theirs.triangle) & (ours.triangle == theirs.triangle)
     if (error[inner] > MANY).any():
         both = np.stack([opengl.draw(world, threshold).color for threshold in (-GRAZING, GRAZING)])
         error = np.minimum(error, outside(ours.pixels, 255 - both if scene.invert else both))
-    largest = error.max(axis=2)
-    faults = []
+    largest = np.where(inner, error.max(axis=2), 0)
     different = np.argwhere(ours.triangle != theirs.triangle)
-    wrong = (
-        _wrong(render(call_data("render", contracts.solid(scene))), ours.triangle, theirs.triangle, different)
-        if len(different)
-        else []
-    )
-    if wrong:
-        faults.append(f"{name}: {len(wrong)} pixels show a wrong triangle; {wrong[0]}")
-    far = np.argwhere(inner & (largest > MOST))
-    if len(far):
-        row, column = max(far, key=lambda place: float(largest[tuple(place)]))
-        faults.append(
-            f"{name}: {len(far)} interior pixels are off by more than {MOST:g} levels; pixel ({column}, {row}) is "
-            f"{tuple(ours.pixels[row, column].tolist())}, with OpenGL {_color(expected[row, column])}"
-        )
-    result = Result(
+    faults = []
+    if len(different):
+        wrong = _wrong(render(call_data("render", solid(scene))), ours.triangle, theirs.triangle, different)
+        faults += [f"{name}: {len(wrong)} pixels show a wrong triangle; {wrong[0]}"] if wrong else []
+    result = Verdict(
         scenes=1,
-        empty=int(not (theirs.triangle >= 0).any()),
-        pixels=int(((theirs.triangle >= 0) | (ours.triangle >= 0)).sum()),
+        lit=int(((theirs.triangle >= 0) | (ours.triangle >= 0)).sum()),
         interior=int(inner.sum()),
-        differing=len(different),
+        many=int((largest > MANY).sum()),
+        far=int((largest > MOST).sum()),
+        worst=float(largest.max(initial=0.0)),
         error=float(error[inner].sum()),
-        many=int((largest[inner] > MANY).sum()),
-        worst=float(largest[inner].max(initial=0.0)),
+        explained=Counter({ANOTHER: len(different)}),
         faults=faults,
     )
+    if result.far or (is_piece and result.many * FEW_OF_PIECE > result.interior):
+        row, column = np.unravel_index(largest.argmax(), inner.shape)
+        count, bound = (result.far, MOST) if result.far else (result.many, MANY)
+        faults.append(
+            f"{name}: {count} interior pixels are off by more than {bound:g} levels; pixel ({column}, {row}) is "
+            f"{tuple(ours.pixels[row, column].tolist())}, with OpenGL {tuple(expected[row, column].round(1).tolist())}"
+        )
     if result.mean > MEAN_OF_SCENE:
         faults.append(f"{name}: the mean error is {result.mean:.3f} levels over {result.interior} pixels")
-    if is_piece and result.many > SHARE_OF_PIECE * result.interior:
-        row, column = np.unravel_index(np.where(inner, largest, 0).argmax(), inner.shape)
-        faults.append(
-            f"{name}: {result.many} of {result.interior} pixels are off by more than {MANY:g} levels; pixel "
-            f"({column}, {row}) is {tuple(ours.pixels[row, column].tolist())}, with OpenGL "
-            f"{_color(expected[row, column])}"
-        )
     return result
 
 
@@ -129,28 +119,24 @@ def _wrong(right: Picture, ours: Triangles, theirs: Triangles, places: Triangles
         allowed = right.may_show(column, row)
         if ours[row, column] not in allowed:
             found.append(
-                f"pixel ({column}, {row}) shows {_triangle(ours[row, column])}, with OpenGL "
-                f"{_triangle(theirs[row, column])}; it may show {' or '.join(map(_triangle, allowed))}"
+                f"pixel ({column}, {row}) shows triangle {ours[row, column]}, with OpenGL {theirs[row, column]}; "
+                f"it may show {' or '.join(map(str, allowed))} (-1: nothing)"
             )
     return found
 
 
-def beyond(pixels: NDArray[np.uint8], expected: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(H, W, 3): how far a channel is outside of what it and its neighbours should be.
-
-    A highlight ends where its light does, not gradually: N.L decides, and is zero in the line between two pixels.
-    """
-    return outside(pixels, around(expected))
+def interior(triangle: Triangles) -> NDArray[np.bool_]:
+    """Return which pixels show a triangle, as do their neighbours on the canvas, and the same one: (H, W)."""
+    return np.asarray((around(triangle) == triangle).all(axis=0) & (triangle >= 0))
 
 
-def outside(pixels: NDArray[np.uint8], expected: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(H, W, 3): how far a channel is outside of the range of several pictures, (n, H, W, 3)."""
+def around(values: NDArray[Any]) -> NDArray[Any]:
+    """Return the values of each pixel and its eight neighbours: (9, H, W, ...)."""
+    height, width = values.shape[:2]
+    padded = np.pad(values, [(1, 1), (1, 1)] + [(0, 0)] * (values.ndim - 2), mode="edge")
+    return np.stack([padded[down : down + height, right : right + width] for down, right in np.ndindex(3, 3)])
+
+
+def outside(pixels: Pixels, expected: Array) -> Array:
+    """Return how far a channel is outside of the range of several pictures, (n, H, W, 3): (H, W, 3)."""
     return np.asarray(np.maximum(0, np.maximum(pixels - expected.max(axis=0), expected.min(axis=0) - pixels)))
-
-
-def _triangle(number: int) -> str:
-    return f"triangle {number}" if number >= 0 else "nothing"
-
-
-def _color(values: NDArray[np.float64]) -> str:
-    return f"({', '.join(f'{value:.1f}' for value in values)})"

@@ -70,19 +70,9 @@ class World:
     ambient: Array
 
     @property
-    def focal(self) -> float:
-        """Pixels to a unit, at distance 1 if the camera is a perspective one."""
-        return self.height / 2 / self.half_height
-
-    @property
     def corners(self) -> Array:
         """(n, 3, 3), of the triangles of all objects."""
         return np.concatenate([np.empty((0, 3, 3)), *(solid.corners for solid in self.solids)])
-
-    @property
-    def culled(self) -> NDArray[np.bool_]:
-        """(n,), whether a triangle is left out where it turns away."""
-        return np.concatenate([np.empty(0, bool), *(np.full(len(s.corners), s.cull) for s in self.solids)])
 
 
 def before_camera(scene: Scene) -> World:
@@ -124,14 +114,6 @@ def before_camera(scene: Scene) -> World:
         lamps,
         _floats(scene.ambient_light),
     )
-
-
-def project(world: World, points: Array) -> Array:
-    """Columns and rows of (..., 3) points before the camera."""
-    divisor = -points[..., 2] if world.perspective else 1.0
-    column = world.width / 2 + world.focal * points[..., 0] / divisor
-    row = world.height / 2 - world.focal * points[..., 1] / divisor
-    return np.stack([column, row], axis=-1)
 
 
 def _lamp(light: Light, eye: Array, axes: Array) -> Lamp:

@@ -24,29 +24,26 @@ def keystore(tmp_path: Path) -> Path:
 
 def test_a_keystore(keystore: Path) -> None:
     assert keystore_account(keystore, "right").address == ADDRESS
-
-
-def test_a_wrong_password(keystore: Path) -> None:
     with pytest.raises(InputError, match="cannot be opened: the password is wrong") as error:
         keystore_account(keystore, "wrong-password")
     assert "wrong-password" not in str(error.value)
-
-
-@pytest.mark.parametrize("text", ["", "{}", "[1]", KEY, '{"version": 3}', "\x00"])
-def test_files_that_are_no_keystores(tmp_path: Path, text: str) -> None:
-    path = tmp_path / "file"
-    path.write_text(text)
-    with pytest.raises(InputError, match="is not a keystore file") as error:
-        keystore_account(path, "right")
-    assert KEY[2:10] not in str(error.value)
-
-
-def test_a_damaged_keystore(keystore: Path) -> None:
     text = json.loads(keystore.read_text())
     del text["crypto"]["kdfparams"]
     keystore.write_text(json.dumps(text))
     with pytest.raises(InputError, match="cannot be opened: it is damaged"):
         keystore_account(keystore, "right")
+
+
+@pytest.mark.parametrize("text", ["", "{}", "[1]", KEY, '{"version": 3}', "\x00"])
+def test_files_that_are_no_keystores(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "file"
+    for words in ("there is no keystore file", "is not a keystore file"):
+        with pytest.raises(InputError, match=words) as error:
+            keystore_account(path, "right")
+        assert KEY[2:10] not in str(error.value)
+        path.write_text(text)
+    with pytest.raises(InputError, match="cannot be read"):
+        keystore_account(tmp_path, "")
 
 
 @pytest.mark.parametrize("name", ["crypto", "Crypto"])
@@ -60,13 +57,6 @@ def test_rounds_have_a_bound(keystore: Path, name: str) -> None:
         read_keystore(keystore)
 
 
-def test_a_keystore_that_is_missing(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="there is no keystore file"):
-        keystore_account(tmp_path / "nothing", "")
-    with pytest.raises(InputError, match="cannot be read"):
-        keystore_account(tmp_path, "")
-
-
 @pytest.mark.parametrize("value", [KEY, KEY[2:], f" {KEY}\n", KEY.upper().replace("0X", "0x")])
 def test_a_key_in_the_environment(monkeypatch: pytest.MonkeyPatch, value: str) -> None:
     monkeypatch.setenv("SOME_KEY", value)
@@ -75,6 +65,8 @@ def test_a_key_in_the_environment(monkeypatch: pytest.MonkeyPatch, value: str) -
 
 @pytest.mark.parametrize("value", [KEY[:-1], KEY + "0", "secret words", "0x" + 64 * "f", "0x" + 64 * "0"])
 def test_keys_that_are_none(monkeypatch: pytest.MonkeyPatch, value: str) -> None:
+    with pytest.raises(InputError, match="the environment variable SOME_KEY is not set"):
+        environment_account("SOME_KEY")
     monkeypatch.setenv("SOME_KEY", value)
     with pytest.raises(InputError, match="SOME_KEY must hold a private key, 64 hexadecimal digits") as error:
         environment_account("SOME_KEY")
@@ -82,23 +74,9 @@ def test_keys_that_are_none(monkeypatch: pytest.MonkeyPatch, value: str) -> None
     assert error.value.__cause__ is None
 
 
-def test_a_variable_that_is_not_set(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delenv("SOME_KEY", raising=False)
-    with pytest.raises(InputError, match="the environment variable SOME_KEY is not set"):
-        environment_account("SOME_KEY")
-
-
 #: What may stand in the place of a name by mistake: a key, or one with a mistake, and the words of a wallet.
 SLIPS = [
-    KEY,
-    KEY[2:],
-    KEY[:-1],
-    KEY[2:-1],
-    "0X" + KEY[2:],
-    f"{KEY},",
-    f"{KEY} ",
-    f'"{KEY}"',
-    KEY[2:36],
+    *(KEY, KEY[2:], KEY[:-1], KEY[2:-1], "0X" + KEY[2:], f"{KEY},", f"{KEY} ", f'"{KEY}"', KEY[2:36]),
     "test test test test test test test test test test test junk",
 ]
 

@@ -34,64 +34,47 @@ def fees(base: int | None, tip: Reply | int = 0, price: int = 0, max_fee: int | 
         return current_fees(Connection(url), max_fee)
 
 
-def test_a_base_fee_may_double() -> None:
-    assert fees(10 * GWEI, 2 * GWEI) == Fees(12 * GWEI, 22 * GWEI, 2 * GWEI, named=False)
-
-
-def test_a_tip_of_three_gwei_is_paid_and_no_more() -> None:
-    assert fees(GWEI, 3 * GWEI).tip == 3 * GWEI
-    words = r"suggests a tip of 3\.000000001 gwei per unit of gas, more than 3: .*`max_fee`"
-    with pytest.raises(TransactionError, match=words):
-        fees(GWEI, 3 * GWEI + 1)
-
-
-def test_a_node_that_suggests_no_tip() -> None:
-    assert fees(5 * GWEI, UNKNOWN) == Fees(6 * GWEI, 11 * GWEI, GWEI)
-    with pytest.raises(NoAnswerError):
-        fees(5 * GWEI, Reply(status=500))
-
-
 @pytest.mark.parametrize(
     ("base", "tip", "max_fee", "expected"),
     [
+        (10 * GWEI, 2 * GWEI, None, Fees(12 * GWEI, 22 * GWEI, 2 * GWEI)),
+        (GWEI, 3 * GWEI, None, Fees(4 * GWEI, 5 * GWEI, 3 * GWEI)),
+        (5 * GWEI, UNKNOWN, None, Fees(6 * GWEI, 11 * GWEI, GWEI)),
+        # a price that was named is the most
         (10, 2, 100, Fees(12, 100, 2, named=True)),
         (10, 2, 11, Fees(11, 11, 2, named=True)),
         (10, 2, 10, Fees(10, 10, 2, named=True)),
         (1, 9 * GWEI, 5 * GWEI, Fees(5 * GWEI, 5 * GWEI, 5 * GWEI, named=True)),
     ],
 )
-def test_a_price_that_was_named_is_the_most(base: int, tip: int, max_fee: int, expected: Fees) -> None:
+def test_prices(base: int, tip: Reply | int, max_fee: int | None, expected: Fees) -> None:
+    """The base fee may double."""
     assert fees(base, tip, max_fee=max_fee) == expected
 
 
-def test_a_chain_without_a_base_fee() -> None:
-    """Nothing bounds what its node asks for, so somebody has to."""
+def test_prices_that_are_refused() -> None:
+    words = r"suggests a tip of 3\.000000001 gwei per unit of gas, more than 3: .*`max_fee`"
+    with pytest.raises(TransactionError, match=words):
+        fees(GWEI, 3 * GWEI + 1)
+    with pytest.raises(NoAnswerError):
+        fees(5 * GWEI, Reply(status=500))
+    # nothing bounds what a node without a base fee asks for, so somebody has to
     with pytest.raises(TransactionError, match=r"reports no base fee, and asks for 2\.5 gwei .*`max_fee`$"):
         fees(None, price=5 * GWEI // 2)
     assert fees(None, price=7, max_fee=7) == fees(None, price=7, max_fee=9) == Fees(7, 7, None, named=True)
+    for base in (None, 3 * GWEI // 2 + 1):
+        with pytest.raises(TransactionError, match=r"costs 1\.500000001 gwei now, more than the 1\.5 of `max_fee`: "):
+            fees(base, 0, 3 * GWEI // 2 + 1, max_fee=3 * GWEI // 2)
 
 
-@pytest.mark.parametrize("base", [None, 3 * GWEI // 2 + 1])
-def test_what_costs_more_than_was_named_is_refused(base: int | None) -> None:
-    with pytest.raises(TransactionError, match=r"costs 1\.500000001 gwei now, more than the 1\.5 of `max_fee`: "):
-        fees(base, 0, 3 * GWEI // 2 + 1, max_fee=3 * GWEI // 2)
-
-
-def test_fees_as_fields_of_a_transaction() -> None:
+def test_what_is_signed_and_its_price() -> None:
     assert FEES.fields == {"maxFeePerGas": 7, "maxPriorityFeePerGas": 1, "type": 2}
     assert Fees(3, 5, None).fields == {"gasPrice": 5}
-
-
-def test_a_call_as_json_rpc_has_it() -> None:
     whole = {"from": "0x" + "11" * 20, "to": "0x" + "22" * 20, "data": "0xabcd", "value": "0x10"}
     assert Call(PLACE, b"\xab\xcd", 1, value=16).request(SENDER) == whole
     assert Call(None, b"\xab\xcd", 1).request() == {"data": "0xabcd", "value": "0x0"}
-
-
-def test_the_price_of_a_quote_includes_its_value() -> None:
     quote = Quote(Call(PLACE, b"", 100, value=1000), FEES, gas=210, expected=200, estimate=None)
-    assert quote.likely == 200 * 3 + 1000
-    assert quote.ceiling == 210 * 7 + 1000
+    assert (quote.likely, quote.ceiling) == (200 * 3 + 1000, 210 * 7 + 1000)
 
 
 class Estimates:
@@ -149,33 +132,22 @@ def test_what_cannot_be_estimated_is_as_dear_as_the_dearest() -> None:
     # and never less than our count
     cheap = Estimates({"0x01": 90_000, "0x03": None})
     assert limits(cheap.quotes(call(1), call(3)))[1] == (105_000, 100_000, None)
-    assert limits(cheap.quotes(call(3))) == [(105_000, 100_000, None)]
-
-
-def test_an_estimate_of_less_than_half_is_of_a_contract_that_is_not_there() -> None:
+    # an estimate of less than half is of a contract that is not there
     node = Estimates({"0x01": 50_000, "0x02": 49_999})
     assert [quote.estimate for quote in node.quotes(call(1), call(2))] == [50_000, None]
 
 
-def test_the_node_is_given_the_contracts_that_will_be_there() -> None:
-    node = Estimates({"0x01": 150_000})
-    (quote,) = node.quotes(call(1, needs=True))
-    assert quote.estimate == 150_000
-    (parameters,) = node.asked
-    assert parameters[1:] == ["latest", {"0x" + "33" * 20: {"code": "0x6001"}}]
-    assert parameters[0]["from"] == "0x" + "11" * 20
-
-
-def test_a_node_that_knows_no_overrides_is_asked_without() -> None:
-    node = Estimates({"0x01": 150_000}, knows_overrides=False)
-    (quote,) = node.quotes(call(1, needs=True))
-    assert quote.estimate == 150_000
-    assert [len(parameters) for parameters in node.asked] == [3, 1]
-    # others are asked once
+@pytest.mark.parametrize(("knows", "asked"), [(True, [3]), (False, [3, 1])])
+def test_the_node_is_given_the_contracts_that_will_be_there(knows: bool, asked: list[int]) -> None:
+    """Nodes that know no overrides are asked without, and about others once."""
+    node = Estimates({"0x01": 150_000, "0x02": None}, knows)
+    assert node.quotes(call(1, needs=True))[0].estimate == 150_000
+    assert [len(parameters) for parameters in node.asked] == asked
+    assert node.asked[0][1:] == ["latest", {"0x" + "33" * 20: {"code": "0x6001"}}]
+    assert node.asked[0][0]["from"] == "0x" + "11" * 20
     node.asked.clear()
-    node.by_data["0x02"] = None
     assert node.quotes(call(2))[0].estimate is None
-    assert [len(parameters) for parameters in node.asked] == [1]
+    assert len(node.asked) == 1
 
 
 def test_a_node_that_gives_no_answer_ends_the_quotes() -> None:

@@ -10,7 +10,7 @@ from eth_abi.exceptions import DecodingError
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shackled.artifacts import artifact, known_errors
+from shackled.artifacts import known_errors
 from shackled.chain import describe_revert
 from shackled.errors import InputError
 from shackled.ethereum import (
@@ -54,23 +54,18 @@ def test_the_examples_of_the_specification() -> None:
     assert FOO.encode("baz", 69, True) == bytes.fromhex("cdcd77c0") + word(69) + word(1)
     assert FOO.encode("sam(bytes,bool,uint256[])", b"dave", True, [1, 2, 3])[:4] == bytes.fromhex("a5643bf2")
     assert FOO.construct(7) == word(7)
-
-
-def test_one_value_is_itself_and_several_are_a_tuple() -> None:
+    # one value is itself, several are a tuple
     assert FOO.decode("baz", word(0)) is False
     assert FOO.decode("sam", word(5) + word(6)) == (5, 6)
 
 
-def test_an_answer_of_another_kind_is_refused() -> None:
-    for answer in (b"", word(5), word(2)):
-        function = "sam" if answer == word(5) else "baz"
-        with pytest.raises(ValueError, match=rf"^{len(answer)} bytes are not an output of {function}: "):
-            FOO.decode(function, answer)
-
-
-def test_a_text_that_is_not_utf8_is_refused() -> None:
-    with pytest.raises(ValueError, match=r"^96 bytes are not an output of say"):
-        FOO.decode("say", word(32) + word(1) + b"\xff" + bytes(31))
+@pytest.mark.parametrize(
+    ("function", "answer"),
+    [("baz", b""), ("sam", word(5)), ("baz", word(2)), ("say", word(32) + word(1) + b"\xff" + bytes(31))],
+)
+def test_an_answer_of_another_kind_is_refused(function: str, answer: bytes) -> None:
+    with pytest.raises(ValueError, match=rf"^{len(answer)} bytes are not an output of {function}: "):
+        FOO.decode(function, answer)
 
 
 def test_values_that_do_not_fit_are_named() -> None:
@@ -84,41 +79,23 @@ def test_values_that_do_not_fit_are_named() -> None:
             encode(*values)
 
 
-def test_the_struct_of_a_scene_is_that_of_the_renderer() -> None:
-    kind = artifact("Renderer").interface.parameter_type("render")
-    assert kind.startswith("((uint256,uint256),(")
-    assert kind == artifact("Studio").interface.parameter_type("storeScene")
-
-
 def test_errors_of_solidity_itself() -> None:
     text = bytes.fromhex("08c379a0") + word(32) + word(5) + b"wrong" + bytes(27)
     assert decode_error(text, SOLIDITY_ERRORS) == ("Error", {"message": "wrong"})
+    assert describe_revert(text[:68] + b"\xff" + bytes(31)) == "\ufffd" + "\0" * 4
     assert decode_error(bytes.fromhex("4e487b71") + word(0x11), SOLIDITY_ERRORS) == ("Panic", {"code": 0x11})
-
-
-def test_an_error_that_is_cut_or_unknown_is_none() -> None:
+    # cut, or unknown
     for data in (b"", b"\x08\xc3", bytes.fromhex("4e487b71") + bytes(31), b"\1\2\3\4" + word(1)):
         assert decode_error(data, known_errors()) is None
 
 
-def test_values_without_a_name_have_that_of_their_type() -> None:
-    table = error_table([{"type": "error", "name": "Odd", "inputs": [{"name": "", "type": "address"}]}])
-    ((selector, _),) = table.items()
-    assert decode_error(selector + word(b"\x77" * 20), table) == ("Odd", {"address": "0x" + 20 * "77"})
-
-
-def test_a_reason_that_is_not_utf8() -> None:
-    data = bytes.fromhex("08c379a0") + word(32) + word(1) + b"\xff" + bytes(31)
-    assert describe_revert(data) == "\ufffd"
-
-
-def test_errors_with_structs() -> None:
+def test_errors_with_structs_and_values_without_names() -> None:
     inner = {"name": "", "type": "tuple", "components": [{"name": "", "type": "bytes2"}]}
-    parameter = {"name": "those", "type": "tuple[]", "components": [{"name": "", "type": "uint8"}, inner]}
-    table = error_table([{"type": "error", "name": "Odd", "inputs": [parameter]}])
-    assert list(table) == [keccak256(b"Odd((uint8,(bytes2))[])")[:4]]
-    data = word(32) + word(1) + word(7) + b"ab".ljust(32, b"\0")
-    assert describe_revert(next(iter(table)) + data, table) == "Odd(those=((7, (0x6162))))"
+    those = {"name": "those", "type": "tuple[]", "components": [{"name": "", "type": "uint8"}, inner]}
+    table = error_table([{"type": "error", "name": "Odd", "inputs": [{"name": "", "type": "address"}, those]}])
+    assert list(table) == [keccak256(b"Odd(address,(uint8,(bytes2))[])")[:4]]
+    data = word(b"\x77" * 20) + word(64) + word(1) + word(7) + b"ab".ljust(32, b"\0")
+    assert describe_revert(next(iter(table)) + data, table) == f"Odd(address=0x{20 * '77'}, those=((7, (0x6162))))"
 
 
 def kinds(depth: int = 2) -> st.SearchStrategy[tuple[str, st.SearchStrategy[Any]]]:

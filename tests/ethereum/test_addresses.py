@@ -16,13 +16,10 @@ ADDRESSES = [
 ]
 
 
-def test_the_hash_of_nothing() -> None:
+def test_hashes_words_and_gas() -> None:
     assert to_hex(keccak256(b"")) == "0xc5d2460186f7233c927e7db2dcc703c0e500b653ca82273b7bfad8045d85a470"
-
-
-def test_words_are_filled_on_the_left() -> None:
-    assert word(5) == bytes(31) + b"\5"
-    assert word(b"\5\6") == bytes(30) + b"\5\6"
+    assert (word(5), word(b"\5\6")) == (bytes(31) + b"\5", bytes(30) + b"\5\6")
+    assert (intrinsic_gas(b""), intrinsic_gas(b"\0\1\0")) == (21_000, 21_000 + 2 * 4 + 16)
 
 
 @pytest.mark.parametrize("text", ADDRESSES)
@@ -52,8 +49,3 @@ def test_what_is_no_address_is_refused() -> None:
 )
 def test_addresses_of_create2(creator: bytes, salt: bytes, creation: bytes, expected: str) -> None:
     assert checksum_address(create2_address(creation, salt, creator)) == expected
-
-
-def test_intrinsic_gas() -> None:
-    assert intrinsic_gas(b"") == 21_000
-    assert intrinsic_gas(b"\0\1\0") == 21_000 + 2 * 4 + 16

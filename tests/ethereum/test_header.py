@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from shackled.errors import InputError
-from shackled.ethereum import encode_header
+from shackled.ethereum import encode_header, keccak256, to_hex
 
 #: The first block of Ethereum (2015), as every node tells it.
 GENESIS = {
@@ -29,27 +29,11 @@ GENESIS = {
 
 
 def test_the_first_block_has_its_hash() -> None:
-    assert len(encode_header(GENESIS)) == 535
+    assert to_hex(keccak256(encode_header(GENESIS))) == GENESIS["hash"]
 
 
-def test_values_may_be_bytes_and_numbers() -> None:
-    values = {name: bytes.fromhex(value[2:]) for name, value in GENESIS.items() if len(value) % 2 == 0}
-    numbers = {"difficulty": 0x400000000, "number": 0, "gasLimit": 5000, "gasUsed": 0, "timestamp": 0}
-    assert encode_header(values | numbers) == encode_header(GENESIS)
-
-
-def test_a_field_that_is_missing_is_named() -> None:
-    for name in ("mixHash", "nonce", "parentHash"):
-        block = {key: value for key, value in GENESIS.items() if key != name}
-        with pytest.raises(
-            InputError, match=f"^the node returned no {name} of block 0, so its header cannot be encoded$"
-        ):
-            encode_header(block)
-
-
-def test_a_header_with_another_hash_is_refused() -> None:
-    for change in ({"gasUsed": "0x1"}, {"baseFeePerGas": "0x7"}, {"hash": "0x" + "12" * 32}, {"hash": None}):
-        with pytest.raises(
-            InputError, match=r"^the header of block 0 has the hash 0x\w+, not 0x\w+: its chain has other"
-        ):
-            encode_header({**GENESIS, **change})
+@pytest.mark.parametrize("name", ["mixHash", "gasUsed"])
+@pytest.mark.parametrize("value", [None, "zz", "0xzz", 1.5, -5, [300], 7])
+def test_a_field_that_is_none_is_named(name: str, value: object) -> None:
+    with pytest.raises(InputError, match=rf"its {name} is .*, not hexadecimal$"):
+        encode_header({**GENESIS, name: value})

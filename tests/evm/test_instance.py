@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -34,42 +35,27 @@ def instance(code: bytes) -> Instance:
 
 def test_other_threads_run_during_a_call() -> None:
     """Calls release the lock of the interpreter."""
-    made, seconds = instance(ENDLESS), 0.0
-
-    def call() -> None:
-        nonlocal seconds
-        started = time.perf_counter()
-        made.call(ADDRESS, b"", 500_000_000)
-        seconds = time.perf_counter() - started
-
+    made = instance(ENDLESS)
     for _ in range(5):
-        thread = threading.Thread(target=call)
+        thread = threading.Thread(target=made.call, args=(ADDRESS, b"", 500_000_000))
+        started = last = time.perf_counter()
+        longest = 0.0
         thread.start()
-        longest, last = 0.0, time.perf_counter()
         while thread.is_alive():
             now = time.perf_counter()
             longest, last = max(longest, now - last), now
-        thread.join()
         # the longest time without a step here; the whole call if it held the lock
-        if longest < seconds / 2:
+        if longest < (last - started) / 2:
             return
-    pytest.fail(f"no other thread ran for {longest:.2f} s of a call of {seconds:.2f} s")
+    pytest.fail(f"no other thread ran for {longest:.2f} s of a call of {last - started:.2f} s")
 
 
 def test_threads_share_a_chain() -> None:
-    chain, found = RevmChain(), list[bool]()
+    chain = RevmChain()
     chain.put(ADDRESS, bytes.fromhex("5f355f5260205ff3"))
-
-    def call(number: int) -> None:
-        data = number.to_bytes(32, "big")
-        found.extend(chain.run(ADDRESS, data).output == data for _ in range(200))
-
-    threads = [threading.Thread(target=call, args=(number,)) for number in range(8)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert found == [True] * 1600
+    data = [number.to_bytes(32, "big") for number in range(1600)]
+    with ThreadPoolExecutor(8) as pool:
+        assert list(pool.map(lambda each: chain.run(ADDRESS, each).output, data)) == data
 
 
 def test_contracts_that_are_removed() -> None:
@@ -107,14 +93,6 @@ def test_large_data() -> None:
         made.call(ADDRESS, bytes(1100 << 20), 100_000)
 
 
-def test_a_failure_does_not_spoil_an_instance() -> None:
-    made = instance(ENDLESS)
-    for _ in range(3):
-        assert made.call(ADDRESS, b"", 1_000).status == Status.OUT_OF_GAS
-    made.put(ADDRESS, b"\x00")
-    assert made.call(ADDRESS, b"", 0).status == Status.SUCCESS
-
-
 def test_replaced_codes_are_not_kept() -> None:
     made, codes = Instance(), [bytes([number]) * 20_000 for number in range(200)]
 
@@ -149,13 +127,10 @@ def test_a_code_of_two_contracts_stays() -> None:
 @pytest.mark.parametrize("size", [0, 19, 21])
 def test_addresses_have_20_bytes(size: int) -> None:
     made, place = Instance(), bytes(size)
-    words = rf"^an address must have 20 bytes, not {size}$"
-    for use in (made.put, made.describe):
-        with pytest.raises(InputError, match=words):
-            use(place, b"")
-    for call in (made.call, made.send, made.profile):
-        with pytest.raises(InputError, match=words):
-            call(place, b"", 99)
+    for function in ("put", "describe", "call", "send", "profile"):
+        gas = [] if function in ("put", "describe") else [99]
+        with pytest.raises(InputError, match=rf"^an address must have 20 bytes, not {size}$"):
+            getattr(made, function)(place, b"", *gas)
 
 
 # ---- limits of the process ----
@@ -272,38 +247,27 @@ def test_a_damaged_cache(tmp_path: Path, cache: Path) -> None:
         cache.write_bytes(damaged)
         check(start(tmp_path))
         assert cache.read_bytes() == whole
-
-
-@needs_linux
-def test_a_cache_that_cannot_be_written(tmp_path: Path) -> None:
-    (tmp_path / "shackled").write_text("a file where the folder would be")
+    # or not written, where a file is in the place of the folder
+    shutil.rmtree(tmp_path / "shackled")
+    (tmp_path / "shackled").write_text("")
     check(start(tmp_path))
 
 
-def spoil_by_others(path: Path) -> None:
-    path.chmod(0o666)
-
-
-def spoil_by_owner(path: Path) -> None:
-    os.chown(path, 65534, -1)
-
-
-def spoil_by_link(path: Path) -> None:
-    path.symlink_to(path.rename(path.with_name("elsewhere")))
-
-
-def spoil_by_pipe(path: Path) -> None:
-    path.unlink()
-    os.mkfifo(path)
+SPOIL: dict[str, Callable[[Path], object]] = {
+    "others": lambda path: path.chmod(0o666),
+    "owner": lambda path: os.chown(path, 65534, -1),
+    "link": lambda path: path.symlink_to(path.rename(path.with_name("elsewhere"))),
+    "pipe": lambda path: os.mkfifo(path.rename(path.with_name("elsewhere")).with_name(path.name)),
+}
 
 
 @needs_linux
-@pytest.mark.parametrize("spoil", [spoil_by_others, spoil_by_owner, spoil_by_link, spoil_by_pipe])
-def test_a_cache_that_others_could_have_written(tmp_path: Path, cache: Path, spoil: Callable[[Path], None]) -> None:
+@pytest.mark.parametrize("spoil", SPOIL)
+def test_a_cache_that_others_could_have_written(tmp_path: Path, cache: Path, spoil: str) -> None:
     """It is not run, and replaced: its content is machine code."""
-    if spoil is spoil_by_owner and os.geteuid():
+    if spoil == "owner" and os.geteuid():
         pytest.skip("only root can give files away")
-    spoil(cache)
+    SPOIL[spoil](cache)
     spoilt = cache.lstat()
     check(start(tmp_path))
     now = cache.lstat()

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from datetime import date
 
+import pytest
+
 from shackled import load
 from shackled.chain import open_chain
 from shackled.gas import fits_of, headline, limits, measure, render_call, search, suffices
@@ -20,39 +22,29 @@ def test_every_limit_has_a_source_and_a_date() -> None:
         assert limit.source.startswith("https://")
         assert date(2015, 7, 30) < date.fromisoformat(limit.date)
 
-
-def test_a_transaction_has_the_smallest() -> None:
-    (transaction,) = (limit for limit in limits() if limit.kind == "transaction")
-    assert transaction.gas == 2**24
-    assert limits()[0] == transaction
+    (transaction,) = (limit for limit in found if limit.kind == "transaction")
+    assert (transaction, transaction.gas) == (found[0], 2**24)
 
 
-def test_a_small_picture_fits_everywhere() -> None:
-    found = fits_of(5_000_000, 100_000, bytes(10_000))
-    assert all(fit.fits for fit in found)
-    assert [fit.limit.gas for fit in found] == sorted(limit.gas for limit in limits())
-    assert headline(found) == "fits one transaction, and any node's read call"
-
-
-def test_a_large_one_fits_fewer_places() -> None:
-    found = fits_of(60_000_000, 100_000, bytes(10_000))
-    assert 0 < sum(fit.fits for fit in found) < len(found)
-    assert headline(found) == "fits calls of Nethermind, Besu and Alchemy; no transaction"
-    assert headline(fits_of(200_000_000, 0, b"")) == "fits calls of Alchemy; no transaction"
-    assert all(fit.fits == (fit.share <= 1) for fit in found)
-
-
-def test_the_largest_fits_nowhere() -> None:
-    assert headline(fits_of(10**10, 100_000, b"")).startswith("fits no usual node")
-
-
-def test_too_many_bytes_for_a_transaction() -> None:
-    found = fits_of(1_000_000, 2_000_000, bytes(140_000))
-    transaction = next(fit for fit in found if fit.limit.kind == "transaction")
-    assert not transaction.fits
-    assert "140,000 bytes" in transaction.reason
-    assert all(fit.fits for fit in found if fit.limit.kind == "call")
-    assert headline(found) == "fits any node's read call; no transaction"
+@pytest.mark.parametrize(
+    ("gas", "intrinsic_gas", "size", "words"),
+    [
+        (5_000_000, 100_000, 10_000, "fits one transaction, and any node's read call"),
+        (60_000_000, 100_000, 10_000, "fits calls of Nethermind, Besu and Alchemy; no transaction"),
+        (200_000_000, 0, 0, "fits calls of Alchemy; no transaction"),
+        (10**10, 100_000, 0, "fits no usual node: take fewer pixels or triangles"),
+        # too many bytes for a transaction
+        (1_000_000, 2_000_000, 140_000, "fits any node's read call; no transaction"),
+    ],
+)
+def test_where_pictures_fit(gas: int, intrinsic_gas: int, size: int, words: str) -> None:
+    found = fits_of(gas, intrinsic_gas, bytes(size))
+    assert headline(found) == words
+    assert [fit.limit for fit in found] == list(limits())
+    for fit in found:
+        is_long = size > 128 * 1024 and fit.limit.kind == "transaction"
+        assert fit.fits == (fit.share <= 1 and not is_long)
+        assert ("140,000 bytes" in fit.reason) == is_long
 
 
 def test_between_the_bounds_the_call_is_tried() -> None:

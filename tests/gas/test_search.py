@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import pytest
 from attrs import evolve
-from tools.anvil import AnvilChain
 
-from nodes import ANVIL, needs_anvil
-from shackled import ChainError, InputError, RenderError, Scene
+from shackled import InputError, RenderError, Scene
 from shackled.artifacts import artifact
-from shackled.chain import open_chain
-from shackled.errors import OutOfGasError, RevertError
+from shackled.chain import engine_calls, open_chain
+from shackled.errors import OutOfGasError
 from shackled.gas import SearchStep, margin, measure, render_call, search, suffices
 from shackled.gas._limits import KEPT, floor_gas, needed_for
-from shackled.gas._runs import engine_calls
 from shackled.gas._search import FIRST_LIMIT
 
 NAMES = ("smooth", "clipped, wires, inverted", "empty")
@@ -26,28 +21,19 @@ NAMES = ("smooth", "clipped, wires, inverted", "empty")
 def test_it_finds_the_least_that_is_enough(least: int, upper: int | None) -> None:
     steps: list[SearchStep] = []
     found = search(lambda limit: limit >= least, upper=upper, report=steps.append)
-    assert found.gas == least
-    assert found.steps == tuple(steps)
-    assert found.calls == len(steps) <= 2 + 2 * 27
-    # no call is wasted, and the bracket only narrows
-    assert len({step.limit for step in steps}) == len(steps)
+    assert (found.gas, found.steps, found.calls) == (least, tuple(steps), len(steps))
+    # no call is wasted
+    assert len({step.limit for step in steps}) == len(steps) <= 2 + 2 * 27
+    low, high = 0, None
     for step in steps:
-        assert step.enough == (step.limit >= least)
-        assert step.lower < least
-        assert step.upper is None or step.upper >= least
-    for before, after in pairwise(steps):
-        assert after.lower >= before.lower
-        assert before.upper is None or (after.upper is not None and after.upper <= before.upper)
-    assert steps[-1].lower == least - 1
-    assert steps[-1].upper == least
+        low, high = (low, step.limit) if step.limit >= least else (step.limit, high)
+        assert step == SearchStep(step.limit, step.limit >= least, low, high)
+    assert (low, high) == (least - 1, least)
 
 
 def test_it_halves() -> None:
     assert search(lambda limit: limit >= 700, 0, 1024).calls <= 11
-    assert search(lambda limit: limit >= 700, 699, 701).steps == (
-        SearchStep(701, True, 699, 701),
-        SearchStep(700, True, 699, 700),
-    )
+    assert search(lambda limit: limit >= 700, 699, 701).calls == 2
 
 
 def test_limits_that_cannot_be() -> None:
@@ -86,16 +72,6 @@ def test_the_search_and_the_exact_figure_agree(name: str, scenes: dict[str, Scen
     assert 0 <= account.gas <= exact.gas / (KEPT - 1) + 1
 
 
-def test_another_evm_needs_the_same_limit(scenes: dict[str, Scene]) -> None:
-    pytest.importorskip("eth")
-    fast, slow = open_chain(), open_chain("pyevm")
-    data = render_call(scenes["empty"])
-    least = search(suffices(fast, "Renderer", data)).gas
-    enough = suffices(slow, "Renderer", data)
-    assert enough(least)
-    assert not enough(least - 1)
-
-
 def test_a_refusal_is_not_taken_for_too_little_gas(scenes: dict[str, Scene]) -> None:
     chain = open_chain()
     data = render_call(evolve(scenes["empty"], width=5))
@@ -130,30 +106,3 @@ def test_the_calls_of_the_engines_are_those_that_the_renderer_makes(name: str, s
 def test_the_least_that_a_transaction_costs() -> None:
     assert floor_gas(b"") == 21000
     assert floor_gas(b"\0\0\1") == 21000 + 10 * (1 + 1 + 4)
-
-
-@needs_anvil
-def test_a_node_that_only_answers_calls_gives_the_same(scenes: dict[str, Scene]) -> None:
-    assert ANVIL is not None
-    scene = scenes["smooth"]
-    data = render_call(scene)
-    (out_of_gas,) = (selector for selector, (name, _) in artifact("Renderer").errors.items() if name == "OutOfGas")
-    refusals: list[ChainError] = []
-    with AnvilChain(ANVIL) as node:
-
-        def enough(limit: int) -> bool:
-            try:
-                node.read("Renderer", data, limit)
-            except ChainError as error:
-                refusals.append(error)
-                return False
-            return True
-
-        on_node = search(enough)
-    # of the Renderer's own gas, or, as it says itself, of the Engine's
-    assert refusals
-    for refused in refusals:
-        assert isinstance(refused, OutOfGasError) or (isinstance(refused, RevertError) and refused.data == out_of_gas)
-    chain = open_chain()
-    assert on_node == search(suffices(chain, "Renderer", data))
-    assert on_node.gas > measure(scene, chain).gas

@@ -5,17 +5,6 @@ each pixel it finds the range in which its colour may lie when samples move by 0
 """
 
 from .composition import Picture, render
-from .scenes import EXTREMES, KINDS, random_scene
 from .verdict import Verdict, draw_in_tiles, judge, judge_pixels
 
-__all__ = [
-    "EXTREMES",
-    "KINDS",
-    "Picture",
-    "Verdict",
-    "draw_in_tiles",
-    "judge",
-    "judge_pixels",
-    "random_scene",
-    "render",
-]
+__all__ = ["Picture", "Verdict", "draw_in_tiles", "judge", "judge_pixels", "render"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, fields
 
 import numpy as np
@@ -82,6 +82,16 @@ class Verdict:
             if self.explained[rule] * few > self.lit:
                 found.append(f"{self.explained[rule]} of {self.lit} pixels are explained by the rule {rule!r} only")
         return found
+
+
+def table(rows: dict[str, Verdict], rules: Iterable[str] = RARE) -> str:
+    """Return the counts as a table in Markdown, a line for each row."""
+    heads = ["", "scenes", "lit pixels", "interior", "mean error", "> 4", "> 8", "worst", "others outside", *rules]
+    lines = [" | ".join(heads), "---|" * (len(heads) - 1) + "---"]
+    for name, r in rows.items():
+        counts = f"{r.scenes:,} | {r.lit:,} | {r.interior:,} | {r.mean:.3f} | {r.many:,} | {r.far:,} | {r.worst:.1f}"
+        lines.append(" | ".join([name, counts, f"{r.outside:,}", *(f"{r.explained[rule]:,}" for rule in rules)]))
+    return "\n".join(f"| {line} |" if line[0] != "-" else f"|{line}|" for line in lines)
 
 
 def judge(name: str, scene: Scene, draw: Callable[[Scene], Pixels] = drawn_by_contracts) -> Verdict:

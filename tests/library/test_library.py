@@ -146,34 +146,26 @@ def test_the_page(shelf: Shelf, path: str) -> None:
     assert text.count("/genesis/") == 24
 
 
-def test_paths_where_nothing_is(shelf: Shelf) -> None:
-    for path in (
-        "/icons",
-        "/icons/",
-        "/icons/crown.png",  # not stored
-        "/icons/cube.png",  # an object
-        "/objects/coin.png",  # an icon
-        "/icons/coin.gif",
-        "/icons/coin",
-        "/icons/.png",
-        "/icons/coin.png/more",
-        "/genesis/12.glb",
-        "/genesis/-1.png",
-        "/genesis/0x12.png",
-        f"/genesis/0x{'g' * 64}.png",
-        "/genesis/.png",
-        f"/genesis/{'9' * 78}.png",
-        f"/genesis/0x{'a' * 65}.png",
-        f"/genesis/1x{'a' * 64}.png",
-        "/../icons/coin.png",
-        "/" + "a" * 1000,
-    ):
-        status, body, headers = ask(shelf, path)
-        assert (path, status) == (path, 404)
-        assert headers == {"Content-Type": "text/plain"}
-        assert body.decode("ascii").endswith(".")
-    for scale in ("0", "9", "", "44", "x"):
-        assert ask(shelf, "/icons/coin.png", scale=scale)[0] == 400
+@pytest.mark.parametrize(
+    "path",
+    [
+        *("/icons", "/icons/", "/icons/coin.gif", "/icons/coin", "/icons/.png", "/icons/coin.png/more"),
+        # not stored; an object; an icon
+        *("/icons/crown.png", "/icons/cube.png", "/objects/coin.png"),
+        *("/genesis/12.glb", "/genesis/-1.png", "/genesis/0x12.png", f"/genesis/0x{'g' * 64}.png", "/genesis/.png"),
+        *(f"/genesis/{'9' * 78}.png", f"/genesis/0x{'a' * 65}.png", f"/genesis/1x{'a' * 64}.png"),
+        *("/../icons/coin.png", "/" + "a" * 1000),
+    ],
+)
+def test_paths_where_nothing_is(shelf: Shelf, path: str) -> None:
+    status, body, headers = ask(shelf, path)
+    assert (status, headers) == (404, {"Content-Type": "text/plain"})
+    assert body.decode("ascii").endswith(".")
+
+
+@pytest.mark.parametrize("scale", ["0", "9", "", "44", "x"])
+def test_scales_that_are_none(shelf: Shelf, scale: str) -> None:
+    assert ask(shelf, "/icons/coin.png", scale=scale)[0] == 400
 
 
 @needs_anvil

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import re
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -68,14 +69,7 @@ def test_scenes_of_the_example(shelf: Shelf) -> None:
     for k, name in enumerate(draw_library.IN_COMPARTMENTS):
         (item,) = chosen_items([name])
         for _, position, _, scale, *_ in (each for each in found if each[0][1:] in item.meshes):
-            corners = np.array(
-                [
-                    [bounds[number][axis] for axis, number in enumerate(choice)]
-                    for bounds in [(item.low, item.high)]
-                    for choice in np.ndindex(2, 2, 2)
-                ],
-                float,
-            )
+            corners = np.array([*product(*zip(item.low, item.high, strict=True))], float)
             placed = (rotate(from_euler((0, 20, 0)), corners) * scale + np.array(position)) / 2**32
             size, middle = np.ptp(placed, axis=0), (placed.min(axis=0) + placed.max(axis=0)) / 2
             assert size.max() == pytest.approx(100, abs=0.1)
@@ -99,15 +93,6 @@ def test_a_portrait(shelf: Shelf) -> None:
 
 
 @needs_compiler
-def test_an_item_that_is_not_stored(shelf: Shelf) -> None:
-    contract, selectors = shelf.deploy(draw_library.EXAMPLE)
-    for name, message in (("coin", "NotStored(name=coin, pointer=0x"), ("gold", "UnknownName(name=gold)")):
-        with pytest.raises(LookupError) as raised:
-            shelf.call(contract, selectors["image(string)"] + encode(["string"], [name]))
-        assert str(raised.value).startswith(message)
-
-
-@needs_compiler
 def test_a_site_of_ones_own(shelf: Shelf) -> None:
     site, selectors = shelf.deploy(SITE)
     assert shelf.call(site, selectors["resolveMode()"]) == b"5219".ljust(32, b"\0")
@@ -118,6 +103,7 @@ def test_a_site_of_ones_own(shelf: Shelf) -> None:
     assert (status, headers) == (200, {"Content-Type": "image/png"})
     crown = shelf.draw(draw_library.scenes(shelf)[draw_library.ON_PEDESTALS.index("crown")])
     assert np.array_equal(draw_library.pixels(body), crown.repeat(4, 0).repeat(4, 1))
+    # one that is not stored, and none
     for path in ("/coin", "/gold"):
         assert shelf.ask(site, path)[::2] == (404, {"Content-Type": "text/plain"})
 

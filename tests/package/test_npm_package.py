@@ -47,25 +47,27 @@ pytestmark = [
 
 
 @pytest.fixture(scope="module")
-def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The packed file."""
+def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder where the packed file is installed, and the libraries of the examples."""
     folder = tmp_path_factory.mktemp("package")
     build_package.build(folder / "npm")
-    npm("pack", "--pack-destination", str(folder), cwd=folder / "npm")
-    return next(folder.glob("*.tgz"))
+    run("npm", "pack", "--silent", "--pack-destination", folder, cwd=folder / "npm")
+    project = folder / "project"
+    project.mkdir()
+    (project / "package.json").write_text('{"private": true}')
+    run("npm", "install", "--silent", "--offline", next(folder.glob("*.tgz")), cwd=project)
+    modules = project / "node_modules"
+    assert [path.name for path in modules.glob("[!.]*")] == ["shackled-contracts"]
+    for library, sources in (("erc721a", "contracts"), ("solady", "src/utils")):
+        shutil.copytree(MODULES / library / sources, modules / library / sources)
+        shutil.copy(MODULES / library / "package.json", modules / library)
+    return project
 
 
 @pytest.fixture
-def project(package: Path, tmp_path: Path) -> Path:
-    """A folder where the package is installed, and the libraries of the examples."""
-    (tmp_path / "package.json").write_text('{"private": true}')
-    npm("install", "--offline", str(package), cwd=tmp_path)
-    installed = tmp_path / "node_modules"
-    assert [path.name for path in installed.glob("[!.]*")] == ["shackled-contracts"]
-    for library, folder in (("erc721a", "contracts"), ("solady", "src/utils")):
-        shutil.copytree(MODULES / library / folder, installed / library / folder)
-        shutil.copy(MODULES / library / "package.json", installed / library)
-    return tmp_path
+def project(installed: Path, tmp_path: Path) -> Path:
+    """The like of it for each test."""
+    return shutil.copytree(installed, tmp_path / "project", symlinks=True)
 
 
 @pytest.fixture(scope="module")
@@ -88,14 +90,11 @@ def drawn(example: str, function: str, contracts: list[str], value: int) -> Imag
     return render(decode(artifact("Renderer").selectors["render"] + scene))
 
 
-def npm(*arguments: str, cwd: Path) -> None:
-    result = run("npm", *arguments, "--silent", cwd=cwd)
-    assert not result.returncode, result.stderr
-
-
-def run(*command: str | Path, cwd: Path, **variables: str) -> subprocess.CompletedProcess[str]:
+def run(*command: str | Path, cwd: Path, succeeds: bool = True, **variables: str) -> subprocess.CompletedProcess[str]:
     environment = os.environ | {"HARDHAT_DISABLE_TELEMETRY_PROMPT": "true"} | variables
-    return subprocess.run(command, cwd=cwd, env=environment, capture_output=True, text=True)
+    done = subprocess.run(command, cwd=cwd, env=environment, capture_output=True, text=True)
+    assert succeeds == (done.returncode == 0), done.stdout + done.stderr
+    return done
 
 
 def signatures(abi: list[dict[str, Any]]) -> set[tuple[str, ...]]:
@@ -147,40 +146,30 @@ def test_sources_compile_with_default_settings(optimized: bool) -> None:
         assert signatures(made[f"I{name}"]["abi"]) == signatures(artifact(name).abi), name
 
 
-def test_generated_source_is_up_to_date() -> None:
+def test_javascript(project: Path) -> None:
+    """Addresses and ABIs in JavaScript, their types, artifacts that other tools read, and inputs of the compiler."""
     assert build_package.ADDRESSES.read_text() == build_package.addresses(deployments(CONTRACTS))
-
-
-def test_inputs_of_the_compiler(project: Path) -> None:
-    """The package has all that its bytecode is made of; one small contract is compiled."""
     script = """
+        const { contracts } = require("shackled-contracts");
+        const { bytecode } = require("shackled-contracts/artifacts/Studio.json");
         const { standardInput } = require("shackled-contracts/verify");
-        console.log(JSON.stringify(process.argv.slice(1).map(standardInput)));
+        const inputs = process.argv.slice(1).map(standardInput);
+        console.log(JSON.stringify([contracts.Studio, Object.keys(contracts), bytecode, inputs]));
     """
     said = run("node", "-e", script, *build_package.PACKED, cwd=project)
-    assert json.loads(said.stdout) == [standard_input(artifact(name).group) for name in build_package.PACKED]
+    studio, names, bytecode, inputs = json.loads(said.stdout)
+    assert studio["abi"] == artifact("Studio").abi
+    assert bytecode == to_hex(artifact("Studio").creation)
+    assert sorted(names) == sorted(CONTRACTS)
+    # the package has all that its bytecode is made of; one small contract is compiled
+    assert inputs == [standard_input(artifact(name).group) for name in build_package.PACKED]
     installed = project / "node_modules" / "shackled-contracts"
     command = run("node", installed / "verify.js", "PngEncoder", cwd=project)
     packed = json.loads((installed / "artifacts" / "PngEncoder.json").read_text())
     made = compile_once(json.loads(command.stdout))["encode/PngEncoder.sol"]["PngEncoder"]
     assert "0x" + made["evm"]["bytecode"]["object"] == packed["bytecode"]
-    wrong = run("node", installed / "verify.js", "toString", cwd=project)
-    told = "there is no contract toString: give a name such as Studio\n"
-    assert (wrong.returncode, wrong.stdout, wrong.stderr) == (1, "", told)
-
-
-def test_javascript(project: Path) -> None:
-    """Addresses and ABIs in JavaScript, their types, artifacts that other tools read."""
-    script = """
-        const { contracts } = require("shackled-contracts");
-        const { bytecode } = require("shackled-contracts/artifacts/Studio.json");
-        console.log(JSON.stringify([contracts.Studio, Object.keys(contracts), bytecode]));
-    """
-    said = subprocess.run(["node", "-e", script], cwd=project, check=True, capture_output=True, text=True).stdout
-    studio, names, bytecode = json.loads(said)
-    assert studio["abi"] == artifact("Studio").abi
-    assert bytecode == to_hex(artifact("Studio").creation)
-    assert sorted(names) == sorted(CONTRACTS)
+    wrong = run("node", installed / "verify.js", "toString", cwd=project, succeeds=False)
+    assert (wrong.stdout, wrong.stderr) == ("", "there is no contract toString: give a name such as Studio\n")
     (project / "use.ts").write_text("""
         import { contracts } from "shackled-contracts";
         import { shackled } from "shackled-contracts/hardhat";
@@ -195,8 +184,7 @@ def test_javascript(project: Path) -> None:
     compiler = ROOT / "web" / "node_modules" / "typescript" / "bin" / "tsc"
     if not compiler.is_file():
         pytest.skip("the compiler of TypeScript is not installed: npm ci in web/")
-    result = run("node", compiler, "--noEmit", "--strict", "--module", "nodenext", "--types", "", "use.ts", cwd=project)
-    assert not result.returncode, result.stdout
+    run("node", compiler, "--noEmit", "--strict", "--module", "nodenext", "--types", "", "use.ts", cwd=project)
 
 
 @pytest.mark.skipif(not FORGE.exists(), reason="forge is not installed: python tools/prepare.py node")
@@ -209,10 +197,8 @@ def test_foundry_project(project: Path, town: Image, tetrahedron: Image) -> None
     house, test = re.findall(r"^```solidity\n(.*?)^```$", build_package.README.read_text("utf-8"), re.M | re.S)
     (project / "src" / "House.sol").write_text(house)
     (project / "test" / "House.t.sol").write_text(test)
-    # the compiler of npm in place of the one that forge downloads; all other settings are the defaults
-    (project / "foundry.toml").write_text(f'[profile.default]\nsolc = "{compiler_command(project)}"\n')
+    use_compiler(project)
     result = run(FORGE, "test", "-vv", "--offline", cwd=project)
-    assert not result.returncode, result.stdout + result.stderr
     said = {name: bytes.fromhex(value) for name, value in re.findall(r"^  (\w+): 0x([0-9a-f]+)$", result.stdout, re.M)}
     assert said["bitmap"] == town.bmp
     check_png(said["png"], town, 1)
@@ -236,7 +222,7 @@ def test_the_tutorial(project: Path, monkeypatch: pytest.MonkeyPatch, capsys: py
     for name, text in files.items():
         (project / name).parent.mkdir(exist_ok=True)
         (project / name).write_text(text)
-    (project / "foundry.toml").write_text(f'[profile.default]\nsolc = "{compiler_command(project)}"\n')
+    use_compiler(project)
     monkeypatch.setenv("PATH", f"{FORGE.parent}{os.pathsep}{os.environ['PATH']}")
     monkeypatch.chdir(project)
     command = re.search(r"^shackled (preview .*--check)$", page, re.M)
@@ -260,24 +246,26 @@ def test_hardhat_project(project: Path, tetrahedron: Image) -> None:
     shutil.copy(HERE / "pictures.js", project / "test")
     call = to_hex(call_data("image(int256)", DEGREES))
     result = run("node", HARDHAT / "internal" / "cli" / "bootstrap.js", "test", cwd=project, CALL=call)
-    assert not result.returncode, result.stdout + result.stderr
     answer = re.search(r"image: 0x([0-9a-f]+)", result.stdout)
     assert answer
     (uri,) = decode_abi(["string"], bytes.fromhex(answer[1]))
     check_png(from_uri(uri), tetrahedron, 4)
 
 
-def compiler_command(folder: Path) -> Path:
-    """Write a command that calls the compiler of npm as forge calls a compiler; it reads and writes files only."""
-    command = folder / "solc.sh"
+def use_compiler(project: Path) -> None:
+    """Set the compiler of npm in place of the one that forge downloads; all other settings are the defaults.
+
+    It is called as forge calls a compiler, and reads and writes files only.
+    """
+    command = project / "solc.sh"
     command.write_text(f"""#!/bin/sh
 case " $* " in *" --standard-json "*) set -- --standard-json ;; esac
-cat > {folder}/solc.in
-node {MODULES}/solc/solc.js "$@" < {folder}/solc.in > {folder}/solc.out || exit $?
-sed -n '/^[{{0-9]/,$p' {folder}/solc.out
+cat > {project}/solc.in
+node {MODULES}/solc/solc.js "$@" < {project}/solc.in > {project}/solc.out || exit $?
+sed -n '/^[{{0-9]/,$p' {project}/solc.out
 """)
     command.chmod(0o755)
-    return command
+    (project / "foundry.toml").write_text(f'[profile.default]\nsolc = "{command}"\n')
 
 
 def from_uri(uri: str) -> bytes:

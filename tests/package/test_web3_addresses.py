@@ -8,8 +8,8 @@ import json
 import shutil
 import subprocess
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ from shackled import render
 from shackled.chain import Connection
 from shackled.datasets import require
 from shackled.datasets.genesis import seed_of
-from shackled.deploy import Deployer, Deployment, Transactor, deployment, deployments, environment_account
+from shackled.deploy import Deployer, Transactor, deployment, deployments, environment_account
 from shackled.ethereum import checksum_address
 from shackled.library import chosen_items
 from shackled.scene import Scene
@@ -42,8 +42,7 @@ pytestmark = [
 ]
 
 
-@dataclass(frozen=True)
-class Answer:
+class Answer(NamedTuple):
     """What a browser gets."""
 
     status: int
@@ -54,19 +53,14 @@ class Answer:
 Fetch = Callable[..., list[Answer]]
 
 
-def deployed() -> list[Deployment]:
-    """The contracts, and that of the example."""
-    found = deployments(["Web"])
-    addresses = {each.name: each.address.rjust(32, b"\0") for each in found}
-    creation, _ = compile_example("examples/library/PedestalSite.sol")
-    arguments = addresses["Library"] + addresses["Studio"]
-    return [*found, deployment("PedestalSite", creation + arguments, list(addresses))]
-
-
 @pytest.fixture(scope="module")
 def fetch() -> Iterator[Fetch]:
-    """Fetch addresses of a chain with the contracts and an icon; {Web} stands for an address and the chain."""
-    wanted = deployed()
+    """Fetch addresses of a chain with the contracts, that of the example and an icon; {Web} stands for an address."""
+    wanted = deployments(["Web"])
+    addresses = {each.name: each.address.rjust(32, b"\0") for each in wanted}
+    creation, _ = compile_example("examples/library/PedestalSite.sol")
+    arguments = addresses["Library"] + addresses["Studio"]
+    wanted.append(deployment("PedestalSite", creation + arguments, list(addresses)))
     (crown,) = chosen_items(["crown"])
     hosts = {each.name: f"web3://{checksum_address(each.address)}:31337" for each in wanted}
     with anvil() as node, pytest.MonkeyPatch.context() as patch:
@@ -79,12 +73,8 @@ def fetch() -> Iterator[Fetch]:
 
         def get(*addresses: str) -> list[Answer]:
             command = ["node", str(HERE / "fetch_web3.mjs"), node.url, *(each.format(**hosts) for each in addresses)]
-            result = subprocess.run(command, capture_output=True, text=True)
-            assert not result.returncode, result.stderr
-            return [
-                Answer(said["status"], said["headers"], base64.b64decode(said["body"], validate=True))
-                for said in map(json.loads, result.stdout.splitlines())
-            ]
+            said = map(json.loads, subprocess.check_output(command, text=True).splitlines())
+            return [Answer(e["status"], e["headers"], base64.b64decode(e["body"], validate=True)) for e in said]
 
         yield get
 
@@ -95,18 +85,20 @@ def check_picture(answer: Answer, scene: Scene, scale: int) -> None:
         assert np.array_equal(np.asarray(opened), render(scene).pixels.repeat(scale, 0).repeat(scale, 1))
 
 
-def test_pictures(fetch: Fetch) -> None:
+def test_pages_and_pictures(fetch: Fetch) -> None:
     (crown,) = chosen_items(["crown"])
-    normal, small, piece = fetch("{Web}/icons/crown.png", "{Web}/icons/crown.png?scale=2", "{Web}/genesis/12.png")
+    page, normal, small, piece = fetch(
+        "{Web}/", "{Web}/icons/crown.png", "{Web}/icons/crown.png?scale=2", "{Web}/genesis/12.png"
+    )
+    assert (page.status, page.headers["Content-Type"]) == (200, "text/html")
+    assert '<a href="/icons/crown.png">' in page.body.decode()
     check_picture(normal, crown.scene, 4)
     check_picture(small, crown.scene, 2)
     check_picture(piece, require("genesis/12").make(), 4)
-
-
-def test_the_page(fetch: Fetch) -> None:
-    (page,) = fetch("{Web}/")
-    assert (page.status, page.headers["Content-Type"]) == (200, "text/html")
-    assert '<a href="/icons/crown.png">' in page.body.decode()
+    wrong = {"/icons/nothing.png": 404, "/icons/coin.png": 404, "/icons/crown.png?scale=9": 400}
+    for answer, status in zip(fetch(*("{Web}" + path for path in wrong)), wrong.values(), strict=True):
+        assert (answer.status, answer.headers) == (status, {"Content-Type": "text/plain"})
+        assert answer.body.endswith(b".")
 
 
 def test_the_auto_mode(fetch: Fetch) -> None:
@@ -141,10 +133,3 @@ def test_a_site_of_ones_own(fetch: Fetch) -> None:
         assert np.abs(np.asarray(opened)[::4, ::4].astype(int) - crown).mean() < 0.5
     assert '<a href="/teapot">' in page.body.decode()
     assert missing.status == 404
-
-
-def test_what_is_not_there(fetch: Fetch) -> None:
-    wrong = {"/icons/nothing.png": 404, "/icons/coin.png": 404, "/icons/crown.png?scale=9": 400}
-    for answer, status in zip(fetch(*("{Web}" + path for path in wrong)), wrong.values(), strict=True):
-        assert (answer.status, answer.headers) == (status, {"Content-Type": "text/plain"})
-        assert answer.body.endswith(b".")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +32,10 @@ def visit(browser: Any, server: Static, tmp_path: Path) -> Iterator[Visit]:
         if not url.startswith(tuple(known)):
             faults.append(f"asked for {url}")
 
+    def listen(message: Any, allowed: str) -> None:
+        if message.type in ("error", "warning") and not (allowed and allowed in message.text):
+            faults.append(message.text)
+
     def open_page(
         place: dict[str, Any] | str = "",
         *,
@@ -39,6 +43,8 @@ def visit(browser: Any, server: Static, tmp_path: Path) -> Iterator[Visit]:
         allowed: str = "",
         nodes: Sequence[str] = (),
         script: str = "",
+        answer: Callable[..., Any] | None = None,
+        book: Any = None,
         width: int = 1280,
         height: int = 800,
         wait: bool = True,
@@ -47,29 +53,28 @@ def visit(browser: Any, server: Static, tmp_path: Path) -> Iterator[Visit]:
     ) -> Creator:
         """place: a scene, or what follows the address. disk: the single file. allowed: what the console may say.
 
-        nodes: addresses that the visitor names. context: of another page, to open a tab beside it.
+        nodes: addresses that the visitor names. answer: a function of Python for scripts. book: the chains of the
+        address book. context: of another page, to open a tab beside it.
         """
         known.extend(nodes)
-
-        def listen(message: Any) -> None:
-            if message.type in ("error", "warning") and not (allowed and allowed in message.text):
-                faults.append(message.text)
-
         if context is None:
             context = browser.new_context(viewport={"width": width, "height": height}, **options)
             contexts.append(context)
             context.set_default_timeout(1000 * PATIENCE)
-            context.on("console", listen)
+            context.on("console", lambda message: listen(message, allowed))
             context.on("request", lambda request: check(request.url))
             context.on("weberror", lambda error: faults.append(str(error.error)))
+            if answer:
+                context.expose_function("answer", answer)
             if script:
                 context.add_init_script(script)
-        page = context.new_page()
-        page.goto((ONE.as_uri() if disk else server.address) + (place if isinstance(place, str) else link(place)))
-        found = Creator(page)
+            if book is not None:
+                context.route("**/addresses.json", lambda route: route.fulfill(json={"chains": book}))
+        page = Creator(context.new_page())
+        page.open((ONE.as_uri() if disk else server.address) + (place if isinstance(place, str) else link(place)))
         if wait:
-            found.settle()
-        return found
+            page.settle()
+        return page
 
     yield open_page
     for context in contexts:

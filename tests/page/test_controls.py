@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-import pytest
+import json
+from typing import Any
 
 from creator_page import Creator, Visit, scene
 
@@ -23,10 +22,13 @@ ALL = scene(
     fog={"color": "#8892a2", "near": 4, "far": 14},
     tone={"exposure": 1.1, "filmic": True, "gamma": True},
 )
+GROUPS = {"object", "material", "lights", "ground", "atmosphere", "tone", "camera", "picture"}
 #: What the page may draw alike: they change what the file says, or what comes later.
 UNSEEN = {"lights_follow", "cull", "two_sided", "antialias", "max_triangles"}
+#: How many colours the picture has.
+COLORS = "new Set(new Uint32Array(app.shown.value.drawn.pixels.buffer)).size"
 
-#: Changes a control by its own element, to another value of its range; returns whether it could.
+#: Changes a control by its own element, to another value of its range.
 CHANGE = """(() => {
     const row = document.querySelector(`[data-name='row-${argument}']`);
     const set = (field, value) => {
@@ -43,42 +45,27 @@ CHANGE = """(() => {
         set(number, String(Number((now + by <= high ? now + by : now - by).toPrecision(4))));
     } else if (color) set(color, color.value === '#3fa060' ? '#a03f60' : '#3fa060');
     else (radio ?? box).click();
-    return true;
 })()"""
 
 
-def groups(page: Creator) -> dict[str, list[str]]:
-    """Paths of the controls that are shown, by the panel in which they are."""
+def test_each_control_changes_the_picture_and_is_reset(visit: Visit) -> None:
+    page = visit(ALL)
+    doc, shown = page.doc(), page.pixels()
     page.open_groups()
-    found: dict[str, list[str]] = {}
-    for path, group in page.run(
+    rows = page.run(
         """[...document.querySelectorAll('[data-name^=row-]')].map(each => [
             each.dataset.name.slice(4), each.closest('.group').dataset.name.slice(6)
         ])"""
-    ):
-        found.setdefault(group, []).append(path)
-    return found
-
-
-@pytest.mark.parametrize("group", ["object", "material", "lights", "ground", "atmosphere", "tone", "camera", "picture"])
-def test_each_control_changes_the_picture_and_is_reset(visit: Visit, group: str) -> None:
-    page = visit(ALL)
-    shown = page.pixels()
-    paths = groups(page)[group]
-    assert paths
-    for path in paths:
+    )
+    assert {group for _, group in rows} >= GROUPS
+    for path, _ in rows:
         reset = page.page.locator(f"[data-name='reset-{path}']")
         assert not reset.count(), path
         changed = page.after(lambda path=path: page.run(CHANGE, path))  # type: ignore[misc]
         assert changed != shown or path.rpartition(".")[2] in UNSEEN, path
         assert page.after(reset.click) == shown, path
         reset.wait_for(state="detached")
-
-
-def test_panels_and_everything_are_reset(visit: Visit) -> None:
-    page = visit(ALL)
-    doc, shown = page.doc(), page.pixels()
-    page.open_groups()
+    # a panel, and everything
     for path in ("camera.fov", "tone.exposure"):
         page.after(lambda path=path: page.run(CHANGE, path))  # type: ignore[misc]
     page.after(page.click("reset-tone"))
@@ -87,49 +74,39 @@ def test_panels_and_everything_are_reset(visit: Visit) -> None:
     assert page.after(page.click("reset-all")) == shown
 
 
-def test_typed_numbers_may_be_beyond_the_slider(visit: Visit) -> None:
+def test_numbers(visit: Visit) -> None:
     page = visit(ALL)
     page.open_groups()
     most = float(page.page.get_attribute("[data-name='slider-material.diffuse']", "max"))
-    page.after(lambda: page.type("material.diffuse", str(most + 1)))
+    page.typed("material.diffuse", str(most + 1))
     assert page.doc()["objects"][0]["material"]["diffuse"] == most + 1
     # and what no picture takes becomes the nearest that it takes, which is told
-    page.after(lambda: page.type("material.shininess", "1000"))
+    page.typed("material.shininess", "1000")
     assert page.doc()["objects"][0]["material"]["shininess"] == 128
     assert "128" in page.said()
-
-
-def test_where_objects_differ_it_says_mixed(visit: Visit) -> None:
-    page = visit(
-        scene("cube", {"mesh": {"piece": "cone", "object": 0}, "position": [3, 0, 0], "material": {"diffuse": 0.2}})
-    )
-    page.open_groups()
+    # where objects differ, it says so
+    cone = {"mesh": {"piece": "cone", "object": 0}, "position": [3, 0, 0], "material": {"diffuse": 0.2}}
+    page.show(scene("cube", cone))
     field = page.field("material.diffuse")
-    assert (field.input_value(), field.get_attribute("placeholder")) == ("", "Mixed")
-    page.after(lambda: page.type("material.diffuse", "0.5"))
+    page.wait("document.querySelector(\"[data-name='material.diffuse']\").placeholder === 'Mixed'")
+    assert field.input_value() == ""
+    page.typed("material.diffuse", "0.5")
     assert [each["material"]["diffuse"] for each in page.doc()["objects"]] == [0.5, 0.5]
     page.after(page.press("Control+z"))
     page.run("void (app.selected.value = new Set([app.doc.value.objects[1].id]))")
     page.wait("document.querySelector(\"[data-name='material.diffuse']\").value === '0.2'")
-    page.after(lambda: page.type("material.diffuse", "0.9"))
+    page.typed("material.diffuse", "0.9")
     assert [each["material"]["diffuse"] for each in page.doc()["objects"]] == [0.75, 0.9]
-
-
-def test_lengths_are_in_radii(visit: Visit) -> None:
-    """The same number does the same to objects of any size."""
+    # the same length, in radii, does the same to objects of any size
     pictures = []
     for scale in (1, 50):
-        page = visit(scene({"mesh": {"piece": "cone", "object": 0}, "scale": scale}))
-        page.open_groups()
-        page.after(lambda page=page: page.type("camera.distance", "4"))  # type: ignore[misc]
-        pictures.append(page.after(lambda page=page: page.type("camera.target.x", "0.5")))  # type: ignore[misc]
+        page.show(scene({"mesh": {"piece": "cone", "object": 0}, "scale": scale}))
+        page.typed("camera.distance", "4")
+        pictures.append(page.typed("camera.target.x", "0.5"))
     assert pictures[0] == pictures[1]
 
 
-# ---- looks ----
-
-
-def test_each_look(visit: Visit) -> None:
+def test_looks(visit: Visit) -> None:
     page = visit(ALL)
     names = page.run("[...document.querySelectorAll('[data-name^=look-]')].map(each => each.dataset.name)")
     assert len(set(names)) >= 10
@@ -145,32 +122,20 @@ def test_each_look(visit: Visit) -> None:
     before = page.page.get_attribute("[data-name^=look-] img >> nth=0", "src")
     page.after(page.click("piece-icons/heart"))
     page.wait("![...document.querySelectorAll('[data-name^=look-] img')].some(each => each.src === argument)", before)
-
-
-def test_a_look_keeps_the_edges_of_a_cube(visit: Visit) -> None:
-    page = visit(scene("cube"))
+    # hard edges stay: a face of a cube has one normal, and the light changes little across it
+    page.show(scene("cube"))
     page.after(page.click("look-clay"))
-    colors = page.run("new Set(new Uint32Array(app.shown.value.drawn.pixels.buffer)).size")
+    colors = page.run(COLORS)
     assert page.doc()["objects"][0]["material"]["shading"] == "smooth"
-    # a face of a cube has one normal: the light changes little across it
-    page.run(
-        "app.change({...app.doc.value, objects: app.doc.value.objects.map(each => ({...each, crease: 180}))}, 'x')"
-    )
-    page.settle()
-    assert colors < page.run("new Set(new Uint32Array(app.shown.value.drawn.pixels.buffer)).size")
-
-
-def test_surprises_differ(visit: Visit) -> None:
-    page = visit(scene("cube", "cone"))
-    shown = {page.pixels(), page.after(page.click("surprise")), page.after(page.press("s"))}
+    page.change(objects=[{**each, "crease": 180} for each in page.doc()["objects"]])
+    assert colors < page.run(COLORS)
+    # surprises differ, of the same objects
+    shown = {page.show(scene("cube", "cone")), page.after(page.click("surprise")), page.after(page.press("s"))}
     assert len(shown) == 3
     assert [each["mesh"]["piece"] for each in page.doc()["objects"]] == ["cube", "cone"]
 
 
-# ---- lights ----
-
-
-def test_lights_come_and_go(visit: Visit) -> None:
+def test_lights(visit: Visit) -> None:
     page = visit(scene("cube"))
     page.open_groups()
     shown = page.pixels()
@@ -181,39 +146,23 @@ def test_lights_come_and_go(visit: Visit) -> None:
     for _ in range(3):
         page.after(page.click("remove-light-1"))
     assert page.pixels() == shown
-
-
-def test_a_spot_light_has_a_target_and_a_cone(visit: Visit) -> None:
-    page = visit(scene("cube", size=64))
-    page.open_groups()
+    # a spot light has a target and a cone
+    page.show(scene("cube", size=64))
     cone = page.field("lights.0.outer_angle")
     assert not cone.count()
     point = page.after(lambda: page.field("lights.0.kind-point").check(force=True))
     page.field("lights.0.distance").wait_for()
     assert not cone.count()
     page.after(lambda: page.field("lights.0.kind-spot").check(force=True))
-    narrow = page.after(lambda: page.type("lights.0.outer_angle", "8"))
-    moved = page.after(lambda: page.type("lights.0.target.x", "0.4"))
-    assert len({point, narrow, moved}) == 3
-
-
-def test_one_light_casts_shadows(visit: Visit) -> None:
-    page = visit(
-        scene(
-            "cube",
-            ground={"color": "#808080"},
-            lights=[{"kind": "directional", "direction": [1, 2, 1]}, {"kind": "point", "position": [-5, 5, 3]}],
-        )
-    )
-    page.open_groups()
-    shown = page.pixels()
+    assert len({point, page.typed("lights.0.outer_angle", "8"), page.typed("lights.0.target.x", "0.4")}) == 3
+    # one casts shadows
+    lights = [{"kind": "directional", "direction": [1, 2, 1]}, {"kind": "point", "position": [-5, 5, 3]}]
+    shown = page.show(scene("cube", ground={"color": "#808080"}, lights=lights))
+    page.field("lights.1.shadow").wait_for()
     first = page.after(lambda: page.run(CHANGE, "lights.0.shadow"))
     second = page.after(lambda: page.run(CHANGE, "lights.1.shadow"))
     assert len({shown, first, second}) == 3
     assert [bool(each.get("shadow")) for each in page.doc()["lights"]] == [False, True]
-
-
-# ---- objects ----
 
 
 def place_of(page: Creator, number: int) -> list[float]:
@@ -230,25 +179,26 @@ def place_of(page: Creator, number: int) -> list[float]:
     return found[len(found) // 2]
 
 
-def test_objects_are_selected_by_click(visit: Visit) -> None:
+def test_objects(visit: Visit) -> None:
     page = visit(scene("cube", {"mesh": {"piece": "cone", "object": 0}, "position": [4, 0, 0]}, size=[96, 64]))
     places = [place_of(page, number) for number in (0, 1)]
-    ids = [each["id"] for each in page.doc()["objects"]]
-    box = page.view.bounding_box()
+    (cube, cone) = page.doc()["objects"]
+    ids = [cube["id"], cone["id"]]
+    box = page.place.bounding_box()
 
-    def click(number: int, *modifiers: str) -> None:
-        x, y = places[number]
-        page.view.click(position={"x": x * box["width"], "y": y * box["height"]}, modifiers=list(modifiers))
+    def click(x: float, y: float, *modifiers: Any) -> None:
+        page.place.click(position={"x": x * box["width"], "y": y * box["height"]}, modifiers=list(modifiers))
 
     def selected(*expected: str) -> None:
-        page.wait("JSON.stringify([...app.selected.value].sort()) === argument", _json(sorted(expected)))
+        text = json.dumps(sorted(expected), separators=(",", ":"))
+        page.wait("JSON.stringify([...app.selected.value].sort()) === argument", text)
 
-    for number in (0, 1):
-        click(number)
-        selected(ids[number])
-    click(0, "Shift")
+    for place, id_ in zip(places, ids, strict=True):
+        click(*place)
+        selected(id_)
+    click(*places[0], "Shift")
     selected(*ids)
-    page.view.click(position={"x": 2, "y": box["height"] - 2})
+    click(0.01, 0.99)
     selected()
     page.page.locator(f"[data-name='object-{ids[1]}']").click()
     selected(ids[1])
@@ -256,18 +206,9 @@ def test_objects_are_selected_by_click(visit: Visit) -> None:
     selected()
     page.press("Control+a")()
     selected(*ids)
-
-
-def _json(values: list[str]) -> str:
-    return "[" + ",".join(f'"{value}"' for value in values) + "]"
-
-
-def test_objects_are_moved_copied_named_and_removed(visit: Visit) -> None:
-    page = visit(scene("cube", {"mesh": {"piece": "cone", "object": 0}, "position": [4, 0, 0]}, size=[96, 64]))
-    (cube, cone) = page.doc()["objects"]
-    start = place_of(page, 0)
-    page.press("m")()
-    page.after(lambda: page.drag(40, 0, start=start))
+    # they are moved, copied, ordered, named and removed
+    page.press("Escape", "m")()
+    page.after(lambda: page.drag(40, 0, start=places[0]))
     moved = page.doc()["objects"]
     assert moved[0]["position"] != cube["position"]
     assert moved[1] == cone
@@ -277,55 +218,55 @@ def test_objects_are_moved_copied_named_and_removed(visit: Visit) -> None:
     assert len({each["id"] for each in page.doc()["objects"]}) == 3
     page.after(page.press("Delete"))
     assert len(page.doc()["objects"]) == 2
-    first = page.page.locator("[data-name=objects] button").first
-    name = first.inner_text()
-    first.click()
+    page.page.locator("[data-name=objects] button").first.click()
     page.after(page.click("object-down"))
     assert page.doc()["objects"][1]["id"] == cube["id"]
     page.page.locator("[data-name=objects] button").last.dblclick()
-    field = page.page.locator("[data-name=object-name]")
-    field.fill("My cube")
-    field.press("Enter")
+    page.page.locator("[data-name=object-name]").fill("My cube")
+    page.page.keyboard.press("Enter")
     page.wait("app.doc.value.objects[1].name === 'My cube'")
-    assert name != "My cube"
     for _ in range(5):
         page.after(page.press("Control+z"))
     assert page.doc()["objects"] == [cube, cone]
 
 
-# ---- undo ----
-
-
-def test_undo_and_redo(visit: Visit) -> None:
-    page = visit(scene("cube"))
+def test_keys_undo_and_redo(visit: Visit) -> None:
+    page = visit(scene("cube", "cone"))
+    page.press("?")()
+    dialog = page.page.locator("#keys")
+    dialog.wait_for()
+    text = dialog.inner_text()
+    assert all(each in text for each in ("Turn", "Zoom", "Undo", "Wireframe", "Surprise"))
+    page.page.keyboard.press("Escape")
+    dialog.wait_for(state="detached")
     assert page.page.is_disabled("[data-name=undo]")
-    acts: list[Callable[[], object]] = [
-        lambda: page.drag(120, 0),
-        page.press("i"),
-        page.click("piece-icons/heart"),
-        page.click("look-gold"),
-    ]
-    states = [page.pixels(), *(page.after(act) for act in acts)]
-    for state in reversed(states[:-1]):
-        assert page.after(page.press("Control+z")) == state
-    for state in states[1:]:
-        assert page.after(page.click("redo")) == state
-    assert page.page.is_disabled("[data-name=redo]")
-
-
-def test_keys_after_a_click_on_anything(visit: Visit) -> None:
-    page = visit(scene("cube"))
+    first = page.pixels()
+    for key in ("l", "2", "h", "w", "c", "i", "a", "p", "f", "ArrowDown", "Shift+ArrowLeft", "+", "-", "0"):
+        page.after(page.press(key))
+    page.after(page.click("piece-icons/heart"))
+    last = page.after(page.click("look-gold"))
+    while page.page.is_enabled("[data-name=undo]"):
+        shown = page.after(page.press("Control+z"))
+    assert shown == first
+    while page.page.is_enabled("[data-name=redo]"):
+        shown = page.after(page.click("redo"))
+    assert shown == last
+    for key, name in (("Enter", "limits"), ("Control+s", "download")):
+        page.press(key)()
+        page.page.locator(f"#{name}").wait_for()
+        page.page.keyboard.press("Escape")
+        page.page.locator(f"#{name}").wait_for(state="detached")
+    # also after a click on anything
     page.open_groups()
-    for name in ("look-gold", "piece-icons/heart", "undo"):
+    for name in ("look-clay", "piece-icons/heart", "undo"):
         page.after(page.click(name))
         for key in ("i", "ArrowLeft"):
             page.after(lambda key=key: page.page.keyboard.press(key))  # type: ignore[misc]
-    slider = page.page.locator("[data-name='slider-camera.fov']")
-    page.after(slider.click)
+    # a slider keeps its arrows
+    page.after(page.page.locator("[data-name='slider-camera.fov']").click)
     before = page.doc()["camera"]
     page.after(lambda: page.page.keyboard.press("ArrowRight"))
     now = page.doc()["camera"]
-    # a slider keeps its arrows
     assert (now["eye"], now["halfHeight"] != before["halfHeight"]) == (before["eye"], True)
     page.after(lambda: page.page.keyboard.press("w"))
     # and who types, types
@@ -333,21 +274,3 @@ def test_keys_after_a_click_on_anything(visit: Visit) -> None:
     page.page.locator("[data-name=search]").press_sequentially("wig0")
     assert page.page.input_value("[data-name=search]") == "wig0"
     assert page.doc() == doc
-
-
-def test_every_key_is_in_the_help_and_does_something(visit: Visit) -> None:
-    page = visit(scene("cube", "cone"))
-    page.press("?")()
-    dialog = page.page.locator("#keys")
-    dialog.wait_for()
-    shown = dialog.inner_text()
-    assert all(each in shown for each in ("Turn", "Zoom", "Undo", "Wireframe", "Surprise"))
-    page.page.keyboard.press("Escape")
-    dialog.wait_for(state="detached")
-    for key in ("l", "2", "h", "w", "c", "i", "a", "p", "f", "ArrowDown", "Shift+ArrowLeft", "+", "-", "0"):
-        page.after(page.press(key))
-    for key, name in (("Enter", "limits"), ("Control+s", "download")):
-        page.press(key)()
-        page.page.locator(f"#{name}").wait_for()
-        page.page.keyboard.press("Escape")
-        page.page.locator(f"#{name}").wait_for(state="detached")

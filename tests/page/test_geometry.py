@@ -54,21 +54,18 @@ class Answers:
         subprocess.run(["node", script, bundle, folder / "asked", folder / "answers"], check=True)
         self.numbers = np.fromfile(folder / "answers", "<f8")
 
-    def take(self, count: int) -> Array:
-        found, self.numbers = self.numbers[:count], self.numbers[count:]
-        return found
+    def take(self, rows: int, width: int = 1) -> Array:
+        found, self.numbers = np.split(self.numbers, [rows * width])
+        return found.reshape(rows, width)
 
     def one(self) -> int:
-        return int(self.take(1)[0])
+        return int(self.take(1)[0, 0])
 
     def mesh(self) -> Mesh:
-        vertices, faces, has_normals, has_uvs = self.take(4).astype(int)
-        positions, corners, rgba = (
-            self.take(n).reshape(-1, w) for n, w in ((3 * vertices, 3), (3 * faces, 3), (4 * vertices, 4))
-        )
-        normals = self.take(3 * vertices).reshape(-1, 3) if has_normals else None
-        uvs = self.take(2 * vertices).reshape(-1, 2) if has_uvs else None
-        return Mesh(positions, corners, rgba.astype(np.uint8), normals, uvs)
+        vertices, faces, has_normals, has_uvs = (self.one() for _ in range(4))
+        positions, corners, rgba = self.take(vertices, 3), self.take(faces, 3), self.take(vertices, 4)
+        normals = self.take(vertices, 3) if has_normals else None
+        return Mesh(positions, corners, rgba.astype(np.uint8), normals, self.take(vertices, 2) if has_uvs else None)
 
 
 def random_mesh(rng: np.random.Generator) -> Mesh:
@@ -110,26 +107,22 @@ def ball(rings: int, sides: int) -> tuple[Array, NDArray[np.int64]]:
     return positions, np.concatenate([np.stack([a, b, a + 1], axis=1), np.stack([b, b + 1, a + 1], axis=1)])
 
 
-def test_creases_of_pieces(bundle: Path, tmp_path: Path) -> None:
-    """The meshes of the datasets get the normals that Python gives them."""
-    chosen = [piece for piece in pieces() if piece.ready() and piece.dataset != "genesis"]
-    chosen += [piece for piece in pieces() if piece.dataset == "genesis"][::50]
-    meshes = [each.mesh for piece in chosen for each in piece.make().objects]
-    check_creases([(mesh, degrees) for mesh in meshes for degrees in (None, 30)], bundle, tmp_path)
-
-
-def test_creases_of_random_meshes(bundle: Path, tmp_path: Path) -> None:
-    rng = np.random.default_rng(1)
-    angles = [None if number % 2 else float(rng.integers(181)) for number in range(400)]
-    check_creases([(random_mesh(rng), degrees) for degrees in angles], bundle, tmp_path)
-
-
-def check_creases(asked: Sequence[tuple[Mesh, float | None]], bundle: Path, folder: Path) -> None:
-    answers = Answers()
+@pytest.mark.parametrize("kind", ["pieces", "random"])
+def test_creases(bundle: Path, tmp_path: Path, kind: str) -> None:
+    """Meshes get the normals that Python gives them."""
+    rng, answers = np.random.default_rng(1), Answers()
+    asked: list[tuple[Mesh, float | None]]
+    if kind == "random":
+        asked = [(random_mesh(rng), None if number % 2 else float(rng.integers(181))) for number in range(400)]
+    else:
+        chosen = [piece for piece in pieces() if piece.ready() and piece.dataset != "genesis"]
+        chosen += [piece for piece in pieces() if piece.dataset == "genesis"][::50]
+        meshes = [each.mesh for piece in chosen for each in piece.make().objects]
+        asked = [(mesh, degrees) for mesh in meshes for degrees in (None, 30)]
     for mesh, degrees in asked:
         answers.ask("creased", [mesh], np.nan if degrees is None else degrees)
         answers.ask("closed", [mesh])
-    answers.run(bundle, folder)
+    answers.run(bundle, tmp_path)
     for mesh, degrees in asked:
         assert answers.mesh() == creased(mesh, degrees)
         # not by rounding only, as Python takes slivers and doubled sheets

@@ -7,25 +7,24 @@ import io
 import json
 import re
 import runpy
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 from eth_abi.abi import encode as encode_abi
 from PIL import Image as PillowImage
 from tools import build_contracts as tool
 
 from compiler import needs_compiler
-from node_scripts import needs_web, run_script
-from pictures import chain
+from node_scripts import asked, needs_web
+from pictures import local
 from shackled import load, render
 from shackled.artifacts import RENDERER
-from shackled.chain import EmbeddedChain, returned_bytes
+from shackled.chain import returned_bytes
 from shackled.gas import render_call
 from shackled.scene import encode_scene_file, fit, pack
 from shackled.scene._codec import extensions
+from shackled.web import asset
 
 LOCAL, LINK = "http://127.0.0.1:8000/creator.html#1abc", "https://pictures.example/creator/#1abc"
 LOOK = {
@@ -64,60 +63,39 @@ pytestmark = needs_web
 @pytest.fixture(scope="module")
 def programs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, dict[str, Any]]:
     """All programs of all cases."""
-    folder = tmp_path_factory.mktemp("programs")
-    asked, written = folder / "asked.json", folder / "written.json"
-    names = {case["piece"] for case in CASES.values()}
-    package = files("shackled")
-    asked.write_text(
-        json.dumps(
-            {
-                "pieces": {name: json.loads(encode_scene_file(load(name))) for name in names},
-                "cases": [{"item": {}, "opened": False, "link": LOCAL, **case} for case in CASES.values()],
-                "evm": base64.b64encode((package / "evm" / "evm.wasm").read_bytes()).decode(),
-                "contracts": json.loads((package / "web" / "contracts.json").read_text()),
-            }
-        )
-    )
-    run_script(Path(__file__).with_name("programs.ts"), folder, asked, written)
-    return dict(zip(CASES, json.loads(written.read_text()), strict=True))
-
-
-def pixels(file: Any) -> Any:
-    with PillowImage.open(file) as image:
-        return np.asarray(image.convert("RGB"))
+    content = {
+        "pieces": {name: json.loads(encode_scene_file(load(name))) for name in {c["piece"] for c in CASES.values()}},
+        "cases": [{"item": {}, "opened": False, "link": LOCAL, **case} for case in CASES.values()],
+        "evm": base64.b64encode(asset("evm.wasm")).decode(),
+        "contracts": json.loads(asset("contracts.json")),
+    }
+    script = Path(__file__).with_name("programs.ts")
+    return dict(zip(CASES, asked(script, tmp_path_factory.mktemp("programs"), content), strict=True))
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_the_scene_file_is_the_picture(programs: dict[str, dict[str, Any]], name: str, tmp_path: Path) -> None:
-    made = programs[name]
-    (tmp_path / "a.json").write_text(made["scene"])
-    scene = load(tmp_path / "a.json")
-    assert render_call(scene).hex() == made["call"][2:]
-    assert render(scene).bmp == base64.b64decode(made["bmp"])
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_the_python_program_makes_the_picture(
+def test_the_scene_file_and_the_python_program_make_the_picture(
     programs: dict[str, dict[str, Any]], name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     made = programs[name]
+    stem, text, picture = made["stem"], made["python"], base64.b64decode(made["bmp"])
+    assert stem == {"everything": "a-coin-gold-of-zoe", "opened": "3d"}.get(name, stem)
     monkeypatch.chdir(tmp_path)
-    stem, text = made["stem"], made["python"]
-    (tmp_path / f"{stem}.py").write_text(text)
+    Path("a.json").write_text(made["scene"])
+    scene = load("a.json")
+    assert render_call(scene).hex() == made["call"][2:]
+    assert render(scene).bmp == picture
+    Path(f"{stem}.py").write_text(text)
     if ".json" in text:
-        (tmp_path / f"{stem}.json").write_text(made["scene"])
+        Path("a.json").rename(f"{stem}.json")
     runpy.run_path(f"{stem}.py")
-    assert (pixels(tmp_path / f"{stem}.png") == pixels(io.BytesIO(base64.b64decode(made["bmp"])))).all()
+    with PillowImage.open(f"{stem}.png") as ours, PillowImage.open(io.BytesIO(picture)) as theirs:
+        assert ours.convert("RGB").tobytes() == theirs.convert("RGB").tobytes()
     assert (".json" in text) == (name in ("simplified", "opened, large"))
     assert ("The link works on this computer only." in text) == (CASES[name].get("link") != LINK)
-    (tmp_path / "other.py").write_text(text.replace("half_height=", "half_height=2 * "))
+    Path("other.py").write_text(text.replace("half_height=", "half_height=2 * "))
     with pytest.raises(AssertionError):
         runpy.run_path("other.py")
-
-
-def test_names_of_files(programs: dict[str, dict[str, Any]]) -> None:
-    assert programs["everything"]["stem"] == "a-coin-gold-of-zoe"
-    assert programs["opened"]["stem"] == "3d"
 
 
 @pytest.mark.parametrize(
@@ -140,50 +118,43 @@ def test_meshes_keep_their_licence(programs: dict[str, dict[str, Any]], name: st
 
 @needs_compiler
 def test_the_solidity_programs_make_the_picture(programs: dict[str, dict[str, Any]], tmp_path: Path) -> None:
-    """Of scenes that a contract holds, and of one of which the caller brings the meshes and the extensions."""
+    """Of scenes that a contract holds, and of one of which the caller brings the meshes and the extensions.
+
+    They are compiled as a user would, from the npm package.
+    """
     names = ("plain", "everything", "opened", "given meshes")
-    evm, place = chain(), b"\x7e" * 20
-    assert isinstance(evm, EmbeddedChain)
-    for name, (creation, selectors) in zip(
-        names, compiled([programs[name]["solidity"] for name in names]), strict=True
-    ):
+    interfaces = tool.follow_imports(["interfaces/IRenderer.sol"])
+    sources = {f"shackled-contracts/{name}": text for name, text in interfaces.items()}
+    sources |= {name: programs[name]["solidity"] for name in names}
+    compiled = tool.compile_once(
+        tool.request(sources, tool.settings(200, True), {name: {"*": tool.OUTPUTS} for name in names})
+    )
+    evm, place = local(), b"\x7e" * 20
+    for name in names:
         made = programs[name]
-        ((signature, selector),) = ((key, value) for key, value in selectors.items() if key.startswith("bitmap("))
+        (contract,) = compiled[name].values()
+        assert len(contract["evm"]["deployedBytecode"]["object"]) / 2 <= tool.MAX_RUNTIME_SIZE
+        ((signature, selector),) = (
+            each for each in contract["evm"]["methodIdentifiers"].items() if each[0].startswith("bitmap(")
+        )
         kinds = signature.partition("(")[2][:-1]
         (tmp_path / "a.json").write_text(made["scene"])
         fitted = fit(load(tmp_path / "a.json"))
         meshes = [pack(o.mesh, smooth=o.material.shading == "smooth") for o in fitted.objects]
         arguments = encode_abi(kinds.split(","), [meshes, extensions(fitted)]) if kinds else b""
         assert bool(kinds) == (name == "given meshes")
+        creation = bytes.fromhex(contract["evm"]["bytecode"]["object"])
         evm._codes[place] = evm.create("Picture", creation + evm.address("Renderer").rjust(32, b"\0"))
         try:
-            output = evm._run(place, bytes.fromhex(selector) + arguments, 10**9).output
+            answer = evm._run(place, bytes.fromhex(selector) + arguments, 10**9).output
         finally:
             del evm._codes[place]
-        assert returned_bytes(output, 0) == base64.b64decode(made["bmp"])
-
-
-def compiled(contracts: list[str]) -> list[tuple[bytes, dict[str, str]]]:
-    """Creation code and selectors of the contract in each source, compiled as a user would, from the npm package."""
-    sources = {
-        f"shackled-contracts/{name}": text for name, text in tool.follow_imports(["interfaces/IRenderer.sol"]).items()
-    }
-    names = [f"{number}.sol" for number in range(len(contracts))]
-    sources |= dict(zip(names, contracts, strict=True))
-    request = tool.request(sources, tool.settings(200, True), {name: {"*": tool.OUTPUTS} for name in names})
-    output = tool.compile_once(request)
-    found = []
-    for name in names:
-        (contract,) = output[name].values()
-        assert len(contract["evm"]["deployedBytecode"]["object"]) / 2 <= tool.MAX_RUNTIME_SIZE
-        found.append((bytes.fromhex(contract["evm"]["bytecode"]["object"]), contract["evm"]["methodIdentifiers"]))
-    return found
+        assert returned_bytes(answer, 0) == base64.b64decode(made["bmp"])
 
 
 @pytest.mark.parametrize(("kind", "codes"), [("cast", 0), ("anywhere", len(RENDERER))])
 def test_commands_for_cast(programs: dict[str, dict[str, Any]], kind: str, codes: int) -> None:
-    made, evm = programs["everything"], chain()
-    assert isinstance(evm, EmbeddedChain)
+    made, evm = programs["everything"], local()
     match = re.fullmatch(
         r"cast call (0x[0-9a-f]{40}) (0x[0-9a-f]+)((?: --override-code 0x[0-9a-f]{40}:0x[0-9a-f]+)*)"
         r' --gas-limit (\d+) --rpc-url "\$\{ETH_RPC_URL:-http://127.0.0.1:8545\}" \| cut -c131- \| xxd -r -p'

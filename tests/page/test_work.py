@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import base64
 import gzip
+import html
 import io
 import json
 import re
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
-from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -19,13 +19,13 @@ from PIL import Image as PillowImage
 from PIL import ImageSequence
 
 import shackled
-from node_scripts import needs_web, run_script
-from pictures import chain
+from node_scripts import asked, needs_web
+from pictures import chain, local
 from shackled import Ground, InputError, Light, Material, Mesh, Object, Scene, Texture
 from shackled.artifacts import artifact
-from shackled.chain import EmbeddedChain
+from shackled.ethereum import to_hex
 from shackled.evm import Instance
-from shackled.scene import decode, encode_scene_file, full_turn, render_call
+from shackled.scene import encode_scene_file, full_turn, render_call
 from shackled.stages import draw_stages
 from shackled.studio import STUDIO, make_apng, make_glb, store_scene
 from shackled.tokens import EDITIONS, EditionTerms, add_gas
@@ -64,17 +64,8 @@ SCENES = {
     "textured": textured(),
     "large": shackled.load("showcase/plaster", 24),
 }
-
-
-def local() -> EmbeddedChain:
-    """The chain, which knows where contracts are."""
-    found = chain()
-    assert isinstance(found, EmbeddedChain)
-    return found
-
-
-def hexed(data: bytes) -> str:
-    return f"0x{data.hex()}"
+#: Those of which pictures are made.
+DRAWN = ("teapot", "edges", "textured")
 
 
 class Answers:
@@ -92,15 +83,11 @@ class Answers:
     def answer(self) -> Answers:
         for name in ("evm.wasm", "contracts.json"):
             (self.folder / name).write_bytes(asset(name))
-        codes = {each: {"address": hexed(local().address(each)), "code": hexed(local().code(each))} for each in MORE}
-        errors = {hexed(key): error for each in (*MORE, STUDIO) for key, error in artifact(each).errors.items()}
+        codes = {each: {"address": to_hex(local().address(each)), "code": to_hex(local().code(each))} for each in MORE}
+        errors = {to_hex(key): error for each in (*MORE, STUDIO) for key, error in artifact(each).errors.items()}
         (self.folder / "more.json").write_text(json.dumps({"contracts": codes, "errors": errors}))
-        asked = self.folder / "asked"
-        asked.write_text(
-            json.dumps({"data": str(self.folder), "template": page_template(), "cases": self.cases}), "utf-8"
-        )
-        run_script(SCRIPT, self.folder, asked, self.folder)
-        found = json.loads((self.folder / "answers.json").read_text("utf-8"))
+        content = {"data": str(self.folder), "template": page_template(), "cases": self.cases}
+        found = asked(SCRIPT, self.folder, content)
         self.found = {case["name"]: each for case, each in zip(self.cases, found, strict=True)}
         return self
 
@@ -114,31 +101,6 @@ class Answers:
         return (self.folder / f"{name}.{kind}").read_bytes()
 
 
-@pytest.fixture(scope="session")
-def answers(tmp_path_factory: pytest.TempPathFactory) -> Answers:
-    asked = Answers(tmp_path_factory.mktemp("work"))
-    asked.ask("selectors", "selectors")
-    for scene in ("teapot", "edges", "textured"):
-        asked.ask(f"{scene}-png", "file", scene, format="png", scale=2)
-        asked.ask(f"{scene}-transparent", "file", scene, format="transparent", scale=1)
-        asked.ask(f"{scene}-stages", "stages", scene)
-    asked.ask("svg", "file", "teapot", format="svg")
-    asked.ask("glb", "file", "textured", format="glb")
-    asked.ask("apng", "file", "edges", format="apng", frames=5, duration=90, scale=2)
-    asked.ask("gif", "gif", "edges", frames=5, duration=90, scale=2)
-    asked.ask("many", "gif", "teapot", frames=3, duration=50, scale=1)
-    asked.ask("page", "page", "teapot", title='<Tea> & "pot"', notice="By A & B")
-    asked.ask("genesis", "genesis", seed="7")
-    for name in QUOTED:
-        asked.ask(f"{name}-quote", "quote", name.partition(",")[0], **TERMS | QUOTED[name])
-    asked.ask("nameless", "quote", "edges", **TERMS | {"name": ""})
-    for limit in ("transaction", "call", "edition"):
-        asked.ask(f"fits-{limit}", "fits", "edges", limit=limit)
-    asked.ask("fits-not", "fits", "large", limit="transaction")
-    asked.ask("too-large", "file", "large", format="png", scale=1000)
-    return asked.answer()
-
-
 QUOTED: dict[str, dict[str, Any]] = {
     "teapot": {},
     "edges": {"model": True, "copies": 0, "supply": 10},
@@ -148,6 +110,30 @@ QUOTED: dict[str, dict[str, Any]] = {
 }
 
 
+@pytest.fixture(scope="session")
+def answers(tmp_path_factory: pytest.TempPathFactory) -> Answers:
+    work = Answers(tmp_path_factory.mktemp("work"))
+    work.ask("selectors", "selectors")
+    for scene in DRAWN:
+        work.ask(f"{scene}-png", "file", scene, format="png", scale=2)
+        work.ask(f"{scene}-transparent", "file", scene, format="transparent", scale=1)
+        work.ask(f"{scene}-stages", "stages", scene)
+    work.ask("glb", "file", "textured", format="glb")
+    work.ask("apng", "file", "edges", format="apng", frames=5, duration=90, scale=2)
+    work.ask("gif", "gif", "edges", frames=5, duration=90, scale=2)
+    work.ask("many", "gif", "teapot", frames=3, duration=50, scale=1)
+    work.ask("page", "page", "teapot", title='<Tea> & "pot"', notice="By A & B")
+    work.ask("genesis", "genesis", seed="7")
+    for name in QUOTED:
+        work.ask(f"{name}-quote", "quote", name.partition(",")[0], **TERMS | QUOTED[name])
+    work.ask("nameless", "quote", "edges", **TERMS | {"name": ""})
+    for limit in ("transaction", "call", "edition"):
+        work.ask(f"fits-{limit}", "fits", "edges", limit=limit)
+    work.ask("fits-not", "fits", "large", limit="transaction")
+    work.ask("too-large", "file", "large", format="png", scale=1000)
+    return work.answer()
+
+
 def test_selectors(answers: Answers) -> None:
     for contract, functions in answers.value("selectors").items():
         document = json.loads((files("shackled.artifacts") / f"{contract}.json").read_text("utf-8"))
@@ -155,45 +141,37 @@ def test_selectors(answers: Answers) -> None:
         assert set(functions.items()) <= known, contract
 
 
-@pytest.mark.parametrize("name", ["teapot", "edges", "textured"])
-def test_a_png_has_the_pixels_and_the_scene(answers: Answers, name: str) -> None:
+@pytest.mark.parametrize("name", DRAWN)
+def test_pictures_and_stages(answers: Answers, name: str) -> None:
     scene = SCENES[name]
     image = shackled.render(scene, on=chain())
     found = answers.file(f"{name}-png", "png")
     with PillowImage.open(io.BytesIO(found)) as picture:
         assert (np.array(picture.convert("RGB")) == image.pixels.repeat(2, axis=0).repeat(2, axis=1)).all()
-        assert bytes.fromhex(picture.info["shackled"][2:]) == render_call(scene)
+    # it has the scene, too
     path = answers.folder / f"{name}.again.png"
     path.write_bytes(found)
     assert render_call(shackled.load(path)) == render_call(scene)
     glass = shackled.render(scene, on=chain(), transparent=True)
     with PillowImage.open(io.BytesIO(answers.file(f"{name}-transparent", "transparent"))) as picture:
         assert (np.array(picture) == glass.channels).all()
+    stages = draw_stages(scene, chain())
+    assert answers.value(f"{name}-stages") == [[each.title, each.detail] for each in stages]
+    for number, stage in enumerate(stages):
+        drawn = np.frombuffer(answers.file(f"{name}-stages", str(number)), np.uint8)
+        assert (drawn.reshape(*stage.pixels.shape[:2], 4)[:, :, :3] == stage.pixels).all(), stage.title
 
 
-def test_an_svg(answers: Answers) -> None:
-    root = ElementTree.fromstring(answers.file("svg", "svg"))
-    assert root.attrib["viewBox"] == "0 0 48 40"
-    (image,) = root
-    with PillowImage.open(io.BytesIO(base64.b64decode(image.attrib["href"].partition(",")[2]))) as picture:
-        assert (np.array(picture.convert("RGB")) == shackled.render(SCENES["teapot"], on=chain()).pixels).all()
-
-
-def test_files_of_contracts(answers: Answers) -> None:
+def test_films_and_files_of_contracts(answers: Answers) -> None:
     assert answers.file("glb", "glb") == make_glb(SCENES["textured"]).content
     assert answers.file("apng", "apng") == make_apng(SCENES["edges"], 5, 90, 2).content
     scene = chain().call("Genesis", artifact("Genesis").interface.encode("scene", (7).to_bytes(32, "big"))).output
     assert answers.file("genesis", "call") == artifact("Renderer").selectors["render"] + scene
-
-
-def test_a_gif(answers: Answers) -> None:
-    turned = [shackled.render(each, on=chain()).pixels for each in full_turn(SCENES["edges"], 5)]
     with PillowImage.open(io.BytesIO(answers.file("gif", "gif"))) as film:
         frames = [np.array(each.convert("RGB")) for each in ImageSequence.Iterator(film)]
-        assert (film.info["duration"], film.info["loop"], film.size) == (90, 0, (64, 64))
-    assert len(frames) == 5
-    for found, expected in zip(frames, turned, strict=True):
-        difference = np.abs(found[::2, ::2].astype(int) - expected)
+        assert (film.info["duration"], film.info["loop"], film.size, len(frames)) == (90, 0, (64, 64), 5)
+    for found, each in zip(frames, full_turn(SCENES["edges"], 5), strict=True):
+        difference = np.abs(found[::2, ::2].astype(int) - shackled.render(each, on=chain()).pixels)
         assert (found == found[::2, ::2].repeat(2, axis=0).repeat(2, axis=1)).all()
         assert np.mean(difference > 24) < 0.02
     with PillowImage.open(io.BytesIO(answers.file("many", "gif"))) as film:
@@ -202,28 +180,16 @@ def test_a_gif(answers: Answers) -> None:
 
 
 def test_a_page(answers: Answers) -> None:
-    scene = SCENES["teapot"]
-    expected = make_page(shackled.render(scene, on=chain()), '<Tea> & "pot"', "By A & B").decode()
+    expected = make_page(shackled.render(SCENES["teapot"], on=chain()), '<Tea> & "pot"', "By A & B").decode()
     found = answers.file("page", "html").decode()
     assert "{{" not in re.sub(r"<script.*?</script>", "", found, flags=re.DOTALL)
 
     def parts(page: str) -> tuple[str, list[bytes]]:
         data = re.findall(r'<script type="text/plain" id="\w+">(.*?)</script>', page)
         plain = re.sub(r'(<script type="text/plain" id="\w+">).*?</script>|base64,[^"]*', r"\1", page)
-        for code, letter in (("&#60;", "&lt;"), ("&#62;", "&gt;"), ("&#34;", "&quot;"), ("&#38;", "&amp;")):
-            plain = plain.replace(code, letter)
-        return plain, [gzip.decompress(base64.b64decode(each)) for each in data]
+        return html.unescape(plain), [gzip.decompress(base64.b64decode(each)) for each in data]
 
     assert parts(found) == parts(expected)
-
-
-@pytest.mark.parametrize("name", ["teapot", "edges", "textured"])
-def test_stages(answers: Answers, name: str) -> None:
-    stages = draw_stages(SCENES[name], chain())
-    assert answers.value(f"{name}-stages") == [[each.title, each.detail] for each in stages]
-    for number, stage in enumerate(stages):
-        found = np.frombuffer(answers.file(f"{name}-stages", str(number)), np.uint8)
-        assert (found.reshape(*stage.pixels.shape[:2], 4)[:, :, :3] == stage.pixels).all(), stage.title
 
 
 @pytest.mark.parametrize("name", QUOTED)
@@ -231,9 +197,9 @@ def test_a_quote(answers: Answers, name: str) -> None:
     found, scene = answers.value(f"{name}-quote"), SCENES[name.partition(",")[0]]
     studio, collection = (local().address(each) for each in (STUDIO, EDITIONS.contract))
     storing = store_scene(scene, studio)
-    assert [each["pointer"] for each in found["storing"]] == [f"0x{each.pointer.hex()}" for each in storing]
-    assert [each["data"] for each in found["storing"]] == [each.data.hex() for each in storing]
-    assert [each["code"] for each in found["storing"]] == [each.code.hex() for each in storing]
+    assert [(each["pointer"], each["data"], each["code"]) for each in found["storing"]] == [
+        (to_hex(each.pointer), each.data.hex(), each.code.hex()) for each in storing
+    ]
     for each, expected in zip(found["storing"], storing, strict=True):
         # where parts are joined, Python estimates
         assert abs(each["gas"] - expected.gas) <= (0.02 * expected.gas if "joined" in expected.what else 0)
@@ -241,12 +207,12 @@ def test_a_quote(answers: Answers, name: str) -> None:
     given = TERMS | QUOTED[name]
     scale = max(1, min(MAX_SCALE, 512 // max(scene.width, scene.height)))
     terms = EditionTerms(
-        str(given["name"]), f"0x{storing[-1].pointer.hex()}", int(str(given["price"])), given["supply"] or 2**32 - 1,
+        str(given["name"]), to_hex(storing[-1].pointer), int(str(given["price"])), given["supply"] or 2**32 - 1,
         given["royalty"], given["copies"], scale, given["model"],
     )  # fmt: skip
     interface = artifact(EDITIONS.contract).interface
     data = interface.encode("add", *terms.arguments)
-    assert (found["scale"], found["add"]["data"], found["collection"]) == (scale, data.hex(), f"0x{collection.hex()}")
+    assert (found["scale"], found["add"]["data"], found["collection"]) == (scale, data.hex(), to_hex(collection))
     codes = {each.pointer: each.code for each in storing}
     if not found["fits"]:
         with pytest.raises(InputError):
@@ -259,8 +225,7 @@ def test_a_quote(answers: Answers, name: str) -> None:
     assert found["add"]["gas"] < found["add"]["limit"] <= 1 << 24
 
     instance = Instance()
-    for each in ("Renderer", STUDIO, EDITIONS.contract):
-        local().address(each)
+    local().address("Renderer")
     instance.hold({**local().codes(), **codes})
     intrinsic = 21_000 + sum(16 if byte else 4 for byte in data)
     added = instance.send(collection, data, found["add"]["limit"] - intrinsic)
@@ -277,9 +242,3 @@ def test_what_does_not_fit(answers: Answers) -> None:
     assert answers.value("large-quote")["fits"] is False
     assert "needs a name" in answers.found["nameless"]["error"]
     assert "smaller scale" in answers.found["too-large"]["error"]
-
-
-def test_calls_of_scenes(answers: Answers) -> None:
-    """The scenes here are those that scene files hold."""
-    for scene in SCENES.values():
-        assert render_call(decode(render_call(scene))) == render_call(scene)

@@ -1,4 +1,4 @@
-// Does what workers of the page do, with scene files in place of documents: `node work.mjs ASKED FOLDER`, for test_work.py.
+// Does what workers of the page do, with scene files in place of documents: `node work.mjs ASKED ANSWERS`, for test_work.py.
 
 import { readFileSync, writeFileSync } from "node:fs";
 import { fileOf, gifOf } from "../../web/src/creator/work/encoders.js";
@@ -16,7 +16,7 @@ import { hashPixels } from "../../web/src/picture.js";
 import { encode } from "../../web/src/scene/encode.js";
 import { parseScene } from "../../web/src/scene/file.js";
 
-const [asked, folder] = process.argv.slice(2) as [string, string];
+const [asked, written] = process.argv.slice(2) as [string, string];
 const { data, template, cases } = JSON.parse(readFileSync(asked, "utf8"));
 const read = (name: string): Uint8Array<ArrayBuffer> => new Uint8Array(readFileSync(`${data}/${name}`));
 const json = (name: string): never => JSON.parse(new TextDecoder().decode(read(name))) as never;
@@ -28,7 +28,7 @@ await machine.reply({ give: { evm: { module, contracts: json("contracts.json") }
 const answers: unknown[] = [];
 for (const { name, does, text, options } of cases) {
     const write = (content: Uint8Array | string, kind: string): void =>
-        writeFileSync(`${folder}/${name}.${kind}`, content);
+        writeFileSync(`${data}/${name}.${kind}`, content);
     const scene = text && parseScene(text);
     const doers: Record<string, () => unknown> = {
         file: async () => write(await fileOf(machine, scene, options as { format: Format }), options.format),
@@ -70,4 +70,4 @@ for (const { name, does, text, options } of cases) {
         answers.push({ error: String(error) });
     }
 }
-writeFileSync(`${folder}/answers.json`, JSON.stringify(answers));
+writeFileSync(written, JSON.stringify(answers));

@@ -17,11 +17,10 @@ import shackled
 from shackled import Camera, ChainError, Cluster, Ground, Image, InputError, Nodes, Processes, Scene, load
 from shackled._on import Bounds, On
 from shackled.chain import CHAINS, open_chain
-from shackled.parallel import Listener, render_frames
-from shackled.parallel._backends import ChainBackend, Part, ThreadBackend, draw_part
+from shackled.parallel import Listener, Outline, render_frames
+from shackled.parallel._backends import ChainBackend
 from shackled.parallel._estimate import estimate
 from shackled.parallel._job import COMPARED_GAS, choose_verifier, plan
-from shackled.parallel._store import PartStore
 from shackled.scene import Rectangle
 
 SCENE = evolve(load("teapot"), width=96, height=70)
@@ -45,23 +44,20 @@ def whole() -> Image:
     ids=str,
 )
 def test_tiles_are_the_whole(whole: Image, where: tuple[On | None, Bounds]) -> None:
-    job = render_frames([SCENE], *where)
-    (image,) = job.images
+    (image,) = render_frames([SCENE], *where)
     assert image.bmp == whole.bmp
     assert (image.pixels == whole.pixels).all()
-    assert (image.triangles, image.covered_pixels) == (whole.triangles, whole.covered_pixels)
-    assert job.calls == sum(job.shares.values())
     assert image.gas >= whole.gas  # type: ignore[operator]
-    if job.calls == 1:
+    if image.calls == 1:
         assert (image.gas, image.intrinsic_gas) == (whole.gas, whole.intrinsic_gas)
 
 
 def test_parts_fit_their_gas() -> None:
     limit = 4_000_000
     chain = open_chain()
-    job = render_frames([SCENE], None, Bounds(gas_limit=limit))
-    tiles = plan(SCENE, 1, [ChainBackend(chain, gas=limit)], estimate(SCENE, chain), None)
-    assert 1 < len(tiles) <= job.calls
+    (image,) = render_frames([SCENE], None, Bounds(gas_limit=limit))
+    tiles = plan(SCENE, 1, [ChainBackend(chain, gas=limit)], estimate(SCENE), None)
+    assert 1 < len(tiles) <= image.calls
     fitting = [chain.draw(SCENE, tile).gas for tile in tiles]
     assert sum(gas is not None and gas <= limit for gas in fitting) > len(tiles) // 2
     with pytest.raises(ChainError, match=r"even for a tile of .*; raise `gas_limit` or use `max_triangles`$"):
@@ -72,7 +68,7 @@ def test_a_ground_covers_pixels() -> None:
     """It is a part of what is drawn, not of the background: here of the lower half."""
     camera, ground = Camera((0, 1, 9), (0, 1, 0)), Ground("white", 0, 100)
     scene = evolve(load("cube"), camera=camera, ground=ground, background="black")
-    assert 1.7 < estimate(scene, open_chain()).density < 2.3
+    assert 1.7 < estimate(scene).density < 2.3
 
 
 def test_the_cost_is_told_about_right() -> None:
@@ -81,34 +77,41 @@ def test_the_cost_is_told_about_right() -> None:
         scene = evolve(load(name), width=side, height=side)
         gas = chain.draw(scene).gas
         assert gas is not None
-        assert abs(estimate(scene, chain).gas(side * side) / gas - 1) < 0.25
-        job = render_frames([scene], None, Bounds(gas_limit=16_777_216))
-        assert abs(job.estimated_gas / (job.images[0].gas or 0) - 1) < 0.35
+        assert abs(estimate(scene).gas() / gas - 1) < 0.25
+        listener = Told()
+        (image,) = render_frames([scene], None, Bounds(gas_limit=16_777_216), listener)
+        assert abs(listener.gas / (image.gas or 0) - 1) < 0.35
 
 
-def test_an_empty_scene() -> None:
-    scene = Scene([], width=50, height=40)
-    assert render_frames([scene], None, Bounds(tile=(50, 7))).images[0].bmp == shackled.render(scene).bmp
+class Told(Listener):
+    def planned(self, outline: Outline) -> None:
+        self.gas = outline.gas
 
 
-def test_a_picture_of_2048() -> None:
-    scene = evolve(load("cube"), width=2048, height=48)
-    (image,) = render_frames([scene], None, Bounds(gas_limit=6_000_000)).images
-    assert image.bmp == shackled.render(scene).bmp
+@pytest.mark.parametrize(
+    ("scene", "bounds"),
+    [
+        (Scene([], width=50, height=40), Bounds(tile=(50, 7))),
+        (evolve(load("cube"), width=2048, height=48), Bounds(gas_limit=6_000_000)),
+    ],
+    ids=["empty", "wide"],
+)
+def test_other_scenes(scene: Scene, bounds: Bounds) -> None:
+    assert render_frames([scene], None, bounds)[0].bmp == shackled.render(scene).bmp
 
 
 def test_calls_end_with_their_backend() -> None:
     """At once, in all threads, and no other begins; calls elsewhere go on."""
-    place, other = ThreadBackend(2), ThreadBackend(2)
+    (place,), (other,) = (Processes(2).open(Listener()) for _ in range(2))
     long, errors = evolve(SCENE, width=2048, height=2048), list[str]()
 
-    def draw(slot: int) -> None:
+    def draw() -> None:
         try:
-            place.render(slot, long, Rectangle(0, 0, 2048, 2048))
+            place.render(long, Rectangle(0, 0, 2048, 2048))
         except ChainError as error:
             errors.append(str(error))
 
-    threads = [threading.Thread(target=draw, args=(slot,)) for slot in range(2)]
+    threads = [threading.Thread(target=draw) for _ in range(2)]
     for thread in threads:
         thread.start()
     time.sleep(0.2)
@@ -119,9 +122,9 @@ def test_calls_end_with_their_backend() -> None:
     # of a second and more each
     assert time.process_time() - started < 0.5
     with pytest.raises(ChainError, match="stopped"):
-        place.render(0, SCENE, Rectangle(0, 0, 96, 20))
+        place.render(SCENE, Rectangle(0, 0, 96, 20))
     assert errors == ["the call was stopped"] * 2
-    assert other.count(1, SCENE, Rectangle(0, 0, 96, 70)) == open_chain().count(SCENE)
+    assert other.render(SCENE, Rectangle(0, 0, 96, 70)) == open_chain().draw(SCENE)
 
 
 @pytest.mark.parametrize("evm", ["pyrevm", "pyevm"])
@@ -173,15 +176,16 @@ def test_what_makes_no_sense(options: dict[str, object], message: str) -> None:
         (lambda: Processes(1.5), "`jobs` must be a whole number from 1 to 256, not 1.5"),  # type: ignore[arg-type]
         (lambda: Processes(evm="moon"), "`evm` must be one of revm, "),
         (lambda: Processes(2, open_chain()), "`evm` must be one of revm, "),  # type: ignore[arg-type]
+        (lambda: Nodes(), "`urls` must be addresses of nodes, such as http://127.0.0.1:8545, not ()"),
+        (lambda: Nodes(["http://127.0.0.1:1"]), "`urls` must be addresses of nodes, such as "),  # type: ignore[arg-type]
         (lambda: Nodes("foo"), "`urls` must be the address of a node, such as http://127.0.0.1:8545, not 'foo'"),
         (lambda: Nodes("http://127.0.0.1:1", "ws://127.0.0.1"), "`urls` must be the address of a node, "),
         (lambda: Nodes("http://127.0.0.1:1", jobs=257), "`jobs` must be a whole number from 1 to 256, not 257"),
         (lambda: Nodes("http://127.0.0.1:1", verify="most"), "`verify` must be one of all, some, none, not 'most'"),
         (lambda: Nodes("http://127.0.0.1:1", timeout=0), "`timeout` must be more than 0 seconds and at most 86,400"),
         (lambda: Nodes("http://127.0.0.1:1", address="0x12"), "`address` must be an address, 0x and 40 hexadecimal"),
-        (lambda: Cluster("teapot"), "`address` must be that of a scheduler, such as tcp://host:8786, not 'teapot'"),
-        (lambda: Cluster(jobs=-1), "`jobs` must be a whole number from 1 to 256, not -1"),
-        (lambda: Cluster(verify="yes"), "`verify` must be one of all, some, none, not 'yes'"),
+        (lambda: Cluster("teapot"), "a cluster needs the address of its scheduler, such as tcp://host:8786, not 'tea"),
+        (lambda: Cluster("tcp://host:8786", verify="yes"), "`verify` must be one of all, some, none, not 'yes'"),
     ],
 )
 def test_places_are_checked_when_they_are_made(make: Callable[[], object], message: str) -> None:
@@ -190,39 +194,25 @@ def test_places_are_checked_when_they_are_made(make: Callable[[], object], messa
     assert str(error.value).startswith(message)
 
 
-def test_nodes_need_addresses() -> None:
-    for urls in ((), (5,), (["http://127.0.0.1:1"],)):
-        with pytest.raises(InputError, match=r"^`urls` must be addresses of nodes, such as http://127\.0\.0\.1:8545"):
-            Nodes(*urls)
-
-
 def test_how_much_is_compared(monkeypatch: pytest.MonkeyPatch) -> None:
     """All of what takes little gas, in any number of tiles; of the rest what is asked for."""
     chain = open_chain()
-    node, cheap = ChainBackend(chain, untrusted=True), estimate(SCENE, chain)
+    node, cheap = ChainBackend(chain, untrusted=True), estimate(SCENE)
     dear = replace(cheap, fixed=float(COMPARED_GAS))
     cases = (
-        (SCENE, cheap, None, "all"),
-        (SCENE, dear, None, "some"),
-        (SCENE, dear, "all", "all"),
-        (SCENE, cheap, "some", "some"),
-        (SCENE, cheap, "none", "none"),
+        (cheap, None, "all"),
+        (dear, None, "some"),
+        (dear, "all", "all"),
+        (cheap, "some", "some"),
+        (cheap, "none", "none"),
     )
     monkeypatch.setattr("shackled.parallel._backends.SAMPLE", 10**9)
-    for scene, expected, verify, much in cases:
-        judge, compared = choose_verifier(scene, [node], expected, verify)
+    for expected, verify, much in cases:
+        judge, compared = choose_verifier([node], expected, verify)
         assert compared is (much == "all")
         assert (judge is None) is (much == "none")
         if judge is not None:
             assert judge.selects(first=True)
             assert judge.selects(first=False) is compared
     # what is drawn on this machine is right
-    assert choose_verifier(SCENE, [ChainBackend(chain)], dear, None) == (None, True)
-
-
-def test_parts_that_nobody_compared_are_no_parts_of_a_compared_picture(tmp_path: Path) -> None:
-    loose, strict = (PartStore(tmp_path, [SCENE], compared) for compared in (False, True))
-    part = Part(0, Rectangle(0, 0, 96, 10))
-    loose.write(part, draw_part(open_chain(), SCENE, part.tile))
-    assert loose.read(part) is not None
-    assert strict.read(part) is None
+    assert choose_verifier([ChainBackend(chain)], dear, None) == (None, True)

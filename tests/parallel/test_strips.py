@@ -37,7 +37,7 @@ def teapot() -> Scene:
 
 
 def heights(scene: Scene, chain: ContractChain, gas: int | None = None) -> list[int]:
-    tiles = plan(scene, 1, [ChainBackend(chain, gas=gas)], estimate(scene, chain), None)
+    tiles = plan(scene, 1, [ChainBackend(chain, gas=gas)], estimate(scene), None)
     assert all(tile.width == scene.width for tile in tiles)
     return [tile.height for tile in tiles]
 
@@ -78,8 +78,8 @@ def test_small_pictures_are_one_call(chain: ContractChain) -> None:
     assert not is_one_call(Embedded(), evolve(small, width=1024, height=1024), Bounds())
 
 
-def test_the_number_of_strips(chain: ContractChain) -> None:
-    expected = replace(estimate(load("cube", size=2048), chain), call=100_000.0, intrinsic=50_000)
+def test_the_number_of_strips() -> None:
+    expected = replace(estimate(load("cube", size=2048)), call=100_000.0, intrinsic=50_000)
     counts = [replace(expected, area=side * side).cheapest_strips() for side in (1023, 1024, 1536, 2048)]
     assert counts[0] == 1
     assert all(fewer < more for fewer, more in pairwise(counts))

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from shackled import Image, Material, Mesh, Object, Scene, Texture, load, render
 from shackled.datasets.common import shapes
 from shackled.scene import decode, fit, look_at, render_call
-from shackled.scene._crease import creased
 
 MOST = 65_535
 
@@ -85,14 +84,3 @@ def test_the_picture_is_that_of_the_whole(look: dict[str, object], monkeypatch: 
     # cuts through antialiased smooth surfaces are open edges, where more samples are taken
     assert difference.max() <= (8 if scene.objects[0].material.shading == "smooth" else 0)
     assert difference.mean() < 0.1
-
-
-def test_splits_at_creases_may_be_more_vertices_than_a_contract_takes() -> None:
-    steps = np.arange(20_001)
-    line = np.stack([(steps + 1) // 2, steps // 2, 0 * steps], axis=1)
-    quads = steps[:-1, None] + np.array([0, 1, 20_002, 20_001])
-    faces = np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])
-    ball = load("icosphere").objects[0].mesh
-    strip = np.concatenate([line, line + np.array([0, 0, 1])])
-    both = Mesh(np.concatenate([strip, ball.positions]), np.concatenate([faces, ball.faces + len(strip)]))
-    assert len(both.positions) < MOST < len(creased(both).positions)

@@ -3,18 +3,14 @@ import pytest
 from numpy.typing import NDArray
 
 from shackled import load
+from shackled.datasets.common import shapes
 from shackled.errors import InputError
 from shackled.scene import Light, Material, Mesh, Scene, is_closed, painted, stage
 from shackled.scene._staging import signed_volume
 
-CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
-SIDES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-FACES = [face for a, b, c, d in SIDES for face in ((a, b, c), (a, c, d))]
+CORNERS = np.sign(shapes.cube().positions)
+FACES = shapes.cube().faces.tolist()
 BOX = Mesh(CORNERS * (1, 2, 3) * 100 + (1000, -50, 7), FACES)
-
-
-def world(scene: Scene) -> NDArray[np.float64]:
-    return scene.world_positions()
 
 
 def picture(scene: Scene) -> NDArray[np.float64]:
@@ -24,7 +20,7 @@ def picture(scene: Scene) -> NDArray[np.float64]:
     back = back / np.linalg.norm(back)
     right = np.cross(camera.up, back)
     right /= np.linalg.norm(right)
-    seen = world(scene) - eye
+    seen = scene.world_positions() - eye
     depth = -seen @ back
     assert (depth > 0).all()
     size = camera.half_height * (depth if camera.projection == "perspective" else 1)
@@ -34,8 +30,8 @@ def picture(scene: Scene) -> NDArray[np.float64]:
 def test_the_mesh_comes_into_the_unit_sphere() -> None:
     scene = stage(BOX)
     assert scene.objects[0].mesh is BOX
-    assert np.linalg.norm(world(scene), axis=1).max() == pytest.approx(1)
-    np.testing.assert_allclose(world(scene).min(axis=0), -world(scene).max(axis=0), atol=1e-12)
+    assert np.linalg.norm(scene.world_positions(), axis=1).max() == pytest.approx(1)
+    np.testing.assert_allclose(scene.world_positions().min(axis=0), -scene.world_positions().max(axis=0), atol=1e-12)
 
 
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
@@ -45,15 +41,9 @@ def test_the_mesh_comes_into_the_unit_sphere() -> None:
 def test_the_mesh_fills_the_picture(
     projection: str, size: tuple[int, int], turn: tuple[int, ...], view: tuple[int, int]
 ) -> None:
-    scene = stage(
-        BOX,
-        size,
-        rotate=turn,
-        azimuth=view[0],
-        elevation=view[1],
-        orthographic=projection == "orthographic",
-        margin=0.1,
-    )
+    azimuth, elevation = view
+    level = projection == "orthographic"
+    scene = stage(BOX, size, rotate=turn, azimuth=azimuth, elevation=elevation, orthographic=level, margin=0.1)
     places = picture(scene)
     assert np.abs(places).max() == pytest.approx(0.9)
     # the side that decides is filled on both ends
@@ -104,31 +94,14 @@ def test_the_flatter_a_mesh_the_higher_the_viewer() -> None:
     assert elevation(Mesh(CORNERS * (1, 0.25, 1), FACES), elevation=-5) == pytest.approx(-5)
 
 
-def test_what_may_be_chosen_is_taken() -> None:
-    scene = stage(
-        BOX,
-        color="#ff0000",
-        material=Material("smooth", 0.1),
-        diffuse=0.2,
-        lights=Light("point", (1, 2, 3)),
-        ambient_light=(1, 2, 3),
-        wireframe=True,
-        invert=True,
-        antialias=True,
-        cull=False,
-    )
-    thing = scene.objects[0]
-    assert thing.mesh.colors.tolist() == [[255, 0, 0]] * 8
-    assert thing.material == Material("smooth", 0.1, 0.2)
-    assert (thing.wireframe, thing.cull) == (True, False)
-    assert (scene.lights[0].kind, scene.ambient_light) == ("point", (1, 2, 3))
-    assert (scene.invert, scene.antialias) == (True, True)
-
-
 def test_only_closed_meshes_are_culled() -> None:
     assert stage(BOX).objects[0].cull
     assert not stage(Mesh(BOX.positions, FACES[1:])).objects[0].cull
     assert stage(Mesh(BOX.positions, FACES[1:]), cull=True).objects[0].cull
+
+
+def test_a_look_changes_the_material_that_is_given() -> None:
+    assert stage(BOX, material=Material("smooth", 0.1), diffuse=0.2).objects[0].material.diffuse == 0.2
 
 
 def test_closed_whatever_the_colors() -> None:
@@ -137,25 +110,15 @@ def test_closed_whatever_the_colors() -> None:
     assert not is_closed(Mesh(CORNERS, [face[::-1] for face in FACES]))
     assert not is_closed(Mesh(CORNERS, [FACES[0][::-1], *FACES[1:]]))
 
-
-def test_volume() -> None:
     assert signed_volume(BOX) == pytest.approx(2 * 4 * 6 * 1e6)
     assert signed_volume(Mesh(CORNERS, [face[::-1] for face in FACES])) == pytest.approx(-8)
-
-
-def test_painted_keeps_the_rest() -> None:
-    mesh = painted(Mesh(CORNERS, FACES, normals=CORNERS), (1, 2, 3))
-    assert mesh.colors.tolist() == [[1, 2, 3]] * 8
-    assert np.asarray(mesh.normals).tolist() == CORNERS.tolist()
 
 
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 def test_flat_thin_and_pointlike_meshes(projection: str) -> None:
     for points in ([[0, 0, 0]] * 3, [[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 0, 0], [0, 0, 1], [1, 0, 0]]):
-        assert (
-            np.abs(picture(stage(Mesh(points, [[0, 1, 2]]), orthographic=projection == "orthographic"))).max()
-            <= 0.92 + 1e-9
-        )
+        scene = stage(Mesh(points, [[0, 1, 2]]), orthographic=projection == "orthographic")
+        assert np.abs(picture(scene)).max() <= 0.92 + 1e-9
 
 
 def test_what_cannot_be() -> None:
@@ -196,17 +159,13 @@ def test_the_shadow_on_a_ground_is_in_the_picture() -> None:
     assert np.abs(picture(alone)).max() == pytest.approx(0.85)
     # the shadow falls to the right
     assert picture(scene)[:, 0].max() < picture(alone)[:, 0].max() - 0.1
-    assert np.linalg.norm(scene.camera.eye - scene.camera.target) > np.linalg.norm(
-        alone.camera.eye - alone.camera.target
-    )
     assert load(BOX, lights=light, shadow=True, azimuth=0).camera == load(BOX, lights=light, azimuth=0).camera
     # the part of it that is on what is left of the ground, however low the light is, also from a lamp
     for lamp in (Light("directional", (-1, 1e-9, 0)), Light("point", (-3, 0, 0))):
         far = load(BOX, lights=lamp, ground="grey", shadow=True, azimuth=0).camera
         assert np.linalg.norm(far.eye) < 3 * np.linalg.norm(alone.camera.eye)
     # and of a scene whose camera is placed anew
-    placed = load(
-        Scene(scene.objects, lights=(Light("directional", (-3, 1, 0), shadow=True),), ground="grey"), margin=0.1
+    placed, bare = (
+        load(Scene(scene.objects, lights=each, ground="grey"), margin=0.1).camera for each in (scene.lights, light)
     )
-    bare = load(Scene(scene.objects, lights=(light,), ground="grey"), margin=0.1)
-    assert placed.camera != bare.camera
+    assert placed != bare

@@ -13,7 +13,7 @@ from benchmarks import shared
 
 from shackled import InputError, Scene, load
 from shackled.datasets import pieces
-from shackled.scene import base_axis, read_scene
+from shackled.scene import base_axis, faces_of_all, read_scene
 
 #: A pyramid with its tip along z, and the same as glTF has it.
 ALONG_Z = trimesh.Trimesh([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0), (0, 0, 3)])
@@ -67,24 +67,18 @@ def test_a_flat_base_along_z_is_told(kind: str) -> None:
 
 
 def test_reliefs_letters_and_flat_things_do_not_stand() -> None:
-    faces = np.array(ALONG_Z.faces)
-    flat = np.array(ALONG_Z.vertices) * (1, 1, 0.1)
-    assert base_axis(np.array(ALONG_Z.vertices), faces) == "z"
-    assert base_axis(np.array(ALONG_Y.vertices), faces) == "y"
-    assert base_axis(flat, faces) is None
-    assert base_axis(flat * (1, 1, 0), faces) is None
-    prism = trimesh.creation.cylinder(1, 3, sections=5)
-    assert base_axis(np.array(prism.vertices), np.array(prism.faces)) is None
-    cube = trimesh.creation.box()
-    assert base_axis(np.array(cube.vertices) * 1e200, np.array(cube.faces)) is None
+    def axis(mesh: trimesh.Trimesh, *scale: float) -> str | None:
+        return base_axis(np.array(mesh.vertices) * (scale or 1), np.array(mesh.faces))
+
+    assert [axis(ALONG_Z), axis(ALONG_Y), axis(ALONG_Z, 1, 1, 0.1), axis(ALONG_Z, 1, 1, 0)] == ["z", "y", None, None]
+    assert axis(trimesh.creation.cylinder(1, 3, sections=5)) is None
+    assert axis(trimesh.creation.box(), 1e200) is None
 
 
 def test_no_icon_is_told_to_be_turned() -> None:
     for piece in pieces("icons"):
-        objects = piece.make().objects
-        starts = np.cumsum([0, *(len(each.mesh.positions) for each in objects)])
-        faces = np.concatenate([each.mesh.faces + start for each, start in zip(objects, starts, strict=False)])
-        assert base_axis(np.concatenate([each.world_positions() for each in objects]), faces) != "z", piece.name
+        scene = piece.make()
+        assert base_axis(scene.world_positions(), faces_of_all(each.mesh for each in scene.objects)) != "z", piece.name
 
 
 @pytest.mark.skipif(not MESHES.is_dir(), reason="needs the meshes of the benchmarks")
@@ -98,8 +92,7 @@ def test_no_model_with_y_up_is_told_to_be_turned() -> None:
 
 def test_a_direction_of_a_model_is_its_upper_side() -> None:
     """Without a camera that it could tilt."""
-    same = load("z.obj", up=(0, 0, 2))
-    expected = load("z.obj", up_axis="z")
+    same, expected = load("z.obj", up=(0, 0, 2)), load("z.obj", up_axis="z")
     np.testing.assert_allclose(same.world_positions(), expected.world_positions(), atol=1e-12)
     np.testing.assert_allclose(same.camera.eye, expected.camera.eye, atol=1e-12)
     assert same.camera.up.tolist() == expected.camera.up.tolist() == [0, 1, 0]
@@ -124,11 +117,7 @@ def test_scene_files() -> None:
     # before the rotation
     assert place('"z.stl"\nup_axis = "z"\nrotation = [0, 0, 90]') == [3, 0, 0]
     assert place('"y.glb"\nup_axis = "x"') == [3, 0, 0]
-    Path("scene.toml").write_text('[[objects]]\nmesh = "z.stl"\nup_axis = "w"\n')
     with pytest.raises(InputError, match=r"objects\[0\]\.up_axis must be one of x, y, z, not 'w'"):
-        read_scene("scene.toml")
-    Path("scene.toml").write_text(
-        '[[objects]]\nup_axis = "z"\nmesh = { positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], faces = [[0, 1, 2]] }\n'
-    )
+        place('"z.stl"\nup_axis = "w"')
     with pytest.raises(InputError, match=r"objects\[0\]\.up_axis is for meshes of files$"):
-        read_scene("scene.toml")
+        place('{ positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], faces = [[0, 1, 2]] }\nup_axis = "z"')

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import json
 import pickle
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,15 +22,13 @@ from shackled import (
     Mesh,
     Object,
     Processes,
-    Rim,
     Scene,
-    Tone,
     load,
     render,
     replace,
 )
 from shackled._on import Bounds
-from shackled.scene import Hemisphere, rotate, simplify
+from shackled.scene import rotate, simplify
 
 CORNERS, FACES = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.5)], [(0, 1, 2)]
 MESH = Mesh(CORNERS, FACES)
@@ -39,87 +38,40 @@ def scene(**changes: Any) -> Scene:
     return replace(Scene([Object(MESH)], Camera((0, 0, 5)), [Light("point", (1, 2, 3))]), **changes)
 
 
-# ---- what is equal ----
-
-
 @pytest.mark.parametrize(
     ("make", "changes"),
     [
         (Camera, {"eye": (0, 0, 1), "half_height": 0.5, "near": 0.25, "projection": "orthographic"}),
         (lambda: Light("point", (1, 2, 3)), {"vector": (1, 2, 4), "color": (255, 255, 254), "kind": "directional"}),
-        (
-            lambda: Mesh(CORNERS, FACES),
-            {"positions": np.ones((3, 3)), "faces": [(0, 2, 1)], "colors": np.ones((3, 3), int), "normals": CORNERS},
-        ),
-        (
-            lambda: Object(Mesh(CORNERS, FACES)),
-            {
-                "mesh": Mesh(CORNERS[::-1], FACES),
-                "position": (0, 0, 1),
-                "rotation": (1, 0, 0, 0),
-                "scale": 2.0,
-                "material": Material("smooth"),
-                "cull": False,
-            },
-        ),
-        (
-            lambda: scene(),
-            {
-                "objects": [],
-                "camera": Camera(),
-                "lights": [],
-                "ambient_light": (1, 2, 3),
-                "invert": True,
-                "antialias": True,
-                "hemisphere": Hemisphere("white"),
-                "rim": Rim("white"),
-                "fog": Fog("white", 1, 2),
-                "tone": Tone(),
-                "width": 7,
-            },
-        ),
-        (lambda: Hemisphere("white"), {"sky": (1, 2, 3), "ground": (1, 2, 3)}),
-        (lambda: Rim("white"), {"color": (1, 2, 3), "power": 1}),
-        (lambda: Fog("white", 1, 3), {"color": (1, 2, 3), "near": 2, "far": 4}),
-        (Tone, {"exposure": 2, "filmic": True, "gamma": True}),
-        (Material, {"ambient": 0.25, "shading": "smooth"}),
-        (Background, {"top": (1, 2, 3)}),
+        (lambda: Mesh(CORNERS, FACES), {"positions": np.ones((3, 3)), "faces": [(0, 2, 1)], "normals": CORNERS}),
+        (lambda: Object(Mesh(CORNERS, FACES)), {"mesh": Mesh(CORNERS[::-1], FACES), "rotation": (1, 0, 0, 0)}),
+        (lambda: scene(), {"objects": [], "camera": Camera(), "fog": Fog("white", 1, 2), "width": 7}),
+        (lambda: Background("red", "blue"), {"top": (1, 2, 3), "bottom": (1, 2, 3)}),
     ],
-    ids=["camera", "light", "mesh", "object", "scene", "hemisphere", "rim", "fog", "tone", "material", "background"],
+    ids=["camera", "light", "mesh", "object", "scene", "background"],
 )
 def test_values_are_equal_if_all_is(make: Any, changes: dict[str, Any]) -> None:
     one, other = make(), make()
-    assert one == other
-    assert one == one
+    assert one == other != "something else"
     assert hash(one) == hash(other)
-    assert one != "something else"
-    assert one in [other]
     for name, value in changes.items():
-        changed = replace(other, **{name: value})
-        assert one != changed
-        assert changed != one
-        assert changed == replace(one, **{name: value})
+        assert one != replace(other, **{name: value}) == replace(one, **{name: value})
 
 
 def test_zeros_of_either_sign_are_equal() -> None:
-    one, other = Camera(eye=(0.0, 0, 0)), Camera(eye=(-0.0, 0, 0))
-    assert one == other
-    assert hash(one) == hash(other)
+    assert len({Camera(eye=(0.0, 0, 0)), Camera(eye=(-0.0, 0, 0))}) == 1
 
 
 def test_arrays_cannot_be_written_to() -> None:
-    light = Light.spot((1, 2, 3), (0, -1, 0))
+    light, camera = Light.spot((1, 2, 3), (0, -1, 0)), Camera()
     thing = Object(Mesh(CORNERS, FACES, normals=CORNERS))
-    mesh, camera = thing.mesh, Camera()
-    arrays = [camera.eye, camera.target, camera.up, light.vector, light.direction, thing.position, thing.rotation]
-    for array in (*arrays, mesh.positions, mesh.faces, mesh.colors, mesh.normals):
-        with pytest.raises(ValueError, match="read-only"):
-            np.asarray(array)[0] = 5
-    for copied in (pickle.loads(pickle.dumps((thing, camera, light))), copy.deepcopy((thing, camera, light))):
+    for copied in (thing, camera, light), pickle.loads(pickle.dumps((thing, camera, light))):
         assert copied == (thing, camera, light)
-        one, other, third = copied
-        written = (one.position, one.rotation, one.mesh.positions, one.mesh.faces, other.eye, third.vector)
-        assert not any(array.flags.writeable for array in written)
+        (o, view, lamp), mesh = copied, copied[0].mesh
+        arrays: list[Any] = [view.eye, view.target, view.up, lamp.vector, lamp.direction, o.position, o.rotation]
+        arrays += [mesh.positions, mesh.faces, mesh.colors, mesh.normals]
+        assert not any(array.flags.writeable for array in arrays)
+    assert copy.deepcopy(thing) is thing
     mine = np.array(CORNERS)
     kept = Mesh(mine, FACES)
     mine[0] = 7
@@ -129,9 +81,6 @@ def test_arrays_cannot_be_written_to() -> None:
 def test_a_change_shares_the_arrays_that_stay() -> None:
     assert replace(MESH, colors="red").positions is MESH.positions
     assert replace(MESH, colors="red").faces is MESH.faces
-
-
-# ---- numbers ----
 
 
 def test_colours_are_bytes_or_fractions() -> None:
@@ -150,16 +99,8 @@ def test_colours_are_bytes_or_fractions() -> None:
 
 
 def test_colours_are_names_and_may_have_an_opaque_alpha() -> None:
-    for value in (
-        "tomato",
-        "Tomato",
-        "#ff6347",
-        "ff6347",
-        " #FF6347ff",
-        (255, 99, 71),
-        (255, 99, 71, 255),
-        np.array([255, 99, 71], np.uint8),
-    ):
+    levels = (255, 99, 71)
+    for value in ("Tomato", "ff6347", " #FF6347ff", levels, (*levels, 255), np.array(levels, np.uint8)):
         assert Background(value).top == Light.point((1, 2, 3), value).color == (255, 99, 71)
         assert Mesh(CORNERS, FACES, value).colors.tolist() == [[255, 99, 71]] * 3
     assert Background((1.0, 0.5, 0.0, 1.0)).top == (255, 128, 0)
@@ -169,9 +110,9 @@ def test_colours_are_names_and_may_have_an_opaque_alpha() -> None:
     assert scene(background=("navy", (1.0, 1.0, 1.0))).background == Background((0, 0, 128), (255, 255, 255))
     with pytest.raises(InputError, match=r"^the background colour must be opaque, not \(1, 2, 3, 4\); an Object"):
         Background((1, 2, 3, 4))
-    for short, levels in (("#f0a", (255, 0, 170)), ("#F0AF", (255, 0, 170)), ("#123", (17, 34, 51))):
-        assert Background(short).top == Light.point((1, 2, 3), short).color == levels
-        assert load("cube", color=short).objects[0].mesh.colors.tolist() == [list(levels)] * 8
+    for short, expected in (("#f0a", (255, 0, 170)), ("#F0AF", (255, 0, 170)), ("#123", (17, 34, 51))):
+        assert Background(short).top == expected
+        assert load("cube", color=short).objects[0].mesh.colors.tolist() == [list(expected)] * 8
     for clear in ("#f0a8", "#ff00aa88", "transparent"):
         with pytest.raises(InputError, match=f"^the background colour must be opaque, not '{clear}'; an Object has"):
             Background(clear)
@@ -202,35 +143,20 @@ def test_faces_are_whole(face: tuple[float, ...]) -> None:
     rule = "which must be whole numbers|but they are numbered 0 to 2"
     with pytest.raises(InputError, match=rf"^face 1 names the vertices \[.*\], ({rule})$"):
         Mesh(CORNERS, [(0, 1, 2), face])
+    assert Mesh(CORNERS, np.array(FACES, float)) == MESH
 
 
-def test_whole_numbers_in_floats_are_faces() -> None:
-    faces = np.asarray(Mesh(CORNERS, np.array(FACES, float)).faces)
-    assert faces.dtype == np.int64
-    assert faces.tolist() == [[0, 1, 2]]
-
-
-def test_a_dark_mesh_of_a_scene_file_stays_dark(tmp_path: Any) -> None:
-    """Its colours are whole numbers, none above 1."""
-    from shackled.scene._files.written import write_scene
-
+def test_dark_colours_of_files_stay_dark(tmp_path: Path) -> None:
+    """They are whole numbers, none above 1: of a scene file, and of one of the original."""
+    path = tmp_path / "dark.json"
     dark = scene(objects=[Object(Mesh(CORNERS, FACES, [(1, 0, 1), (0, 0, 0), (1, 1, 1)]))])
-    write_scene(dark, tmp_path / "dark.json")
-    assert load(tmp_path / "dark.json") == dark
-
-
-def test_dark_colours_of_the_original_stay_dark(tmp_path: Any) -> None:
-    document = {
-        "canvasDim": 8,
-        "verts": CORNERS,
-        "faces": FACES,
-        "cols": [(1, 0, 0)] * 3,
-        "backgroundColor": [(1, 0, 0), (0, 1, 1)],
-    }
-    (tmp_path / "dark.json").write_text(json.dumps(document), "utf-8")
-    dark = load(tmp_path / "dark.json")
-    assert dark.background == Background((1, 0, 0), (0, 1, 1))
-    assert dark.objects[0].mesh.colors.tolist() == [[1, 0, 0]] * 3
+    dark.save(path)
+    assert load(path) == dark
+    document = {"canvasDim": 8, "verts": CORNERS, "faces": FACES, "cols": [(1, 0, 0)] * 3}
+    path.write_text(json.dumps({**document, "backgroundColor": [(1, 0, 0), (0, 1, 1)]}), "utf-8")
+    original = load(path)
+    assert original.background == Background((1, 0, 0), (0, 1, 1))
+    assert original.objects[0].mesh.colors.tolist() == [[1, 0, 0]] * 3
 
 
 def test_integers_of_numpy_are_sizes() -> None:
@@ -251,25 +177,9 @@ def test_integers_of_numpy_are_sizes() -> None:
 
 def test_numbers_in_strings_are_numbers() -> None:
     """Or nothing: not strings that fail later."""
-    assert Camera(half_height="0.5", near="1") == Camera(half_height=0.5, near=1)  # type: ignore[arg-type]
+    assert Camera(half_height="0.5", near="1") == Camera(half_height=0.5, near=1)
     assert Material(ambient="1") == Material(ambient=1)
     assert Object(MESH, scale="2") == Object(MESH, scale=2)
-
-
-# ---- cameras, lights and places in other words ----
-
-
-def test_cameras_by_field_of_view_and_by_height() -> None:
-    assert Camera.perspective((1, 2, 3), fov=90).half_height == pytest.approx(1)
-    assert Camera.orthographic((1, 2, 3), height=5) == Camera((1, 2, 3), projection="orthographic", half_height=2.5)
-
-
-def test_lights_by_kind() -> None:
-    assert Light.directional(toward=(0, 1, 0)) == Light("directional", (0, 1, 0))
-    assert Light.point(position=(0, 1, 0), color="red") == Light("point", (0, 1, 0), (255, 0, 0))
-    assert Light.spot((0, 1, 0), (0, -1, 0), outer_angle=30) == Light(
-        "spot", (0, 1, 0), direction=(0, -1, 0), outer_angle=30
-    )
 
 
 @pytest.mark.parametrize("angles", [(0, 0, 0), (90, 0, 0), (20, -130, 55), (0, 180, 0), (179, 1, 178)], ids=str)
@@ -311,9 +221,6 @@ def test_counts_and_bounds() -> None:
     assert Scene([]).bounds.tolist() == [[0, 0, 0]] * 2
 
 
-# ---- what is not given ----
-
-
 def test_objects_alone_are_staged() -> None:
     """They fill the picture, are lit, and stand before a background."""
     place = load("teapot").objects[0]
@@ -334,16 +241,6 @@ def test_objects_alone_are_staged() -> None:
         Scene([Mesh([(1e307, 0, 0), (0, 1e300, 0), (0, 0, 0)], FACES)])
 
 
-def test_scenes_are_saved(tmp_path: Any) -> None:
-    made = scene(lights=[Light.spot((1, 2, 3), (0, -1, 0))], invert=True, antialias=True)
-    made.save(tmp_path / "made.json")
-    assert load(tmp_path / "made.json") == made
-    with pytest.raises(InputError, match=r"made\.toml must end in \.json"):
-        made.save(tmp_path / "made.toml")
-
-
-# ---- kinds ----
-
 ROTATION = "the rotation of an object must be"
 
 
@@ -355,35 +252,21 @@ def thing(mesh: Any = MESH, **fields: Any) -> Object:
     ("make", "message"),
     [
         (lambda: thing(None), "the mesh of an object must be a shackled.Mesh, not None"),
-        (
-            lambda: thing(material={"ambient": 1}),
-            "the material of an object must be a shackled.Material, not {'ambient",
-        ),
+        (lambda: thing(material={"ambient": 1}), "the material of an object must be a shackled.Material, not {'"),
         (lambda: scene(objects=[thing(), Camera()]), "objects[1] of a scene must be a shackled.Object, not Camera("),
         (lambda: scene(objects=5), "the objects of a scene must be an Object, a Mesh or a list of these, not 5"),
-        (
-            lambda: scene(objects="cube"),
-            "the objects of a scene must be an Object, a Mesh or a list of these, not 'cube'",
-        ),
+        (lambda: scene(objects="cube"), "the objects of a scene must be an Object, a Mesh or a list of these, not 'c"),
         (lambda: scene(lights="white"), "the lights of a scene must be a Light or a list of these, not 'white'"),
-        (
-            lambda: thing(rotation=(1, 2)),
-            f"{ROTATION} x, y, z in degrees, a quaternion x, y, z, w, or a 3 x 3 matrix, not",
-        ),
+        (lambda: thing(rotation=(1, 2)), f"{ROTATION} x, y, z in degrees, a quaternion x, y, z, w, or a 3 x 3 matrix"),
         (lambda: thing(rotation=[(1, 2), 3]), f"{ROTATION} x, y, z in degrees, a quaternion"),
         (lambda: thing(rotation=(1, 2, "x")), f"{ROTATION} 3 numbers, not (1, 2, 'x')"),
-        (
-            lambda: render(MESH, FACES),  # type: ignore[arg-type]
-            "`size` must be one number or (width, height); vertices and faces are one argument",
-        ),
+        (lambda: thing(fade=(2, 1)), "the distances of the fade of an object must be 0 <= first < second, not (2, 1)"),
         (lambda: render("cube", rotate=np.zeros((9, 9))), "`rotate` must be x, y, z in degrees, a quaternion x, y, "),
         (lambda: scene(lights=[Camera()]), "lights[0] of a scene must be a shackled.Light, not Camera("),
         (lambda: scene(camera=MESH), "the camera of a scene must be a shackled.Camera, not <Mesh 3 vertices"),
         (lambda: scene(background=MESH), "the background colour must be red, green and blue from 0 to 255, not <Mesh"),
-        (lambda: Rim("red", 2.5), "the power of a rim must be a whole number from 1 to 16, not 2.5"),
         (lambda: Object(MESH, cull="no"), "cull of an object must be True or False, not 'no'"),
         (lambda: render(5), "a path, the name of a piece, a Mesh, (vertices, faces), a Scene or a mesh of trimesh is "),
-        (lambda: load([]), "vertices and faces are needed, not 0 parts: []"),
         (lambda: load((CORNERS,)), "vertices and faces are needed, not 1 parts: ([("),
         (lambda: load((CORNERS, 5)), "the faces of a mesh must be rows of 3 numbers, not of shape ()"),
     ],

@@ -10,6 +10,7 @@ import pytest
 import trimesh
 
 from shackled import Mesh, Object, load
+from shackled.datasets.common.shapes import joined
 from shackled.errors import InputWarning
 from shackled.scene import is_closed
 from shackled.scene._staging import signed_volume
@@ -22,14 +23,11 @@ def ball(scale: float = 1.0, inverted: bool = False) -> Mesh:
     return Mesh(scale * BALL.vertices, BALL.faces[:, ::-1] if inverted else BALL.faces)
 
 
-def joined(*meshes: Mesh) -> Mesh:
-    starts = np.cumsum([0, *(len(mesh.positions) for mesh in meshes)])
-    faces = [mesh.faces + start for mesh, start in zip(meshes, starts, strict=False)]
-    return Mesh(np.concatenate([mesh.positions for mesh in meshes]), np.concatenate(faces))
-
-
 def only(mesh: Mesh) -> Object:
-    (found,) = load(mesh).objects
+    """The object that is made of it, without a warning."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        (found,) = load(mesh).objects
     return found
 
 
@@ -50,7 +48,7 @@ def test_a_closed_mesh_that_is_inside_out_is_turned_with_a_note(tmp_path: Path) 
 @pytest.mark.parametrize("side", [1, -1])
 def test_normals_of_a_turned_part_point_to_its_front(side: int) -> None:
     with pytest.warns(InputWarning, match="1 closed part wound inside out"):
-        thing = only(Mesh(BALL.vertices, BALL.faces[:, ::-1], normals=side * BALL.vertices))
+        (thing,) = load(Mesh(BALL.vertices, BALL.faces[:, ::-1], normals=side * BALL.vertices)).objects
     assert thing.mesh.normals is not None
     np.testing.assert_allclose(thing.mesh.normals, thing.mesh.positions, atol=1e-6)
 
@@ -58,9 +56,7 @@ def test_normals_of_a_turned_part_point_to_its_front(side: int) -> None:
 def test_faces_that_disagree_stay_as_they_are_and_are_as_smooth_as_others() -> None:
     wrong = np.arange(len(BALL.faces)) % 3 == 0
     mixed = Mesh(BALL.vertices, np.where(wrong[:, None], BALL.faces[:, ::-1], BALL.faces))
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        thing = only(mixed)
+    thing = only(mixed)
     assert not thing.cull
     assert thing.mesh.normals is not None
     found = thing.mesh.positions[thing.mesh.faces]
@@ -73,28 +69,22 @@ def test_an_open_mesh_stays_as_it_is_wound() -> None:
     """Seen from inside, as a room is, or with a face the other way."""
     room = BALL.faces[:-5, ::-1]
     for faces in (room, np.concatenate([room[:-1], room[-1:, ::-1]])):
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            kept = only(Mesh(BALL.vertices, faces))
+        kept = only(Mesh(BALL.vertices, faces))
         np.testing.assert_array_equal(kept.mesh.positions[kept.mesh.faces], BALL.vertices[faces])
         assert not kept.cull
 
 
 def test_a_doubled_sheet_is_culled_and_not_turned() -> None:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        for faces in ([(0, 1, 2), (0, 2, 1)], [(0, 2, 1), (0, 1, 2)]):
-            thing = only(Mesh(SHEET, faces))
-            assert (thing.cull, thing.mesh.faces.tolist()) == (True, [list(face) for face in faces])
+    for faces in ([(0, 1, 2), (0, 2, 1)], [(0, 2, 1), (0, 1, 2)]):
+        thing = only(Mesh(SHEET, faces))
+        assert (thing.cull, thing.mesh.faces.tolist()) == (True, [list(face) for face in faces])
     # twice the same side
     assert not only(Mesh(SHEET, [(0, 1, 2), (0, 1, 2)])).cull
 
 
 def test_the_wall_of_a_hollow_is_not_inside_out() -> None:
     hollow = joined(ball(), ball(0.5, inverted=True))
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        thing = only(hollow)
+    thing = only(hollow)
     assert thing.mesh.triangles == hollow.triangles
     assert signed_volume(thing.mesh) == pytest.approx(signed_volume(hollow))
 
@@ -106,9 +96,7 @@ def test_a_moebius_strip_is_left_as_it_is() -> None:
     quads = [(i, i + 1, 24 + i + 1, 24 + i) for i in range(23)] + [(23, 24, 0, 47)]
     faces = [face for a, b, c, d in quads for face in ((a, b, c), (a, c, d))]
     strip = Mesh(np.concatenate([ring + across, ring - across]), faces)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        thing = only(strip)
+    thing = only(strip)
     assert thing.mesh.triangles == strip.triangles
     assert not thing.cull
 
@@ -122,10 +110,7 @@ def test_closed_parts_are_culled_and_open_ones_are_not() -> None:
     for look in ({"cull": True}, {"cull": False}, {"max_triangles": 1000}):
         (thing,) = load(both, **look).objects
         assert thing.cull is look.get("cull", False)
-    (glass,) = load(Mesh(both.positions, both.faces, opacities=np.full(len(both.positions), 0.5))).objects
-    assert not glass.cull
+    assert not only(Mesh(both.positions, both.faces, opacities=np.full(len(both.positions), 0.5))).cull
     # a small closed part is not worth another object
-    (small,) = load(
-        joined(Mesh(trimesh.creation.box().vertices, trimesh.creation.box().faces), Mesh(SHEET, [(0, 1, 2)]))
-    ).objects
-    assert not small.cull
+    box = trimesh.creation.box()
+    assert not only(joined(Mesh(box.vertices, box.faces), Mesh(SHEET, [(0, 1, 2)]))).cull

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import pytest
 from attrs import evolve
-from eth_abi.abi import decode, encode
+from eth_abi.abi import encode
 from tools import presets
-from tools.examples import compile_example
-from tools.ledger import World, call_data
 
 from compiler import needs_compiler
-from shackled import Mesh, load
+from probes import SCENE_STRUCT, Probe
+from shackled import load
 from shackled.artifacts import artifact
 from shackled.scene import PRESETS, Scene, checked_look, fit, look_at, pack
 from shackled.scene._decode import read_call
-from shackled.studio._storage import scene_struct
 
 #: Of cosines and of coefficients, in Q32, after two roundings.
 NEAR = 2**-28
@@ -27,11 +25,10 @@ def test_the_file_is_written_from_the_table() -> None:
 @needs_compiler
 @pytest.mark.parametrize(("piece", "toward"), [("icosphere", (1, 1, 3)), ("cube", (-4, 0, 1)), ("cube", (0, 1, 0))])
 def test_each_is_that_of_python(piece: str, toward: tuple[int, int, int]) -> None:
-    world = World()
-    probe = world.deploy(compile_example("tests/studio/PresetProbe.sol")[0])
     mesh = fit(load(piece, shading="smooth" if piece == "icosphere" else "flat")).objects[0].mesh
     smooth = mesh.normals is not None
-    scenes = _ask(world, probe, mesh, smooth, toward)
+    data = pack(mesh, smooth), smooth, toward
+    (scenes,) = Probe("tests/studio/PresetProbe.sol").ask([f"{SCENE_STRUCT}[]"], "all(bytes,bool,int256[3])", *data)
     plain = read_call(_call(scenes[-1]))
     for preset, struct in zip(PRESETS, scenes, strict=True):
         found = read_call(_call(struct))
@@ -41,16 +38,8 @@ def test_each_is_that_of_python(piece: str, toward: tuple[int, int, int]) -> Non
         _assert_alike(found, wanted, smooth)
 
 
-def _ask(
-    world: World, probe: bytes, mesh: Mesh, smooth: bool, toward: tuple[int, int, int]
-) -> list[tuple[object, ...]]:
-    data = call_data("all(bytes,bool,int256[3])", pack(mesh, smooth), smooth, toward)
-    (scenes,) = decode([f"{scene_struct()}[]"], world.run(probe, data))
-    return [*scenes]
-
-
 def _call(struct: tuple[object, ...]) -> bytes:
-    return bytes(artifact("Renderer").selectors["render"]) + encode([scene_struct()], [struct])
+    return bytes(artifact("Renderer").selectors["render"]) + encode([SCENE_STRUCT], [struct])
 
 
 def _assert_alike(found: Scene, wanted: Scene, smooth: bool) -> None:

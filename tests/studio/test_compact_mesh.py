@@ -16,8 +16,8 @@ from shackled import ChainError, InputError, Mesh, RenderError, load
 from shackled.chain import EmbeddedChain
 from shackled.datasets import teapot
 from shackled.scene import fit, pack
-from shackled.studio import storage_address
 from shackled.studio._compact_mesh import COMPACT, compact, split_mesh
+from shackled.studio._storage import storage_address
 
 
 def opened(stored: bytes, gas: int | None = None) -> bytes:
@@ -85,12 +85,9 @@ def test_surfaces_become_small(name: str) -> None:
         assert len(stored) < 0.6 * len(packed)
 
 
-def test_what_is_packed_is_given_as_it_is() -> None:
+def test_meshes_that_are_kept_as_they_are_or_lack_faces() -> None:
     packed = pack(Mesh([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [[0, 1, 2]]))
     assert opened(packed) == packed
-
-
-def test_meshes_without_faces_or_with_lonely_vertices() -> None:
     lonely = pack(Mesh([[0, 0, 0], [9, 0, 0], [5, 5, 5], [0, 9, 0]], [[0, 1, 3]]))
     for packed in (lonely, b"\0\0\0\0\0", b"\0\0\1\0\0" + bytes(9)):
         assert content(opened(compact(packed))) == content(packed)
@@ -134,18 +131,8 @@ def test_heads_that_the_format_knows(known: dict[str, int], more: dict[str, int]
 @pytest.mark.parametrize(
     "beyond",
     [
-        {"kind": 4},
-        {"x": 17},
-        {"y": 17},
-        {"z": 17},
-        {"kind": 2, "x": 25},
-        {"kind": 2, "z": 25},
-        {"color": 25},
-        {"colors": 1, "color": 1},
-        {"colors": 3, "color": 3},
-        {"kind": 1, "normal": 11},
-        {"kind": 1},
-        {"normal": 5},
+        *({"kind": 4}, {"x": 17}, {"y": 17}, {"z": 17}, {"kind": 2, "x": 25}, {"kind": 2, "z": 25}, {"color": 25}),
+        *({"colors": 1, "color": 1}, {"colors": 3, "color": 3}, {"kind": 1, "normal": 11}, {"kind": 1}, {"normal": 5}),
     ],
 )
 def test_heads_beyond_what_the_format_knows(beyond: dict[str, int]) -> None:
@@ -197,13 +184,10 @@ def test_no_bytes_of_any_kind_burn_all_gas(kind: int, rest: bytes) -> None:
         assert kind == COMPACT or (kind <= 3 and mesh == stored)
 
 
-@pytest.mark.parametrize("bits", [3, 11])
-def test_bits_of_normals(bits: int) -> None:
-    with pytest.raises(InputError, match="4 to 10 bits"):
-        compact(b"\0\0\0\0\0", bits)
+NO_MESHES = (b"", b"\4\0\0\0\0", b"\0\0\1\0\0", b"\0\0\0\0\1" + bytes(6))
 
 
-@pytest.mark.parametrize("data", [b"", b"\4\0\0\0\0", b"\0\0\1\0\0", bytes.fromhex("0000000001") + bytes(6)])
-def test_what_is_no_packed_mesh(data: bytes) -> None:
-    with pytest.raises(InputError):
-        compact(data)
+@pytest.mark.parametrize(("data", "normal_bits"), [*((data, 10) for data in NO_MESHES), (bytes(5), 3), (bytes(5), 11)])
+def test_what_cannot_be_compressed(data: bytes, normal_bits: int) -> None:
+    with pytest.raises(InputError, match=r"packed mesh|numbered 0 to|4 to 10 bits"):
+        compact(data, normal_bits)

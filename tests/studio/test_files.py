@@ -39,7 +39,7 @@ def test_a_turntable_of_one_call(tmp_path: Path) -> None:
 
 def test_options() -> None:
     plain = make_apng(SCENE, 2)
-    assert repr(plain) == f"<ContractFile image/png, {len(plain.content):,} bytes>"
+    assert repr(plain).startswith("ContractFile(media_type='image/png', gas=")
     assert plain == make_apng(SCENE, 2, 80, 1, (0, 5, 0), True, "revm")
     others = [make_apng(SCENE, 2, scale=2), make_apng(SCENE, 2, axis=(1, 0, -1)), make_apng(SCENE, 2, hold=False)]
     assert len({plain.content, *(other.content for other in others)}) == 4

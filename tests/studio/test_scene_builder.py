@@ -7,51 +7,38 @@ from typing import Any
 
 import numpy as np
 import pytest
-from eth_abi.abi import decode, encode
-from tools.examples import compile_example
-from tools.ledger import World, call_data
+from eth_abi.abi import encode
 
 from compiler import needs_compiler
+from probes import SCENE_STRUCT, Probe
 from shackled import Mesh, RenderError, Texture
 from shackled.artifacts import artifact
+from shackled.ethereum import keccak256
 from shackled.image import decode_bmp
 from shackled.scene import is_closed, pack
 from shackled.scene._decode import read_call
 from shackled.scene._packed import pack_texture, unpack
 from shackled.scene._staging import Viewpoint, frame
 from shackled.studio._compact_mesh import split_mesh
-from shackled.studio._storage import scene_struct
 
-SCENE_STRUCT = scene_struct()
 ONE = 1 << 32
 FULL = "full(uint256,uint256)"
+#: What stands in memory behind what is made.
+BEHIND = (0x1234567890ABCDEF).to_bytes(32, "big") + (0xFEDCBA0987654321).to_bytes(32, "big")
 TRIANGLE = [(0, 0, 0, 1), (9, 0, 0, 2), (0, 9, 0, 3)]
 
 pytestmark = needs_compiler
 
 
 @pytest.fixture(scope="module")
-def probe(world: World) -> bytes:
-    return world.deploy(compile_example("tests/studio/BuilderProbe.sol")[0])
+def probe() -> Probe:
+    return Probe("tests/studio/BuilderProbe.sol")
 
 
-def ask(world: World, probe: bytes, kinds: list[str], signature: str, *values: Any) -> tuple[Any, ...]:
-    return tuple(decode(kinds, world.run(probe, call_data(signature, *values))))
-
-
-def made(
-    world: World, probe: bytes, room: tuple[int, int], vertices: list[tuple[int, ...]], faces: list[tuple[int, ...]]
-) -> bytes:
-    packed, behind = ask(
-        world,
-        probe,
-        ["bytes", "bytes"],
-        "mesh(uint256,uint256,(int256,int256,int256,uint256)[],uint256[3][])",
-        *room,
-        vertices,
-        faces,
-    )
-    assert behind == (0x1234567890ABCDEF).to_bytes(32, "big") + (0xFEDCBA0987654321).to_bytes(32, "big")
+def made(probe: Probe, room: tuple[int, int], vertices: list[tuple[int, ...]], faces: list[tuple[int, ...]]) -> bytes:
+    signature = "mesh(uint256,uint256,(int256,int256,int256,uint256)[],uint256[3][])"
+    packed, behind = probe.ask(["bytes", "bytes"], signature, *room, vertices, faces)
+    assert behind == BEHIND
     return bytes(packed)
 
 
@@ -68,17 +55,15 @@ def made(
         ((59, 3), (60, 80)),
     ],
 )
-def test_any_mesh(world: World, probe: bytes, room: tuple[int, int], count: tuple[int, int]) -> None:
+def test_any_mesh(probe: Probe, room: tuple[int, int], count: tuple[int, int]) -> None:
     random = np.random.default_rng(count[0])
     positions = random.integers(-32768, 32768, (count[0], 3))
     colors = random.integers(0, 1 << 24, count[0])
     faces = random.integers(0, max(count[0], 1), (count[1], 3))
     vertices = [(*position, color) for position, color in zip(positions.tolist(), colors.tolist(), strict=True)]
-    packed = made(world, probe, room, vertices, faces.tolist())
+    packed = made(probe, room, vertices, faces.tolist())
     parts = split_mesh(packed)
-    assert [tuple(c - 32768 for c in position) for position in parts.positions] == [
-        tuple(p) for p in positions.tolist()
-    ]
+    assert (np.reshape(parts.positions, (-1, 3)) - 32768).tolist() == positions.tolist()
     assert parts.colors == colors.tolist()
     assert parts.faces == [tuple(face) for face in faces.tolist()]
     if count[1]:
@@ -98,32 +83,26 @@ def test_any_mesh(world: World, probe: bytes, room: tuple[int, int], count: tupl
     ],
 )
 def test_what_does_not_fit(
-    world: World,
-    probe: bytes,
+    probe: Probe,
     room: tuple[int, int],
     vertices: list[tuple[int, ...]],
     faces: list[tuple[int, ...]],
     error: str,
 ) -> None:
     with pytest.raises(RenderError, match=refused(error)):
-        made(world, probe, room, vertices, faces)
+        made(probe, room, vertices, faces)
 
 
 def refused(name: str) -> str:
     """What is said of an error of the library: its name if a compiled contract has it too, else its first bytes."""
-    kinds = {
-        "ModelTooLarge": "uint256,uint256",
-        "PositionOutOfRange": "int256,int256,int256",
-        "NoSuchVertex": "uint256,uint256",
-        "TextureTexels": "uint256,uint256",
-        "TextureCoordinates": "uint256,int256,int256",
-    }
-    zeros = [0] * (kinds.get(name, "uint256").count(",") + 1)
-    return f"{name}|0x" + call_data(f"{name}({kinds.get(name, 'uint256')})", *zeros)[:4].hex()
+    kinds = {"ModelTooLarge": 2, "NoSuchVertex": 2, "TextureTexels": 2}
+    parameters = {"PositionOutOfRange": "int256,int256,int256", "TextureCoordinates": "uint256,int256,int256"}
+    signature = f"{name}({parameters.get(name, ','.join(['uint256'] * kinds.get(name, 1)))})"
+    return f"{name}|0x{keccak256(signature.encode())[:4].hex()}"
 
 
-def test_what_is_packed_stays_when_more_is_added(world: World, probe: bytes) -> None:
-    packed, larger = ask(world, probe, ["bytes", "bytes"], "addAfterPacking()")
+def test_what_is_packed_stays_when_more_is_added(probe: Probe) -> None:
+    packed, larger = probe.ask(["bytes", "bytes"], "addAfterPacking()")
     first, both = unpack(packed), unpack(larger)
     assert is_closed(first)
     assert (len(both.positions), len(both.faces)) == (16, 24)
@@ -131,16 +110,16 @@ def test_what_is_packed_stays_when_more_is_added(world: World, probe: bytes) -> 
     assert (both.faces == np.concatenate([first.faces, first.faces + 8])).all()
 
 
-def test_a_mesh_grows_until_it_is_full(world: World, probe: bytes) -> None:
-    (packed,) = ask(world, probe, ["bytes"], FULL, 65535, 65535)
+def test_a_mesh_grows_until_it_is_full(probe: Probe) -> None:
+    (packed,) = probe.ask(["bytes"], FULL, 65535, 65535)
     assert packed == bytes.fromhex("00ffffffff") + 65535 * bytes.fromhex("000100020003000004") + 65535 * bytes(6)
     for counts, error in (((65536, 0), "TooManyVertices"), ((1, 65536), "TooManyFaces")):
         with pytest.raises(RenderError, match=refused(error)):
-            world.run(probe, call_data(FULL, *counts))
+            probe.run(FULL, *counts)
 
 
-def test_a_scene(world: World, probe: bytes) -> None:
-    (scene,) = ask(world, probe, [SCENE_STRUCT], "scene(uint256,uint256,uint256)", 5, 3, 2)
+def test_a_scene(probe: Probe) -> None:
+    scene = probe.scene("scene(uint256,uint256,uint256)", 5, 3, 2)
     canvas, camera, background, invert, ambient, lights, objects, more = scene
     assert more == b""
     assert canvas == (20, 10)
@@ -155,9 +134,9 @@ def test_a_scene(world: World, probe: bytes) -> None:
     assert all(o[0] == bytes(5) and o[3] == ONE and o[5] == 1 for o in objects)
 
 
-def test_what_the_structs_do_not_hold(world: World, probe: bytes) -> None:
+def test_what_the_structs_do_not_hold(probe: Probe) -> None:
     """In whatever order they are added, their records ascend; the last of an object counts."""
-    (scene,) = ask(world, probe, [SCENE_STRUCT], "extended()")
+    scene = probe.scene("extended()")
     assert [light[0] for light in scene[5]] == [0, 1, 1]
     cosine = round(math.cos(math.radians(22.5)) * ONE)
     numbers = [(0, ONE, -2 * ONE, cosine, -ONE // 2), (-ONE, 0, 0, ONE, -ONE)]
@@ -167,8 +146,7 @@ def test_what_the_structs_do_not_hold(world: World, probe: bytes) -> None:
     effects += b"\7\0\0\0\5\0\0\x80\0\2" + b"\14\0\1\0\1" + (0x0A0B0C).to_bytes(32, "big")
     spots = b"\1\0\1\0\x28" + cones[0] + b"\1\0\2\0\x28" + cones[1]
     assert scene[7] == spots + b"\2\0\0\0\4\0\x80\0\0" + b"\2\0\2\0\4\0\0\0\0" + b"\3\0\0\0\0" + effects
-    call = call_data(f"render({SCENE_STRUCT})", scene)
-    assert len(world.run(world.address("Renderer"), call)) > 54 + 3 * 20 * 10
+    assert len(probe.render(scene)) == 54 + 3 * 20 * 10
 
 
 UVS = np.array([[0, 1], [1.5, 1], [1.5, -0.25], [0, -0.25]])
@@ -176,7 +154,7 @@ TEXTURED = "textured(uint256,bytes,bytes,int256[2][])"
 
 
 @pytest.mark.parametrize("colors", [2, 4, 15, 400])
-def test_textures(world: World, probe: bytes, colors: int) -> None:
+def test_textures(probe: Probe, colors: int) -> None:
     random = np.random.default_rng(colors)
     palette = random.integers(0, 256, (colors, 3), dtype=np.uint8)
     numbers = np.concatenate([np.arange(min(colors, 15)), random.integers(0, colors, 15)])[:15]
@@ -186,15 +164,13 @@ def test_textures(world: World, probe: bytes, colors: int) -> None:
     texels = 4 + (3 << bits)
     content = packed[4:texels], packed[texels : texels + (15 * bits + 7) // 8]
     uvs = np.rint(UVS * 65536).astype(int).tolist()
-    (scene,) = ask(world, probe, [SCENE_STRUCT], TEXTURED, 0, *content, uvs)
+    scene = probe.scene(TEXTURED, 0, *content, uvs)
     words = len(packed) // 32
     assert scene[7] == b"\7\0\0\0\5\0\0\x80\0\2" + bytes([8, 0, 1, 0, words]) + packed
-    call = call_data(f"render({SCENE_STRUCT})", scene)
-    pixels = world.run(world.address("Renderer"), call)[64 + 54 :][:600]
-    assert len(set(pixels)) > 3
+    assert len(set(probe.render(scene)[54:][:600])) > 3
 
 
-def test_textures_that_are_wrong(world: World, probe: bytes) -> None:
+def test_textures_that_are_wrong(probe: Probe) -> None:
     uvs = [[0, 0]] * 4
     for values, name in (
         ((0, bytes(9), bytes(2), uvs), "TexturePalette"),
@@ -203,66 +179,66 @@ def test_textures_that_are_wrong(world: World, probe: bytes) -> None:
         ((0, b"", bytes(45), [[0, 1 << 23], *uvs[1:]]), "TextureCoordinates"),
     ):
         with pytest.raises(RenderError, match=refused(name)):
-            world.run(probe, call_data(TEXTURED, *values))
+            probe.run(TEXTURED, *values)
 
 
 @pytest.mark.parametrize("count", [7, 8, 32, 33, 64])
-def test_opacities(world: World, probe: bytes, count: int) -> None:
+def test_opacities(probe: Probe, count: int) -> None:
     levels = bytes(range(1, count + 1))
-    (scene,) = ask(world, probe, [SCENE_STRUCT], "seeThrough(bytes)", levels)
+    scene = probe.scene("seeThrough(bytes)", levels)
     words = (count + 31) // 32
     expected = b"\2\0\1\0\4\0\x80\0\0" + b"\3\0\0\0\0" + b"\t\0\0\0\1" + bytes(32)
     assert scene[7] == expected + bytes([9, 0, 1, 0, words]) + levels.ljust(32 * words, b"\0")
 
 
 @pytest.mark.parametrize("spare", [(0, 0), (1, 1), (0, 9), (30, 40)])
-def test_two_objects_of_one_model(world: World, probe: bytes, spare: tuple[int, int]) -> None:
+def test_two_objects_of_one_model(probe: Probe, spare: tuple[int, int]) -> None:
     """A model is packed for each: both have its mesh."""
-    expected, _ = ask(world, probe, ["bytes", "bytes"], "addAfterPacking()")
-    (scene,) = ask(world, probe, [SCENE_STRUCT], "twoOfOne(uint256,uint256)", *spare)
+    expected, _ = probe.ask(["bytes", "bytes"], "addAfterPacking()")
+    scene = probe.scene("twoOfOne(uint256,uint256)", *spare)
     assert [o[0] for o in scene[6]] == [expected, expected]
 
 
-def test_there_is_room_for_any_objects_and_four_lights(world: World, probe: bytes) -> None:
+def test_there_is_room_for_any_objects_and_four_lights(probe: Probe) -> None:
     signature = "scene(uint256,uint256,uint256)"
-    (scene,) = ask(world, probe, [SCENE_STRUCT], signature, 0, 30, 4)
+    scene = probe.scene(signature, 0, 30, 4)
     assert [o[4][0] for o in scene[6]] == 15 * [1, 0]
     assert len(scene[5]) == 4
     with pytest.raises(RenderError, match=refused("TooManyLights")):
-        world.run(probe, call_data(signature, 1, 1, 5))
+        probe.run(signature, 1, 1, 5)
 
 
-def stepped(world: World, probe: bytes, order: str) -> Any:
-    return ask(world, probe, [SCENE_STRUCT], "steps(string)", order)[0]
+def stepped(probe: Probe, order: str) -> Any:
+    return probe.scene("steps(string)", order)
 
 
-def test_the_sun_shines_until_other_light_is_added(world: World, probe: bytes) -> None:
+def test_the_sun_shines_until_other_light_is_added(probe: Probe) -> None:
     """The default sun stands to the upper left of the viewer; it makes room for the first light."""
     for order, (left, up, toward) in (("", (0, 1, 2)), ("l", (2, 1, 0))):
-        ((kind, direction, color),) = stepped(world, probe, order)[5]
+        ((kind, direction, color),) = stepped(probe, order)[5]
         assert (kind, color) == (0, 0xFFFFFF)
         # seen from +x, left is +z
         assert direction[left] * (-1 if not order else 1) > 0
         assert 0 < direction[up] < direction[toward]
     sun, spot = (0, (ONE, 2 * ONE, 3 * ONE), 0xFFFFFF), (1, (ONE, 2 * ONE, 3 * ONE), 0xFFFFFF)
     for order, lights in {"s": (sun,), "ls": (sun,), "ss": (sun, sun), "sl": (sun,), "d": (), "ds": (sun,)}.items():
-        assert stepped(world, probe, order)[5] == lights
-    scene = stepped(world, probe, "t")
+        assert stepped(probe, order)[5] == lights
+    scene = stepped(probe, "t")
     assert scene[5] == (spot,)
     assert scene[7][:5] == b"\1\0\0\0\x28"
-    assert stepped(world, probe, "wts")[7].endswith(b"\n\0\0\0\1" + bytes(31) + b"\1")
+    assert stepped(probe, "wts")[7].endswith(b"\n\0\0\0\1" + bytes(31) + b"\1")
 
 
 @pytest.mark.parametrize(("order", "up"), [("D", -1), ("u", 1)])
-def test_cameras_look_straight_down_and_up(world: World, probe: bytes, order: str, up: int) -> None:
-    scene = stepped(world, probe, order)
+def test_cameras_look_straight_down_and_up(probe: Probe, order: str, up: int) -> None:
+    scene = stepped(probe, order)
     assert scene[1][2] == (0, 0, up * ONE)
-    world.run(world.address("Renderer"), call_data(f"render({SCENE_STRUCT})", scene))
+    probe.render(scene)
 
 
-def test_one_of_several_objects_is_painted(world: World, probe: bytes) -> None:
+def test_one_of_several_objects_is_painted(probe: Probe) -> None:
     """Objects may share a mesh; what is painted has its own from then on."""
-    scene = stepped(world, probe, "aaaPL")
+    scene = stepped(probe, "aaaPL")
     colors = [unpack(o[0]).colors for o in scene[6]]
     assert [{tuple(c) for c in each.tolist()} for each in colors] == [
         {(0xAB, 0xCD, 0xEF)},
@@ -272,55 +248,47 @@ def test_one_of_several_objects_is_painted(world: World, probe: bytes) -> None:
     assert len({(o[0][:5], o[0][-72:]) for o in scene[6]}) == 1
 
 
-def test_fractions(world: World, probe: bytes) -> None:
-    scene = stepped(world, probe, "af")
+def test_fractions(probe: Probe) -> None:
+    scene = stepped(probe, "af")
     assert scene[6][0][4] == (2, ONE // 3, ONE // 100, 2 * ONE, 5)
     assert scene[7] == b"\2\0\0\0\4\0\x20\0\0"
 
 
-@pytest.mark.parametrize(
-    ("order", "error", "kinds"),
-    [
-        ("P", "NoSuchObject", "uint256,uint256"),
-        ("L", "NoSuchObject", "uint256,uint256"),
-        ("f", "NoSuchObject", "uint256,uint256"),
-        ("r", "NoSuchObject", "uint256,uint256"),
-        ("pP", "MeshNotPacked", "uint256"),
-        ("dw", "NoLight", ""),
-        ("F", "NothingToFit", ""),
-        ("an", "NothingToFit", ""),
-        ("apF", "BoundsUnknown", "uint256"),
-        ("pr", "BoundsUnknown", "uint256"),
-        ("ar", "NoRoom", "uint256"),
-        ("v", "FieldOfViewOutOfRange", "int256"),
-        ("o", "HeightOutOfRange", "int256"),
-        ("i", "FieldOfViewOutOfRange", "int256"),
-        ("aO", "NotOnePerVertex", "uint256,uint256"),
-        ("aU", "NotOnePerVertex", "uint256,uint256"),
-        ("1", "SpotAnglesOutOfRange", "int256,int256"),
-        ("2", "SpotAnglesOutOfRange", "int256,int256"),
-        ("3", "SpotOutOfRange", "uint256,int256,int256,int256"),
-        ("4", "NotAColor", "uint256"),
-        ("5", "NotAColor", "uint256"),
-        ("6", "RimPowerOutOfRange", "uint256"),
-        ("7", "FogOutOfRange", "int256,int256"),
-        ("8", "ExposureOutOfRange", "uint256"),
-        ("a9", "OpacityOutOfRange", "uint256,uint256"),
-        ("g", "GroundOutOfRange", "uint256,uint256,uint256"),
-        ("ax", "TextureFormat", "uint256,uint256,uint256"),
-    ],
-)
-def test_steps_that_are_refused(world: World, probe: bytes, order: str, error: str, kinds: str) -> None:
-    selector = call_data(f"{error}({kinds})", *([0] * (kinds.count(",") + bool(kinds))))[:4].hex()
-    with pytest.raises(RenderError, match=rf"error 0x{selector}|: {error}\("):
-        stepped(world, probe, order)
+#: Steps by the error with which they are refused.
+REFUSED = {
+    "NoSuchObject(uint256,uint256)": "P L f r",
+    "MeshNotPacked(uint256)": "pP",
+    "NoLight()": "dw",
+    "NothingToFit()": "F an",
+    "BoundsUnknown(uint256)": "apF pr",
+    "NoRoom(uint256)": "ar",
+    "FieldOfViewOutOfRange(int256)": "v i",
+    "HeightOutOfRange(int256)": "o",
+    "NotOnePerVertex(uint256,uint256)": "aO aU",
+    "SpotAnglesOutOfRange(int256,int256)": "1 2",
+    "SpotOutOfRange(uint256,int256,int256,int256)": "3",
+    "NotAColor(uint256)": "4 5",
+    "RimPowerOutOfRange(uint256)": "6",
+    "FogOutOfRange(int256,int256)": "7",
+    "ExposureOutOfRange(uint256)": "8",
+    "OpacityOutOfRange(uint256,uint256)": "a9",
+    "GroundOutOfRange(uint256,uint256,uint256)": "g",
+    "TextureFormat(uint256,uint256,uint256)": "ax",
+}
 
 
-def test_scenes_from_elsewhere_go_on(world: World, probe: bytes) -> None:
+@pytest.mark.parametrize(("order", "error"), [(order, error) for error in REFUSED for order in REFUSED[error].split()])
+def test_steps_that_are_refused(probe: Probe, order: str, error: str) -> None:
+    selector, name = keccak256(error.encode())[:4].hex(), error.partition("(")[0]
+    with pytest.raises(RenderError, match=rf"error 0x{selector}|: {name}\("):
+        stepped(probe, order)
+
+
+def test_scenes_from_elsewhere_go_on(probe: Probe) -> None:
     """There is no room in memory behind their objects and lights, and nothing there is overwritten."""
-    given = stepped(world, probe, "aass")
-    scene, behind = ask(world, probe, [SCENE_STRUCT, "bytes"], f"continued({SCENE_STRUCT})", given)
-    assert behind == (0x1234567890ABCDEF).to_bytes(32, "big") + (0xFEDCBA0987654321).to_bytes(32, "big")
+    given = stepped(probe, "aass")
+    scene, behind = probe.ask([SCENE_STRUCT, "bytes"], f"continued({SCENE_STRUCT})", given)
+    assert behind == BEHIND
     assert scene[:5] == given[:5]
     assert scene[5] == given[5] + given[5][:1]
     assert scene[6][:2] == given[6]
@@ -330,16 +298,15 @@ def test_scenes_from_elsewhere_go_on(world: World, probe: bytes) -> None:
 @pytest.mark.parametrize(
     ("length", "scale"), [(1500, (1, 10)), (3000, (1, 10)), (1000, (1, 1000)), (1000, (1, 100000))]
 )
-def test_long_and_small_objects_are_in_view(world: World, probe: bytes, length: int, scale: tuple[int, int]) -> None:
+def test_long_and_small_objects_are_in_view(probe: Probe, length: int, scale: tuple[int, int]) -> None:
     """A pyramid and a bar, seen from their ends with the eye close by: nothing is clipped, at any scale."""
     square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
     for near, far in ((0, 300), (2, 2)):
         corners = [(far * x, far * y, 0) for x, y in square] + [(near * x, near * y, length) for x, y in square]
         sides = [(k, (k + 1) % 4, 4 + (k + 1) % 4) for k in range(4)] + [(k, 4 + (k + 1) % 4, 4 + k) for k in range(4)]
         mesh = pack(Mesh(corners, [*sides, (4, 5, 6), (4, 6, 7)]))
-        (scene,) = ask(world, probe, [SCENE_STRUCT], "alone(bytes,int256,int256,int256[3])", mesh, *scale, [0, 0, 1])
-        bitmap = world.run(world.address("Renderer"), call_data(f"render({SCENE_STRUCT})", scene))
-        white = decode_bmp(decode(["bytes"], bitmap)[0], 64, 64)[..., 0] == 255
+        scene = probe.scene("alone(bytes,int256,int256,int256[3])", mesh, *scale, [0, 0, 1])
+        white = decode_bmp(probe.render(scene), 64, 64)[..., 0] == 255
         rows, columns = np.nonzero(white)
         # whole, symmetric, in the middle
         assert white.sum() == (rows.max() - rows.min() + 1) * (columns.max() - columns.min() + 1) > 0
@@ -348,13 +315,13 @@ def test_long_and_small_objects_are_in_view(world: World, probe: bytes, length: 
 
 @pytest.mark.parametrize("tenths", [0, 500, 225])
 @pytest.mark.parametrize("toward", [(0, 0, 1), (1, 2, 3), (-3, -2, -1), (0, 1, 0)])
-def test_cameras_fit_objects(world: World, probe: bytes, tenths: int, toward: tuple[int, int, int]) -> None:
+def test_cameras_fit_objects(probe: Probe, tenths: int, toward: tuple[int, int, int]) -> None:
     """They stand where `frame` of Python puts them, as near as all vertices fit the picture."""
     random = np.random.default_rng(1)
     meshes = [Mesh(random.integers(-300, 300, (9, 3)), [[0, 1, 2]]) for _ in range(3)]
     packed = [pack(mesh) for mesh in meshes]
     signature = "fitted(bytes[],int256,int256[3])"
-    (scene,) = ask(world, probe, [SCENE_STRUCT], signature, [*packed, bytes(5)], tenths, list(toward))
+    scene = probe.scene(signature, [*packed, bytes(5)], tenths, list(toward))
     # the last object has no vertices
     scene = (*scene[:6], scene[6][:3], scene[7])
     found = read_call(artifact("Renderer").selectors["render"] + encode([SCENE_STRUCT], [scene]))
@@ -377,12 +344,12 @@ def test_cameras_fit_objects(world: World, probe: bytes, tenths: int, toward: tu
     assert direction == pytest.approx(np.array(toward) / np.linalg.norm(toward), abs=1e-6)
 
 
-def test_objects_are_placed_in_boxes(world: World, probe: bytes) -> None:
+def test_objects_are_placed_in_boxes(probe: Probe) -> None:
     """As large as they fit, in the middle; those whose mesh is stored by the bounds that are given."""
     mesh = pack(Mesh([[0, 0, 0], [400, 0, 0], [0, 100, 300]], [[0, 1, 2]]))
     room = [90, 10, -10, -10, 110, 70]
     signature = "placed(bytes,int256[3][2],int256[6])"
-    (scene,) = ask(world, probe, [SCENE_STRUCT], signature, mesh, [[-10, 0, 0], [10, 10, 5]], room)
+    scene = probe.scene(signature, mesh, [[-10, 0, 0], [10, 10, 5]], room)
     first, second = scene[6]
     # turned about y by 90 degrees: 300 by 100 by 400 in 100 by 100 by 80
     assert first[3] / ONE == pytest.approx(0.2)

@@ -8,12 +8,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from eth_abi.abi import decode
 from tools import lettering
-from tools.examples import compile_example
-from tools.ledger import World, call_data
+from tools.ledger import call_data
 
 from compiler import needs_compiler
+from probes import Probe
 from shackled import Mesh, RenderError
 from shackled.scene import NORMAL_UNIT, is_closed, vertex_normals
 from shackled.scene._packed import unpack
@@ -25,18 +24,8 @@ MANY = 1 << 200
 pytestmark = needs_compiler
 
 
-class Probe:
-    """The contract that makes meshes as it is asked."""
-
-    def __init__(self) -> None:
-        self.world = World()
-        self.address = self.world.deploy(compile_example("tests/studio/ShapesProbe.sol")[0])
-
-    def ask(self, kinds: list[str], signature: str, *values: object) -> tuple[Any, ...]:
-        return tuple(decode(kinds, self.world.run(self.address, call_data(signature, *values))))
-
-    def mesh(self, signature: str, *values: object) -> Mesh:
-        return unpack(self.ask(["bytes"], signature, *values)[0])
+class ShapesProbe(Probe):
+    """The contract that makes shapes."""
 
     def round(self, which: int, radius: int, size: int, segments: int, rings: int) -> tuple[Mesh, Mesh]:
         """A shape without normals, and with them."""
@@ -46,8 +35,8 @@ class Probe:
 
 
 @pytest.fixture(scope="module")
-def probe() -> Probe:
-    return Probe()
+def probe() -> ShapesProbe:
+    return ShapesProbe("tests/studio/ShapesProbe.sol")
 
 
 def extent(mesh: Mesh) -> list[list[int]]:
@@ -65,7 +54,7 @@ BOX = "box(int256[6])"
 
 
 @pytest.mark.parametrize("swapped", range(8))
-def test_boxes_have_any_two_opposite_corners(probe: Probe, swapped: int) -> None:
+def test_boxes_have_any_two_opposite_corners(probe: ShapesProbe, swapped: int) -> None:
     ends = [(-10, 40), (-20, 50), (-30, 60)]
     ends = [(b, a) if swapped >> axis & 1 else (a, b) for axis, (a, b) in enumerate(ends)]
     mesh = probe.mesh(BOX, [*(e[0] for e in ends), *(e[1] for e in ends)])
@@ -75,7 +64,7 @@ def test_boxes_have_any_two_opposite_corners(probe: Probe, swapped: int) -> None
     assert (mesh.colors == (0x10, 0x20, 0x30)).all()
 
 
-def test_a_box_without_thickness_is_a_sheet_with_two_sides(probe: Probe) -> None:
+def test_a_box_without_thickness_is_a_sheet_with_two_sides(probe: ShapesProbe) -> None:
     mesh = probe.mesh(BOX, [0, 5, 0, 10, 5, 10])
     a, b, c = (mesh.positions[mesh.faces[:, corner]] for corner in range(3))
     areas = np.cross(b - a, c - a) / 2
@@ -97,7 +86,7 @@ def test_a_box_without_thickness_is_a_sheet_with_two_sides(probe: Probe) -> None
     ],
 )
 def test_round_shapes(
-    probe: Probe, arguments: tuple[int, int, int, int, int], counts: tuple[int, int], box: list[list[int]]
+    probe: ShapesProbe, arguments: tuple[int, int, int, int, int], counts: tuple[int, int], box: list[list[int]]
 ) -> None:
     """They are closed, look outward, and have the vertices and the normals that they should."""
     flat, smooth = probe.round(*arguments)
@@ -112,15 +101,12 @@ def test_round_shapes(
     assert np.abs(smooth.normals - vertex_normals(flat.positions, flat.faces) * NORMAL_UNIT).max() < 1.5
 
 
-def test_spheres_are_round(probe: Probe) -> None:
+def test_spheres_are_round_and_cylinders_have_sharp_edges(probe: ShapesProbe) -> None:
     _, mesh = probe.round(SPHERE, 1000, 0, 24, 16)
     outward = (mesh.positions - CENTER) / 1000
     assert np.abs(np.linalg.norm(outward, axis=1) - 1).max() < 1e-3
     assert mesh.normals is not None
     assert ((mesh.normals * outward).sum(axis=1) / NORMAL_UNIT > math.cos(math.radians(2.5))).all()
-
-
-def test_cylinders_have_sharp_edges(probe: Probe) -> None:
     _, mesh = probe.round(CYLINDER, 80, 160, 16, 0)
     assert mesh.normals is not None
     upright = np.abs(mesh.normals[:, 1]) / NORMAL_UNIT
@@ -128,6 +114,7 @@ def test_cylinders_have_sharp_edges(probe: Probe) -> None:
     assert (upright < 0.01).sum() == 32
 
 
+DISCS = ("0,0 50,0", "50,0 0,0")
 LATHE = "lathe(string,uint256)"
 
 
@@ -141,22 +128,18 @@ LATHE = "lathe(string,uint256)"
         ("20,-5 20,5 30,5 30,-5 20,-5", True),
         ("30,0 50,100", False),
         ("50,100 30,0", False),
+        *((disc, False) for disc in DISCS),
     ],
 )
-def test_lathes(probe: Probe, profile: str, closed: bool) -> None:
+def test_lathes(probe: ShapesProbe, profile: str, closed: bool) -> None:
     """Whichever way the profile goes, the outside is outside."""
     mesh = probe.mesh(LATHE, profile, 12)
+    a, b, c = (mesh.positions[mesh.faces[:, corner]] - CENTER for corner in range(3))
     assert is_closed(mesh) == closed
-    if not closed:
-        a, b, c = (mesh.positions[mesh.faces[:, corner]] - CENTER for corner in range(3))
+    if profile in DISCS:
+        assert (np.cross(b - a, c - a)[:, 1] > 0).all(), "a disc faces up"
+    elif not closed:
         assert ((np.cross(b - a, c - a) * (a + b + c))[:, [0, 2]].sum(axis=1) > 0).all()
-
-
-def test_discs_that_end_in_the_middle_or_begin_there_face_up(probe: Probe) -> None:
-    for profile in ("0,0 50,0", "50,0 0,0"):
-        mesh = probe.mesh(LATHE, profile, 5)
-        a, b, c = (mesh.positions[mesh.faces[:, corner]] for corner in range(3))
-        assert (np.cross(b - a, c - a)[:, 1] > 0).all()
 
 
 EXTRUSION = "extrusion(string,int256,int256)"
@@ -171,7 +154,7 @@ OUTLINES = {
 
 @pytest.mark.parametrize("name", OUTLINES)
 @pytest.mark.parametrize("backward", [False, True])
-def test_extrusions(probe: Probe, name: str, backward: bool) -> None:
+def test_extrusions(probe: ShapesProbe, name: str, backward: bool) -> None:
     points = OUTLINES[name].split()
     x, y = np.array([point.split(",") for point in points], int).T
     area = abs(int((x * np.roll(y, -1) - y * np.roll(x, -1)).sum())) / 2
@@ -185,7 +168,7 @@ def test_extrusions(probe: Probe, name: str, backward: bool) -> None:
     assert (normals[front][:, 2] > 0).all()
 
 
-def test_outlines_that_cross_themselves_are_refused(probe: Probe) -> None:
+def test_outlines_that_cross_themselves_are_refused(probe: ShapesProbe) -> None:
     def side(a: Any, b: Any, p: Any) -> int:
         return int(np.sign((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])))
 
@@ -208,7 +191,7 @@ def test_outlines_that_cross_themselves_are_refused(probe: Probe) -> None:
     assert simple > 20
 
 
-def test_stars_and_polygons(probe: Probe) -> None:
+def test_stars_and_polygons(probe: ShapesProbe) -> None:
     star, square = probe.ask(["int256[2][]", "int256[2][]"], "star(int256,int256,uint256)", 100, 50, 4)
     assert square == ((0, 100), (-100, 0), (0, -100), (100, 0))
     assert star[::2] == square
@@ -247,7 +230,7 @@ def test_stars_and_polygons(probe: Probe) -> None:
     ],
 )
 def test_what_is_refused(
-    probe: Probe, signature: str, values: tuple[object, ...], name: str, kinds: str, said: tuple[int, ...]
+    probe: ShapesProbe, signature: str, values: tuple[object, ...], name: str, kinds: str, said: tuple[int, ...]
 ) -> None:
     whole = {
         "round": "round(uint256,int256,int256,uint256,uint256)",
@@ -264,7 +247,7 @@ def test_what_is_refused(
 TEXT = "text(string,int256,int256)"
 
 
-def lettered(probe: Probe, text: str, height: int = 112) -> tuple[Mesh, int]:
+def lettered(probe: ShapesProbe, text: str, height: int = 112) -> tuple[Mesh, int]:
     packed, width = probe.ask(["bytes", "int256"], TEXT, text, height, 20)
     return unpack(packed), width
 
@@ -273,7 +256,7 @@ def test_letters_are_drawn_as_they_should_be() -> None:
     assert lettering.FILE.read_text("utf-8") == lettering.source(), "run python tools/lettering.py"
 
 
-def test_every_stroke_of_every_letter_is_closed(probe: Probe) -> None:
+def test_every_stroke_of_every_letter_is_closed(probe: ShapesProbe) -> None:
     letters = "".join(sorted(set(string.printable) - set(string.whitespace)))
     mesh, _ = lettered(probe, letters)
     counts = [[len(set(s)) if s[0] == s[-1] else len(s) for s in lettering.strokes(each)] for each in letters]
@@ -289,7 +272,7 @@ def test_every_stroke_of_every_letter_is_closed(probe: Probe) -> None:
     assert begin == len(mesh.positions)
 
 
-def test_text_stands_where_it_should(probe: Probe) -> None:
+def test_text_stands_where_it_should(probe: ShapesProbe) -> None:
     """Capitals have the height that is given, lines are below each other, and the width is what it is said to be."""
     mesh, width = lettered(probe, "HE")
     assert extent(mesh) == [[0, 0, 0], [width, 112, 20]]

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import base64
-import io
 import re
 from collections.abc import Callable
+from contextlib import nullcontext
 from typing import Any
 
 import numpy as np
@@ -13,19 +13,17 @@ import pytest
 from attrs import evolve
 from eth_abi.abi import decode
 from numpy.typing import NDArray
-from PIL import Image as PillowImage
 from tools.ledger import World, call_data
 
 from shackled import Background, Camera, ChainError, Light, Material, Mesh, Object, RenderError, Scene, Texture, render
-from shackled.chain import revert_error
+from shackled.artifacts import artifact
 from shackled.datasets import teapot
+from shackled.ethereum import word
 from shackled.image import decode_bmp
 from shackled.scene import from_euler
 from shackled.scene._object import Shading
-from shackled.studio import store_scene
-from shackled.studio._storage import scene_struct
+from stored_scenes import CHANGES, SCENE_STRUCT, changes, frames_of, kept, stored, struct_of, turned
 
-SCENE_STRUCT = scene_struct()
 POT = Mesh(np.round(np.asarray(teapot(3).positions) * 100), teapot(3).faces)
 TENT = Mesh([[-90, 0, 0], [90, 0, 0], [0, 150, 0]], [[0, 1, 2]], [[255, 0, 0], [0, 255, 0], [0, 0, 255]])
 SCENE = Scene(
@@ -39,38 +37,12 @@ SCENE = Scene(
     width=48,
     height=40,
 )
-NOTHING = (0, (0, 0, 0, 1 << 32), 0, (0, 0), 0, (0, 0))
-CHANGES = "(uint256,(int256,int256,int256,int256),uint256,(uint256,uint256),uint256,(uint256,uint256))"
 NOBODY = "0x" + 20 * "77"
 
 
-def stored(world: World, scene: Scene) -> str:
-    for storing in store_scene(scene, world.address("Studio"), chain=world.chain):
-        output = world.run(world.address("Studio"), storing.data, created=True)
-        assert output[12:32] == storing.pointer
-    return "0x" + storing.pointer.hex()
-
-
-def struct_of(world: World, pointer: str) -> Any:
-    """The struct of a stored scene, decoded."""
-    return decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
-
-
-def kept(world: World, struct: tuple[Any, ...]) -> str:
-    """The pointer of a struct that is stored as it is."""
-    return "0x" + world.store(f"storeScene({SCENE_STRUCT})", struct).hex()
-
-
-def pixels(png: bytes) -> NDArray[np.uint8]:
-    with PillowImage.open(io.BytesIO(png)) as picture:
-        return np.asarray(picture)
-
-
-def changed(world: World, pointer: str, **changes: object) -> NDArray[np.uint8]:
+def changed(world: World, pointer: str, **change: object) -> NDArray[np.uint8]:
     """The picture with changes: fields, turn, color, background, invert, canvas."""
-    names = ("fields", "turn", "color", "background", "invert", "canvas")
-    values = tuple(changes.get(name, value) for name, value in zip(names, NOTHING, strict=True))
-    bmp = world.call("Studio", f"render(address,{CHANGES})", pointer, values)
+    bmp = world.call("Studio", f"render(address,{CHANGES})", pointer, changes(**change))
     width, height = (int.from_bytes(bmp[at : at + 4], "little") for at in (18, 22))
     return decode_bmp(bmp, width, height)
 
@@ -81,7 +53,7 @@ def test_a_scene_is_drawn_as_it_was(world: World) -> None:
     assert (picture.covered_pixels or 0) > 200
     assert world.call("Studio", "render(address)", pointer) == picture.bmp
     png = world.call("Studio", "renderPNG(address,uint256)", pointer, 3)
-    assert np.array_equal(pixels(png), picture.pixels.repeat(3, 0).repeat(3, 1))
+    assert np.array_equal(frames_of(png)[0], picture.pixels.repeat(3, 0).repeat(3, 1))
     uri = world.call("Studio", "renderDataURI(address,uint256)", pointer, 1)
     assert uri.startswith("data:image/png;base64,iVBORw0KGgo")
     assert f'href="{uri}"' in world.call("Studio", "renderSVG(address,uint256)", pointer, 1)
@@ -91,14 +63,14 @@ def test_a_data_uri_of_whole_words(world: World) -> None:
     """The PNG file ends where a word ends, and what is behind it in memory is free."""
     pointer = stored(world, SCENE)
     for width in range(8, 200):
-        changes = (16, *NOTHING[1:-1], (width, 8))
-        png = world.call("Studio", f"renderPNG(address,uint256,{CHANGES})", pointer, 2, changes)
+        narrow = changes(fields=16, canvas=(width, 8))
+        png = world.call("Studio", f"renderPNG(address,uint256,{CHANGES})", pointer, 2, narrow)
         if len(png) % 32 == 0:
             break
     assert len(png) % 32 == 0
-    uri = world.call("Studio", f"renderDataURI(address,uint256,{CHANGES})", pointer, 2, changes)
+    uri = world.call("Studio", f"renderDataURI(address,uint256,{CHANGES})", pointer, 2, narrow)
     assert uri == "data:image/png;base64," + base64.b64encode(png).decode()
-    assert f'href="{uri}"' in world.call("Studio", f"renderSVG(address,uint256,{CHANGES})", pointer, 2, changes)
+    assert f'href="{uri}"' in world.call("Studio", f"renderSVG(address,uint256,{CHANGES})", pointer, 2, narrow)
 
 
 def test_what_is_kept_is_the_scene(world: World) -> None:
@@ -118,9 +90,7 @@ def test_extensions_are_kept_with_the_scene(world: World) -> None:
     cone = Light("spot", (300, 500, 900), (255, 240, 200), (-300, -500, -900), 5, 20)
     scene = evolve(SCENE, objects=glass, lights=[*SCENE.lights, cone])
     pointer = stored(world, scene)
-    png = world.call("Studio", "renderPNG(address,uint256)", pointer, 1)
-    with PillowImage.open(io.BytesIO(png)) as picture:
-        drawn = np.array(picture.convert("RGB"))
+    drawn = changed(world, pointer)
     assert (drawn == render(scene).pixels).all()
     assert (drawn != render(SCENE).pixels).any()
     struct = struct_of(world, pointer)
@@ -132,20 +102,16 @@ def test_extensions_are_kept_with_the_scene(world: World) -> None:
 
 
 @pytest.mark.parametrize("shading", ["flat", "smooth"])
-def test_textures_are_kept_with_the_scene(world: World, shading: Shading) -> None:
-    """Stored meshes have their vertices in another order, and the coordinates of a texture with them."""
-    random = np.random.default_rng(1)
+def test_textures_and_opacities_are_kept_with_the_scene(world: World, shading: Shading) -> None:
+    """Stored meshes have their vertices in another order, and what belongs to vertices with them."""
+    random, count = np.random.default_rng(1), len(POT.positions)
     texture = Texture(random.integers(0, 256, (40, 30, 3), dtype=np.uint8))
-    mesh = evolve(POT, uvs=random.uniform(0, 1, (len(POT.positions), 2)))
-    scene = evolve(SCENE, objects=[Object(mesh, (0, -100, 0), material=Material(shading, texture=texture))])
-    assert changed(world, stored(world, scene)).tolist() == render(scene).pixels.tolist()
-
-
-@pytest.mark.parametrize("shading", ["flat", "smooth"])
-def test_opacities_are_kept_with_the_scene(world: World, shading: Shading) -> None:
-    mesh = evolve(POT, opacities=np.random.default_rng(2).uniform(0, 1, len(POT.positions)))
-    scene = evolve(SCENE, objects=[Object(mesh, (0, -100, 0), material=Material(shading))])
-    assert changed(world, stored(world, scene)).tolist() == render(scene).pixels.tolist()
+    for mesh, material in (
+        (evolve(POT, uvs=random.uniform(0, 1, (count, 2))), Material(shading, texture=texture)),
+        (evolve(POT, opacities=random.uniform(0, 1, count)), Material(shading)),
+    ):
+        scene = evolve(SCENE, objects=[Object(mesh, (0, -100, 0), material=material)])
+        assert changed(world, stored(world, scene)).tolist() == render(scene).pixels.tolist()
 
 
 def test_antialiased(world: World) -> None:
@@ -177,53 +143,14 @@ def test_the_same_has_the_same_pointer_and_is_kept_once(world: World) -> None:
 
 
 def test_turned(world: World) -> None:
-    pointer = stored(world, SCENE)
     quaternion = from_euler((10, 70, -20))
-    turn = tuple(round(part * 2**32) for part in np.asarray(quaternion).tolist())
-    boxes = []
-    for o in SCENE.objects:
-        positions = o.mesh.positions
-        center = (positions.min(axis=0) + positions.max(axis=0)) / 2
-        place = o.position + spun(o.rotation, center * o.scale)
-        boxes.append((place, o.scale * np.linalg.norm(np.ptp(positions, axis=0)) / 2))
-    low, high = (
-        limit([place + sign * radius for place, radius in boxes], axis=0) for limit, sign in ((np.min, -1), (np.max, 1))
-    )
-    target = (low + high) / 2
-    # of points, and of the rotations of objects
-    objects = [
-        evolve(
-            o,
-            position=target + spun(quaternion, o.position - target),
-            rotation=product(quaternion, o.rotation),
-        )
-        for o in SCENE.objects
-    ]
-    expected = render(evolve(SCENE, objects=objects))
+    turn = tuple(round(part * 2**32) for part in quaternion.tolist())
+    expected = render(turned(SCENE, quaternion))
     assert (expected.covered_pixels or 0) > 200
-    difference = np.abs(changed(world, pointer, fields=1, turn=turn).astype(int) - expected.pixels).max(axis=2)
+    found = changed(world, stored(world, SCENE), fields=1, turn=turn)
     # the last bits of the numbers differ
-    assert (difference > 3).mean() < 0.02
+    assert (np.abs(found.astype(int) - expected.pixels).max(axis=2) > 3).mean() < 0.02
     assert (np.abs(render(SCENE).pixels.astype(int) - expected.pixels).max(axis=2) > 3).mean() > 0.1
-
-
-def spun(quaternion: object, vector: NDArray[np.float64]) -> NDArray[np.float64]:
-    from shackled.scene import rotate
-
-    turned: NDArray[np.float64] = rotate(np.asarray(quaternion), vector[None])[0]
-    return turned
-
-
-def product(p: object, q: object) -> NDArray[np.float64]:
-    (a, b, c, d), (x, y, z, w) = np.asarray(p), np.asarray(q)
-    return np.array(
-        [
-            d * x + a * w + b * z - c * y,
-            d * y - a * z + b * w + c * x,
-            d * z + a * y - b * x + c * w,
-            d * w - a * x - b * y - c * z,
-        ]
-    )
 
 
 def test_painted_on_another_background_inverted_and_larger(world: World) -> None:
@@ -238,16 +165,13 @@ def test_painted_on_another_background_inverted_and_larger(world: World) -> None
         world, pointer, fields=30, color=0x0102FA, background=(0x010203, 0xFEFDFC), invert=1, canvas=(64, 30)
     )
     assert np.array_equal(picture, expected.pixels)
-
-
-def test_fields_that_are_not_named_do_not_count(world: World) -> None:
-    pointer = stored(world, SCENE)
+    # fields that are not named do not count
     picture = changed(world, pointer, turn=(0, 0, 0, 0), color=2**30, background=(1, 2), invert=7, canvas=(0, 0))
     assert np.array_equal(picture, render(SCENE).pixels)
 
 
 @pytest.mark.parametrize(
-    ("changes", "error"),
+    ("change", "error"),
     [
         ({"fields": 64}, "UnknownChanges.*64"),
         ({"fields": 1, "turn": (0, 0, 0, 0)}, "TurnOutOfRange"),
@@ -257,10 +181,10 @@ def test_fields_that_are_not_named_do_not_count(world: World) -> None:
         ({"fields": 8, "invert": 2}, "NotAFlag"),
     ],
 )
-def test_changes_out_of_range(world: World, changes: dict[str, object], error: str) -> None:
+def test_changes_out_of_range(world: World, change: dict[str, object], error: str) -> None:
     pointer = stored(world, SCENE)
     with pytest.raises(RenderError, match=error):
-        changed(world, pointer, **changes)
+        changed(world, pointer, **change)
 
 
 def test_large_meshes_are_kept_in_parts(world: World) -> None:
@@ -407,9 +331,9 @@ def test_what_is_refused_plain_is_refused_turned(
     second = list(struct[6][1])
     second[field] = {1: (value, 0, 0), 2: (0, 0, 0, 0) if value is None else (value, 0, 0, 1 << 32), 3: value}[field]
     broken = kept(world, (*struct[:6], [struct[6][0], tuple(second)], struct[7]))
-    changes = [] if turn is None else [(fields, turn, 0, (0, 0), 0, (8, 8))]
+    change = [] if turn is None else [changes(fields=fields, turn=turn, canvas=(8, 8))]
     with pytest.raises(RenderError, match=re.escape(error.format(value))):
-        world.call("Studio", function, broken, *changes)
+        world.call("Studio", function, broken, *change)
 
 
 @pytest.mark.parametrize("length", [1, 1 << 10, 1 << 32, 1 << 50])
@@ -455,24 +379,9 @@ def test_what_cannot_be_drawn_does_not_pass_the_check(
             world.run(world.address("Studio"), call_data(f"{function}(address)", broken))
 
 
-def test_a_scene_of_parts_that_are_not_there_does_not_pass_the_check(world: World) -> None:
-    listed = "0x" + world.store("storePart(bytes)", b"\x13" + 20 * b"\x77").hex()
-    with pytest.raises(RenderError, match=f"NothingKept.*{NOBODY}"):
-        world.run(world.address("Studio"), call_data("check(address)", listed))
-
-
-@pytest.mark.parametrize("place", range(4))
-def test_an_address_without_code_is_no_part(world: World, place: int) -> None:
-    from shackled.artifacts import artifact
-
-    parts = [world.address(name) for name in artifact("Studio").parts]
-    world.deploy(artifact("Studio").creation, b"".join(part.rjust(32, b"\0") for part in parts))
-    parts[place] = b"\x77" * 20
-    with pytest.raises(ChainError, match="could not be deployed"):
-        world.deploy(artifact("Studio").creation, b"".join(part.rjust(32, b"\0") for part in parts))
-
-
-def test_errors_are_named() -> None:
-    from tools.ledger import call_data as data
-
-    assert "NotAScene" in str(revert_error(data("NotAScene(address)", NOBODY), 1))
+@pytest.mark.parametrize("contract", ["Studio", "Turntable"])
+def test_an_address_without_code_is_no_part(world: World, contract: str) -> None:
+    parts = [world.address(name) for name in artifact(contract).parts]
+    for given in (parts, *([*parts[:place], b"\x77" * 20, *parts[place + 1 :]] for place in range(len(parts)))):
+        with pytest.raises(ChainError, match="could not be deployed") if given is not parts else nullcontext():
+            world.deploy(artifact(contract).creation, b"".join(map(word, given)))

@@ -13,23 +13,20 @@ import numpy as np
 import pytest
 from attrs import evolve
 from eth_abi.abi import decode, encode
-from numpy.typing import NDArray
 from PIL import Image as PillowImage
-from PIL import ImageSequence
 from tools.ledger import World, call_data
 from tools.png_code import SIGNATURE, encode_png
 
 from evms import Ours, pyevm_call, pyrevm_call
-from shackled import Background, Camera, ChainError, Light, Material, Mesh, Object, RenderError, Scene, load, render
+from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene, load, render
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
 from shackled.ethereum import word
-from shackled.scene import encode_scene, fit, from_euler, pack, rotate
-from shackled.studio import store_scene
-from shackled.studio._storage import scene_struct
+from shackled.image import decode_bmp
+from shackled.scene import encode_scene, fit, from_euler, pack
+from stored_scenes import CHANGES, SCENE_STRUCT, Pixels, changes, frames_of, stored, turned
 
 SPIN = "(uint256,uint256,uint256,(int256,int256,int256),bool)"
-CHANGES = "(uint256,(int256,int256,int256,int256),uint256,(uint256,uint256),uint256,(uint256,uint256))"
 ONE = 1 << 32
 UPRIGHT = (0, ONE, 0)
 TENT = Mesh([[-90, 0, 0], [90, 0, 0], [0, 150, 40]], [[0, 1, 2]], [[255, 0, 0], [0, 255, 0], [0, 0, 255]])
@@ -46,10 +43,8 @@ SCENE = Scene(
     height=24,
 )
 
-Pixels = NDArray[np.uint8]
 
-
-def turned(
+def data_of(
     scene: Scene, frames: int = 4, delay: int = 80, scale: int = 1, axis: object = UPRIGHT, hold: bool = False
 ) -> bytes:
     """Data of a call of `animate`."""
@@ -58,13 +53,8 @@ def turned(
 
 
 def animate(scene: Scene, **spin: Any) -> bytes:
-    output = open_chain().call("Turntable", turned(scene, **spin)).output
+    output = open_chain().call("Turntable", data_of(scene, **spin)).output
     return bytes(decode(["bytes"], output)[0])
-
-
-def frames_of(png: bytes) -> list[Pixels]:
-    with PillowImage.open(io.BytesIO(png)) as file:
-        return [np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(file)]
 
 
 def chunk(kind: bytes, data: bytes) -> bytes:
@@ -86,23 +76,15 @@ def model(pictures: list[Pixels], delay: int, scale: int) -> bytes:
     return b"".join([*parts, chunk(b"IEND", b"")])
 
 
-def stored(world: World, scene: Scene) -> str:
-    for storing in store_scene(scene, world.address("Studio"), chain=world.chain):
-        world.run(world.address("Studio"), storing.data, created=True)
-    return "0x" + storing.pointer.hex()
-
-
 @pytest.mark.parametrize(("count", "delay", "scale"), [(2, 20, 1), (5, 10_000, 2), (8, 77, 3), (12, 100, 8)])
 def test_each_frame_is_the_scene_turned(world: World, count: int, delay: int, scale: int) -> None:
     pointer = stored(world, SCENE)
-    pictures = []
+    pictures: list[Pixels] = []
     for step in range(count):
         angle = step * 360 * ONE // count
         turn = world.chain.ask("Renderer", "eulerRotation", 0, angle, 0)
-        changes = (1, turn, 0, (0, 0), 0, (0, 0))
-        bmp = world.call("Studio", f"render(address,{CHANGES})", pointer, changes)
-        pictures.append(np.flip(np.frombuffer(bmp, np.uint8, offset=54).reshape(24, 96)[:, :93], 0))
-    pictures = [each.reshape(24, 31, 3)[:, :, ::-1] for each in pictures]
+        bmp = world.call("Studio", f"render(address,{CHANGES})", pointer, changes(fields=1, turn=turn))
+        pictures.append(decode_bmp(bmp, 31, 24))
     spin = (count, delay, scale, UPRIGHT, False)
     png = world.call("Studio", f"animate(address,{SPIN})", pointer, spin)
     assert png == model(pictures, delay, scale)
@@ -115,23 +97,14 @@ def test_each_frame_is_the_scene_turned(world: World, count: int, delay: int, sc
     assert uri == "data:image/png;base64," + base64.b64encode(png).decode()
 
 
-def test_pillow_writes_the_same_frames() -> None:
-    png = animate(SCENE)
-    first, *others = (PillowImage.fromarray(each) for each in frames_of(png))
-    file = io.BytesIO()
-    first.save(file, "PNG", save_all=True, append_images=others, loop=0, duration=80, default_image=False)
-    theirs = frames_of(file.getvalue())
-    assert all(np.array_equal(a, b) for a, b in zip(theirs, frames_of(png), strict=True))
-
-
 def test_changes_come_first(world: World) -> None:
     pointer = stored(world, SCENE)
-    changes = (16 + 4, (0, 0, 0, 0), 0, (0xFF0000, 0xFF0000), 0, (16, 8))
+    red = changes(fields=16 + 4, background=(0xFF0000, 0xFF0000), canvas=(16, 8))
     spin = (3, 50, 2, UPRIGHT, False)
-    png = world.call("Studio", f"animate(address,{SPIN},{CHANGES})", pointer, spin, changes)
+    png = world.call("Studio", f"animate(address,{SPIN},{CHANGES})", pointer, spin, red)
     expected = render(evolve(SCENE, width=16, height=8, background=Background("#ff0000"))).pixels
     assert np.array_equal(frames_of(png)[0][::2, ::2], expected)
-    uri = world.call("Studio", f"animateDataURI(address,{SPIN},{CHANGES})", pointer, spin, changes)
+    uri = world.call("Studio", f"animateDataURI(address,{SPIN},{CHANGES})", pointer, spin, red)
     assert uri == "data:image/png;base64," + base64.b64encode(png).decode()
 
 
@@ -143,39 +116,14 @@ def test_any_axis(axis: tuple[int, int, int]) -> None:
     assert short == animate(near, axis=tuple(part * ONE * 1000 for part in axis), frames=3)
     found = frames_of(short)
     length = np.linalg.norm(axis)
-    center, covered = middle_of_balls(SCENE), 0
+    covered = 0
     for step, pixels in enumerate(found):
         half = np.pi * step / 3
         q = np.array([*(np.sin(half) * np.array(axis) / length), np.cos(half)])
-        expected = render(evolve(near, objects=[about(o, q, center) for o in near.objects]))
+        expected = render(turned(near, q))
         covered += expected.covered_pixels or 0
         assert (np.abs(pixels.astype(int) - expected.pixels).max(axis=2) > 3).mean() < 0.02
     assert covered > 60
-
-
-def middle_of_balls(scene: Scene) -> NDArray[np.float64]:
-    low, high = [], []
-    for o in scene.objects:
-        positions = o.mesh.positions
-        place = o.position + rotate(o.rotation, (positions.min(axis=0) + positions.max(axis=0)) / 2 * o.scale)
-        radius = o.scale * np.linalg.norm(np.ptp(positions, axis=0)) / 2
-        low.append(place - radius)
-        high.append(place + radius)
-    middle: NDArray[np.float64] = (np.min(low, axis=0) + np.max(high, axis=0)) / 2
-    return middle
-
-
-def about(o: Object, q: NDArray[np.float64], center: NDArray[np.float64]) -> Object:
-    """The object, turned about a point."""
-    x, y, z, w = np.asarray(o.rotation)
-    a, b, c, d = q
-    product = [
-        d * x + a * w + b * z - c * y,
-        d * y - a * z + b * w + c * x,
-        d * z + a * y - b * x + c * w,
-        d * w - a * x - b * y - c * z,
-    ]
-    return evolve(o, position=center + rotate(q, o.position - center), rotation=product)
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -260,9 +208,8 @@ def test_what_is_refused(spin: dict[str, Any], error: str) -> None:
 )
 def test_a_scene_that_cannot_be_drawn_is_refused(change: Any, error: str, hold: bool) -> None:
     """With the error of the renderer, whatever is computed before."""
-    kind = scene_struct()
-    (struct_,) = decode([kind], word(32) + encode_scene(fit(SCENE)))
-    data = call_data(f"animate({kind},{SPIN})", change(struct_), (2, 50, 1, UPRIGHT, hold))
+    (struct_,) = decode([SCENE_STRUCT], word(32) + encode_scene(fit(SCENE)))
+    data = call_data(f"animate({SCENE_STRUCT},{SPIN})", change(struct_), (2, 50, 1, UPRIGHT, hold))
     with pytest.raises(RenderError) as caught:
         open_chain().call("Turntable", data)
     assert error in str(caught.value)
@@ -272,20 +219,11 @@ def test_every_evm_agrees() -> None:
     chain = open_chain()
     chain.address("Turntable")
     codes, address = chain.codes(), chain.address("Turntable")
-    data = turned(evolve(SCENE, width=6, height=5), frames=2, hold=True)
+    data = data_of(evolve(SCENE, width=6, height=5), frames=2, hold=True)
     ours = Ours().call(codes, address, data, 10**8)
     assert len(decode(["bytes"], ours.output)[0]) > 200
     assert pyrevm_call(codes, address, data, 10**8) == ours
     assert pyevm_call(codes, address, data, 10**8) == ours
-
-
-def test_an_address_without_code_is_no_part() -> None:
-    chain = open_chain()
-    parts = [chain.address("Renderer"), chain.address("PngEncoder")]
-    for place in range(2):
-        given = [b"\x77" * 20 if at == place else part for at, part in enumerate(parts)]
-        with pytest.raises(ChainError, match="could not be deployed"):
-            chain.create("Turntable", artifact("Turntable").creation + b"".join(map(word, given)))
 
 
 def test_chromium_plays_it(browser: Any, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""The Creator's page in a tab of a browser, as tests use it."""
+"""Pages in tabs of chromium, as tests use them: any that moves a scene, and the Creator's."""
 
 from __future__ import annotations
 
@@ -32,25 +32,91 @@ def link(content: Any, address: str = "") -> str:
     return f"{address}#1{base64.urlsafe_b64encode(packed).decode().rstrip('=')}"
 
 
-class Creator:
-    """The page in a tab."""
+class Tab:
+    """A page. place: the element that is dragged and hears keys. told: an expression: what the page says is wrong."""
 
-    def __init__(self, page: Any) -> None:
-        self.page = page
-        self.view = page.locator("#view")
+    #: Where files are dropped.
+    TARGET = "document.body"
+
+    def __init__(self, page: Any, place: Any, told: str) -> None:
+        self.page, self.place, self.told = page, place, told
+
+    def open(self, url: str) -> None:
+        self.page.goto(url)
 
     def run(self, script: str, argument: Any = None) -> Any:
-        """The value of an expression in which `app` is the page's, after what it awaits."""
+        """The value of an expression in which `app` is the Creator's, `view` the element, after what it awaits."""
         return self.page.evaluate(
-            f"async argument => {{ const app = globalThis.shackledApp; return {script} }}", argument
+            f"async argument => {{ const [app, view] = [globalThis.shackledApp, globalThis.view]; return {script} }}",
+            argument,
         )
 
     def wait(self, condition: str, argument: Any = None) -> None:
         """Wait until an expression is true. Polled from here: the policy of the page forbids what playwright does."""
         end = time.monotonic() + PATIENCE
         while not self.run(condition, argument):
-            assert time.monotonic() < end, f"{condition}: {self.run('app?.toasts.value')}"
+            assert time.monotonic() < end, f"{condition}: {self.run(self.told)}"
             self.page.wait_for_timeout(15)
+
+    def press(self, *keys: str) -> Callable[[], None]:
+        def act() -> None:
+            self.place.focus()
+            for key in keys:
+                self.page.keyboard.press(key)
+
+        return act
+
+    def wheel(self) -> None:
+        self.place.hover()
+        self.page.mouse.wheel(0, -300)
+
+    def drag(self, x: float, y: float, button: str = "left", start: Any = (0.5, 0.5), hold: bool = False) -> None:
+        """Drag by so many pixels of the screen. start: parts of the width and height of the place."""
+        box = self.place.bounding_box()
+        left, top = box["x"] + box["width"] * start[0], box["y"] + box["height"] * start[1]
+        self.page.mouse.move(left, top)
+        self.page.mouse.down(button=button)
+        self.page.mouse.move(left + x, top + y, steps=5)
+        if not hold:
+            self.page.mouse.up(button=button)
+
+    def touch(self, *steps: tuple[float, ...]) -> Callable[[], None]:
+        """Fingers at the height of the middle. steps: where they are, in pixels to the right of it."""
+        box = self.place.bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        wire = self.page.context.new_cdp_session(self.page)
+
+        def act() -> None:
+            for number, fingers in enumerate([*steps, ()]):
+                kind = "touchEnd" if not fingers else "touchMove" if number else "touchStart"
+                points = [{"x": x + right, "y": y, "id": finger} for finger, right in enumerate(fingers)]
+                wire.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+        return act
+
+    def drop(self, **files: bytes) -> None:
+        """Drop files on the page."""
+        given = {name: base64.b64encode(content).decode() for name, content in files.items()}
+        self.run(
+            f"""(() => {{
+                const dataTransfer = new DataTransfer();
+                for (const [name, content] of Object.entries(argument)) {{
+                    const bytes = Uint8Array.from(atob(content), letter => letter.charCodeAt(0));
+                    dataTransfer.items.add(new File([bytes], name));
+                }}
+                const event = {{ dataTransfer, bubbles: true, cancelable: true }};
+                for (const type of ['dragenter', 'dragover', 'drop'])
+                    {self.TARGET}.dispatchEvent(new DragEvent(type, event));
+            }})()""",
+            given,
+        )
+
+
+class Creator(Tab):
+    """The Creator's page."""
+
+    def __init__(self, page: Any) -> None:
+        super().__init__(page, page.locator("#view"), "app?.toasts.value")
 
     def settle(self) -> bytes:
         """Wait for the picture of the document, and return its pixels: red, green, blue, rows from the top."""
@@ -82,6 +148,14 @@ class Creator:
         self.wait("app.doc.value !== globalThis.earlier")
         return self.settle()
 
+    def show(self, place: dict[str, Any]) -> bytes:
+        """Show another scene, by its link; its pixels."""
+        return self.after(lambda: self.run("void (location.hash = argument)", link(place)))
+
+    def change(self, **values: Any) -> bytes:
+        """Change keys of the document; its pixels."""
+        return self.after(lambda: self.run("app.change({...app.doc.value, ...argument}, 'size')", values))
+
     def doc(self) -> Any:
         """The document."""
         return self.run("app.doc.value")
@@ -91,27 +165,9 @@ class Creator:
         self.wait("app.link.value && (app.missing.value.length || location.hash === app.link.value)")
         return str(self.run("app.link.value"))
 
-    def press(self, *keys: str) -> Callable[[], None]:
-        def act() -> None:
-            self.view.focus()
-            for key in keys:
-                self.page.keyboard.press(key)
-
-        return act
-
     def click(self, name: str) -> Callable[[], None]:
         """Click what has that data-name."""
         return lambda: self.page.locator(f"[data-name='{name}']").first.click()
-
-    def drag(self, x: float, y: float, button: str = "left", start: Any = (0.5, 0.5), hold: bool = False) -> None:
-        """Drag the picture by so many pixels of the screen. start: parts of its width and height."""
-        box = self.view.bounding_box()
-        left, top = box["x"] + box["width"] * start[0], box["y"] + box["height"] * start[1]
-        self.page.mouse.move(left, top)
-        self.page.mouse.down(button=button)
-        self.page.mouse.move(left + x, top + y, steps=5)
-        if not hold:
-            self.page.mouse.up(button=button)
 
     def open_groups(self) -> None:
         """Open all panels, and what is in them."""
@@ -120,34 +176,18 @@ class Creator:
             self.run(f"void {closed}.forEach(each => {{ each.open = true }})")
             self.page.wait_for_timeout(30)
 
-    def row(self, path: str) -> Any:
-        """The row of a control."""
-        return self.page.locator(f"[data-name='row-{path}']")
-
     def field(self, path: str) -> Any:
         """The field of a control, or its switch."""
         return self.page.locator(f"[data-name='{path}']")
 
-    def type(self, path: str, value: str) -> None:
-        """Type a value into the field of a control."""
-        self.field(path).fill(value)
-        self.field(path).press("Enter")
+    def typed(self, path: str, value: str) -> bytes:
+        """Type a value into the field of a control; the pixels that follow."""
 
-    def drop(self, **files: bytes) -> None:
-        """Drop files on the page."""
-        given = {name: base64.b64encode(content).decode() for name, content in files.items()}
-        self.run(
-            """(() => {
-                const dataTransfer = new DataTransfer();
-                for (const [name, content] of Object.entries(argument)) {
-                    const bytes = Uint8Array.from(atob(content), letter => letter.charCodeAt(0));
-                    dataTransfer.items.add(new File([bytes], name));
-                }
-                for (const type of ['dragenter', 'dragover', 'drop'])
-                    document.body.dispatchEvent(new DragEvent(type, { dataTransfer, bubbles: true, cancelable: true }));
-            })()""",
-            given,
-        )
+        def act() -> None:
+            self.field(path).fill(value)
+            self.field(path).press("Enter")
+
+        return self.after(act)
 
     def said(self, kind: str = "note") -> str:
         """What the page says, when it says something."""
@@ -161,10 +201,15 @@ class Creator:
         found.wait_for()
         return found
 
-    def file(self, act: Callable[[], object]) -> tuple[str, bytes]:
-        """Name and content of what is downloaded."""
+    def close(self) -> None:
+        """Close the dialog."""
+        self.run("void (app.dialog.value = null)")
+        self.page.locator("dialog[open]").wait_for(state="detached")
+
+    def file(self, name: str) -> tuple[str, bytes]:
+        """Name and content of the download of a button, once the page can make it."""
         with self.page.expect_download(timeout=1000 * PATIENCE) as download:
-            act()
+            self.page.locator(f"[data-name='{name}']:enabled").click()
         return download.value.suggested_filename, Path(download.value.path()).read_bytes()
 
 

@@ -14,7 +14,6 @@ from typing import Any
 
 from websockets.sync.client import ClientConnection, connect
 
-COMMANDS = ("firefox-esr", "firefox")
 #: Seconds in which it must start, and answer.
 PATIENCE = 60
 #: It must not ask for anything but the page.
@@ -31,14 +30,14 @@ user_pref("services.settings.server", "data:,");
 
 def firefox_path() -> str | None:
     """Return the path of Firefox, or None."""
-    return next((path for path in map(shutil.which, COMMANDS) if path), None)
+    return next((path for path in map(shutil.which, ("firefox-esr", "firefox")) if path), None)
 
 
 class Tab:
-    """A tab."""
+    """A tab, with the methods of creator_page.Tab. place: the selector of the element that is dragged."""
 
-    def __init__(self, connection: ClientConnection) -> None:
-        self._connection = connection
+    def __init__(self, connection: ClientConnection, place: str) -> None:
+        self._connection, self._place = connection, place
         self._last = 0
         self.ask("session.new", capabilities={})
         self._context = self.ask("browsingContext.getTree")["contexts"][0]["context"]
@@ -73,20 +72,22 @@ class Tab:
             assert time.monotonic() < end, condition
             time.sleep(0.05)
 
-    def drag(self, start: tuple[float, float], end: tuple[float, float], steps: int = 6) -> None:
-        """Drag with the mouse, from one place of the window to another, in pixels."""
-        places = [
-            [round(a + (b - a) * step / steps) for a, b in zip(start, end, strict=True)] for step in range(steps + 1)
+    def drag(self, x: float, y: float) -> None:
+        """Drag the place by so many pixels."""
+        box = self.run(f"document.querySelector({self._place!r}).getBoundingClientRect().toJSON()")
+        left, top = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        moves = [
+            {"type": "pointerMove", "x": round(left + x * part / 6), "y": round(top + y * part / 6), "duration": 30}
+            for part in range(7)
         ]
-        moves = [{"type": "pointerMove", "x": x, "y": y, "duration": 30} for x, y in places]
         actions = [moves[0], {"type": "pointerDown", "button": 0}, *moves[1:], {"type": "pointerUp", "button": 0}]
         source = {"type": "pointer", "id": "mouse", "actions": actions}
         self.ask("input.performActions", context=self._context, actions=[source])
 
 
 @contextmanager
-def firefox() -> Iterator[Tab]:
-    """Run Firefox with a new profile."""
+def firefox(place: str) -> Iterator[Tab]:
+    """Run Firefox with a new profile, into which it writes the port at which it listens. place: as of a tab."""
     path = firefox_path()
     assert path
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
@@ -96,21 +97,14 @@ def firefox() -> Iterator[Tab]:
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
+        said, end = Path(folder) / "WebDriverBiDiServer.json", time.monotonic() + PATIENCE
         try:
-            with connect(f"ws://127.0.0.1:{_port(Path(folder), process)}/session", max_size=None) as connection:
-                yield Tab(connection)
+            while not (said.exists() and said.read_text().endswith("}")):
+                assert time.monotonic() < end, "Firefox did not start"
+                time.sleep(0.05)
+            port = json.loads(said.read_text())["ws_port"]
+            with connect(f"ws://127.0.0.1:{port}/session", max_size=None) as connection:
+                yield Tab(connection, place)
         finally:
             process.terminate()
             process.wait(20)
-
-
-def _port(folder: Path, process: subprocess.Popen[bytes]) -> int:
-    """Return the port at which Firefox listens, which it writes into its profile."""
-    path = folder / "WebDriverBiDiServer.json"
-    end = time.monotonic() + PATIENCE
-    while time.monotonic() < end and process.poll() is None:
-        try:
-            return int(json.loads(path.read_text())["ws_port"])
-        except (OSError, ValueError, KeyError):
-            time.sleep(0.05)
-    raise AssertionError("Firefox did not start")

@@ -1,6 +1,6 @@
 """A plain reader of glTF 2.0, written from its specification for comparison: shapes, base colours and normals only.
 
-It shares nothing with the package, neither code nor libraries: numbers are taken from the bytes one by one.
+It shares no code with the package: numbers are taken from the bytes one by one, and NumPy multiplies matrices only.
 """
 
 from __future__ import annotations
@@ -10,9 +10,11 @@ import json
 import struct
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 Vector = tuple[float, ...]
-#: Rows.
-Matrix = list[list[float]]
+Matrix = NDArray[np.float64]
 #: Positions, colours 0..1 (None for none) and normals (likewise) of three corners.
 Triangle = tuple[list[Vector], list[Vector | None], list[Vector | None]]
 
@@ -29,7 +31,7 @@ def read(data: bytes) -> list[Triangle]:
 
     def visit(number: int, above: Matrix) -> None:
         node = document["nodes"][number]
-        world = times(above, local_matrix(node))
+        world = above @ local_matrix(node)
         if "mesh" in node:
             for primitive in document["meshes"][node["mesh"]]["primitives"]:
                 triangles.extend(placed(t, world) for t in primitive_triangles(document, buffers, primitive))
@@ -37,7 +39,7 @@ def read(data: bytes) -> list[Triangle]:
             visit(child, world)
 
     for root in document["scenes"][document["scene"]]["nodes"]:
-        visit(root, [[float(i == j) for j in range(4)] for i in range(4)])
+        visit(root, np.eye(4))
     return triangles
 
 
@@ -114,44 +116,25 @@ def primitive_triangles(document: dict[str, Any], buffers: list[bytes], primitiv
 
 def placed(triangle: Triangle, world: Matrix) -> Triangle:
     """3.7.4: a negative determinant turns the winding; normals go by the inverse of the transpose."""
-    positions = [tuple(row[0] * x + row[1] * y + row[2] * z + row[3] for row in world[:3]) for x, y, z in triangle[0]]
-    inverse, determinant = inverted([row[:3] for row in world[:3]])
-    normals: list[Vector | None] = []
-    for normal in triangle[2]:
-        if normal is None:
-            normals.append(None)
-            continue
-        turned = [sum(inverse[k][i] * normal[k] for k in range(3)) for i in range(3)]
-        length = sum(v * v for v in turned) ** 0.5
-        normals.append(tuple(v / length for v in turned))
-    if determinant < 0:
+    positions = [tuple(world[:3, :3] @ position + world[:3, 3]) for position in triangle[0]]
+    turned = [None if normal is None else np.linalg.inv(world[:3, :3]).T @ normal for normal in triangle[2]]
+    normals = [None if normal is None else tuple(normal / np.linalg.norm(normal)) for normal in turned]
+    if np.linalg.det(world[:3, :3]) < 0:
         return positions[::-1], triangle[1][::-1], normals[::-1]
     return positions, triangle[1], normals
-
-
-def inverted(m: Matrix) -> tuple[Matrix, float]:
-    def minor(i: int, j: int) -> float:
-        (a, b), (c, d) = ([m[p][q] for q in range(3) if q != j] for p in range(3) if p != i)
-        return (a * d - b * c) * (1 - 2 * ((i + j) % 2))
-
-    determinant = sum(m[0][j] * minor(0, j) for j in range(3))
-    return [[minor(j, i) / determinant for j in range(3)] for i in range(3)], determinant
 
 
 def local_matrix(node: dict[str, Any]) -> Matrix:
     """3.5.3: T * R * S, or a matrix in columns."""
     if "matrix" in node:
-        return [[node["matrix"][4 * column + row] for column in range(4)] for row in range(4)]
+        return np.array(node["matrix"], dtype=float).reshape(4, 4).T
     x, y, z, w = node.get("rotation", (0, 0, 0, 1))
     rotation = [
         [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
         [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
         [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
     ]
-    scale, moved = node.get("scale", (1, 1, 1)), node.get("translation", (0, 0, 0))
-    rows = [[rotation[i][j] * scale[j] for j in range(3)] + [moved[i]] for i in range(3)]
-    return [*rows, [0.0, 0.0, 0.0, 1.0]]
-
-
-def times(a: Matrix, b: Matrix) -> Matrix:
-    return [[sum(a[i][k] * b[k][j] for k in range(4)) for j in range(4)] for i in range(4)]
+    matrix = np.eye(4)
+    matrix[:3, :3] = np.array(rotation) * node.get("scale", (1, 1, 1))
+    matrix[:3, 3] = node.get("translation", (0, 0, 0))
+    return matrix

@@ -5,16 +5,19 @@ from __future__ import annotations
 import base64
 import io
 import json
+import math
 import struct
 import warnings
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from shackled.scene import Mesh, read_mesh
+from shackled.errors import InputError
+from shackled.scene import Mesh, read_mesh, read_model
 
 #: The codes of kinds of numbers in glTF, and the types by how many of them there are.
 CODES = {"i1": 5120, "u1": 5121, "i2": 5122, "u2": 5123, "u4": 5125, "f4": 5126}
@@ -35,6 +38,18 @@ def read_with_notes(path: Path, content: str | bytes) -> tuple[Mesh, list[str]]:
     notes = [str(each.message) for each in told]
     assert all(note.startswith(f"{path}: ") and "\n" not in note for note in notes)
     return mesh, [note.removeprefix(f"{path}: ") for note in notes]
+
+
+def refusal(path: Path, content: str | bytes | None = None, read: Any = read_model, **options: Any) -> str:
+    """Write a file, if its content is given, and return why it is refused: one line, without its path."""
+    if content is not None:
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+    with pytest.raises(InputError) as error:
+        read(path, **options)
+    told = str(error.value)
+    assert told.startswith(str(path))
+    assert "\n" not in told
+    return told.removeprefix(str(path)).removeprefix(": ")
 
 
 def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
@@ -99,6 +114,71 @@ class Gltf:
         self.document["buffers"] = [{"byteLength": len(self.data), "uri": uri}]
         path.write_text(json.dumps(self.document))
         return path
+
+
+#: A triangle whose corners all differ.
+POINTS = np.array([[0, 0, 0], [2, 0, 0], [0, 1, 0.5]], dtype="f4")
+
+
+class GltfObject(Gltf):
+    """A document with one mesh on one node, by default a triangle, to which tests add."""
+
+    def __init__(self, points: Any = POINTS) -> None:
+        """Take the positions."""
+        super().__init__(nodes=[{"mesh": 0}], scenes=[{"nodes": [0]}])
+        del self.document["scene"]
+        self.primitive: dict[str, Any] = {"attributes": {"POSITION": self.rows(points)}}
+        self.document["meshes"] = [{"primitives": [self.primitive]}]
+
+    @property
+    def node(self) -> dict[str, Any]:
+        """The node of the mesh."""
+        node: dict[str, Any] = self.document["nodes"][0]
+        return node
+
+    def rows(self, values: Any, kind: str = "f4", **more: Any) -> int:
+        """Add rows of numbers, or single ones, and return the number of their accessor."""
+        array = np.asarray(values, dtype=kind)
+        return self.accessor(array.reshape(len(array), math.prod(array.shape[1:])), **more)
+
+    def material(self, **values: Any) -> None:
+        """Give the mesh a material."""
+        self.document["materials"] = [values]
+        self.primitive["material"] = 0
+
+    def texture(self, pixels: Any, mode: str = "RGB") -> dict[str, int]:
+        """Add an image and where the corners are on it, and return what a material says of it."""
+        image = Image.fromarray(np.asarray(pixels, dtype=np.uint8), mode)
+        self.document["images"] = [{"bufferView": self.view(png(image)), "mimeType": "image/png"}]
+        self.document["textures"] = [{"source": 0}]
+        self.primitive["attributes"]["TEXCOORD_0"] = self.rows([[0, 0], [1, 0], [0, 1]])
+        return {"index": 0}
+
+    def skin(self, joints: list[dict[str, Any]], bindings: Any = None, used: Any = None, weights: Any = None) -> None:
+        """Add joints to the scene, on which the vertices hang: by default each on the first one."""
+        numbers = [len(self.document["nodes"]) + number for number in range(len(joints))]
+        self.document["nodes"] += joints
+        self.document["scenes"][0]["nodes"] += numbers
+        self.node["skin"] = 0
+        self.document["skins"] = [{"joints": numbers}]
+        if bindings is not None:
+            columns = np.asarray(bindings).transpose(0, 2, 1)
+            self.document["skins"][0]["inverseBindMatrices"] = self.rows(columns)
+        self.primitive["attributes"] |= {
+            "JOINTS_0": self.rows([[0, 0, 0, 0]] * 3 if used is None else used, "u1"),
+            "WEIGHTS_0": self.rows([[1, 0, 0, 0]] * 3 if weights is None else weights),
+        }
+
+    def animation(self, path: str, times: Any, values: Any, node: int = 0, name: str = "Move", **sampler: Any) -> None:
+        """Add an animation of one channel."""
+        part = {"input": self.rows(times), "output": self.rows(values), **sampler}
+        channel = {"sampler": 0, "target": {"node": node, "path": path}}
+        animation = {"name": name, "samplers": [part], "channels": [channel]}
+        self.document.setdefault("animations", []).append(animation)
+
+    def write(self, folder: Path) -> Path:
+        """Write it as text, and return its path."""
+        return self.gltf(folder / "model.gltf")
 
 
 def png(pixels: NDArray[np.uint8] | Image.Image) -> bytes:

@@ -37,9 +37,12 @@ def bundled(folder: Path, *modules: str) -> Path:
     return _bundle(folder, source=source)
 
 
-def run_script(script: Path, folder: Path, *arguments: Path) -> None:
-    """Run a script in TypeScript, which may import modules of web/src."""
-    subprocess.run(["node", _bundle(folder, script), *arguments], check=True)
+def asked(script: Path, folder: Path, content: Any) -> Any:
+    """Run a script in TypeScript, which may import modules of web/src; return what it writes for this, all in JSON."""
+    question, answer = folder / "asked.json", folder / "answers.json"
+    question.write_text(json.dumps(content), "utf-8")
+    subprocess.run(["node", _bundle(folder, script), question, answer], check=True)
+    return json.loads(answer.read_text("utf-8"))
 
 
 def _bundle(folder: Path, *scripts: Path, source: str | None = None) -> Path:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from shackled import Camera, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
-from shackled.chain import CallResult, ContractChain, open_chain
+from shackled.chain import CallResult, ContractChain, EmbeddedChain, open_chain
 from shackled.image import decode_bmp
 from shackled.scene import Rectangle, encode_scene
 
@@ -25,6 +25,13 @@ WHITE = (255, 255, 255)
 def chain() -> ContractChain:
     """Where the contracts run."""
     return open_chain()
+
+
+def local() -> EmbeddedChain:
+    """The same chain, which knows where contracts are."""
+    found = chain()
+    assert isinstance(found, EmbeddedChain)
+    return found
 
 
 def words(*values: int) -> bytes:

@@ -14,9 +14,9 @@ from nodes import Reply, failure, forward, result, serving
 
 #: What a proxy does with the n-th picture that is asked of it, counted from 0; "" passes it on.
 #:
-#: "kill" breaks off, "429" asks to come again at once, "500" fails, "html" answers with a page, "half" with half of the
-#: answer, "wrong" with another picture, "empty" with no bytes, "junk" with bytes that are no picture, "slow" after a
-#: third of a second, "stuck" after three seconds, "lie" says that the contract refuses.
+#: "kill" breaks off, "429" asks to come again at once, "half" sends half of the answer, "wrong" another picture,
+#: "empty" no bytes, "junk" bytes that are no picture, "stuck" answers after three seconds, "lie" says that the contract
+#: refuses.
 Manners = Callable[[int], str]
 
 
@@ -28,16 +28,6 @@ def always(manner: str) -> Manners:
 def each_third(manner: str) -> Manners:
     """Passes two in three on."""
     return lambda number: manner if number % 3 == 1 else ""
-
-
-def after(count: int, manner: str) -> Manners:
-    """Behaves well at first."""
-    return lambda number: manner if number >= count else ""
-
-
-def before(count: int, manner: str) -> Manners:
-    """Misbehaves at first."""
-    return lambda number: manner if number < count else ""
 
 
 def at(count: int, manner: str) -> Manners:
@@ -60,15 +50,11 @@ def proxy(target: str, manners: Manners, asked: list[str] | None = None) -> Abst
             return Reply(b"?", cut=0)
         if manner == "429":
             return Reply(status=429, headers={"Retry-After": "0"})
-        if manner == "500":
-            return Reply(b"oh", 500)
         if manner in ("empty", "junk"):
             return result("0x" + ("ab" * 500 if manner == "junk" else ""))
         if manner == "lie":
             return failure("execution reverted", 3, "0x" + "12" * 36)
-        if manner == "html":
-            return Reply(b"<html>this is a captive portal</html>")
-        time.sleep({"slow": 0.3, "stuck": 3}.get(manner, 0))
+        time.sleep(3 if manner == "stuck" else 0)
         reply = forward(target, request)
         if manner == "half":
             return replace(reply, cut=len(reply.body) // 2)

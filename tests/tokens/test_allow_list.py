@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import json
 from functools import reduce
 from pathlib import Path
 
@@ -14,12 +13,12 @@ from shackled.tokens._allow_list import hash_pair, leaf_of, make_allow_list
 
 ALICE = "0x70997970C51812dc3A010C7d01b50e0d17dc79C8"
 BOB = "0x3C44CdDdB6a900fa2b585dd299e03d12FA4293BC"
-CAROL = "0x90F79bf6EB2c4f870365E785982E1f101E93b906"
 
 
 def test_the_tree_is_that_of_openzeppelin() -> None:
     # the example in the README of @openzeppelin/merkle-tree
-    tree = make_allow_list([("0x" + "1" * 40, 5 * 10**18), ("0x" + "2" * 40, 25 * 10**17)]).document()
+    entries = [("0x" + "1" * 40, 5 * 10**18), ("0x" + "2" * 40, 25 * 10**17)]
+    tree = make_allow_list(entries).document()
     assert tree == {
         "format": "standard-v1",
         "leafEncoding": ["address", "uint256"],
@@ -33,36 +32,17 @@ def test_the_tree_is_that_of_openzeppelin() -> None:
             {"value": ["0x" + "2" * 40, "2500000000000000000"], "treeIndex": 2},
         ],
     }
-
-
-accounts = st.dictionaries(st.binary(min_size=20, max_size=20), st.integers(1, 2**256 - 1), min_size=1, max_size=40)
-
-
-def verify(root: bytes, account: str, quantity: int, proof: list[bytes]) -> bool:
-    return reduce(hash_pair, proof, leaf_of(account, quantity)) == root
+    assert make_allow_list(entries[::-1]).root.hex() == tree["tree"][0][2:]
 
 
 @settings(max_examples=30)
-@given(accounts)
+@given(st.dictionaries(st.binary(min_size=20, max_size=20), st.integers(1, 2**256 - 1), min_size=1, max_size=40))
 def test_every_entry_is_proven_and_no_other_quantity(entries: dict[bytes, int]) -> None:
     listed = make_allow_list(("0x" + account.hex(), quantity) for account, quantity in entries.items())
     for account, quantity in listed.allowances.items():
         proof = listed.proof(account)
-        assert verify(listed.root, account, quantity, proof)
-        assert not verify(listed.root, account, quantity ^ 1, proof)
-        assert not verify(listed.root, account, quantity, [*proof, listed.root])
-
-
-def test_an_inner_node_is_no_entry() -> None:
-    listed = make_allow_list([(ALICE, 1), (BOB, 2), (CAROL, 3)])
-    leaves = [leaf_of(account, quantity) for account, quantity in listed.allowances.items()]
-    assert listed.root not in leaves
-    assert hash_pair(leaves[0], leaves[1]) == hash_pair(leaves[1], leaves[0])
-
-
-def test_the_order_of_the_entries_does_not_matter() -> None:
-    entries = [(ALICE, 1), (BOB, 2), (CAROL, 3)]
-    assert make_allow_list(entries).root == make_allow_list(entries[::-1]).root
+        assert reduce(hash_pair, proof, leaf_of(account, quantity)) == listed.root
+        assert reduce(hash_pair, proof, leaf_of(account, quantity ^ 1)) != listed.root
 
 
 def test_a_list_is_read_from_lines(tmp_path: Path) -> None:
@@ -71,26 +51,9 @@ def test_a_list_is_read_from_lines(tmp_path: Path) -> None:
     assert read_allow_list(path).allowances == {ALICE: 2, BOB: 1}
 
 
-def test_a_list_is_read_from_openzeppelins_json(tmp_path: Path) -> None:
-    listed = make_allow_list([(ALICE, 2), (BOB, 1), (CAROL, 5)])
-    path = tmp_path / "tree.json"
-    path.write_text(json.dumps(listed.document()))
-    assert read_allow_list(path) == listed
-
-
-def test_a_tree_that_is_not_that_of_its_entries_is_refused(tmp_path: Path) -> None:
-    document = make_allow_list([(ALICE, 2), (BOB, 1)]).document()
-    document["values"][0]["value"][1] = "200"
-    path = tmp_path / "tree.json"
-    path.write_text(json.dumps(document))
-    with pytest.raises(InputError, match="the root of its tree differs from that of its entries"):
-        read_allow_list(path)
-
-
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("", "is empty"),
         ("account,quantity\n", "is empty"),
         (f"{ALICE}\n", "entry 1: it must be account,quantity"),
         (f"{ALICE},2\n{BOB},-1\n", "entry 2: the quantity must be a whole number from 1, not '-1'"),
@@ -99,32 +62,12 @@ def test_a_tree_that_is_not_that_of_its_entries_is_refused(tmp_path: Path) -> No
         (f"{ALICE},{2**256}\n", "must be a whole number from 1"),
         ("0x12,1\n", "the account must be an address, 0x and 40 hexadecimal digits"),
         (f"{ALICE},1\n{ALICE.lower()},1\n", "entry 2: the account " + ALICE + " occurs twice"),
-        (ALICE.replace("70997970C", "70997970c") + ",1\n", "an invalid checksum"),
+        ("\xff", "is not text"),
     ],
 )
 def test_a_wrong_line_is_named(tmp_path: Path, text: str, said: str) -> None:
     path = tmp_path / "list.csv"
-    path.write_text(text)
+    path.write_text(text, "latin-1")
     with pytest.raises(InputError, match=r"^[^\n]*$") as caught:
         read_allow_list(path)
     assert said in str(caught.value)
-
-
-@pytest.mark.parametrize(
-    "text", ["", "[]", "{}", '{"format": "simple-v1", "leafEncoding": [], "values": [], "tree": []}']
-)
-def test_other_json_is_refused(tmp_path: Path, text: str) -> None:
-    path = tmp_path / "list.json"
-    path.write_text(text)
-    with pytest.raises(InputError, match=r"StandardMerkleTree|standard-v1"):
-        read_allow_list(path)
-
-
-def test_a_missing_file_is_said(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="cannot be read"):
-        read_allow_list(tmp_path / "none.csv")
-
-
-def test_who_is_not_listed_has_no_proof() -> None:
-    with pytest.raises(InputError, match=f"{BOB} is not among the 1 accounts of the allow list"):
-        make_allow_list([(ALICE, 1)]).proof(BOB)

@@ -9,7 +9,6 @@ import pytest
 from shackled.errors import VerificationError
 from shackled.ethereum import keccak256, to_hex, word
 from shackled.tokens import added_number, minted_tokens, withdrawn
-from shackled.tokens._editions import Edition
 
 HERE, ELSEWHERE = "0x" + "aB" * 20, "0x" + "cd" * 20
 ADDED = "EditionAdded(uint256,address,address,string,uint256,bool,uint256,uint256,uint256)"
@@ -68,10 +67,3 @@ def test_a_new_edition_is_named_once() -> None:
 def test_invalid_events(logs: Any) -> None:
     with pytest.raises(VerificationError, match="the transaction succeeded, but its receipt has invalid events: "):
         minted_tokens(logs, HERE)
-
-
-def test_an_edition_is_that_of_its_artist() -> None:
-    answer = (HERE, 5, 4, 3, 2, True, 250, 1, False, ELSEWHERE, "One")
-    edition = Edition.from_answer(6, answer)
-    assert (edition.number, edition.artist.lower(), edition.scene.lower()) == (6, HERE.lower(), ELSEWHERE)
-    assert (edition.name, edition.price, edition.left, edition.proceeds, edition.royalty) == ("One", 5, 0, 5, 250)

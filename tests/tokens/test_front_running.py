@@ -15,21 +15,20 @@ from shackled.tokens import KINDS, Collection, CollectionTerms, icons_of, launch
 from shackled.tokens._demo import development_accounts
 
 KIND = KINDS["icons"]
+Pair = tuple[Transactor, Transactor, CollectionTerms]
 
 
-@pytest.fixture(autouse=True)
-def _environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture
+def pair(node: Node, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pair:
+    """The owner, somebody else, and the terms."""
     monkeypatch.setenv(VARIABLE, str(tmp_path / "addresses.json"))
     monkeypatch.setenv("KEY", development_accounts()[0].key.hex())
-
-
-def transactors(node: Node) -> tuple[Transactor, Transactor, CollectionTerms]:
-    owner, other = (Transactor(node.connection, account) for account in development_accounts()[:2])
+    owner, other = (Transactor(node.connection, account) for account in development_accounts(2))
     return owner, other, CollectionTerms(checksum_address(owner.address), checksum_address(owner.address))
 
 
-def test_the_owner_goes_on(node: Node, capsys: pytest.CaptureFixture[str]) -> None:
-    _, other, terms = transactors(node)
+def test_the_owner_goes_on(node: Node, pair: Pair, capsys: pytest.CaptureFixture[str]) -> None:
+    _, other, terms = pair
     plan = plan_launch(node.connection, KIND, terms)
     launch(plan, other)
     AddressBook().path.unlink()
@@ -41,7 +40,7 @@ def test_the_owner_goes_on(node: Node, capsys: pytest.CaptureFixture[str]) -> No
     assert f"this collection is deployed at {plan.address} on chain 31337 already" in said.err
     assert f"Shackled Icons: {plan.address}\n" in said.out
     assert [icon.name for icon in icons_of(collection)] == ["Tetrahedron"]
-    assert collection.state().allow_list_signer == development_accounts()[5].address
+    assert collection.contract.account("allowListSigner") == development_accounts()[5].address
     assert AddressBook().find(31337, KIND.contract) == bytes.fromhex(plan.address[2:])
     # and again where it stopped
     blocks = node.rpc("eth_blockNumber")
@@ -50,12 +49,12 @@ def test_the_owner_goes_on(node: Node, capsys: pytest.CaptureFixture[str]) -> No
     assert node.rpc("eth_blockNumber") == blocks
 
 
-def test_between_the_price_and_the_transaction(node: Node) -> None:
-    owner, other, terms = transactors(node)
+def test_between_the_price_and_the_transaction(node: Node, pair: Pair) -> None:
+    owner, other, terms = pair
     plan = plan_launch(node.connection, KIND, terms)
     launch(plan_launch(node.connection, KIND, terms), other)
     before = owner.balance()
     collection, receipt = launch(plan, owner)
     assert (collection.address, receipt) == (plan.address, None)
     assert owner.balance() == before
-    assert collection.state().owner == terms.owner
+    assert collection.contract.account("owner") == terms.owner

@@ -17,26 +17,22 @@ def shown(number: int, **changes: str) -> TokenView:
     PillowImage.fromarray(np.full((4, 4, 3), number, np.uint8)).save(stream, "png")
     traits: dict[str, Trait] = {"Kind": changes.get("kind", "plain"), "Size": number}
     name = changes.get("name", f"Token #{number}")
-    picture = Metadata(name, "<b>", traits, "image/png", stream.getvalue(), {}, 1234)
+    picture = Metadata(name, "<b>", traits, stream.getvalue(), {}, "data:")
     return TokenView(
         changes.get("collection", "Things"), "0x" + "ab" * 20, number, "0x" + "cd" * 20, True, picture, 5_000_000
     )
 
 
 class Page(HTMLParser):
-    """The tags that were opened and the text."""
+    """The tags that were opened."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
         self.tags: list[tuple[str, dict[str, str | None]]] = []
-        self.text = ""
         self.feed(text)
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         self.tags.append((tag, dict(attrs)))
-
-    def handle_data(self, data: str) -> None:
-        self.text += data
 
     def of(self, tag: str) -> list[dict[str, str | None]]:
         return [attributes for name, attributes in self.tags if name == tag]
@@ -48,6 +44,8 @@ def test_each_token_has_a_card_in_its_collection() -> None:
     assert [link["href"] for link in parsed.of("a")] == ["#c0", "#c1"]
     assert [image["alt"] for image in parsed.of("img")] == ["Token #1", "Token #2", "Token #3", ""]
     assert "token #2" in str(parsed.of("article")[1]["data-words"])
+    _, second = json.loads(tokens_json([shown(1), shown(2)]))
+    assert (second["token"], second["traits"], second["gas"]) == (2, {"Kind": "plain", "Size": 2}, 5_000_000)
 
 
 def test_nothing_that_a_token_says_becomes_part_of_the_page() -> None:
@@ -60,23 +58,10 @@ def test_nothing_that_a_token_says_becomes_part_of_the_page() -> None:
     assert all("onerror" not in article for article in parsed.of("article"))
 
 
-def test_json_has_an_object_for_each_token() -> None:
-    listed = json.loads(tokens_json([shown(1), shown(2)]))
-    assert [each["token"] for each in listed] == [1, 2]
-    assert listed[0]["traits"] == {"Kind": "plain", "Size": 1}
-    assert listed[0]["gas"] == 5_000_000
-    assert listed[0]["picture"]["width"] == 4
-
-
 def test_costs_stand_beside_those_of_the_original() -> None:
-    costs = [
-        ActionCost("own", 12_345),
-        ActionCost("mint 5", 89_000, (712_000, 712_000)),
-        ActionCost("uri", 5 * 10**6, (57 * 10**8, 144 * 10**8)),
-    ]
-    assert comparison(costs) == [
-        ("action", "gas", "original", "times less"),
+    costs = [ActionCost("own", 12_345), ActionCost("mint 5", 89_000, 712_000), ActionCost("uri", 5_000_000, 57 * 10**8)]
+    assert comparison(costs)[1:] == [
         ("own", "12,345", "-", "-"),
         ("mint 5", "89,000", "712 k", "8.0"),
-        ("uri", "5,000,000", "5,700 M to 14,400 M", "1,140 to 2,880"),
+        ("uri", "5,000,000", "5,700 M", "1,140"),
     ]

@@ -14,7 +14,7 @@ from web3.exceptions import ContractCustomError
 from commands import Shackled
 from nodes import Node
 from shackled.datasets.genesis import generate_on_chain, picture_on_chain
-from shackled.tokens import parts_of
+from shackled.tokens._launch import parts_of
 
 OWNER, ALICE, BOB, CAROL = range(4)
 PRICE = 2 * 10**17

@@ -14,7 +14,7 @@ import numpy as np
 from PIL import Image as PillowImage
 from PIL import ImageSequence
 from tools.tokens.merkle import leaf
-from tools.tokens.stage import ALLOW_LIST, CLOSED, ICONS, LIMIT, PUBLIC, Stage, icon_scene, store_scene
+from tools.tokens.stage import ALLOW_LIST, CLOSED, ICONS, LIMIT, PUBLIC, Stage, icon_scene
 from tools.tokens.world import ETHER, ZERO, Contract, Refused
 
 from adversaries import adversary
@@ -34,19 +34,6 @@ def pointer(s: Stage) -> str:
     return str(s.icons.call("iconAt", 0)[1])
 
 
-def test_each_token_is_one_of_an_icon(s: Stage) -> None:
-    for icon, quantity in ((0, 2), (1, 3), (0, 1)):
-        s.icons.send("mint", icon, quantity, sender=s.alice, value=quantity * PRICES[icon])
-    kinds = [0, 0, 1, 1, 1, 0]
-    assert [s.icons.call("iconOf", token) for token in range(6)] == kinds
-    for token in (1, 3, 5):
-        s.icons.send("transferFrom", s.alice, s.bob, token, sender=s.alice)
-    assert [s.icons.call("iconOf", token) for token in range(6)] == kinds
-    sold = [s.icons.call("iconAt", icon)[6] for icon in range(2)]
-    assert sold == [3, 3]
-    assert s.world.balance(s.icons.address) == 3 * sum(PRICES)
-
-
 def test_each_icon_has_its_own_supply(s: Stage) -> None:
     s.icons.send("mint", 0, 10, sender=s.alice, value=10 * PRICES[0])
     assert s.icons.call("left", 0) == 0
@@ -61,24 +48,11 @@ def test_each_icon_has_its_own_supply(s: Stage) -> None:
     assert [s.icons.call("iconOf", token) for token in (9, 10, 20, 21)] == [0, 1, 0, 0]
 
 
-def test_payments_and_quantities(s: Stage) -> None:
-    for sent in (0, PRICES[1], 2 * PRICES[0] + 1, 3 * PRICES[0]):
-        with refused("Payment", sent, 2 * PRICES[0]):
-            s.icons.send("mint", 0, 2, sender=s.alice, value=sent)
-    for quantity in (0, LIMIT + 1, 2**256 - 1):
-        with refused("Quantity", quantity, LIMIT):
-            s.icons.send("mint", 0, quantity, sender=s.alice)
-        with refused("Quantity", quantity, LIMIT):
-            s.icons.send("mintReserve", 0, s.bob, quantity, sender=s.owner)
+def test_icons_that_there_are_not(s: Stage) -> None:
     for icon in (2, 2**24, 2**256 - 1):
-        for function, arguments in (
-            ("mint", (icon, 1)),
-            ("left", (icon,)),
-            ("iconAt", (icon,)),
-            ("renderIcon", (icon,)),
-        ):
+        for function, *more in (("mint", 1), ("left",), ("iconAt",), ("renderIcon",)):
             with refused("UnknownIcon", icon, 2):
-                s.icons.send(function, *arguments, sender=s.alice)
+                s.icons.send(function, icon, *more, sender=s.alice)
 
 
 def test_the_allow_list_counts_all_icons_together(s: Stage) -> None:
@@ -101,6 +75,9 @@ def test_a_permission_must_be_signed(s: Stage) -> None:
 
 def test_icons_are_added_until_the_collection_is_sealed(s: Stage) -> None:
     c, scene = fresh(s), pointer(s)
+    for supply, reserve in ((0, 0), (5, 6)):
+        with refused("Supply", supply, reserve):
+            c.send("add", "One", scene, 4, ETHER, supply, reserve, sender=s.owner)
     with refused("NoIcons"):
         c.send("seal", sender=s.owner)
     receipt = c.send("add", "One", scene, 4, ETHER, 5, 1, sender=s.owner)
@@ -124,12 +101,6 @@ def test_icons_are_added_until_the_collection_is_sealed(s: Stage) -> None:
         c.send("seal", sender=s.owner)
     assert (c.call("isSealed"), c.call("iconCount")) == (True, 1)
     assert c.call("iconAt", 0) == ("One", scene, 4, ETHER, 5, 1, 0, 0)
-
-
-@pytest.mark.parametrize(("supply", "reserve"), [(0, 0), (5, 6)])
-def test_supplies_that_make_no_sense_are_refused(s: Stage, supply: int, reserve: int) -> None:
-    with refused("Supply", supply, reserve):
-        fresh(s).send("add", "One", pointer(s), 4, ETHER, supply, reserve, sender=s.owner)
 
 
 def test_no_price_times_quantity_overflows(s: Stage) -> None:
@@ -169,8 +140,6 @@ def test_render_takes_the_number_of_a_token(s: Stage) -> None:
     assert [s.icons.call("render", token) for token in range(3)] == [pictures[1], pictures[1], pictures[0]]
     with refused("OwnerQueryForNonexistentToken"):
         s.icons.call("render", 3)
-    with refused("UnknownIcon", 2, 2):
-        s.icons.call("renderIcon", 2)
 
 
 def test_a_token_turns(s: Stage) -> None:
@@ -196,14 +165,6 @@ def test_a_token_turns(s: Stage) -> None:
             s.icons.call(function, 1)
 
 
-def test_the_collection_speaks_of_itself(s: Stage) -> None:
-    found = document(s.icons.call("contractURI"))
-    assert (found["name"], found["symbol"]) == ("Shackled Icons", "SHKI")
-    assert found["description"].endswith(f" {INDEPENDENT}")
-    assert pixels(found["image"]).shape == (512, 512, 3)
-    assert "image" not in document(fresh(s).call("contractURI"))
-
-
 def test_a_receiver_that_calls_back_changes_no_icon(s: Stage) -> None:
     """While tokens of one icon arrive, it mints another."""
     receiver = s.world.deploy(adversary("Receiver"))
@@ -220,19 +181,6 @@ def test_a_receiver_that_calls_back_changes_no_icon(s: Stage) -> None:
 
 
 def test_only_the_owner_may(s: Stage) -> None:
-    for function, arguments in (
-        ("mintReserve", (0, s.bob, 1)),
-        ("setPhase", (1,)),
-        ("withdraw", (s.bob,)),
-        ("seal", ()),
-    ):
+    for function, *arguments in (("mintReserve", 0, s.bob, 1), ("setPhase", 1), ("withdraw", s.bob), ("seal",)):
         with refused("OwnableUnauthorizedAccount", s.bob):
-            s.icons.send(function, *arguments, sender=s.bob)
-
-
-def test_the_scenes_cannot_be_changed(s: Stage) -> None:
-    """What is kept is code that begins with an instruction that ends every call; the same scene has the same place."""
-    for icon, name in enumerate(ICONS):
-        place = s.icons.call("iconAt", icon)[1]
-        assert s.world.of(place).code[0] == 0
-        assert store_scene(s.studio, icon_scene(name)) == place
+            s.icons.send(str(function), *arguments, sender=s.bob)

@@ -18,7 +18,8 @@ from shackled.chain import AddressBook
 from shackled.cli.app import run
 from shackled.datasets import require
 from shackled.ethereum import checksum_address
-from shackled.tokens import parts_of, token_scene
+from shackled.tokens import token_scene
+from shackled.tokens._launch import parts_of
 
 OWNER, ALICE, BOB = range(3)
 PRICE = 10**16

@@ -10,14 +10,13 @@ from typing import Any
 import pytest
 
 from nodes import anvil, needs_anvil
+from open_sales import open_sale
 from proxies import Liar
 from shackled.chain import VARIABLE
 from shackled.cli.app import run
-from shackled.deploy import Receipt, Transactor
-from shackled.ethereum import checksum_address
-from shackled.tokens import KINDS, CollectionTerms, hidden_rounds, launch, plan_launch, reveal_calls
+from shackled.deploy import Receipt
+from shackled.tokens import hidden_rounds, reveal_calls
 from shackled.tokens._contract import perform
-from shackled.tokens._demo import development_accounts
 from shackled.tokens._reveal import HEADERS_AT_ONCE, KNOWN_BLOCKS_BEFORE
 
 
@@ -28,14 +27,11 @@ def test_an_old_block_is_proven_by_the_headers_after_it(
     monkeypatch.setenv(VARIABLE, str(tmp_path / "addresses.json"))
     # these rules forget hashes after 256 blocks; later ones, by EIP-2935, after 8,191
     with anvil("--hardfork", "cancun") as node:
-        user = Transactor(node.connection, development_accounts(1)[0])
-        name = checksum_address(user.address)
-        collection, _ = launch(plan_launch(user.connection, KINDS["genesis"], CollectionTerms(name, name)), user)
+        user, collection = open_sale(node.connection)
         contract = collection.contract
-        perform(user, contract, "setPhase", 2)
-        for _ in range(2):
-            perform(user, contract, "mint", 1, value=contract.call("price"))
-            node.rpc("anvil_mine", hex(40))
+        node.rpc("anvil_mine", hex(40))
+        perform(user, contract.prepare("mint", 1, value=contract.call("price")))
+        node.rpc("anvil_mine", hex(40))
         node.rpc("anvil_mine", hex(KNOWN_BLOCKS_BEFORE + 128 + HEADERS_AT_ONCE))
         rounds = hidden_rounds(collection)
         assert len(rounds) == 2
@@ -66,12 +62,12 @@ def test_an_old_block_is_proven_by_the_headers_after_it(
             assert f"returned a wrong header of block {number}: its hash is" in capsys.readouterr().err
         assert not Path("other.json").exists()
         receipts: dict[str, list[Receipt]] = {}
-        for step in reveal_calls(collection, rounds):
-            done = perform(user, contract, step.function, *step.arguments, gas=step.gas)
-            assert done.gas <= (step.gas or 0)
-            receipts.setdefault(step.function, []).append(done)
+        for purpose, step in reveal_calls(collection, rounds).items():
+            done = perform(user, step)
+            assert done.gas <= step.gas
+            receipts.setdefault(purpose.partition(" ")[0], []).append(done)
         # one transaction does not take all headers, and the older round begins where the younger one ended
-        assert len(receipts["keepHash"]) == 3
+        assert len(receipts["prove"]) == 3
         assert len(receipts["reveal"]) == 1
         assert hidden_rounds(collection) == []
         for each in rounds:

@@ -11,61 +11,27 @@ from shackled.tokens import licence_of
 FILE = Path("model.obj")
 
 
-@pytest.mark.parametrize(
-    "stated",
-    [
-        "CC0-1.0",
-        "CC0",
-        "MIT",
-        "the MIT License",
-        "CC BY 4.0",
-        "CC-BY-SA-4.0",
-        "my own  work",
-        "Unlicense",
-        "public domain",
-        "Apache-2.0",
-        "BSD-3-Clause",
-        "0BSD",
-    ],
-)
+ALLOWED = "CC0-1.0; CC0; MIT; the MIT License; CC BY 4.0; CC-BY-SA-4.0; my own  work; Unlicense; public domain"
+#: The last ones only sound as if they did, or ask for more than can be done on a chain.
+NOT_ALLOWED = """CC BY-NC 4.0; CC-BY-NC-SA-3.0; free for non-commercial use; NonCommercial; research only; CC BY-ND 4.0;
+no derivatives; All rights reserved; none; unknown; GPL-3.0; Stanford; editorial use only; not for sale; not MIT;
+MIT, but not for sale; public domain, as claimed; CC0 since 2025, according to the press; CC; free"""
+
+
+@pytest.mark.parametrize("stated", [*ALLOWED.split("; "), "Apache-2.0", "BSD-3-Clause", "0BSD"])
 def test_what_allows_everything_is_taken(stated: str) -> None:
     assert licence_of(FILE, stated) == " ".join(stated.split())
 
 
-@pytest.mark.parametrize(
-    "stated",
-    [
-        "CC BY-NC 4.0",
-        "CC-BY-NC-SA-3.0",
-        "free for non-commercial use",
-        "NonCommercial",
-        "research only",
-        "CC BY-ND 4.0",
-        "no derivatives",
-        "All rights reserved",
-        "none",
-        "unknown",
-        # what only sounds as if it did, or asks for more than can be done on a chain
-        "GPL-3.0",
-        "Stanford",
-        "editorial use only",
-        "not for sale",
-        "not MIT",
-        "MIT, but not for sale",
-        "public domain, as claimed",
-        "CC0 since 2025, according to the press",
-        "CC",
-        "free",
-    ],
-)
+@pytest.mark.parametrize("stated", [each.strip() for each in NOT_ALLOWED.split(";")])
 def test_what_is_not_known_to_allow_it_is_refused(stated: str) -> None:
     with pytest.raises(InputError, match=r"must not be stored .* not known to allow commercial use of changed copies"):
         licence_of(FILE, stated)
 
 
-@pytest.mark.parametrize(("stated", "reason"), [(" ", "empty"), (None, "yourself, and state it with `licence`")])
-def test_a_licence_must_be_stated(stated: str | None, reason: str) -> None:
-    with pytest.raises(InputError, match=reason):
+@pytest.mark.parametrize("stated", [" ", None])
+def test_a_licence_must_be_stated(stated: str | None) -> None:
+    with pytest.raises(InputError, match="yourself, and state it with `licence`"):
         licence_of(FILE, stated)
 
 

@@ -11,7 +11,7 @@ from PIL import Image as PillowImage
 
 from shackled.errors import VerificationError
 from shackled.tokens import MAX_LENGTH, read_data_uri
-from shackled.tokens._metadata import read_token_uri, shrink
+from shackled.tokens._metadata import read_token_uri
 
 PIXELS = np.arange(48, dtype=np.uint8).reshape(4, 4, 3)
 
@@ -44,16 +44,9 @@ def test_all_of_a_token_is_read() -> None:
     metadata = read_token_uri(token())
     assert (metadata.name, metadata.description) == ("Genesis #7", "A picture.")
     assert metadata.traits == {"Structure": "Ring", "Prisms": 12}
-    assert (metadata.media_type, metadata.extension) == ("image/png", ".png")
     assert metadata.picture == picture()
     np.testing.assert_array_equal(metadata.pixels, PIXELS)
     assert metadata.length == len(token())
-
-
-def test_a_bitmap_is_read() -> None:
-    metadata = read_token_uri(token(image=data_uri("image/bmp", picture("bmp"))))
-    assert metadata.extension == ".bmp"
-    np.testing.assert_array_equal(metadata.pixels, PIXELS)
 
 
 def test_json_without_base64_is_read() -> None:
@@ -66,7 +59,7 @@ def test_json_without_base64_is_read() -> None:
 
 TWICE = b'{"name": "a", "name": "b"}'
 BROKEN = data_uri("image/png", picture()[:-20])
-CLEAR = PillowImage.new("RGBA", (2, 2))
+CLEAR = picture("png", np.zeros((2, 2, 4), np.uint8))
 
 
 @pytest.mark.parametrize(
@@ -79,7 +72,7 @@ CLEAR = PillowImage.new("RGBA", (2, 2))
         (data_uri("application/json", b"{"), "not valid JSON"),
         (data_uri("application/json", b"\xff"), "not valid JSON"),
         (data_uri("application/json", b"[" * 60_000), "not valid JSON"),
-        (data_uri("application/json", b'{"a": NaN}'), "NaN is not a number"),
+        (data_uri("application/json", b'{"a": NaN}'), "not JSON compliant"),
         (data_uri("application/json", b'{"name": 1e999}'), "not JSON compliant"),
         (data_uri("application/json", b'{"name": "\\ud800"}'), "surrogates not allowed"),
         (data_uri("application/json", TWICE), "'name' occurs twice"),
@@ -88,11 +81,12 @@ CLEAR = PillowImage.new("RGBA", (2, 2))
         (token(name=7), "has no name"),
         (token(image=None), "has no image"),
         (token(image="https://example.org/7.png"), "not on the chain"),
-        (token(image=data_uri("image/svg+xml", b"<svg/>")), "image/svg+xml, not one of image/png, image/bmp"),
-        (token(image=data_uri("image/png", picture("bmp"))), "not a complete image/png"),
-        (token(image=BROKEN), "not a complete image/png"),
+        (token(image=data_uri("image/svg+xml", b"<svg/>")), "image/svg+xml, not image/png"),
+        (token(image=data_uri("image/png", picture("bmp"))), "not a complete PNG file"),
+        (token(image=BROKEN), "not a complete PNG file"),
         (token(image=data_uri("image/png", picture("png", np.zeros((1, 4097, 3), np.uint8)))), "4097 x 1 pixels"),
-        (token(attributes={"Structure": "Ring"}), "not a list"),
+        (token(image=data_uri("image/png", CLEAR)), "transparent"),
+        (token(name="\x1b[2J\r\nGenesis", attributes={"Structure": "Ring"}), "of ?[2J??Genesis are not a list"),
         (token(attributes=["Ring"]), "no trait_type and value: Ring"),
         (token(attributes=[{"trait_type": "Structure"}]), "no trait_type and value"),
         (token(attributes=[{"trait_type": "A", "value": 1}] * 2), "the attribute A twice"),
@@ -105,34 +99,5 @@ def test_what_marketplaces_do_not_understand_is_refused_in_one_line(uri: str, sa
     assert said in str(caught.value)
 
 
-def test_what_a_terminal_could_obey_is_not_repeated() -> None:
-    with pytest.raises(VerificationError) as caught:
-        read_token_uri(token(name="\x1b[2J\r\nGenesis", attributes={}))
-    assert str(caught.value).isprintable()
-
-
-def test_transparent_pictures_are_refused() -> None:
-    stream = io.BytesIO()
-    CLEAR.save(stream, "png")
-    with pytest.raises(VerificationError, match="transparent"):
-        read_token_uri(token(image=data_uri("image/png", stream.getvalue())))
-
-
 def test_parameters_of_a_data_uri_are_passed_over() -> None:
     assert read_data_uri("data:text/plain;charset=utf-8;base64,YWI=", "it") == ("text/plain", b"ab")
-
-
-@pytest.mark.parametrize("factor", [1, 4])
-def test_squares_become_pixels_again(factor: int) -> None:
-    large = PIXELS.repeat(factor, axis=0).repeat(factor, axis=1)
-    small = shrink(large, 4, 4)
-    assert small is not None
-    np.testing.assert_array_equal(small, PIXELS)
-
-
-def test_a_smoothed_picture_is_not_made_of_squares() -> None:
-    large = PIXELS.repeat(4, axis=0).repeat(4, axis=1)
-    large[5, 5, 0] ^= 1
-    assert shrink(large, 4, 4) is None
-    assert shrink(large, 3, 4) is None
-    assert shrink(PIXELS, 8, 8) is None

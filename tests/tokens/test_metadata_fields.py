@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -19,14 +18,9 @@ from tools.tokens.stage import ICONS, Stage, icon_scene, stage, store_scene
 from tools.tokens.world import ETHER, Contract, Refused
 
 from shackled.datasets.genesis import generate, seed_of
-from token_checks import document, pixels
+from token_checks import INDEPENDENT, document, pixels
 
 ADDRESS = r"0x[0-9a-f]{40}"
-#: The types of arguments by the length of their text; others are numbers.
-ARGUMENTS: dict[int, tuple[str, Callable[[str], Any]]] = {
-    42: ("address", str),
-    66: ("bytes32", lambda text: bytes.fromhex(text[2:])),
-}
 
 
 @pytest.fixture(scope="module")
@@ -53,26 +47,25 @@ def follow(s: Stage, url: str) -> NDArray[np.uint8]:
     match = re.fullmatch(rf"web3://({ADDRESS}):1/(\w+)((?:/[0-9a-fx]+)+)\?mime\.(?:type|content)=([\w/]+)", url)
     assert match, url
     contract = next(each for each in (s.generator, s.studio) if int(each.address, 16) == int(match[1], 16))
-    kinds, values = [], []
-    for part in match[3].split("/")[1:]:
-        kind, read = ARGUMENTS.get(len(part), ("uint256", int))
-        kinds.append(kind)
-        values.append(read(part))
+    parts = match[3].split("/")[1:]
+    kinds = [{42: "address", 66: "bytes32"}.get(len(part), "uint256") for part in parts]
+    values = [bytes.fromhex(part[2:]) if len(part) == 66 else part if len(part) == 42 else int(part) for part in parts]
     content: bytes = contract.call(f"{match[2]}({','.join(kinds)})", *values)
     with PillowImage.open(io.BytesIO(content), formats=["PNG" if match[4] == "png" else "BMP"]) as opened:
         return np.asarray(opened.convert("RGB"))
 
 
 def test_the_link_of_a_token_leads_to_its_picture(s: Stage, editions: Contract) -> None:
-    for token in range(2):
-        found = document(s.icons.call("tokenURI", token))
-        assert np.array_equal(follow(s, found["external_url"]), pixels(found["image"]))
-    found = document(editions.call("tokenURI", 2))
-    assert pixels(found["image"]).shape == (72, 96, 3)
-    assert np.array_equal(follow(s, found["external_url"]), pixels(found["image"]))
-    for token in (0, 9):
-        found = document(s.genesis.call("tokenURI", token))
-        assert np.array_equal(follow(s, found["external_url"]), pixels(found["image"])[::4, ::4])
+    for collection, token, scale in (
+        (s.icons, 0, 1),
+        (s.icons, 1, 1),
+        (editions, 2, 1),
+        (s.genesis, 0, 4),
+        (s.genesis, 9, 4),
+    ):
+        found = document(collection.call("tokenURI", token))
+        assert np.array_equal(follow(s, found["external_url"]), pixels(found["image"])[::scale, ::scale])
+    assert pixels(document(editions.call("tokenURI", 2))["image"]).shape == (72, 96, 3)
 
 
 def test_links_name_their_chain() -> None:
@@ -108,11 +101,17 @@ def test_collections_have_a_banner(s: Stage, editions: Contract) -> None:
     for collection in (s.genesis, s.icons, editions):
         found = document(collection.call("contractURI"))
         assert list(found) == ["name", "symbol", "description", "banner_image", "image"]
+        assert (found["name"], found["symbol"]) == tuple(collection.call(each) for each in ("name", "symbol"))
+        assert found["name"].startswith("Shackled ")
+        assert found["description"].endswith(f" {INDEPENDENT}")
+        assert pixels(found["image"]).shape == (512, 512, 3)
         banner = pixels(found["banner_image"])
         assert banner.shape == (256, 1024, 3)
         # the object in the middle, and nothing at the ends
         assert len(np.unique(banner[:, 384:640].reshape(-1, 3), axis=0)) > 20
         assert banner[:, :64].std(axis=1).max() < 1
+    empty = s.world.deploy("IconsCollection", s.studio, (s.owner, 1, s.owner, 500), sender=s.owner)
+    assert "image" not in document(empty.call("contractURI"))
 
 
 def test_the_tokens_of_an_account(s: Stage, editions: Contract) -> None:

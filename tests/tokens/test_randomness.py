@@ -47,10 +47,10 @@ def lie(change: dict[str, Any]) -> Any:
     [
         (lie({"mixHash": "0x" + 64 * "1"}), "some of the last 16 blocks of chain 42161 have the same randomness"),
         (lie({"mixHash": None}), "have the same randomness"),
-        (lie({"extraData": "0x99"}), "whose headers are not Ethereum's: the header of block 19 has the hash"),
+        (lie({"extraData": "0x99"}), "whose headers have other fields than Ethereum's: that of block 19 has the hash"),
         (
             {"eth_call": lambda answer, parameters: "0x" + 64 * "3" if "to" not in parameters[0] else answer},
-            "its contracts see 0x3333.* as the hash of block 19, whose header has 0x",
+            "its contracts see 0x3333.* as the hash of block 19, which has 0x",
         ),
     ],
     ids=["constant", "none", "header", "hash"],

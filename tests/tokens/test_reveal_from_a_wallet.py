@@ -11,14 +11,12 @@ import pytest
 from commands import Shackled
 from forged_blocks import forged
 from nodes import Node
+from open_sales import open_sale
 from proxies import Liar
 from shackled.cli.app import run
-from shackled.deploy import Transactor
 from shackled.errors import RevertError
 from shackled.ethereum import encode_header
-from shackled.tokens import KINDS, Collection, CollectionTerms, launch, plan_launch
-from shackled.tokens._contract import perform
-from shackled.tokens._demo import development_accounts
+from shackled.tokens import Collection
 
 OWNER, WALLET = 0, 5
 
@@ -26,17 +24,16 @@ OWNER, WALLET = 0, 5
 @pytest.fixture(scope="module")
 def collection(running_node: Node, users: list[str]) -> Collection:
     """A collection with a token of round 0, minted in the last block."""
-    owner = Transactor(running_node.connection, development_accounts()[OWNER])
-    terms = CollectionTerms(running_node.accounts[OWNER], running_node.accounts[OWNER])
-    made, _ = launch(plan_launch(owner.connection, KINDS["genesis"], terms), owner)
-    perform(owner, made.contract, "setPhase", 2)
-    perform(owner, made.contract, "mint", 1, value=made.contract.call("price"))
-    return made
+    return open_sale(running_node.connection)[1]
 
 
 @pytest.fixture(autouse=True)
 def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
+
+
+def written() -> Any:
+    return json.loads(Path("calls.json").read_text())
 
 
 def mine_until(node: Node, collection: Collection, missing: int) -> int:
@@ -59,7 +56,7 @@ def test_a_wallet_reveals(node: Node, collection: Collection, shackled: Shackled
     block = mine_until(node, collection, 0)
     said = shackled("token", "reveal", "--calldata", "calls.json")
     assert "nothing was sent: calls.json has 1 transaction" in said.err
-    document = json.loads(Path("calls.json").read_text())
+    document = written()
     (call,) = document["calls"]
     assert int(document["chainId"], 16) == 31337
     assert (call["name"], call["value"]) == ("reveal 1 round, 0", "0x0")
@@ -71,7 +68,7 @@ def test_a_wallet_reveals(node: Node, collection: Collection, shackled: Shackled
     genesis = node.contract("GenesisCollection", collection.address)
     function, arguments = genesis.decode_function_input(call["data"])
     assert function.fn_name == "reveal"
-    assert arguments == {"rounds": [0], "headers": [encode_header(node.web3.eth.get_block(block))]}
+    assert arguments == {"rounds": [0], "headers": [encode_header(node.connection.block(block))]}
     assert send(node, call) <= int(call["gas"], 16)
     assert genesis.functions.randomnessOf(0).call() == node.web3.eth.get_block(block)["mixHash"]
     # there is nothing more
@@ -85,9 +82,8 @@ def test_a_wallet_reveals(node: Node, collection: Collection, shackled: Shackled
 def test_with_json_only_json_is_printed(node: Node, collection: Collection, shackled: Shackled) -> None:
     mine_until(node, collection, 0)
     said = shackled("token", "reveal", "--calldata", "calls.json", "--json")
-    assert json.loads(said.out) == json.loads(Path("calls.json").read_text())
-    said = shackled("token", "reveal", "--json", "--yes", user=WALLET)
-    reported = json.loads(said.out)
+    assert json.loads(said.out) == written()
+    reported = json.loads(shackled("token", "reveal", "--json", "--yes", user=WALLET).out)
     receipt = node.web3.eth.get_transaction_receipt(reported["transactions"][0])
     assert (reported["rounds"], reported["gas"]) == ([0], receipt["gasUsed"])
 
@@ -105,7 +101,7 @@ def test_a_block_to_come_is_reported_or_waited_for(
         assert not Path("calls.json").exists()
     # one block less would do for the contract, but no node would simulate the call
     with pytest.raises(RevertError):
-        collection.contract.call("reveal", [0], [encode_header(node.web3.eth.get_block(block))])
+        collection.contract.call("reveal", [0], [encode_header(node.connection.block(block))])
     pauses: list[float] = []
 
     def one_block(seconds: float) -> None:
@@ -116,7 +112,7 @@ def test_a_block_to_come_is_reported_or_waited_for(
     said = shackled("token", "reveal", "--calldata", "calls.json", "--wait")
     assert len(pauses) == 1
     assert f"waiting for block {block}: 1 more block" in said.err
-    send(node, json.loads(Path("calls.json").read_text())["calls"][0])
+    send(node, written()["calls"][0])
     assert any(collection.contract.call("randomnessOf", 0))
 
 
@@ -125,35 +121,30 @@ def forging(**changes: str) -> dict[str, Any]:
     return {"eth_getBlockByNumber": lambda block, asked: block if asked[0] == "latest" else forged(block, **changes)}
 
 
-def test_a_node_that_lies_about_blocks_gets_nothing_written(
+def test_nodes_that_lie_get_nothing_written(
     node: Node, collection: Collection, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Each header that it tells has the hash that it tells: only the collection says that the block has another."""
+    """Each header that they tell has the hash that they tell: only the collection says that the block has another."""
     block = mine_until(node, collection, 0)
-    parent = node.rpc("eth_getBlockByNumber", hex(block - 1), False)
+    parent, right = (node.rpc("eth_getBlockByNumber", hex(number), False) for number in (block - 1, block))
+
+    def reported(lies: dict[str, Any]) -> str:
+        with Liar(lies).before(node.url) as url:
+            assert run(["token", "reveal", "--calldata", "calls.json", "--rpc", url]) == 1
+        assert not Path("calls.json").exists()
+        return capsys.readouterr().err.splitlines()[-1]
+
     for lies in (
         forging(mixHash="0x" + "77" * 32),
         forging(extraData="0x00"),
         {"eth_getBlockByNumber": lambda block, asked: block if asked[0] == "latest" else parent},
     ):
-        with Liar(lies).before(node.url) as url:
-            assert run(["token", "reveal", "--calldata", "calls.json", "--rpc", url]) == 1
-        error = capsys.readouterr().err.splitlines()[-1]
-        right = node.rpc("eth_getBlockByNumber", hex(block), False)["hash"]
+        error = reported(lies)
         assert f"returned a wrong header of block {block}: its hash is 0x" in error
-        assert f"that of the block is {right}" in error
-        assert not Path("calls.json").exists()
-
-
-def test_a_node_that_lies_about_the_hash_too_is_caught_by_the_simulation(
-    node: Node, collection: Collection, capsys: pytest.CaptureFixture[str]
-) -> None:
-    block = mine_until(node, collection, 0)
+        assert f"that of the block is {right['hash']}" in error
+    # one that lies about the hash too is caught by the simulation
     lies = forging(mixHash="0x" + "77" * 32)
-    reported = lies["eth_getBlockByNumber"](node.rpc("eth_getBlockByNumber", hex(block), False), [hex(block), False])
+    other = lies["eth_getBlockByNumber"](right, [hex(block), False])["hash"]
     asked = "0x" + collection.contract.interface.encode("hashOf", block).hex()
-    lies["eth_call"] = lambda answer, parameters: reported["hash"] if parameters[0]["data"] == asked else answer
-    with Liar(lies).before(node.url) as url:
-        assert run(["token", "reveal", "--calldata", "calls.json", "--rpc", url]) == 1
-    assert "header" in capsys.readouterr().err.splitlines()[-1]
-    assert not Path("calls.json").exists()
+    lies["eth_call"] = lambda answer, parameters: other if parameters[0]["data"] == asked else answer
+    assert "WrongHeader" in reported(lies)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import io
 import json
-import re
 from pathlib import Path
 
 import numpy as np
@@ -116,26 +115,10 @@ def test_what_one_contract_cannot_hold_is_kept_in_parts(tmp_path: Path, shackled
     np.testing.assert_array_equal(pixels(picture.read_bytes()), render(load(mesh, antialias=False), 48).pixels)
 
 
-def test_fewer_bits_are_cheaper(shackled: Shackled) -> None:
-    def price(*options: object) -> int:
-        said = shackled("store", "icons/trophy", *options, user=ALICE, expect=2)
-        assert "there is no terminal to ask" in said.error
-        return int(said.err.partition("storing it: ")[2].partition(" gas")[0].replace(",", ""))
-
-    assert price("--position-bits", 8) < price("--position-bits", 11) < price()
-
-
-def test_the_price_is_known_before_an_account_is_named(shackled: Shackled) -> None:
-    said = shackled("store", "icons/trophy", expect=2)
-    assert re.search(r"price: about .* for gas \(.* estimated by the node, .*\); at most .* ether in total", said.err)
-    assert "nothing was sent: name an account" in said.error
-
-
 @pytest.mark.parametrize(
     ("arguments", "code", "said"),
     [
         (("store", "bunny", "--yes"), 2, "bunny must not be stored: its licence (Stanford 3D Scanning Repository"),
-        (("store", "suzanne", "--yes"), 2, "suzanne must not be stored"),
         (("store", "icons/heart", "--licence", "MIT"), 2, "--licence is for files"),
         (("store", "icons/rocket"), 2, "nothing was sent: name an account"),
         (("store", "icons/none"), 2, "there is no piece 'icons/none'"),
@@ -145,8 +128,7 @@ def test_the_price_is_known_before_an_account_is_named(shackled: Shackled) -> No
         (("token", "picture", "0x" + "12" * 20, "-o", "a.gif"), 2, "must end in .png"),
         (("token", "deploy", "icons", "--icons", "nothing"), 2, "there is no piece 'nothing'"),
         (("token", "deploy", "icons", "--icons", "heart,heart"), 2, "icons/heart is named twice"),
-        (("token", "deploy", "icons", "--icons", "bunny"), 2, "bunny must not be stored"),
-        (("token", "deploy", "icons", "--supply", "1", "--reserve", "2"), 2, "no more in the reserve"),
+        (("token", "deploy", "icons", "--supply", "1", "--reserve", "2"), 2, "the reserve of an icon must be"),
         (("token", "deploy", "genesis", "--icons", "heart"), 2, "--icons and --supply are for collections of icons"),
         (("token", "mint", "--icon", "heart", "-c", "genesis"), 2, "the address book has no genesis collection"),
     ],
@@ -157,3 +139,4 @@ def test_mistakes_are_reported_in_one_line(
     result = shackled(*arguments, expect=code)
     assert said in result.error
     assert len(result.err.strip().splitlines()) <= 4
+    assert ("price: about " in result.err) == (said == "nothing was sent: name an account")

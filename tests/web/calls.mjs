@@ -3,7 +3,7 @@
 //   node calls.mjs BUNDLE LINES CALLS
 //
 // A line has the `text` of a scene file or a `scene`, and perhaps the `name` of a function, a `tile`, and a `turn`; or a
-// `call`, of whose scene the call is made, or the `ground` as JSON.
+// `call`, of whose scene the call is made.
 
 import { readFileSync, writeFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
@@ -11,10 +11,9 @@ import { pathToFileURL } from "node:url";
 const [bundle, lines, calls] = process.argv.slice(2);
 const { decodeCall, encode, parseScene, turnCall } = await import(pathToFileURL(bundle));
 
-function made({ call, ground, text, scene, name, tile, turn }) {
+function made({ call, text, scene, name, tile, turn }) {
     try {
         const found = call ? decodeCall(new Uint8Array(Buffer.from(call, "base64"))) : (scene ?? parseScene(text));
-        if (ground) return Buffer.from(JSON.stringify(found.ground ?? null));
         const made = encode(found, name, tile);
         return turn ? turnCall(made, turn) : made;
     } catch (error) {

@@ -5,12 +5,14 @@ from __future__ import annotations
 import base64
 import json
 import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 import shackled
+from creator_page import Tab
 from firefox import firefox, firefox_path
 from shackled import InputError, load, render
 from shackled.cli.app import run
@@ -18,14 +20,37 @@ from shackled.scene import render_call
 
 VIEW = "document.querySelector('shackled-view')"
 READY = f"Boolean({VIEW}.picture || {VIEW}.shadowRoot.querySelector('.error').textContent)"
-SHA256 = f"{VIEW}.picture?.sha256"
-BOX = f"{VIEW}.getBoundingClientRect().toJSON()"
+#: Counts the frames of a movement.
+COUNT = f"({VIEW}.addEventListener('frame', () => globalThis.frames_ = (globalThis.frames_ ?? 0) + 1), null)"
 REMOTE = re.compile(r"""(?:src|href)\s*=\s*["']?(?:https?:)?//""")
 
 
-@pytest.fixture
-def page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> tuple[Path, str]:
-    """A page that the command wrote, and the hash that `render` prints for the same scene."""
+@pytest.fixture(params=["chromium", "firefox"])
+def tab(request: pytest.FixtureRequest) -> Iterator[Any]:
+    """A tab of each browser. In chromium nothing must go wrong, and nothing be asked of others."""
+    if request.param == "firefox":
+        pytest.importorskip("websockets", reason="Firefox is driven by a WebSocket")
+        if firefox_path() is None:
+            pytest.skip("needs Firefox: apt-get install firefox-esr")
+        with firefox("shackled-view") as found:
+            yield found
+        return
+    faults: list[str] = []
+    asked: set[str] = set()
+    with request.getfixturevalue("browser").new_page() as page:
+        page.on("pageerror", lambda error: faults.append(str(error)))
+        page.on("console", lambda message: faults.append(message.text))
+        page.on("request", lambda request: asked.add(request.url.partition(":")[0]))
+        yield Tab(page, page.locator("shackled-view"), f"{VIEW}.shadowRoot.textContent")
+    assert not faults
+    assert asked <= {"file", "data", "blob"}
+
+
+@pytest.mark.browser
+def test_in_browsers(
+    tab: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A page that the command wrote shows what `render` prints for the same scene."""
     monkeypatch.chdir(tmp_path)
     assert run(["export", "icons/crown", "-o", "crown.html", "--json"]) == 0
     exported = json.loads(capsys.readouterr().out)
@@ -35,63 +60,16 @@ def page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Capture
         assert exported[name] == rendered[name]
     path = tmp_path / exported["output"]
     assert exported["bytes"] == path.stat().st_size
-    return path, rendered["sha256"]
-
-
-def drag_of(box: dict[str, float]) -> tuple[tuple[float, float], tuple[float, float]]:
-    middle = box["x"] + box["width"] / 2, box["y"] + 100
-    return middle, (middle[0] + 120, middle[1] + 30)
-
-
-def check_turn(turn: dict[str, float]) -> None:
+    tab.open(path.as_uri())
+    tab.wait(READY)
+    assert tab.run(f"{VIEW}.picture?.sha256") == rendered["sha256"]
+    tab.run(COUNT)
+    tab.drag(120, 30)
+    turn = tab.run(f"{VIEW}.turn")
     assert turn["azimuth"] < -10
     assert turn["elevation"] > 0
-
-
-def test_in_chromium(page: tuple[Path, str], browser: Any) -> None:
-    path, sha256 = page
-    faults: list[str] = []
-    asked: list[str] = []
-    with browser.new_page() as tab:
-        tab.on("pageerror", lambda error: faults.append(str(error)))
-        tab.on("console", lambda message: faults.append(message.text))
-        tab.on("request", lambda request: asked.append(request.url.partition(":")[0]))
-        tab.goto(path.as_uri())
-        until(tab, READY)
-        assert tab.evaluate(SHA256) == sha256
-        start, end = drag_of(tab.evaluate(BOX))
-        tab.mouse.move(*start)
-        tab.mouse.down()
-        tab.mouse.move(*end, steps=6)
-        tab.mouse.up()
-        check_turn(tab.evaluate(f"{VIEW}.turn"))
-        until(tab, f"{SHA256} !== '{sha256}'")
-    assert not faults
-    assert set(asked) <= {"file", "data", "blob"}
-
-
-def until(tab: Any, condition: str) -> None:
-    # the policy of the page forbids what playwright's own waiting does
-    for _ in range(600):
-        if tab.evaluate(condition):
-            return
-        tab.wait_for_timeout(50)
-    raise AssertionError(condition)
-
-
-@pytest.mark.browser
-@pytest.mark.skipif(firefox_path() is None, reason="needs Firefox: apt-get install firefox-esr")
-def test_in_firefox(page: tuple[Path, str]) -> None:
-    path, sha256 = page
-    with firefox() as tab:
-        tab.open(path.as_uri())
-        tab.wait(READY)
-        assert tab.run(SHA256) == sha256
-        tab.run(f"({VIEW}.addEventListener('frame', () => globalThis.frames_ = (globalThis.frames_ ?? 0) + 1), null)")
-        tab.drag(*drag_of(tab.run(BOX)))
-        check_turn(tab.run(f"{VIEW}.turn"))
-        tab.wait(f"{SHA256} !== '{sha256}'")
-        assert tab.run("globalThis.frames_") > 3
+    tab.wait(f"{VIEW}.picture?.sha256 !== '{rendered['sha256']}'")
+    assert tab.run("globalThis.frames_") > 1
 
 
 def picture_of(html: str, folder: Path) -> Path:
@@ -119,65 +97,50 @@ def test_what_a_page_contains(tmp_path: Path) -> None:
     # the same file for the same scene
     shackled.export("icons/crown", path, (48, 40), title="<b>&")
     assert path.read_text("utf-8") == html
+    # a thousand triangles take less than 1.5 megabytes
+    shackled.export(load("teapot", size=512, smooth=True), path)
+    assert path.stat().st_size < 1_500_000
 
 
-def test_a_large_picture_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_titles_and_a_large_picture_that_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("shackled.web._page.MAX_PNG", 1000)
-    path = tmp_path / "a.html"
-    shackled.export("icons/crown", path, 8)
+    path = tmp_path / "my scene.html"
+    shackled.export(load("icons/crown"), path, 8)
+    assert "<title>my scene</title>" in path.read_text("utf-8")
     # without its scene, the picture is small
     with pytest.raises(InputError, match="carries no scene"):
         load(picture_of(path.read_text("utf-8"), tmp_path))
     shackled.export("icons/crown", path)
-    assert "<noscript>" in path.read_text("utf-8")
-    assert "<img" not in path.read_text("utf-8").partition("<script")[0]
-
-
-def test_titles_of_pieces_and_files(tmp_path: Path) -> None:
-    path = tmp_path / "my scene.html"
-    shackled.export("icons/crown", path, 8)
-    assert "<title>Crown</title>" in path.read_text("utf-8")
-    shackled.export(load("icons/crown"), path, 8)
-    assert "<title>my scene</title>" in path.read_text("utf-8")
-
-
-def test_a_thousand_triangles_take_less_than_1_5_megabytes(tmp_path: Path) -> None:
-    path = tmp_path / "a.html"
-    scene = load("teapot", size=512, smooth=True)
-    assert sum(len(each.mesh.faces) for each in scene.objects) > 900
-    shackled.export(scene, path)
-    assert path.stat().st_size < 1_500_000
+    html = path.read_text("utf-8")
+    assert "<title>Crown</title>" in html
+    assert "<noscript>" in html
+    assert "<img" not in html.partition("<script")[0]
 
 
 @pytest.mark.parametrize(
-    ("arguments", "message"),
+    ("arguments", "low", "message"),
     [
-        (["teapot", "-o", "a.png"], "shackled: the page a.png must end in .html\n"),
-        (["teapot", "-o", "no/a.html"], "shackled: the folder no of the page a.html does not exist\n"),
-        (["no-such-piece"], None),
+        (["teapot", "-o", "a.png"], "", "the page a.png must end in .html\n"),
+        (["teapot", "-o", "no/a.html"], "", "the folder no of the page a.html does not exist\n"),
+        (["no-such-piece"], "", "no-such-piece"),
+        (["icons/crown"], "GAS_LIMIT", "--size"),
+        (["icons/crown"], "MAX_CALL", "--max-triangles"),
     ],
 )
-def test_wrong_usage_is_one_line(
+def test_what_cannot_be_exported_is_one_line(
     arguments: list[str],
-    message: str | None,
+    low: str,
+    message: str,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
+    """low: a limit that is far too low."""
+    if low:
+        monkeypatch.setattr(f"shackled.web._page.{low}", 1000)
     monkeypatch.chdir(tmp_path)
     assert run(["export", *arguments]) == 2
-    _, printed = capsys.readouterr()
-    assert printed == (message or printed)
-    assert printed.count("\n") == 1
-    assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.parametrize(("name", "option"), [("GAS_LIMIT", "--size"), ("MAX_CALL", "--max-triangles")])
-def test_a_scene_that_is_too_large_names_the_way_out(
-    name: str, option: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setattr(f"shackled.web._page.{name}", 1000)
-    monkeypatch.chdir(tmp_path)
-    assert run(["export", "icons/crown"]) == 2
-    assert option in capsys.readouterr().err
+    printed = capsys.readouterr().err
+    assert message in printed
+    assert (printed.startswith("shackled: "), printed.count("\n")) == (True, 1)
     assert not list(tmp_path.iterdir())

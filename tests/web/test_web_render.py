@@ -13,12 +13,11 @@ from typing import Any
 
 import pytest
 
+from pictures import chain, dynamic
 from shackled import load
-from shackled.artifacts import artifact
-from shackled.chain import open_chain
 from shackled.errors import RenderError
 from shackled.gas import profile, render_call
-from shackled.scene import LookOptions, encode
+from shackled.scene import LookOptions
 
 SCRIPT = Path(__file__).with_name("render_calls.mjs")
 PACKAGE = files("shackled")
@@ -27,29 +26,25 @@ NAMES = ("teapot", "icons/crown", "icons/diamond", "genesis/0", "genesis/7")
 pytestmark = pytest.mark.skipif(not shutil.which("node"), reason="there is no Node")
 
 
-def drawn_by_node(calls: list[bytes], folder: Path, *, profile: bool = False) -> list[dict[str, Any]]:
+def drawn_by_node(calls: list[bytes], folder: Path, *more: str) -> list[dict[str, Any]]:
     path = folder / "calls"
     path.write_text("".join(f"{call.hex()}\n" for call in calls))
     web = PACKAGE / "web"
     assets = (web / "shackled.js", PACKAGE / "evm" / "evm.wasm", web / "contracts.json", web / "stages.json")
-    command = ["node", *map(str, (SCRIPT, *assets, path)), *["profile"] * profile]
-    done = subprocess.run(command, check=True, capture_output=True, text=True)
-    return [json.loads(line) for line in done.stdout.splitlines()]
+    said = subprocess.check_output(["node", *map(str, (SCRIPT, *assets, path)), *more], text=True)
+    return [json.loads(line) for line in said.splitlines()]
 
 
 def drawn_by_python(call: bytes) -> dict[str, Any]:
-    chain = open_chain()
     try:
-        result = chain.call("Renderer", call)
+        result = chain().call("Renderer", call)
     except RenderError as error:
         return {"name": "CallError", "message": str(error)}
-    size = int.from_bytes(result.output[32:64], "big")
-    return {"gas": result.gas, "sha256": hashlib.sha256(result.output[64 : 64 + size]).hexdigest()}
+    return {"gas": result.gas, "sha256": hashlib.sha256(dynamic(result.output)).hexdigest()}
 
 
 def test_pictures_and_errors(tmp_path: Path) -> None:
-    selector = artifact("Renderer").selectors["render"]
-    calls = [encode(selector, load(name, size=(64, 48))) for name in NAMES]
+    calls = [render_call(load(name, size=(64, 48))) for name in NAMES]
     chance = random.Random(1)
     for call in calls.copy():
         for _ in range(20):
@@ -58,8 +53,7 @@ def test_pictures_and_errors(tmp_path: Path) -> None:
             broken[chance.randrange(4, 1200)] = chance.randrange(256)
             # a canvas that is not too large for a test
             broken[36 : 36 + 30], broken[68 : 68 + 30] = bytes(30), bytes(30)
-            broken[36 + 30] &= 1
-            broken[68 + 30] &= 1
+            broken[36 + 30], broken[68 + 30] = broken[36 + 30] & 1, broken[68 + 30] & 1
             calls.append(bytes(broken))
     found = drawn_by_node(calls, tmp_path)
     assert found == [drawn_by_python(call) for call in calls]
@@ -78,6 +72,6 @@ def test_gas_by_stage(tmp_path: Path) -> None:
     )
     scenes = [load("icons/crown", size=(64, 48), **look) for look in looks]
     scenes += [load(name, size=(64, 48)) for name in NAMES]
-    found = drawn_by_node([render_call(scene) for scene in scenes], tmp_path, profile=True)
+    found = drawn_by_node([render_call(scene) for scene in scenes], tmp_path, "profile")
     assert [each["stages"] for each in found] == [profile(scene).stages() for scene in scenes]
     assert len({tuple(stage for stage, gas in each["stages"].items() if gas) for each in found}) > 2

@@ -34,46 +34,30 @@ widget.render({ model: { get: name => bytes[name] ?? width }, el: document.getEl
 """
 
 
-@pytest.fixture(scope="module")
-def notebook() -> Any:
-    """A notebook that was run, with a widget in it."""
+def test_a_notebook_shows_the_widget(tmp_path: Path, browser: Any) -> None:
     nbclient = pytest.importorskip("nbclient")
     nbformat = pytest.importorskip("nbformat")
     book = nbformat.v4.new_notebook()
     book.cells = [nbformat.v4.new_code_cell("import shackled\nshackled.view('icons/crown', (48, 40))")]
     nbclient.NotebookClient(book, timeout=120, kernel_name="python3").execute()
-    return book
-
-
-def test_a_notebook_shows_the_widget(notebook: Any) -> None:
-    (output,) = notebook.cells[0].outputs
+    (output,) = book.cells[0].outputs
     image = render("icons/crown", (48, 40))
     assert base64.b64decode(output.data["image/png"]) == image.encode(".png")
     assert output.data["text/plain"] == f"<View of {image!r}>"
-    model = notebook.metadata.widgets[STATE]["state"][output.data[WIDGET]["model_id"]]
+    model = book.metadata.widgets[STATE]["state"][output.data[WIDGET]["model_id"]]
     assert model["model_module"] == "anywidget"
-    buffers = {each["path"][0]: base64.b64decode(each["data"]) for each in model["buffers"]}
-    assert buffers["_call"] == render_call(load("icons/crown", size=(48, 40)))
-
-
-def test_the_widget_in_chromium(notebook: Any, tmp_path: Path, browser: Any) -> None:
-    (output,) = notebook.cells[0].outputs
-    model = notebook.metadata.widgets[STATE]["state"][output.data[WIDGET]["model_id"]]
-    data = {
-        "script": model["state"]["_esm"],
-        "width": model["state"]["_width"],
-        "state": {each["path"][0]: each["data"] for each in model["buffers"]},
-    }
+    buffers = {each["path"][0]: each["data"] for each in model["buffers"]}
+    assert base64.b64decode(buffers["_call"]) == render_call(load("icons/crown", size=(48, 40)))
+    # and in chromium
+    data = {"script": model["state"]["_esm"], "width": model["state"]["_width"], "state": buffers}
     path = tmp_path / "page.html"
     path.write_text(PAGE.replace("DATA", json.dumps(data).replace("<", "\\u003c")), "utf-8")
+    faults: list[str] = []
     with browser.new_page() as tab:
-        faults: list[str] = []
         tab.on("pageerror", lambda error: faults.append(str(error)))
         tab.goto(path.as_uri())
         tab.wait_for_function("() => document.querySelector('shackled-view')?.picture")
-        assert tab.evaluate("document.querySelector('shackled-view').picture.sha256") == (
-            render("icons/crown", (48, 40)).sha256
-        )
+        assert tab.evaluate("document.querySelector('shackled-view').picture.sha256") == image.sha256
     assert not faults
 
 

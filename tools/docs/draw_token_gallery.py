@@ -32,9 +32,10 @@ def main() -> None:
         raise SystemExit("anvil is not installed: npm ci in contracts/")
     with tempfile.TemporaryDirectory() as folder, Anvil(binary) as node, chromium() as browser:
         os.environ[VARIABLE] = str(Path(folder) / "addresses.json")
-        demo = run_demo(node.connection, Path(folder) / "demo", lambda text: print(text, file=sys.stderr))
+        output = Path(folder).resolve() / "demo"
+        run_demo(node.connection, output, lambda text: print(text, file=sys.stderr))
         page = browser.new_page(viewport={"width": 1280, "height": 1060}, color_scheme="light")
-        page.goto(demo.gallery.resolve().as_uri())
+        page.goto((output / "gallery.html").as_uri())
         with Image.open(io.BytesIO(page.screenshot())) as picture:
             picture.convert("RGB").quantize(COLORS).save(IMAGES / "gallery.png", optimize=True)
 

@@ -76,15 +76,8 @@ def measure(name: str) -> Pair:
     culled, open_ = (evolve(scene, objects=[evolve(o, cull=cull) for o in scene.objects]) for cull in (True, False))
     a, b = cost(culled), cost(open_)
     pixels = [picture(each) for each in (culled, open_)]
-    return Pair(
-        name=name,
-        faces=scene.triangles,
-        drawn=a.triangles,
-        gas=a.gas,
-        drawn_without=b.triangles,
-        gas_without=b.gas,
-        different=int((pixels[0] != pixels[1]).any(axis=2).sum()),
-    )
+    different = int((pixels[0] != pixels[1]).any(axis=2).sum())
+    return Pair(name, scene.triangles, a.triangles, a.gas, b.triangles, b.gas, different)
 
 
 def _text(pairs: list[Pair]) -> str:

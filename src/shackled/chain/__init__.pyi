@@ -3,14 +3,15 @@ from ._chain import CallResult, Chain, ContractChain, Drawing, returned_bytes
 from ._connection import PATIENCE, Connection, Report, check_timeout, check_url, quantity, read_all
 from ._embedded import CHAIN_ID, DEFAULT_GAS_LIMIT, EmbeddedChain, RevmChain
 from ._failures import describe_revert, out_of_gas, revert_error
-from ._node import GAS_LEFT, NodeChain, metered
+from ._node import NodeChain, metered
 from ._opening import CHAINS, check_chain, open_chain, open_node
+from ._runs import BAND_PIXELS, engine_calls
 
 __all__ = [
+    "BAND_PIXELS",
     "CHAINS",
     "CHAIN_ID",
     "DEFAULT_GAS_LIMIT",
-    "GAS_LEFT",
     "PATIENCE",
     "VARIABLE",
     "AddressBook",
@@ -28,6 +29,7 @@ __all__ = [
     "check_timeout",
     "check_url",
     "describe_revert",
+    "engine_calls",
     "metered",
     "open_chain",
     "open_node",

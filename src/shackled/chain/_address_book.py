@@ -43,11 +43,6 @@ class AddressBook:
         chain = self._read().get(str(chain_id), {})
         return {name: parse_address(text, f"{name} on chain {chain_id} in {self.path}") for name, text in chain.items()}
 
-    def places(self, contract: str) -> dict[int, bytes]:
-        """Return the addresses of a contract, by chain id. Raises InputError if the file cannot be read."""
-        found = {int(chain): self.find(int(chain), contract) for chain in self._read()}
-        return {chain: address for chain, address in found.items() if address is not None}
-
     def check(self) -> None:
         """Check that the file can be written. Raises InputError if its content is damaged, OutputError if it cannot."""
         self._read()
@@ -59,16 +54,12 @@ class AddressBook:
             raise self._unwritable(PermissionError(errno.EACCES, "its folder is not writable"))
 
     def write(self, chain_id: int, addresses: Mapping[str, bytes]) -> None:
-        """Add or replace addresses of a chain.
-
-        Raises InputError if the file cannot be read, OutputError if it cannot be written; then it has not changed.
-        """
+        """Add or replace addresses of a chain. Raises InputError or OutputError; then the file has not changed."""
         chains = self._read()
-        known = chains.setdefault(str(chain_id), {})
-        new = known | {name: checksum_address(address) for name, address in addresses.items()}
-        if new == known:
+        known = chains.get(str(chain_id), {})
+        chains[str(chain_id)] = known | {name: checksum_address(address) for name, address in addresses.items()}
+        if chains[str(chain_id)] == known:
             return
-        chains[str(chain_id)] = new
         text = json.dumps({"chains": dict(sorted(chains.items(), key=lambda item: int(item[0])))}, indent=2) + "\n"
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
@@ -81,21 +72,17 @@ class AddressBook:
         return OutputError(error.errno, why, f"the address book {self.path}")
 
     def _read(self) -> dict[str, dict[str, str]]:
-        hint = f"repair or remove it, or name another file in {VARIABLE}"
         try:
             chains = json.loads(self.path.read_text("utf-8"))["chains"]
+            if all(re.fullmatch("[0-9]{1,78}", key) for key in chains) and all(
+                isinstance(text, str) for chain in chains.values() for text in chain.values()
+            ):
+                return dict(chains)
         except FileNotFoundError:
             return {}
         except OSError as error:
             raise InputError(f"the address book {self.path} cannot be read: {error.strerror}") from None
-        except (ValueError, LookupError, TypeError):
-            raise InputError(f"the address book {self.path} is damaged, it is not valid JSON: {hint}") from None
-        valid = isinstance(chains, dict) and all(
-            re.fullmatch("[0-9]{1,78}", key)
-            and isinstance(chain, dict)
-            and all(isinstance(text, str) for text in chain.values())
-            for key, chain in chains.items()
-        )
-        if not valid:
-            raise InputError(f"the address book {self.path} is damaged, it does not map chain ids to addresses: {hint}")
-        return dict(chains)
+        except (ValueError, LookupError, TypeError, AttributeError):
+            pass
+        hint = f"repair or remove it, or name another file in {VARIABLE}"
+        raise InputError(f"the address book {self.path} is damaged, it does not map chain ids to addresses: {hint}")

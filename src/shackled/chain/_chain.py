@@ -78,7 +78,12 @@ class ContractCaller(ABC):
 
     def count(self, scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
         """Count the triangles left after culling and clipping, and the pixels of the canvas or tile that they cover."""
-        return returned_counts(self.call("Renderer", count_call(scene, tile)).output)
+        selector = artifact("Renderer").selectors["renderCounted" if tile is None else "renderTileCounted"]
+        output = self.call("Renderer", encode(selector, scene, tile)).output
+        if len(output) < 96:
+            raise RenderError(f"the contract returned {len(output)} bytes instead of two counts")
+        # after the offset of the picture
+        return int.from_bytes(output[32:64], "big"), int.from_bytes(output[64:96], "big")
 
 
 class ContractChain(ContractCaller):
@@ -88,30 +93,11 @@ class ContractChain(ContractCaller):
 
     @abstractmethod
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
-        """Call a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
-
-        Raises RenderError if the contract reverts, OutOfGasError if the gas does not suffice.
-        """
-
-
-def count_call(scene: Scene, tile: Rectangle | None = None) -> bytes:
-    """Encode the call of the Renderer that draws a scene, or a tile of its canvas, and counts."""
-    selector = artifact("Renderer").selectors["renderCounted" if tile is None else "renderTileCounted"]
-    return encode(selector, scene, tile)
-
-
-def returned_counts(output: bytes) -> tuple[int, int]:
-    """Return triangles and pixels from the output of a `count_call`, which begins with an offset."""
-    if len(output) < 96:
-        raise RenderError(f"the contract returned {len(output)} bytes instead of two counts")
-    return int.from_bytes(output[32:64], "big"), int.from_bytes(output[64:96], "big")
+        """Call a contract, as `ContractCaller.call`."""
 
 
 def returned_bytes(output: bytes, field: int) -> bytes:
-    """Return the ABI field `field`, of type bytes, of a function's output.
-
-    Unlike `Interface.decode`, it copies the bytes once only.
-    """
+    """Return the ABI field `field`, of type bytes; unlike `Interface.decode`, it copies the bytes once only."""
     start = int.from_bytes(output[32 * field : 32 * field + 32], "big")
     length = int.from_bytes(output[start : start + 32], "big") if start + 32 <= len(output) else len(output)
     if start + 32 + length > len(output):

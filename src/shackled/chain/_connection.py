@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 from urllib.parse import SplitResult, unquote, urlsplit
 
 from ..checks import number
-from ..errors import ChainError, InputError, NodeBusyError, NodeError, WrongChainError
+from ..errors import ChainError, InputError, NoAnswerError, NodeBusyError, NodeError, WrongChainError
 from ..ethereum import to_hex
 from ._failures import rpc_failure
 
@@ -42,8 +42,7 @@ class Connection:
 
         self.url, self.timeout, self.attempts = url.strip(), check_timeout(timeout), attempts
         parts, host, port = check_url(self.url, "`url`")
-        shown = ".".join("***" if _KEY.fullmatch(label) else label for label in host.split("."))
-        self.name = f"node {f'[{host}]' if ':' in host else shown}" + (f":{port}" if port else "")
+        self.name = f"node {f'[{host}]' if ':' in host else _masked(host)}" + (f":{port}" if port else "")
         local = host in ("localhost", "::1") or host.startswith("127.")
         pieces = [parts.username, parts.password, *parts.path.split("/"), *parts.query.replace("=", "&").split("&")]
         long = [piece for piece in pieces if piece and len(piece) >= 8]
@@ -76,6 +75,15 @@ class Connection:
         except ValueError:
             raise NodeError(f"the {self.name} returned an invalid number for {method}: {result!r:.60}") from None
 
+    def number_if_known(self, method: str, *parameters: Any) -> int | None:
+        """Return the result of `number`; None if the node refuses it. Raises NoAnswerError."""
+        try:
+            return self.number(method, *parameters)
+        except NoAnswerError:
+            raise
+        except ChainError:
+            return None
+
     def data(self, method: str, *parameters: Any) -> bytes:
         """Return the result of a method as bytes."""
         result = self.request(method, *parameters)
@@ -104,11 +112,11 @@ class Connection:
             raise NodeError(f"the {self.name} returned an invalid block: {block!r:.60}")
         return block
 
-    def block_gas_limit(self) -> int:
-        """Return the gas that all transactions of a block may use."""
+    def block_number_of(self, field: str) -> int | None:
+        """Return a number of the latest block, such as its base fee; None if it has none."""
         block = self.block()
         try:
-            return quantity(block.get("gasLimit"))
+            return None if block.get(field) is None else quantity(block[field])
         except ValueError:
             raise NodeError(f"the {self.name} returned an invalid block: {block!r:.60}") from None
 
@@ -187,5 +195,8 @@ def _without_key(url: str) -> str:
     if not mark:
         scheme, rest = "", url
     host = rest.split("/")[0].split("?")[0].rpartition("@")[2]
-    shown = ".".join("***" if _KEY.fullmatch(label) else label for label in host.split("."))
-    return f"{scheme}{mark}{shown}" + ("/..." if len(host) < len(rest) else "")
+    return f"{scheme}{mark}{_masked(host)}" + ("/..." if len(host) < len(rest) else "")
+
+
+def _masked(host: str) -> str:
+    return ".".join("***" if _KEY.fullmatch(label) else label for label in host.split("."))

@@ -45,11 +45,8 @@ class EmbeddedChain(ContractChain):
         self._addresses: dict[str, bytes] = {}
 
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
-        """Call a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
-
-        Raises RenderError if the contract reverts, OutOfGasError if the gas does not suffice.
-        """
-        return self._run(self.address(contract), data, self.gas_limit if gas_limit is None else gas_limit)
+        """Call a contract, as `ContractCaller.call`."""
+        return self.run(self.address(contract), data, gas_limit)
 
     def address(self, contract: str) -> bytes:
         """Return the address of a contract, the same as `shackled deploy` gives it on every chain."""
@@ -84,10 +81,7 @@ class EmbeddedChain(ContractChain):
 
     @abstractmethod
     def create(self, name: str, creation: bytes) -> bytes:
-        """Run creation code, with its arguments, and return the runtime code.
-
-        name: for the message of the ChainError that is raised if the constructor reverts.
-        """
+        """Run creation code, with its arguments, and return the runtime code. ChainError, with `name`, if it fails."""
 
     @abstractmethod
     def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
@@ -102,16 +96,13 @@ class RevmChain(EmbeddedChain):
     def __init__(self, gas_limit: int = DEFAULT_GAS_LIMIT, is_stoppable: bool = False) -> None:
         """Take the default gas limit of calls, and whether `stop` works, which makes them slower."""
         super().__init__(gas_limit)
-        self._is_stoppable, self._is_stopped = is_stoppable, False
+        self.is_stoppable, self._is_stopped = is_stoppable, False
         self._all: WeakSet[Instance] = WeakSet()
         self._free: list[Instance] = []
         self._lock = threading.Lock()
 
     def stop(self) -> None:
-        """End the calls that run in other threads, and all later ones, by ChainError.
-
-        What is not stoppable ends by itself.
-        """
+        """End the calls that run in other threads, and all later ones, by ChainError."""
         with self._lock:
             self._is_stopped = True
             for evm in self._all:
@@ -162,7 +153,7 @@ class RevmChain(EmbeddedChain):
         self._free.append(evm)
 
     def _new(self) -> Instance:
-        evm = Instance(self._is_stoppable)
+        evm = Instance(self.is_stoppable)
         self._all.add(evm)
         return evm
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from datetime import UTC, datetime
-from email.utils import parsedate_to_datetime
 from typing import Any
 
 from ..artifacts import known_errors
@@ -25,14 +23,8 @@ from ..errors import (
 from ..ethereum import Errors, decode_error, to_hex
 from ..untrusted import plain
 
-
-def _phrases(pattern: str) -> re.Pattern[str]:
-    return re.compile(pattern, re.VERBOSE)
-
-
 #: Phrases of nodes, as lower-case letters only. The first group with a phrase that occurs in the message applies.
-TOO_LITTLE_GAS = _phrases(
-    """
+TOO_LITTLE_GAS = """
     # geth, erigon, besu, hardhat; anvil and nethermind as one word
     outofgas | gasrequiredexceeds | insufficientgas | notenoughgas
     # the intrinsic gas exceeds the limit
@@ -43,30 +35,33 @@ TOO_LITTLE_GAS = _phrases(
     # the limit exceeds the node's own
     | gaslimitistoohigh | gaslimittoohigh | gastoohigh | exceedsblockgaslimit | exceedsthegaslimit
     | greaterthanblockgaslimit | exceedsallowance | gascap
-    """
-)
-TOO_LARGE = _phrases(
-    """
+"""
+TOO_LARGE = """
     responsesizeexceed | responsesizeshould | responsesizeis | responsetoolarge | responseistoobig | responseexceed
     | responsetoobig | oversizedresponse
     | requesttoolarge | requestistoobig | requesttoobig | oversizedrequest | requestentitytoolarge | requestsizeexceed
     | requestbodytoolarge | contentlengthtoolarge | payloadtoolarge | lengthlimitexceeded | bodylimit
     | initcodesize | initcodelimit | initcodetoolarge
-    """
-)
-TOO_OFTEN = _phrases(
-    """
+"""
+TOO_OFTEN = """
     ratelimit | requestrateexceeded | toomanyrequests | requestlimit | requestcountexceeded | computeunits
     | capacityexceeded | exceededitscompute | throttl | quotaexceeded | creditsexceeded | toomanyconnections
     | serverisbusy | serverbusy | overloaded | temporarilyunavailable
-    """
-)
-NOT_READY = _phrases("headernotfound | missingtrienode | blocknotfound | unknownblock | notsynced | stillsyncing")
-TOO_SLOW = _phrases("timeout | timedout | deadlineexceeded | executionaborted")
-OLD_CHAIN = _phrases("invalidopcode | opcodenotfound | notactivated | badinstruction | undefinedinstruction")
+"""
+NOT_READY = "headernotfound | missingtrienode | blocknotfound | unknownblock | notsynced | stillsyncing"
+TOO_SLOW = "timeout | timedout | deadlineexceeded | executionaborted"
+OLD_CHAIN = "invalidopcode | opcodenotfound | notactivated | badinstruction | undefinedinstruction"
 
 #: Codes of JSON-RPC errors, for messages without a known phrase.
 REQUEST_TOO_BIG, RESPONSE_TOO_BIG, LIMIT_EXCEEDED, NO_METHOD = -32007, -32008, -32005, -32601
+
+#: What the other phrases say of a node.
+SAID: dict[str, tuple[type[ChainError], str]] = {
+    TOO_LITTLE_GAS: (OutOfGasError, "allows a call too little gas for this: use a smaller `size`, or raise its limit"),
+    OLD_CHAIN: (WrongChainError, "does not know an instruction of the contracts: they need the rules of Cancun"),
+    NOT_READY: (NodeBusyError, "is not ready{}; try again later, or use another node"),
+    TOO_SLOW: (NodeTimeoutError, "aborted a call that took too long{}; use a smaller `size`, or another node"),
+}
 
 #: What the codes of `Panic` mean (the documentation of Solidity: "Panic via assert and Error via require").
 PANICS = {
@@ -111,26 +106,18 @@ def rpc_failure(name: str, error: Any) -> ChainError:
     reverted = revert_data(data)
     letters = re.sub("[^a-z]", "", f"{message} {data if reverted is None else ''}".lower())
 
+    def says(phrases: str) -> bool:
+        return re.search(phrases, letters, re.VERBOSE) is not None
+
     if reverted or code == 3:
         return RevertError(f"the call was reverted: {_shorten(message)}", reverted or b"")
-    if TOO_LARGE.search(letters):
+    if says(TOO_LARGE):
         return too_large(name, message)
-    if TOO_OFTEN.search(letters) or code == 429:
+    if says(TOO_OFTEN) or code == 429:
         return too_often(name, None, _quote(message))
-    if TOO_LITTLE_GAS.search(letters):
-        return OutOfGasError(
-            f"the {name} allows a call too little gas for this: use a smaller `size`, or raise its limit"
-        )
-    if OLD_CHAIN.search(letters):
-        return WrongChainError(
-            f"the chain of the {name} does not know an instruction of the contracts: they need the rules of Cancun"
-        )
-    if NOT_READY.search(letters):
-        return NodeBusyError(f"the {name} is not ready{_quote(message)}; try again later, or use another node")
-    if TOO_SLOW.search(letters):
-        return NodeTimeoutError(
-            f"the {name} aborted a call that took too long{_quote(message)}; use a smaller `size`, or another node"
-        )
+    for phrases, (kind, text) in SAID.items():
+        if says(phrases):
+            return kind(f"the {name} {text.replace('{}', _quote(message))}")
     if "revert" in letters:
         return RevertError(f"the call was reverted: {_shorten(message)}")
     # codes that hosts use in different ways
@@ -160,49 +147,31 @@ def too_large(name: str, said: object = "") -> TooLargeError:
 
 
 def retry_after(headers: Mapping[str, str]) -> float | None:
-    """Return the seconds of the header Retry-After, which may be a date; None if there is none."""
-    value = headers.get("Retry-After", "").strip()
-    if not value:
-        return None
+    """Return the seconds of the header Retry-After; None if it has none, or a date."""
     try:
-        seconds = float(value)
+        seconds = float(headers.get("Retry-After", ""))
     except ValueError:
-        try:
-            moment = parsedate_to_datetime(value)
-        except ValueError:
-            return None
-        if moment.tzinfo is None:
-            moment = moment.replace(tzinfo=UTC)
-        seconds = (moment - datetime.now(UTC)).total_seconds()
+        return None
     return max(0.0, seconds) if math.isfinite(seconds) else None
 
 
 def revert_data(data: Any) -> bytes | None:
     """Return the data of a revert, which nodes send bare, after a word, or in an object; None if there is none."""
     if isinstance(data, dict):
-        for key in ("data", "result", "output", "return"):
-            found = revert_data(data.get(key))
-            if found is not None:
-                return found
-        return None
+        found = (revert_data(data.get(key)) for key in ("data", "result", "output", "return"))
+        return next((each for each in found if each is not None), None)
     match = re.search(r"(?:^|\s)0x((?:[0-9a-fA-F]{2})*)$", data.strip()) if isinstance(data, str) else None
     return bytes.fromhex(match[1]) if match else None
 
 
 def revert_error(data: bytes, gas_limit: int) -> ChainError:
-    """Return the error for a call that a contract reverted.
-
-    data: of the revert. gas_limit: of the call, for the message of an OutOfGasError.
-    """
+    """Return the error for a reverted call. data: of the revert. gas_limit: of the call, for an OutOfGasError."""
     description = describe_revert(data)
     return out_of_gas(gas_limit) if description == "OutOfGas()" else RenderError(f"the contract refused: {description}")
 
 
 def describe_revert(data: bytes, errors: Errors | None = None) -> str:
-    """Write the data of a revert as text, such as "CanvasSize(width=0, height=17)".
-
-    errors: that it may be, by selector; None for those of the contracts of the package.
-    """
+    """Write the data of a revert as text, such as "CanvasSize(width=0, height=17)". errors: by selector; None: ours."""
     if not data:
         return "the data of the call is not a scene that is encoded correctly"
     found = decode_error(data, known_errors() if errors is None else errors)

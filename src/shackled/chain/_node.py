@@ -6,7 +6,6 @@ import threading
 import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from enum import Enum
 from functools import cached_property
 
 from ..artifacts import RENDERER, artifact
@@ -21,18 +20,15 @@ from ..errors import (
     WrongChainError,
 )
 from ..ethereum import checksum_address, intrinsic_gas, to_hex, word
-from ..scene import ANTIALIAS, LONG_KINDS, RECORD_HEADER, SHADINGS, TWO_SIDED, WIREFRAME
 from ._address_book import AddressBook
 from ._chain import ContractCaller, NodeResult
 from ._connection import Connection
 from ._embedded import DEFAULT_GAS_LIMIT, EmbeddedChain
-from ._failures import out_of_gas, revert_error
+from ._failures import SAID, TOO_LITTLE_GAS, out_of_gas, revert_error
+from ._runs import ANTIALIASED, engines
 
 #: Maximum size of the data of a call that creates a contract (EIP-3860).
 MAX_INIT_CODE = 49152
-
-#: The contracts that draw antialiased pictures. A creation call brings these or, for other pictures, fewer.
-ANTIALIASED = ("AntialiasedEngine", "AntialiasedFragmentEngine", "AntialiasedSmoothEngine")
 
 #: Address at which a state override places the contract Meter, which counts gas.
 METER = bytes.fromhex("5ac61ed000000000000000000000000000000002")
@@ -40,24 +36,6 @@ METER = bytes.fromhex("5ac61ed000000000000000000000000000000002")
 #: A program that returns the remaining gas: GAS PUSH0 MSTORE, an empty MCOPY, PUSH1 32 PUSH0 RETURN.
 #: Like the contracts, it needs the rules of Cancun.
 GAS_LEFT = bytes.fromhex("5a5f525f5f5f5e60205ff3")
-
-
-#: Bytes of a light in calldata.
-LIGHT_SIZE = 5 * 32
-#: The least bytes of a mesh with normals of so many vertices as AntialiasedSmoothEngine takes with two sides.
-TWO_SIDED_MESH = 32767 * 12
-#: Bytes from the beginning of a scene in calldata to its projection, and to the offsets of its lights, objects and
-#: extensions; from the beginning of an object to its shading, specular coefficient, shininess and flags.
-PROJECTION, LIGHTS, OBJECTS, EXTENSIONS = (place * 32 for place in (11, 18, 19, 20))
-OBJECT_FIELDS = tuple(place * 32 for place in (9, 12, 13, 14))
-
-
-class Method(Enum):
-    """How a node gets the contracts that it runs."""
-
-    DEPLOYED = "deployed"
-    OVERRIDE = "state override"
-    CREATION = "creation call"
 
 
 class NodeChain(ContractCaller):
@@ -68,16 +46,13 @@ class NodeChain(ContractCaller):
     """
 
     def __init__(self, connection: Connection, local: EmbeddedChain, address: bytes | None = None) -> None:
-        """Prepare calls; nothing is sent yet.
-
-        local: an EVM with the code of the contracts. address: of the deployed renderer to call.
-        """
+        """Prepare calls. local: an EVM with the code of the contracts. address: of the deployed renderer to call."""
         self.connection = connection
         self._local = local
         self._address = address
         self._book = AddressBook()
         self._places: dict[str, bytes | None] = {}
-        self._methods: set[Method] = set()
+        self._ways: set[str] = set()
         self._lock = threading.RLock()
         self._answers_creations = True
         local.address("Renderer")  # created now, before several threads need it
@@ -85,8 +60,7 @@ class NodeChain(ContractCaller):
     @property
     def name(self) -> str:
         """Description for reports; after the first call, with how the node got the contracts."""
-        methods = ", ".join(method.value for method in Method if method in self._methods)
-        return self.connection.name + (f" ({methods})" if methods else "")
+        return self.connection.name + (f" ({', '.join(sorted(self._ways))})" if self._ways else "")
 
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> NodeResult:
         """Call a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
@@ -96,18 +70,23 @@ class NodeChain(ContractCaller):
         try:
             place = self.place(contract)
             if self._probed.overrides:
-                result = self._metered(contract, place, data, gas_limit)
+                way, result = "state override", self._metered(contract, place, data, gas_limit)
             elif place is not None:
-                result = self._plain(place, data, gas_limit)
+                way, result = "deployed", self._plain(place, data, gas_limit)
             else:
-                result = self._created(contract, data, gas_limit)
+                way, result = "creation call", self._created(contract, data, gas_limit)
         except RevertError as error:
-            raise self._refused(error.data, gas_limit) from None
+            failure = revert_error(error.data, gas_limit or 0)
+            if isinstance(failure, OutOfGasError) and gas_limit is None:
+                failure = OutOfGasError(f"the {self.connection.name} {SAID[TOO_LITTLE_GAS][1]}")
+            raise failure from None
         except OutOfGasError:
-            raise (self._refused(None, gas_limit) if self.gas_limit else self.too_little()) from None
-        self._methods.add(
-            Method.DEPLOYED if place is not None else Method.OVERRIDE if self._probed.overrides else Method.CREATION
-        )
+            if not self.gas_limit:
+                raise self.too_little() from None
+            if gas_limit is None:
+                raise
+            raise out_of_gas(gas_limit) from None
+        self._ways.add(way if place is None else "deployed")
         return result
 
     @property
@@ -121,12 +100,12 @@ class NodeChain(ContractCaller):
 
     def too_little(self) -> OutOfGasError:
         """Return the error for a node whose calls have too little gas for any render."""
-        text = f"the {self.connection.name} allows a call too little gas for this: {self._probed.gas:,}"
-        if not self._carried_gas:
-            return OutOfGasError(f"{text}; raise its limit, or use another node")
+        why = ""
+        if self._carried_gas:
+            why = f", and it has no state overrides: creating the contracts takes up to {self._carried_gas:,}"
         return OutOfGasError(
-            f"{text}, and it has no state overrides: creating the contracts takes up to {self._carried_gas:,}; "
-            "run shackled deploy, raise its limit, or use another node"
+            f"the {self.connection.name} allows a call too little gas for this: {self._probed.gas:,}{why}; "
+            "raise its limit, run shackled deploy, or use another node"
         )
 
     def place(self, contract: str) -> bytes | None:
@@ -135,39 +114,33 @@ class NodeChain(ContractCaller):
         Raises RenderError if `address` was given and is not that of a renderer.
         """
         with self._lock:
-            if contract not in self._places:
-                self._places[contract] = self._named(contract) if self._address else self._find(contract)
-            return self._places[contract]
+            if contract in self._places:
+                return self._places[contract]
+            if self._address is None:
+                known = self._book.find(self.connection.chain_id, contract)
+                places = [each for each in (self._local.address(contract), known) if each is not None]
+                found = next((each for each in places if self._stands(contract, each)), None)
+            else:
+                found = self._named(contract, self._address) if contract in RENDERER else None
+            self._places[contract] = found
+            return found
 
-    def _named(self, contract: str) -> bytes | None:
+    def _named(self, contract: str, renderer: bytes) -> bytes:
         """Return the address of the given renderer, or of one of its engines."""
-        assert self._address is not None
-        if contract not in RENDERER:
-            return None
-        where = f"{checksum_address(self._address)} on chain {self.connection.chain_id} (the {self.connection.name})"
-        code = self._code(self._address)
+        where = f"{checksum_address(renderer)} on chain {self.connection.chain_id} (the {self.connection.name})"
+        code = self.connection.code(renderer)
         if not code:
-            raise RenderError(
-                f"there is no contract at {where}: deploy it with shackled deploy, or leave out `address`"
-            )
-        parts = self._parts("Renderer", code)
-        if parts is None or any(self._code(place) != self._local.code(part) for part, place in parts.items()):
+            raise RenderError(f"there is no contract at {where}: run shackled deploy, or leave out `address`")
+        if not self._stands("Renderer", renderer):
             raise RenderError(
                 f"the contract at {where} is not the renderer of this version of shackled: "
                 "give another address, or leave out `address`"
             )
-        return parts.get(contract, self._address)
-
-    def _find(self, contract: str) -> bytes | None:
-        known = self._book.find(self.connection.chain_id, contract)
-        for address in {self._local.address(contract): None, known: None}:
-            if address is not None and self._stands(contract, address):
-                return address
-        return None
+        return (self._parts("Renderer", code) or {}).get(contract, renderer)
 
     def _stands(self, contract: str, address: bytes) -> bool:
         """Return whether a contract, and those that it calls, are deployed."""
-        parts = self._parts(contract, self._code(address))
+        parts = self._parts(contract, self.connection.code(address))
         return parts is not None and all(self._stands(part, place) for part, place in parts.items())
 
     def _parts(self, contract: str, code: bytes) -> dict[str, bytes] | None:
@@ -182,21 +155,17 @@ class NodeChain(ContractCaller):
                 parts[part] = there[12:]
         return parts if code == expected else None
 
-    def _code(self, address: bytes) -> bytes:
-        return self.connection.code(address)
-
     def _metered(self, contract: str, place: bytes | None, data: bytes, gas_limit: int | None) -> NodeResult:
         """Call a contract through the Meter, with the contracts that are not deployed in the same state override."""
-        codes = {}
+        codes: dict[bytes, bytes] = {}
         if place is None:
             place = self._local.address(contract)
             names = [contract, *self._below(contract, data)]
-            engine = next((name for name in names if name in ANTIALIASED), None)
-            if engine is not None:
-                # the first engine draws the background where nothing is seen; any of them can
-                codes[self._local.address(ANTIALIASED[0])] = self._local.code(engine)
-            for name in names:
-                codes[self._local.address(name)] = self._local.code(name)
+            # the first engine draws the background where nothing is seen; any of them can
+            codes = {
+                self._local.address(ANTIALIASED[0]): self._local.code(each) for each in names if each in ANTIALIASED
+            }
+            codes |= {self._local.address(name): self._local.code(name) for name in names}
         return metered(self.connection, place, data, gas_limit, codes, self._probed.field)
 
     def _plain(self, place: bytes, data: bytes, gas_limit: int | None) -> NodeResult:
@@ -245,15 +214,13 @@ class NodeChain(ContractCaller):
         except (NoAnswerError, TooLargeError, WrongChainError):
             raise
         except NodeError as error:
-            if not self._probed.creations:
-                raise NodeError(
-                    f"{error}: it supports neither state overrides nor creation calls, and the contracts are not "
-                    "deployed on its chain; run shackled deploy, or use another node"
-                ) from None
-            if not self.gas_limit:
+            if self._probed.creations and not self.gas_limit:
                 # a creation that runs out of gas may return nothing
                 raise self.too_little() from None
-            raise
+            raise NodeError(
+                f"{error}: it has no state overrides, and the contracts are not deployed on its chain; "
+                "run shackled deploy, or use another node"
+            ) from None
 
     def _answer_of(self, init: bytes) -> NodeResult:
         """Make a creation call, which ends with a revert, and return the result in the data of that."""
@@ -268,30 +235,16 @@ class NodeChain(ContractCaller):
             if error.data[:4] in artifact("CreationCall").errors:
                 # NotCreated: one of the contracts ran out of gas
                 raise self.too_little() from None
-        raise NodeError(
-            f"the {self.connection.name} has no state overrides, and does not return the data of a reverted creation "
-            "call: use another node, or one where the contracts are deployed"
-        )
+        raise NodeError(f"the {self.connection.name} does not return the data of a reverted creation call")
 
     def _below(self, contract: str, data: bytes) -> list[str]:
-        """Return the contracts that a call of a contract needs, each before those that it needs itself.
-
-        The Renderer calls those of its engines that draw the scene.
-        """
+        """Return the contracts that a call needs, each before those that it needs; engines only if they draw."""
         parts = artifact(contract).parts
         if contract == "Renderer":
-            parts = engines(data)
+            parts = list(engines(data[4 + int.from_bytes(data[4:36], "big") :], self._local))
         # whose calls have a scene in the same place
         below = data if contract == "Turntable" else b""
         return parts + [each for part in parts for each in self._below(part, below)]
-
-    def _refused(self, data: bytes | None, gas_limit: int | None) -> ChainError:
-        """Return the error for a call that reverted with `data`, or, with None, ran out of gas."""
-        failure = out_of_gas(gas_limit or 0) if data is None else revert_error(data, gas_limit or 0)
-        if isinstance(failure, OutOfGasError) and gas_limit is None:
-            hint = "use a smaller `size`, or raise its limit"
-            return OutOfGasError(f"the {self.connection.name} allows a call too little gas for this: {hint}")
-        return failure
 
     @cached_property
     def _probed(self) -> _Probed:
@@ -305,50 +258,6 @@ class NodeChain(ContractCaller):
             return 0
         sizes = [(len(self._local.code(name)), len(artifact(name).creation)) for name in (*ANTIALIASED, "Renderer")]
         return 6_000_000 + sum(200 * code + 200 * packed for code, packed in sizes)
-
-
-def engines(data: bytes) -> list[str]:
-    """Return the contracts that may draw the scene of a call of the Renderer; those of plain scenes if it has none.
-
-    Of the three for antialiased scenes only those that are needed, as Materials.sol and Runs.sol say, since together
-    they leave little space in a creation call.
-    """
-    scene = 4 + _word(data, 4)
-    place = scene + _word(data, scene + EXTENSIONS)
-    end = place + 32 + _word(data, place)
-    place, last = place + 32, 0
-    alone = place + RECORD_HEADER == end
-    while place + RECORD_HEADER <= min(end, len(data)):
-        # kinds ascend
-        last = data[place]
-        size = int.from_bytes(data[place + 3 : place + RECORD_HEADER], "big")
-        place += RECORD_HEADER + size * (32 if last >= LONG_KINDS else 1)
-    if last > ANTIALIAS:
-        return ["EffectsEngine", "Effects"]
-    if last != ANTIALIAS:
-        return ["Engine", "FragmentEngine"]
-    lights, objects = (scene + _word(data, scene + offset) for offset in (LIGHTS, OBJECTS))
-    lamps, is_orthographic = _word(data, lights), _word(data, scene + PROJECTION)
-    is_point = any(_word(data, lights + 32 + LIGHT_SIZE * lamp) for lamp in range(min(lamps, 2)))
-    is_quadratic = lamps <= 2 and not (is_point and is_orthographic)
-    needed = set() if alone else {"AntialiasedFragmentEngine"}
-    first = objects + 32
-    for at in range(first, min(first + 32 * _word(data, objects), len(data)), 32):
-        thing = first + _word(data, at)
-        shading, specular, shininess, flags = (_word(data, thing + each) for each in OBJECT_FIELDS)
-        is_smooth = shading == SHADINGS["smooth"] and lamps != 0
-        is_broad = shininess == 1 and specular != 0
-        if flags & WIREFRAME or (is_smooth and (is_broad or not is_quadratic)):
-            needed.add("AntialiasedFragmentEngine")
-        else:
-            needed.add("AntialiasedSmoothEngine" if is_smooth else "AntialiasedEngine")
-            if is_smooth and flags == TWO_SIDED and _word(data, thing + _word(data, thing)) > TWO_SIDED_MESH:
-                needed.add("AntialiasedFragmentEngine")
-    return [name for name in ANTIALIASED if name in needed] or ["AntialiasedEngine"]
-
-
-def _word(data: bytes, place: int) -> int:
-    return int.from_bytes(data[place : place + 32], "big")
 
 
 @dataclass(frozen=True)
@@ -395,8 +304,7 @@ def _probe(connection: Connection) -> _Probed:
         found = []
         for named in (True, False):
             request = {"to": to_hex(METER)} if overrides else {"data": to_hex(GAS_LEFT)}
-            if named:
-                request["gas"] = hex(DEFAULT_GAS_LIMIT)
+            request |= {"gas": hex(DEFAULT_GAS_LIMIT)} if named else {}
             try:
                 output = connection.data("eth_call", request, "latest", *([override] if overrides else []))
             except (NoAnswerError, WrongChainError):
@@ -410,7 +318,7 @@ def _probe(connection: Connection) -> _Probed:
             # prefer calls that do not ask for an amount
             return max(found, key=lambda each: (each.gas, not each.named))
     # without creation calls, only deployed contracts can be called
-    return _Probed(False, connection.block_gas_limit(), False, creations=False)
+    return _Probed(False, connection.block_number_of("gasLimit") or 0, False, creations=False)
 
 
 def _limit(gas: int | None) -> bytes:

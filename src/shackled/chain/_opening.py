@@ -29,8 +29,6 @@ def open_node(url: str, address: str | None = None, timeout: float | None = None
 
 def check_chain(name: str, parameter: str) -> str:
     """Return the name of a chain; raise InputError, with the name of the parameter, if there is none."""
-    if name == "reference":
-        raise InputError(f"{parameter} 'reference', a renderer in NumPy, is gone: use one of {', '.join(CHAINS)}")
     return choice(name, parameter, CHAINS)
 
 

@@ -7,7 +7,7 @@ import json
 import re
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, cast
 from urllib.parse import urlsplit
 
@@ -21,8 +21,6 @@ from ._failures import http_failure, too_large
 
 #: Timeout of connecting, in seconds.
 CONNECT_PATIENCE = 10
-#: If a reused connection breaks within these seconds, the node had closed it, and a new one is opened.
-STALE = 1.0
 #: Maximum size of an answer, in bytes; the largest picture has 13 MB, in hexadecimal twice as much.
 MAX_ANSWER = 64 << 20
 
@@ -31,7 +29,6 @@ HEADERS = {
     "Accept": "application/json",
     "User-Agent": f"shackled/{__version__}",
 }
-BROKEN = "closed the connection before the end of its answer; is it running, or was the picture too large for it?"
 
 
 class Transport:
@@ -47,39 +44,36 @@ class Transport:
         """Send a request and return the answer, with its `result` or `error`. Raises NodeError or a subclass."""
         number = next(self._numbers)
         request = json.dumps({"jsonrpc": "2.0", "method": method, "params": parameters, "id": number}).encode()
-        body = self._post(request)
         try:
-            answer = read_json(body.decode())
+            status, headers, body = self._post(request, time.monotonic() + self.timeout)
+        except (requests.RequestException, urllib3.exceptions.HTTPError, OSError) as error:
+            kind, words = _failure(error)
+            raise kind(f"the {self.name} {words.format(f'{self.timeout:g}')}") from None
+        try:
+            answer, what = read_json(body.decode()), "JSON that is not JSON-RPC"
         except ValueError:
-            raise self._invalid("an answer that is not JSON" if body else "an empty answer") from None
-        if not isinstance(answer, dict) or not ("result" in answer or answer.get("error")):
-            raise self._invalid("JSON that is not JSON-RPC")
+            answer, what = None, "an answer that is not JSON" if body else "an empty answer"
+        fields = answer if isinstance(answer, dict) else {}
+        refusal, is_other = fields.get("error"), fields.get("id") not in (None, number)
+        if status != 200:
+            # some hosts send JSON-RPC errors, which say more, with another status
+            says_more = isinstance(refusal, dict) and "message" in refusal and not is_other
+            if status in (413, 429) or not says_more:
+                raise http_failure(self.name, status, headers, body)
+        if not ("result" in fields or refusal):
+            raise NodeUnreachableError(f"the {self.name} sent {what}: is this the address of a node?")
         # an error may come before the node has read the id of the request
-        if answer.get("id") != number and not (answer.get("id") is None and answer.get("error")):
+        if is_other or (fields.get("id") is None and not refusal):
             raise NodeUnreachableError(f"the {self.name} answered a different request; try again")
-        return answer
+        return fields
 
-    def _post(self, request: bytes) -> bytes:
-        """Send a request and return the body of the answer."""
-        started = time.monotonic()
-        while True:
-            is_reused = hasattr(self._sessions, "session")
-            try:
-                return self._attempt(request, started + self.timeout)
-            except (requests.RequestException, urllib3.exceptions.HTTPError, OSError) as error:
-                kind, words = _failure(error)
-                if words == BROKEN and is_reused and time.monotonic() - started < STALE:
-                    del self._sessions.session
-                    continue
-                raise kind(f"the {self.name} {words.format(f'{self.timeout:g}')}") from None
-
-    def _attempt(self, request: bytes, end: float) -> bytes:
-        left = max(0.001, end - time.monotonic())
+    def _post(self, request: bytes, end: float) -> tuple[int, Mapping[str, str], bytes]:
+        """Send a request and return status, headers and body of the answer. end: when all of it must be there."""
         with self._session().post(
             self.url,
             data=request,
             headers=HEADERS,
-            timeout=(min(CONNECT_PATIENCE, left), left),
+            timeout=(min(CONNECT_PATIENCE, self.timeout), self.timeout),
             stream=True,
             allow_redirects=False,
         ) as response:
@@ -92,11 +86,7 @@ class Transport:
                     raise too_large(self.name, f"more than {MAX_ANSWER >> 20} MB")
                 if time.monotonic() > end:
                     raise TimeoutError
-            body = b"".join(parts)
-        # some hosts send JSON-RPC errors with another status
-        if response.status_code != 200 and not _is_rpc_error(response.status_code, body, request):
-            raise http_failure(self.name, response.status_code, response.headers, body)
-        return body
+            return response.status_code, response.headers, b"".join(parts)
 
     def _session(self) -> requests.Session:
         """Return the session of this thread."""
@@ -104,9 +94,6 @@ class Transport:
             self._sessions.session = requests.Session()
             self._sessions.session.trust_env = not self.local
         return cast(requests.Session, self._sessions.session)
-
-    def _invalid(self, what: str) -> NodeError:
-        return NodeUnreachableError(f"the {self.name} sent {what}: is this the address of a node?")
 
 
 def is_address(url: str) -> bool:
@@ -132,17 +119,7 @@ def _failure(error: Exception) -> tuple[type[NodeError], str]:
         return NodeUnreachableError, "cannot be reached through the configured proxy"
     if isinstance(reason, urllib3.exceptions.NewConnectionError):
         return NodeUnreachableError, "cannot be reached; is it running, and is its address right?"
-    return NodeUnreachableError, BROKEN
-
-
-def _is_rpc_error(status: int, body: bytes, request: bytes) -> bool:
-    """Return whether an answer is a JSON-RPC error of this request, which says more than the status."""
-    if status in (413, 429):
-        return False
-    try:
-        answer = read_json(body.decode())
-    except ValueError:
-        return False
-    if not isinstance(answer, dict) or answer.get("id") not in (None, json.loads(request)["id"]):
-        return False
-    return isinstance(answer.get("error"), dict) and "message" in answer["error"]
+    return (
+        NodeUnreachableError,
+        "closed the connection before the end of its answer; is it running, or was the picture too large for it?",
+    )

@@ -88,14 +88,6 @@ class Root(CommandGroup):
             formatter.write_dl([*LINES.items(), *((each.name or "", each.help or "") for each in GROUPS)])
 
 
-def _version(context: click.Context, _: click.Parameter, value: bool) -> None:
-    if value:
-        from .. import __version__
-
-        print(f"shackled {__version__}")
-        context.exit()
-
-
 def _completion(context: click.Context, _: click.Parameter, value: str | None) -> None:
     if value is not None:
         kind = get_completion_class(value)
@@ -114,14 +106,6 @@ app = Root(
     "Render 3D scenes with Ethereum smart contracts.",
     params=[
         click.Option(
-            ["--version"],
-            is_flag=True,
-            is_eager=True,
-            expose_value=False,
-            callback=_version,
-            help="Print the version and exit.",
-        ),
-        click.Option(
             ["--completion"],
             type=click.Choice(["bash", "zsh", "fish"]),
             is_eager=True,
@@ -131,6 +115,11 @@ app = Root(
         ),
     ],
 )
+
+
+click.version_option(
+    package_name="shackled", prog_name="shackled", message="%(prog)s %(version)s", help="Print the version and exit."
+)(app)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:

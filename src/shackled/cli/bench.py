@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated
 
 from ..errors import InputError
 from ..whole_file import check_output_folder
@@ -13,27 +12,20 @@ from .progress import LateBar
 
 
 def bench(
-    names: Annotated[
-        list[str] | None,
-        argument("Experiments to run; all by default. Without -o they are listed.", "NAME"),
-    ] = None,
-    output: Annotated[str | None, option("-o --output", "Folder for CSV files, plots and tables.", "DIR")] = None,
-    everything: Annotated[bool, option("--all", "Run all experiments.")] = False,
-    quick: Annotated[bool, option("--quick", "Use a few small scenes, as a smoke test.")] = False,
-    processes: Annotated[
-        int | None,
-        option("--processes", "Number of processes; one per core by default.", "N", min=1),
-    ] = None,
-    rpc: Annotated[str | None, option("--rpc", "Node that `engines` measures, too.", "URL")] = None,
+    names: tuple[str, ...] = argument("Experiments to run; all by default. Without -o they are listed.", "NAME"),
+    output: str | None = option("-o --output", "Folder for CSV files, plots and tables.", "DIR"),
+    quick: bool = option("--quick", "Use a few small scenes, as a smoke test."),
+    processes: int | None = option("--processes", "Number of processes; one per core by default.", "N", min=1),
+    rpc: str | None = option("--rpc", "Node that `engines` measures, too.", "URL"),
 ) -> None:
     """Run the experiments of the Shackled paper: gas against canvas, triangles, culling and more."""
     from ..bench import EXPERIMENTS, Runner, can_plot, check_names
 
-    if not names and not everything and output is None:
+    if not names and output is None:
         print("\n".join(f"{name:10} {text}" for name, text in EXPERIMENTS.items()))
         print("\nshackled bench NAME ... -o DIR runs them, shackled bench -o DIR runs all.")
         return
-    chosen = list(EXPERIMENTS) if everything or not names else list(dict.fromkeys(names))
+    chosen = list(dict.fromkeys(names or EXPERIMENTS))
     check_names(chosen)
     if output is None:
         raise InputError("the experiments need an output folder: -o DIR")

@@ -9,49 +9,74 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..chain import PATIENCE, Connection
 from ..checks import number
 from ..errors import InputError
-from ..ethereum import at_most, checksum_address, ether, parse_address, roughly
+from ..ethereum import GWEI, at_most, checksum_address, ether, parse_address, roughly
 from ..untrusted import plain
 from ..values import plural
 from ..whole_file import check_output_file, write_output
-from .option import option
+from .option import exclude, option
 from .output import print_json, print_line, print_note
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
 
-    from ..deploy import DeploymentStep, Plan, Quote, Receipt, Transactor
+    from ..deploy import Call, Plan, Quote, Receipt, Transactor
+    from ..tokens import Collection
 
 #: The environment variable with the password of a keystore file.
 PASSWORD = "SHACKLED_PASSWORD"
 
-MaxFee = Annotated[
-    float | None,
-    option(
-        "--max-fee",
-        "Maximum fee per gas, in gwei. Default: twice the base fee plus a tip of at most 3 gwei; the command then "
-        "stops if the node suggests a higher tip, reports no base fee, or estimates more than 10 times the usual gas.",
-        "GWEI",
-    ),
-]
-Json = Annotated[bool, option("--json", "Print JSON instead of text.")]
-Calldata = Annotated[
-    Path | None, option("--calldata", "Write the transactions to a JSON file for a wallet, and send nothing.", "FILE")
-]
+
+def parse_max_fee(gwei: float, name: str) -> int:
+    """Return the wei of --max-fee. InputError if it is out of range."""
+    return max(1, round(number(gwei, name, 1e-9, 1e9) * GWEI))
+
+
+def parse_checksum_address(text: str, name: str) -> str:
+    """Return an address with its checksum. InputError, which names `name`, if it is invalid."""
+    return checksum_address(parse_address(text, name))
+
+
+def parse_output(path: Path, name: str) -> Path:
+    """Return a path. InputError if no file can be written there, before the work for it begins."""
+    return check_output_file(path, "list of transactions")
+
+
+def address(name: str, text: str) -> Any:
+    """Declare an option whose value is an address."""
+    return option(name, text, "ADDRESS", parse=parse_checksum_address)
+
+
+MAX_FEE = option(
+    "--max-fee",
+    "Maximum fee per gas, in gwei. Default: twice the base fee plus a tip of at most 3 gwei; the command then "
+    "stops if the node suggests a higher tip, reports no base fee, or estimates more than 10 times the usual gas.",
+    "GWEI",
+    type=float,
+    parse=parse_max_fee,
+)
+JSON = option("--json", "Print JSON instead of text.")
+CALLDATA = option(
+    "--calldata",
+    "Write the transactions to a JSON file for a wallet, and send nothing.",
+    "FILE",
+    type=Path,
+    parse=parse_output,
+)
 
 
 @dataclass(frozen=True)
 class NodeOptions:
     """The node that a command uses."""
 
-    rpc: Annotated[str | None, option("--rpc", "URL of a node of the chain.", "URL", envvar="SHACKLED_RPC")] = None
-    chain_id: Annotated[int | None, option("--chain-id", "Stop unless the node belongs to this chain.", "N")] = None
+    rpc: str | None = option("--rpc", "URL of a node of the chain.", "URL", envvar="SHACKLED_RPC")
+    chain_id: int | None = option("--chain-id", "Stop unless the node belongs to this chain.", "N")
 
     def check(self) -> str:
         """Return the URL of the node. InputError without --rpc."""
@@ -73,25 +98,26 @@ class NodeOptions:
 class SignerOptions:
     """The account that signs."""
 
-    account: Annotated[
-        Path | None,
-        option(
-            "--account", f"Keystore file of the account. The password is prompted for, or read from {PASSWORD}.", "FILE"
-        ),
-    ] = None
-    private_key_env: Annotated[
-        str | None, option("--private-key-env", "Environment variable with the private key of the account.", "NAME")
-    ] = None
+    account: Path | None = option(
+        "--account", f"Keystore file of the account. The password is prompted for, or read from {PASSWORD}.", "FILE"
+    )
+    private_key_env: str | None = option(
+        "--private-key-env", "Environment variable with the private key of the account.", "NAME"
+    )
 
     @property
     def is_given(self) -> bool:
         """Whether an account was named."""
         return self.account is not None or self.private_key_env is not None
 
+    @property
+    def address(self) -> str:
+        """The address of the account."""
+        return str(self.signer.address)
+
     def check(self) -> None:
         """Raise InputError if two accounts were named, or if none can sign here."""
-        if self.account is not None and self.private_key_env is not None:
-            raise InputError("--account and --private-key-env exclude each other: give one of them")
+        exclude("--account", self.account, {"--private-key-env": self.private_key_env})
         if self.is_given:
             from ..deploy import signer_class
 
@@ -120,20 +146,27 @@ class SignerOptions:
 class PayerOptions(SignerOptions):
     """The account that signs and pays, the maximum price of gas, and whether to ask before sending."""
 
-    max_fee: MaxFee = None
-    yes: Annotated[bool, option("--yes -y", "Send without asking.")] = False
-
-    @property
-    def max_wei(self) -> int | None:
-        """The wei of --max-fee. InputError if it is out of range."""
-        return parse_max_fee(self.max_fee)
+    max_fee: int | None = MAX_FEE
+    yes: bool = option("--yes -y", "Send without asking.")
 
     def transactor(self, connection: Connection) -> Transactor:
         """Return a transactor of the account."""
         from ..deploy import Transactor
 
-        max_fee = self.max_wei
-        return Transactor(connection, self.signer, max_fee=max_fee)
+        return Transactor(connection, self.signer, max_fee=self.max_fee)
+
+    def send(self, collection: Collection, title: str, call: Call) -> Receipt:
+        """Print the price of a transaction to a collection, ask for consent, and send it. title: what it does."""
+        from ..tokens import plan
+
+        transactor = self.transactor(collection.connection)
+        quote = plan(transactor, call)
+        print_note(f"{collection.name} on chain {collection.connection.chain_id}: {title}")
+        self.confirm(transactor, [quote])
+        receipt = transactor.send(quote)
+        # printed even if what follows fails
+        print_note(f"done: transaction {receipt.hash}")
+        return receipt
 
     def confirm(self, transactor: Transactor, quotes: Sequence[Quote] = ()) -> None:
         """Print the price of transactions, and ask for consent unless --yes was given.
@@ -148,11 +181,6 @@ class PayerOptions(SignerOptions):
             raise InputError("nothing was sent: there is no terminal to ask for consent; --yes sends without asking")
         if not click.confirm(plain(f"Send from {checksum_address(transactor.address)}?"), err=True):
             raise click.Abort
-
-
-def parse_max_fee(gwei: float | None) -> int | None:
-    """Return the wei of --max-fee. InputError if it is out of range."""
-    return None if gwei is None else max(1, round(number(gwei, "--max-fee", 1e-9, 1e9) * 10**9))
 
 
 def print_price(quotes: Sequence[Quote]) -> None:
@@ -180,12 +208,6 @@ def print_rollup_fee(quotes: Sequence[Quote], to_stderr: bool = True) -> None:
     (print_note if to_stderr else print_line)(text)
 
 
-def check_calldata(path: Path | None) -> None:
-    """Raise InputError if --calldata names a file that cannot be written, before the work for it begins."""
-    if path is not None:
-        check_output_file(path, "list of transactions")
-
-
 def write_calls(path: Path, chain_id: int, quotes: Mapping[str, Quote], as_json: bool, **more: str) -> None:
     """Write transactions as JSON, so that a wallet can send them: the chain, and calls as in EIP-5792.
 
@@ -209,28 +231,11 @@ def write_calls(path: Path, chain_id: int, quotes: Mapping[str, Quote], as_json:
 
 
 def wallet_calls(plan: Plan) -> dict[str, Quote]:
-    """Return the transactions by which a wallet deploys what is missing, in order, by their purpose.
-
-    InputError if the chain has no deployment proxy, whose transaction is signed already.
-    """
-    quotes = {}
-    for step in plan.missing:
-        if step.deployment is None or step.quote is None:
-            raise InputError(
-                "the chain has no deterministic-deployment proxy, which --calldata cannot deploy: "
-                "run `shackled deploy` with an account first"
-            )
-        quotes[f"deploy {step.name}"] = step.quote
-    return quotes
+    """Return the transactions by which a wallet deploys what is missing, in order, by their purpose."""
+    return {f"deploy {step.name}": step.quote for step in plan.steps if step.quote is not None}
 
 
-def print_step(step: DeploymentStep, receipts: Sequence[Receipt], to_stdout: bool = False) -> None:
+def print_step(name: str, address: bytes, receipt: Receipt, to_stdout: bool = False) -> None:
     """Print what was deployed or stored, and the gas that it used."""
-    gas = sum(receipt.gas for receipt in receipts)
-    text = f"{step.name}: at {checksum_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}"
+    text = f"{name}: at {checksum_address(address)}, {receipt.gas:,} gas, transaction {receipt.hash}"
     (print_line if to_stdout else print_note)(text)
-
-
-def parse_checksum_address(text: str, name: str) -> str:
-    """Return an address with its checksum. InputError, which names `name`, if it is invalid."""
-    return checksum_address(parse_address(text, name))

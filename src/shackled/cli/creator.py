@@ -9,7 +9,6 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from itertools import islice
 from pathlib import Path
-from typing import Annotated
 from urllib.parse import quote
 
 from .._load import load, locate
@@ -29,12 +28,10 @@ NAMING, MOST_BESIDE = (".obj", ".mtl", ".gltf", ".ply", *SCENES), 2000
 
 
 def creator(
-    input: Annotated[str | None, argument("Mesh or scene file, piece of a dataset, or link, to open.", "INPUT")] = None,
-    port: Annotated[
-        int | None, option("--port", f"Port of the page (default: {PORT}, or a free one).", min=0, max=65535)
-    ] = None,
-    browser: Annotated[bool, option("--browser/--no-browser", "Open the page in the browser.")] = True,
-    out: Annotated[str | None, option("--out", "Only write the page, to a folder, for any web server.", "DIR")] = None,
+    input: str | None = argument("Mesh or scene file, piece of a dataset, or link, to open.", "INPUT"),
+    port: int | None = option("--port", f"Port of the page (default: {PORT}, or a free one).", min=0, max=65535),
+    browser: bool = option("--browser/--no-browser", "Open the page in the browser.", default=True),
+    out: str | None = option("--out", "Only write the page, to a folder, for any web server.", "DIR"),
 ) -> None:
     """Make pictures on a page in the browser, without code; what it shows stays on this machine."""
     page, one_file = built_page()

@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from functools import partial
 from itertools import groupby
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 from ..checks import choice
 from ..datasets import DATASETS, Piece, PieceCost, cost, figures, pieces
@@ -21,22 +22,16 @@ from .progress import LateBar
 #: Number of Genesis pieces in a gallery without --all.
 GENESIS_SHOWN = 48
 
-
-def _check_dataset(name: str | None) -> str | None:
-    return name if name is None else choice(name, "the dataset", tuple(DATASETS))
+DATASET = argument(f"{', '.join(DATASETS)}; all by default.", "DATASET", parse=partial(choice, choices=tuple(DATASETS)))
 
 
 def list_(
-    dataset: Annotated[
-        str | None,
-        argument(f"{', '.join(DATASETS)}; all by default.", "DATASET"),
-    ] = None,
-    as_json: Annotated[bool, option("--json", "Print a list of JSON objects.")] = False,
-    every: Annotated[bool, option("--all", "List each Genesis piece.")] = False,
+    dataset: str | None = DATASET,
+    as_json: bool = option("--json", "Print a list of JSON objects."),
+    every: bool = option("--all", "List each Genesis piece."),
 ) -> None:
     """List the pieces with their triangles, gas at 128 x 128, and licence."""
-    wanted = _check_dataset(dataset)
-    rows = [(piece, cost(piece)) for piece in pieces(wanted)]
+    rows = [(piece, cost(piece)) for piece in pieces(dataset)]
     if as_json:
         print(json.dumps([_object(piece, figures) for piece, figures in rows], ensure_ascii=False))
         return
@@ -44,12 +39,9 @@ def list_(
         members = list(group)
         print(f"{name}: {len(members):,} pieces")
         lines = [_summary(members)] if name == "genesis" and not every else [_line(*row) for row in members]
-        widths = [max(len(line[column]) for line in lines) for column in range(4)]
-        for line in lines:
-            print(
-                f"  {line[0]:{widths[0]}}  {line[1]:>{widths[1]}} triangles  {line[2]:>{widths[2]}} gas"
-                f"  {line[3]:{widths[3]}}  {line[4]}"
-            )
+        a, b, c, d, _ = (max(map(len, column)) for column in zip(*lines, strict=True))
+        for piece, triangles, gas, title, terms in lines:
+            print(f"  {piece:{a}}  {triangles:>{b}} triangles  {gas:>{c}} gas  {title:{d}}  {terms}")
 
 
 def _object(piece: Piece, figures: PieceCost) -> dict[str, Any]:
@@ -69,36 +61,25 @@ def _object(piece: Piece, figures: PieceCost) -> dict[str, Any]:
 def _line(piece: Piece, figures: PieceCost) -> tuple[str, str, str, str, str]:
     triangles = "-" if figures.triangles is None else f"{figures.triangles:,}"
     gas = "-" if figures.gas is None else f"{figures.gas:,}"
-    terms = piece.licence if piece.commercial else f"{piece.licence} (not for commercial use)"
-    if not piece.ready():
-        terms += f"; run: shackled datasets fetch {piece.name}"
-    return piece.name, triangles, gas, piece.title, terms
+    to_fetch = "" if piece.ready() else f"; run: shackled datasets fetch {piece.name}"
+    return piece.name, triangles, gas, piece.title, f"{piece.terms}{to_fetch}"
 
 
 def _summary(rows: Sequence[tuple[Piece, PieceCost]]) -> tuple[str, str, str, str, str]:
-    triangles = [figures.triangles for _, figures in rows if figures.triangles is not None]
-    gas = [figures.gas for _, figures in rows if figures.gas is not None]
-    first, last = rows[0][0], rows[-1][0]
-    return (
-        f"{first.name} .. {last.name}",
-        f"{min(triangles):,} to {max(triangles):,}" if triangles else "-",
-        f"{min(gas):,} to {max(gas):,}" if gas else "-",
-        "",
-        first.licence,
-    )
+    def span(values: Iterable[int | None]) -> str:
+        known = [value for value in values if value is not None]
+        return f"{min(known):,} to {max(known):,}" if known else "-"
+
+    (first, _), (last, _) = rows[0], rows[-1]
+    triangles, gas = span(figures.triangles for _, figures in rows), span(figures.gas for _, figures in rows)
+    return f"{first.name} .. {last.name}", triangles, gas, "", first.licence
 
 
 def fetch(
-    names: Annotated[list[str], argument("Names of models, as in `shackled datasets list`.", "NAME")],
-    own: Annotated[
-        Path | None,
-        option("--from", "Local mesh file or archive to use instead of a download.", "FILE"),
-    ] = None,
-    cache: Annotated[
-        Path | None,
-        option("--cache", "Cache folder; $SHACKLED_CACHE or that of the system by default.", "DIR"),
-    ] = None,
-    again: Annotated[bool, option("--again", "Prepare models again even if they are in the cache.")] = False,
+    names: tuple[str, ...] = argument("Names of models, as in `shackled datasets list`.", "NAME", required=True),
+    own: Path | None = option("--from", "Local mesh file or archive to use instead of a download.", "FILE"),
+    cache: Path | None = option("--cache", "Cache folder; $SHACKLED_CACHE or that of the system by default.", "DIR"),
+    again: bool = option("--again", "Prepare models again even if they are in the cache."),
 ) -> None:
     """Download third-party models, clean and simplify them, and keep the result."""
     from ..datasets import VARIABLE
@@ -117,31 +98,24 @@ def _fetch(model: Any, own: Path | None, again: bool) -> None:
 
     terms = "" if model.commercial else "; not for commercial use"
     print(f"{model.name}: {model.title} by {model.author}; licence: {model.licence}{terms}", file=sys.stderr)
-    if own is not None:
-        if not take(model, own):
-            print(
-                f"{model.name}: {own} is not the published file, so its checksum was not compared;"
-                " check its licence yourself",
-                file=sys.stderr,
-            )
-    else:
+    if own is None:
         with LateBar(model.name, 0) as bar:
             done = fetch(model, again, bar.set)
         if not done:
             source = "from a local file; --again downloads the published one" if model.is_own() else "already"
             print(f"{model.name}: it is in the cache {source}", file=sys.stderr)
+    elif not take(model, own):
+        note = "is not the published file, so its checksum was not compared; check its licence yourself"
+        print(f"{model.name}: {own} {note}", file=sys.stderr)
     name, triangles, gas, *_ = _line(model.piece(), cost(model.piece()))
     print(f"{name}: {triangles} triangles, {gas} gas; shackled render {name}")
 
 
 def showcase(
-    names: Annotated[
-        list[str] | None,
-        argument("Scenes, such as glass; all by default.", "NAME"),
-    ] = None,
-    output: Annotated[Path, option("-o --output", "Output folder.", "DIR")] = Path("showcase"),
+    names: tuple[str, ...] = argument("Scenes, such as glass; all by default.", "NAME"),
+    output: Path = option("-o --output", "Output folder.", "DIR", default=Path("showcase")),
 ) -> None:
-    """Render the scenes of the showcase into a folder, with a page (index.html) and a contact sheet (sheet.png)."""
+    """Render the scenes of the showcase into a folder, with a contact sheet (sheet.png)."""
     from ..datasets.showcase import draw_showcase
     from ..datasets.showcase import pieces as scenes
 
@@ -153,35 +127,27 @@ def showcase(
     width = max(len(piece.name) for piece in chosen)
     for drawing in draw_showcase(output, chosen):
         print(f"{drawing.name:{width}}  {figures(drawing)}", flush=True)
-    print(f"{output / 'index.html'}: {plural(len(chosen), 'scene')}")
+    print(f"{output / 'sheet.png'}: {plural(len(chosen), 'scene')}")
 
 
 def gallery(
-    outputs: Annotated[
-        list[Path] | None,
-        option("-o --output", "Output file, .html or .png; can be repeated.", "FILE"),
-    ] = None,
-    dataset: Annotated[
-        str | None,
-        argument(f"{', '.join(DATASETS)}; all by default.", "DATASET"),
-    ] = None,
-    every: Annotated[bool, option("--all", f"Show all Genesis pieces instead of {GENESIS_SHOWN}.")] = False,
-    jobs: Annotated[int | None, option("--jobs", "Number of worker processes; one per core by default.", min=1)] = None,
+    outputs: tuple[Path, ...] = option("-o --output", "Output file, .html or .png; can be repeated.", "FILE"),
+    dataset: str | None = DATASET,
+    every: bool = option("--all", f"Show all Genesis pieces instead of {GENESIS_SHOWN}."),
+    jobs: int | None = option("--jobs", "Number of worker processes; one per core by default.", min=1),
 ) -> None:
     """Render all pieces into a self-contained HTML page or a contact sheet. Finished drawings are cached."""
     from ..datasets import draw_all, page, sheet
 
-    wanted = _check_dataset(dataset)
     paths = outputs or [Path("gallery.html")]
     for path in paths:
         if path.suffix.lower() not in (".html", ".png"):
             raise InputError(f"the gallery {path} must end in .html or .png")
         check_output_file(path, "gallery")
-    shown, genesis = [], 0
-    for piece in pieces(wanted):
-        genesis += piece.dataset == "genesis"
-        if every or piece.dataset != "genesis" or genesis <= GENESIS_SHOWN:
-            shown.append(piece)
+    found = list(pieces(dataset))
+    genesis = [piece for piece in found if piece.dataset == "genesis"]
+    left_out = set() if every else {piece.name for piece in genesis[GENESIS_SHOWN:]}
+    shown = [piece for piece in found if piece.name not in left_out]
     ready = [piece for piece in shown if piece.ready()]
     drawings = {}
     with LateBar("drawing") as bar:

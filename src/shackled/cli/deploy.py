@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from ..chain import PATIENCE, Connection
 from ..errors import InputError
 from ..ethereum import GWEI, at_most, checksum_address, rounded
 from .chain_options import (
-    Calldata,
+    CALLDATA,
     NodeOptions,
     PayerOptions,
-    check_calldata,
     print_rollup_fee,
     print_step,
     wallet_calls,
@@ -29,40 +29,34 @@ if TYPE_CHECKING:
 def deploy(
     node: NodeOptions,
     payer: PayerOptions,
-    contracts: Annotated[
-        str | None,
-        option(
-            "--contracts",
-            "Comma-separated names: Engine, FragmentEngine, AntialiasedEngine, AntialiasedFragmentEngine, "
-            "AntialiasedSmoothEngine, EffectsEngine, Effects, Renderer, Original, Genesis, PngEncoder, Turntable, "
-            "GlbEncoder, Studio, Library, Web, Editions, GenesisMetadata. Default: all but GenesisMetadata. "
-            "Required contracts are added.",
-            "NAMES",
-        ),
-    ] = None,
-    calldata: Calldata = None,
-    as_json: Annotated[bool, option("--json", "Print one JSON object instead of text.")] = False,
-    standard_json: Annotated[
-        Path | None,
-        option("--standard-json", "Folder for the input of source verification; default: deployed-CHAIN.", "DIR"),
-    ] = None,
-    rpc_timeout: Annotated[float, option("--rpc-timeout", "Timeout of a call to the node.", "SECONDS")] = PATIENCE,
+    contracts: str | None = option(
+        "--contracts",
+        "Comma-separated names: Engine, FragmentEngine, AntialiasedEngine, AntialiasedFragmentEngine, "
+        "AntialiasedSmoothEngine, EffectsEngine, Effects, Renderer, Original, Genesis, PngEncoder, Turntable, "
+        "GlbEncoder, Studio, Library, Web, Editions, GenesisMetadata. Default: all but GenesisMetadata. "
+        "Required contracts are added.",
+        "NAMES",
+    ),
+    calldata: Path | None = CALLDATA,
+    as_json: bool = option("--json", "Print one JSON object instead of text."),
+    standard_json: Path | None = option(
+        "--standard-json", "Folder for the input of source verification; default: deployed-CHAIN.", "DIR"
+    ),
+    rpc_timeout: float = option("--rpc-timeout", "Timeout of a call to the node.", "SECONDS", default=PATIENCE),
 ) -> None:
     """Deploy the contracts, at the same addresses on every chain. Prints the price first and skips what exists."""
     from ..deploy import CONTRACTS, STANDARD, Deployer, current_fees, deployments
 
     node.check()
     payer.check()
-    check_calldata(calldata)
     names = STANDARD if contracts is None else [name.strip() for name in contracts.split(",") if name.strip()]
     if not names:
         raise InputError(f"--contracts is empty: name one or more of {', '.join(CONTRACTS)}")
-    max_fee = payer.max_wei
     wanted = deployments(names)
     connection = node.connect(rpc_timeout)
     deployer = Deployer(connection)
     deployer.book.entries(connection.chain_id)  # report a damaged file before anything is paid
-    plan = deployer.plan(wanted, current_fees(connection, max_fee))
+    plan = deployer.plan(wanted, current_fees(connection, payer.max_fee))
     folder = standard_json or Path(f"deployed-{connection.chain_id}")
     receipts: list[Receipt] = []
     if plan.missing:
@@ -80,7 +74,7 @@ def deploy(
         # while nothing is paid yet
         deployer.book.check()
         _write_verification(folder, connection.chain_id, wanted)
-        report = None if as_json else lambda step, done: print_step(step, done, to_stdout=True)
+        report = None if as_json else partial(print_step, to_stdout=True)
         receipts = deployer.execute(plan, transactor, report)
     else:
         deployer.record(wanted)
@@ -114,12 +108,12 @@ def _print_plan(plan: Plan, connection: Connection, to_stderr: bool) -> None:
     rows = []
     for step in plan.steps:
         row = [step.name, checksum_address(step.address)]
-        if step.is_deployed:
+        if step.quote is None:
             rows.append([*row, "deployed", "", "", ""])
             continue
-        estimate = None if step.quote is None else step.quote.estimate
-        estimated = "unknown" if estimate is None else f"{estimate:,}"
-        rows.append([*row, f"{step.gas:,}", estimated, rounded(step.cost), at_most(step.ceiling)])
+        quote = step.quote
+        estimated = "unknown" if quote.estimate is None else f"{quote.estimate:,}"
+        rows.append([*row, f"{quote.call.gas:,}", estimated, rounded(quote.likely), at_most(quote.ceiling)])
     rows.append(["total", "", f"{plan.gas:,}", "", rounded(plan.cost), at_most(plan.ceiling)])
     print_table(("contract", "address", "gas", "estimate", "ether", "at most"), rows, to_stderr=to_stderr)
     print_rollup_fee(plan.quotes, to_stderr)

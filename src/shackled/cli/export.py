@@ -6,7 +6,7 @@ import json
 import sys
 import time
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 from .._load import locate
 from ..datasets import Piece
@@ -16,7 +16,7 @@ from ..studio import make_glb
 from ..web import check_page
 from ..web import export as write_page
 from ..whole_file import check_output_file
-from .look_options import Input, Look, load_with
+from .look_options import INPUT, load_with
 from .option import option
 from .progress import LateBar
 
@@ -26,17 +26,15 @@ SLOW = 2_000_000_000
 
 
 def export(
-    input: Input,
-    output: Annotated[
-        str | None,
-        option("-o --output", "File to write: a page, .html, or a model, .glb. Named after INPUT by default.", "FILE"),
-    ] = None,
-    title: Annotated[
-        str | None, option("--title", "Title of the page (default: that of the piece, or the name of FILE).", "TEXT")
-    ] = None,
-    as_json: Annotated[bool, option("--json", "Print a JSON object instead of text.")] = False,
-    *,
-    look: Look,
+    input: str = INPUT,
+    output: str | None = option(
+        "-o --output", "File to write: a page, .html, or a model, .glb. Named after INPUT by default.", "FILE"
+    ),
+    title: str | None = option(
+        "--title", "Title of the page (default: that of the piece, or the name of FILE).", "TEXT"
+    ),
+    as_json: bool = option("--json", "Print a JSON object instead of text."),
+    **look: Any,
 ) -> None:
     """Write a scene as an interactive HTML page of one file, which needs no network, or as a .glb model.
 
@@ -44,57 +42,43 @@ def export(
     """
     source = locate(input)
     stem = source.file_stem if isinstance(source, Piece) else source.stem
-    is_model = output is not None and Path(output).suffix.lower() == ".glb"
-    path = (
-        check_output_file(Path(output or ""), "model") if is_model else check_page(output or f"{stem or 'scene'}.html")
-    )
+    path = Path(output or f"{stem or 'scene'}.html")
+    is_model = path.suffix.lower() == ".glb"
+    path = check_output_file(path, "model") if is_model else check_page(path)
+    if is_model and title is not None:
+        raise InputError("--title is for pages: a model has no title")
     if isinstance(source, Piece) and source.notice:
         print(source.notice, file=sys.stderr)
     started = time.perf_counter()
-    if is_model:
-        if title is not None:
-            raise InputError("--title is for pages: a model has no title")
-        with LateBar("writing"):
+    report: dict[str, Any] = {"input": input}
+    with LateBar("writing" if is_model else "rendering"):
+        if is_model:
             scene = load_with(input, look, is_picture=False)
             made = make_glb(scene)
             made.save(path)
-        report = {
-            "input": input,
-            "gas": made.gas,
-            "seconds": round(time.perf_counter() - started, 6),
-            "output": str(path),
-            "bytes": len(made.content),
-        }
+            report["gas"] = made.gas
+        else:
+            image = write_page(source, path, title=title, **look)
+            report |= {"width": image.width, "height": image.height, "triangles": image.triangles, "gas": image.gas}
+    report |= {"seconds": round(time.perf_counter() - started, 6), "output": str(path), "bytes": path.stat().st_size}
+    gas, size = f"{report['gas']:,}", report["bytes"]
+    if is_model:
         if missing := _left_out(scene):
             print(f"the model leaves out {missing}", file=sys.stderr)
-        text = f"model    {path}, {report['bytes']:,} bytes\ngas      {made.gas:,}\ntime     {report['seconds']:.3f} s"
-        print(json.dumps(report) if as_json else text)
-        return
-    with LateBar("rendering"):
-        image = write_page(source, path, title=title, **look)
-    seconds = time.perf_counter() - started
-    size = path.stat().st_size
-    report = {
-        "input": input,
-        "width": image.width,
-        "height": image.height,
-        "triangles": image.triangles,
-        "gas": image.gas,
-        "seconds": round(seconds, 6),
-        "output": str(path),
-        "bytes": size,
-        "sha256": image.sha256,
-    }
-    if not image.covered_pixels:
-        print("nothing is visible; the picture shows only the background", file=sys.stderr)
-    if size > LARGE:
-        print(f"the page is large, {size / 1e6:.1f} MB: --max-triangles makes it smaller", file=sys.stderr)
-    if image.gas is not None and image.gas > SLOW:
-        print(
-            f"the picture takes {image.gas:,} gas: a browser takes about {image.gas / 1e8:.0f} s; see --size",
-            file=sys.stderr,
-        )
-    print(json.dumps(report) if as_json else _words(report, path))
+        rows = {"model": f"{path}, {size:,} bytes", "gas": gas}
+    else:
+        report["sha256"] = image.sha256
+        if not image.covered_pixels:
+            print("nothing is visible; the picture shows only the background", file=sys.stderr)
+        if size > LARGE:
+            print(f"the page is large, {size / 1e6:.1f} MB: --max-triangles makes it smaller", file=sys.stderr)
+        if (image.gas or 0) > SLOW:
+            seconds = report["gas"] / 1e8
+            print(f"the picture takes {gas} gas: a browser takes about {seconds:.0f} s; see --size", file=sys.stderr)
+        picture = f"{image.width} x {image.height} pixels, {gas} gas"
+        rows = {"page": f"{path}, {size / 1e6:.2f} MB", "picture": picture, "sha256": image.sha256}
+    rows["time"] = f"{report['seconds']:.3f} s"
+    print(json.dumps(report) if as_json else "\n".join(f"{name:8} {value}" for name, value in rows.items()))
 
 
 def _left_out(scene: Scene) -> str:
@@ -106,13 +90,3 @@ def _left_out(scene: Scene) -> str:
         "the fading of the ground": scene.ground is not None or any(each.fade is not None for each in scene.objects),
     }
     return ", ".join(name for name, is_there in parts.items() if is_there)
-
-
-def _words(report: dict[str, Any], path: Path) -> str:
-    rows = {
-        "page": f"{path}, {report['bytes'] / 1e6:.2f} MB",
-        "picture": f"{report['width']} x {report['height']} pixels, {report['gas']:,} gas",
-        "sha256": report["sha256"],
-        "time": f"{report['seconds']:.3f} s",
-    }
-    return "\n".join(f"{name:8} {value}" for name, value in rows.items())

@@ -63,24 +63,29 @@ class Facts:
 
 def facts_of(place: Path | Piece | Link) -> Facts:
     """Return the facts of a file or a piece."""
-    objects = _objects(place)
+    kind = place.suffix.lower() if isinstance(place, Path) else ""
+    if kind in READERS and isinstance(place, Path):
+        parts = read_model(place)
+        objects = [
+            Object(each.mesh, material=evolve(Material(), **each.material), opacity=each.opacity) for each in parts
+        ]
+    else:
+        objects = [*load(place).objects]
     if not objects:
         raise InputError(f"{place} has no objects")
     positions = np.concatenate([each.world_positions() for each in objects])
     faces = faces_of_all(each.mesh for each in objects)
-    low, high = positions.min(axis=0), positions.max(axis=0)
     single, crowded, disagreeing = _edges(positions, faces)
-    textures = [each.material.texture for each in objects if each.material.texture is not None]
     is_tight = not (single or crowded or disagreeing)
-    from_outside = is_closed(Mesh(positions, faces))
+    textures = [each.material.texture for each in objects if each.material.texture is not None]
     return Facts(
-        low=low.tolist(),
-        high=high.tolist(),
+        low=positions.min(axis=0).tolist(),
+        high=positions.max(axis=0).tolist(),
         vertices=len(positions),
         triangles=len(faces),
         parts=len(objects),
         closed=is_tight,
-        inside_out=is_tight and not from_outside,
+        inside_out=is_tight and not is_closed(Mesh(positions, faces)),
         open_edges=single,
         crowded_edges=crowded,
         disagreeing_edges=disagreeing,
@@ -91,17 +96,8 @@ def facts_of(place: Path | Piece | Link) -> Facts:
         colors=len(np.unique(np.concatenate([each.mesh.rgba[:, :3] for each in objects]), axis=0)),
         opaque=all(each.is_opaque for each in objects),
         normals=sum(each.mesh.normals is not None for each in objects),
-        animations=animations_of(place) if isinstance(place, Path) and place.suffix.lower() in GLTF else [],
+        animations=animations_of(place) if kind in GLTF and isinstance(place, Path) else [],
     )
-
-
-def _objects(place: Path | Piece | Link) -> list[Object]:
-    if isinstance(place, Path) and place.suffix.lower() in READERS:
-        return [
-            Object(part.mesh, material=evolve(Material(), **part.material), opacity=part.opacity)
-            for part in read_model(place)
-        ]
-    return [*load(place).objects]
 
 
 def _edges(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> tuple[int, int, int]:

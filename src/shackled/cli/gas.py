@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from itertools import count
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 from ..chain import CHAINS, PATIENCE, NodeChain, open_chain, open_node
 from ..errors import InputError
@@ -21,8 +23,8 @@ from ..gas import (
 )
 from ..values import plural
 from ..whole_file import check_output_file, write_output
-from .look_options import FIT, Input, Look, load_with
-from .option import option
+from .look_options import FIT, INPUT, load_with
+from .option import exclude, need, option
 from .output import print_json, print_line, print_table
 from .progress import LateBar
 
@@ -32,64 +34,39 @@ ROWS = 20
 
 
 def gas(
-    input: Input,
-    *,
-    look: Look,
-    evm: Annotated[
-        str | None,
-        option("--evm", f"EVM to measure in: {', '.join(CHAINS)}; default: revm.", "NAME"),
-    ] = None,
-    rpc: Annotated[
-        str | None,
-        option("--rpc", "Node that also counts the gas, and runs the search.", "URL", envvar="SHACKLED_RPC"),
-    ] = None,
-    address: Annotated[str | None, option("--address", "Address of a renderer on the node's chain.", "ADDRESS")] = None,
-    rpc_timeout: Annotated[
-        float | None, option("--rpc-timeout", f"Timeout of a call to the node (default: {PATIENCE:g}).", "SECONDS")
-    ] = None,
-    fit: Annotated[str | None, FIT] = None,
-    as_json: Annotated[bool, option("--json", "Print a JSON object instead of tables.")] = False,
-    profile: Annotated[
-        str | None,
-        option(
-            "--profile",
-            "Also show gas by function and line, and write a flame graph, an .svg file.",
-            "FILE",
-        ),
-    ] = None,
-    opcodes: Annotated[
-        bool,
-        option(
-            "--opcodes",
-            "Also show gas by kind of opcode, by stage, and with --profile by function: stack, jumps, memory.",
-        ),
-    ] = False,
-    stages: Annotated[bool, option("--stages/--no-stages", "Show gas by stage.")] = True,
-    gas_price: Annotated[float, option("--gas-price", "Gas price in gwei.", "GWEI")] = 1.0,
-    eth_price: Annotated[float | None, option("--eth-price", "Price of one ether in US dollars.", "USD")] = None,
-    lower: Annotated[
-        int, option("--lower", "Lower bound of the search: an insufficient gas limit.", "GAS", "Search")
-    ] = 0,
-    upper: Annotated[
-        int | None,
-        option(
-            "--upper", "Upper bound of the search: a sufficient gas limit. Default: found by doubling.", "GAS", "Search"
-        ),
-    ] = None,
+    input: str = INPUT,
+    evm: str | None = option("--evm", f"EVM to measure in: {', '.join(CHAINS)}; default: revm.", "NAME"),
+    rpc: str | None = option(
+        "--rpc", "Node that also counts the gas, and runs the search.", "URL", envvar="SHACKLED_RPC"
+    ),
+    address: str | None = option("--address", "Address of a renderer on the node's chain.", "ADDRESS"),
+    rpc_timeout: float | None = option(
+        "--rpc-timeout", f"Timeout of a call to the node (default: {PATIENCE:g}).", "SECONDS"
+    ),
+    fit: str | None = FIT,
+    as_json: bool = option("--json", "Print a JSON object instead of tables."),
+    profile: str | None = option(
+        "--profile", "Also show gas by function and line, and write a flame graph, an .svg file.", "FILE"
+    ),
+    opcodes: bool = option(
+        "--opcodes", "Also show gas by kind of opcode, by stage, and with --profile by function: stack, jumps, memory."
+    ),
+    stages: bool = option("--stages/--no-stages", "Show gas by stage.", default=True),
+    gas_price: float = option("--gas-price", "Gas price in gwei.", "GWEI", default=1.0),
+    eth_price: float | None = option("--eth-price", "Price of one ether in US dollars.", "USD"),
+    **look: Any,
 ) -> None:
     """Measure the gas of a picture: exactly, by binary search, by stage and by line, and compare it with limits."""
     path = None if profile is None else _check_profile(profile)
     _check_price(gas_price, "--gas-price", "gwei per gas")
     if eth_price is not None:
         _check_price(eth_price, "--eth-price", "US dollars per ether")
-    for name, given in (("--profile", path is not None), ("--opcodes", opcodes)):
-        if given and not stages:
-            raise InputError(f"{name} and --no-stages exclude each other: give one of them")
+    exclude("--no-stages", not stages, {"--profile": path, "--opcodes": opcodes})
     place = open_chain(evm)
     node = _open_node(rpc, address, rpc_timeout)
     scene = load_with(input, look, fit)
     with LateBar("searching") as bar:
-        report = make_report(scene, place, lower, upper, stages, Steps(as_json, bar).show, node)
+        report = make_report(scene, place, stages=stages, on_step=show_steps(as_json, bar), searched=node)
         counted = None if node is None else node.call("Renderer", render_call(scene))
     if path is not None and report.profile is not None:
         write_output(path, flame_graph(report.profile, input).encode())
@@ -114,13 +91,10 @@ def gas(
 
 
 def _open_node(rpc: str | None, address: str | None, timeout: float | None) -> NodeChain | None:
-    if rpc is not None and rpc.strip():
-        # the variable may name several
-        return open_node(rpc.split()[0], address, timeout)
-    for name, value in (("--address", address), ("--rpc-timeout", timeout)):
-        if value is not None:
-            raise InputError(f"{name} needs --rpc")
-    return None
+    # the variable may name several
+    urls = (rpc or "").split()
+    need("--rpc", urls, {"--address": address, "--rpc-timeout": timeout})
+    return open_node(urls[0], address, timeout) if urls else None
 
 
 def _check_profile(name: str) -> Path:
@@ -135,23 +109,21 @@ def _check_price(value: float, name: str, unit: str) -> None:
         raise InputError(f"{name} must be 0 or more {unit}, not {value}")
 
 
-class Steps:
-    """The steps of a search: a line for each unless it is quiet, and a bar."""
+def show_steps(quiet: bool, bar: LateBar) -> Callable[[SearchStep], None]:
+    """Return what shows the steps of a search: a line for each unless it is quiet, and a bar."""
+    numbers = count(1)
 
-    def __init__(self, quiet: bool, bar: LateBar) -> None:
-        """Take where to show them."""
-        self._quiet, self._bar, self._number = quiet, bar, 0
-
-    def show(self, step: SearchStep) -> None:
-        """Show a step."""
-        self._number += 1
-        if not self._quiet:
+    def show(step: SearchStep) -> None:
+        number = next(numbers)
+        if not quiet:
             verdict = "sufficient" if step.enough else "insufficient"
             bounds = f"{step.lower:,} < gas" + ("" if step.upper is None else f" <= {step.upper:,}")
-            self._bar.print(f"call {self._number:2}: {step.limit:>14,} {verdict}; {bounds}")
+            bar.print(f"call {number:2}: {step.limit:>14,} {verdict}; {bounds}")
         if step.upper is not None:
             # halving
-            self._bar.set(self._number, self._number + (step.upper - step.lower - 1).bit_length())
+            bar.set(number, number + (step.upper - step.lower - 1).bit_length())
+
+    return show
 
 
 def print_report(report: GasReport, gas_price: float, eth_price: float | None) -> None:
@@ -216,17 +188,15 @@ def _figures(report: GasReport, gas_price: float, eth_price: float | None) -> di
     ether = report.ether(gas_price)
     dollars = "" if eth_price is None else f", {ether * eth_price:,.2f} US dollars at {eth_price:,g} per ether"
     per = (report.per(report.triangles), report.per(report.lit_pixels))
-    figures = {
+    return {
         "picture": f"{report.scene.width} x {report.scene.height} pixels; "
         f"{plural(report.triangles, 'triangle')}, {plural(report.lit_pixels, 'lit pixel')}",
         "gas": f"{exact.gas:,} of the execution, exact ({report.chain})",
         "searched": f"{found.gas:,} by {found.calls} calls, which narrowed the limits from "
         f"{bracket.lower:,} .. {bracket.upper:,} to {last.lower:,} .. {last.upper:,}",
-        "margin": f"{margin.gas:,}, {_share(margin.gas, exact.gas)}: "
-        + (
-            f"a 64th of the gas is not passed on to an engine, which needs {exact.dearest_call:,}, "
-            f"so {margin.kept:,} must be left; the Renderer uses {margin.after:,} of it after the call"
-        ),
+        "margin": f"{margin.gas:,}, {_share(margin.gas, exact.gas)}: a 64th of the gas is not passed on to an engine, "
+        f"which needs {exact.dearest_call:,}, so {margin.kept:,} must be left; "
+        f"the Renderer uses {margin.after:,} of it after the call",
         "intrinsic": f"{exact.intrinsic_gas:,} to send the scene, not included in the figures above",
         "each": ", ".join(
             f"{gas:,.0f} per {what}"
@@ -236,7 +206,6 @@ def _figures(report: GasReport, gas_price: float, eth_price: float | None) -> di
         "transaction": f"{exact.transaction_gas:,} gas, {ether:.6g} ether at {gas_price:g} gwei{dollars}; "
         f"needs a limit of {report.request_limit:,}",
     }
-    return {label: text for label, text in figures.items() if text}
 
 
 def _share(part: int, whole: int) -> str:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import warnings
 from collections.abc import Sequence
 from contextlib import ExitStack, nullcontext
-from dataclasses import asdict, dataclass
-from typing import Annotated, Any
+from dataclasses import asdict, fields
+from typing import Any
 
 from attrs import evolve
 
@@ -21,7 +21,7 @@ from .option import option, with_options
 from .output import print_json, print_line
 from .picture import Source, fits_of_made
 from .progress import LateBar
-from .several import Inputs, inputs_of
+from .several import INPUTS, inputs_of
 from .streams import FORMATS, STREAM, as_stdin
 
 #: The sides of the pictures whose gas is told, in pixels.
@@ -29,13 +29,12 @@ SIDES = (128, 256, 512)
 
 
 def info(
-    inputs: Inputs,
-    gas: Annotated[bool, option("--gas/--no-gas", "Draw it, to count the gas of pictures and where they fit.")] = True,
-    kind: Annotated[
-        str | None,
-        option("--format", f"Format of standard input: {', '.join(FORMATS)}; default: by its content.", "FORMAT"),
-    ] = None,
-    as_json: Annotated[bool, option("--json", "Print a JSON object instead of text, for each input.")] = False,
+    inputs: tuple[str, ...] = INPUTS,
+    gas: bool = option("--gas/--no-gas", "Draw it, to count the gas of pictures and where they fit.", default=True),
+    kind: str | None = option(
+        "--format", f"Format of standard input: {', '.join(FORMATS)}; default: by its content.", "FORMAT"
+    ),
+    as_json: bool = option("--json", "Print a JSON object instead of text, for each input."),
 ) -> None:
     """Tell what a file holds, what of it is left out, and what its pictures cost."""
     failed: list[Exception] = []
@@ -53,48 +52,37 @@ def info(
                     print_json({"input": source.name, "error": with_options(str(error))})
                 continue
             if as_json:
-                print_json(told.to_json())
+                print_json(told)
             else:
-                for line in [*([] if is_first else [""]), *told.lines()]:
+                print("\n" * (not is_first), end="")
+                for line in _lines(told):
                     print_line(line)
                 is_first = False
     if failed:
         raise ExceptionGroup(f"{len(sources) - len(failed)} read, {len(failed)} failed", failed)
 
 
-@dataclass(frozen=True)
-class Told:
-    """What is told of an input. pictures: size, gas and limits of each; None if they were not drawn."""
-
-    name: str
-    facts: Facts
-    notes: list[str]
-    pictures: list[dict[str, Any]] | None
-
-    def to_json(self) -> dict[str, Any]:
-        """Return the object of --json."""
-        drawn = {} if self.pictures is None else {"pictures": self.pictures}
-        return {"input": self.name, **asdict(self.facts), "notes": self.notes, **drawn}
-
-    def lines(self) -> list[str]:
-        """Return the lines of text."""
-        rows = [("input", self.name), *_words(self.facts).items(), *(("note", note) for note in self.notes)]
-        for each in self.pictures or ():
-            cost = each["fits"] if each["gas"] is None else f"{each['gas']:,} gas, {each['fits']}"
-            if each["triangles"] < self.facts.triangles:
-                cost = f"simplified to {plural(each['triangles'], 'triangle')}, {cost}"
-            rows.append((f"{each['size']} px", cost))
-        return [f"{name:9} {text}" for name, text in rows]
-
-
-def _told(source: Source, gas: bool) -> Told:
+def _told(source: Source, gas: bool) -> dict[str, Any]:
+    """Return the object of --json. gas: whether there are pictures, with the size, gas and limits of each."""
     named = as_stdin(source.place) if source.name == STREAM else nullcontext()
     with warnings.catch_warnings(record=True) as caught, LateBar("reading"), named:
         place = locate(source.place)
         scene, facts = load(place), facts_of(place)
     notes = [with_options(str(each.message)) for each in caught if issubclass(each.category, InputWarning)]
-    pictures = [_picture(scene, side, is_model(place)) for side in SIDES] if gas else None
-    return Told(source.name, facts, list(dict.fromkeys(notes)), pictures)
+    drawn = {"pictures": [_picture(scene, side, is_model(place)) for side in SIDES]} if gas else {}
+    return {"input": source.name, **asdict(facts), "notes": list(dict.fromkeys(notes)), **drawn}
+
+
+def _lines(told: dict[str, Any]) -> list[str]:
+    """Return the lines of text."""
+    facts = Facts(**{each.name: told[each.name] for each in fields(Facts)})
+    rows = [("input", told["input"]), *_words(facts).items(), *(("note", note) for note in told["notes"])]
+    for each in told.get("pictures", ()):
+        cost = each["fits"] if each["gas"] is None else f"{each['gas']:,} gas, {each['fits']}"
+        if each["triangles"] < facts.triangles:
+            cost = f"simplified to {plural(each['triangles'], 'triangle')}, {cost}"
+        rows.append((f"{each['size']} px", cost))
+    return [f"{name:9} {text}" for name, text in rows]
 
 
 def _picture(scene: Scene, side: int, is_simplified: bool) -> dict[str, Any]:
@@ -115,37 +103,27 @@ def _picture(scene: Scene, side: int, is_simplified: bool) -> dict[str, Any]:
 
 def _words(facts: Facts) -> dict[str, str]:
     """Return facts as text, by the names of the lines."""
+    vertices, parts = plural(facts.vertices, "vertex", "vertices"), plural(facts.parts, "part")
     sizes = [high - low for low, high in zip(facts.low, facts.high, strict=True)]
-    return {
-        "mesh": ", ".join(
-            [
-                plural(facts.vertices, "vertex", "vertices"),
-                plural(facts.triangles, "triangle"),
-                plural(facts.parts, "part"),
-            ]
-        ),
+    textures = [f"{width} x {height}" for width, height in facts.textures]
+    materials = [
+        plural(facts.materials, "material"),
+        f"textures of {listed(textures)} texels" if textures else "no textures",
+        plural(facts.colors, "colour"),
+        "opaque" if facts.opaque else "not opaque",
+    ]
+    rows = {
+        "mesh": f"{vertices}, {plural(facts.triangles, 'triangle')}, {parts}",
         "bounds": f"{_numbers(facts.low)} to {_numbers(facts.high)}, size {_numbers(sizes)}",
         "up": _up(facts),
         "surface": _surface(facts),
-        "material": ", ".join(
-            [
-                plural(facts.materials, "material"),
-                f"textures of {listed([f'{width} x {height}' for width, height in facts.textures])} texels"
-                if facts.textures
-                else "no textures",
-                plural(facts.colors, "colour"),
-                "opaque" if facts.opaque else "not opaque",
-            ]
-        ),
-        "normals": "none, they are computed"
-        if not facts.normals
-        else f"of {facts.normals} of {plural(facts.parts, 'part')}",
-    } | ({"animated": _animations(facts)} if facts.animations else {})
-
-
-def _animations(facts: Facts) -> str:
-    names = [f"{number} {name}".strip() for number, (name, _) in enumerate(facts.animations)]
-    return ", ".join(f"{name} ({length:.6g} s)" for name, (_, length) in zip(names, facts.animations, strict=True))
+        "material": ", ".join(materials),
+        "normals": f"of {facts.normals} of {parts}" if facts.normals else "none, they are computed",
+    }
+    if facts.animations:
+        named = [(f"{number} {name}".strip(), length) for number, (name, length) in enumerate(facts.animations)]
+        rows["animated"] = ", ".join(f"{name} ({length:.6g} s)" for name, length in named)
+    return rows
 
 
 def _up(facts: Facts) -> str:

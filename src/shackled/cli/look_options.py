@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Callable
-from inspect import Parameter
-from typing import Annotated, Any
+from collections.abc import Callable, Iterable
+from functools import partial
+from typing import Any
 
-from .._load import load, load_frames, load_picture, locate
+import click
+
+from .._load import load, load_picture, locate
 from ..datasets import Piece
 from ..errors import InputError
 from ..scene import (
@@ -24,8 +26,7 @@ from ..scene import (
     Setting,
     checked_look,
 )
-from .command import COMMON
-from .option import argument, option
+from .option import argument, option, parameter
 from .progress import LateBar
 
 
@@ -37,7 +38,7 @@ def parse_sides(text: str, name: str) -> tuple[int, int]:
     return int(match[1]), int(match[2] or match[1])
 
 
-def parse_size(text: str, name: str = "--size") -> tuple[int, int]:
+def parse_size(text: str, name: str) -> tuple[int, int]:
     """Return width and height of a picture, as `parse_sides`."""
     width, height = parse_sides(text, name)
     if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
@@ -100,24 +101,36 @@ def parse_light(text: str) -> Light:
     return Light(kind, vector, color, parse_vector(rest[1], "--light"), inner, outer)
 
 
-#: The type of a value for click, its metavar, and its converter.
-_KINDS: dict[Kind, tuple[Any, str | None, Callable[[Any, str], Any]]] = {
-    "size": (str, "SIZE", parse_size),
-    "whole": (int, "N", lambda value, name: value),
-    "count": (str, f"N|{ALL}", lambda text, name: int(text) if text.isdecimal() else text),
-    "number": (float, "NUMBER", lambda value, name: value),
-    "vector": (str, "X,Y,Z", parse_vector),
-    "rotation": (str, "X,Y,Z", parse_vector),
-    "flag": (bool, None, lambda value, name: value),
-    "color": (str, "COLOR", lambda text, name: text),
-    "background": (str, "COLOR[,COLOR]", lambda text, name: parse_colors(text, name)),
-    "choice": (str, "KIND", lambda text, name: text),
-    "hemisphere": (str, "SKY[,GROUND]", lambda text, name: parse_colors(text, name)),
-    "rim": (str, "COLOR[,EXPONENT]", lambda text, name: parse_color_and(("exponent",), text, name)),
-    "ground": (str, "COLOR", lambda text, name: text),
-    "fog": (str, "COLOR[,NEAR,FAR]", lambda text, name: parse_color_and(("near", "far"), text, name)),
-    "lights": (list[str], "KIND:X,Y,Z[:COLOR]", lambda texts, name: [parse_light(text) for text in texts] or None),
-    "entry": (str, "NAME|N", lambda text, name: text),
+#: The metavar of a setting, and the type of its value.
+_KINDS: dict[Kind, tuple[str | None, Any]] = {
+    "size": ("SIZE", str),
+    "whole": ("N", int),
+    "count": (f"N|{ALL}", str),
+    "number": ("NUMBER", float),
+    "vector": ("X,Y,Z", str),
+    "rotation": ("X,Y,Z", str),
+    "flag": (None, bool | None),
+    "color": ("COLOR", str),
+    "background": ("COLOR[,COLOR]", str),
+    "choice": ("KIND", str),
+    "hemisphere": ("SKY[,GROUND]", str),
+    "rim": ("COLOR[,EXPONENT]", str),
+    "ground": ("COLOR", str),
+    "fog": ("COLOR[,NEAR,FAR]", str),
+    "lights": ("KIND:X,Y,Z[:COLOR]", tuple[str, ...]),
+    "entry": ("NAME|N", str),
+}
+#: The converters of values that are written differently than in Python.
+_PARSERS: dict[Kind, Callable[[Any, str], Any]] = {
+    "size": parse_size,
+    "count": lambda text, _: int(text) if text.isdecimal() else text,
+    "vector": parse_vector,
+    "rotation": parse_vector,
+    "background": parse_colors,
+    "hemisphere": parse_colors,
+    "rim": partial(parse_color_and, ("exponent",)),
+    "fog": partial(parse_color_and, ("near", "far")),
+    "lights": lambda texts, _: [parse_light(text) for text in texts],
 }
 
 #: Additions to the help, where values are written differently than in Python.
@@ -132,30 +145,34 @@ _MORE = {
 }
 
 
-class LookGroup:
-    """The options of a look."""
-
-    def parameters(self) -> list[Parameter]:
-        """Return a parameter for each setting."""
-        return [_parameter(each) for each in SETTINGS]
-
-    def take(self, values: dict[str, Any]) -> dict[str, Any]:
-        """Return the settings that were given, by name. `--background none` is --transparent where that exists."""
-        if "transparent" in values and (values["background"] or "").strip().lower() == "none":
-            values |= {"background": None, "transparent": True}
-        given = {setting: values.pop(setting.name) for setting in SETTINGS}
-        look = {
-            setting.name: _KINDS[setting.kind][2](value, setting.option)
-            for setting, value in given.items()
-            if value is not None
-        }
-        checked_look(look)
-        return look
+#: Inputs, and the options that are needed most, which help lists first; those of a look without the title of a group.
+COMMON = (
+    *("input", "inputs", "output"),
+    *("size", "background", "color", "azimuth", "elevation", "max_triangles", "turntable"),
+)
 
 
-Look = Annotated[dict[str, Any], LookGroup()]
+def with_look(parameters: Iterable[click.Parameter]) -> list[click.Parameter]:
+    """Return the parameters of a command with the options of a look."""
+    found = [*parameters, *map(_option, SETTINGS)]
+    return sorted(found, key=lambda each: COMMON.index(each.name) if each.name in COMMON else len(COMMON))
+
+
+def take_look(values: dict[str, Any]) -> dict[str, Any]:
+    """Remove the settings from the values of a command, and return those that were given.
+
+    `--background none` is --transparent where that exists.
+    """
+    if "transparent" in values and str(values["background"] or "").lower() == "none":
+        values |= {"background": None, "transparent": True}
+    given = {each.name: values.pop(each.name) for each in SETTINGS}
+    look = {name: value for name, value in given.items() if value not in (None, ())}
+    checked_look(look)
+    return look
+
+
 #: What a look is of.
-Input = Annotated[str, argument("Mesh file, scene file, or name of a piece.", "INPUT")]
+INPUT = argument("Mesh file, scene file, or name of a piece.", "INPUT")
 
 #: The option of commands that can make a picture fit.
 FIT = option(
@@ -186,17 +203,11 @@ def load_with(input: str, look: dict[str, Any], fit: str | None = None, is_pictu
     return fitted.scene
 
 
-def load_frames_with(input: str, frames: int, look: dict[str, Any]) -> tuple[list[Scene], float]:
-    """Return the scenes of an animation of a glTF file, with a look, and its length in seconds."""
-    with LateBar("reading"):
-        return load_frames(input, frames, **look)
-
-
-def _parameter(setting: Setting) -> Parameter:
-    kind, metavar, _ = _KINDS[setting.kind]
+def _option(setting: Setting) -> click.Parameter:
+    metavar, kind = _KINDS[setting.kind]
     if setting.kind == "number" and setting.unit:
         metavar = setting.unit.upper()
-    text = f"{setting.help}{_MORE.get(setting.name, '')}"
     panel = None if setting.name in COMMON else setting.group
-    declared = option(setting.option, text, metavar, panel)
-    return Parameter(setting.name, Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[kind | None, declared])
+    text = f"{setting.help}{_MORE.get(setting.name, '')}"
+    declared = option(setting.option, text, metavar, panel, required=False, parse=_PARSERS.get(setting.kind))
+    return parameter(setting.name, kind, declared)

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Mapping, Sequence
+from dataclasses import Field, field
+from pathlib import Path
+from typing import Any, get_args
 
 import click
 from click.core import ParameterSource
+
+from ..errors import InputError
 
 #: The options of parameters that messages of the library name in backticks.
 OPTIONS = {
@@ -48,19 +51,6 @@ MEANT = {
 }
 
 
-@dataclass(frozen=True)
-class Declared:
-    """An option, or without names an argument: its help, the word for its value there, and the title it is under."""
-
-    names: tuple[str, ...]
-    text: str
-    metavar: str | None
-    panel: str | None = None
-    envvar: str | None = None
-    min: Any = None
-    max: Any = None
-
-
 class Option(click.Option):
     """An option of a command. panel: the title under which it is listed."""
 
@@ -79,14 +69,63 @@ class Argument(click.Argument):
         self.text = text
 
 
-def option(name: str, text: str, kind: str | None = None, panel: str | None = None, **more: Any) -> Any:
-    """Declare an option: its names, its help, the word for its value there, and the title under which it is listed."""
-    return Declared(tuple(name.split()), text, kind, panel, **more)
+def option(names: str, text: str, metavar: str | None = None, panel: str | None = None, **more: Any) -> Any:
+    """Declare an option as the default of a parameter of a command, or of a field of a dataclass of options.
+
+    text: its help. metavar: the word for its value there. panel: the title under which it is listed. more: what click
+    takes; `default`; `min` and `max`; and `parse`, a function of the text and of the name of the option that returns
+    the value. An option is required if its type has no None and it has no default.
+    """
+    told = {"names": names.split(), "text": text, "metavar": metavar, "panel": panel}
+    return field(default=more.pop("default", None), metadata=told | more)
 
 
 def argument(text: str, metavar: str, **more: Any) -> Any:
-    """Declare an argument: its help, and the word for it in the usage."""
-    return Declared((), text, metavar, **more)
+    """Declare an argument, as `option` does."""
+    return option("", text, metavar, **more)
+
+
+def parameter(name: str, kind: Any, declared: Field[Any]) -> click.Parameter:
+    """Return the option or argument that is declared for a parameter of this type."""
+    more: dict[str, Any] = dict(declared.metadata)
+    names, text, panel, metavar = (more.pop(key) for key in ("names", "text", "panel", "metavar"))
+    kind, *rest = get_args(kind) or (kind,)
+    is_many, is_flag = rest == [...], kind is bool
+    default = False if is_flag and not rest and declared.default is None else declared.default
+    more.setdefault("required", default is None and not rest)
+    if not more["required"] and not is_many:
+        more["default"] = default
+    limits = {key: more.pop(key) for key in ("min", "max") if key in more}
+    if (parse := more.pop("parse", None)) is not None:
+        kind, called = more.get("type", str), names[-1] if names else f"the {metavar.lower()}"
+        more["callback"] = lambda _, __, value: value if value in (None, ()) else parse(value, called)
+    elif limits:
+        kind = (click.IntRange if kind is int else click.FloatRange)(**limits)
+    # a flag with a type is never set by click 8.2.0
+    more["type"] = None if is_flag else click.Path(path_type=Path) if kind is Path else kind
+    if names:
+        more |= {"is_flag": is_flag, "show_default": not is_flag, "multiple": is_many, "metavar": metavar}
+        return Option([name, *names], panel, help=text, **more)
+    more["metavar"] = (metavar if more["required"] else f"[{metavar}]") + "..." * is_many
+    return Argument(name, text, nargs=-1 if is_many else 1, **more)
+
+
+def exclude(name: str, value: object, others: Mapping[str, object]) -> None:
+    """Raise InputError if an option was given, and another one that it excludes."""
+    for other, given in others.items():
+        if _is_given(value) and _is_given(given):
+            raise InputError(f"{name} and {other} exclude each other: give one of them")
+
+
+def need(needed: str, is_there: object, given: Mapping[str, object]) -> None:
+    """Raise InputError if one of these options was given without the one that it needs."""
+    for name, value in given.items():
+        if _is_given(value) and not is_there:
+            raise InputError(f"{name} needs {needed}")
+
+
+def _is_given(value: object) -> bool:
+    return value is not None and value is not False and value != ()
 
 
 def is_from_environment(name: str) -> bool:

@@ -3,30 +3,31 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import sys
 import time
 from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
+from .._load import load_frames
 from .._on import Bounds, On, is_one_call, place_of
-from .._render import film, pace
+from .._render import film as draw_film
+from .._render import pace
 from .._render import render as draw
 from .._render import turntable as turn
 from ..animation import DURATION, Animation, check_duration
 from ..chain import open_chain
-from ..errors import ChainError, InputError
+from ..errors import ChainError
 from ..gas import Fit, fits_of, headline, render_call, suffices
 from ..image import MOST_COLORS, Image, Pixels, colors, most
 from ..parallel import Listener, folder_of, remove_parts
 from ..scene import PICTURE, Scene, scene_chunk
 from ..values import plural
 from ..whole_file import make_output_folder
-from .look_options import load_frames_with, load_with
-from .option import option
+from .look_options import load_with
+from .option import exclude, need, option
 from .progress import LateBar
 from .streams import OUTPUT, STREAM, as_stdin, write_stdout
 
@@ -42,31 +43,29 @@ class Source:
     place: str
     stem: str
 
+    @property
+    def is_picture(self) -> bool:
+        """Whether its scene is in a picture."""
+        return self.name != STREAM and self.place.lower().endswith(PICTURE)
+
 
 @dataclass(frozen=True)
 class FilmOptions:
     """Which frames are rendered, if several are."""
 
-    turntable: Annotated[int | None, option("--turntable", "Render a full turn in this many frames.", "FRAMES")] = None
-    frames: Annotated[
-        int | None,
-        option("--frames", "Render an animation, the first one by default, in this many frames.", "N", "glTF files"),
-    ] = None
-    duration: Annotated[
-        int | None,
-        option(
-            "--duration",
-            f"Duration of a frame (default: {DURATION}, or the pace of the animation of the file).",
-            "MILLISECONDS",
-            "Turntable",
-        ),
-    ] = None
-    one_call: Annotated[
-        bool,
-        option(
-            "--one-call", "Make the whole animated PNG in one call of a contract, as for a token.", None, "Turntable"
-        ),
-    ] = False
+    turntable: int | None = option("--turntable", "Render a full turn in this many frames.", "FRAMES")
+    frames: int | None = option(
+        "--frames", "Render an animation, the first one by default, in this many frames.", "N", "glTF files"
+    )
+    duration: int | None = option(
+        "--duration",
+        f"Duration of a frame (default: {DURATION}, or the pace of the animation of the file).",
+        "MILLISECONDS",
+        "Turntable",
+    )
+    one_call: bool = option(
+        "--one-call", "Make the whole animated PNG in one call of a contract, as for a token.", None, "Turntable"
+    )
 
     @property
     def is_film(self) -> bool:
@@ -77,12 +76,9 @@ class FilmOptions:
         """Raise InputError for options that exclude or need each other."""
         if self.duration is not None:
             check_duration(self.duration)
-            if not self.is_film:
-                raise InputError("--duration needs --turntable or --frames")
-        if self.one_call and self.turntable is None:
-            raise InputError("--one-call needs --turntable")
-        if self.turntable is not None and self.frames is not None:
-            raise InputError("--turntable and --frames exclude each other: give one of them")
+        need("--turntable or --frames", self.is_film, {"--duration": self.duration})
+        need("--turntable", self.turntable, {"--one-call": self.one_call})
+        exclude("--turntable", self.turntable, {"--frames": self.frames})
 
 
 @dataclass(frozen=True)
@@ -109,11 +105,6 @@ class Done:
     report: dict[str, Any]
     scene: int | None
     fits: tuple[Fit, ...] | None
-
-    @property
-    def json(self) -> str:
-        """The report in one line, for programs."""
-        return json.dumps(self.report)
 
     @property
     def words(self) -> str:
@@ -152,33 +143,33 @@ class Done:
 
 def render_to(source: Source, path: Path | None, task: Task, listener: Listener) -> Done:
     """Render an input to a file, or for None to standard output."""
+    film = task.film
     with as_stdin(source.place) if source.name == STREAM else nullcontext():
-        scenes: list[Scene] = []
-        length = 0.0
-        if task.film.frames is None:
-            loaded = load_with(source.place, task.look, task.fit)
+        if film.frames is None:
+            scenes, length = [load_with(source.place, task.look, task.fit)], 0.0
         else:
-            scenes, length = load_frames_with(source.place, task.film.frames, task.look)
-            loaded = scenes[0]
+            with LateBar("reading"):
+                scenes, length = load_frames(source.place, film.frames, **task.look)
+    loaded = scenes[0]
     if task.scene:
         scene_chunk(loaded).check()
     extension = PICTURE if path is None else path.suffix.lower()
     if path is not None:
         make_output_folder(path.parent)
     place, bounds = place_of(task.on), Bounds(task.gas_limit, task.tile)
-    in_parts = not task.film.one_call and (task.film.is_film or not is_one_call(place, loaded, bounds))
+    in_parts = not film.one_call and (film.is_film or not is_one_call(place, loaded, bounds))
     started = time.perf_counter()
     keep = folder_of(path) if in_parts and path is not None else None
     told: dict[str, Any] = {"gas_limit": task.gas_limit, "tile": task.tile, "listener": listener, "keep": keep}
     told |= {"on": task.on, "transparent": task.transparent}
+    made: Image | Animation
     with nullcontext() if in_parts else LateBar("rendering"):
-        made: Image | Animation
-        if task.film.frames is not None:
-            shown = pace(length, task.film.frames) if task.film.duration is None else task.film.duration
-            made = film(scenes, shown, place, bounds, listener, keep, task.transparent)
-        elif task.film.turntable is not None:
-            shown = DURATION if task.film.duration is None else task.film.duration
-            made = turn(loaded, task.film.turntable, duration=shown, one_call=task.film.one_call, **told)
+        if film.frames is not None:
+            shown = pace(length, film.frames) if film.duration is None else film.duration
+            made = draw_film(scenes, shown, place, bounds, listener, keep, task.transparent)
+        elif film.turntable is not None:
+            shown = DURATION if film.duration is None else film.duration
+            made = turn(loaded, film.turntable, duration=shown, one_call=film.one_call, **told)
         else:
             made = draw(loaded, **told)
     try:
@@ -199,7 +190,7 @@ def render_to(source: Source, path: Path | None, task: Task, listener: Listener)
     with LateBar("counting"):
         counts, shows_something = _counted(made)
         fits = fits_of_made(made, loaded)
-    several = in_parts or task.transparent or task.film.is_film
+    several = in_parts or task.transparent or film.is_film
     seconds = time.perf_counter() - started
     report = _report(made, source.name, path, seconds, counts, written, fits, several)
     if not shows_something:
@@ -231,11 +222,9 @@ def fits_of_made(made: Image | Animation, scene: Scene) -> tuple[Fit, ...] | Non
         gas = most(frame.call_gas for frame in made.frames) if made.file is None else made.gas
     if gas is None or made.intrinsic_gas is None:
         return None
-    data, enough = render_call(scene), None
-    if made.calls == 1 and isinstance(made, Image):
-        # gas is the same everywhere
-        chain = open_chain()
-        enough = suffices(chain, "Renderer", data)
+    data = render_call(scene)
+    # gas is the same everywhere
+    enough = suffices(open_chain(), "Renderer", data) if made.calls == 1 and isinstance(made, Image) else None
     return fits_of(gas, -(-made.intrinsic_gas // made.calls), data, enough)
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-from ..errors import InputError, VerificationError
+from ..errors import VerificationError
 from ..ethereum import checksum_address
 from ..untrusted import plain
-from .option import argument, option
+from .option import argument, need, option
 from .output import print_json, print_line, print_note, print_table
 from .progress import LateBar
 
@@ -23,59 +23,41 @@ MAX_GAS = 1 << 24
 
 
 def preview(
-    source: Annotated[Path, argument("Solidity file of the contract.", "FILE")],
-    contract: Annotated[
-        str | None, option("--contract", "Contract of the file; default: the only one with tokenURI.", "NAME")
-    ] = None,
-    arg: Annotated[
-        list[str] | None,
-        option(
-            "--arg",
-            "Value for the constructor; may be repeated. Parameters that are contracts of Shackled are filled in.",
-            "VALUE",
-        ),
-    ] = None,
-    setup: Annotated[
-        list[str] | None,
-        option("--setup", "Call before tokens are read; may be repeated: 'mint{value: 0.1 ether}(3) x 5'.", "CALL"),
-    ] = None,
-    store: Annotated[
-        list[str] | None,
-        option(
-            "--store",
-            "Scene that the Studio has stored before the deployment: a piece of a dataset, a mesh or a scene file; "
-            "may be repeated. Its pointer is printed.",
-            "SCENE",
-        ),
-    ] = None,
-    tokens: Annotated[
-        int | None,
-        option("--tokens", "Number of tokens (default: totalSupply(), at most 256; or 256).", "N", min=1, max=10_000),
-    ] = None,
-    first: Annotated[int | None, option("--first", "First token (default: 0, or 1).", "N", min=0)] = None,
-    function: Annotated[
-        str | None,
-        option("--function", "Function to read (default: tokenURI, uri, image, render or svg).", "NAME"),
-    ] = None,
-    max_gas: Annotated[int, option("--max-gas", "Gas that a read may take (default: 2^24).", "GAS", min=1)] = MAX_GAS,
-    allow_empty: Annotated[bool, option("--allow-empty", "Accept pictures that show only the background.")] = False,
-    check: Annotated[
-        bool, option("--check", "No page: check all tokens; the exit code is 1 if one has a problem.")
-    ] = False,
-    as_json: Annotated[bool, option("--json", "With --check: print one JSON object instead of text.")] = False,
-    output: Annotated[
-        Path | None, option("-o --output", "With --check: write the pictures into one PNG.", "FILE")
-    ] = None,
-    port: Annotated[
-        int | None, option("--port", f"Port of the page (default: {PORT}, or a free one).", "PORT", min=0)
-    ] = None,
-    browser: Annotated[bool, option("--browser/--no-browser", "Open the page in the browser.")] = True,
+    source: Path = argument("Solidity file of the contract.", "FILE"),
+    contract: str | None = option("--contract", "Contract of the file; default: the only one with tokenURI.", "NAME"),
+    arg: tuple[str, ...] = option(
+        "--arg",
+        "Value for the constructor; may be repeated. Parameters that are contracts of Shackled are filled in.",
+        "VALUE",
+    ),
+    setup: tuple[str, ...] = option(
+        "--setup", "Call before tokens are read; may be repeated: 'mint{value: 0.1 ether}(3) x 5'.", "CALL"
+    ),
+    store: tuple[str, ...] = option(
+        "--store",
+        "Scene that the Studio has stored before the deployment: a piece of a dataset, a mesh or a scene file; "
+        "may be repeated. Its pointer is printed.",
+        "SCENE",
+    ),
+    tokens: int | None = option(
+        "--tokens", "Number of tokens (default: totalSupply(), at most 256; or 256).", "N", min=1, max=10_000
+    ),
+    first: int | None = option("--first", "First token (default: 0, or 1).", "N", min=0),
+    function: str | None = option(
+        "--function", "Function to read (default: tokenURI, uri, image, render or svg).", "NAME"
+    ),
+    max_gas: int = option("--max-gas", "Gas that a read may take (default: 2^24).", "GAS", min=1, default=MAX_GAS),
+    allow_empty: bool = option("--allow-empty", "Accept pictures that show only the background."),
+    check: bool = option("--check", "No page: check all tokens; the exit code is 1 if one has a problem."),
+    as_json: bool = option("--json", "With --check: print one JSON object instead of text."),
+    output: Path | None = option("-o --output", "With --check: write the pictures into one PNG.", "FILE"),
+    port: int | None = option("--port", f"Port of the page (default: {PORT}, or a free one).", "PORT", min=0),
+    browser: bool = option("--browser/--no-browser", "Open the page in the browser.", default=True),
 ) -> None:
     """Show the tokens of a Solidity contract on a page that follows its sources, with the gas of each."""
     from ..preview import Project, Request
 
-    if not check and (as_json or output is not None):
-        raise InputError(f"{'--json' if as_json else '--output'} needs --check")
+    need("--check", check, {"--json": as_json, "--output": output})
     project = Project(source)
     stored = _stored(store or ())
     request = Request(

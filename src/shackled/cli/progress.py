@@ -45,19 +45,12 @@ class LateBar:
             if time.monotonic() - self._drawn >= PAUSE:
                 self._draw()
 
-    def print(self, line: str) -> None:
-        """Print a line on stderr, above the bar if there is one."""
+    def print(self, line: str, to_stdout: bool = False) -> None:
+        """Print a line on stderr or stdout, above the bar if there is one on the same terminal."""
         with self._lock:
-            self._clear()
-            print(line, file=sys.stderr, flush=True)
-            self._draw()
-
-    def print_result(self, line: str) -> None:
-        """Print a line on stdout; above the bar if that is on the same terminal."""
-        with self._lock:
-            if sys.stdout.isatty():
+            if not to_stdout or sys.stdout.isatty():
                 self._clear()
-            print(line, flush=True)
+            print(line, file=sys.stdout if to_stdout else sys.stderr, flush=True)
             self._draw()
 
     def end(self) -> None:
@@ -121,7 +114,7 @@ class JobProgress(Listener):
         self._total = outline.pixels
         if outline.parts > 1:
             frames = f"{outline.frames} frames, " if outline.frames > 1 else ""
-            self._bar.print(f"{frames}{outline.parts} calls, about {_rounded(outline.gas):,} gas")
+            self._bar.print(f"{frames}{outline.parts} calls, about {int(float(f'{outline.gas:.2g}')):,} gas")
 
     def advanced(self, pixels: int) -> None:
         """Count finished pixels."""
@@ -135,9 +128,3 @@ class JobProgress(Listener):
     def ended(self) -> None:
         """Remove the bar."""
         self._bar.end()
-
-
-def _rounded(gas: int) -> int:
-    """Return a number rounded to two significant digits."""
-    unit: int = 10 ** max(0, len(str(gas)) - 2)
-    return round(gas / unit) * unit

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, redirect_stderr
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Literal
 
 from .._load import locate
 from .._on import Processes
@@ -28,16 +28,15 @@ from .progress import LateBar, Notes
 from .streams import STREAM, is_output, stdin_file
 
 #: The argument of commands with several inputs.
-Inputs = Annotated[
-    list[str],
-    argument("Mesh or scene files, names of pieces, folders of mesh files, or - for standard input.", "INPUT"),
-]
+INPUTS = argument(
+    "Mesh or scene files, names of pieces, folders of mesh files, or - for standard input.", "INPUT", required=True
+)
 #: What stands for the name of an input, without folder and extension, in a pattern of outputs.
 STEM = "{stem}"
 #: The name of the picture of standard input.
 UNNAMED = "picture"
 
-#: How pictures are reported: by which property of `Done`.
+#: How pictures are reported.
 Report = Literal["json", "line"] | None
 
 #: An input, the file of its picture, what to do, and what becomes of notes.
@@ -86,11 +85,6 @@ def _meshes(folder: Path) -> list[str]:
         return []
 
 
-def is_pattern(output: str | None) -> bool:
-    """Return whether --output names a folder for pictures, or a pattern; both are made if they do not exist."""
-    return output is not None and (STEM in output or output.endswith(("/", os.sep)))
-
-
 def outputs_of(sources: Sequence[Source], output: str | None, are_films: bool) -> list[Path | None]:
     """Return the files to write, None for standard output. InputError if two are one, or one cannot be written."""
     if is_output(output):
@@ -98,12 +92,14 @@ def outputs_of(sources: Sequence[Source], output: str | None, are_films: bool) -
             raise InputError(f"standard output takes one picture, not {len(sources)}: give -o a folder or {STEM}.png")
         return [None]
     ending = ".gif" if are_films else PICTURE
+    # a folder, or a pattern, whose folders are made if they do not exist
+    is_pattern = output is not None and (STEM in output or output.endswith(("/", os.sep)))
     if output is None:
         # not over a picture whose scene is drawn
-        names = [each.stem + ("-rendered" if _is_picture(each) else "") + ending for each in sources]
+        names = [f"{each.stem}{'-rendered' if each.is_picture else ''}{ending}" for each in sources]
     elif STEM in output:
         names = [output.replace(STEM, each.stem) for each in sources]
-    elif not are_films and (is_pattern(output) or os.path.isdir(output)):
+    elif not are_films and (is_pattern or os.path.isdir(output)):
         names = [os.path.join(output, each.stem + ending) for each in sources]
     elif len(sources) == 1:
         names = [output]
@@ -111,14 +107,10 @@ def outputs_of(sources: Sequence[Source], output: str | None, are_films: bool) -
         right = f"a pattern, such as out/{STEM}.gif" if are_films else f"a folder, such as out/, or out/{STEM}.png"
         raise InputError(f"{len(sources)} inputs need more than one file: give -o {right}, not {output}")
     check = check_animation if are_films else check_output
-    paths = [check(name, is_pattern(output)) for name in names]
+    paths = [check(name, is_pattern) for name in names]
     if len(sources) > 1:
         _check_overwriting(sources, paths)
     return [*paths]
-
-
-def _is_picture(source: Source) -> bool:
-    return source.name != STREAM and source.place.lower().endswith(PICTURE)
 
 
 def _check_overwriting(sources: Sequence[Source], paths: Sequence[Path]) -> None:
@@ -148,12 +140,12 @@ def render_all(sources: Sequence[Source], paths: Sequence[Path | None], task: Ta
                 bar.print(line)
             if isinstance(result, Done):
                 if report is not None:
-                    bar.print_result(plain(getattr(result, report)))
+                    bar.print(json.dumps(result.report) if report == "json" else plain(result.line), to_stdout=True)
             else:
                 text = with_options(str(result))
                 failed.append(ShackledError(text if name in text else f"{name}: {text}"))
                 if report == "json":
-                    bar.print_result(json.dumps({"input": name, "error": text}))
+                    bar.print(json.dumps({"input": name, "error": text}), to_stdout=True)
             bar.set(number, len(work))
     summary = f"{len(work) - len(failed)} rendered, {len(failed)} failed"
     if failed:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from .._load import load, locate
 from ..chain import Connection
@@ -13,11 +13,10 @@ from ..ethereum import checksum_address
 from ..image import FORMATS, check_output, one_of
 from ..scene import ALL, READERS
 from .chain_options import (
-    Calldata,
-    Json,
+    CALLDATA,
+    JSON,
     NodeOptions,
     PayerOptions,
-    check_calldata,
     print_price,
     print_step,
     wallet_calls,
@@ -34,25 +33,20 @@ if TYPE_CHECKING:
 
 
 def store(
-    input: Annotated[str, argument("A dataset piece, or a mesh or scene file.", "INPUT")],
     node: NodeOptions,
     payer: PayerOptions,
-    licence: Annotated[
-        str | None, option("--licence", "Licence of a mesh or scene file; check it yourself.", "TEXT")
-    ] = None,
-    output: Annotated[
-        str | None, option("-o --output", f"Write the picture as rendered on the chain: {one_of(FORMATS)}.", "FILE")
-    ] = None,
-    size: Annotated[str | None, option("--size", "Pixels, as 128 or 320x200.", "SIZE")] = None,
-    max_triangles: Annotated[
-        int | None, option("--max-triangles", "Simplify meshes of more triangles than this.", "N")
-    ] = None,
-    position_bits: Annotated[
-        int | None,
-        option("--position-bits", "Round positions to a grid of 2^N steps, 4 to 16, to save gas. Default: exact.", "N"),
-    ] = None,
-    calldata: Calldata = None,
-    as_json: Json = False,
+    input: str = argument("A dataset piece, or a mesh or scene file.", "INPUT"),
+    licence: str | None = option("--licence", "Licence of a mesh or scene file; check it yourself.", "TEXT"),
+    output: str | None = option(
+        "-o --output", f"Write the picture as rendered on the chain: {one_of(FORMATS)}.", "FILE"
+    ),
+    size: tuple[int, int] | None = option("--size", "Pixels, as 128 or 320x200.", "SIZE", parse=parse_size),
+    max_triangles: int | None = option("--max-triangles", "Simplify meshes of more triangles than this.", "N"),
+    position_bits: int | None = option(
+        "--position-bits", "Round positions to a grid of 2^N steps, 4 to 16, to save gas. Default: exact.", "N"
+    ),
+    calldata: Path | None = CALLDATA,
+    as_json: bool = JSON,
 ) -> None:
     """Store an object on a chain; any contract can then draw it.
 
@@ -66,21 +60,19 @@ def store(
             "--calldata sends nothing, so no chain can draw the picture that --output writes: leave one out"
         )
     path = None if output is None else check_output(output)
-    check_calldata(calldata)
-    pixels = None if size is None else parse_size(size)
     source = locate(input)
     terms = licence_of(source, licence)
     node.check()
     payer.check()
     # a token is drawn by nodes of all kinds, of which many allow a call too little gas for antialiased meshes
     is_mesh = not isinstance(source, Piece) and source.suffix.lower() in READERS
-    thing = (token_scene(source) if pixels is None else source.make()) if isinstance(source, Piece) else source
+    thing = (token_scene(source) if size is None else source.make()) if isinstance(source, Piece) else source
     # what is stored can be drawn at any size
-    scene = load(thing, pixels, max_triangles=max_triangles or ALL, antialias=False if is_mesh else None)
+    scene = load(thing, size, max_triangles=max_triangles or ALL, antialias=False if is_mesh else None)
     wanted = SceneToStore(input, scene, position_bits)
     connection = node.connect()
     with LateBar("reading the chain"):
-        storage = plan_storage(connection, [wanted], current_fees(connection, payer.max_wei))
+        storage = plan_storage(connection, [wanted], current_fees(connection, payer.max_fee))
     pointer = storage.pointers[0]
     if isinstance(source, Piece) and source.notice:
         print_note(source.notice)
@@ -125,10 +117,7 @@ def store(
     print_line(f"as tokens:    shackled token edition add {pointer} NAME --price ETHER")
 
 
-def list_(
-    node: NodeOptions,
-    as_json: Json = False,
-) -> None:
+def list_(node: NodeOptions, as_json: bool = JSON) -> None:
     """List the items: bounds, triangles, bytes, gas to store, pointers; with --rpc, whether they are stored."""
     from ..chain import read_all
     from ..library import items
@@ -173,9 +162,9 @@ def _row(item: dict[str, Any]) -> list[str]:
 def store_items(
     node: NodeOptions,
     payer: PayerOptions,
-    names: Annotated[list[str] | None, argument("Items to store; default: all.", "NAME")] = None,
-    calldata: Calldata = None,
-    as_json: Json = False,
+    names: tuple[str, ...] = argument("Items to store; default: all.", "NAME"),
+    calldata: Path | None = CALLDATA,
+    as_json: bool = JSON,
 ) -> None:
     """Store items of the library on a chain. Skips stored items; prints the price first; cannot be undone."""
     from ..deploy import current_fees
@@ -184,12 +173,11 @@ def store_items(
 
     node.check()
     payer.check()
-    check_calldata(calldata)
     with LateBar("reading items"):
         wanted = chosen_items(names or ())
         connection = node.connect()
         scenes = [SceneToStore(each.name, each.scene) for each in wanted]
-        plan = plan_storage(connection, scenes, current_fees(connection, payer.max_wei))
+        plan = plan_storage(connection, scenes, current_fees(connection, payer.max_fee))
     if plan.pointers != tuple(checksum_address(each.pointer) for each in wanted):
         raise InputError("the Studio of this chain is not that of this version: see `shackled deploy`")
     gas: int | None = 0

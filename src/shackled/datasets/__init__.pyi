@@ -1,7 +1,5 @@
-from ._drawing import SIZE, VARIABLE, PieceCost, Thumbnail, cache_folder, cost, draw_all, keep
-from ._find import DATASETS, find, pieces, require
-from ._gallery import figures, page, sheet
-from ._piece import Piece
+from ._drawing import SIZE, VARIABLE, PieceCost, cache_folder, cost, draw_all, figures, keep, page, sheet
+from ._pieces import DATASETS, Piece, find, pieces, require
 from ._teapot import teapot
 
 __all__ = [
@@ -10,7 +8,6 @@ __all__ = [
     "VARIABLE",
     "Piece",
     "PieceCost",
-    "Thumbnail",
     "cache_folder",
     "cost",
     "draw_all",

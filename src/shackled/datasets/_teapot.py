@@ -11,8 +11,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import InputError
-from ..scene import Mesh, vertex_normals, without_slivers
+from ..checks import whole
+from ..scene import Mesh
+from .common import shapes
 
 Profile = tuple[tuple[float, float], ...]
 Limb = tuple[tuple[tuple[float, float], tuple[float, float], float], ...]
@@ -77,19 +78,14 @@ def teapot(divisions: int = 6) -> Mesh:
 
     divisions: parts d into which each side of a patch is divided, 1..32; there are 64 d^2 - 8 d triangles.
     """
-    if not isinstance(divisions, int) or isinstance(divisions, bool) or not 1 <= divisions <= 32:
-        raise InputError(f"the divisions of the teapot must be a whole number from 1 to 32, not {divisions!r}")
+    divisions = whole(divisions, "the divisions of the teapot", 1, 32)
     weights = _bernstein(np.linspace(0, 1, divisions + 1))
     points = np.einsum("ui,vj,pijk->puvk", weights, weights, patches())
-    grid = np.arange(points[..., 0].size).reshape(points.shape[:3])
-    a, b, c, d = grid[:, :-1, :-1], grid[:, 1:, :-1], grid[:, 1:, 1:], grid[:, :-1, 1:]
-    faces = np.stack([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)], axis=-2).reshape(-1, 3)
-    # patches meet in the same points but for rounding
-    x, y, z = np.round(points.reshape(-1, 3), 9).T
-    positions, number = np.unique(np.stack([x, z, -y], axis=1) + 0.0, axis=0, return_inverse=True)
-    # at the knob's top and in the middle of the bottom a whole side of a patch is one point
-    faces = without_slivers(number.reshape(-1)[faces])
-    return Mesh(positions, faces, normals=vertex_normals(positions, faces))
+    side = divisions + 1
+    faces = (shapes.cells(side, side) + side**2 * np.arange(len(points))[:, None, None]).reshape(-1, 3)
+    # patches meet in the same points but for rounding; at the knob's top and in the middle of the bottom, a whole side
+    # of a patch is one point
+    return shapes.smooth(points[..., [0, 2, 1]].reshape(-1, 3) * (1, 1, -1), faces)
 
 
 def _quarter(profile: Profile, turn: int) -> NDArray[np.float64]:
@@ -106,13 +102,8 @@ def _quarter(profile: Profile, turn: int) -> NDArray[np.float64]:
 
 def _half(limb: Limb, side: int) -> NDArray[np.float64]:
     """Return the half of a limb at y < 0 (side -1) or y > 0 (side 1)."""
-    points = np.array(
-        [
-            [(xi, 0, zi), (xi, side * width, zi), (xo, side * width, zo), (xo, 0, zo)]
-            for (xi, zi), (xo, zo), width in limb
-        ]
-    )
-    return points if side == 1 else points[:, ::-1]
+    rows = [[(xi, 0, zi), (xi, side * w, zi), (xo, side * w, zo), (xo, 0, zo)] for (xi, zi), (xo, zo), w in limb]
+    return np.array(rows)[:, ::side]
 
 
 def _bernstein(t: NDArray[np.float64]) -> NDArray[np.float64]:

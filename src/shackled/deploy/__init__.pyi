@@ -9,7 +9,7 @@ from ._contract import (
     local_chain,
     write_verification,
 )
-from ._deployer import Deployer, DeploymentStep, Plan, create
+from ._deployer import Deployer, Plan, create
 from ._quote import Call, Fees, Quote, current_fees, make_quotes
 from ._transactor import Receipt, Transactor
 
@@ -19,7 +19,6 @@ __all__ = [
     "Call",
     "Deployer",
     "Deployment",
-    "DeploymentStep",
     "Fees",
     "Plan",
     "Quote",

@@ -28,10 +28,7 @@ def signer_class() -> type[Account]:
 
 
 def environment_account(name: str) -> LocalAccount:
-    """Return the account of the private key, 64 hexadecimal digits, in an environment variable.
-
-    Raises InputError if the variable holds none.
-    """
+    """Return the account of the private key, 64 hexadecimal digits, in an environment variable. InputError if none."""
     opener, value = signer_class(), os.environ.get(name, "").strip()
     if not value:
         # an invalid name may be a key or a mnemonic, given by mistake
@@ -51,10 +48,7 @@ def environment_account(name: str) -> LocalAccount:
 
 
 def read_keystore(path: Path) -> str:
-    """Return the text of a keystore file.
-
-    Raises InputError if it is not one, or if to derive its key would take longer than about ten seconds.
-    """
+    """Return the text of a keystore file. InputError if it is none, or would take longer than about ten seconds."""
     try:
         text = path.read_text("utf-8")
     except (OSError, ValueError) as error:

@@ -68,10 +68,7 @@ class Deployment:
 
 
 def deployments(names: Iterable[str] = STANDARD) -> list[Deployment]:
-    """Return contracts by their names, each after those that it calls, which are added.
-
-    Raises InputError for a name that is not in `CONTRACTS`.
-    """
+    """Return contracts by name, each after those that it calls, which are added. InputError for unknown names."""
     chosen = list(names)
     for name in chosen:
         if name not in CONTRACTS:

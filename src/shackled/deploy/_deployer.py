@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 from ..chain import AddressBook, Connection, read_all
 from ..errors import ChainError, NoAnswerError, TransactionError, WrongChainError
 from ..ethereum import PROXY, checksum_address, rounded, to_hex
 from ._contract import PROXY_CODE, Deployment
-from ._proxy import GAS, TRANSFER_GAS, check_gas, deploy_proxy, funding, is_proxy_deployed, missing_funds
 from ._quote import Call, Fees, Quote, current_fees, make_quotes
 from ._transactor import Receipt, Transactor
 
@@ -19,28 +19,17 @@ NEWEST = bytes.fromhex("5f5f5f5e00")
 
 @dataclass(frozen=True)
 class DeploymentStep:
-    """One contract of a plan.
-
-    gas: of its transactions, as counted here; 0 if it is deployed already. quote: of the transaction that the account
-    pays for; None if there is none. deployment: None for the proxy.
-    """
+    """One contract of a plan. code: at its address, then. quote: of its transaction; None if it is deployed already."""
 
     name: str
     address: bytes
-    is_deployed: bool
-    gas: int = 0
-    quote: Quote | None = None
-    deployment: Deployment | None = None
+    code: bytes
+    quote: Quote | None
 
     @property
-    def cost(self) -> int:
-        """Likely cost, in wei."""
-        return 0 if self.quote is None else self.quote.likely
-
-    @property
-    def ceiling(self) -> int:
-        """Maximum cost, in wei."""
-        return 0 if self.quote is None else self.quote.ceiling
+    def is_deployed(self) -> bool:
+        """Whether there is nothing to do."""
+        return self.quote is None
 
 
 @dataclass(frozen=True)
@@ -56,29 +45,29 @@ class Plan:
         return [step for step in self.steps if not step.is_deployed]
 
     @property
+    def quotes(self) -> list[Quote]:
+        """Quotes of the transactions."""
+        return [step.quote for step in self.steps if step.quote is not None]
+
+    @property
     def gas(self) -> int:
         """Gas of all transactions, as counted here."""
-        return sum(step.gas for step in self.steps)
+        return sum(quote.call.gas for quote in self.quotes)
 
     @property
     def cost(self) -> int:
         """Likely cost, in wei."""
-        return sum(step.cost for step in self.steps)
+        return sum(quote.likely for quote in self.quotes)
 
     @property
     def ceiling(self) -> int:
         """Maximum cost, in wei."""
-        return sum(step.ceiling for step in self.steps)
-
-    @property
-    def quotes(self) -> list[Quote]:
-        """Quotes of the transactions that the account pays for."""
-        return [step.quote for step in self.steps if step.quote is not None]
+        return sum(quote.ceiling for quote in self.quotes)
 
     @property
     def codes(self) -> dict[bytes, bytes]:
         """Runtime code, by address, of the missing contracts."""
-        return {step.address: PROXY_CODE if step.deployment is None else step.deployment.code for step in self.missing}
+        return {step.address: step.code for step in self.missing}
 
 
 class Deployer:
@@ -92,42 +81,38 @@ class Deployer:
     def plan(self, wanted: Sequence[Deployment], fees: Fees | None = None) -> Plan:
         """Return which contracts are missing, and what they cost. fees: None uses the current ones.
 
-        Raises TransactionError if other code is at an address, if a contract does not fit a block, or if the node's
-        prices are implausible (`current_fees`, `make_quote`); WrongChainError if the chain's rules are too old.
+        Raises TransactionError if other code is at an address, if a contract does not fit a block, if the chain lacks
+        the proxy, or if the node's prices are implausible (`current_fees`, `make_quote`); WrongChainError if the
+        chain's rules are too old.
         """
         fees = current_fees(self.connection) if fees is None else fees
         deployed = list(read_all(self.is_deployed, wanted))
         missing = [each for each, done in zip(wanted, deployed, strict=True) if not done]
-        steps, codes = [], {}
         if missing:
             self._check_chain(missing)
-            steps.append(self._proxy_step(fees))
-            if not steps[0].is_deployed:
-                codes[PROXY] = PROXY_CODE
-        calls = []
+        calls: list[Call] = []
+        codes: dict[bytes, bytes] = {}
         for each in missing:
             calls.append(Call(PROXY, each.data, each.gas, needs=dict(codes)))
             codes[each.address] = each.code
         quotes = iter(make_quotes(self.connection, calls, fees))
-        for each, done in zip(wanted, deployed, strict=True):
-            gas, quote = (0, None) if done else (each.gas, next(quotes))
-            steps.append(DeploymentStep(each.name, each.address, done, gas, quote, each))
+        steps = (
+            DeploymentStep(each.name, each.address, each.code, None if done else next(quotes))
+            for each, done in zip(wanted, deployed, strict=True)
+        )
         return Plan(tuple(steps), fees)
 
     def refresh(self, plan: Plan) -> Plan:
         """Return the plan with steps marked that were deployed meanwhile. Quotes of the others do not change."""
-        return replace(plan, steps=tuple(self._refresh(step) for step in plan.steps))
+        return replace(
+            plan,
+            steps=tuple(
+                replace(step, quote=None) if step.quote is not None and self.is_deployed(step) else step
+                for step in plan.steps
+            ),
+        )
 
-    def _refresh(self, step: DeploymentStep) -> DeploymentStep:
-        if step.is_deployed:
-            return step
-        if step.deployment is None:
-            is_deployed = is_proxy_deployed(self.connection)
-        else:
-            is_deployed = self.is_deployed(step.deployment)
-        return replace(step, is_deployed=True, gas=0, quote=None) if is_deployed else step
-
-    def is_deployed(self, wanted: Deployment) -> bool:
+    def is_deployed(self, wanted: Deployment | DeploymentStep) -> bool:
         """Return whether a contract is at its address. Raises TransactionError if other code is there."""
         code = self.connection.code(wanted.address)
         if code and code != wanted.code:
@@ -141,11 +126,12 @@ class Deployer:
         self,
         plan: Plan,
         transactor: Transactor,
-        report: Callable[[DeploymentStep, Sequence[Receipt]], None] | None = None,
+        report: Callable[[str, bytes, Receipt], None] | None = None,
     ) -> list[Receipt]:
-        """Deploy what is missing, one contract after the other, and compare the code of each.
+        """Deploy what is missing, one contract after the other, as quoted, and compare the code of each.
 
-        report: called after each step. Raises TransactionError if a step fails; a later plan continues from there.
+        report: called with name, address and receipt of each contract. Raises TransactionError if a step fails; a later
+        plan continues from there.
         """
         receipts: list[Receipt] = []
         plan = self.refresh(plan)
@@ -155,52 +141,45 @@ class Deployer:
                 f"{rounded(plan.cost)} are needed: send it some"
             )
         for step in plan.missing:
-            if step.deployment is None:
-                done = deploy_proxy(transactor, step.quote)
-            else:
-                assert step.quote is not None
-                receipt = self.deploy(step.deployment, step.quote, transactor)
-                done = [] if receipt is None else [receipt]
-            receipts += done
-            if report is not None and done:
-                report(step, done)
-        self.record([step.deployment for step in plan.steps if step.deployment is not None])
+            assert step.quote is not None
+            is_deployed = partial(self.is_deployed, step)
+            receipt = create(transactor, step.quote, is_deployed, step.name, step.address)
+            if receipt is not None:
+                receipts.append(receipt)
+                if report is not None:
+                    report(step.name, step.address, receipt)
+        self.record(plan.steps)
         return receipts
 
-    def deploy(self, wanted: Deployment, quote: Quote, transactor: Transactor) -> Receipt | None:
-        """Deploy one contract as quoted, and compare its code. Return None if someone else deployed it meanwhile."""
-        return create(transactor, quote, lambda: self.is_deployed(wanted), wanted.name, wanted.address)
-
-    def record(self, deployed: Sequence[Deployment]) -> None:
+    def record(self, deployed: Sequence[Deployment | DeploymentStep]) -> None:
         """Write the addresses of contracts to the address book."""
         if deployed:
             self.book.write(self.connection.chain_id, {each.name: each.address for each in deployed})
 
     def _check_chain(self, missing: Sequence[Deployment]) -> None:
         """Check that contracts can be deployed and used, before anything is paid."""
+        chain = f"chain {self.connection.chain_id}"
         try:
             self.connection.request("eth_call", {"data": to_hex(NEWEST)}, "latest")
         except (NoAnswerError, WrongChainError):
             raise
         except ChainError:
             pass  # some nodes refuse calls without a receiver
-        limit = self.connection.block_gas_limit()
+        limit = self.connection.block_number_of("gasLimit") or 0
         for each in missing:
             if each.gas > limit:
                 raise TransactionError(
-                    f"{each.name} needs {each.gas:,} gas, and a block of chain {self.connection.chain_id} has "
-                    f"{limit:,}: it cannot be deployed there"
+                    f"{each.name} needs {each.gas:,} gas, and a block of {chain} has {limit:,}: it cannot be deployed "
+                    "there"
                 )
-
-    def _proxy_step(self, fees: Fees) -> DeploymentStep:
-        if is_proxy_deployed(self.connection):
-            return DeploymentStep("deployment proxy", PROXY, True)
-        check_gas(self.connection)
-        missing = missing_funds(self.connection)
-        if not missing:
-            return DeploymentStep("deployment proxy", PROXY, False, GAS)
-        (quote,) = make_quotes(self.connection, [funding(missing)], fees)
-        return DeploymentStep("deployment proxy", PROXY, False, GAS + TRANSFER_GAS, quote)
+        code = self.connection.code(PROXY)
+        if code != PROXY_CODE:
+            raise TransactionError(
+                f"{chain} has {'other code' if code else 'no code'} at the address of the deployment proxy, "
+                f"{checksum_address(PROXY)}: take another chain, deploy it as "
+                "github.com/Arachnid/deterministic-deployment-proxy says, or, on a development node, put its code "
+                "there (anvil_setCode, hardhat_setCode)"
+            )
 
 
 def create(

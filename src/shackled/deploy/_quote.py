@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
-from ..chain import Connection, quantity, read_all
-from ..errors import ChainError, NoAnswerError, NodeError, TransactionError
+from ..chain import Connection, read_all
+from ..errors import TransactionError
 from ..ethereum import GWEI, to_hex, word
 
 #: Numerator and denominator of the margin of gas limits, since the chain's state changes: 5 %.
@@ -104,7 +104,7 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
     max_fee: the maximum price of a unit of gas, in wei. Raises TransactionError if gas costs more; without `max_fee`,
     if the node suggests a tip above 3 gwei, or reports no base fee, so that nothing would limit the price.
     """
-    base, is_rollup = base_fee(connection), bool(connection.code(ORACLE))
+    base, is_rollup = connection.block_number_of("baseFeePerGas"), bool(connection.code(ORACLE))
     if base is None:
         price = connection.number("eth_gasPrice")
         if max_fee is None:
@@ -114,12 +114,8 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
             )
         _require(price, max_fee)
         return Fees(price, price, None, True, is_rollup)
-    try:
-        tip = connection.number("eth_maxPriorityFeePerGas")
-    except NoAnswerError:
-        raise
-    except ChainError:
-        tip = TIP
+    suggested = connection.number_if_known("eth_maxPriorityFeePerGas")
+    tip = TIP if suggested is None else suggested
     if max_fee is None:
         if tip > MOST_TIP:
             raise TransactionError(
@@ -130,15 +126,6 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
         return Fees(base + tip, 2 * base + tip, tip, False, is_rollup)
     _require(base, max_fee)
     return Fees(min(base + tip, max_fee), max_fee, min(tip, max_fee), True, is_rollup)
-
-
-def base_fee(connection: Connection) -> int | None:
-    """Return the base fee of the last block, in wei; None on a chain without EIP-1559."""
-    block = connection.block()
-    try:
-        return None if block.get("baseFeePerGas") is None else quantity(block["baseFeePerGas"])
-    except ValueError:
-        raise NodeError(f"the {connection.name} returned an invalid block: {block!r:.60}") from None
 
 
 def make_quote(name: str, call: Call, fees: Fees, estimate: int | None, rate: float = 1.0) -> Quote:
@@ -173,9 +160,8 @@ def make_quotes(
     pairs = [(each.estimate, each.call.gas) for each in known]
     pairs += [(estimate, call.gas) for estimate, call in zip(estimates, calls, strict=True)]
     rate = max([1.0, *(estimate / counted for estimate, counted in pairs if estimate is not None)])
-    quotes = [
-        make_quote(connection.name, call, fees, estimate, rate) for call, estimate in zip(calls, estimates, strict=True)
-    ]
+    named = partial(make_quote, connection.name, fees=fees, rate=rate)
+    quotes = [named(call, estimate=estimate) for call, estimate in zip(calls, estimates, strict=True)]
     return with_rollup_fees(connection, quotes)
 
 
@@ -198,13 +184,8 @@ def rollup_fee(connection: Connection, quote: Quote) -> int | None:
 
 
 def _ask_oracle(connection: Connection, function: bytes, number: int) -> int | None:
-    try:
-        answer = connection.data("eth_call", {"to": to_hex(ORACLE), "data": to_hex(function + word(number))}, "latest")
-    except NoAnswerError:
-        raise
-    except ChainError:
-        return None
-    return int.from_bytes(answer, "big") if len(answer) == 32 else None
+    call = {"to": to_hex(ORACLE), "data": to_hex(function + word(number))}
+    return connection.number_if_known("eth_call", call, "latest")
 
 
 def _estimate(connection: Connection, sender: bytes | None, call: Call) -> int | None:
@@ -213,14 +194,10 @@ def _estimate(connection: Connection, sender: bytes | None, call: Call) -> int |
     overrides = {to_hex(place): {"code": to_hex(code)} for place, code in call.needs.items()}
     # nodes without state overrides refuse them
     for parameters in [[*plain, "latest", overrides], plain] if overrides else [plain]:
-        try:
-            estimate = connection.number("eth_estimateGas", *parameters)
-        except NoAnswerError:
-            raise
-        except ChainError:
-            continue
-        # a call of a missing contract succeeds and uses little gas
-        return estimate if 2 * estimate >= call.gas else None
+        estimate = connection.number_if_known("eth_estimateGas", *parameters)
+        if estimate is not None:
+            # a call of a missing contract succeeds and uses little gas
+            return estimate if 2 * estimate >= call.gas else None
     return None
 
 

@@ -20,7 +20,7 @@ from ..errors import (
     TransactionError,
 )
 from ..ethereum import GWEI, checksum_address, rounded, to_hex
-from ._quote import Call, Fees, Quote, base_fee, current_fees, make_quote, rollup_fee, with_rollup_fees
+from ._quote import Call, Fees, Quote, current_fees, make_quote, rollup_fee, with_rollup_fees
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
@@ -53,11 +53,7 @@ class Transactor:
     """Sends the transactions of one account, one after the other. Failures raise TransactionError."""
 
     def __init__(
-        self,
-        connection: Connection,
-        account: LocalAccount,
-        patience: float = PATIENCE,
-        max_fee: int | None = None,
+        self, connection: Connection, account: LocalAccount, patience: float = PATIENCE, max_fee: int | None = None
     ) -> None:
         """Take the account that signs. patience: seconds to wait for a receipt. max_fee: see `current_fees`."""
         self.connection, self.patience, self.max_fee = connection, patience, max_fee
@@ -102,29 +98,10 @@ class Transactor:
 
         Raises TransactionError, and sends nothing, if the transaction would now cost more than the quote.
         """
+        if risen := self._risen(quote):
+            raise TransactionError(f"{risen} were quoted: the transaction was not sent; run the command again")
         call = quote.call
-        needed = self.estimate(call)
-        if needed > quote.gas:
-            raise TransactionError(
-                f"the {self.connection.name} now estimates {needed:,} gas for a transaction that was quoted with at "
-                f"most {quote.gas:,}: it was not sent; run the command again for a new quote"
-            )
-        base = base_fee(self.connection)
-        if base is not None and base > quote.fees.most:
-            raise TransactionError(
-                f"the price of gas has risen to {base / GWEI:,.12g} gwei, and at most {quote.fees.most / GWEI:,.12g} "
-                "were quoted: the transaction was not sent; run the command again"
-            )
-        if quote.rollup_fee is not None:
-            fee = rollup_fee(self.connection, quote)
-            # no field of a transaction limits it; it can rise by an eighth before the next block of the other chain
-            if fee is None or 9 * fee > 8 * quote.rollup_fee:
-                now = "no bound of it any more" if fee is None else f"{rounded(fee)} ether"
-                raise TransactionError(
-                    f"the fee for data on L1 has risen: the chain tells {now}, and at most {rounded(quote.rollup_fee)} "
-                    "were quoted: the transaction was not sent; run the command again"
-                )
-        nonce = self.connection.number("eth_getTransactionCount", to_hex(self.address), "pending")
+        nonce = self._count("pending")
         if nonce >= 1 << 64:
             raise NodeError(f"the {self.connection.name} reports an impossible nonce of {self.name}: {nonce:,}")
         transaction: dict[str, Any] = {
@@ -139,54 +116,45 @@ class Transactor:
             transaction["to"] = checksum_address(call.to)
         signed = self._account.sign_transaction(transaction)
         digest = to_hex(bytes(signed.hash))
-        receipt = self.send_signed(bytes(signed.raw_transaction), digest, quote.ceiling, transaction)
-        self._nonce = transaction["nonce"] + 1
-        return receipt
-
-    def send_signed(self, raw: bytes, digest: str, cost: int, transaction: dict[str, Any] | None = None) -> Receipt:
-        """Send a signed transaction, and wait for its receipt. cost: its maximum cost in wei, for messages."""
         try:
-            self.connection.request("eth_sendRawTransaction", to_hex(raw))
+            self.connection.request("eth_sendRawTransaction", to_hex(bytes(signed.raw_transaction)))
         except NodeError as error:
-            said = str(error).lower()
             # the node may have it nevertheless, which its receipt shows
-            known = any(words in said for words in ("already known", "known transaction", "already imported"))
+            known = re.search("already known|known transaction|already imported", str(error).lower())
             if not known and not isinstance(error, NodeTimeoutError | NodeUnreachableError):
-                raise self._rejected(error, cost) from None
+                raise self._rejected(error, quote.ceiling) from None
         except OutOfGasError:
             raise OutOfGasError("the transaction was refused: its gas limit is out of the chain's range") from None
         try:
-            return self._follow(digest, transaction)
+            receipt = self._follow(digest, transaction)
         except TransactionError:
             raise
         except ChainError as error:
             error.args = (f"the transaction {digest} was sent, {CHECK_FIRST}: {error}",)
             raise
+        self._nonce = transaction["nonce"] + 1
+        return receipt
 
-    def probe(self, raw: bytes) -> None:
-        """Send a transaction that someone else signed and cannot pay for yet, to see how the node responds.
-
-        Raises TransactionError if the node refuses transactions of its kind, OutOfGasError if its gas is too little.
-        """
-        try:
-            self.connection.request("eth_sendRawTransaction", to_hex(raw))
-        except OutOfGasError:
-            raise
-        except NodeError as error:
-            if _lacks_chain_id(error):
-                raise self._rejected(error, 0) from None
-        except ChainError:
-            pass
+    def _risen(self, quote: Quote) -> str:
+        """Return what costs more now than was quoted; or nothing."""
+        needed, base = self.estimate(quote.call), self.connection.block_number_of("baseFeePerGas")
+        if needed > quote.gas:
+            return f"the {self.connection.name} now estimates {needed:,} gas for this, and at most {quote.gas:,}"
+        if base is not None and base > quote.fees.most:
+            most = f"{quote.fees.most / GWEI:,.12g}"
+            return f"the price of gas has risen to {base / GWEI:,.12g} gwei, and at most {most}"
+        fee = None if quote.rollup_fee is None else rollup_fee(self.connection, quote)
+        # no field of a transaction limits it; it can rise by an eighth before the next block of the other chain
+        if quote.rollup_fee is not None and (fee is None or 9 * fee > 8 * quote.rollup_fee):
+            now = "no bound of it any more" if fee is None else f"{rounded(fee)} ether"
+            return f"the fee for data on L1 has risen: the chain tells {now}, and at most {rounded(quote.rollup_fee)}"
+        return ""
 
     def wait_for_pending(self) -> None:
         """Wait until all transactions of the account are mined. Raises TransactionError if it takes too long."""
 
         def pending() -> int:
-            count = [
-                self.connection.number("eth_getTransactionCount", to_hex(self.address), block)
-                for block in ("pending", "latest")
-            ]
-            return count[0] - count[1]
+            return self._count("pending") - self._count("latest")
 
         if not self.wait(lambda: pending() <= 0 or None, f"pending transactions of {self.name}"):
             raise TransactionError(
@@ -194,22 +162,24 @@ class Transactor:
                 "replace them, then try again"
             )
 
-    def _follow(self, digest: str, transaction: dict[str, Any] | None) -> Receipt:
+    def _count(self, block: str) -> int:
+        """Return the number of transactions of the account."""
+        return self.connection.number("eth_getTransactionCount", to_hex(self.address), block)
+
+    def _follow(self, digest: str, transaction: dict[str, Any]) -> Receipt:
         replaced_since: float | None = None
 
         def ask() -> Any:
             nonlocal replaced_since
             receipt = self.connection.request("eth_getTransactionReceipt", digest)
-            if receipt is not None or transaction is None:
+            if receipt is not None:
                 return receipt
-            mined = self.connection.number("eth_getTransactionCount", to_hex(self.address), "latest")
-            if mined <= transaction["nonce"]:
+            if self._count("latest") <= transaction["nonce"]:
                 replaced_since = None
                 return None
-            now = time.monotonic()
-            replaced_since = now if replaced_since is None else replaced_since
+            replaced_since = replaced_since or time.monotonic()
             # it may have been mined since the first request, or another node of the host may have answered the second
-            if now - replaced_since < SETTLED:
+            if time.monotonic() - replaced_since < SETTLED:
                 return None
             raise TransactionError(
                 f"the transaction {digest} was replaced: another one of {self.name} with the same nonce, "
@@ -218,10 +188,8 @@ class Transactor:
 
         receipt = self.wait(ask, f"the transaction {digest} to be mined")
         if receipt is None:
-            raise TransactionError(
-                f"the transaction {digest} was sent, and is not mined after {self.patience:g} s; it may still be: "
-                f"{CHECK_FIRST}"
-            )
+            what = f"the transaction {digest} was sent, and is not mined after {self.patience:g} s; it may still be"
+            raise TransactionError(f"{what}: {CHECK_FIRST}")
         try:
             status, gas, block = (quantity(receipt[key]) for key in ("status", "gasUsed", "blockNumber"))
             price, l1_fee = (quantity(receipt.get(key) or "0x0") for key in ("effectiveGasPrice", "l1Fee"))
@@ -237,10 +205,8 @@ class Transactor:
             )
         return Receipt(digest, block, gas, gas * price + l1_fee, tuple(logs))
 
-    def _reason(self, transaction: dict[str, Any] | None, block: int) -> str:
+    def _reason(self, transaction: dict[str, Any], block: int) -> str:
         """Return why a transaction failed, by repeating it as a call."""
-        if transaction is None:
-            return ""
         call = {"from": to_hex(self.address), "data": transaction["data"], "value": hex(transaction["value"])}
         call |= {"gas": hex(transaction["gas"])} | ({"to": transaction["to"]} if "to" in transaction else {})
         try:
@@ -252,34 +218,27 @@ class Transactor:
         return ""
 
     def wait(self, ask: Callable[[], Any], what: str = "the node") -> Any:
-        """Call `ask` until it returns something, and return that; None after `patience` seconds.
-
-        Nodes that do not answer are asked again. what: what is waited for, for `on_delay`.
-        """
+        """Call `ask`, again if a node does not answer, until it returns something; None after `patience` seconds."""
         started, pause, reported = time.monotonic(), 0.05, False
         end = started + self.patience
         while True:
-            failure: NodeError | None = None
             try:
                 answer = ask()
-                if answer is not None:
+                if answer is not None or time.monotonic() + pause > end:
                     return answer
-            except NoAnswerError as error:
-                failure = error
+            except NoAnswerError:
+                if time.monotonic() + pause > end:
+                    raise
             if self.on_delay is not None and not reported and time.monotonic() - started > DELAY:
                 reported = True
                 self.on_delay(f"waiting for {what}")
-            if time.monotonic() + pause > end:
-                if failure is not None:
-                    raise failure
-                return None
             time.sleep(pause)
             pause = min(2.0, pause * 1.5)
 
     def _rejected(self, error: NodeError, cost: int) -> ChainError:
         """Return an error with advice, for a node's refusal of a transaction."""
         said = str(error).lower()
-        if "insufficient funds" in said or "not enough funds" in said or "insufficient balance" in said:
+        if re.search("insufficient funds|not enough funds|insufficient balance", said):
             return TransactionError(
                 f"{self.name} has {rounded(self.balance())} ether, a transaction may cost {rounded(cost)}: send it some"
             )
@@ -287,22 +246,9 @@ class Transactor:
             return TransactionError(
                 f"{self.name} was used by another program meanwhile ({error}): run the command again"
             )
-        if "underpriced" in said or "less than block base fee" in said or "fee cap" in said or "gas price" in said:
+        if re.search("underpriced|less than block base fee|fee cap|gas price", said):
             return TransactionError(f"the price of gas has risen meanwhile ({error}): run the command again")
-        if _lacks_chain_id(error):
-            return TransactionError(
-                f"the {self.connection.name} refuses transactions without a chain id (EIP-155), such as the published "
-                "one that deploys the proxy: use another node of the same chain"
-            )
-        if type(error) is NodeError:
-            return TransactionError(f"the transaction was refused: {error}")
-        return error
-
-
-def _lacks_chain_id(error: NodeError) -> bool:
-    """Return whether a node refused a transaction because it has no chain id (EIP-155)."""
-    said = str(error).lower()
-    return any(words in said for words in ("replay-protected", "replay protected", "eip-155", "eip155"))
+        return TransactionError(f"the transaction was refused: {error}") if type(error) is NodeError else error
 
 
 def _are_logs(logs: Any) -> bool:

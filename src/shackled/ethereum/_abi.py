@@ -45,9 +45,9 @@ class Interface:
         entry = next(entry for entry in self._abi if entry["type"] == "constructor")
         return _encode(entry, arguments, "the constructor")
 
-    def parameter_type(self, function: str, number: int = 0) -> str:
-        """Return the type of a parameter, where a struct is a tuple such as "(uint256,bytes)"."""
-        return _type_of(self._functions[function]["inputs"][number])
+    def parameter_type(self, function: str) -> str:
+        """Return the type of the first parameter, where a struct is a tuple such as "(uint256,bytes)"."""
+        return _type_of(self._functions[function]["inputs"][0])
 
     @cached_property
     def _functions(self) -> dict[str, Mapping[str, Any]]:
@@ -61,16 +61,13 @@ class Interface:
 
 def _encode(entry: Mapping[str, Any], arguments: Sequence[Any], name: str) -> bytes:
     kinds = [_type_of(each) for each in entry["inputs"]]
-    try:
-        return encode_values(kinds, arguments)
-    except ValueError:
-        for parameter, kind, value in zip(entry["inputs"], kinds, arguments, strict=True):
-            try:
-                encode_values([kind], [value])
-            except ValueError:
-                which = f"{parameter.get('name')} of {name}".strip()
-                raise InputError(f"{which} must be a {kind}, not {value!r:.60}") from None
-        raise
+    for parameter, kind, value in zip(entry["inputs"], kinds, arguments, strict=True):
+        try:
+            encode_values([kind], [value])
+        except ValueError:
+            which = f"{parameter.get('name')} of {name}".strip()
+            raise InputError(f"{which} must be a {kind}, not {value!r:.60}") from None
+    return encode_values(kinds, arguments)
 
 
 def _signature(entry: Mapping[str, Any]) -> str:

@@ -57,9 +57,8 @@ class Instance:
         """Start without contracts. is_stoppable: whether `stop` works, which makes calls slower."""
         self._engine, self._store, instance = start(is_stoppable)
         self._is_stopped = False
-        self._exports = instance.exports(self._store)
+        self._exports: Any = instance.exports(self._store)
         self._memory: Any = self._exports["memory"]
-        self._functions: dict[str, Any] = {}
         self._codes: dict[bytes, bytes] = {}
 
     def stop(self) -> None:
@@ -86,12 +85,15 @@ class Instance:
         InputError unless both numbers are from 0 to 2^64 - 1 and `prevrandao` has 32 bytes. The 256 blocks before it
         have hashes: that of block n is the Keccak-256 of n as decimal text, as in pyrevm.
         """
-        numbers = _word("number", number), _word("timestamp", timestamp)
+        for name, value in (("number", number), ("timestamp", timestamp)):
+            # wasmtime would take the last 64 bits
+            if integer(value) is None or not 0 <= value < 1 << 64:
+                raise InputError(f"`{name}` must be a whole number from 0 to 2^64 - 1, not {value!r:.60}")
         if not isinstance(prevrandao, bytes) or len(prevrandao) != 32:
             raise InputError(f"`prevrandao` must be 32 bytes, not {prevrandao!r:.60}")
         place = self._run("allocate", 32)
         self._memory.write(self._store, prevrandao, place)
-        self._run("set_block", *numbers, place)
+        self._run("set_block", int(number), int(timestamp), place)
         self._run("release", place, 32)
 
     def call(self, address: bytes, data: bytes, gas: int) -> Answer:
@@ -139,11 +141,9 @@ class Instance:
         return bytes(self._memory.read(self._store, place, place + size)) if size else b""
 
     def _run(self, function: str, *values: int) -> Any:
-        if function not in self._functions:
-            self._functions[function] = self._exports[function]
         busy.add(self._store)
         try:
-            return self._functions[function](self._store, *values)
+            return self._exports[function](self._store, *values)
         except Exception as error:
             import wasmtime
 
@@ -164,11 +164,3 @@ def _checked(address: bytes) -> bytes:
     if len(address) != ADDRESS:
         raise InputError(f"an address must have {ADDRESS} bytes, not {len(address):,}")
     return address
-
-
-def _word(name: str, value: object) -> int:
-    """Return a number of 64 bits; wasmtime would take the last 64 of any other."""
-    whole = integer(value)
-    if whole is None or not 0 <= whole < 1 << 64:
-        raise InputError(f"`{name}` must be a whole number from 0 to 2^64 - 1, not {value!r:.60}")
-    return whole

@@ -8,6 +8,7 @@ import os
 import platform
 import stat
 import threading
+from contextlib import suppress
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -50,10 +51,9 @@ def start(is_stoppable: bool = False) -> tuple[wasmtime.Engine, wasmtime.Store, 
     that (`ulimit -v`), or the file in memory with its first content (`ulimit -f`), the instance is a small one: it
     reserves 64 MB, moves its memory when that does not suffice, and checks accesses.
     """
-    limit = address_space()
-    failure: Exception | None = None
-    for is_small in (False, True):
-        if limit is not None and limit < (LEAST if is_small else FULL):
+    limit, failure = address_space(), None
+    for is_small, needed in ((False, FULL), (True, LEAST)):
+        if limit is not None and limit < needed:
             continue
         engine, module = compiled(is_small, is_stoppable)
         import wasmtime
@@ -66,9 +66,9 @@ def start(is_stoppable: bool = False) -> tuple[wasmtime.Engine, wasmtime.Store, 
         except (wasmtime.WasmtimeError, MemoryError) as error:
             store.close()
             failure = error
-            continue
-        _open.add(store)
-        return engine, store, instance
+        else:
+            _open.add(store)
+            return engine, store, instance
     raise _cannot_start(failure) from failure
 
 
@@ -139,7 +139,9 @@ def _compiled(is_small: bool, is_stoppable: bool) -> tuple[wasmtime.Engine, wasm
         ) from error
     engine = wasmtime.Engine(_config(is_small, is_stoppable))
     source = module_bytes()
-    path = _cache_file(source, "-small" * is_small + "-stoppable" * is_stoppable)
+    kind = "-small" * is_small + "-stoppable" * is_stoppable
+    name = f"evm-{hashlib.sha256(source).hexdigest()[:16]}{kind}.bin"
+    path = user_cache_path("shackled", appauthor=False) / name
     module = _load(engine, path)
     if module is None:
         try:
@@ -150,30 +152,19 @@ def _compiled(is_small: bool, is_stoppable: bool) -> tuple[wasmtime.Engine, wasm
     return engine, module
 
 
-def _cache_file(source: bytes, kind: str) -> Path:
-    name = f"evm-{hashlib.sha256(source).hexdigest()[:16]}{kind}.bin"
-    return user_cache_path("shackled", appauthor=False) / name
-
-
 def _load(engine: wasmtime.Engine, path: Path) -> wasmtime.Module | None:
-    """Return the module of a cache file.
-
-    None if there is none, another user could have written it, it is damaged, or wasmtime or the machine differ.
-    """
+    """Return the module of a cache file; None if others could have written it, it is damaged, or wasmtime differs."""
     import wasmtime
 
     try:
         with open(path, "rb", opener=_open_plainly) as file:
             if not _is_trusted(os.fstat(file.fileno())):
                 return None
-            content = file.read()
-        digest, code = content[:32], content[32:]
+            digest, code = file.read(32), file.read()
         # wasmtime takes code as it is: what was cut off or changed would crash
-        if hashlib.sha256(code).digest() == digest:
-            return wasmtime.Module.deserialize(engine, code)
+        return wasmtime.Module.deserialize(engine, code) if hashlib.sha256(code).digest() == digest else None
     except (OSError, wasmtime.WasmtimeError):
-        pass
-    return None
+        return None
 
 
 def _open_plainly(path: str, flags: int) -> int:
@@ -183,20 +174,17 @@ def _open_plainly(path: str, flags: int) -> int:
 
 def _is_trusted(status: os.stat_result) -> bool:
     """Return whether nobody but this user and root could have written a file: its content runs as machine code."""
-    if not stat.S_ISREG(status.st_mode):
-        return False
-    # Windows has neither; there the folder belongs to the user
-    return not hasattr(os, "geteuid") or (status.st_uid in (0, os.geteuid()) and not status.st_mode & 0o022)
+    # Windows has neither users nor modes; there the folder belongs to the user
+    is_own = not hasattr(os, "geteuid") or (status.st_uid in (0, os.geteuid()) and not status.st_mode & 0o022)
+    return is_own and stat.S_ISREG(status.st_mode)
 
 
 def _save(path: Path, code: bytes) -> None:
     """Write a cache file that only this user can change; where that fails, the next process compiles again."""
-    try:
+    with suppress(OSError):
         path.parent.parent.mkdir(parents=True, exist_ok=True)
         path.parent.mkdir(mode=0o700, exist_ok=True)
         # `write_whole` would follow a link, and wait for the reader of a pipe
         if path.is_symlink() or (path.exists() and not path.is_file()):
             path.unlink()
         write_whole(path, hashlib.sha256(code).digest() + code, mode=0o600)
-    except OSError:
-        pass

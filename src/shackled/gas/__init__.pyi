@@ -3,12 +3,10 @@ from ._flame_graph import flame_graph
 from ._limits import Fit, fits_of, headline, limits, margin, measure, render_call
 from ._profile import KINDS, STACK, Profile, profile
 from ._report import GasReport, make_report
-from ._runs import BAND_PIXELS
 from ._search import SearchStep, search, suffices
 from ._stages import STAGES
 
 __all__ = [
-    "BAND_PIXELS",
     "KINDS",
     "STACK",
     "STAGES",

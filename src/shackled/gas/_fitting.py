@@ -39,21 +39,30 @@ _Name = Literal["antialias", "side", "triangles"]
 
 
 @dataclass(frozen=True)
-class Fitted:
-    """A scene that fits, a sentence that says what was done, and the number of calls that found it."""
-
-    scene: Scene
-    sentence: str
-    tries: int
-
-
-@dataclass(frozen=True)
 class _Settings:
     """antialias: 0 or 1. side: the longer one of the canvas. triangles: of a mesh at most."""
 
     antialias: int
     side: int
     triangles: int
+
+
+#: What is lowered, in this order, and how far.
+STEPS: tuple[tuple[_Name, Callable[[_Settings], int]], ...] = (
+    ("antialias", lambda _: 0),
+    ("side", lambda _: SMALL),
+    ("triangles", lambda now: max(FEWEST, now.side**2 // PIXELS)),
+    ("side", lambda _: SMALLEST),
+    ("triangles", lambda _: FEWEST),
+)
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A scene that fits, and a sentence that says what was done."""
+
+    scene: Scene
+    sentence: str
 
 
 def fit_scene(scene: Scene, what: str, crease: float | None = None) -> Fitted:
@@ -75,7 +84,6 @@ class _Fitting:
         self._place = "one transaction" if limit.kind == "transaction" else f"a read call of {limit.node}"
         triangles = max((each.mesh.triangles for each in scene.objects), default=0)
         self._asked = _Settings(int(scene.antialias), max(scene.width, scene.height), triangles)
-        self._tries = 0
         self._simpler = {triangles: scene}
 
     def run(self) -> Fitted:
@@ -84,7 +92,7 @@ class _Fitting:
         if (gas := self._gas(now)) is not None:
             return self._fitted(now, gas)
         remark = ""
-        for name, lowest in self._steps():
+        for name, lowest in STEPS:
             high = getattr(now, name)
             low = min(high, lowest(now))
             if low == high:
@@ -102,25 +110,11 @@ class _Fitting:
             now = least
         raise InputError(f"nothing that is left of the picture fits {self._place}, even {self._words(now)}{remark}")
 
-    @staticmethod
-    def _steps() -> tuple[tuple[_Name, Callable[[_Settings], int]], ...]:
-        """Return what is lowered, in this order, and how far."""
-        return (
-            ("antialias", lambda _: 0),
-            ("side", lambda _: SMALL),
-            ("triangles", lambda now: max(FEWEST, now.side**2 // PIXELS)),
-            ("side", lambda _: SMALLEST),
-            ("triangles", lambda _: FEWEST),
-        )
-
     def _highest(self, name: _Name, best: _Settings, gas: int, high: int) -> tuple[_Settings, int]:
-        """Return the highest setting below `high`, which does not fit, that fits; and its gas. best: one that does.
-
-        Gas is nearly linear in pixels and in triangles, so that few tries come near the limit.
-        """
+        """Return the highest setting below `high`, which does not fit, that fits, and its gas. best: one that does."""
         power = 2 if name == "side" else 1
         step = SIDE_STEP if name == "side" else max(1, round(TRIANGLE_STEP * high))
-        # at first as if all gas were that of pixels or triangles: too low
+        # gas is nearly linear in both; at first as if all of it were that of pixels or triangles: too low
         x, y = 0.0, 0.0
         while gas < NEAR * self._limit.gas:
             low: int = getattr(best, name)
@@ -163,7 +157,6 @@ class _Fitting:
         intrinsic = intrinsic_gas(data)
         if max(intrinsic, floor_gas(data)) > self._limit.gas:
             return None
-        self._tries += 1
         try:
             return intrinsic + self._chain.call("Renderer", data, self._limit.gas - intrinsic).gas
         except OutOfGasError:
@@ -183,19 +176,18 @@ class _Fitting:
         words = self._words(settings)
         used = f"{gas:,} of {self._limit.gas:,} gas"
         how = f"to fit {self._place}, the picture is drawn {words}" if words else f"the picture fits {self._place}"
-        return Fitted(self._scene_of(settings), f"{how}: {used}", self._tries)
+        return Fitted(self._scene_of(settings), f"{how}: {used}")
 
     def _words(self, settings: _Settings) -> str:
         """Return how a picture is drawn, where that is not as it was asked for."""
         width, height = self._size(settings)
-        now, was = (
-            sum(each.mesh.triangles for each in scene.objects) for scene in (self._scene_of(settings), self._scene)
-        )
-        words = {
-            "without antialiasing": settings.antialias != self._asked.antialias,
-            f"at {width} x {height} instead of {self._scene.width} x {self._scene.height} pixels": settings.side
-            != self._asked.side,
-            f"with {now:,} of {was:,} triangles": now != was,
-        }
-        said = [each for each, is_so in words.items() if is_so]
-        return listed(said) if said else ""
+        scenes = (self._scene_of(settings), self._scene)
+        now, was = (sum(each.mesh.triangles for each in scene.objects) for scene in scenes)
+        words = []
+        if settings.antialias != self._asked.antialias:
+            words.append("without antialiasing")
+        if settings.side != self._asked.side:
+            words.append(f"at {width} x {height} instead of {self._scene.width} x {self._scene.height} pixels")
+        if now != was:
+            words.append(f"with {now:,} of {was:,} triangles")
+        return listed(words) if words else ""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from html import escape
+from itertools import takewhile
 
 from ._profile import Profile
 from ._stages import STAGES
@@ -30,12 +31,13 @@ class _Box:
 
 
 def flame_graph(profile: Profile, name: str) -> str:
-    """Return the SVG document. The width of a box is its gas; its tooltip shows the figure.
-
-    Calls that all of a stage have in common, such as that of the Engine, are left out.
-    """
+    """Return the SVG document. Calls that all of a stage have in common, such as that of the Engine, are left out."""
     root = _Box()
-    common = _common_calls(profile)
+    common = {}
+    for stage in STAGES:
+        # the function itself stays
+        ways = [cost.calls[:-1] for cost in profile.costs if cost.stage == stage]
+        common[stage] = len([*takewhile(lambda names: len(set(names)) == 1, zip(*ways, strict=False))])
     for cost in profile.costs:
         box = root
         box.gas += cost.gas
@@ -61,17 +63,6 @@ def flame_graph(profile: Profile, name: str) -> str:
         + "\n".join(parts)
         + "\n</svg>\n"
     )
-
-
-def _common_calls(profile: Profile) -> dict[str, int]:
-    """Return the number of leading calls that all of a stage have in common."""
-    first: dict[str, tuple[str, ...]] = {}
-    for cost in profile.costs:
-        # the function itself stays
-        calls = first.setdefault(cost.stage, cost.calls[:-1])
-        same = next((i for i, (a, b) in enumerate(zip(calls, cost.calls[:-1], strict=False)) if a != b), None)
-        first[cost.stage] = calls[: min(len(calls), len(cost.calls) - 1) if same is None else same]
-    return {stage: len(calls) for stage, calls in first.items()}
 
 
 def _draw(

@@ -10,10 +10,9 @@ from importlib.resources import files
 from typing import Any
 
 from .._load import Thing, load_picture
-from ..chain import ContractChain, open_chain
+from ..chain import ContractChain, engine_calls, open_chain
 from ..scene import render_call as render_call
 from ..values import listed
-from ._runs import engine_calls
 
 #: EIP-150: a call passes on all but one 64th of the gas that is left.
 KEPT = 64

@@ -10,7 +10,7 @@ from typing import TypeVar
 from ..artifacts import artifact
 from ..scene import Scene
 from ._limits import render_call
-from ._source_map import SourceLocation, SourceMap, source_map
+from ._source_map import source_map
 from ._stages import STAGES
 from ._trace import CallFrame, trace
 
@@ -34,24 +34,25 @@ _OPCODES = {
     # CALLDATALOAD, CALLDATACOPY, CODECOPY, EXTCODECOPY, RETURNDATACOPY, MLOAD, MSTORE, MSTORE8, MSIZE, MCOPY
     MEMORY: (0x35, 0x37, 0x39, 0x3C, 0x3E, 0x51, 0x52, 0x53, 0x59, 0x5E),
 }
-#: stage, calls, file and line of a `LineCost`.
-_Line = tuple[str, tuple[str, ...], str, int]
+#: stage, calls, file, line and kind of a `LineCost`.
+_Line = tuple[str, tuple[str, ...], str, int, str]
 
 _KINDS = {opcode: kind for kind, opcodes in _OPCODES.items() for opcode in opcodes}
 
 
 @dataclass(frozen=True)
 class LineCost:
-    """The gas of one line in one function, called in one way, for one stage.
+    """The gas of the opcodes of one kind in one line of one function, called in one way, for one stage.
 
     calls: the call stack, the outermost function first; the line stands in the last. file, line: line counts from 1;
-    the file is empty for code of the compiler.
+    the file is empty for code of the compiler. kind: of `KINDS`.
     """
 
     stage: str
     calls: tuple[str, ...]
     file: str
     line: int
+    kind: str
     gas: int
 
     @property
@@ -75,21 +76,10 @@ class FunctionCost:
 
 
 @dataclass(frozen=True)
-class OpcodeCost:
-    """The gas of the opcodes of one kind of `KINDS` in one function, for one stage."""
-
-    stage: str
-    function: str
-    kind: str
-    gas: int
-
-
-@dataclass(frozen=True)
 class Profile:
-    """The costs of a call; they sum to its gas, and so do those of the opcodes."""
+    """The costs of a call; they sum to its gas."""
 
     costs: tuple[LineCost, ...]
-    opcode_costs: tuple[OpcodeCost, ...]
 
     @property
     def gas(self) -> int:
@@ -105,7 +95,7 @@ class Profile:
         """Return the gas by kind of opcode, in the order of `KINDS`: of all, of a stage, or of a function alone."""
         gas = _sums(
             (cost.kind, cost.gas)
-            for cost in self.opcode_costs
+            for cost in self.costs
             if stage in (None, cost.stage) and function in (None, cost.function)
         )
         return {kind: gas[kind] for kind in KINDS}
@@ -127,55 +117,32 @@ def profile(scene: Scene) -> Profile:
     """Profile a render in the embedded EVM."""
     root, result = trace("Renderer", render_call(scene))
     gas: Counter[_Line] = Counter()
-    kinds: Counter[tuple[str, str, str]] = Counter()
-    _collect(root, (), gas, kinds)
-    found = Profile(
-        tuple(LineCost(*key, each) for key, each in gas.items() if each),
-        tuple(OpcodeCost(*key, each) for key, each in kinds.items() if each),
-    )
+    _collect(root, (), gas)
+    found = Profile(tuple(LineCost(*key, each) for key, each in gas.items() if each))
     assert found.gas == result.gas
     return found
 
 
-def _collect(
-    frame: CallFrame, callers: tuple[str, ...], gas: Counter[_Line], kinds: Counter[tuple[str, str, str]]
-) -> None:
+def _collect(frame: CallFrame, callers: tuple[str, ...], gas: Counter[_Line]) -> None:
     mapped, code = source_map(frame.contract), artifact(frame.contract).runtime
-    name = _name(frame, mapped)
+    entered = mapped.places[frame.entry].function if frame.entry else None
+    name = frame.contract
+    if frame.entry:
+        name = mapped.entries.get(frame.entry) or entered or f"{frame.contract}@{frame.entry}"
     calls = callers if callers and callers[-1] == name else (*callers, name)
     for stage, costs in frame.costs.items():
         for at, each in costs.items():
-            place = mapped.places.get(at)
-            line = _line(frame, mapped, place)
+            place = mapped.places[at]
+            # a function within assembly lies in one of Solidity
+            is_own = frame.entry > 0 and entered == place.function
+            # in assembly only the function is known
+            line = max(place.line, mapped.entry_lines.get(frame.entry, 0)) if place.block and is_own else place.line
             # inlined functions have no calls, but their instructions are mapped to them
-            inlined = place.function if place is not None and not _is_own(frame, mapped, place) else None
-            key = stage, (*calls, inlined) if inlined and inlined != name else calls, line[0], line[1]
-            gas[key] += each
-            kinds[stage, key[1][-1], _KINDS.get(code[at], OTHERS)] += each
+            inlined = None if is_own else place.function
+            way = (*calls, inlined) if inlined and inlined != name else calls
+            gas[stage, way, place.file, line, _KINDS.get(code[at], OTHERS)] += each
     for called in frame.calls:
-        _collect(called, calls, gas, kinds)
-
-
-def _name(frame: CallFrame, mapped: SourceMap) -> str:
-    if not frame.entry:
-        return frame.contract
-    place = mapped.places.get(frame.entry)
-    return mapped.entries.get(frame.entry) or (place and place.function) or f"{frame.contract}@{frame.entry}"
-
-
-def _is_own(frame: CallFrame, mapped: SourceMap, place: SourceLocation) -> bool:
-    """Return whether a place belongs to the function of the frame: one within assembly lies in one of Solidity."""
-    entered = mapped.places.get(frame.entry)
-    return entered is not None and frame.entry > 0 and entered.function == place.function
-
-
-def _line(frame: CallFrame, mapped: SourceMap, place: SourceLocation | None) -> tuple[str, int]:
-    if place is None or not place.file:
-        return "", 0
-    if place.block and frame.entry in mapped.entry_lines and _is_own(frame, mapped, place):
-        # in assembly only the function is known
-        return place.file, max(place.line, mapped.entry_lines[frame.entry])
-    return place.file, place.line
+        _collect(called, calls, gas)
 
 
 def _sums(pairs: Iterable[tuple[_Key, int]]) -> Counter[_Key]:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
-from ..chain import ContractChain
+from ..chain import ContractChain, NodeChain
 from ..scene import Scene
 from ._limits import ExactGas, Fit, Margin, fits_of, margin, measure, render_call
 from ._profile import Profile, profile
-from ._search import Caller, Search, SearchStep, search, suffices
+from ._search import Search, SearchStep, search, suffices
 
 GWEI_PER_ETHER = 10**9
 
@@ -67,10 +67,7 @@ class GasReport:
             "engine_gas": self.exact.engine_gas,
             "searched_gas": self.search.gas,
             "search_calls": self.search.calls,
-            "search_steps": [
-                {"limit": step.limit, "enough": step.enough, "lower": step.lower, "upper": step.upper}
-                for step in self.search.steps
-            ],
+            "search_steps": [asdict(step) for step in self.search.steps],
             "margin": {"gas": self.margin.gas, "kept": self.margin.kept, "after": self.margin.after},
             "intrinsic_gas": self.exact.intrinsic_gas,
             "stages": None if self.profile is None else self.profile.stages(),
@@ -95,7 +92,7 @@ def make_report(
     upper: int | None = None,
     stages: bool = True,
     on_step: Callable[[SearchStep], None] | None = None,
-    searched: Caller | None = None,
+    searched: NodeChain | None = None,
 ) -> GasReport:
     """Measure a render, search for its gas limit between two bounds, and trace it.
 

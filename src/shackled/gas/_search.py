@@ -4,20 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
 
-from ..chain import DEFAULT_GAS_LIMIT
+from ..chain import DEFAULT_GAS_LIMIT, ContractChain, NodeChain
 from ..errors import InputError, OutOfGasError
 
 #: The first limit that is tried where no upper one is given; it is doubled until it suffices.
 FIRST_LIMIT = 1 << 20
-
-
-class Caller(Protocol):
-    """Makes calls of contracts, and raises OutOfGasError where the limit does not suffice."""
-
-    def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> object:
-        """Call a contract, by the name of its artifact."""
 
 
 @dataclass(frozen=True)
@@ -90,7 +82,7 @@ def search(
     return Search(least, tuple(steps))
 
 
-def suffices(chain: Caller, contract: str, data: bytes) -> Callable[[int], bool]:
+def suffices(chain: ContractChain | NodeChain, contract: str, data: bytes) -> Callable[[int], bool]:
     """Return a function that tells whether a call succeeds with a gas limit; it raises ChainError on other failures."""
 
     def call(limit: int) -> bool:

@@ -75,26 +75,21 @@ def source_map(contract: str) -> SourceMap:
     """Return the map of a contract, by the name of its artifact."""
     data = _data()["contracts"][contract]
     places: dict[int, SourceLocation] = {}
-    spans: dict[int, tuple[int, int, int]] = {}
+    entries = {at: name for name, at in data["entries"].items()}
+    names, lines = {}, {}
     for at, number, begin, end, jump in instruction_sources(artifact(contract).runtime, data["map"]):
         source = _sources().get(number)
-        if source is None:
-            places[at] = SourceLocation("", None, 0, jump, False)
-            continue
-        spans[at] = number, begin, end
-        block = source.text.startswith(b"assembly", begin)
-        places[at] = SourceLocation(source.name, source.function(begin, end), source.line(begin), jump, block)
-    names, lines = {}, {}
-    for name, at in data["entries"].items():
-        names[at], lines[at] = _entry(name, spans.get(at))
+        places[at] = SourceLocation("", None, 0, jump, False)
+        if source is not None:
+            block = source.text.startswith(b"assembly", begin)
+            places[at] = SourceLocation(source.name, source.function(begin, end), source.line(begin), jump, block)
+        if at in entries:
+            names[at], lines[at] = (entries[at], 0) if source is None else _entry(entries[at], source, begin, end)
     return SourceMap(contract, places, names, lines)
 
 
 def instruction_sources(code: bytes, entries: str) -> Iterator[tuple[int, int, int, int, str]]:
-    """Yield, for each instruction, its position, the number of its source (-1: none), begin, end and jump.
-
-    entries: the compiler's source map.
-    """
+    """Yield position, number of the source (-1: none), begin, end and jump of each instruction of a source map."""
     fields = ["0", "0", "-1", "-"]
     for at, entry in zip(_instructions(code), entries.split(";"), strict=False):
         # begin:length:source:jump:..., where empty fields repeat the entry before
@@ -104,21 +99,17 @@ def instruction_sources(code: bytes, entries: str) -> Iterator[tuple[int, int, i
         yield at, number, begin, begin + length, fields[3]
 
 
-def _entry(name: str, span: tuple[int, int, int] | None) -> tuple[str, int]:
+def _entry(name: str, source: SourceFile, begin: int, end: int) -> tuple[str, int]:
     """Name and line of a function of the compiler's intermediate language."""
-    if span is None:
-        return name, 0
-    source, (_, begin, end) = _sources()[span[0]], span
     exact = next((f.name for f in source.functions if (f.begin, f.end) == (begin, end)), None)
-    if exact is not None:
-        return exact, source.line(begin)
-    if name.startswith("usr$"):
-        # a function within inline assembly; its copies are numbered
-        own = re.sub(r"_\d+$", "", name.removeprefix("usr$"))
-        stem = source.name.rpartition("/")[2].removesuffix(".sol")
-        found = re.compile(rb"\bfunction\s+" + own.encode() + rb"\b").search(source.text, begin, end)
-        return f"{stem}.{own}", source.line(found.start() if found else begin)
-    return re.sub(r"_\d+$", "", name), source.line(begin)
+    # copies of functions are numbered
+    own = re.sub(r"_\d+$", "", name.removeprefix("usr$"))
+    if exact is not None or not name.startswith("usr$"):
+        return exact or own, source.line(begin)
+    # a function within inline assembly
+    stem = source.name.rpartition("/")[2].removesuffix(".sol")
+    found = re.compile(rb"\bfunction\s+" + own.encode() + rb"\b").search(source.text, begin, end)
+    return f"{stem}.{own}", source.line(found.start() if found else begin)
 
 
 def _instructions(code: bytes) -> list[int]:

@@ -65,10 +65,9 @@ _SOURCES = {
 
 def stages_of(source_map: SourceMap) -> dict[int, str]:
     """Return the stage of each instruction by its position; code that serves several stages has none."""
-    stages = {}
-    for at, place in source_map.places.items():
-        if place.function is not None:
-            stage = _SOURCES.get(place.file, _SOURCES.get(place.file.rpartition("/")[0]))
-            if stage is not None:
-                stages[at] = stage
-    return stages
+    found = {
+        at: _SOURCES.get(place.file, _SOURCES.get(place.file.rpartition("/")[0]))
+        for at, place in source_map.places.items()
+        if place.function is not None
+    }
+    return {at: stage for at, stage in found.items() if stage is not None}

@@ -59,26 +59,20 @@ def trace(contract: str, data: bytes) -> tuple[CallFrame, CallResult]:
 
 
 def _frames(functions: list[tuple[int, str, int]]) -> list[CallFrame]:
-    """Return the frame of each function: the number of its caller, which comes before it, its contract and its entry.
-
-    No function of the contracts calls itself. Where one is entered below itself, the compiler has joined the ends of
-    several functions, so that its end was not seen: it is the frame that is open.
-    """
+    """Return the frame of each function: number of its caller, which comes before it, contract and entry."""
     frames: list[CallFrame] = []
-    callers: dict[CallFrame, CallFrame | None] = {}
+    # the frames from the outermost to that of a function. No function calls itself: where one is entered below itself,
+    # the compiler has joined the ends of several, so that its end was not seen
+    ways: dict[CallFrame, list[CallFrame]] = {}
     for parent, contract, entry in functions:
-        caller = frames[parent] if parent < len(frames) else None
-        open_frame = caller
-        while open_frame is not None and (open_frame.contract, open_frame.entry) != (contract, entry):
-            open_frame = callers[open_frame]
-        siblings = caller.calls if caller else []
-        known = (each for each in siblings if (each.contract, each.entry) == (contract, entry))
-        frame = open_frame or next(known, None)
+        way = ways[frames[parent]] if parent < len(frames) else []
+        siblings = way[-1].calls if way else []
+        known = (each for each in [*way, *siblings] if (each.contract, each.entry) == (contract, entry))
+        frame = next(known, None)
         if frame is None:
             frame = CallFrame(contract, entry)
-            callers[frame] = caller
-            if caller:
-                caller.calls.append(frame)
+            ways[frame] = [*way, frame]
+            siblings.append(frame)
         frames.append(frame)
     return frames
 

@@ -1,19 +1,18 @@
-from ._backends import Backend, ChainBackend, ThreadBackend, limited
+from ._backends import Backend, ChainBackend, limited
 from ._cluster import ClusterBackend
-from ._counter import Counter
-from ._estimate import is_large
+from ._counter import count
 from ._job import render_frames
 from ._scheduler import Listener, Outline
 from ._store import folder_of, remove_parts
+from ._tiles import is_large
 
 __all__ = [
     "Backend",
     "ChainBackend",
     "ClusterBackend",
-    "Counter",
     "Listener",
     "Outline",
-    "ThreadBackend",
+    "count",
     "folder_of",
     "is_large",
     "limited",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Protocol
 
-from ..chain import DEFAULT_GAS_LIMIT, Chain, Drawing, RevmChain, open_chain, out_of_gas
+from ..chain import Chain, Drawing, RevmChain, open_chain, out_of_gas
 from ..scene import Rectangle, Scene
 
 #: Where a sample is verified: one part in so many, besides the first one of each backend.
@@ -24,12 +24,8 @@ class Part:
 
 def draw_part(chain: Chain, scene: Scene, tile: Rectangle) -> Drawing:
     """Render a tile of a frame."""
-    return chain.draw(scene, _within(scene, tile))
-
-
-def _within(scene: Scene, tile: Rectangle) -> Rectangle | None:
-    """Return a tile as chains take it: None for the whole."""
-    return None if (tile.width, tile.height) == (scene.width, scene.height) else tile
+    is_whole = (tile.width, tile.height) == (scene.width, scene.height)
+    return chain.draw(scene, None if is_whole else tile)
 
 
 def check_part(piece: Drawing, tile: Rectangle) -> None:
@@ -61,18 +57,15 @@ class Backend(Protocol):
     def name(self) -> str:
         """Return the name that messages show."""
 
-    def render(self, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
-        """Render a part; slots are numbered from 0, and each renders one part at a time."""
-
-    def count(self, slot: int, scene: Scene, tile: Rectangle) -> tuple[int, int]:
-        """Count the triangles of a part, and the pixels that they cover."""
+    def render(self, scene: Scene, tile: Rectangle) -> Drawing:
+        """Render a part; as many threads as there are slots may call this."""
 
     def close(self) -> None:
-        """Stop what still runs; may be called while slots are busy, and more than once."""
+        """Stop what still runs; may be called while it renders, and more than once."""
 
 
 class ChainBackend:
-    """A chain: an EVM in this process, or a node with so many calls at a time."""
+    """A chain: an EVM in this process, or a node, with so many calls at a time."""
 
     def __init__(self, chain: Chain, slots: int = 1, untrusted: bool = False, gas: int | None = None) -> None:
         """Take the fields of `Backend`."""
@@ -80,42 +73,21 @@ class ChainBackend:
 
     @property
     def name(self) -> str:
-        """Return the name of the chain."""
-        return self.chain.name
+        """Return the name of the chain, and the number of threads where several call the embedded EVM."""
+        is_threaded = self.slots > 1 and isinstance(self.chain, RevmChain)
+        return self.chain.name + (f", {self.slots} threads" if is_threaded else "")
 
-    def render(self, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
+    def render(self, scene: Scene, tile: Rectangle) -> Drawing:
         """Render a part; raise OutOfGasError if it took more gas than the limit."""
         piece = draw_part(self.chain, scene, tile)
         if self.gas is not None and piece.gas is not None and piece.gas > self.gas:
             raise out_of_gas(self.gas)
         return piece
 
-    def count(self, slot: int, scene: Scene, tile: Rectangle) -> tuple[int, int]:
-        """Count the triangles of a part, and the pixels that they cover."""
-        return self.chain.count(scene, _within(scene, tile))
-
     def close(self) -> None:
-        """Do nothing: nothing runs in the background."""
-
-
-class ThreadBackend(ChainBackend):
-    """Threads of this process, each with an instance of the embedded EVM of its own."""
-
-    chain: RevmChain
-
-    def __init__(self, jobs: int, gas: int | None = None) -> None:
-        """Set up the contracts. jobs: how many calls at a time. gas: limit of a call."""
-        super().__init__(RevmChain(DEFAULT_GAS_LIMIT if gas is None else gas, is_stoppable=True), jobs, gas=gas)
-        self.chain.address("Renderer")  # set up here, before several threads ask for it
-
-    @property
-    def name(self) -> str:
-        """Return the name of the chain and the number of threads."""
-        return f"{self.chain.name}, {self.slots} threads"
-
-    def close(self) -> None:
-        """End the calls that run."""
-        self.chain.stop()
+        """End the calls that run, where the chain can be stopped."""
+        if isinstance(self.chain, RevmChain) and self.chain.is_stoppable:
+            self.chain.stop()
 
 
 class Verifier:

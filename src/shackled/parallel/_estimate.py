@@ -3,25 +3,20 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from dataclasses import dataclass
 
-import numpy as np
 from attrs import evolve
-from numpy.typing import NDArray
 
-from ..chain import ContractChain
+from ..chain import open_chain
 from ..image import decode_bmp
 from ..scene import Rectangle, Scene
-
-Pixels = NDArray[np.uint8]
+from ._tiles import LARGE
 
 #: The longer sides of the small pictures, in pixels: large enough that most faces cover a pixel.
 SIDES = (128, 256)
 #: The part of a gas limit that plans use.
 USED = 0.9
-#: From so many pixels on, pictures are cut into strips to save gas: a fifth of that of plain flat models at 1024 x 1024
-#: pixels, half at 2048 x 2048, but less than a tenth at 768 x 768, where a picture of one call is worth more.
-LARGE = 1024 * 1024
 #: The most strips of a picture that is cut only to save gas: each is a call, on a node a request.
 MOST_STRIPS = 32
 #: The cost of one more strip over `Estimate.call`, by measurement 1.3 to 1.9: triangles across its border are set up
@@ -45,9 +40,10 @@ class Estimate:
     density: float
     intrinsic: int
 
-    def gas(self, pixels: int, calls: int = 1) -> int:
-        """Return the execution gas of a picture that is rendered in so many calls of equal size."""
-        return round(self.fixed + (calls - 1) * self.call + calls * memory_gas(pixels // calls) + self.pixel * pixels)
+    def gas(self, calls: int = 1) -> int:
+        """Return the execution gas of the picture, rendered in so many calls of equal size."""
+        fixed = self.fixed + (calls - 1) * self.call
+        return round(fixed + calls * memory_gas(self.area // calls) + self.pixel * self.area)
 
     def cheapest_strips(self) -> int:
         """Return the number of strips in which the picture costs least; 1 for a picture that is not `LARGE`.
@@ -58,7 +54,7 @@ class Estimate:
         if self.area < LARGE:
             return 1
         each = STRIP * self.call + self.intrinsic
-        return max(1, min(MOST_STRIPS, round(math.sqrt(_memory_gas(self.area)[1] / max(1.0, each)))))
+        return max(1, min(MOST_STRIPS, round(math.sqrt(_square(self.area) / max(1.0, each)))))
 
     def pixels_within(self, gas: int) -> int:
         """Return the most pixels of a strip that fits into a gas limit anywhere in the picture, intrinsic gas included;
@@ -66,16 +62,13 @@ class Estimate:
         """
         # vertices and faces cost gas where pixels are covered
         pixel = (self.pixel + max(0.0, self.fixed - self.call) / self.area) * self.density
-        fitting, beyond = 0, 1 << 22
-        while beyond - fitting > 1:
-            middle = (fitting + beyond) // 2
-            need = self.intrinsic + self.call + memory_gas(middle) + middle * pixel
-            fitting, beyond = (middle, beyond) if need <= USED * gas else (fitting, middle)
-        return fitting
+        left = USED * gas - self.intrinsic - self.call
+        return max(0, bisect_right(range(1 << 22), left, key=lambda pixels: memory_gas(pixels) + pixels * pixel) - 1)
 
 
-def estimate(scene: Scene, chain: ContractChain) -> Estimate:
-    """Estimate the cost of a scene; draws small pictures on a chain, which should be a fast one."""
+def estimate(scene: Scene) -> Estimate:
+    """Estimate the cost of a scene, from small pictures of it that the embedded EVM draws."""
+    chain = open_chain()
     small, large = (evolve(scene, width=width, height=height) for width, height in _sizes(scene))
     drawings = [chain.draw(each) for each in (small, large)]
     pixels = [each.width * each.height for each in (small, large)]
@@ -83,36 +76,27 @@ def estimate(scene: Scene, chain: ContractChain) -> Estimate:
     slope = max(1.0, (gas[1] - gas[0]) / max(1, pixels[1] - pixels[0]))
     corner = chain.draw(large, Rectangle(0, 0, 1, 1))
     empty = chain.draw(evolve(small, objects=[], ground=None))
+    drawn, background = (decode_bmp(each.bmp, small.width, small.height) for each in (drawings[0], empty))
+    # the share of covered pixels of each row
+    rows = (drawn != background).any(axis=2).mean(axis=1)
     return Estimate(
         area=scene.width * scene.height,
         fixed=max(0.0, gas[0] - slope * pixels[0]),
         call=float(corner.gas or 0),
         pixel=slope,
-        density=_density(*(decode_bmp(each.bmp, small.width, small.height) for each in (drawings[0], empty))),
+        density=float(rows.max() / rows.mean()) if rows.any() else 1.0,
         intrinsic=max(drawing.intrinsic_gas or 0 for drawing in drawings),
     )
 
 
-def _density(drawn: Pixels, empty: Pixels) -> float:
-    """Return the share of covered pixels in the densest row, divided by that of the picture."""
-    rows = (drawn != empty).any(axis=2).mean(axis=1)
-    return float(rows.max() / rows.mean()) if rows.any() else 1.0
-
-
 def memory_gas(pixels: int) -> int:
     """Return the gas of the memory that engine and renderer each need for so many pixels of 3 bytes."""
-    return sum(_memory_gas(pixels))
+    return 6 * (3 * pixels // 32) + _square(pixels)
 
 
-def _memory_gas(pixels: int) -> tuple[int, int]:
-    """Return the linear and the quadratic part of `memory_gas`."""
-    words = 3 * pixels // 32
-    return 6 * words, 2 * (words * words // 512)
-
-
-def is_large(scene: Scene) -> bool:
-    """Return whether a picture is cut into strips because that is cheaper."""
-    return scene.width * scene.height >= LARGE
+def _square(pixels: int) -> int:
+    """Return the part of `memory_gas` that grows with the square of the pixels."""
+    return 2 * ((3 * pixels // 32) ** 2 // 512)
 
 
 def _sizes(scene: Scene) -> list[tuple[int, int]]:

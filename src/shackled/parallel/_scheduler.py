@@ -83,7 +83,8 @@ class BackendState:
 
     capacity: the most pixels of a part that may succeed. failures, busy, misses: how often in a row.
     until: monotonic time of the end of its pause. checked: whether its first part has been compared. done: how many
-    finished parts count. left: whether it was dropped. unchecked: finished parts that were not compared.
+    finished parts count. left: whether it was dropped. unchecked: finished parts that were not compared. warned:
+    whether its gas was found to be wrong.
     """
 
     backend: Backend
@@ -96,6 +97,7 @@ class BackendState:
     done: int = 0
     left: bool = False
     unchecked: list[Part] = field(default_factory=list)
+    warned: bool = False
 
 
 class Scheduler:
@@ -119,16 +121,15 @@ class Scheduler:
         self._results: dict[Part, Drawing] = {}
         self._error: BaseException | None = None
         self._stopped = False
-        self._warned: set[BackendState] = set()
         self._comparing = ThreadPoolExecutor(1)
 
     def run(self, parts: Sequence[Part]) -> dict[Part, Drawing]:
         """Render parts and return the finished ones, some of them cut further; an error ends the job."""
         with self._changed:
             self._put_first(parts)
-        slots = [(state, slot) for state in self._states for slot in range(state.backend.slots)]
+        slots = [state for state in self._states for _ in range(state.backend.slots)]
         # daemons, so that a node that does not answer does not keep the process from ending
-        threads = [threading.Thread(target=self._serve, args=each, daemon=True) for each in slots]
+        threads = [threading.Thread(target=self._serve, args=(state,), daemon=True) for state in slots]
         try:
             for thread in threads:
                 thread.start()
@@ -146,15 +147,6 @@ class Scheduler:
             self._comparing.shutdown(wait=False, cancel_futures=True)
 
     @property
-    def shares(self) -> dict[str, int]:
-        """Return how many finished parts each backend rendered, by name."""
-        found: dict[str, int] = {}
-        for state in self._states:
-            # nodes of one host have the same name
-            found[state.backend.name] = found.get(state.backend.name, 0) + state.done
-        return found
-
-    @property
     def used(self) -> list[Backend]:
         """Return the backends without those that were dropped and contributed nothing."""
         return [state.backend for state in self._states if state.done or not state.left]
@@ -162,12 +154,12 @@ class Scheduler:
     def _over(self) -> bool:
         return self._stopped or self._error is not None or not (self._pending or self._flying)
 
-    def _serve(self, state: BackendState, slot: int) -> None:
+    def _serve(self, state: BackendState) -> None:
         """Run the thread of a slot."""
         while (part := self._take(state)) is not None:
             piece, failure = None, None
             try:
-                piece = state.backend.render(slot, self._frames[part.frame], part.tile)
+                piece = state.backend.render(self._frames[part.frame], part.tile)
             except BaseException as error:
                 failure = self._judged(state, part, error)
             if piece is not None and state.checked and self._verifier is not None:
@@ -230,7 +222,6 @@ class Scheduler:
 
     def _check(self, state: BackendState, part: Part, piece: Drawing) -> bool:
         """Return whether a part was compared; raise WrongAnswer if it is wrong."""
-        scene = self._frames[part.frame]
         try:
             check_part(piece, part.tile)
         except ChainError as error:
@@ -239,22 +230,17 @@ class Scheduler:
             first, state.checked = not state.checked, True
         if self._verifier is None or not self._verifier.selects(first):
             return False
-        right = self._verifier.draw(scene, part.tile)
+        right = self._verifier.draw(self._frames[part.frame], part.tile)
         if piece.bmp != right.bmp:
             raise WrongAnswer("its picture is not what the contracts draw")
-        if None not in (piece.gas, right.gas) and piece.gas != right.gas:
-            self._warn_of_gas(state, part, piece.gas, right.gas)
-        return True
-
-    def _warn_of_gas(self, state: BackendState, part: Part, counted: int | None, right: int | None) -> None:
-        """Warn once for each backend that the picture is right but its gas is not that of the rules of Cancun."""
         with self._changed:
-            if state not in self._warned:
-                self._warned.add(state)
+            if None not in (piece.gas, right.gas) and piece.gas != right.gas and not state.warned:
+                state.warned = True
                 self._listener.warned(
-                    f"the {state.backend.name} counts {counted:,} gas for {self._title(part)}, which takes {right:,} "
-                    "here: its gas is not that of the rules of Cancun"
+                    f"the {state.backend.name} counts {piece.gas:,} gas for {self._title(part)}, which takes "
+                    f"{right.gas:,} here: its gas is not that of the rules of Cancun"
                 )
+        return True
 
     def _title(self, part: Part) -> str:
         """Return the name of a part for messages."""
@@ -278,17 +264,12 @@ class Scheduler:
     def _put_first(self, parts: Sequence[Part]) -> None:
         """Restore parts from the store, or put them at the head of the queue."""
         for part in reversed(parts):
-            if not self._restored(part):
+            piece = self._store.read(part) if self._store is not None else None
+            if piece is None:
                 self._pending.appendleft(part)
-
-    def _restored(self, part: Part) -> bool:
-        """Restore a part that an earlier run finished; return whether there is one."""
-        piece = self._store.read(part) if self._store is not None else None
-        if piece is None:
-            return False
-        self._results[part] = piece
-        self._listener.advanced(area(part.tile))
-        return True
+            else:
+                self._results[part] = piece
+                self._listener.advanced(area(part.tile))
 
     def _finished(self, state: BackendState, part: Part, piece: Drawing, checked: bool) -> None:
         state.failures = state.busy = state.misses = 0
@@ -316,42 +297,38 @@ class Scheduler:
         self._pending.appendleft(part)
         if isinstance(error, NodeBusyError):
             state.busy += 1
-            pause = PAUSE * 2**state.busy if error.retry_after is None else error.retry_after
+            asked = error.retry_after
+            pause = PAUSE * 2**state.busy if asked is None else asked
             given_up = state.busy > BUSY or pause > 4 * LONGEST_PAUSE
         else:
             state.failures += 1
-            pause = PAUSE * 2**state.failures
+            asked, pause = None, PAUSE * 2**state.failures
             given_up = state.failures >= FAILURES or isinstance(error, WrongChainError)
         if given_up:
             self._leave(state, error)
         else:
             # random, so that not all slots retry at the same time
-            least = pause if isinstance(error, NodeBusyError) and error.retry_after is not None else pause / 2
+            least = pause / 2 if asked is None else asked
             state.until = time.monotonic() + random.uniform(least, max(least, min(pause, LONGEST_PAUSE)) * 1.25)
 
     def _too_much(self, state: BackendState, part: Part, error: BaseException) -> None:
-        pixels = area(part.tile)
+        """Cut a part; drop a backend that finds many too large, if there are others."""
         state.misses += 1
-        others = [each for each in self._states if each is not state and not each.left]
+        others = any(each is not state and not each.left for each in self._states)
+        tiles = halves(part.tile)
         if not isinstance(error, OutOfGasError):
             # gas depends on what is visible; the size of an answer and its time depend on the number of pixels
-            state.capacity = min(state.capacity, max(area(tile) for tile in halves(part.tile)))
-        able = not isinstance(error, OutOfGasError) and any(each.capacity >= pixels for each in others)
-        parts = [part] if able else [Part(part.frame, tile) for tile in halves(part.tile)]
-        if len(parts) == 1 and not others:
+            state.capacity = min(state.capacity, max(map(area, tiles)))
+        if len(tiles) == 1 and not others:
             tile = f"a tile of {part.tile.width} x {part.tile.height} pixels"
+            text = f"{error}; {tile} cannot be split: use fewer triangles (`max_triangles`)"
             if isinstance(error, OutOfGasError) and state.backend.gas is not None and not state.backend.untrusted:
                 text = f"{error} even for {tile}; raise `gas_limit` or use `max_triangles`"
-            else:
-                text = f"{error}; {tile} cannot be split: use fewer triangles (`max_triangles`)"
             self._error = type(error)(text)
             return
-        self._put_first(parts)
+        self._put_first([Part(part.frame, tile) for tile in tiles])
         if others and state.misses >= (TIMEOUTS if isinstance(error, NodeTimeoutError) else MISSES):
             self._leave(state, error)
-        elif able:
-            # so that another backend takes it
-            state.until = time.monotonic() + PAUSE * 2**state.misses
 
     def _leave(self, state: BackendState, error: BaseException) -> None:
         """Drop a backend, and requeue its parts that were not compared if it answered wrongly."""
@@ -373,9 +350,6 @@ class Scheduler:
                 error = RenderError(f"{error}; there is no other backend")
             self._error = RenderError(f"no backend is left to render: {error}") if several else error
             return
-        again = f", and {_parts(1 + len(revoked))} rendered again by others" if wrong else ""
+        parts = f"{1 + len(revoked)} parts are" if revoked else "1 part is"
+        again = f", and {parts} rendered again by others" if wrong else ""
         self._listener.warned(f"{error}; it is left out{again}")
-
-
-def _parts(count: int) -> str:
-    return "1 part is" if count == 1 else f"{count} parts are"

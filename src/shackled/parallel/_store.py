@@ -15,13 +15,11 @@ from pathlib import Path
 from ..artifacts import RENDERER, artifact
 from ..chain import Drawing
 from ..errors import ChainError
-from ..scene import Rectangle, Scene, encode_scene, fit
+from ..scene import Scene, encode_scene, fit
 from ..whole_file import make_output_folder, write_output
 from ._backends import Part, check_part
-from ._tiles import covers
 
 SUFFIX = ".part"
-PLAN = "plan.json"
 
 
 def folder_of(output: Path) -> Path:
@@ -33,8 +31,7 @@ def remove_parts(folder: Path) -> None:
     """Remove the files of a store, and the folder if nothing else is in it."""
     with suppress(OSError):
         # temporary files of writes that were interrupted begin with a dot
-        halves = (*folder.glob(f".*{SUFFIX}.*"), *folder.glob(f".{PLAN}.*"))
-        for path in (*folder.glob(f"*{SUFFIX}"), folder / PLAN, *halves):
+        for path in (*folder.glob(f"*{SUFFIX}"), *folder.glob(f".*{SUFFIX}.*")):
             path.unlink(missing_ok=True)
         folder.rmdir()
 
@@ -56,7 +53,6 @@ class PartStore:
         self._frames = frames
         self._scenes = [hashlib.sha256(encode_scene(fit(scene))).digest() for scene in frames]
         self._salt = contracts_digest() + bytes([compared])
-        self._kept = 0
         make_output_folder(folder)
 
     def read(self, part: Part) -> Drawing | None:
@@ -64,57 +60,29 @@ class PartStore:
         try:
             data = self._path(part).read_bytes()
             head, bmp = data[32:].split(b"\n", 1)
-            numbers = json.loads(head)
-        except (OSError, ValueError):
-            return None
-        if hashlib.sha256(data[32:]).digest() != data[:32]:
-            return None
-        piece = Drawing(bmp, *numbers)
-        try:
+            if hashlib.sha256(data[32:]).digest() != data[:32]:
+                return None
+            piece = Drawing(bmp, *json.loads(head))
             check_part(piece, part.tile)
-        except ChainError:
+        except (OSError, ValueError, ChainError):
             return None
         return piece
 
     def write(self, part: Part, piece: Drawing) -> None:
         """Write a finished part; raise OutputError if that fails."""
-        numbers = [piece.gas, piece.intrinsic_gas]
-        body = json.dumps(numbers).encode() + b"\n" + piece.bmp
+        body = json.dumps([piece.gas, piece.intrinsic_gas]).encode() + b"\n" + piece.bmp
         write_output(self._path(part), hashlib.sha256(body).digest() + body)
-        self._kept += 1
 
     def forget(self, part: Part) -> None:
         """Delete a part that turned out to be wrong."""
         self._path(part).unlink(missing_ok=True)
 
-    def read_plan(self) -> list[Part] | None:
-        """Return the parts into which an earlier run cut the same job, or None."""
-        try:
-            plan = json.loads((self.folder / PLAN).read_bytes())
-            if plan["job"] != self._job():
-                return None
-            parts = [Part(frame, Rectangle(*tile)) for frame, tile in plan["parts"]]
-        except (OSError, ValueError, TypeError, KeyError):
-            return None
-        for number, scene in enumerate(self._frames):
-            if not covers([part.tile for part in parts if part.frame == number], scene.width, scene.height):
-                return None
-        return parts if all(0 <= part.frame < len(self._frames) for part in parts) else None
-
-    def write_plan(self, parts: Sequence[Part]) -> None:
-        """Write the parts into which the job is cut."""
-        tiles = [[p.frame, [p.tile.x, p.tile.y, p.tile.width, p.tile.height]] for p in parts]
-        write_output(self.folder / PLAN, json.dumps({"job": self._job(), "parts": tiles}).encode())
-
     def leave(self) -> bool:
         """Return whether any part is kept for the next run; remove the folder if not."""
-        if self._kept or any(self.folder.glob(f"*{SUFFIX}")):
-            return True
-        remove_parts(self.folder)
-        return False
-
-    def _job(self) -> str:
-        return hashlib.sha256(self._salt + b"".join(self._scenes)).hexdigest()
+        is_kept = any(self.folder.glob(f"*{SUFFIX}"))
+        if not is_kept:
+            remove_parts(self.folder)
+        return is_kept
 
     def _path(self, part: Part) -> Path:
         tile = part.tile

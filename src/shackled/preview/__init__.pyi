@@ -1,8 +1,8 @@
-from ._library import stored_scene
 from ._preview import Preview, Request, Token
 from ._project import CompilerError, Project
 from ._report import check_sheet, folded, summary, write_sheet
 from ._server import serve
+from ._world import stored_scene
 
 __all__ = [
     "CompilerError",

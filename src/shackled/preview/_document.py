@@ -271,22 +271,13 @@ def _picture(file: File, key: str, note: Callable[[str], None]) -> File | None:
             for number in range(frames):
                 opened.seek(number)
                 opened.load()
-                is_empty = is_empty and _is_background(opened)
+                # whether each row has one colour, as the background has
+                pixels = np.asarray(opened.convert("RGBA"))
+                is_empty = is_empty and bool((pixels == pixels[:, :1]).all())
     except Exception as error:
         # decoders fail in many ways at damaged files, some without words
-        note(f"{key} is not a complete {file.media_type}: {_words(error)}")
+        said = " ".join(str(error).split())[:100] or type(error).__name__
+        said = "it is damaged" if isinstance(error, UnidentifiedImageError) else said
+        note(f"{key} is not a complete {file.media_type}: {said}")
         return None
     return File(file.media_type, file.content, frames, is_empty)
-
-
-def _is_background(picture: PillowImage.Image) -> bool:
-    """Return whether each row has one colour."""
-    pixels = np.asarray(picture.convert("RGBA"))
-    return bool((pixels == pixels[:, :1]).all())
-
-
-def _words(error: Exception) -> str:
-    """Return what a decoder says of a damaged picture, in one line."""
-    if isinstance(error, UnidentifiedImageError):
-        return "it is damaged"
-    return " ".join(str(error).split())[:100] or type(error).__name__

@@ -76,8 +76,7 @@ class Preview:
     def __init__(self, project: Project, request: Request) -> None:
         """Compile, deploy, and send the calls. InputError with the reason if a step fails."""
         self.request = request
-        self.contract = _chosen(project.compile(), request)
-        self.function = _function(self.contract, request.function)
+        self.contract, self.function = _chosen(project.compile(), request)
         self._interface = Interface([self.function])
         setup = [parse_call(text, self.contract) for text in request.setup]
         self.world = World(self.contract, request.arguments, setup, request.stored)
@@ -184,32 +183,22 @@ def _output_fault(output: bytes, error: ValueError) -> str:
     return f"{len(output)} bytes that are not text or bytes as the ABI encodes them"
 
 
-def _chosen(contracts: list[Compiled], request: Request) -> Compiled:
-    """Return the contract to show: the one that is named, or the only one with a function that can be shown."""
-    names = [each.name for each in contracts]
+def _chosen(contracts: list[Compiled], request: Request) -> tuple[Compiled, dict[str, Any]]:
+    """Return the contract to show, the named one or the only one that can be shown, and the function to read."""
+    names = ", ".join(each.name for each in contracts) or "none"
     if request.contract is not None:
-        if request.contract not in names:
-            raise InputError(f"there is no contract {request.contract!r} in the file, but {', '.join(names) or 'none'}")
-        return contracts[names.index(request.contract)]
-    shown = [each for each in contracts if _functions(each, request.function)]
-    if len(shown) != 1:
-        wanted = request.function or "tokenURI(uint256)"
-        if not shown:
-            raise InputError(
-                f"no contract of the file has a function {wanted}; its contracts: {', '.join(names) or 'none'}"
-            )
-        raise InputError(f"choose one of {', '.join(each.name for each in shown)} with `contract`")
-    return shown[0]
-
-
-def _function(contract: Compiled, name: str | None) -> dict[str, Any]:
-    """Return the entry of the function that is read."""
-    found = _functions(contract, name)
-    if not found:
+        contracts = [each for each in contracts if each.name == request.contract]
+        if not contracts:
+            raise InputError(f"there is no contract {request.contract!r} in the file, but {names}")
+    shown = [(each, found[0]) for each in contracts if (found := _functions(each, request.function))]
+    if len(shown) > 1:
+        raise InputError(f"choose one of {', '.join(each.name for each, _ in shown)} with `contract`")
+    if not shown:
         raise InputError(
-            f"{contract.name} has no function {name or 'tokenURI'} of one number or none that returns text or bytes"
+            f"no contract of the file has a function {request.function or 'tokenURI'} of one number or none that "
+            f"returns text or bytes; its contracts: {', '.join(each.name for each in contracts) or 'none'}"
         )
-    return found[0]
+    return shown[0]
 
 
 def _functions(contract: Compiled, name: str | None) -> list[dict[str, Any]]:

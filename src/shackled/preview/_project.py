@@ -8,7 +8,7 @@ import re
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -49,6 +49,10 @@ class Compiled:
     name: str
     abi: list[dict[str, Any]]
     creation: bytes
+
+
+#: What a tool wrote: its file, the contract, the document, and the hashes of its sources.
+Artifact = tuple[Path, str, dict[str, Any], dict[str, str]]
 
 
 class Project:
@@ -124,37 +128,26 @@ class Project:
 
     def _made_by_forge(self, output: Path) -> list[Compiled]:
         """Return the contracts of the file. Of files of one name, forge puts those of one into a further folder."""
-        found: dict[str, dict[str, Any]] = {}
-        otherwise = f"forge wrote no contract of {self._name} to {output}"
-        # what an earlier name of a contract left, and other versions of the compiler, are older
-        for path in sorted(output.glob(f"**/{self.source.name}/*.json"), key=_changed):
-            built = _json(path)
-            metadata = built.get("metadata") or {}
-            target = metadata.get("settings", {}).get("compilationTarget", {self._name: path.stem})
-            if self._name not in target:
-                continue
-            changed = changed_source(self.root, _hashes(metadata), path, self._name)
-            if changed is None:
-                found[target[self._name]] = built
-            else:
-                otherwise = _stale(path, changed, "run `forge build --force`, and mend what it reports")
-        return self._deployable(found, otherwise)
+
+        def found() -> Iterator[Artifact]:
+            # what an earlier name of a contract left, and other versions of the compiler, are older
+            for path in sorted(output.glob(f"**/{self.source.name}/*.json"), key=lambda each: each.stat().st_mtime_ns):
+                built = _json(path)
+                metadata = built.get("metadata") or {}
+                target = metadata.get("settings", {}).get("compilationTarget", {self._name: path.stem})
+                if self._name in target:
+                    yield path, target[self._name], built, _hashes(metadata)
+
+        nothing = f"forge wrote no contract of {self._name} to {output}"
+        return self._deployable(found(), nothing, "run `forge build --force`, and mend what it reports")
 
     def _made_by_hardhat(self, output: Path) -> list[Compiled]:
-        """Return the contracts of the file. InputError if what is there was made of another version of it."""
-        found: dict[str, dict[str, Any]] = {}
+        """Return the contracts of the file."""
+        paths = [each for each in sorted((output / self._name).glob("*.json")) if not each.name.endswith(".dbg.json")]
+        builds = [(path, _json(path)) for path in paths]
+        found = [(path, path.stem, built, self._hashes_of_hardhat(path, built)) for path, built in builds]
         remedy = "leave `paths.artifacts` at its default"
-        otherwise = f"hardhat wrote no contract of {self._name} to {output}: {remedy}"
-        for path in sorted((output / self._name).glob("*.json")):
-            if path.name.endswith(".dbg.json"):
-                continue
-            built = _json(path)
-            changed = changed_source(self.root, self._hashes_of_hardhat(path, built), path, self._name)
-            if changed is None:
-                found[path.stem] = built
-            else:
-                otherwise = _stale(path, changed, remedy)
-        return self._deployable(found, otherwise)
+        return self._deployable(found, f"hardhat wrote no contract of {self._name} to {output}: {remedy}", remedy)
 
     def _hashes_of_hardhat(self, path: Path, built: dict[str, Any]) -> dict[str, str]:
         """Return the hashes of the sources of an artifact, by the files of the compiler that Hardhat keeps."""
@@ -174,13 +167,25 @@ class Project:
         content = build.get("input", {}).get("sources", {}).get(name, {}).get("content")
         return {} if content is None else {self._name: "0x" + keccak256(content.encode()).hex()}
 
-    def _deployable(self, built: dict[str, dict[str, Any]], otherwise: str) -> list[Compiled]:
-        """Return the contracts that are in the source and have code. InputError, `otherwise`, if none is in it."""
+    def _deployable(self, artifacts: Iterable[Artifact], otherwise: str, remedy: str) -> list[Compiled]:
+        """Return the contracts that are in the source and have code.
+
+        InputError if none is in it, `otherwise`, or if what is there was made of other sources, with the remedy.
+        """
+        built: dict[str, dict[str, Any]] = {}
+        for path, name, each, hashes in artifacts:
+            changed = changed_source(self.root, hashes, path, self._name)
+            if changed is None:
+                built[name] = each
+            else:
+                otherwise = f"{path} was not made of {changed} as it is now: {remedy}"
         code = COMMENT.sub(" ", _text(self.source))
         known = {name: each for name, each in built.items() if re.search(rf"\b{re.escape(name)}\b", code)}
         if not known and re.search(r"\bcontract\b", code):
             raise InputError(otherwise)
-        return [_compiled(name, each["abi"], each["bytecode"]) for name, each in known.items() if _is_deployable(each)]
+        return _compiled(
+            {name: (each["abi"], each.get("bytecode", "")) for name, each in known.items() if "abi" in each}
+        )
 
     def _by_solc(self) -> list[Compiled]:
         """Compile with solc, the program or the package of npm."""
@@ -204,7 +209,7 @@ class Project:
         if faults or said.returncode:
             raise CompilerError(self.source, "\n".join(faults).strip() or _shown(said))
         made = result.get("contracts", {}).get(self._name, {}).items()
-        return [_compiled(name, each["abi"], each["evm"]["bytecode"]) for name, each in made if _object(each["evm"])]
+        return _compiled({name: (each["abi"], each["evm"]["bytecode"]) for name, each in made})
 
     def _solc_of_npm(self) -> list[str]:
         node = shutil.which("node")
@@ -276,33 +281,16 @@ def _hashes(metadata: dict[str, Any], folder: str = "") -> dict[str, str]:
     return {name.removeprefix(folder): each["keccak256"] for name, each in metadata.get("sources", {}).items()}
 
 
-def _stale(artifact: Path, source: str, remedy: str) -> str:
-    return f"{artifact} was not made of {source} as it is now: {remedy}"
-
-
-def _changed(path: Path) -> int:
-    """Return when a file was changed last."""
-    return path.stat().st_mtime_ns
-
-
-def _is_deployable(built: dict[str, Any]) -> bool:
-    return "abi" in built and len(_code(built.get("bytecode", ""))) > 2
-
-
-def _object(evm: dict[str, Any]) -> str:
-    return str(evm["bytecode"]["object"])
-
-
-def _code(bytecode: Any) -> str:
-    """Return the digits of bytecode, which tools write as text or in an object."""
-    return str(bytecode.get("object", "") if isinstance(bytecode, dict) else bytecode)
-
-
-def _compiled(name: str, abi: list[dict[str, Any]], bytecode: Any) -> Compiled:
-    digits = _code(bytecode).removeprefix("0x")
-    if not re.fullmatch("[0-9a-fA-F]*", digits):
-        raise InputError(f"{name} needs external libraries, which the preview does not link: make them internal")
-    return Compiled(name, abi, bytes.fromhex(digits))
+def _compiled(built: Mapping[str, tuple[list[dict[str, Any]], Any]]) -> list[Compiled]:
+    """Return the contracts with code, given ABI and bytecode of each, which tools write as text or in an object."""
+    found = []
+    for name, (abi, bytecode) in built.items():
+        digits = str(bytecode.get("object", "") if isinstance(bytecode, dict) else bytecode).removeprefix("0x")
+        if not re.fullmatch("[0-9a-fA-F]*", digits):
+            raise InputError(f"{name} needs external libraries, which the preview does not link: make them internal")
+        if digits:
+            found.append(Compiled(name, abi, bytes.fromhex(digits)))
+    return found
 
 
 def _shown(said: subprocess.CompletedProcess[str]) -> str:

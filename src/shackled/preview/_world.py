@@ -9,14 +9,18 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import count
 
+from .._load import load, locate
 from ..artifacts import known_errors
 from ..chain import RevmChain, describe_revert
-from ..deploy import CONTRACTS
+from ..datasets import Piece
+from ..deploy import CONTRACTS, deployments
 from ..errors import InputError
 from ..ethereum import Errors, error_table, intrinsic_gas, keccak256, word
 from ..evm import Answer, Instance, Status
+from ..scene import READERS
+from ..studio import STUDIO, store_scene
+from ..tokens import token_scene
 from ._arguments import Call, constructor_arguments, contract_of
-from ._library import library_codes
 from ._project import Compiled
 
 #: Of a deployment or a call that changes something, and of one that only reads; it ends endless loops.
@@ -26,18 +30,11 @@ MAX_GAS = 1 << 24
 #: The block of the deployment; each transaction has a block of its own.
 FIRST_BLOCK = 20_000_000
 SECONDS_PER_BLOCK = 12
-#: Precompiled contracts of Cancun that the embedded EVM does not have.
-PRECOMPILED = {
-    1: "ecrecover",
-    2: "sha256",
-    3: "ripemd160",
-    5: "modexp",
-    6: "ecadd",
-    7: "ecmul",
-    8: "ecpairing",
-    9: "blake2f",
-    10: "kzg",
-}
+#: The precompiled contracts of Cancun from address 1 on, most of which the embedded EVM does not have.
+PRECOMPILED = (
+    *("ecrecover", "sha256", "ripemd160", "identity", "modexp"),
+    *("ecadd", "ecmul", "ecpairing", "blake2f", "kzg"),
+)
 
 
 class World:
@@ -62,7 +59,9 @@ class World:
         #: Code of the contracts of the package and of what the Studio stores, by address.
         self.codes = {**chain.codes(), **(stored or {})}
         if _needs_library(contract, addresses["Library"]):
-            self.codes |= library_codes(addresses["Library"], addresses["Studio"])
+            from ..library import items
+
+            self.codes |= {part.pointer: part.code for item in items() for part in item.transactions}
         self._creation = contract.creation + constructor_arguments(contract, given, addresses)
         self.errors: Errors = {**known_errors(), **error_table(contract.abi)}
         #: Transactions that take more gas than one may, each in one line.
@@ -88,7 +87,8 @@ class World:
         said = answer.output.decode(errors="replace")
         precompiled = re.search("precompiled contract 0x([0-9a-fA-F]+)", said)
         if precompiled:
-            name = PRECOMPILED.get(int(precompiled[1], 16), precompiled[0])
+            number = int(precompiled[1], 16)
+            name = PRECOMPILED[number - 1] if 0 < number <= len(PRECOMPILED) else precompiled[0]
             return f"it calls {name}, a precompiled contract that the embedded EVM does not have"
         if said in ("OpcodeNotFound", "NotActivated"):
             return "the embedded EVM has the rules of Cancun, and does not know an instruction: compile for cancun"
@@ -116,7 +116,8 @@ class World:
             raise InputError(f"{self.contract.name} cannot be deployed: {reason}")
         self.address = made.output
         problems = []
-        gas = made.gas + _creation_gas(self._creation)
+        # of the transaction, before the execution (EIP-2, EIP-3860)
+        gas = made.gas + intrinsic_gas(self._creation) + 32_000 + 2 * -(-len(self._creation) // 32)
         if gas > MAX_GAS:
             problems.append(_too_expensive(f"the deployment of {self.contract.name}", gas))
         for call in self.setup:
@@ -140,15 +141,22 @@ class World:
         evm.set_block(number, self._now + seconds, keccak256(b"shackled preview" + word(number)))
 
 
+def stored_scene(input: str) -> dict[bytes, bytes]:
+    """Return the code of the contracts in which the Studio stores a scene, by address; the last is the scene itself.
+
+    input: a piece of a dataset, a mesh or a scene file. The scene is that of `shackled store`.
+    """
+    source = locate(input)
+    is_mesh = not isinstance(source, Piece) and source.suffix.lower() in READERS
+    thing = token_scene(source) if isinstance(source, Piece) else source
+    scene = load(thing, antialias=False if is_mesh else None)
+    return {each.pointer: each.code for each in store_scene(scene, deployments([STUDIO])[-1].address)}
+
+
 def _needs_library(contract: Compiled, library: bytes) -> bool:
     """Return whether the contract may ask the library: it is given its address, or has it in its code."""
     taken = [part for entry in contract.abi if entry["type"] == "constructor" for part in entry["inputs"]]
     return library in contract.creation or "Library" in map(contract_of, taken)
-
-
-def _creation_gas(creation: bytes) -> int:
-    """Return the gas of a transaction that creates a contract before its execution (EIP-2, EIP-3860)."""
-    return intrinsic_gas(creation) + 32_000 + 2 * -(-len(creation) // 32)
 
 
 def _too_expensive(what: str, gas: int) -> str:
@@ -156,13 +164,13 @@ def _too_expensive(what: str, gas: int) -> str:
 
 
 #: Fractional bits of the quantities in errors; of other errors the numbers are whole, or their scale is the fault.
-FRACTIONAL_BITS = {
-    **dict.fromkeys(("HalfHeightOutOfRange", "NearOutOfRange", "CameraOutOfRange", "LightOutOfRange"), 32),
-    **dict.fromkeys(("CoefficientOutOfRange", "ScaleOutOfRange", "RotationOutOfRange", "SpotOutOfRange"), 32),
-    **dict.fromkeys(("SpotAngles", "FogOutOfRange", "GroundOutOfRange", "AngleOutOfRange"), 32),
-    **dict.fromkeys(("SpotAnglesOutOfRange", "FieldOfViewOutOfRange", "HeightOutOfRange"), 32),
-    "OpacityOutOfRange": 24,
-    "ExposureOutOfRange": 16,
+FRACTIONAL_BITS = {"OpacityOutOfRange": 24, "ExposureOutOfRange": 16, "SpotAngles": 32}
+FRACTIONAL_BITS |= {
+    f"{name}OutOfRange": 32
+    for name in (
+        *("HalfHeight", "Near", "Camera", "Light", "Coefficient", "Scale", "Rotation", "Spot", "Fog", "Ground"),
+        *("Angle", "SpotAngles", "FieldOfView", "Height"),
+    )
 }
 ERROR_TEXT = re.compile(r"(\w+)\((.*)\)", re.DOTALL)
 QUANTITY = re.compile(r"\b(?!object=|light=)(\w+=)(-?\d+)\b")

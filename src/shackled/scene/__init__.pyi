@@ -1,7 +1,7 @@
 from ._arithmetic import euler, from_euler, rotate
 from ._camera import Camera, Projection
 from ._canvas import as_shown
-from ._codec import SHADINGS, TWO_SIDED, WIREFRAME, Rectangle, encode, encode_scene, render_call
+from ._codec import WIREFRAME, Rectangle, encode, encode_scene, render_call
 from ._decode import decode
 from ._effects import Background, Fog, Hemisphere, Rim, Tone
 from ._files.content import MAX_BYTES
@@ -20,14 +20,13 @@ from ._from_trimesh import objects_of, part_of
 from ._ground import Ground
 from ._light import INNER_ANGLE, LIGHT_KINDS, WHITE, Light
 from ._look import look_at, resize, stage
-from ._mesh import Mesh, components, faces_of_all, is_trimesh, vertex_normals, weld, without_slivers
+from ._mesh import Mesh, faces_of_all, is_trimesh, vertex_normals, weld, without_slivers
 from ._object import Material, Object
 from ._packed import NORMAL_UNIT, NORMALS, WIDE, pack
 from ._presets import PRESETS
-from ._records import ANTIALIAS, LONG_KINDS, RECORD_HEADER
 from ._scene import Scene
 from ._settings import ALL, SETTINGS, Kind, LookOptions, Setting, checked_look, settings_of, size_of
-from ._simplify import FORCEFUL, GENTLE, simplify, simplify_scene
+from ._simplify import GENTLE, simplify, simplify_scene
 from ._staging import MAX_SIDE, MESH_STAGING, contrasting, is_closed, painted, view_axes
 from ._texture import Texture
 from ._turning import frame_count, full_turn
@@ -35,14 +34,11 @@ from ._upright import Axis, axis_of_file, axis_of_format, base_axis, upright
 
 __all__ = [
     "ALL",
-    "ANTIALIAS",
     "CHUNK",
-    "FORCEFUL",
     "GENTLE",
     "GLTF",
     "INNER_ANGLE",
     "LIGHT_KINDS",
-    "LONG_KINDS",
     "MAX_BYTES",
     "MAX_SIDE",
     "MESH_STAGING",
@@ -51,11 +47,8 @@ __all__ = [
     "PICTURE",
     "PRESETS",
     "READERS",
-    "RECORD_HEADER",
     "SCENES",
     "SETTINGS",
-    "SHADINGS",
-    "TWO_SIDED",
     "WHITE",
     "WIDE",
     "WIREFRAME",
@@ -89,7 +82,6 @@ __all__ = [
     "axis_of_format",
     "base_axis",
     "checked_look",
-    "components",
     "contrasting",
     "decode",
     "encode",

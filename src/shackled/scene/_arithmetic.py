@@ -47,6 +47,12 @@ def unit(v: Array) -> Array:
     return np.asarray(v / length(v))
 
 
+def units(v: Array) -> Array:
+    """Return vectors, (..., n), as ones of length 1; those without a length are zero."""
+    lengths = length(v)[..., None]
+    return np.asarray(np.divide(v, lengths, out=np.zeros_like(v), where=lengths > 0))
+
+
 def cosine(degrees: float) -> float:
     """Return the cosine of an angle."""
     return _series(degrees)[0] / (1 << BITS)
@@ -82,26 +88,19 @@ IDENTITY = vector((0, 0, 0, 1), size=4)
 ORTHOGONAL = 1e-6
 
 
-def from_euler(degrees: ArrayLike) -> NDArray[np.float64]:
-    """Return the rotation about the x, then the y, then the z axis of the world, each in degrees.
-
-    Counter-clockwise as seen from the positive end of the axis.
-    """
-    x, y, z = vector(degrees, "a rotation in degrees")
-    about_x, about_y, about_z = (
-        from_axis_angle((1, 0, 0), x),
-        from_axis_angle((0, 1, 0), y),
-        from_axis_angle((0, 0, 1), z),
-    )
-    return multiply(about_z, multiply(about_y, about_x))
+def from_euler(degrees: ArrayLike) -> Array:
+    """Return the rotation about the x, y, then z axis of the world, counter-clockwise seen from its end, in degrees."""
+    angles = vector(degrees, "a rotation in degrees")
+    x, y, z = (from_axis_angle(axis, angle) for axis, angle in zip(np.eye(3), angles, strict=True))
+    return multiply(z, multiply(y, x))
 
 
-def euler(x: float, y: float, z: float) -> NDArray[np.float64]:
+def euler(x: float, y: float, z: float) -> Array:
     """Return the rotation about the x, then the y, then the z axis of the world, each in degrees, as a quaternion."""
     return from_euler((x, y, z))
 
 
-def from_axis_angle(axis: ArrayLike, degrees: float) -> NDArray[np.float64]:
+def from_axis_angle(axis: ArrayLike, degrees: float) -> Array:
     """Return the rotation about an axis of any length but zero, counter-clockwise seen from where the axis points."""
     direction = vector(axis, "the axis of a rotation")
     if not direction.any():
@@ -111,23 +110,20 @@ def from_axis_angle(axis: ArrayLike, degrees: float) -> NDArray[np.float64]:
     return np.append(unit(direction) * sine(half), cosine(half))
 
 
-def multiply(second: ArrayLike, first: ArrayLike) -> NDArray[np.float64]:
+def multiply(second: ArrayLike, first: ArrayLike) -> Array:
     """Return the rotation `first`, followed by `second`."""
     a, b = np.asarray(second, dtype=np.float64), np.asarray(first, dtype=np.float64)
     return np.append(a[3] * b[:3] + b[3] * a[:3] + np.cross(a[:3], b[:3]), a[3] * b[3] - dot(a[:3], b[:3]))
 
 
-def rotate(quaternion: ArrayLike, points: ArrayLike) -> NDArray[np.float64]:
+def rotate(quaternion: ArrayLike, points: ArrayLike) -> Array:
     """Return the points, (3,) or (n, 3), turned by a quaternion of any length but zero."""
-    q, p = vector(quaternion, "a rotation", 4), np.asarray(points, dtype=np.float64)
-    if not q.any():
-        raise InputError("a rotation must not be the zero quaternion; the identity is (0, 0, 0, 1)")
-    q = unit(q)
+    q, p = unit(_rotation(quaternion)), np.asarray(points, dtype=np.float64)
     t = 2 * cross(q[:3], p)
     return np.asarray(p + q[3] * t + cross(q[:3], t))
 
 
-def matrix_of(value: ArrayLike, size: int, name: str) -> NDArray[np.float64]:
+def matrix_of(value: ArrayLike, size: int, name: str) -> Array:
     """Return a square matrix of `size` rows of finite floats. InputError for anything else."""
     try:
         matrix = np.array(value, dtype=np.float64)
@@ -138,11 +134,8 @@ def matrix_of(value: ArrayLike, size: int, name: str) -> NDArray[np.float64]:
     return matrix
 
 
-def quaternion_of(m: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the rotation of a matrix, (3, 3), whose columns are unit vectors at right angles, right-handed.
-
-    InputError for any other matrix.
-    """
+def quaternion_of(m: Array) -> Array:
+    """Return the rotation of a matrix, (3, 3). InputError unless its columns are a right-handed orthonormal basis."""
     if np.abs(m.T @ m - np.eye(3)).max() > ORTHOGONAL or np.linalg.det(m) < 0:
         raise InputError("the matrix of a rotation must have unit columns at right angles, and must not mirror")
     # 4 q q^T, whose largest column has no small divisor
@@ -152,7 +145,7 @@ def quaternion_of(m: NDArray[np.float64]) -> NDArray[np.float64]:
     squares[3, :3] = squares[:3, 3] = (m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1])
     squares[3, 3] = 1 + trace
     largest = squares[:, np.argmax(np.diag(squares))]
-    quaternion: NDArray[np.float64] = largest / length(largest)
+    quaternion: Array = largest / length(largest)
     return quaternion if quaternion[3] >= 0 else -quaternion
 
 
@@ -173,6 +166,10 @@ def rotation_of(value: ArrayLike, name: str = "a rotation") -> Floats:
         raise InputError(
             f"{name} must be x, y, z in degrees, a quaternion x, y, z, w, or a 3 x 3 matrix, not {value!r:.60}"
         )
+    return _rotation(value, name)
+
+
+def _rotation(value: ArrayLike, name: str = "a rotation") -> Floats:
     quaternion = vector(value, name, 4)
     if not quaternion.any():
         raise InputError(f"{name} must not be the zero quaternion; the identity is (0, 0, 0, 1)")

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Literal, cast
+from typing import Any, Literal
 
 from attrs import field, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import Floats, choice, number, vector
+from ..checks import Floats, choice, number, optional_number, vector
 from ..errors import InputError
-from ..values import Value, array_key, checked, with_names
+from ..values import Value, checked, with_names
 from ..words import Given, with_words, words_of
 from ._arithmetic import tangent
 
@@ -24,14 +24,6 @@ DEFAULT_HALF_HEIGHT = 1 / 2.145
 FIELDS_OF_VIEW = (0.2, 179.8)
 
 _EYE, _TARGET, _UP = (0, 0, 0), (0, 0, -1), (0, 1, 0)
-
-
-def _projection(value: str) -> Projection:
-    return cast(Projection, choice(value, "the camera's projection", PROJECTIONS))
-
-
-def _near(value: float | None) -> float | None:
-    return None if value is None else number(value, "the camera's near distance")
 
 
 def _with_fov(given: Given) -> Given:
@@ -66,14 +58,16 @@ class Camera(Value):
         1/1,024 of the farthest distance of an object; an orthographic camera then clips nothing.
     """
 
-    eye: Floats = field(default=_EYE, converter=vector, eq=array_key, metadata=checked("the camera's eye"))
-    target: Floats = field(default=_TARGET, converter=vector, eq=array_key, metadata=checked("the camera's target"))
-    up: Floats = field(default=_UP, converter=vector, eq=array_key, metadata=checked("the camera's up"))
-    projection: Projection = field(default="perspective", converter=_projection)
+    eye: Floats = field(default=_EYE, converter=vector, metadata=checked("the camera's eye"))
+    target: Floats = field(default=_TARGET, converter=vector, metadata=checked("the camera's target"))
+    up: Floats = field(default=_UP, converter=vector, metadata=checked("the camera's up"))
+    projection: Projection = field(
+        default="perspective", converter=choice, metadata=checked("the camera's projection", PROJECTIONS)
+    )
     half_height: float = field(
         default=DEFAULT_HALF_HEIGHT, converter=number, metadata=checked("the camera's half_height")
     )
-    near: float | None = field(default=None, converter=_near)
+    near: float | None = field(default=None, converter=optional_number, metadata=checked("the camera's near distance"))
 
     def __attrs_post_init__(self) -> None:
         """Check the lengths, whose ranges depend on the projection."""

@@ -7,11 +7,11 @@ from attrs import evolve
 from numpy.typing import NDArray
 
 from ..errors import warn
-from ._arithmetic import dot, length, unit
-from ._mesh import Mesh, weld
+from ._arithmetic import dot, length, unit, units
+from ._mesh import Mesh, face_normals, weld, without_slivers
 from ._object import Object
 from ._scene import Scene
-from ._simplify import NEEDED, collapsed, is_possible, proper
+from ._simplify import NEEDED, collapsed, is_possible
 
 Floats = NDArray[np.float64]
 
@@ -31,9 +31,7 @@ _DIGITS = 4
 
 
 def as_shown(scene: Scene, name: str) -> Scene:
-    """Return the scene without triangles that its canvas is too coarse to show; an InputWarning gives their numbers.
-
-    name: of what is simplified, for the warning.
+    """Return the scene without triangles that its canvas is too coarse to show; an InputWarning with the name tells.
 
     Borders, creases, seams of textures and edges between colours stay as they are, as do the edges of flat shading that
     are seen, wireframes, and all that reaches behind the camera.
@@ -78,7 +76,7 @@ def _pixels_per_unit(scene: Scene) -> float:
 def _reduced(o: Object, scale: float, share: float) -> Object:
     """Return the object with that share of its triangles, or more, as the surface moves by `TOLERANCE` at most.
 
-    Colours and normals become the means, by area, of those that are collapsed into one. scale: pixels per unit.
+    Colours and normals become the means, by area, of those collapsed into one. scale: pixels per unit.
     """
     mesh, scale = o.mesh, o.scale * scale * _DISTANCE / TOLERANCE
     whole = _apart(mesh) if o.material.shading == "flat" else mesh
@@ -87,44 +85,32 @@ def _reduced(o: Object, scale: float, share: float) -> Object:
     uvs = np.zeros((count, 2)) if whole.uvs is None else whole.uvs
     # vertices of one place that differ are on a border of either part, which stays
     rows, number = np.unique(np.hstack([whole.positions, whole.rgba, normals, uvs]), axis=0, return_inverse=True)
-    faces = number.reshape(-1)[whole.faces]
-    faces = faces[proper(faces)]
+    faces = without_slivers(number.reshape(-1)[whole.faces])
     positions, values = np.ascontiguousarray(rows[:, :3] * scale), rows[:, 3:]
     points, became, nearest = collapsed(positions, faces, int(share * len(faces)), _AGGRESSIVENESS, keep_borders=True)
     # the library has no place for some vertices of needles
     lost = ~np.isfinite(points).all(axis=1)
     points[lost] = positions[nearest[lost]]
-    a, b, c = positions[faces].transpose(1, 0, 2)
-    weights = np.bincount(faces.ravel(), np.repeat(length(np.cross(b - a, c - a)), 3), len(rows))
+    weights = np.bincount(faces.ravel(), np.repeat(length(face_normals(positions[faces])), 3), len(rows))
     old = np.flatnonzero((became >= 0) & (weights > 0))
     sums = np.zeros((len(points), 7))
     np.add.at(sums, became[old], weights[old, None] * values[old, :7])
-    left = became[faces]
-    left = left[proper(left)]
+    left = without_slivers(became[faces])
     if not len(left):
         return o
     areas = np.bincount(became[old], weights[old], len(points))[:, None]
     colors = np.rint(np.divide(sums[:, :4], areas, out=values[nearest, :4], where=areas > 0))
     lengths = length(sums[:, 4:])[:, None]
     normals = np.divide(sums[:, 4:], lengths, out=values[nearest, 4:7], where=lengths > 0)
-    return evolve(
-        o,
-        mesh=weld(
-            points / scale,
-            left,
-            colors[left],
-            None if mesh.normals is None else normals[left],
-            None if mesh.uvs is None else values[nearest, 7:][left],
-        ),
-    )
+    shading, texture = None if mesh.normals is None else normals, None if mesh.uvs is None else values[nearest, 7:]
+    corners = [None if each is None else each[left] for each in (colors, shading, texture)]
+    return evolve(o, mesh=weld(points / scale, left, *corners))
 
 
 def _apart(mesh: Mesh) -> Mesh:
     """Return the mesh with vertices, and normals, of their own for each face; those of faces in one plane are alike."""
     corners = mesh.positions[mesh.faces]
-    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    sizes = length(areas)[:, None]
-    normals = np.round(np.divide(areas, sizes, out=np.zeros_like(areas), where=sizes > 0), _DIGITS) + 0.0
+    normals = np.round(units(face_normals(corners)), _DIGITS) + 0.0
     flat = mesh.faces.reshape(-1)
     uvs = None if mesh.uvs is None else mesh.uvs[flat]
     apart = np.arange(len(flat)).reshape(-1, 3)

@@ -5,8 +5,10 @@ Every field of the structs is a word of 32 bytes; lengths and coefficients are Q
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Iterable
-from dataclasses import dataclass
+from itertools import accumulate
+from typing import NamedTuple
 
 import numpy as np
 from attrs import evolve
@@ -15,32 +17,12 @@ from numpy.typing import ArrayLike
 from ..artifacts import artifact
 from ..checks import Color
 from ..errors import InputError
+from . import _records as record
 from ._arithmetic import cosine
 from ._files.table import about
 from ._fit import fit
-from ._light import Light
 from ._object import Object
 from ._packed import pack, pack_alpha, pack_texture
-from ._records import (
-    ALPHA_OF,
-    ANTIALIAS,
-    EMISSION_OF,
-    FOG,
-    GROUND,
-    HEMISPHERE,
-    LONG_KINDS,
-    OPACITIES_OF,
-    OPACITY_OF,
-    RIM,
-    SHADOW,
-    SHADOWS_ALL,
-    SHADOWS_BACK_FACES,
-    SPOT,
-    TEXTURE_OF,
-    TONE,
-    TONE_FILMIC,
-    TONE_GAMMA,
-)
 from ._scene import Scene
 from ._staging import are_closed
 
@@ -64,8 +46,7 @@ TWO_SIDED = 4
 MAX_FADE, MAX_INNER_FADE = 1 << 58, (1 << 58) - 64
 
 
-@dataclass(frozen=True)
-class Rectangle:
+class Rectangle(NamedTuple):
     """A part of the canvas, in pixels from the top left corner."""
 
     x: int
@@ -76,13 +57,11 @@ class Rectangle:
 
 def encode(selector: bytes, scene: Scene, tile: Rectangle | None = None, *words: int) -> bytes:
     """Return the calldata of a function f(Scene), or f(Scene, Rectangle) if a tile is given, and words after it."""
-    rectangle: list[int] = []
     if tile is not None:
-        rectangle = [tile.x, tile.y, tile.width, tile.height]
         across = 0 <= tile.x < tile.x + tile.width <= scene.width
         if not (across and 0 <= tile.y < tile.y + tile.height <= scene.height):
             raise InputError(f"the tile {tile} does not lie on the canvas of {scene.width} x {scene.height} pixels")
-    head = [*rectangle, *words]
+    head = [*(tile or ()), *words]
     return selector + _words([32 * (1 + len(head)), *head]) + encode_scene(fit(scene))
 
 
@@ -98,9 +77,7 @@ def encode_scene(scene: Scene) -> bytes:
         [
             scene.width,
             scene.height,
-            *_q32(camera.eye),
-            *_q32(camera.target),
-            *_q32(camera.up),
+            *_q32([*camera.eye, *camera.target, *camera.up]),
             PROJECTIONS[camera.projection],
             *_q32([camera.half_height, camera.near or 0.0]),
             _rgb(scene.background.top),
@@ -109,72 +86,63 @@ def encode_scene(scene: Scene) -> bytes:
             _rgb(scene.ambient_light),
         ]
     )
-    lights = _words([len(scene.lights)]) + b"".join(map(_light, scene.lights))
-    objects = _array_of_dynamic([encode_object(o) for o in scene.objects])
-    more = extensions(scene)
-    first = len(head) + 3 * 32
-    offsets = [first, first + len(lights), first + len(lights) + len(objects)]
-    return head + _words([*offsets]) + lights + objects + _bytes(more)
+    words = [len(scene.lights)]
+    for light in scene.lights:
+        words += [LIGHTS[light.kind], *_q32(light.vector), _rgb(light.color)]
+    lights = _words(words)
+    structs = [encode_object(o) for o in scene.objects]
+    *places, _ = accumulate(map(len, structs), initial=WORD * len(structs))
+    objects = _words([len(structs), *places]) + b"".join(structs)
+    offsets = accumulate([len(lights), len(objects)], initial=len(head) + 3 * WORD)
+    return head + _words(offsets) + lights + objects + _bytes(extensions(scene))
 
 
 def extensions(scene: Scene) -> bytes:
     """Return the fields that the structs do not have: records in ascending order of kind and index."""
-    records = []
+    found: dict[tuple[int, int], bytes] = {}
     for index, light in enumerate(scene.lights):
         if light.direction is not None:
-            cosines = [cosine(angle) for angle in (light.inner_angle, light.outer_angle)]
-            numbers = [*_q32(light.direction), *_q32(cosines)]
-            records.append(_record(SPOT, index, b"".join(number.to_bytes(8, "big", signed=True) for number in numbers)))
-    for index, thing in enumerate(scene.objects):
-        opacity = round(thing.opacity / OPACITY_STEP)
-        if opacity < 1 / OPACITY_STEP:
-            records.append(_record(OPACITY_OF, index, opacity.to_bytes(4, "big")))
-    if scene.antialias:
-        records.append(_record(ANTIALIAS, 0, b""))
-    if scene.hemisphere is not None:
-        records.append(_record(HEMISPHERE, 0, bytes([*scene.hemisphere.sky, *scene.hemisphere.ground])))
-    if scene.rim is not None:
-        records.append(_record(RIM, 0, bytes([*scene.rim.color, scene.rim.power])))
-    if scene.fog is not None:
-        near, far = _q32([scene.fog.near, scene.fog.far])
-        distances = near.to_bytes(8, "big") + max(far, near + 1).to_bytes(8, "big")
-        records.append(_record(FOG, 0, bytes(scene.fog.color) + distances))
-    if scene.tone is not None:
-        exposure = max(round(scene.tone.exposure / EXPOSURE_STEP), 1)
-        flags = TONE_FILMIC * scene.tone.filmic + TONE_GAMMA * scene.tone.gamma
-        records.append(_record(TONE, 0, exposure.to_bytes(4, "big") + bytes([flags])))
-    for index, thing in enumerate(scene.objects):
-        if thing.material.texture is not None and thing.mesh.uvs is not None:
-            with about(f"objects[{index}]"):
-                records.append(_record(TEXTURE_OF, index, pack_texture(thing.material.texture, thing.mesh.uvs)))
-    for index, thing in enumerate(scene.objects):
-        if thing.mesh.opacities is not None:
-            levels = thing.mesh.rgba[:, 3].tobytes()
-            records.append(_record(OPACITIES_OF, index, levels + bytes(-len(levels) % WORD)))
-    for index, light in enumerate(scene.lights):
+            cosines = cosine(light.inner_angle), cosine(light.outer_angle)
+            found[record.SPOT, index] = struct.pack(">5q", *_q32([*light.direction, *cosines]))
         if light.shadow:
-            records.append(_record(SHADOW, index, shadow_rule(scene).to_bytes(32, "big")))
+            found[record.SHADOW, index] = _words([shadow_rule(scene)])
     for index, thing in enumerate(scene.objects):
+        mesh, texture, emission = thing.mesh, thing.material.texture, thing.material.emission
+        if (opacity := round(thing.opacity / OPACITY_STEP)) < 1 / OPACITY_STEP:
+            found[record.OPACITY_OF, index] = opacity.to_bytes(4, "big")
+        if texture is not None and mesh.uvs is not None:
+            with about(f"objects[{index}]"):
+                found[record.TEXTURE_OF, index] = pack_texture(texture, mesh.uvs)
+        if texture is not None and texture.alpha is not None:
+            found[record.ALPHA_OF, index] = pack_alpha(texture)
+        if mesh.opacities is not None:
+            levels = mesh.rgba[:, 3].tobytes()
+            found[record.OPACITIES_OF, index] = levels + bytes(-len(levels) % WORD)
         if thing.fade is not None:
             inner, outer = _q32(thing.fade)
             inner, outer = min(inner, MAX_INNER_FADE), min(outer, MAX_FADE)
-            radii = inner.to_bytes(8, "big") + max(outer, inner + 1).to_bytes(8, "big")
-            records.append(_record(GROUND, index, radii.ljust(32, b"\0")))
-    for index, thing in enumerate(scene.objects):
-        if any(thing.material.emission):
-            records.append(_record(EMISSION_OF, index, _words([_rgb(thing.material.emission)])))
-    for index, thing in enumerate(scene.objects):
-        if thing.material.texture is not None and thing.material.texture.alpha is not None:
-            records.append(_record(ALPHA_OF, index, pack_alpha(thing.material.texture)))
-    return b"".join(records)
+            found[record.GROUND, index] = struct.pack(">2q16x", inner, max(outer, inner + 1))
+        if any(emission):
+            found[record.EMISSION_OF, index] = _words([_rgb(emission)])
+    if scene.antialias:
+        found[record.ANTIALIAS, 0] = b""
+    if scene.hemisphere is not None:
+        found[record.HEMISPHERE, 0] = bytes([*scene.hemisphere.sky, *scene.hemisphere.ground])
+    if scene.rim is not None:
+        found[record.RIM, 0] = bytes([*scene.rim.color, scene.rim.power])
+    if scene.fog is not None:
+        near, far = _q32([scene.fog.near, scene.fog.far])
+        found[record.FOG, 0] = bytes(scene.fog.color) + struct.pack(">2q", near, max(far, near + 1))
+    if scene.tone is not None:
+        flags = record.TONE_FILMIC * scene.tone.filmic + record.TONE_GAMMA * scene.tone.gamma
+        found[record.TONE, 0] = struct.pack(">IB", max(round(scene.tone.exposure / EXPOSURE_STEP), 1), flags)
+    return b"".join(_record(kind, index, content) for (kind, index), content in sorted(found.items()))
 
 
 def shadow_rule(scene: Scene) -> int:
-    """Return which faces of culled objects cast shadows: all, or those turned away from the light, if all of them
-    together are closed.
-    """
+    """Return which faces of culled objects cast shadows: all, or, if they are closed, those turned from the light."""
     casters = [_as_sent(o) for o in scene.objects if o.cull and not o.wireframe and o.is_opaque and o.fade is None]
-    return SHADOWS_BACK_FACES if are_closed(casters) else SHADOWS_ALL
+    return record.SHADOWS_BACK_FACES if are_closed(casters) else record.SHADOWS_ALL
 
 
 def _as_sent(o: Object) -> Object:
@@ -189,21 +157,15 @@ def _record(kind: int, index: int, content: bytes) -> bytes:
             "objects with an opacity, a texture, a fade or an emission must be among the first 65,536 of a scene, "
             f"not number {index:,}"
         )
-    size = len(content) // WORD if kind >= LONG_KINDS else len(content)
-    return bytes([kind]) + index.to_bytes(2, "big") + size.to_bytes(2, "big") + content
-
-
-def _light(light: Light) -> bytes:
-    return _words([LIGHTS[light.kind], *_q32(light.vector), _rgb(light.color)])
+    size = len(content) // WORD if kind >= record.LONG_KINDS else len(content)
+    return struct.pack(">BHH", kind, index, size) + content
 
 
 def encode_object(o: Object) -> bytes:
     """Return the struct Object of an object from `fit`."""
     material = o.material
     fields = [
-        *_q32(o.position),
-        *_q32(o.rotation),
-        *_q32([o.scale]),
+        *_q32([*o.position, *o.rotation, o.scale]),
         SHADINGS[material.shading],
         *_q32([material.ambient, material.diffuse, material.specular]),
         material.shininess,
@@ -215,14 +177,6 @@ def encode_object(o: Object) -> bytes:
 
 def _bytes(content: bytes) -> bytes:
     return _words([len(content)]) + content + bytes(-len(content) % 32)
-
-
-def _array_of_dynamic(items: list[bytes]) -> bytes:
-    offsets, end = [], 32 * len(items)
-    for item in items:
-        offsets.append(end)
-        end += len(item)
-    return _words([len(items), *offsets]) + b"".join(items)
 
 
 def _q32(values: ArrayLike) -> list[int]:

@@ -10,8 +10,8 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
 
-from ._arithmetic import cosine, dot, length
-from ._mesh import Mesh, components, weld
+from ._arithmetic import cosine, dot, length, units
+from ._mesh import Mesh, components, face_normals, weld
 from ._object import Object, Shading
 from ._winding import against
 
@@ -52,22 +52,16 @@ _MOST_PAIRS = 16
 
 
 def creased(mesh: Mesh, degrees: float | None = None) -> Mesh:
-    """Return the mesh with smooth normals, except across edges at which faces differ by more than `degrees`, or, if
-    None, by more than suits the shape.
-
-    Normals that the mesh has are replaced. Vertices are split at creases only. The mesh is returned without normals,
-    for flat shading, where that looks the same.
+    """Return the mesh with normals, instead of its own, that are smooth except across edges at which faces differ by
+    more than `degrees`, or, if None, than suits the shape; without any where flat shading looks the same.
     """
     normals = corner_normals(mesh.positions, mesh.faces, degrees)
-    if is_flat(mesh.positions, mesh.faces, normals):
-        return without_normals(mesh)
-    return weld(mesh.positions, mesh.faces, mesh.rgba[mesh.faces], normals, corner_uvs(mesh))
+    return with_normals(mesh, None if is_flat(mesh.positions, mesh.faces, normals) else normals)
 
 
 def shaded(o: Object, shading: Shading, degrees: float | None = None, anew: bool = False) -> Object:
-    """Return the object in another shading. One that becomes smooth, and has no normals, gets those of `smoothed`.
-
-    anew: whether smooth shading replaces normals, too.
+    """Return the object in another shading. One that becomes smooth gets the normals of `smoothed` if it has none, or
+    `anew`.
     """
     is_given = o.mesh.normals is not None or o.material.shading == "smooth"
     if shading == "smooth" and (anew or not is_given):
@@ -81,26 +75,20 @@ def smoothed(o: Object, degrees: float | None) -> Object:
     return evolve(o, mesh=mesh, material=evolve(o.material, shading="flat" if mesh.normals is None else "smooth"))
 
 
-def without_normals(mesh: Mesh) -> Mesh:
-    """Return the mesh without normals, nor vertices that differ in these only."""
-    if mesh.normals is None:
+def with_normals(mesh: Mesh, normals: Floats | None) -> Mesh:
+    """Return the mesh with normals of corners, (m, 3, 3), or with none, and without vertices that are alike."""
+    if normals is None and mesh.normals is None:
         return mesh
-    return weld(mesh.positions, mesh.faces, mesh.rgba[mesh.faces], uvs=corner_uvs(mesh))
-
-
-def corner_uvs(mesh: Mesh) -> Floats | None:
-    """Return the texture coordinates of the corners of faces, (m, 3, 2); None if there are none."""
-    return None if mesh.uvs is None else mesh.uvs[mesh.faces]
+    uvs = None if mesh.uvs is None else mesh.uvs[mesh.faces]
+    return weld(mesh.positions, mesh.faces, mesh.rgba[mesh.faces], normals, uvs)
 
 
 def corner_normals(positions: Floats, faces: Ints, degrees: float | None = None, groups: Ints | None = None) -> Floats:
-    """Return a unit normal for each corner of each face, (m, 3, 3).
+    """Return a unit normal for each corner of each face, (m, 3, 3): the mean of the faces around it, up to the next
+    creases, weighted by area and angle. It points to the front of its face, however its neighbours are wound.
 
-    It is the mean of the faces around the corner, up to the next creases, weighted by area and angle, and points to the
-    front of its face, also where its neighbours are wound the other way.
-    degrees: as in `creased`.
-    groups: (m,) the smoothing group of each face, in place of `degrees`: edges within a group are smooth; none are in
-    group 0.
+    degrees: as in `creased`. groups: (m,) the smoothing group of each face, in place of `degrees`: edges within a group
+    are smooth; none are in group 0.
     """
     unique, number = np.unique(positions + 0.0, axis=0, return_inverse=True)
     corners = number.reshape(-1)[faces]
@@ -108,18 +96,17 @@ def corner_normals(positions: Floats, faces: Ints, degrees: float | None = None,
     is_against = against(corners)
     corners = np.where(is_against[:, None], corners[:, ::-1], corners)
     areas, angles = _areas_and_angles(unique, corners)
-    sizes = length(areas)[:, None]
-    units = np.divide(areas, sizes, out=np.zeros_like(areas), where=sizes > 0)
-    proper = np.flatnonzero(sizes[:, 0] > 0)
+    sizes, directions = length(areas), units(areas)
+    proper = np.flatnonzero(sizes > 0)
     here, there, links = _neighbours(corners, proper, len(unique))
     if groups is None:
         angles_of: tuple[tuple[float, float], ...] = _ANGLES
         if degrees is None:
-            shape, directions = _by_shape(unique, corners, units, here, there, links)
+            shape, ways = _by_shape(unique, corners, directions, here, there, links)
         else:
-            shape, directions, angles_of = np.zeros(1, np.int64), units, ((degrees, _SOLID[1]),)
+            shape, ways, angles_of = np.zeros(1, np.int64), directions, ((degrees, _SOLID[1]),)
         limits = np.array([[cosine(each) for each in row] for row in angles_of])[shape]
-        cosines = dot(directions[here], directions[there])
+        cosines = dot(ways[here], ways[there])
         hard = cosines < limits[:, 0] - _ROUNDING
         hard = _without_dead_ends(hard, cosines > limits[:, 1], corners, proper, links)
     else:
@@ -128,14 +115,13 @@ def corner_normals(positions: Floats, faces: Ints, degrees: float | None = None,
     # triangles without an area go with any other at the same place
     owner = np.full(len(unique), -1)
     owner[corners[proper]] = patch[proper]
-    flat = np.flatnonzero(sizes[:, 0] == 0)
+    flat = np.flatnonzero(sizes == 0)
     patch[flat] = np.where(owner[corners[flat]] < 0, patch[flat], owner[corners[flat]])
     weighted = areas[:, None] * angles[:, :, None]
     sums = np.zeros((corners.size, 3))
     np.add.at(sums, patch.ravel(), weighted.reshape(-1, 3))
-    lengths = length(sums)[:, None]
-    normals = np.divide(sums, lengths, out=np.zeros_like(sums), where=lengths > 0)[patch]
-    normals = np.where(normals.any(axis=2, keepdims=True), normals, units[:, None])
+    normals = units(sums)[patch]
+    normals = np.where(normals.any(axis=2, keepdims=True), normals, directions[:, None])
     normals[is_against] = -normals[is_against, ::-1]
     return np.asarray(np.round(normals, _DIGITS) + 0.0)
 
@@ -154,16 +140,13 @@ def is_flat(positions: Floats, faces: Ints, normals: Floats) -> bool:
 
 
 def _by_shape(
-    points: Floats, corners: Ints, units: Floats, here: Ints, there: Ints, links: Ints
+    points: Floats, corners: Ints, normals: Floats, here: Ints, there: Ints, links: Ints
 ) -> tuple[Ints, Floats]:
-    """Return which of `_ANGLES` decide at each edge, (k,), and the directions of faces, (m, 3).
-
-    here, there, links: of `_neighbours`. units: (m, 3), the normals of faces.
-    """
+    """Return which of `_ANGLES` decide at each edge, (k,), and the directions of faces, (m, 3), given unit normals."""
     part = np.unique(components(corners, len(points))[corners[:, 0]], return_inverse=True)[1].reshape(-1)
     places = (points - points[0]) / (np.abs(points - points[0]).max() or 1.0)
     lengths = _lengths(places[corners.ravel()[links[:, 0].reshape(-1, 2)]])
-    a, b = units[here], units[there]
+    a, b = normals[here], normals[there]
     turns = np.degrees(np.arctan2(length(np.cross(a, b)), dot(a, b)))
     each = part[here]
 
@@ -185,14 +168,13 @@ def _by_shape(
     is_solid = is_flat_faced | ((sharp >= _GAP_TIMES * middling) & (sharp >= _GAP_SHARE))
     is_figure = ~is_solid & ~is_all_corners
     shape = np.where(is_all_corners & ~is_figure.any(), 2, np.where(is_solid, 0, 1))
-    sides = _lengths(places[corners[:, [[0, 1], [1, 2], [2, 0]]]])
-    longest = sides.max(axis=1)
+    longest = _lengths(places[corners[:, [[0, 1], [1, 2], [2, 0]]]]).max(axis=1)
     areas = length(_areas_and_angles(points, corners)[0])
     is_needle = (shape == 1)[part] & (areas < _NEEDLE * longest**2)
-    directions = units.copy()
+    directions = normals.copy()
     for one, other in ((here, there), (there, here)):
         found = is_needle[one] & (lengths >= (1 - 1e-9) * longest[one]) & (2 * areas[one] < areas[other])
-        directions[one[found]] = units[other[found]]
+        directions[one[found]] = normals[other[found]]
     return shape[each], directions
 
 
@@ -202,10 +184,7 @@ def _lengths(ends: Floats) -> Floats:
 
 
 def _without_dead_ends(hard: Flags, weak: Flags, corners: Ints, proper: Ints, links: Ints) -> Flags:
-    """Return the creases, (k,), without the weak ones that end within a surface, which look like scars.
-
-    hard, weak: (k,) of the edges of `links`, which are those of `_neighbours`.
-    """
+    """Return the creases, (k,), without the weak ones that end within a surface, which look like scars."""
     count = int(corners.max()) + 1
     ends = corners.ravel()[links[:, 0]].reshape(-1, 2)
     # each vertex of a border is an end of no crease
@@ -236,18 +215,14 @@ def _areas_and_angles(positions: Floats, faces: Ints) -> tuple[Floats, Floats]:
     """Return the normals of faces, of their size, (m, 3), and the angles at their corners in radians, (m, 3)."""
     # of any size: products of lengths stay within floats
     points = (positions - positions[0]) / (np.abs(positions - positions[0]).max() or 1.0)
-    a, b, c = points[faces].transpose(1, 0, 2)
-    areas = np.cross(b - a, c - a)
-    sizes = length(areas)
-    angles = [np.arctan2(sizes, dot(q - p, r - p)) for p, q, r in ((a, b, c), (b, c, a), (c, a, b))]
+    areas, (a, b, c) = face_normals(points[faces]), points[faces].transpose(1, 0, 2)
+    angles = [np.arctan2(length(areas), dot(q - p, r - p)) for p, q, r in ((a, b, c), (b, c, a), (c, a, b))]
     return areas, np.stack(angles, axis=1)
 
 
 def _neighbours(corners: Ints, proper: Ints, count: int) -> tuple[Ints, Ints, Ints]:
-    """Return the pairs of faces, among `proper`, that share an edge and are wound alike, and the corners they share.
-
-    corners: (m, 3) numbers of positions, of which there are `count`. Returns (k,), (k,) faces, and (2 k, 2) corners,
-    numbered 0 to 3 m - 1: two pairs for each pair of faces.
+    """Return the pairs of faces, among `proper`, that share an edge and are wound alike, (k,) and (k,), and the two
+    pairs of corners that each shares, (2 k, 2). corners: (m, 3) numbers of positions, of which there are `count`.
     """
     tails = (3 * proper[:, None] + np.arange(3)).ravel()
     heads = (3 * proper[:, None] + np.array([1, 2, 0])).ravel()

@@ -5,11 +5,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeVar
 
-from attrs import field, frozen
-from numpy.typing import ArrayLike
+from attrs import Factory, field, frozen
 
 from ..checks import Color, color, flag, instance, number, whole
 from ..errors import InputError
@@ -20,6 +19,8 @@ POWERS = (1, 16)
 EXPOSURES = (0, 64)
 #: What removes an effect, as a setting of a look.
 NONE = "none"
+
+Effect = TypeVar("Effect")
 
 
 @frozen(field_transformer=with_names)
@@ -79,60 +80,6 @@ class Tone:
     gamma: bool = field(default=False, converter=flag, metadata=checked("gamma of a tone"))
 
 
-# ---- from what may be given in their place ----
-
-
-def hemisphere_of(value: Any, name: str = "the hemisphere") -> Hemisphere | None:
-    """Return a hemisphere, given as itself, as one colour, or as two, (sky, ground)."""
-    if value is None or isinstance(value, Hemisphere):
-        return value
-    if isinstance(value, list | tuple) and len(value) == 2:
-        return Hemisphere(*(color(each, name) for each in value))
-    return Hemisphere(color(value, name))
-
-
-def rim_of(value: Any, name: str = "the rim") -> Rim | None:
-    """Return a rim, given as itself, as a colour, or as (colour, power)."""
-    if value is None or isinstance(value, Rim):
-        return value
-    if isinstance(value, list | tuple) and len(value) == 2:
-        return Rim(color(value[0], name), value[1])
-    return Rim(color(value, name))
-
-
-def fog_of(value: Any, name: str = "the fog") -> Fog | None:
-    """Return fog, given as itself or as (colour, near, far)."""
-    found = fog_or_color(value, name)
-    if isinstance(found, tuple):
-        raise InputError(f"{name} must be a shackled.Fog or (colour, near, far), not {value!r:.60}")
-    return found
-
-
-def fog_or_color(value: Any, name: str) -> Fog | Color | None:
-    """Return fog as `fog_of` does, or the colour of fog whose distances are not given."""
-    if value is None or isinstance(value, Fog):
-        return value
-    if isinstance(value, list | tuple) and len(value) == 3 and _is_color(value[0]):
-        return Fog(color(value[0], name), *value[1:])
-    return color(value, name)
-
-
-def _is_color(value: ArrayLike | str) -> bool:
-    return isinstance(value, str) or hasattr(value, "__len__")
-
-
-def tone_of(value: Tone | None) -> Tone | None:
-    """Return a tone, or None."""
-    if value is not None:
-        instance(value, "the tone of a scene", Tone)
-    return value
-
-
-def _bottom(value: ArrayLike | str | None, name: str = "") -> Color:
-    # None is replaced by the top right after
-    return value if value is None else color(value, name)  # type: ignore[return-value]
-
-
 @frozen(field_transformer=with_names)
 class Background:
     """A vertical gradient from the colour of the top row to that of the bottom row, by default the same.
@@ -142,19 +89,55 @@ class Background:
 
     top: Color = field(default=(0, 0, 0), converter=color, metadata=checked("the background colour"))
     bottom: Color = field(
-        default=None, converter=_bottom, metadata=checked("the colour at the bottom of the background")
+        default=Factory(lambda self: self.top, takes_self=True),
+        converter=color,
+        metadata=checked("the colour at the bottom of the background"),
     )
 
-    def __attrs_post_init__(self) -> None:
-        """Take the top's colour where none is given for the bottom."""
-        if self.bottom is None:
-            object.__setattr__(self, "bottom", self.top)
+
+# ---- from what may be given in their place ----
 
 
-def background_of(value: Background | ArrayLike | str | Sequence[ArrayLike | str]) -> Background:
+def hemisphere_of(value: Any, name: str = "the hemisphere") -> Hemisphere | None:
+    """Return a hemisphere, given as itself, as one colour, or as two, (sky, ground)."""
+    return _made(Hemisphere, value, name)
+
+
+def rim_of(value: Any, name: str = "the rim") -> Rim | None:
+    """Return a rim, given as itself, as a colour, or as (colour, power)."""
+    return _made(Rim, value, name)
+
+
+def background_of(value: Any, name: str = "the background colour") -> Background | None:
     """Return a background, given as itself, as one colour, or as two, (top, bottom)."""
-    if isinstance(value, Background):
+    return _made(Background, value, name)
+
+
+def _made(kind: Callable[..., Effect], value: Any, name: str) -> Effect | None:
+    if value is None or isinstance(value, kind):  # type: ignore[arg-type]
         return value
-    if isinstance(value, list | tuple) and len(value) == 2:
-        return Background(*value)
-    return Background(value)  # type: ignore[arg-type]
+    first, *more = value if isinstance(value, list | tuple) and len(value) == 2 else [value]
+    return kind(color(first, name), *more)
+
+
+def fog_of(value: Any, name: str = "the fog") -> Fog | None:
+    """Return fog, given as itself or as (colour, near, far)."""
+    if isinstance(found := fog_or_color(value, name), tuple):
+        raise InputError(f"{name} must be a shackled.Fog or (colour, near, far), not {value!r:.60}")
+    return found
+
+
+def fog_or_color(value: Any, name: str) -> Fog | Color | None:
+    """Return fog as `fog_of` does, or the colour of fog whose distances are not given."""
+    if value is None or isinstance(value, Fog):
+        return value
+    if isinstance(value, list | tuple) and len(value) == 3 and hasattr(value[0], "__len__"):
+        return Fog(color(value[0], name), *value[1:])
+    return color(value, name)
+
+
+def tone_of(value: Tone | None) -> Tone | None:
+    """Return a tone, or None."""
+    if value is not None:
+        instance(value, "the tone of a scene", Tone)
+    return value

@@ -20,11 +20,10 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from ._arithmetic import dot, length, rotate, unit
 from ._camera import Camera
-from ._effects import Fog
 from ._light import Light
 from ._mesh import MAX_FACES, MAX_VERTICES, part_of_faces, vertex_normals
 from ._object import Object
-from ._packed import MAX_SHORT, MAX_WIDE, fits, is_integral
+from ._packed import MAX_SHORT, MAX_WIDE, bits_of
 from ._scene import Scene
 
 Array = NDArray[np.float64]
@@ -33,8 +32,8 @@ Array = NDArray[np.float64]
 MAX_COORDINATE = 2.0**26
 MIN_HALF_HEIGHT = 2.0**-12
 STEP = 2.0**-32
-#: A mesh of so many bits a coordinate must not be scaled by more.
-MAX_SCALE = {16: 2.0**12, 24: 2.0**4}
+#: A mesh of so many bits a coordinate must not be scaled by more; one of other coordinates is quantized.
+MAX_SCALE = {16: 2.0**12, 24: 2.0**4, None: -1.0}
 
 #: The largest step of a mesh's grid, in pixels, before a finer grid is used.
 STEP_IN_PIXELS = 1 / 32
@@ -53,28 +52,16 @@ DIRECTION_LENGTHS = (2.0**-8, 2.0**20)
 
 @np.errstate(over="ignore", invalid="ignore")
 def fit(scene: Scene) -> Scene:
-    """Return the scene in the number ranges of the contracts, with integer coordinates and a near plane.
-
-    A mesh that is too large for a contract becomes several objects.
-    """
+    """Return the scene in the number ranges of the contracts; meshes that are too large become several objects."""
     _check_view(scene.camera)
     scene = _prepared(scene)
-    objects: list[Object]
     if _is_exact(scene):
-        camera = evolve(scene.camera, near=near_plane(scene, 1.0, most=1.0))
-        lights = list(scene.lights)
-        objects = list(scene.objects)
-        fog = scene.fog
+        scene = evolve(scene, camera=evolve(scene.camera, near=near_plane(scene, most=1.0)))
     else:
-        factor = _factor(scene)
-        camera = _move_camera(scene, factor)
-        lights = [_move_light(light, scene.camera.eye, factor) for light in scene.lights]
-        objects = [_move_object(o, scene, factor, camera.near or 0.0) for o in scene.objects]
-        fog = scene.fog and _move_fog(scene.fog, factor)
-    camera = evolve(camera, up=_direction(camera.up))
-    objects = [part for o in objects for part in divided(evolve(o, rotation=_direction(o.rotation)))]
-    lights = [_pointed(light) for light in lights]
-    return evolve(scene, objects=objects, camera=camera, lights=lights, fog=fog)
+        scene = _moved(scene, _factor(scene))
+    objects = [part for o in scene.objects for part in divided(evolve(o, rotation=_direction(o.rotation)))]
+    camera = evolve(scene.camera, up=_direction(scene.camera.up))
+    return evolve(scene, objects=objects, camera=camera, lights=map(_pointed, scene.lights))
 
 
 def _prepared(scene: Scene) -> Scene:
@@ -90,45 +77,40 @@ def _pointed(light: Light) -> Light:
 
 
 def _check_view(camera: Camera) -> None:
-    eye, target, up = camera.eye, camera.target, camera.up
-    if (eye == target).all():
-        raise InputError(f"the camera's eye and target are the same point, {_show(eye)}")
+    forward, up = camera.target - camera.eye, camera.up
+    if not forward.any():
+        raise InputError("the camera's eye and target are the same point, ({:g}, {:g}, {:g})".format(*camera.eye))
     if not up.any():
         raise InputError("the camera's up must not be (0, 0, 0)")
-    if length(np.cross(unit(target - eye), unit(up))) < 1e-9:
-        raise InputError(f"the camera looks along its up direction, {_show(up)}; choose another up")
+    if length(np.cross(unit(forward), unit(up))) < 1e-9:
+        raise InputError("the camera looks along its up direction, ({:g}, {:g}, {:g}); choose another up".format(*up))
 
 
 def _prepare(o: Object) -> Object:
     """Return the object without unused vertices, and with the normals that smooth shading needs."""
     mesh = o.mesh
-    positions, faces = mesh.positions, mesh.faces
-    normals = None
-    if o.material.shading == "smooth":
-        center, radius = _box(positions)
+    is_smooth = o.material.shading == "smooth"
+    if not is_smooth and mesh.normals is not None:
+        mesh = evolve(mesh, normals=None)
+    if is_smooth and mesh.normals is None:
+        center, radius = _box(mesh.positions)
         # of any size: squares of its lengths stay within floats
-        shape = (positions - center) / (radius or 1.0)
-        normals = vertex_normals(shape, faces) if mesh.normals is None else mesh.normals
-    if normals is not mesh.normals:
-        mesh = evolve(mesh, normals=normals)
-    if len(np.unique(faces)) < len(positions):
-        mesh = part_of_faces(mesh, faces)
-    return o if mesh is o.mesh else evolve(o, mesh=mesh)
+        mesh = evolve(mesh, normals=vertex_normals((mesh.positions - center) / (radius or 1.0), mesh.faces))
+    if len(np.unique(mesh.faces)) < len(mesh.positions):
+        mesh = part_of_faces(mesh, mesh.faces)
+    return evolve(o, mesh=mesh)
 
 
 def _is_exact(scene: Scene) -> bool:
     """Return whether the contracts represent the scene exactly, well within their ranges."""
     camera = scene.camera
     lengths = [*camera.eye, *camera.target, camera.near or 0.0]
-    if camera.projection == "orthographic":
-        lengths.append(camera.half_height)
-    for light in scene.lights:
-        if light.kind != "directional":
-            lengths += list(light.vector)
+    lengths += [camera.half_height] if camera.projection == "orthographic" else []
+    lengths += [each for light in scene.lights if light.kind != "directional" for each in light.vector]
     reach = max(map(abs, lengths))
     for o in scene.objects:
         positions = o.mesh.positions
-        if not is_integral(positions) or o.scale > MAX_SCALE[_bits(positions)]:
+        if o.scale > MAX_SCALE[bits_of(positions)]:
             return False
         lengths += [o.scale, *o.position]
         reach = max(reach, np.abs(o.position).max() + o.scale * np.abs(positions).max())
@@ -160,8 +142,7 @@ def _factor(scene: Scene) -> float:
         # what is so near to the eye is clear in fog that ends beyond
         reach = max(reach, min(scene.fog.far, 1024 * reach))
     exponent = REACH_EXPONENT - math.frexp(reach)[1] if reach else 0
-    if size:
-        exponent = min(exponent, SIZE_EXPONENT - math.frexp(size)[1])
+    exponent = min(exponent, SIZE_EXPONENT - math.frexp(size)[1]) if size else exponent
     return math.ldexp(1.0, min(max(exponent, -1000), 1000))
 
 
@@ -178,15 +159,24 @@ def _extent(scene: Scene) -> tuple[float, float]:
     return max(sizes), max(reaches)
 
 
+def _moved(scene: Scene, factor: float) -> Scene:
+    """Return the scene about the eye, times the factor."""
+    eye, fog, camera = scene.camera.eye, scene.fog, _move_camera(scene, factor)
+    if fog is not None:
+        # nothing is as far away as the largest distances
+        far = min(max(fog.far * factor, STEP), MAX_COORDINATE)
+        fog = evolve(fog, near=min(fog.near * factor, MAX_COORDINATE - 1), far=far)
+    lights = [light if light.kind == "directional" else _move_light(light, eye, factor) for light in scene.lights]
+    objects = [_move_object(o, scene, factor, camera.near or 0.0) for o in scene.objects]
+    return evolve(scene, objects=objects, camera=camera, lights=lights, fog=fog)
+
+
 def _move_camera(scene: Scene, factor: float) -> Camera:
     camera = scene.camera
-    forward = unit(camera.target - camera.eye)
-    up = unit(camera.up)
-    half_height = camera.half_height
-    if camera.projection == "orthographic":
-        half_height *= factor
-        if half_height < MIN_HALF_HEIGHT:
-            raise InputError(f"the camera's half_height {camera.half_height:g} is too small for the size of the scene")
+    forward, up = unit(camera.target - camera.eye), unit(camera.up)
+    half_height = camera.half_height * (factor if camera.projection == "orthographic" else 1)
+    if camera.projection == "orthographic" and half_height < MIN_HALF_HEIGHT:
+        raise InputError(f"the camera's half_height {camera.half_height:g} is too small for the size of the scene")
     return evolve(
         camera,
         eye=(0, 0, 0),
@@ -199,9 +189,8 @@ def _move_camera(scene: Scene, factor: float) -> Camera:
 
 
 def near_plane(scene: Scene, factor: float = 1.0, most: float = math.inf) -> float:
-    """Return the distance of the near plane, times the factor.
-
-    It is the camera's own, or else `NEAR_PART` of how far any object reaches from the eye, at most `most`.
+    """Return the distance of the near plane, times the factor: the camera's own, or else `NEAR_PART` of how far any
+    object reaches from the eye, at most `most`.
     """
     camera = scene.camera
     if camera.projection == "orthographic":
@@ -214,25 +203,17 @@ def near_plane(scene: Scene, factor: float = 1.0, most: float = math.inf) -> flo
 
 
 def _move_light(light: Light, eye: Array, factor: float) -> Light:
-    if light.kind == "directional":
-        return light
     place = (light.vector - eye) * factor
     # a light so far away keeps its direction
     largest = float(np.abs(place).max())
     return evolve(light, vector=place * min(1.0, 2.0**REACH_EXPONENT / largest) if largest else place)
 
 
-def _move_fog(fog: Fog, factor: float) -> Fog:
-    # nothing is as far away as the largest distances
-    far = min(max(fog.far * factor, STEP), MAX_COORDINATE)
-    return evolve(fog, near=min(fog.near * factor, MAX_COORDINATE - 1), far=far)
-
-
 def _move_object(o: Object, scene: Scene, factor: float, near: float) -> Object:
     """Return the object about the eye. near: the distance of the near plane, times the factor."""
     positions = o.mesh.positions
     center, step = np.zeros(3), 1.0
-    if not is_integral(positions) or o.scale * factor > MAX_SCALE[_bits(positions)]:
+    if o.scale * factor > MAX_SCALE[bits_of(positions)]:
         # the radii of a fade are about the object's position, which therefore stays
         center, radius = _box(positions) if o.fade is None else (center, float(np.abs(positions).max()))
         step = radius / _steps(o, radius, scene, factor, near)
@@ -258,10 +239,6 @@ def _steps(o: Object, radius: float, scene: Scene, factor: float, near: float) -
     return int(min(max(math.sqrt(size * factor / STEP), MAX_SHORT), MAX_WIDE))
 
 
-def _bits(positions: Array) -> int:
-    return 16 if fits(positions, MAX_SHORT) else 24
-
-
 def _box(positions: Array) -> tuple[Array, float]:
     """Return the middle of the bounding box, and the largest distance from it along an axis."""
     low, high = positions.min(axis=0) / 2, positions.max(axis=0) / 2
@@ -273,15 +250,9 @@ def _direction(v: Array) -> Array:
     return v if low <= np.abs(v).max() <= high else unit(v)
 
 
-def _show(v: Array) -> str:
-    return f"({', '.join(f'{x:g}' for x in v)})"
-
-
 def divided(o: Object) -> list[Object]:
-    """Return the object, or, if its mesh is too large for a contract, several that together are the same.
-
-    Each has the next faces of the mesh, so that what is close together in a file stays together. Vertices at the cuts
-    are in both parts, with their normals.
+    """Return the object, or, if its mesh is too large for a contract, several that together are the same: each has the
+    next faces, so that what is close together in a file stays together.
     """
     mesh = o.mesh
     if len(mesh.positions) <= MAX_VERTICES and mesh.triangles <= MAX_FACES:

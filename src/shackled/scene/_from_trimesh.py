@@ -5,8 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from attrs import evolve
-from numpy.typing import NDArray
 
 from ..errors import InputError, warn
 from ._files.model import MeshPart, Picture, finite_uvs, is_transparent
@@ -16,30 +14,31 @@ from ._texture import as_rgb, as_rgba, cutoff_of, to_srgb
 
 
 def part_of(value: Any) -> MeshPart:
-    """Return the mesh of a trimesh.Trimesh, texture and emission of its material as fields of a `Material`, if it has
-    any, its opacity, if it is blended, and whether it has two sides. Errors as in `mesh_of`.
-    """
+    """Return the mesh of a trimesh.Trimesh with what its material says. Errors as in `mesh_of`."""
     visual: Any = getattr(value, "visual", None)
     uvs = getattr(visual, "uv", None)
     if not is_trimesh(value) or getattr(visual, "kind", None) != "texture":
-        return MeshPart(mesh_of(value), {})
-    material = visual.material
-    factor = getattr(material, "baseColorFactor", None)
+        return MeshPart(mesh_of(value))
+
+    def of_material(name: str) -> Any:
+        return getattr(visual.material, name, None)
+
+    factor = of_material("baseColorFactor")
     # trimesh keeps the linear factor as bytes
     *color, alpha = np.ones(4) if factor is None else np.asarray(factor, dtype=np.float64) / 255
-    mode = getattr(material, "alphaMode", None)
+    mode = of_material("alphaMode")
     opacity = float(alpha) if mode == "BLEND" else 1.0
-    two_sided = bool(getattr(material, "doubleSided", False))
-    emitted, fields = getattr(material, "emissiveFactor", None), dict[str, Any]()
-    if emitted is not None and np.any(emitted) and getattr(material, "emissiveTexture", None) is None:
+    two_sided = bool(of_material("doubleSided"))
+    emitted, fields = of_material("emissiveFactor"), dict[str, Any]()
+    if emitted is not None and np.any(emitted) and of_material("emissiveTexture") is None:
         fields["emission"] = to_srgb(emitted).astype(int).tolist()
-    image = getattr(material, "baseColorTexture", None)
+    image = of_material("baseColorTexture")
     if image is None:
-        image, color = getattr(material, "image", None), [1.0, 1.0, 1.0]
+        image, color = of_material("image"), [1.0, 1.0, 1.0]
     faces = np.asarray(value.faces)
     if image is None or uvs is None or len(uvs) != len(value.vertices):
         return MeshPart(mesh_of(value), fields, opacity, two_sided)
-    cutoff = getattr(material, "alphaCutoff", None)
+    cutoff = of_material("alphaCutoff")
     cutoff = 0.5 if cutoff is None else float(cutoff)
     has_alpha = mode == "BLEND" or (mode == "MASK" and cutoff > 0)
     image = (as_rgba if has_alpha and is_transparent(image) else as_rgb)(image)
@@ -52,10 +51,7 @@ def part_of(value: Any) -> MeshPart:
 
 
 def objects_of(scene: Any) -> list[Object]:
-    """Return the objects of a trimesh.Scene, one for each place in which a mesh stands.
-
-    A matrix that is more than a scale, a rotation and a translation is applied to the vertices.
-    """
+    """Return the objects of a trimesh.Scene, one for each place in which a mesh stands."""
     objects = []
     for name in scene.graph.nodes_geometry:
         matrix, geometry = scene.graph[name]
@@ -63,17 +59,10 @@ def objects_of(scene: Any) -> list[Object]:
         if not hasattr(whole, "faces"):
             warn(f"{geometry} of the scene has no faces and is left out")
             continue
-        objects.append(_placed(part_of(whole), np.asarray(matrix, dtype=np.float64)))
+        part = part_of(whole)
+        fields: dict[str, Any] = {"material": Material(**part.material), "opacity": part.opacity}
+        try:
+            objects.append(Object.from_matrix(part.mesh, matrix, **fields))
+        except InputError:  # it shears, mirrors, or scales the axes differently
+            objects.append(Object(part_of(whole.copy().apply_transform(matrix)).mesh, **fields))
     return objects
-
-
-def _placed(part: MeshPart, matrix: NDArray[np.float64]) -> Object:
-    mesh, material = part.mesh, Material(**part.material)
-    try:
-        return Object.from_matrix(mesh, matrix, material=material, opacity=part.opacity)
-    except InputError:
-        positions = mesh.positions @ matrix[:3, :3].T + matrix[:3, 3]
-        mirrored = np.linalg.det(matrix[:3, :3]) < 0
-        faces = mesh.faces[:, ::-1] if mirrored else mesh.faces
-        moved = evolve(mesh, positions=positions, faces=faces, normals=None)
-        return Object(moved, material=material, opacity=part.opacity)

@@ -9,7 +9,7 @@ import numpy as np
 from attrs import evolve, field, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import Color, Floats, color, number, vector
+from ..checks import Color, Floats, color, optional_number, vector
 from ..errors import InputError
 from ..values import checked, with_names
 from ._arithmetic import length
@@ -25,15 +25,16 @@ MATERIAL = Material("flat", ambient=0.4, diffuse=0.7, specular=0.0)
 STEP = 2.0**-20
 
 
-def _optional(value: Any, name: str = "", low: float = -math.inf) -> float | None:
-    return None if value is None else number(value, name, low)
-
-
 def _center(value: ArrayLike | None) -> tuple[float, float] | None:
     if value is None:
         return None
     x, z = vector(value, "the center of a ground", 2).tolist()
     return x, z
+
+
+def _check_radii(inner: float, radius: float) -> None:
+    if inner >= radius:
+        raise InputError(f"the inner radius of a ground, {inner:g}, must be below its radius, {radius:g}")
 
 
 @frozen(field_transformer=with_names)
@@ -47,21 +48,19 @@ class Ground:
     """
 
     color: Color = field(converter=color, metadata=checked("the colour of a ground"))
-    height: float | None = field(default=None, converter=_optional, metadata=checked("the height of a ground"))
-    radius: float | None = field(default=None, converter=_optional, metadata=checked("the radius of a ground", 0))
+    height: float | None = field(default=None, converter=optional_number, metadata=checked("the height of a ground"))
+    radius: float | None = field(default=None, converter=optional_number, metadata=checked("the radius of a ground", 0))
     center: tuple[float, float] | None = field(default=None, converter=_center)
-    inner: float | None = field(default=None, converter=_optional, metadata=checked("the inner radius of a ground", 0))
+    inner: float | None = field(
+        default=None, converter=optional_number, metadata=checked("the inner radius of a ground", 0)
+    )
 
     def __attrs_post_init__(self) -> None:
         """Check the radii."""
         if self.radius == 0:
             raise InputError("the radius of a ground must be above 0")
         if self.radius is not None and self.inner is not None:
-            self._check_inner(self.inner, self.radius)
-
-    def _check_inner(self, inner: float, radius: float) -> None:
-        if inner >= radius:
-            raise InputError(f"the inner radius of a ground, {inner:g}, must be below its radius, {radius:g}")
+            _check_radii(self.inner, self.radius)
 
     def under(self, points: Floats) -> Object:
         """Return the object that is this ground under points of the world, (n, 3)."""
@@ -80,17 +79,15 @@ class Ground:
         height = on_grid(2 * float(low[1]) - GAP * half) if self.height is None else self.height
         radius = on_grid(REACH * half) if self.radius is None else self.radius
         inner = INNER * radius if self.inner is None else self.inner
-        self._check_inner(inner, radius)
-        corners = [(-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1)]
-        mesh = Mesh(corners, [(0, 1, 2), (0, 2, 3)], self.color)
+        _check_radii(inner, radius)
+        mesh = Mesh([(-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1)], [(0, 1, 2, 3)], self.color)
         return Object(mesh, (x, height, z), scale=radius, material=MATERIAL, fade=(inner, radius))
 
     def settled(self, points: Floats) -> Ground:
         """Return the ground with what it is by default under points of the world, (n, 3)."""
         under = self.under(points)
         x, height, z = under.position.tolist()
-        inner = None if under.fade is None else under.fade[0]
-        return evolve(self, height=height, radius=under.scale, center=(x, z), inner=inner)
+        return evolve(self, height=height, radius=under.scale, center=(x, z), inner=under.fade and under.fade[0])
 
 
 def ground_of(value: Any, name: str = "the ground") -> Ground | None:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any, Literal, TypeVar, cast
+from typing import Any, Literal, TypeVar
 
 from attrs import field, frozen
 from numpy.typing import ArrayLike
 
 from ..checks import Color, Floats, choice, color, flag, instance, number, optional_vector, vector
 from ..errors import InputError
-from ..values import Value, array_key, checked, with_names
+from ..values import Value, checked, with_names
 from ..words import Given, with_words, words_of
 
 LightKind = Literal["directional", "point", "spot"]
@@ -24,10 +24,6 @@ WHITE = (255, 255, 255)
 MAX_LIGHTS = 4
 
 Part = TypeVar("Part")
-
-
-def _kind(value: str) -> LightKind:
-    return cast(LightKind, choice(value, "the kind of a light", LIGHT_KINDS))
 
 
 _TOWARD = "toward=, the way from the scene to the light, or direction=, the way in which its light travels"
@@ -64,11 +60,11 @@ class Light(Value):
     shadow: whether objects cast shadows in its light; one light of a scene at most.
     """
 
-    kind: LightKind = field(converter=_kind)
-    vector: Floats = field(converter=vector, eq=array_key, metadata=checked("the direction or position of a light"))
+    kind: LightKind = field(converter=choice, metadata=checked("the kind of a light", LIGHT_KINDS))
+    vector: Floats = field(converter=vector, metadata=checked("the direction or position of a light"))
     color: Color = field(default=WHITE, converter=color, metadata=checked("the colour of a light"))
     direction: Floats | None = field(
-        default=None, converter=optional_vector, eq=array_key, metadata=checked("the direction of a spot light")
+        default=None, converter=optional_vector, metadata=checked("the direction of a spot light")
     )
     inner_angle: float = field(
         default=INNER_ANGLE, converter=number, metadata=checked("the inner_angle of a spot light", 0, 180)
@@ -76,7 +72,6 @@ class Light(Value):
     outer_angle: float = field(
         default=OUTER_ANGLE, converter=number, metadata=checked("the outer_angle of a spot light", 0, 180)
     )
-
     shadow: bool = field(default=False, converter=flag, metadata=checked("shadow of a light"))
 
     def __attrs_post_init__(self) -> None:
@@ -86,12 +81,11 @@ class Light(Value):
         if self.kind != "spot":
             if self.direction is not None or (self.inner_angle, self.outer_angle) != (INNER_ANGLE, OUTER_ANGLE):
                 raise InputError(f"only a spot light has direction, inner_angle and outer_angle, not a {self.kind} one")
-            return
-        if self.direction is None:
+        elif self.direction is None:
             raise InputError("a spot light needs a direction")
-        if not self.direction.any():
+        elif not self.direction.any():
             raise InputError("the direction of a spot light must not be zero")
-        if self.inner_angle > self.outer_angle:
+        elif self.inner_angle > self.outer_angle:
             raise InputError(
                 f"the inner_angle of a spot light, {self.inner_angle:g}, must not be above its outer_angle, "
                 f"{self.outer_angle:g}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Unpack
 
 import numpy as np
@@ -13,13 +13,13 @@ from ..checks import Color, Floats
 from ..errors import InputError
 from ._arithmetic import IDENTITY, dot, length, multiply, rotate
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_in
-from ._crease import is_flat, shaded, without_normals
+from ._crease import is_flat, shaded, with_normals
 from ._effects import Fog, Tone
 from ._mesh import Mesh
 from ._object import Material, Object
 from ._presets import preset_of
 from ._scene import Scene
-from ._settings import ALL, LookOptions, Setting, checked_look, settings_of, size_of
+from ._settings import ALL, LookOptions, Part, checked_look, settings_of, size_of
 from ._simplify import simplify_scene
 from ._staging import (
     MESH_STAGING,
@@ -69,21 +69,19 @@ def look_at(
     thing: also the parts of a model, as objects in its own coordinates. name: of the model, in warnings. around:
     points, (n, 3), of a model that are to fill the picture in place of its own.
     """
-    for setting in settings_of("file"):
-        if setting.name in look:
-            raise InputError(f"`{setting.name}` is for what is read of one glTF file")
+    if of_file := _given(look, "file"):
+        raise InputError(f"`{next(iter(of_file))}` is for what is read of one glTF file")
     if isinstance(thing, Scene) and not look:
         return thing
-    crease = look.get("crease")
     view = None
+    by_normals = staging.by_normals and not isinstance(thing, Scene)
     if isinstance(thing, Scene):
         scene = turn(thing, look["rotate"]) if "rotate" in look else thing
         width, height = look.get("size", (scene.width, scene.height))
         scene = evolve(scene, width=width, height=height)
-        looks = [look] * len(scene.objects)
     else:
         parts = [Object(thing, material=staging.material)] if isinstance(thing, Mesh) else list(thing)
-        if staging.by_normals:
+        if by_normals:
             parts = wound(parts, name, split=not {"cull", "max_triangles"} & look.keys())
         else:
             parts = [evolve(each, cull=is_closed(each.mesh)) for each in parts]
@@ -97,19 +95,19 @@ def look_at(
         points = np.concatenate([each.world_positions() for each in parts]) if around is None else around
         own = staging.view_of(rotate(rotation, points))
         view = view_of(look, width, height, look.get("orthographic", False), own)
-        shaded = [_shaded(each, look) if staging.by_normals else (each, look) for each in parts]
-        scene = _placed([each for each, _ in shaded], points, rotation, view, staging, width, height)
-        looks = [own_look for _, own_look in shaded]
-    chosen = _given(look, settings_of("scene"))
+        scene = _placed(parts, points, rotation, view, staging, width, height)
+    chosen = _given(look, "scene")
     fog = chosen.pop("fog", scene.fog)
-    objects = [_object(each, own_look) for each, own_look in zip(scene.objects, looks, strict=True)]
-    if view is not None and staging.by_normals and "two_sided" not in look:
-        count = sum(len(each.mesh.positions) for each in objects if not each.cull)
-        objects = [
-            evolve(each, two_sided=not each.cull and (each.two_sided or count <= MOST_TWO_SIDED)) for each in objects
-        ]
-    scene = evolve(scene, objects=objects, tone=_tone(scene.tone, look), **chosen)
-    if view is not None and staging.by_normals and "background" not in look:
+    objects = [_object(*(_shaded(each, look) if by_normals else (each, look))) for each in scene.objects]
+    if by_normals and "two_sided" not in look:
+        is_small = sum(len(each.mesh.positions) for each in objects if not each.cull) <= MOST_TWO_SIDED
+        objects = [evolve(each, two_sided=not each.cull and (each.two_sided or is_small)) for each in objects]
+    tone = scene.tone
+    if of_tone := _given(look, "tone"):
+        changed = evolve(tone or Tone(), **of_tone)
+        tone = None if changed == Tone() else changed
+    scene = evolve(scene, objects=objects, tone=tone, **chosen)
+    if by_normals and "background" not in look:
         scene = evolve(scene, background=contrasting(scene.objects))
     if "preset" in look and "lights" not in look:
         seen = _camera(scene, look, view, is_framed=around is not None)
@@ -121,21 +119,14 @@ def look_at(
         scene = evolve(scene, lights=lights)
     scene = evolve(scene, camera=_camera(scene, look, view, is_framed=around is not None))
     scene = evolve(scene, fog=_fog_between(scene, fog) if isinstance(fog, tuple) else fog)
-    if look.get("max_triangles", ALL) == ALL:
-        return scene
-    return simplify_scene(scene, look["max_triangles"], crease)
+    most = look.get("max_triangles", ALL)
+    return scene if most == ALL else simplify_scene(scene, most, look.get("crease"))
 
 
 def _placed(
     objects: Sequence[Object], points: Floats, rotation: Floats, view: Viewpoint, staging: Staging, *size: int
 ) -> Scene:
-    """Return a scene of the parts of a model, scaled to a bounding sphere of radius 1 about the origin, and filling the
-    picture.
-
-    objects: meshes with their materials, turned upright, and whether they are culled. The meshes keep their
-    coordinates; the places of the objects do the rest. points: (n, 3), those that are scaled and fill the picture.
-    size: width and height.
-    """
+    """Return a scene of the parts of a model; their places scale points, (n, 3), to a bounding sphere of radius 1."""
     with np.errstate(over="ignore"):
         center = (points.min(axis=0) + points.max(axis=0)) / 2
         radius = float(length(points - center).max())
@@ -147,7 +138,7 @@ def _placed(
     return Scene(
         [evolve(each, position=position, rotation=multiply(rotation, each.rotation), scale=scale) for each in objects],
         frame(turned, view),
-        [toward_viewer(direction, color, view) for direction, color in staging.lights],
+        toward_viewer(*staging.light, view),
         width=size[0],
         height=size[1],
         **staging.fields,
@@ -155,16 +146,14 @@ def _placed(
 
 
 def _shaded(o: Object, look: Mapping[str, Any]) -> tuple[Object, Mapping[str, Any]]:
-    """Return the object and the look with the shading that suits the normals of the mesh, unless the look or the file
-    says which.
-    """
+    """Return object and look with the shading that suits the normals, unless the look or the file says which."""
     mesh = o.mesh
     if o.material.shading == "unlit" or "crease" in look or look.get("shading", "smooth") != "smooth":
         return o, look
     if mesh.normals is None:
         return o, {**look, "crease": None}
     if "shading" not in look and is_flat(mesh.positions, mesh.faces, mesh.normals[mesh.faces]):
-        return evolve(o, mesh=without_normals(mesh)), {**look, "shading": "flat"}
+        return evolve(o, mesh=with_normals(mesh, None)), {**look, "shading": "flat"}
     return o, {**look, "shading": "smooth"}
 
 
@@ -187,21 +176,13 @@ def resize(scene: Scene, size: int | tuple[int, int]) -> Scene:
 
 
 def _object(o: Object, look: Mapping[str, Any]) -> Object:
-    changes = _given(look, settings_of("object"))
+    changes = _given(look, "object")
     if "color" in changes:
         o = painted_object(o, changes.pop("color"))
-    material = _given(look, settings_of("material"))
+    material = _given(look, "material")
     shading = material.pop("shading", "smooth" if "crease" in look else o.material.shading)
     o = evolve(o, material=evolve(o.material, **material), **changes)
     return shaded(o, shading, look.get("crease"), anew="crease" in look)
-
-
-def _tone(tone: Tone | None, look: Mapping[str, Any]) -> Tone | None:
-    chosen = _given(look, settings_of("tone"))
-    if not chosen:
-        return tone
-    changed = evolve(tone or Tone(), **chosen)
-    return None if changed == Tone() else changed
 
 
 def _fog_between(scene: Scene, color: Color) -> Fog:
@@ -240,18 +221,12 @@ def _camera(scene: Scene, look: Mapping[str, Any], view: Viewpoint | None, is_fr
         distance = float(dot(middle(scene) - camera.eye, forward) / length(forward)) if forward.any() else 0.0
         if distance > 0:
             half_height *= distance if orthographic else 1 / distance
-    return evolve(
-        camera,
-        projection=projection,
-        half_height=half_height if chosen is None else chosen,
-        near=look.get("near", near),
-    )
+    half_height = half_height if chosen is None else chosen
+    return evolve(camera, projection=projection, half_height=half_height, near=look.get("near", near))
 
 
 def _to_be_seen(scene: Scene) -> Floats:
-    """Return points, (n, 3), that are in the picture if all of the scene is: its objects, and their shadow on a ground.
-    The ground itself goes on, and fades.
-    """
+    """Return points, (n, 3), that are in the picture if all of the scene is: objects, and their shadow on a ground."""
     points = scene.world_positions()
     if scene.ground is None:
         return points
@@ -260,9 +235,7 @@ def _to_be_seen(scene: Scene) -> Floats:
     inner, outer = ground.fade
     center, seen = ground.position, [points]
     reach = inner + _FADED * (outer - inner)
-    for light in scene.lights:
-        if not light.shadow:
-            continue
+    for light in (each for each in scene.lights if each.shadow):
         # from each point away from the light, down to the ground
         away = np.broadcast_to(-light.vector, points.shape) if light.kind == "directional" else points - light.vector
         drop, height = away[:, 1], points[:, 1] - center[1]
@@ -274,5 +247,5 @@ def _to_be_seen(scene: Scene) -> Floats:
     return np.concatenate(seen)
 
 
-def _given(look: Mapping[str, Any], settings: Iterable[Setting]) -> dict[str, Any]:
-    return {setting.name: look[setting.name] for setting in settings if setting.name in look}
+def _given(look: Mapping[str, Any], part: Part) -> dict[str, Any]:
+    return {setting.name: look[setting.name] for setting in settings_of(part) if setting.name in look}

@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..checks import Floats, Number, channels, fixed, rgba
 from ..errors import InputError
-from ..values import Value, array_key, checked, plural, with_names
+from ..values import Value, checked, plural, with_names
 from ..words import words_of
-from ._arithmetic import length
+from ._arithmetic import units
 
 #: Limits of the contracts, which count vertices and faces in 16 bits.
 MAX_VERTICES = 65535
@@ -27,36 +27,36 @@ _AT_ONCE = 1 << 16
 Colors = ArrayLike | str | Sequence[str]
 
 
-def _array(values: ArrayLike, name: str, width: int = 3) -> Floats:
+def _floats(values: ArrayLike, name: str, expected: str) -> Floats:
     try:
         return fixed(values, np.float64)
     except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{name} must be rows of {width} numbers") from None
+        raise InputError(f"{name} must be {expected}") from None
 
 
-def _table(values: ArrayLike, name: str = "a table") -> Floats:
-    return _rows_of_3(_array(values, name), name)
-
-
-def _optional_table(values: ArrayLike | None, name: str = "a table") -> Floats | None:
-    return None if values is None else _table(values, name)
-
-
-def _uvs(values: ArrayLike | None) -> Floats | None:
-    if values is None:
-        return None
-    name = "the texture coordinates of a mesh"
-    rows = _array(values, name, 2)
-    if rows.ndim != 2 or rows.shape[1] != 2:
-        raise InputError(f"{name} must be rows of 2 numbers, not of shape {rows.shape}")
+def _rows(rows: NDArray[Number], name: str, width: int = 3) -> NDArray[Number]:
+    if rows.size == 0:
+        return rows.reshape(0, width)
+    if rows.ndim != 2 or rows.shape[1] != width:
+        raise InputError(f"{name} must be rows of {width} numbers, not of shape {rows.shape}")
     return rows
+
+
+def _table(values: ArrayLike, name: str = "a table", width: int = 3) -> Floats:
+    return _rows(_floats(values, name, f"rows of {width} numbers"), name, width)
+
+
+def _optional_table(values: ArrayLike | None, name: str = "a table", width: int = 3) -> Floats | None:
+    return None if values is None else _table(values, name, width)
 
 
 def _faces(values: ArrayLike) -> NDArray[np.int64]:
     name = "the faces of a mesh"
-    if isinstance(values, np.ndarray) and values.dtype == np.int64:
-        return _rows_of_3(fixed(_triangles(values), np.int64), name)
-    rows = _rows_of_3(_triangles(_array(values, name)), name)
+    if not isinstance(values, np.ndarray) or values.dtype != np.int64:
+        values = _floats(values, name, "rows of 3 numbers")
+    if values.ndim == 2 and values.shape[1] == 4:
+        values = values[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    rows = _rows(values, name)
     bad = np.flatnonzero(~((rows % 1 == 0) & (np.abs(rows) < 2**53)).all(axis=1))
     if len(bad):
         named = ", ".join(f"{number:.17g}" for number in rows[bad[0]])
@@ -64,22 +64,14 @@ def _faces(values: ArrayLike) -> NDArray[np.int64]:
     return fixed(rows, np.int64)
 
 
-def _triangles(faces: NDArray[Number]) -> NDArray[Number]:
-    """Return faces of 4 corners each cut in two, (2 m, 3), and others as they are."""
-    return faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3) if faces.ndim == 2 and faces.shape[1] == 4 else faces
-
-
 def _opacities(values: ArrayLike | None) -> Floats | None:
     """Return (n,) multiples of 1/255, or None where all of them are 1."""
     if values is None:
         return None
-    name = "the opacities of a mesh"
-    try:
-        row = fixed(values, np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{name} must be numbers, one for each vertex") from None
+    name, expected = "the opacities of a mesh", "numbers, one for each vertex"
+    row = _floats(values, name, expected)
     if row.ndim != 1:
-        raise InputError(f"{name} must be numbers, one for each vertex, not of shape {row.shape}")
+        raise InputError(f"{name} must be {expected}, not of shape {row.shape}")
     bad = np.flatnonzero(~((row >= 0) & (row <= 1)))
     if len(bad):
         raise InputError(f"the opacity of vertex {bad[0]} must be from 0 to 1, not {row[bad[0]]:g}")
@@ -101,19 +93,11 @@ def _colors(values: Colors | None) -> NDArray[np.uint8]:
         return fixed(rgba(values, "the colour of a mesh"), np.uint8)
     if isinstance(values, list | tuple) and any(isinstance(each, str) for each in values):
         values = [rgba(each, f"the colour of vertex {number}") for number, each in enumerate(values)]
-    try:
-        levels = np.array(channels(values), dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{name} must be rows of 3 numbers") from None
+    levels = _floats(channels(values), name, "rows of 3 numbers")
     if levels.ndim == 1 and levels.size:
         return fixed(rgba(values, "the colour of a mesh"), np.uint8)
     if levels.ndim != 2 or levels.shape[1] != 4:
-        levels = _rows_of_3(levels, name)
-    _check_levels(levels)
-    return fixed(levels, np.uint8)
-
-
-def _check_levels(levels: NDArray[np.float64]) -> None:
+        levels = _rows(levels, name)
     bad = np.flatnonzero(~((levels >= 0) & (levels <= 255) & (levels % 1 == 0)).all(axis=1))
     if len(bad):
         found = ", ".join(f"{level:g}" for level in levels[bad[0]])
@@ -121,14 +105,7 @@ def _check_levels(levels: NDArray[np.float64]) -> None:
             f"the colour of vertex {bad[0]} must be from 0 to 255, in whole numbers unless all colours are from 0 "
             f"to 1, not [{found}]"
         )
-
-
-def _rows_of_3(rows: NDArray[Number], name: str) -> NDArray[Number]:
-    if rows.size == 0:
-        return rows.reshape(0, 3)
-    if rows.ndim != 2 or rows.shape[1] != 3:
-        raise InputError(f"{name} must be rows of 3 numbers, not of shape {rows.shape}")
-    return rows
+    return fixed(levels, np.uint8)
 
 
 @words_of()
@@ -149,14 +126,16 @@ class Mesh(Value):
     A Mesh may exceed the limits of the contracts; `render` then raises an InputError.
     """
 
-    positions: Floats = field(converter=_table, eq=array_key, metadata=checked("the positions of a mesh"))
-    faces: NDArray[np.int64] = field(converter=_faces, eq=array_key)
-    colors: NDArray[np.uint8] = field(default=None, converter=_colors, eq=array_key)
-    normals: Floats | None = field(
-        default=None, converter=_optional_table, eq=array_key, metadata=checked("the normals of a mesh")
+    positions: Floats = field(converter=_table, metadata=checked("the positions of a mesh"))
+    faces: NDArray[np.int64] = field(converter=_faces)
+    colors: NDArray[np.uint8] = field(default=None, converter=_colors)
+    normals: Floats | None = field(default=None, converter=_optional_table, metadata=checked("the normals of a mesh"))
+    uvs: Floats | None = field(
+        default=None,
+        converter=_optional_table,
+        metadata=checked("the texture coordinates of a mesh", 2),
     )
-    uvs: Floats | None = field(default=None, converter=_uvs, eq=array_key)
-    opacities: Floats | None = field(default=None, converter=_opacities, eq=array_key)
+    opacities: Floats | None = field(default=None, converter=_opacities)
 
     def __attrs_post_init__(self) -> None:
         """Check the fields against one another."""
@@ -177,25 +156,17 @@ class Mesh(Value):
         if self.colors.ndim == 1:
             object.__setattr__(self, "colors", fixed(np.tile(self.colors, (count, 1)), np.uint8))
         if self.colors.shape[1] == 4:
-            self._split_alpha()
-        if len(self.colors) != count:
-            raise InputError(f"a mesh of {count} vertices needs as many colours, not {len(self.colors)}")
-        if self.normals is not None and (len(self.normals) != count or not np.isfinite(self.normals).all()):
-            raise InputError(f"a mesh needs a finite normal for each of its {count} vertices, not {len(self.normals)}")
-        if self.uvs is not None and (len(self.uvs) != count or not np.isfinite(self.uvs).all()):
-            raise InputError(
-                f"a mesh needs finite texture coordinates for each of its {count} vertices, not {len(self.uvs)}"
-            )
-        if self.opacities is not None and len(self.opacities) != count:
-            raise InputError(f"a mesh of {count} vertices needs as many opacities, not {len(self.opacities)}")
-
-    def _split_alpha(self) -> None:
-        opacities = _of_levels(self.colors[:, 3])
-        object.__setattr__(self, "colors", fixed(self.colors[:, :3], np.uint8))
-        if opacities is not None:
-            if self.opacities is not None:
+            opacities = _of_levels(self.colors[:, 3])
+            if opacities is not None and self.opacities is not None:
                 raise InputError("a mesh has opacities, or colours with an alpha below 255, not both")
-            object.__setattr__(self, "opacities", opacities)
+            object.__setattr__(self, "colors", fixed(self.colors[:, :3], np.uint8))
+            object.__setattr__(self, "opacities", opacities if self.opacities is None else self.opacities)
+        for name, values in (("colours", self.colors), ("opacities", self.opacities)):
+            if values is not None and len(values) != count:
+                raise InputError(f"a mesh of {count} vertices needs as many {name}, not {len(values)}")
+        for name, values in (("a finite normal", self.normals), ("finite texture coordinates", self.uvs)):
+            if values is not None and (len(values) != count or not np.isfinite(values).all()):
+                raise InputError(f"a mesh needs {name} for each of its {count} vertices, not {len(values)}")
 
     @classmethod
     def from_trimesh(cls, mesh: Any) -> Mesh:
@@ -227,10 +198,15 @@ class Mesh(Value):
         return f"<Mesh {vertices}, {plural(self.triangles, 'triangle')}>"
 
 
+def proper(faces: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the numbers of the faces, (m, 3), that have three different vertices."""
+    a, b, c = faces.T
+    return np.flatnonzero((a != b) & (b != c) & (c != a))
+
+
 def without_slivers(faces: NDArray[np.int64]) -> NDArray[np.int64]:
     """Return the faces, (m, 3), that have three different vertices."""
-    a, b, c = faces.T
-    return np.asarray(faces[(a != b) & (b != c) & (c != a)])
+    return faces[proper(faces)]
 
 
 def faces_of_all(meshes: Iterable[Mesh]) -> NDArray[np.int64]:
@@ -268,16 +244,18 @@ def components(links: NDArray[np.int64], count: int) -> NDArray[np.int64]:
         label = new
 
 
+def face_normals(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the normals of faces, whose length is twice their area, (m, 3). corners: (m, 3, 3)."""
+    a, b, c = corners.transpose(1, 0, 2)
+    return np.cross(b - a, c - a)
+
+
 def vertex_normals(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
     """Return unit normals, (n, 3): the mean of the faces around each vertex, weighted by area; zero where none are."""
-    corners = positions[faces]
-    face_normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normals = np.zeros_like(positions)
+    normals, each = np.zeros_like(positions), face_normals(positions[faces])
     for corner in range(3):
-        np.add.at(normals, faces[:, corner], face_normals)
-    lengths = length(normals)[:, None]
-    units: NDArray[np.float64] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
-    return units
+        np.add.at(normals, faces[:, corner], each)
+    return units(normals)
 
 
 def weld(
@@ -309,13 +287,9 @@ def weld(
         welded[start : start + _AT_ONCE] = part
     unique = rows[np.unique(welded, return_index=True)[1]]
     columns = iter(np.split(unique, np.cumsum([each.shape[2] for each in parts])[:-1], axis=1))
-    return Mesh(
-        next(columns),
-        welded.reshape(-1, 3),
-        None if colors is None else next(columns).astype(np.uint8),
-        None if normals is None else next(columns),
-        None if uvs is None else next(columns),
-    )
+    places = next(columns)
+    levels, *others = (None if each is None else next(columns) for each in (colors, normals, uvs))
+    return Mesh(places, welded.reshape(-1, 3), None if levels is None else levels.astype(np.uint8), *others)
 
 
 def is_trimesh(value: object) -> bool:
@@ -325,10 +299,7 @@ def is_trimesh(value: object) -> bool:
 
 
 def mesh_of(value: Any) -> Mesh:
-    """Return the mesh of a trimesh.Trimesh, with the colours of its vertices, faces or texture.
-
-    InputError if it is not a mesh, or empty.
-    """
+    """Return the mesh of a trimesh.Trimesh, as `Mesh.from_trimesh`."""
     if not is_trimesh(value) or not hasattr(value, "faces") or not hasattr(value, "vertices"):
         raise InputError(f"a trimesh.Trimesh is needed, not {value!r:.60}")
     visual: Any = getattr(value, "visual", None)
@@ -341,6 +312,5 @@ def mesh_of(value: Any) -> Mesh:
     if kind == "face":
         colors = np.asarray(visual.face_colors, dtype=np.uint8)[..., :channels]
         return weld(value.vertices, value.faces, np.repeat(colors[:, None], 3, axis=1))
-    if kind != "vertex":
-        return Mesh(value.vertices, value.faces)
-    return Mesh(value.vertices, value.faces, np.asarray(visual.vertex_colors, dtype=np.uint8)[..., :channels])
+    own = np.asarray(visual.vertex_colors, dtype=np.uint8)[..., :channels] if kind == "vertex" else None
+    return Mesh(value.vertices, value.faces, own)

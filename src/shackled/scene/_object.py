@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Literal, cast
+from typing import Any, Literal
 
 import numpy as np
 from attrs import evolve, field, frozen
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import Color, Floats, choice, color, flag, instance, number, vector, whole
 from ..errors import InputError
-from ..values import Value, array_key, checked, with_names
+from ..values import Value, checked, with_names
 from ..words import Given, words_of
 from ._arithmetic import ORTHOGONAL, matrix_of, quaternion_of, rotate, rotation_of
 from ._mesh import Mesh, is_trimesh, mesh_of
@@ -20,14 +20,11 @@ from ._texture import Texture
 Shading = Literal["unlit", "flat", "smooth"]
 SHADINGS: tuple[Shading, ...] = ("unlit", "flat", "smooth")
 
-
 #: The ranges of the coefficients and of the exponent.
 COEFFICIENTS = (0, 4)
 EXPONENTS = (1, 128)
-
-
-def _shading(value: str) -> Shading:
-    return cast(Shading, choice(value, "the shading of a material", SHADINGS))
+#: The range of an opacity.
+OPACITIES = (0, 1)
 
 
 def _texture(value: Texture | None) -> Texture | None:
@@ -50,7 +47,7 @@ class Material:
         are not lit by it.
     """
 
-    shading: Shading = field(default="flat", converter=_shading)
+    shading: Shading = field(default="flat", converter=choice, metadata=checked("the shading of a material", SHADINGS))
     ambient: float = field(
         default=0.3, converter=number, metadata=checked("the ambient coefficient of a material", *COEFFICIENTS)
     )
@@ -63,10 +60,6 @@ class Material:
     shininess: int = field(default=24, converter=whole, metadata=checked("the shininess of a material", *EXPONENTS))
     texture: Texture | None = field(default=None, converter=_texture)
     emission: Color = field(default=(0, 0, 0), converter=color, metadata=checked("the emission of a material"))
-
-
-#: The range of an opacity.
-OPACITIES = (0, 1)
 
 
 def _mesh(value: Mesh) -> Mesh:
@@ -86,16 +79,10 @@ def _material(value: Material) -> Material:
 def _fade(value: ArrayLike | None) -> tuple[float, float] | None:
     if value is None:
         return None
-    try:
-        inner, outer = np.asarray(value, np.float64).tolist()
-    except (TypeError, ValueError):
-        raise InputError(f"the fade of an object must be two distances, not {value!r:.60}") from None
-    distances = number(inner, "the fade of an object", 0), number(outer, "the fade of an object", 0)
-    if distances[0] >= distances[1]:
-        raise InputError(
-            f"the first distance of the fade of an object, {distances[0]:g}, must be below the second, {distances[1]:g}"
-        )
-    return distances
+    first, second = vector(value, "the fade of an object", 2).tolist()
+    if not 0 <= first < second:
+        raise InputError(f"the distances of the fade of an object must be 0 <= first < second, not {value!r:.60}")
+    return first, second
 
 
 def _of_words(given: Given) -> Given:
@@ -135,12 +122,8 @@ class Object(Value):
     """
 
     mesh: Mesh = field(converter=_mesh)
-    position: Floats = field(
-        default=(0, 0, 0), converter=vector, eq=array_key, metadata=checked("the position of an object")
-    )
-    rotation: Floats = field(
-        default=(0, 0, 0, 1), converter=rotation_of, eq=array_key, metadata=checked("the rotation of an object")
-    )
+    position: Floats = field(default=(0, 0, 0), converter=vector, metadata=checked("the position of an object"))
+    rotation: Floats = field(default=(0, 0, 0, 1), converter=rotation_of, metadata=checked("the rotation of an object"))
     scale: float = field(default=1.0, converter=number, metadata=checked("the scale of an object", 0))
     material: Material = field(factory=Material, converter=_material)
     cull: bool = field(default=True, converter=flag, metadata=checked("cull of an object"))

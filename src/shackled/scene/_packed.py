@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import struct
+
 import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
 
 from ..checks import Floats
 from ..errors import InputError
-from ._arithmetic import length
+from ._arithmetic import units
 from ._mesh import MAX_FACES, MAX_VERTICES, Mesh, vertex_normals
 from ._records import TEXTURE_BILINEAR, TEXTURE_CLAMP
 from ._texture import Texture
@@ -37,26 +39,23 @@ def pack(mesh: Mesh, smooth: bool = False) -> bytes:
             f"a mesh has {len(positions):,} vertices and {len(faces):,} triangles; a contract takes {MAX_VERTICES:,}"
             f" and {MAX_FACES:,}: simplify it with `max_triangles`"
         )
-    if not is_integral(positions):
+    if (bits := bits_of(positions)) is None:
         raise InputError(f"a packed mesh needs whole coordinates from {-MAX_WIDE - 1:,} to {MAX_WIDE:,}")
     coordinates = np.ascontiguousarray(positions, dtype=">i4")
-    wide = not fits(positions, MAX_SHORT)
-    octets = coordinates.view(np.uint8).reshape(len(positions), 3, 4)[:, :, 1 if wide else 2 :]
+    octets = coordinates.view(np.uint8).reshape(len(positions), 3, 4)[:, :, 4 - bits // 8 :]
     columns = [octets.reshape(len(positions), -1), mesh.colors]
     if smooth:
-        columns.append(_pack_normals(_normals(mesh)))
-    header = np.array([len(positions), len(faces)], dtype=">u2").tobytes()
-    kind = bytes([WIDE * wide + NORMALS * smooth])
-    return kind + header + np.hstack(columns).tobytes() + faces.astype(">u2").tobytes()
+        normals = vertex_normals(positions, faces) if mesh.normals is None else units(mesh.normals)
+        columns.append(_pack_normals(normals))
+    header = struct.pack(">BHH", WIDE * (bits == 24) + NORMALS * smooth, len(positions), len(faces))
+    return header + np.hstack(columns).tobytes() + faces.astype(">u2").tobytes()
 
 
 def unpack(packed: bytes) -> Mesh:
-    """Return the mesh of packed bytes, such that `pack` makes the same bytes of it again. InputError for any others."""
-    if len(packed) < HEADER or packed[0] > NORMALS + WIDE:
-        raise InputError("a packed mesh must begin with a format from 0 to 3 and two counts")
-    vertices, faces = (int.from_bytes(packed[at : at + 2], "big") for at in (1, 3))
-    size = 3 if packed[0] & WIDE else 2
-    stride = 3 * size + (7 if packed[0] & NORMALS else 3)
+    """Return the mesh of bytes of `pack`, which makes the same of it again. InputError where none can be read."""
+    kind, vertices, faces = struct.unpack(">BHH", packed[:HEADER].ljust(HEADER, b"\0"))
+    size = 3 if kind & WIDE else 2
+    stride = 3 * size + (7 if kind & NORMALS else 3)
     expected = HEADER + vertices * stride + faces * 6
     if len(packed) != expected:
         raise InputError(
@@ -69,27 +68,15 @@ def unpack(packed: bytes) -> Mesh:
     # shifted down with the sign
     positions = octets.view(">i4")[:, :, 0] >> (32 - 8 * size)
     corners = np.frombuffer(packed, ">u2", 3 * faces, HEADER + vertices * stride).reshape(faces, 3)
-    normals = _unpack_normals(rows[:, -4:]) if packed[0] & NORMALS else None
+    normals = _unpack_normals(rows[:, -4:]) if kind & NORMALS else None
     return Mesh(positions, corners, np.array(rows[:, 3 * size : 3 * size + 3]), normals)
 
 
-def is_integral(positions: NDArray[np.float64]) -> bool:
-    """Return whether all coordinates are whole numbers that a packed mesh can hold."""
-    return fits(positions, MAX_WIDE) and bool((positions % 1 == 0).all())
-
-
-def fits(positions: NDArray[np.float64], largest: int) -> bool:
-    """Return whether all coordinates lie in -largest-1..largest."""
-    return bool((positions <= largest).all() and (positions >= -largest - 1).all())
-
-
-def _normals(mesh: Mesh) -> NDArray[np.float64]:
-    if mesh.normals is None:
-        return vertex_normals(mesh.positions, mesh.faces)
-    normals = mesh.normals
-    lengths = length(normals)[:, None]
-    unit: NDArray[np.float64] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
-    return unit
+def bits_of(positions: NDArray[np.float64]) -> int | None:
+    """Return how many bits each coordinate takes in a packed mesh, 16 or 24; None if one is no such whole number."""
+    low, high = positions.min(), positions.max()
+    sizes = [bits for bits, most in ((16, MAX_SHORT), (24, MAX_WIDE)) if -most - 1 <= low and high <= most]
+    return sizes[0] if sizes and (positions % 1 == 0).all() else None
 
 
 def _pack_normals(normals: NDArray[np.float64]) -> NDArray[np.uint8]:
@@ -102,10 +89,9 @@ def _pack_normals(normals: NDArray[np.float64]) -> NDArray[np.uint8]:
 def _unpack_normals(octets: NDArray[np.uint8]) -> NDArray[np.float64]:
     """Return vectors, (n, 3), that `_pack_normals` rounds to the same numbers, although it makes them unit vectors.
 
-    Those numbers do not always round to themselves at a length of exactly `NORMAL_UNIT`. Between them and a corner of
-    the cube of half a step around them, the nearest to the origin or the farthest from it, there is a point of that
-    length: the length of a corner never equals it, since the sum of three odd squares is 3 modulo 8. Numbers of other
-    lengths, which `_pack_normals` does not make, stay as they are.
+    Those do not always round to themselves at a length of exactly `NORMAL_UNIT`. Between them and a corner of the cube
+    of half a step around them, the nearest to the origin or the farthest from it, there is a point of that length: a
+    corner never has it, since the sum of three odd squares is 3 modulo 8. Numbers of other lengths stay as they are.
     """
     words = np.ascontiguousarray(octets).view(">u4").astype(np.int64)
     numbers = ((words >> np.array([22, 12, 2]) & 1023 ^ 512) - 512).astype(np.float64)
@@ -136,14 +122,16 @@ def pack_texture(texture: Texture, uvs: Floats) -> bytes:
 
     An image of up to 256 colours has a palette. InputError for coordinates out of range.
     """
-    content = _pack_image(texture, texture.pixels) + _pack_uvs(uvs)
-    return content + bytes(-len(content) % 32)
+    return _in_words(_pack_image(texture, texture.pixels) + _pack_uvs(uvs))
 
 
 def pack_alpha(texture: Texture) -> bytes:
     """Return the bytes of the record ALPHA of a texture that has an alpha, in whole words of 32 bytes."""
     assert texture.alpha is not None
-    content = bytes([texture.cutoff]) + _pack_image(texture, np.repeat(texture.alpha[..., None], 3, axis=2))
+    return _in_words(bytes([texture.cutoff]) + _pack_image(texture, np.repeat(texture.alpha[..., None], 3, axis=2)))
+
+
+def _in_words(content: bytes) -> bytes:
     return content + bytes(-len(content) % 32)
 
 
@@ -153,15 +141,11 @@ def _pack_image(texture: Texture, pixels: NDArray[np.uint8]) -> bytes:
     texels = pixels.reshape(-1, 3)
     colors, numbers = np.unique(texels, axis=0, return_inverse=True)
     bits = next((each for each in INDEX_BITS if len(colors) <= 1 << each), COLOR_BITS)
-    content = texels.tobytes() if bits == COLOR_BITS else _indexed(colors, numbers.reshape(-1), bits)
-    return bytes([flags, texture.width - 1, texture.height - 1, bits]) + content
-
-
-def _indexed(colors: NDArray[np.uint8], numbers: NDArray[np.int64], bits: int) -> bytes:
-    palette = np.zeros((1 << bits, 3), np.uint8)
-    palette[: len(colors)] = colors
-    digits = np.unpackbits(numbers.astype(np.uint8)[:, None], axis=1)[:, 8 - bits :]
-    return palette.tobytes() + np.packbits(digits).tobytes()
+    header = bytes([flags, texture.width - 1, texture.height - 1, bits])
+    if bits == COLOR_BITS:
+        return header + texels.tobytes()
+    digits = np.unpackbits(numbers.reshape(-1, 1).astype(np.uint8), axis=1)[:, 8 - bits :]
+    return header + colors.tobytes().ljust(3 << bits, b"\0") + np.packbits(digits).tobytes()
 
 
 def _pack_uvs(uvs: Floats) -> bytes:
@@ -176,48 +160,25 @@ def _pack_uvs(uvs: Floats) -> bytes:
 
 
 def unpack_texture(packed: bytes, vertices: int) -> tuple[Texture, Floats]:
-    """Return the texture and the coordinates, (n, 2), of packed bytes, such that `pack_texture` makes the same again.
-
-    InputError for any others.
-    """
+    """Return the texture, and the coordinates of vertices, (n, 2), of `pack_texture`. InputError as `unpack`."""
     texture, begin = _unpack_image(packed, 2 * UV_SIZE * vertices)
     octets = np.zeros((2 * vertices, 4), np.uint8)
     octets[:, :UV_SIZE] = np.frombuffer(packed, np.uint8)[begin:][: 2 * UV_SIZE * vertices].reshape(-1, UV_SIZE)
-    uvs = (octets.view(">i4")[:, 0] >> 8).astype(np.float64).reshape(-1, 2) * UV_STEP
-    if pack_texture(texture, uvs) != packed:
-        raise InputError(_OTHER)
-    return texture, uvs
+    return texture, (octets.view(">i4")[:, 0] >> 8).astype(np.float64).reshape(-1, 2) * UV_STEP
 
 
 def unpack_alpha(packed: bytes, texture: Texture) -> Texture:
-    """Return the texture with the alpha of a record ALPHA, such that `pack_alpha` makes the same again.
-
-    InputError for any others.
-    """
+    """Return the texture with the alpha of `pack_alpha`. InputError as `unpack`."""
     image, _ = _unpack_image(packed[1:], 0, before=1)
-    if image.pixels.shape != texture.pixels.shape:
-        raise InputError("the alpha of a texture must have the size of its colours")
-    whole = evolve(texture, alpha=image.pixels[..., 2], cutoff=packed[0])
-    if pack_alpha(whole) != packed:
-        raise InputError(_OTHER)
-    return whole
-
-
-_OTHER = "a packed texture must have the palette and the bits that its colours need, in ascending order"
+    return evolve(texture, alpha=image.pixels[..., 2], cutoff=packed[0])
 
 
 def _unpack_image(packed: bytes, more: int, before: int = 0) -> tuple[Texture, int]:
-    """Return the texture of header, palette and texels, and where they end; `more` bytes and zeros to words follow.
-
-    before: the bytes of the record before them.
-    """
-    if (
-        len(packed) < TEXTURE_HEADER
-        or packed[0] > TEXTURE_BILINEAR + TEXTURE_CLAMP
-        or packed[3] not in (*INDEX_BITS, COLOR_BITS)
-    ):
-        raise InputError("a packed texture must begin with flags from 0 to 3, two sides, and 1, 2, 4, 8 or 24 bits")
-    width, height, bits = packed[1] + 1, packed[2] + 1, packed[3]
+    """Return the texture of header, palette and texels, and where they end. before, more: bytes of the record."""
+    flags, width, height, bits = packed[:TEXTURE_HEADER].ljust(TEXTURE_HEADER, b"\0")
+    if bits not in (*INDEX_BITS, COLOR_BITS):
+        raise InputError(f"a packed texture must have 1, 2, 4, 8 or 24 bits, not {bits}")
+    width, height = width + 1, height + 1
     palette = 0 if bits == COLOR_BITS else 3 << bits
     texels = (width * height * bits + 7) // 8
     begin = TEXTURE_HEADER + palette
@@ -237,7 +198,7 @@ def _unpack_image(packed: bytes, more: int, before: int = 0) -> tuple[Texture, i
         colors = data[begin : begin + texels]
     texture = Texture(
         colors.reshape(height, width, 3),
-        "bilinear" if packed[0] & TEXTURE_BILINEAR else "nearest",
-        "clamp" if packed[0] & TEXTURE_CLAMP else "repeat",
+        "bilinear" if flags & TEXTURE_BILINEAR else "nearest",
+        "clamp" if flags & TEXTURE_CLAMP else "repeat",
     )
     return texture, begin + texels

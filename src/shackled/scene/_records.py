@@ -26,22 +26,6 @@ SHADOWS_FRONT_FACES = 3
 LONG_KINDS = 8
 #: Bytes of a record before its content.
 RECORD_HEADER = 5
-#: What a record of each kind belongs to.
-OWNERS = {
-    SPOT: "light",
-    OPACITY_OF: "object",
-    ANTIALIAS: "scene",
-    HEMISPHERE: "scene",
-    RIM: "scene",
-    FOG: "scene",
-    TONE: "scene",
-    TEXTURE_OF: "object",
-    OPACITIES_OF: "object",
-    SHADOW: "light",
-    GROUND: "object",
-    EMISSION_OF: "object",
-    ALPHA_OF: "object",
-}
 #: Bytes of its content; None for any number of words.
 SIZES: dict[int, int | None] = {
     SPOT: 40,

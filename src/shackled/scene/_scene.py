@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 from attrs import field, frozen
-from numpy.typing import ArrayLike
 
 from ..checks import Color, Floats, color, flag, instance, integer
 from ..errors import InputError
 from ..values import checked, plural, with_names
-from ..words import Words, words_of
+from ..words import words_of
 from ._camera import Camera
 from ._effects import Background, Fog, Hemisphere, Rim, Tone, background_of, fog_of, hemisphere_of, rim_of, tone_of
 from ._files.written import write_scene
@@ -39,10 +38,6 @@ def _camera(value: Camera | None) -> Camera:
     return value  # type: ignore[return-value]
 
 
-def _background(value: Background | ArrayLike | str | Sequence[ArrayLike | str] | None) -> Background:
-    return value if value is None else background_of(value)  # type: ignore[return-value]
-
-
 def _side(value: int, name: str = "side") -> int:
     side = integer(value)
     if side is None or not 1 <= side <= MAX_SIDE:
@@ -52,7 +47,7 @@ def _side(value: int, name: str = "side") -> int:
 
 @words_of()
 @frozen(field_transformer=with_names, repr=False)
-class Scene(Words):
+class Scene:
     """Objects, drawn in their order with one depth buffer, seen by a camera.
 
     objects: also a Mesh in place of an Object, or one alone.
@@ -75,7 +70,7 @@ class Scene(Words):
     objects: tuple[Object, ...] = field(converter=_objects)
     camera: Camera = field(default=None, converter=_camera)
     lights: tuple[Light, ...] = field(default=None, converter=lights_of)
-    background: Background = field(default=None, converter=_background)
+    background: Background = field(default=None, converter=background_of)
     ambient_light: Color = field(default=WHITE, converter=color, metadata=checked("the ambient light"))
     invert: bool = field(default=False, converter=flag, metadata=checked("invert of a scene"))
     width: int = field(default=DEFAULT_SIDE, converter=_side, metadata=checked("width"))

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
-from typing import Any, Final, Literal, TypedDict, cast
+from typing import Any, Final, Literal, TypedDict
 
-import numpy as np
 from attrs import Factory, evolve, field, frozen
 from numpy.typing import ArrayLike
 
@@ -46,9 +45,8 @@ Kind = _Plain | Literal["background", "lights", "hemisphere", "rim", "fog", "gro
 class Setting:
     """A setting of the look of a picture.
 
-    name: the keyword; `option` is --name with dashes, unless it is another. part: the class whose field this is, in
-    Python and in scene files; None for what only `load` and the command line take. limits, unit: for numbers. default:
-    shown in the help.
+    name: the keyword. part: the class whose field this is, in Python and in scene files; None for what only `load` and
+    the command line take. limits, unit: for numbers. default: shown in the help. option: --name, unless it is another.
     """
 
     name: str
@@ -95,25 +93,23 @@ class Setting:
 ALL: Final = "all"
 
 
-def _background(value: Any, setting: Setting, name: str) -> Background:
+def _background(value: Any, setting: Setting, name: str) -> Background | None:
     if isinstance(value, str) and value.strip().lower() == "transparent":
         raise InputError(f"{name} is a colour: give `transparent` for a picture without a background")
     return background_of(value)
 
 
 def _entry(value: object, setting: Setting, name: str) -> str | int:
-    number = None if isinstance(value, str) else integer(value)
-    if number is None and not isinstance(value, str):
+    entry = value if isinstance(value, str) else integer(value)
+    if entry is None:
         raise InputError(f"{name} must be a name, or a number from 0, not {value!r:.60}")
-    return value if isinstance(value, str) else cast(int, number)
+    return entry
 
 
 def _count(value: object, setting: Setting, name: str) -> int | str:
-    if isinstance(value, str):
-        if value == ALL:
-            return ALL
+    if isinstance(value, str) and value != ALL:
         raise InputError(f"{name} must be a whole number, at least {setting.limits[0]:g}, or {ALL}, not {value!r:.60}")
-    return whole(value, name, *setting.limits)
+    return ALL if isinstance(value, str) else whole(value, name, *setting.limits)
 
 
 def _unless_none(made: Callable[[Any, str], Any]) -> Callable[[Any, Setting, str], Any]:
@@ -125,27 +121,20 @@ def _unless_none(made: Callable[[Any, str], Any]) -> Callable[[Any, Setting, str
 
 def _flag(value: object, setting: Setting, name: str) -> bool:
     # an antialiased picture has four samples per pixel
-    return True if setting.name == "antialias" and integer(value) == 4 else flag(value, name)
+    return (setting.name == "antialias" and integer(value) == 4) or flag(value, name)
 
 
 def size_of(value: int | tuple[int, int], name: str = "`size`") -> tuple[int, int]:
     """Return width and height, of one number or two. InputError for anything else."""
+    side = integer(value)
     try:
-        are_rows = np.ndim(value) > 1
-    except ValueError:  # of different lengths
-        are_rows = True
-    if are_rows:
-        raise InputError(f"{name} must be one number or (width, height); vertices and faces are one argument, in ()")
-    try:
-        side = integer(value)
-        width, height = value if side is None else (side, side)  # type: ignore[misc]
+        width, height = map(integer, value) if side is None else (side, side)  # type: ignore[arg-type]
     except (TypeError, ValueError):
         hint = "; `save` of what is returned writes a file" if isinstance(value, str) else ""
         raise InputError(f"{name} must be one number or (width, height), not {value!r:.60}{hint}") from None
-    sides = integer(width), integer(height)
-    if None in sides:
+    if width is None or height is None:
         raise InputError(f"{name} must be whole numbers, not {value!r:.60}")
-    return cast(tuple[int, int], sides)
+    return width, height
 
 
 #: For each kind, what its values are, and their check.
@@ -199,7 +188,7 @@ _DEFAULTS = {
 #: By groups, in the order in which they are shown.
 _GROUPS: dict[str, list[Setting]] = {
     "Canvas": [
-        Setting("size", "size", None, "Width and height of the picture.", (1, MAX_SIDE), unit="pixels"),
+        Setting("size", "size", None, "Width and height of the picture.", (1, MAX_SIDE), "pixels"),
         Setting(
             "max_triangles",
             "count",
@@ -230,11 +219,11 @@ _GROUPS: dict[str, list[Setting]] = {
             "camera",
             "Angle at which the camera stands above the horizon.",
             ELEVATIONS,
-            unit="degrees",
+            "degrees",
         ),
         Setting("margin", "number", "camera", "Free border, as a fraction of half the picture.", MARGINS),
         Setting(
-            "fov", "number", "camera", "Vertical field of view of a perspective camera.", FIELDS_OF_VIEW, unit="degrees"
+            "fov", "number", "camera", "Vertical field of view of a perspective camera.", FIELDS_OF_VIEW, "degrees"
         ),
         Setting(
             "half_height",
@@ -282,7 +271,7 @@ _GROUPS: dict[str, list[Setting]] = {
             None,
             "Compute normals for smooth shading, except across edges of more than this angle.",
             CREASES,
-            unit="degrees",
+            "degrees",
         ),
         Setting("smooth", "flag", None, "Same as --shading smooth.", option="--smooth"),
         Setting("unlit", "flag", None, "Same as --shading unlit.", option="--unlit"),
@@ -309,7 +298,7 @@ _GROUPS: dict[str, list[Setting]] = {
     ],
     "glTF files": [
         Setting("animation", "entry", "file", "Animation that poses the model."),
-        Setting("time", "number", "file", "Time in the animation.", (0, math.inf), unit="seconds"),
+        Setting("time", "number", "file", "Time in the animation.", (0, math.inf), "seconds"),
         Setting("use_camera", "entry", "file", "Camera of the file that is taken, with the lights there."),
     ],
 }
@@ -413,26 +402,19 @@ def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _taken_apart(given: dict[str, Any]) -> dict[str, Any]:
-    """Return keywords with the settings of a camera or a material, and the size of a width and a height, in place of
-    these; one that is given as well changes it.
-    """
+    """Return keywords with the settings of a camera, a material, and a width and height in place of these."""
     if {"width", "height"} <= given.keys():
         given.setdefault("size", (given.pop("width"), given.pop("height")))
+    found: dict[str, Any] = {}
     if isinstance(camera := given.get("camera"), Camera):
-        fields = {name: getattr(camera, name) for name in ("eye", "target", "up", "half_height", "near")}
-        fields["orthographic"] = camera.projection == "orthographic"
-        given = _in_place_of("camera", fields, given)
+        del given["camera"]
+        names = ("eye", "target", "up", "near", *(() if "fov" in given else ("half_height",)))
+        found = {name: getattr(camera, name) for name in names if getattr(camera, name) is not None}
+        found["orthographic"] = camera.projection == "orthographic"
     if isinstance(material := given.get("material"), Material) and material.texture is None:
-        fields = {setting.name: getattr(material, setting.name) for setting in settings_of("material")}
-        given = _in_place_of("material", fields, given)
-    return given
-
-
-def _in_place_of(part: str, fields: dict[str, Any], given: dict[str, Any]) -> dict[str, Any]:
-    found = {name: value for name, value in fields.items() if value is not None}
-    if "fov" in given:
-        found.pop("half_height", None)
-    return found | {name: value for name, value in given.items() if name != part}
+        del given["material"]
+        found |= {setting.name: getattr(material, setting.name) for setting in settings_of("material")}
+    return found | given
 
 
 def exclude(given: Collection[str], quote: Callable[[str], str]) -> None:

@@ -10,10 +10,10 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
 
-from ..checks import integer
+from ..checks import whole
 from ..errors import InputError
 from ._crease import smoothed
-from ._mesh import Mesh, components, weld
+from ._mesh import Mesh, components, proper, weld
 from ._object import Object
 from ._scene import Scene
 
@@ -40,11 +40,7 @@ def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] 
     returned unchanged. tries: pairs of aggressiveness and target, as `FORCEFUL`. InputError if the target cannot be
     reached (it names a number that can), or fast-simplification is not installed.
     """
-    most = integer(max_triangles)
-    if most is None or most < 1:
-        raise InputError(
-            f"the number of triangles to simplify to must be a whole number, at least 1, not {max_triangles!r}"
-        )
+    most = whole(max_triangles, "the number of triangles to simplify to", 1)
     if mesh.triangles <= most:
         return mesh
     if not is_possible():
@@ -66,21 +62,21 @@ def simplify_scene(scene: Scene, max_triangles: int, crease: float | None = None
 
     Meshes with normals get new ones, smooth across edges of up to `crease` degrees; None for what suits the shape.
     """
-    return evolve(scene, objects=[_simplified_object(o, max_triangles, crease) for o in scene.objects])
 
+    def simpler(o: Object) -> Object:
+        mesh = simplify(o.mesh, max_triangles)
+        has_lost_normals = o.material.shading == "smooth" and o.mesh.normals is not None and mesh is not o.mesh
+        return smoothed(evolve(o, mesh=mesh), crease) if has_lost_normals else evolve(o, mesh=mesh)
 
-def _simplified_object(o: Object, max_triangles: int, crease: float | None) -> Object:
-    simpler = evolve(o, mesh=simplify(o.mesh, max_triangles))
-    had_normals = o.material.shading == "smooth" and o.mesh.normals is not None
-    return smoothed(simpler, crease) if had_normals and simpler.mesh is not o.mesh else simpler
+    return evolve(scene, objects=map(simpler, scene.objects))
 
 
 @dataclass(frozen=True)
 class _Surface:
     """A mesh with one vertex for each position.
 
-    colors: (n, 4), with alpha. uvs: (m, 3, 2), texture coordinates of corners; zeros if there are none. places: (m, 3),
-    numbers that corners have in common which are one point of the texture.
+    colors: (n, 4), with alpha. uvs: (m, 3, 2), texture coordinates of corners. places: (m, 3), numbers that corners
+    have in common which are one point of the texture.
     """
 
     positions: NDArray[np.float64]
@@ -105,10 +101,7 @@ def _simplified(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float
 
 
 def _connect(mesh: Mesh) -> _Surface:
-    """Return the mesh with one vertex for each position, whatever its colour.
-
-    So edges between colours can be collapsed too.
-    """
+    """Return the mesh with one vertex for each position: so edges between colours can be collapsed too."""
     unique, first, number = np.unique(mesh.positions, axis=0, return_index=True, return_inverse=True)
     faces = number.reshape(-1)[mesh.faces]
     uvs, places = np.zeros((len(faces), 3, 2)), faces
@@ -120,15 +113,7 @@ def _connect(mesh: Mesh) -> _Surface:
     return surface.part(faces, proper(faces))
 
 
-def proper(faces: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the numbers of the faces that have three different vertices."""
-    a, b, c = faces.T
-    return np.flatnonzero((a != b) & (b != c) & (c != a))
-
-
 def _collapse(surface: _Surface, target: int, agg: int) -> _Surface:
-    if len(surface.faces) == 0:
-        return surface
     positions = surface.positions
     points, number, nearest = collapsed(positions, surface.faces, target, agg)
     # a face remains where no two of its vertices became one
@@ -170,8 +155,8 @@ def collapsed(
 def _on_texture(surface: _Surface, moved: NDArray[np.int64], distance: NDArray[np.float64]) -> _Surface:
     """Return the surface with the texture coordinates that corners have after a collapse.
 
-    Points of the texture between which an edge was collapsed are one: that which is nearest to the new vertex. So both
-    sides of a seam keep their own. moved: (m, 3), new vertices. distance: (n,), of old vertices from the new ones.
+    Points of the texture between which an edge was collapsed are one: that nearest to the new vertex. So both sides of
+    a seam keep their own. moved: (m, 3), new vertices. distance: (n,), of old vertices from the new ones.
     """
     ends = np.array([[0, 1], [1, 2], [2, 0]])
     collapsed = moved[:, ends[:, 0]] == moved[:, ends[:, 1]]

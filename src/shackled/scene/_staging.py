@@ -18,7 +18,7 @@ from ._arithmetic import cosine, dot, length, sine
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
 from ._effects import Background
 from ._light import WHITE, Light
-from ._mesh import Mesh, faces_of_all
+from ._mesh import Mesh, face_normals, faces_of_all
 from ._object import Material, Object
 
 BACKGROUND = Background((46, 54, 72), (136, 146, 162))
@@ -37,7 +37,6 @@ MARGIN = 0.08
 ELEVATIONS, MARGINS = (-90, 90), (0, 0.9)
 #: Coordinates of objects at most, so that a float holds those of a camera that sees them all.
 LARGEST = 1e305
-
 
 #: Behind mesh files: light, or dark where most of the surface is light, so that no outline is lost.
 LIGHT_BACKGROUND = Background((120, 130, 148), (196, 202, 212))
@@ -74,7 +73,7 @@ class Staging:
 
     side: of the picture in pixels, where none is given.
     view: of meshes at least half as high as wide; the flatter a mesh, the higher the viewer, up to `flat_elevation`.
-    lights: directions, right, up and toward the viewer, and colours.
+    light: its direction, right, up and toward the viewer, and its colour.
     material: of the mesh. Its shading is replaced if `by_normals`: by that of the mesh's normals, or of computed ones.
     fields: of the Scene, by their names.
     """
@@ -82,7 +81,7 @@ class Staging:
     side: int
     view: Viewpoint
     flat_elevation: float
-    lights: tuple[tuple[tuple[float, float, float], Color], ...]
+    light: tuple[tuple[float, float, float], Color]
     material: Material
     by_normals: bool
     fields: Mapping[str, Any]
@@ -102,7 +101,7 @@ PLAIN = Staging(
     side=DEFAULT_SIDE,
     view=Viewpoint(),
     flat_elevation=ELEVATION,
-    lights=((KEY_LIGHT, WHITE),),
+    light=(KEY_LIGHT, WHITE),
     material=Material(),
     by_normals=False,
     fields={"background": BACKGROUND},
@@ -114,20 +113,16 @@ MESH_STAGING = Staging(
     view=Viewpoint(azimuth=35.0, elevation=20.0, margin=0.15, half_height=half_height_of(30.0)),
     flat_elevation=40.0,
     # one: smooth surfaces in the light of several take three times the gas
-    lights=(((-0.6, 0.7, 0.9), (255, 243, 226)),),
+    light=((-0.6, 0.7, 0.9), (255, 243, 226)),
     material=Material("smooth", ambient=0.32, diffuse=0.8, specular=0.4, shininess=28),
     by_normals=True,
-    fields={
-        "antialias": True,
-        "ambient_light": (232, 240, 255),
-    },
+    fields={"antialias": True, "ambient_light": (232, 240, 255)},
 )
 
 
 def staged(points: NDArray[np.float64], width: int, height: int) -> tuple[Camera, tuple[Light], Background]:
-    """Return the camera, the light and the background with which points of the world, (n, 3), fill a picture.
-
-    InputError where a float does not hold their coordinates, or those of the camera.
+    """Return the camera, light and background with which points of the world, (n, 3), fill a picture. InputError
+    where a float does not hold them, or the camera.
     """
     view = Viewpoint(aspect=width / height)
     # of any size: squares of its lengths stay within floats
@@ -155,7 +150,7 @@ def frame(points: NDArray[np.float64], view: Viewpoint) -> Camera:
     x, y, z = dot(points, right), dot(points, up), dot(points, back)
     free = 1 - view.margin
     if view.projection == "orthographic":
-        middle = np.array([x.max() + x.min(), y.max() + y.min(), z.max() + z.min()]) / 2
+        middle = np.array([each.max() + each.min() for each in (x, y, z)]) / 2
         half_height = float(max((x.max() - x.min()) / 2 / view.aspect, (y.max() - y.min()) / 2) / free) or 1.0
         distance = float(z.max() - middle[2]) + half_height
     else:
@@ -183,8 +178,7 @@ def contrasting(objects: Sequence[Object]) -> Background:
         colors = each.mesh.colors[each.mesh.faces].mean(axis=1)
         if each.material.texture is not None:
             colors = colors * each.material.texture.pixels.mean(axis=(0, 1)) / 255
-        a, b, c = ((each.scale * each.mesh.positions)[each.mesh.faces[:, corner]] for corner in range(3))
-        areas = length(np.cross(b - a, c - a))
+        areas = length(face_normals((each.scale * each.mesh.positions)[each.mesh.faces]))
         limit = _LIGHT_UNLIT if each.material.shading == "unlit" else _LIGHT
         light += float(areas[dot(colors, _LUMA) >= limit].sum())
         total += float(areas.sum())
@@ -216,10 +210,7 @@ def is_closed(mesh: Mesh) -> bool:
 
 
 def are_closed(objects: Sequence[Object]) -> bool:
-    """Return whether the faces of objects, taken together, are those of a closed mesh; True without objects.
-
-    Vertices are at one place if they are within 2^-16 of the size of all.
-    """
+    """Return whether the faces of all objects together are closed; places within 2^-16 of their size are one."""
     if not objects:
         return True
     positions = np.concatenate([o.world_positions() for o in objects])

@@ -7,16 +7,16 @@ import os
 import warnings
 from collections.abc import Callable
 from pathlib import Path
-from typing import IO, Literal, cast
+from typing import IO, Literal
 
 import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
-from ..checks import choice, fixed, integer
+from ..checks import choice, fixed, whole
 from ..errors import InputError
-from ..values import Value, array_key, with_names
+from ..values import Value, checked, with_names
 
 Filter = Literal["nearest", "bilinear"]
 FILTERS: tuple[Filter, ...] = ("nearest", "bilinear")
@@ -32,47 +32,33 @@ MAX_PIXELS = 1 << 26
 def _pixels(values: ArrayLike) -> NDArray[np.uint8]:
     if isinstance(values, str | os.PathLike):
         values = Texture.open(values).pixels
-    try:
-        levels = np.asarray(values)
-        whole = levels.dtype.kind in "iu" or (levels.dtype.kind == "f" and bool((levels % 1 == 0).all()))
-    except (TypeError, ValueError, OverflowError):
-        raise InputError("the pixels of a texture must be an array of shape (height, width, 3)") from None
-    if levels.ndim != 3 or levels.shape[2] != 3:
+    levels = _levels(values, "the pixels of a texture", "(height, width, 3)")
+    height, width, channels = levels.shape
+    if channels != 3:
         raise InputError(f"the pixels of a texture must be of shape (height, width, 3), not {levels.shape}")
-    if not whole or (levels.size and not 0 <= levels.min() <= levels.max() <= 255):
-        raise InputError("the pixels of a texture must be whole numbers from 0 to 255")
-    height, width = levels.shape[:2]
     if not (1 <= width <= MAX_TEXTURE_SIDE and 1 <= height <= MAX_TEXTURE_SIDE):
         raise InputError(
             f"a texture has from 1 to {MAX_TEXTURE_SIDE} texels along each side, not {width} x {height};"
             " Texture.open reduces an image"
         )
-    return fixed(levels, np.uint8)
+    return levels
 
 
 def _alpha(values: ArrayLike | None) -> NDArray[np.uint8] | None:
-    if values is None:
-        return None
-    levels = np.asarray(values)
-    is_image = levels.ndim == 2 and levels.dtype.kind in "iu" and levels.size > 0
-    if not is_image or levels.min() < 0 or levels.max() > 255:
-        raise InputError("the alpha of a texture must be whole numbers from 0 to 255, of shape (height, width)")
+    return None if values is None else _levels(values, "the alpha of a texture", "(height, width)")
+
+
+def _levels(values: ArrayLike, name: str, shape: str) -> NDArray[np.uint8]:
+    try:
+        levels = np.asarray(values)
+        is_whole = levels.dtype.kind in "iu" or (levels.dtype.kind == "f" and bool((levels % 1 == 0).all()))
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{name} must be an array of shape {shape}") from None
+    if levels.ndim != 1 + shape.count(","):
+        raise InputError(f"{name} must be of shape {shape}, not {levels.shape}")
+    if not is_whole or (levels.size and not 0 <= levels.min() <= levels.max() <= 255):
+        raise InputError(f"{name} must be whole numbers from 0 to 255")
     return fixed(levels, np.uint8)
-
-
-def _cutoff(value: int) -> int:
-    level = integer(value)
-    if level is None or not 0 <= level <= 255:
-        raise InputError(f"the cutoff of a texture must be a whole number from 0 to 255, not {value!r:.60}")
-    return level
-
-
-def _filter(value: str) -> Filter:
-    return cast(Filter, choice(value, "the filter of a texture", FILTERS))
-
-
-def _wrap(value: str) -> Wrap:
-    return cast(Wrap, choice(value, "the wrap of a texture", WRAPS))
 
 
 @frozen(field_transformer=with_names, repr=False)
@@ -87,17 +73,17 @@ class Texture(Value):
         what is behind it.
     """
 
-    pixels: NDArray[np.uint8] = field(converter=_pixels, eq=array_key)
-    filter: Filter = field(default="bilinear", converter=_filter)
-    wrap: Wrap = field(default="repeat", converter=_wrap)
-    alpha: NDArray[np.uint8] | None = field(default=None, converter=_alpha, eq=array_key)
-    cutoff: int = field(default=0, converter=_cutoff)
+    pixels: NDArray[np.uint8] = field(converter=_pixels)
+    filter: Filter = field(default="bilinear", converter=choice, metadata=checked("the filter of a texture", FILTERS))
+    wrap: Wrap = field(default="repeat", converter=choice, metadata=checked("the wrap of a texture", WRAPS))
+    alpha: NDArray[np.uint8] | None = field(default=None, converter=_alpha)
+    cutoff: int = field(default=0, converter=whole, metadata=checked("the cutoff of a texture", 0, 255))
 
     def __attrs_post_init__(self) -> None:
         """Check that there is an alpha for each texel."""
-        if self.alpha is not None and self.alpha.shape != self.pixels.shape[:2]:
-            shapes = f"{self.pixels.shape[:2]}, as its pixels, not {self.alpha.shape}"
-            raise InputError(f"the alpha of a texture must be of shape {shapes}")
+        shape = self.pixels.shape[:2]
+        if self.alpha is not None and self.alpha.shape != shape:
+            raise InputError(f"the alpha of a texture must be of shape {shape}, as its pixels, not {self.alpha.shape}")
 
     @classmethod
     def open(
@@ -145,9 +131,8 @@ class Texture(Value):
 
 
 def _unhidden(pixels: NDArray[np.uint8], wrap: Wrap) -> NDArray[np.uint8]:
-    """Return the colours of RGBA pixels, (h, w, 3), those of hidden texels from neighbours that are not.
-
-    Colours are interpolated between texels, so those of hidden ones would be seen at the borders of visible ones.
+    """Return the colours of RGBA pixels, (h, w, 3), those of hidden texels, with which others are interpolated, from
+    neighbours that are not.
     """
     sums, known = pixels[..., :3].astype(np.float64), pixels[..., 3] > 0
     sums[~known] = 0
@@ -170,9 +155,7 @@ def cutoff_of(alpha: float) -> int:
 def open_image(
     source: Path | IO[bytes], name: str, convert: Callable[[Image.Image], Image.Image] | None = None
 ) -> Image.Image:
-    """Return the image, as RGB or as `convert` returns it. InputError, with its name, if there is none, or it is too
-    large.
-    """
+    """Return the image, as RGB or as `convert` returns it. InputError, with its name, if it is none or too large."""
     try:
         with (
             warnings.catch_warnings(action="ignore", category=Image.DecompressionBombWarning),
@@ -195,19 +178,15 @@ def as_rgb(image: Image.Image) -> Image.Image:
         return image.convert("RGB")
     # Pillow cuts the levels of these off at 255
     grey = np.nan_to_num(np.asarray(image, dtype=np.float64))
-    largest = 65535
     if image.mode == "F":
-        largest = next((each for each in (1, 255) if grey.max() <= each), largest)
-        grey *= 65535 / largest
+        grey *= 65535 / next((each for each in (1, 255) if grey.max() <= each), 65535)
     # the upper byte, as of 16-bit colours
     return Image.fromarray((np.clip(grey, 0, 65535) // 256).astype(np.uint8)).convert("RGB")
 
 
 def as_rgba(image: Image.Image) -> Image.Image:
     """Return an image of any mode of Pillow as RGBA."""
-    if image.has_transparency_data:
-        return image.convert("RGBA")
-    return as_rgb(image).convert("RGBA")
+    return (image if image.has_transparency_data else as_rgb(image)).convert("RGBA")
 
 
 def reduced(image: Image.Image, side: int = MAX_TEXTURE_SIDE) -> Image.Image:
@@ -259,5 +238,4 @@ def sample(image: Image.Image, coordinates: ArrayLike) -> NDArray[np.float64]:
     fx, fy = (x - left)[:, None], (y - top)[:, None]
     upper = texels[top, left] * (1 - fx) + texels[top, right] * fx
     lower = texels[bottom, left] * (1 - fx) + texels[bottom, right] * fx
-    result: NDArray[np.float64] = np.rint(upper * (1 - fy) + lower * fy)
-    return result
+    return np.asarray(np.rint(upper * (1 - fy) + lower * fy))

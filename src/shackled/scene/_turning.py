@@ -8,8 +8,7 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
-from ..checks import number
-from ..errors import InputError
+from ..checks import whole
 from ._arithmetic import dot, length, multiply, rotate, rotation_of
 from ._camera import Camera
 from ._scene import Scene
@@ -27,18 +26,10 @@ def turn(scene: Scene, rotation: ArrayLike) -> Scene:
     rotation: degrees about x, then y, then z; a quaternion (x, y, z, w); or a (3, 3) matrix.
     The meshes do not change: the contract applies the rotations of the objects.
     """
-    rotation, center = rotation_of(rotation), middle(scene)
-    return evolve(
-        scene,
-        objects=[
-            evolve(
-                o,
-                position=center + rotate(rotation, o.position - center),
-                rotation=multiply(rotation, o.rotation),
-            )
-            for o in scene.objects
-        ],
-    )
+    by, center = rotation_of(rotation), middle(scene)
+    places = [(center + rotate(by, o.position - center), multiply(by, o.rotation)) for o in scene.objects]
+    pairs = zip(scene.objects, places, strict=True)
+    return evolve(scene, objects=[evolve(o, position=position, rotation=own) for o, (position, own) in pairs])
 
 
 def full_turn(scene: Scene, frames: int) -> list[Scene]:
@@ -55,10 +46,7 @@ def full_turn(scene: Scene, frames: int) -> list[Scene]:
 
 def frame_count(frames: float, whose: str) -> int:
     """Return the number of frames of something, 2..720. InputError if it is none."""
-    count = number(frames, f"the number of frames of {whose}", 2, MOST_FRAMES)
-    if count != int(count):
-        raise InputError(f"the number of frames of {whose} must be a whole number, not {frames!r}")
-    return int(count)
+    return whole(frames, f"the number of frames of {whose}", 2, MOST_FRAMES)
 
 
 def middle(scene: Scene) -> Points:

@@ -13,7 +13,7 @@ from ..checks import Floats, vector
 from ..errors import InputError, warn
 from ._arithmetic import from_euler, unit
 from ._files.model import MeshPart
-from ._mesh import faces_of_all
+from ._mesh import face_normals, faces_of_all
 
 Axis = Literal["x", "y", "z"]
 AXES: tuple[Axis, ...] = ("x", "y", "z")
@@ -52,10 +52,7 @@ def axis_of_format(path: Path) -> Axis:
 
 
 def axis_of_file(path: Path, parts: Sequence[MeshPart]) -> Axis:
-    """Return the axis of a mesh file that points up, where nothing but its format says which.
-
-    An InputWarning tells if that is not y, or if the model seems to have z up.
-    """
+    """Return the axis of a mesh file that points up; an InputWarning tells if it is not y, or seems wrong."""
     axis = axis_of_format(path)
     if axis != "y":
         warn(f"{path} is taken as {axis} up; `up_axis` y keeps it as it is")
@@ -73,7 +70,7 @@ def base_axis(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> Axis 
         return None
     corners = (positions - positions.min(axis=0))[faces] / sizes.max()
     sizes /= sizes.max()
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = face_normals(corners)
     areas = np.linalg.norm(normals, axis=1)
     found: list[Axis] = []
     for axis in (1, 2):

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..errors import warn
 from ..values import plural
 from ._arithmetic import dot
-from ._mesh import Mesh, components, faces_of_all, part_of_faces
+from ._mesh import Mesh, components, face_normals, faces_of_all, part_of_faces
 from ._object import Object
 
 Floats = NDArray[np.float64]
@@ -30,10 +30,9 @@ _MOST_OUTER = 1000
 def wound(objects: Sequence[Object], name: str, split: bool) -> list[Object]:
     """Return the objects of a model with closed parts wound outward, and with `cull` for those of closed parts only.
 
-    A connected part is closed if each edge is as often in one direction as in the other: there is no border, and its
-    faces do not disagree about the front. All others may be seen from behind.
-    split: whether objects that are partly closed may become two. An InputWarning, which begins with the name, counts
-    the parts that are turned.
+    A connected part is closed if each edge is as often in one direction as in the other. All others may be seen from
+    behind. split: whether objects that are partly closed may become two. An InputWarning, which begins with the name,
+    counts the parts that are turned.
     """
     meshes = [each.mesh for each in objects]
     positions = np.concatenate([mesh.positions for mesh in meshes])
@@ -78,9 +77,7 @@ def _parts(points: Floats, corners: Ints) -> tuple[Ints, Flags, Flags]:
 
 
 def against(corners: Ints) -> Flags:
-    """Return which faces, (m,), are wound against the first of their part; none where that has no answer, as in a
-    Moebius strip. corners: (m, 3), numbers of points.
-    """
+    """Return which faces, (m,), are wound against the first of their part; none in a Moebius strip. corners: (m, 3)."""
     count = len(corners)
     face, edge, direction = _edges(corners)
     around = np.bincount(edge)
@@ -95,9 +92,7 @@ def against(corners: Ints) -> Flags:
 
 
 def _edges(corners: Ints) -> tuple[Ints, Ints, Ints]:
-    """Return the face, the number and the direction, 1 or -1, of each side of the faces, (m, 3), sorted by the number:
-    sides of one edge have the same.
-    """
+    """Return face, number and direction, 1 or -1, of each side of the faces, (m, 3), sorted by the edge's number."""
     face, begin, end = np.repeat(np.arange(len(corners)), 3), corners.ravel(), np.roll(corners, -1, axis=1).ravel()
     keys = np.minimum(begin, end) * (int(corners.max()) + 1) + np.maximum(begin, end)
     order = np.flatnonzero(begin != end)
@@ -125,8 +120,7 @@ def _turned(mesh: Mesh, turned: Flags) -> Mesh:
     faces = np.where(turned[:, None], mesh.faces[:, ::-1], mesh.faces)
     if mesh.normals is None:
         return evolve(mesh, faces=faces)
-    a, b, c = mesh.positions[faces[turned]].transpose(1, 0, 2)
     normals = mesh.normals.copy()
-    if dot(normals[faces[turned]].sum(axis=1), np.cross(b - a, c - a)).sum() < 0:
+    if dot(normals[faces[turned]].sum(axis=1), face_normals(mesh.positions[faces[turned]])).sum() < 0:
         normals[np.unique(faces[turned])] *= -1
     return evolve(mesh, faces=faces, normals=normals)

@@ -1,5 +1,5 @@
 from ._files import ContractFile, make_apng, make_glb
-from ._storage import ANIMATE, STUDIO, StoreTransaction, storage_address, store_scene, stored_codes
+from ._storage import ANIMATE, STUDIO, StoreTransaction, store_scene, stored_codes
 
 __all__ = [
     "ANIMATE",
@@ -8,7 +8,6 @@ __all__ = [
     "StoreTransaction",
     "make_apng",
     "make_glb",
-    "storage_address",
     "store_scene",
     "stored_codes",
 ]

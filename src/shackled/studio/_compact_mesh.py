@@ -50,40 +50,26 @@ def compact(packed: bytes, normal_bits: int = 10) -> bytes:
         raise InputError(f"a coordinate of a normal can be stored in 4 to 10 bits, not {normal_bits}")
     parts = split_mesh(packed)
     codes, explicit, order = _order(parts.faces, len(parts.positions))
-    positions = [parts.positions[v] for v in order]
-    columns = list(zip(*positions, strict=True)) or [(0,)] * 3
+    columns = list(zip(*(parts.positions[v] for v in order), strict=True)) or [(0,)] * 3
     base = [min(column) for column in columns]
     widths = [(max(column) - low).bit_length() for column, low in zip(columns, base, strict=True)]
+    fields = [
+        (size, [value - low for value in column]) for size, low, column in zip(widths, base, columns, strict=True)
+    ]
     colors = [parts.colors[v] for v in order]
     palette = sorted(set(colors))
     color_bits = (len(palette) - 1).bit_length()
     if 24 * len(palette) + color_bits * len(colors) >= 24 * len(colors) or len(palette) > 0xFFFF:
         palette, color_bits = [], 24
     index = {color: number for number, color in enumerate(palette)}
-    fields = [
-        (size, tuple(value - low for value in column)) for size, low, column in zip(widths, base, columns, strict=True)
-    ]
-    fields.append((color_bits, tuple(index.get(color, color) for color in colors)))
-    bits = 0
-    if parts.format & NORMALS:
-        bits = normal_bits
-        normals = [parts.normals[v] for v in order]
-        for shift in (22, 12, 2):
-            values = tuple(((normal >> shift & 1023) ^ 512) >> (10 - bits) for normal in normals)
-            fields.append((bits, values))
-    header = bytes([COMPACT, parts.format])
-    header += b"".join(_two(value) for value in (len(order), len(parts.faces), len(explicit)))
-    header += bytes(widths) + b"".join(value.to_bytes(3, "big") for value in base)
-    header += _two(len(palette)) + bytes([color_bits, bits])
-    return b"".join(
-        [
-            header,
-            *(color.to_bytes(3, "big") for color in palette),
-            bytes(codes),
-            bytes(explicit),
-            _packed_fields(fields, len(order)),
-        ]
-    )
+    fields.append((color_bits, [index.get(color, color) for color in colors]))
+    bits = normal_bits if parts.format & NORMALS else 0
+    for shift in (22, 12, 2) if bits else ():
+        fields.append((bits, [((parts.normals[v] >> shift & 1023) ^ 512) >> (10 - bits) for v in order]))
+    sizes = b"".join(map(_two, (len(order), len(parts.faces), len(explicit))))
+    head = bytes([COMPACT, parts.format]) + sizes + bytes(widths) + b"".join(map(_three, base))
+    head += _two(len(palette)) + bytes([color_bits, bits]) + b"".join(map(_three, palette))
+    return head + bytes(codes) + bytes(explicit) + _packed_fields(fields, len(order))
 
 
 def vertex_order(packed: bytes) -> list[int]:
@@ -116,32 +102,11 @@ def split_mesh(packed: bytes) -> Parts:
     return Parts(form, positions, colors, normals, triples)
 
 
-def _packed_fields(fields: list[tuple[int, tuple[int, ...]]], count: int) -> bytes:
+def _packed_fields(fields: list[tuple[int, list[int]]], count: int) -> bytes:
     """Concatenate the fields of each vertex, each with its number of bits."""
-    texts = ["".join(f"{values[k]:0{size}b}" for size, values in fields if size) for k in range(count)]
-    bits = "".join(texts)
+    bits = "".join(f"{values[k]:0{size}b}" for k in range(count) for size, values in fields if size)
     bits += "0" * (-len(bits) % 8)
     return int(bits, 2).to_bytes(len(bits) // 8, "big") if bits else b""
-
-
-class _Recent:
-    """State that the decoder has too: edges of recent faces, reversed; recent vertices; number of vertices."""
-
-    def __init__(self) -> None:
-        self.edges: deque[Edge] = deque(maxlen=EDGES)
-        self.vertices: deque[int] = deque(maxlen=RECENT)
-        self.count = 0
-
-    def push(self, face: Face) -> None:
-        a, b, c = face
-        self.edges.appendleft((b, a))
-        self.edges.appendleft((c, b))
-
-    def add(self) -> int:
-        """Return the number of the next new vertex."""
-        self.count += 1
-        self.vertices.appendleft(self.count - 1)
-        return self.count - 1
 
 
 def _order(faces: list[Face], count: int) -> tuple[list[int], list[int], list[int]]:
@@ -150,67 +115,63 @@ def _order(faces: list[Face], count: int) -> tuple[list[int], list[int], list[in
     for number, (a, b, c) in enumerate(faces):
         for edge, third in (((a, b), c), ((b, c), a), ((c, a), b)):
             beyond[edge].append((number, third))
-    left = [True] * len(faces)
+    left, unseen = set(range(len(faces))), iter(range(len(faces)))
     new: dict[int, int] = {}
-    order: list[int] = []
     codes: list[int] = []
     explicit: list[int] = []
-    recent = _Recent()
-    start = 0
-
-    def add(vertex: int) -> None:
-        new[vertex] = recent.add()
-        order.append(vertex)
-
-    def refer(vertex: int) -> None:
-        back = recent.count - 1 - new[vertex]
-        explicit.extend([back] if back < FAR else [FAR, *_two(new[vertex])])
-        recent.vertices.appendleft(new[vertex])
+    # what the decoder has too: edges of recent faces, reversed, and recent vertices
+    edges: deque[Edge] = deque(maxlen=EDGES)
+    recent: deque[int] = deque(maxlen=RECENT)
 
     def low_code(vertex: int) -> int:
         if vertex not in new:
             return 0
-        number = new[vertex]
-        if number in recent.vertices:
-            return 1 + recent.vertices.index(number)
-        return EXPLICIT
+        return 1 + recent.index(vertex) if vertex in recent else EXPLICIT
 
-    for _ in faces:
-        best: tuple[int, int, int, int] | None = None
-        for place, (a, b) in enumerate(recent.edges):
-            for number, third in beyond[order[a], order[b]]:
-                if left[number]:
-                    low = low_code(third)
-                    cost = 2 if low == EXPLICIT else 1 if low == 0 else 0
-                    if best is None or cost < best[0]:
-                        best = cost, place, number, third
-        if best is not None:
-            _, place, number, third = best
-            a, b = recent.edges[place]
+    def cost(choice: tuple[int, int, int]) -> int:
+        return {0: 1, EXPLICIT: 2}.get(low_code(choice[2]), 0)
+
+    def use(vertex: int) -> None:
+        """Write a vertex that is new, or that is named by its index."""
+        if vertex in new:
+            back = len(new) - 1 - new[vertex]
+            explicit.extend([back] if back < FAR else [FAR, *_two(new[vertex])])
+        else:
+            new[vertex] = len(new)
+        recent.appendleft(vertex)
+
+    while left:
+        choices = [
+            (place, number, third)
+            for place, edge in enumerate(edges)
+            for number, third in beyond[edge]
+            if number in left
+        ]
+        if choices:
+            place, number, third = min(choices, key=cost)
+            b, a = edges[place]
             low = low_code(third)
             codes.append(place << 4 | low)
-            if low == 0:
-                add(third)
-            elif low == EXPLICIT:
-                refer(third)
-            face = b, new[third], a
+            if low in (0, EXPLICIT):
+                use(third)
+            face = a, third, b
         else:
-            while not left[start]:
-                start += 1
-            number = start
-            corners = faces[number]
-            low = 0
-            for bit, vertex in enumerate(corners):
+            number = next(filter(left.__contains__, unseen))
+            face, low = faces[number], 0
+            for bit, vertex in enumerate(face):
                 low |= (vertex in new) << bit
-                (refer if vertex in new else add)(vertex)
+                use(vertex)
             codes.append(NO_EDGE << 4 | low)
-            face = new[corners[0]], new[corners[1]], new[corners[2]]
-        left[number] = False
-        recent.push(face)
+        left.remove(number)
+        edges.appendleft((face[1], face[0]))
+        edges.appendleft((face[2], face[1]))
     # vertices that no face uses come last
-    order += [vertex for vertex in range(count) if vertex not in new]
-    return codes, explicit, order
+    return codes, explicit, [*new, *(vertex for vertex in range(count) if vertex not in new)]
 
 
 def _two(value: int) -> bytes:
     return value.to_bytes(2, "big")
+
+
+def _three(value: int) -> bytes:
+    return value.to_bytes(3, "big")

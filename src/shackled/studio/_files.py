@@ -6,14 +6,14 @@ import os
 from pathlib import Path
 
 import numpy as np
-from attrs import frozen
+from attrs import field, frozen
 from numpy.typing import ArrayLike
 
 from .._on import Nodes, On
 from ..animation import DURATION, check_duration
 from ..artifacts import artifact
 from ..chain import ContractChain, NodeChain, open_chain, open_node, returned_bytes
-from ..checks import number
+from ..checks import vector, whole
 from ..errors import InputError, VerificationError
 from ..ethereum import intrinsic_gas
 from ..image import data_uri
@@ -27,21 +27,18 @@ MOST_SCALE = 8
 ONE = 1 << 32
 
 
-@frozen(repr=False)
+@frozen
 class ContractFile:
     """A file, byte for byte as a contract made it.
 
     gas: of the execution; None where it is not counted. made_by: the EVM or node.
     """
 
-    content: bytes
+    content: bytes = field(repr=False)
     media_type: str
     gas: int | None
     intrinsic_gas: int
     made_by: str
-
-    def __repr__(self) -> str:
-        return f"<ContractFile {self.media_type}, {len(self.content):,} bytes>"
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the file atomically."""
@@ -69,15 +66,14 @@ def make_apng(
     nothing leaves the picture. on: the name of an EVM, or Nodes, of which the first is called and its answer compared
     with that of the embedded EVM, unless `verify` is "none".
     """
-    vector = np.asarray(axis, dtype=np.float64)
-    if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
-        raise InputError(f"the axis of a turn must be three numbers, not all zero, not {axis!r:.60}")
-    vector = vector / np.abs(vector).max()
+    around = vector(axis, "the axis of a turn")
+    if not around.any():
+        raise InputError("the axis of a turn must not be (0, 0, 0)")
     words = (
-        _whole(frames, "the number of frames of a turntable", 2, MOST_FRAMES),
+        whole(frames, "the number of frames of a turntable", 2, MOST_FRAMES),
         check_duration(duration),
-        _whole(scale, "the scale of a picture", 1, MOST_SCALE),
-        *(round(part * ONE) for part in vector.tolist()),
+        whole(scale, "the scale of a picture", 1, MOST_SCALE),
+        *(round(part * ONE) for part in (around / np.abs(around).max()).tolist()),
         int(hold),
     )
     data = encode(artifact("Turntable").selectors["animate"], scene, None, *words)
@@ -91,12 +87,6 @@ def make_glb(scene: Scene, on: On | None = None, gas_limit: int | None = None) -
     """
     data = encode(artifact("GlbEncoder").selectors["encode"], scene)
     return _made("GlbEncoder", data, "model/gltf-binary", on, gas_limit)
-
-
-def _whole(value: float, what: str, least: int, most: int) -> int:
-    if number(value, what, least, most) != int(value):
-        raise InputError(f"{what} must be a whole number, not {value!r}")
-    return int(value)
 
 
 def _made(contract: str, data: bytes, media_type: str, on: On | None, gas_limit: int | None) -> ContractFile:

@@ -73,15 +73,15 @@ def store_scene(
     the longest side of each mesh, 4 to 16; None is exact. normal_bits: see `compact`. chain: where gas is counted;
     None uses the embedded EVM.
     """
-    _check_address(studio)
+    if len(studio) != 20:
+        raise InputError(f"an address has 20 bytes, not {len(studio)}")
     if position_bits is not None:
         scene = evolve(scene, objects=[quantize(o, position_bits) for o in scene.objects])
     fitted = fit(scene)
     meshes = [compact(pack(o.mesh, o.material.shading == "smooth"), normal_bits) for o in fitted.objects]
     result: list[StoreTransaction] = []
-    interface = artifact(STUDIO).interface
     for number, mesh in enumerate(dict.fromkeys(meshes), 1):
-        result += _transactions(f"mesh {number}", mesh, interface.encode("storeMesh", mesh), studio, chain)
+        result += store_mesh(f"mesh {number}", mesh, studio, chain)
     ordered = evolve(fitted, objects=[_as_stored(o) for o in fitted.objects])
     struct = encode_with_pointers(ordered, [storage_address(mesh, studio) for mesh in meshes])
     data = artifact(STUDIO).selectors["storeScene"] + word(32) + struct
@@ -100,13 +100,9 @@ def _as_stored(o: Object) -> Object:
     return evolve(o, mesh=evolve(o.mesh, uvs=uvs, opacities=opacities))
 
 
-def store_mesh(
-    packed: bytes, studio: bytes, normal_bits: int = 10, chain: ContractChain | None = None
-) -> list[StoreTransaction]:
-    """Return the transactions that store a packed mesh, usually one. The pointer of the last is that of the mesh."""
-    _check_address(studio)
-    mesh = compact(packed, normal_bits)
-    return _transactions("mesh", mesh, artifact(STUDIO).interface.encode("storeMesh", mesh), studio, chain)
+def store_mesh(what: str, mesh: bytes, studio: bytes, chain: ContractChain | None = None) -> list[StoreTransaction]:
+    """Return the transactions that store a compact mesh, usually one; `what` describes it. The last has its pointer."""
+    return _transactions(what, mesh, artifact(STUDIO).interface.encode("storeMesh", mesh), studio, chain)
 
 
 def storage_address(data: bytes, studio: bytes) -> bytes:
@@ -161,11 +157,6 @@ def compress_zeros(data: bytes) -> bytes:
         result += bytes([value]) if most == 1 else bytes([0, (value & 128) + end - at - 1])
         at = end
     return bytes(value ^ 255 for value in result[:4]) + bytes(result[4:])
-
-
-def _check_address(address: bytes) -> None:
-    if len(address) != 20:
-        raise InputError(f"an address has 20 bytes, not {len(address)}")
 
 
 def _parts(data: bytes) -> list[bytes]:

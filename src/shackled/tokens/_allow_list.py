@@ -1,15 +1,14 @@
 """Allow lists: which accounts may mint before the public sale, and how many tokens, as a Merkle tree.
 
-The contract stores the root. The tree is that of OpenZeppelin's StandardMerkleTree for ["address", "uint256"], whose
-files can be read and written. Leaves are hashed twice, so that no inner node can be taken for a leaf.
+The contract stores the root. The tree is that of OpenZeppelin's StandardMerkleTree for ["address", "uint256"]. Leaves
+are hashed twice, so that no inner node can be taken for a leaf.
 """
 
 from __future__ import annotations
 
-import csv
 import re
 from bisect import bisect_left
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -17,7 +16,6 @@ from typing import Any
 
 from ..errors import InputError
 from ..ethereum import checksum_address, keccak256, parse_address, to_hex, word
-from ..untrusted import read_json
 
 FORMAT = "standard-v1"
 ENCODING = ["address", "uint256"]
@@ -89,58 +87,36 @@ def hash_pair(one: bytes, other: bytes) -> bytes:
     return keccak256(min(one, other) + max(one, other))
 
 
-def make_allow_list(entries: Iterable[tuple[str, object]], where: str = "the allow list") -> AllowList:
+def make_allow_list(entries: Iterable[Sequence[object]], where: str = "the allow list") -> AllowList:
     """Make a list from (account, quantity) entries. Raises InputError if one is invalid, or an account occurs twice."""
     allowances: dict[str, int] = {}
-    for number, (account, quantity) in enumerate(entries, 1):
-        address = checksum_address(parse_address(str(account), f"{where}, entry {number}: the account"))
-        text = str(quantity).strip()
-        if not re.fullmatch("[0-9]{1,78}", text) or not 0 < int(text) <= MAX_QUANTITY:
-            raise InputError(f"{where}, entry {number}: the quantity must be a whole number from 1, not {text!r:.60}")
+    for number, entry in enumerate(entries, 1):
+        at, texts = f"{where}, entry {number}", [str(each).strip() for each in entry]
+        if len(texts) != 2:
+            raise InputError(f"{at}: it must be account,quantity, not {','.join(texts)!r:.80}")
+        address, quantity = checksum_address(parse_address(texts[0], f"{at}: the account")), texts[1]
+        if not re.fullmatch("[0-9]{1,78}", quantity) or not 0 < int(quantity) <= MAX_QUANTITY:
+            raise InputError(f"{at}: the quantity must be a whole number from 1, not {quantity!r:.60}")
         if address in allowances:
-            raise InputError(f"{where}, entry {number}: the account {address} occurs twice")
-        allowances[address] = int(text)
+            raise InputError(f"{at}: the account {address} occurs twice")
+        allowances[address] = int(quantity)
     if not allowances:
         raise InputError(f"{where} is empty: it needs lines such as 0x70997970C51812dc3A010C7d01b50e0d17dc79C8,2")
     return AllowList(allowances)
 
 
 def read_allow_list(path: str | Path) -> AllowList:
-    """Read a file: a .json dump of OpenZeppelin's StandardMerkleTree, otherwise lines of `account,quantity`.
+    """Read lines of `account,quantity`; empty lines, lines that begin with #, and a heading are skipped.
 
-    Empty lines, lines that begin with #, and a heading are skipped. Raises InputError if the file is invalid.
+    Raises InputError if the file is invalid.
     """
-    path = Path(path)
     try:
-        text = path.read_text("utf-8-sig")
+        text = Path(path).read_text("utf-8-sig")
     except OSError as error:
         raise InputError(f"the allow list {path} cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
         raise InputError(f"the allow list {path} is not text") from None
-    if path.suffix.lower() == ".json":
-        return _from_json(text, f"the allow list {path}")
-    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
-    rows = [[cell.strip() for cell in row] for row in csv.reader(lines)]
-    if rows and not rows[0][0].lower().startswith("0x"):
-        del rows[0]
-    for number, row in enumerate(rows, 1):
-        if len(row) != 2:
-            text = ",".join(row)
-            raise InputError(f"the allow list {path}, entry {number}: it must be account,quantity, not {text!r:.80}")
-    return make_allow_list(((row[0], row[1]) for row in rows), f"the allow list {path}")
-
-
-def _from_json(text: str, where: str) -> AllowList:
-    try:
-        document = read_json(text)
-        kind, encoding, values = document["format"], document["leafEncoding"], document["values"]
-        entries = [tuple(entry["value"]) for entry in values]
-        tree = document["tree"]
-    except (ValueError, KeyError, TypeError, RecursionError):
-        raise InputError(f"{where} is not a dump of OpenZeppelin's StandardMerkleTree") from None
-    if kind != FORMAT or encoding != ENCODING or any(len(entry) != 2 for entry in entries):
-        raise InputError(f"{where} must be a tree of format {FORMAT} with leaves {ENCODING}")
-    found = make_allow_list(entries, where)
-    if not isinstance(tree, list) or not tree or tree[0] != to_hex(found.root):
-        raise InputError(f"{where}: the root of its tree differs from that of its entries, 0x{found.root.hex()}")
-    return found
+    lines = [line.strip() for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    if lines and not lines[0].lower().startswith("0x"):
+        del lines[0]
+    return make_allow_list((line.split(",") for line in lines), f"the allow list {path}")

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from contextlib import suppress
 from typing import Any
 
 from ..artifacts import artifact, known_errors
 from ..chain import Connection, describe_revert, metered
 from ..deploy import Call, Quote, Receipt, Transactor
 from ..errors import NoAnswerError, NodeError, OutOfGasError, RevertError, VerificationError
-from ..ethereum import Interface, decode_error, ether, intrinsic_gas, keccak256, to_hex
+from ..ethereum import checksum_address, decode_error, ether, intrinsic_gas, keccak256, to_hex
 
 #: Approximate gas of each function, without the intrinsic gas of the transaction.
 USUAL_GAS = {
@@ -32,48 +32,27 @@ USUAL_GAS = {
 }
 
 
-@dataclass(frozen=True)
-class ContractCall:
-    """A function with its arguments.
-
-    value: ether to send, in wei. gas: approximate gas of the whole transaction; None uses `USUAL_GAS`.
-    """
-
-    function: str
-    arguments: tuple[Any, ...]
-    value: int = 0
-    gas: int | None = None
-
-
 class Contract:
     """A contract of this package at an address."""
 
     def __init__(self, connection: Connection, name: str, address: str) -> None:
         """Take the name of the artifact and the address; nothing is sent yet."""
         self.name, self.connection, self.address = name, connection, address
+        self.place = bytes.fromhex(address.removeprefix("0x"))
         self.interface = artifact(name).interface
 
-    def call(
-        self, function: str, *arguments: Any, sender: str | None = None, value: int = 0, block: str = "latest"
-    ) -> Any:
+    def call(self, function: str, *arguments: Any) -> Any:
         """Call a function with the node's gas limit, and return its value, or a tuple of several.
 
         Raises RevertError, with an explanation, if the contract reverts; NodeError if the node fails.
         """
         request = {"to": self.address, "data": to_hex(self.interface.encode(function, *arguments))}
-        if sender is not None:
-            request["from"] = sender
-        if value:
-            request["value"] = hex(value)
         try:
-            answer = self.connection.data("eth_call", request, block)
+            answer = self.connection.data("eth_call", request, "latest")
         except RevertError as error:
             raise explained(error) from None
         except OutOfGasError:
-            raise OutOfGasError(
-                f"the {self.connection.name} allows a read call too little gas for {function}: "
-                "raise its limit, or use another node"
-            ) from None
+            raise self.too_little_gas(function) from None
         try:
             return self.interface.decode(function, answer)
         except ValueError:
@@ -82,14 +61,24 @@ class Contract:
                 f"the address {self.address} is not a {self.name} on chain {self.connection.chain_id}: {what}"
             ) from None
 
+    def too_little_gas(self, function: str) -> OutOfGasError:
+        """Return the error for a read call that runs out of gas."""
+        return OutOfGasError(
+            f"the {self.connection.name} allows a read call too little gas for {function}: raise its limit, or use "
+            "another node"
+        )
+
+    def account(self, function: str, *arguments: Any) -> str:
+        """Return the address that a function returns, with its checksum."""
+        return checksum_address(bytes.fromhex(self.call(function, *arguments)[2:]))
+
     def gas(self, function: str, *arguments: Any) -> int | None:
         """Return the exact gas of the execution of a read call.
 
         None if the node has no state overrides, or gives a call too little gas to measure it.
         """
-        data = self.interface.encode(function, *arguments)
         try:
-            result = metered(self.connection, bytes.fromhex(self.address[2:]), data)
+            result = metered(self.connection, self.place, self.interface.encode(function, *arguments))
         except RevertError as error:
             raise explained(error) from None
         except NoAnswerError:
@@ -98,48 +87,36 @@ class Contract:
             return None
         return result.gas if result.output else None
 
-
-def call_of(
-    interface: Interface, address: str, function: str, *arguments: Any, value: int = 0, gas: int | None = None
-) -> Call:
-    """Return a transaction that calls a function. gas: of the whole transaction; None uses `USUAL_GAS`."""
-    data = interface.encode(function, *arguments)
-    usual = USUAL_GAS[function.partition("(")[0]] + intrinsic_gas(data) if gas is None else gas
-    return Call(bytes.fromhex(address.removeprefix("0x")), data, usual, value)
+    def prepare(self, function: str, *arguments: Any, value: int = 0, gas: int | None = None) -> Call:
+        """Return a transaction that calls a function. gas: of the whole transaction; None uses `USUAL_GAS`."""
+        data = self.interface.encode(function, *arguments)
+        usual = USUAL_GAS[function.partition("(")[0]] + intrinsic_gas(data) if gas is None else gas
+        return Call(self.place, data, usual, value)
 
 
-def plan(
-    transactor: Transactor,
-    contract: Contract,
-    function: str,
-    *arguments: Any,
-    value: int = 0,
-    gas: int | None = None,
-) -> Quote:
+def simulate(connection: Connection, call: Call, sender: bytes | None = None) -> None:
+    """Raise RevertError, with an explanation, if a contract would revert a transaction now."""
+    try:
+        connection.data("eth_call", call.request(sender), "latest")
+    except RevertError as error:
+        raise explained(error) from None
+
+
+def plan(transactor: Transactor, call: Call) -> Quote:
     """Return the quote of a transaction that would succeed now.
 
     Raises RevertError, with an explanation, if the contract would revert it; TransactionError if it would fail
     otherwise, or if the prices of the node are implausible.
     """
-    try:
-        contract.call(function, *arguments, sender=to_hex(transactor.address), value=value)
-    except RevertError:
-        raise
-    except NodeError:
-        pass  # the estimate has a better message, for instance about an account without ether
-    return transactor.quote(call_of(contract.interface, contract.address, function, *arguments, value=value, gas=gas))
+    # the estimate has a better message of other failures, for instance about an account without ether
+    with suppress(NodeError):
+        simulate(transactor.connection, call, transactor.address)
+    return transactor.quote(call)
 
 
-def perform(
-    transactor: Transactor,
-    contract: Contract,
-    function: str,
-    *arguments: Any,
-    value: int = 0,
-    gas: int | None = None,
-) -> Receipt:
+def perform(transactor: Transactor, call: Call) -> Receipt:
     """Plan a transaction and send it."""
-    return transactor.send(plan(transactor, contract, function, *arguments, value=value, gas=gas))
+    return transactor.send(plan(transactor, call))
 
 
 TRANSFER = "Transfer(address,address,uint256)"
@@ -184,64 +161,35 @@ def withdrawn(logs: Iterable[Any], address: str) -> int:
     return amounts[0]
 
 
-#: The phases of a sale, in the order of the contract's numbers.
-PHASES = ("closed", "open for the allow list", "open for all")
+#: The phases of a sale in words, by what they are called on the command line, in the order of the contract's numbers.
+PHASES = {"closed": "closed", "allow-list": "open for the allow list", "public": "open for all"}
 
-#: The message of each error that users may get, from its values by name.
+#: The message of each error that a command may meet although it checks before, from its values by name.
 SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
     "WrongPhase": lambda v: f"the sale is {_phase(v['phase'])}; for this it must be {_phase(v['needed'])}",
     "Quantity": lambda v: f"a call mints 1 to {v['perTransaction']} tokens, not {v['quantity']}",
     "Payment": lambda v: f"the price is {ether(v['due'])}, but {ether(v['sent'])} was sent",
-    "PaymentForNothing": lambda v: f"{ether(v['sent'])} was sent, but the call is free",
-    "NotOnAllowList": lambda v: f"the account {v['account']} is not on the allow list for {v['quantity']} tokens",
-    "AllowanceOfAnother": lambda v: f"the permission is for {v['account']}, not for {v['sender']}",
     "AllowanceExpired": lambda v: f"the permission expired at {v['deadline']} s of Unix time, and it is {v['time']}",
     "AllowanceNotSigned": lambda v: f"the permission is not signed by {v['signer']}, the signer of this collection",
     "AllowanceExceeded": lambda v: (
         f"the allow list allows the account {v['allowance']} in all: {v['minted']} minted, {v['quantity']} more wanted"
     ),
-    "NothingLeft": lambda v: (
-        f"sold out: {v['quantity']} wanted, {v['left']} left"
-        if v["left"]
-        else f"sold out: {v['quantity']} wanted, none left"
-    ),
+    "NothingLeft": lambda v: f"sold out: {v['quantity']} wanted, {v['left'] or 'none'} left",
     "WithdrawalRefused": lambda v: f"{v['to']} does not accept the {ether(v['amount'])}; choose another account",
-    "NameNotUtf8": lambda v: f"the name is not valid UTF-8 at byte {v['position']}",
-    "OwnerNeeded": lambda v: "a collection needs an owner",
-    "PerTransaction": lambda v: f"a call may mint 1 to 100 tokens, not {v['perTransaction']}",
-    "Reserve": lambda v: f"the reserve can be 0 to {v['supply']} tokens, not {v['reserve']}",
-    "Royalty": lambda v: f"royalties can be 0 to {v['highest'] / 100:g} %, not {v['royalty'] / 100:g} %",
     "OwnableUnauthorizedAccount": lambda v: f"only the owner may do this, and {v['account']} is not the owner",
-    "OwnableInvalidOwner": lambda v: f"{v['owner']} cannot be the owner",
     "NotRevealed": lambda v: (
         f"token {v['tokenId']} is not revealed yet (round {v['round']}); run: shackled token reveal"
     ),
     "NotSealed": lambda v: "the set of icons is not sealed yet: the owner has to seal the collection first",
     "AlreadySealed": lambda v: "the set of icons is sealed: none can be added",
-    "NoIcons": lambda v: "a collection without icons cannot be sealed",
-    "UnknownIcon": lambda v: f"there is no icon {v['icon']}: the collection has {v['icons']}",
-    "NameLength": lambda v: f"a name has 1 to {v['longest']} bytes, not {v['length']}",
-    "NoSupply": lambda v: "an edition needs a supply of 1 token or more",
     "UnknownEdition": lambda v: f"there is no edition {v['edition']}: the collection has {v['editions']}",
-    "TooManyEditions": lambda v: f"the collection is full: it has {v['editions']:,} editions",
     "NotTheArtist": lambda v: (
         f"only its artist {v['artist']} may do this with edition {v['edition']}, not {v['account']}"
     ),
     "AlreadyClosed": lambda v: f"edition {v['edition']} is closed: no more tokens of it can be minted",
-    "DrawingOutOfGas": lambda v: (
-        f"drawing the scene {v['scene']} takes more than {v['gasLimit']:,} gas, or more than the transaction has"
-    ),
     "NothingKept": lambda v: f"no scene is stored at {v.get('scene', v.get('pointer'))}",
-    "NotAScene": lambda v: f"the data stored at {v['pointer']} is not a scene",
-    "BlockToCome": lambda v: f"block {v['blockNumber']:,} is not mined yet",
-    "BlockForgotten": lambda v: f"the chain no longer provides the hash of block {v['blockNumber']:,}",
-    "WrongHeader": lambda v: f"the header is not that of block {v['blockNumber']:,}",
-    "NoRandomness": lambda v: f"block {v['blockNumber']:,} has no randomness, which this chain does not provide",
     "OwnerQueryForNonexistentToken": lambda v: "there is no such token",
     "URIQueryForNonexistentToken": lambda v: "there is no such token",
-    "TransferCallerNotOwnerNorApproved": lambda v: "the token belongs to another account",
-    "TransferFromIncorrectOwner": lambda v: "the token belongs to another account",
-    "TransferToZeroAddress": lambda v: "a token cannot be sent to the address 0",
     "TransferToNonERC721ReceiverImplementer": lambda v: "the receiver is a contract that does not accept tokens",
 }
 
@@ -258,4 +206,4 @@ def explained(error: RevertError) -> RevertError:
 
 
 def _phase(number: int) -> str:
-    return PHASES[number] if number < len(PHASES) else f"phase {number}"
+    return list(PHASES.values())[number] if number < len(PHASES) else f"phase {number}"

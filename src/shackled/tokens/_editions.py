@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
 from ..artifacts import artifact
 from ..chain import Connection, Report, read_all
-from ..deploy import local_chain
+from ..checks import whole
+from ..deploy import Call, local_chain
 from ..errors import InputError, NodeError, OutOfGasError, RenderError, VerificationError
-from ..ethereum import amount, checksum_address, ether, intrinsic_gas
+from ..ethereum import amount, checksum_address, intrinsic_gas
 from ..studio import STUDIO
 from ._collection import EDITIONS, Collection
-from ._contract import USUAL_GAS, ContractCall, find_events
+from ._contract import find_events
 from ._icons import SCALE
-from ._launch import MAX_ROYALTY
+from ._launch import MAX_ROYALTY, address_of
 from ._metadata import MAX_LENGTH
 
 #: The supply of an edition without a limit.
@@ -57,27 +58,11 @@ class EditionTerms:
 
     def __post_init__(self) -> None:
         """Raise InputError if the contract would refuse the terms."""
-        try:
-            length = len(self.name.encode())
-        except UnicodeEncodeError:
-            raise InputError("the name of an edition is not valid Unicode text") from None
-        checks = (
-            (1 <= length <= MAX_NAME, f"the name of an edition needs 1 to {MAX_NAME} bytes, not {length}"),
-            (0 <= self.price < 1 << 96, f"the price must be below 2^96 wei, not {ether(self.price)}"),
-            (1 <= self.supply <= OPEN, f"the supply must be 1 to {OPEN:,} tokens, not {self.supply}"),
-            (
-                0 <= self.royalty <= MAX_ROYALTY,
-                f"royalties can be 0 to {MAX_ROYALTY / 100:g} %, not {self.royalty / 100:g} %",
-            ),
-            (
-                0 <= self.copies <= min(self.supply, MOST_AT_ONCE),
-                f"the artist can receive 0 to {min(self.supply, MOST_AT_ONCE)} copies, not {self.copies}",
-            ),
-            (1 <= self.scale <= MAX_SCALE, f"the scale must be 1 to {MAX_SCALE}, not {self.scale}"),
-        )
-        for holds, message in checks:
-            if not holds:
-                raise InputError(message)
+        whole(len(self.name.encode(errors="replace")), "the number of bytes of the name", 1, MAX_NAME)
+        whole(self.supply, "the supply", 1, OPEN)
+        whole(self.royalty, "the royalty, in hundredths of a percent,", 0, MAX_ROYALTY)
+        whole(self.copies, "the number of copies for the artist", 0, min(self.supply, MOST_AT_ONCE))
+        whole(self.scale, "the scale", 1, MAX_SCALE)
 
     @property
     def arguments(self) -> tuple[Any, ...]:
@@ -101,12 +86,6 @@ class Edition:
     royalty: int
     scale: int
     model: bool
-
-    @classmethod
-    def from_answer(cls, number: int, answer: Sequence[Any]) -> Edition:
-        """Return an edition from what the contract returns for `editionAt`."""
-        artist, scene = (checksum_address(bytes.fromhex(answer[place][2:])) for place in (0, 9))
-        return cls(number, artist, scene, answer[10], *answer[1:9])
 
     @property
     def left(self) -> int:
@@ -155,27 +134,22 @@ class Edition:
         }
 
 
-def editions_address() -> str:
-    """Return the address of the collection, the same on every chain."""
-    return checksum_address(local_chain().address(EDITIONS.contract))
-
-
 def open_editions(connection: Connection, address: str | None = None) -> Collection:
     """Return the collection of editions on a chain. address: None is the usual one. Raises InputError without it."""
-    collection = Collection(connection, EDITIONS, editions_address() if address is None else address)
-    if not connection.code(bytes.fromhex(collection.address[2:])):
+    collection = Collection(connection, EDITIONS, address or address_of(EDITIONS.contract))
+    if not connection.code(collection.contract.place) or collection.name != EDITIONS.title:
         raise InputError(
             f"there is no collection of editions at {collection.address} on chain {connection.chain_id}: "
             "run shackled deploy `contracts` Editions"
         )
-    if collection.name != EDITIONS.title:
-        raise InputError(f"the contract at {collection.address} is not a collection of editions")
     return collection
 
 
 def edition_at(collection: Collection, number: int) -> Edition:
     """Return an edition by its number. Raises RevertError if there is none."""
-    return Edition.from_answer(number, collection.contract.call("editionAt", number))
+    found = collection.contract.call("editionAt", number)
+    artist, scene = (checksum_address(bytes.fromhex(found[place][2:])) for place in (0, 9))
+    return Edition(number, artist, scene, found[10], *found[1:9])
 
 
 def editions_of(collection: Collection, artist: str | None = None, report: Report | None = None) -> list[Edition]:
@@ -220,7 +194,7 @@ def add_gas(terms: EditionTerms, codes: Mapping[bytes, bytes]) -> int:
             f"smaller size or scale{fewer}"
         )
     data = interface.encode("add", *terms.arguments)
-    silent = interface.encode("add", *EditionTerms(**{**vars(terms), "copies": 0}).arguments)
+    silent = interface.encode("add", *replace(terms, copies=0).arguments)
     try:
         adding = local.call(EDITIONS.contract, silent)
     except (OutOfGasError, RenderError):
@@ -240,14 +214,7 @@ def added_number(logs: Iterable[Any], address: str) -> int:
     return added[0][0]
 
 
-def withdraw_gas(collection: Collection, editions: Sequence[int], to: str) -> int:
-    """Return the gas of the transaction that withdraws the proceeds of these editions."""
-    data = collection.contract.interface.encode("withdraw", editions, to)
-    return USUAL_GAS["withdraw"] + intrinsic_gas(data) + WITHDRAW_GAS * (len(editions) - 1)
-
-
-def edition_mint_call(edition: Edition, quantity: int) -> ContractCall:
-    """Return the call that mints tokens. Raises InputError if it would be refused."""
-    if not 1 <= quantity <= MOST_AT_ONCE:
-        raise InputError(f"a call mints 1 to {MOST_AT_ONCE} tokens, not {quantity}")
-    return ContractCall("mint", (edition.number, quantity), quantity * edition.price)
+def withdraw_call(collection: Collection, editions: Sequence[int], to: str) -> Call:
+    """Return the transaction that withdraws the proceeds of these editions."""
+    call = collection.contract.prepare("withdraw", editions, to)
+    return replace(call, gas=call.gas + WITHDRAW_GAS * (len(editions) - 1))

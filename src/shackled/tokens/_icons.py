@@ -15,14 +15,15 @@ from attrs import evolve
 
 from ..artifacts import artifact
 from ..chain import read_all
+from ..checks import whole
 from ..datasets import Piece, find, pieces
 from ..deploy import Call, local_chain
 from ..errors import InputError
-from ..ethereum import Interface, amount, checksum_address
+from ..ethereum import amount, checksum_address
 from ..scene import Link, Scene
 from ..studio import STUDIO
 from ._collection import Collection
-from ._contract import call_of
+from ._contract import Contract
 
 #: Side of the square that each pixel becomes in the picture of a token: 128 pixels become 512.
 SCALE = 4
@@ -129,35 +130,27 @@ def _antialiased() -> frozenset[str]:
     return frozenset(json.loads(files(__package__).joinpath("antialiased.json").read_text("utf-8")))
 
 
-def add_call(interface: Interface, collection: str, icon: Sequence[Any], codes: Mapping[bytes, bytes]) -> Call:
+def add_call(contract: Contract, icon: Sequence[Any], codes: Mapping[bytes, bytes]) -> Call:
     """Return the transaction that adds an icon; it writes it, and draws one pixel of its scene as a check.
 
     icon: arguments of `add`. codes: code of the stored scene, by address. Raises RenderError if it cannot be drawn.
     """
-    call = call_of(interface, collection, "add", *icon)
-    return replace(call, gas=call.gas + _check_gas(codes, icon[1]))
-
-
-def _check_gas(codes: Mapping[bytes, bytes], pointer: str) -> int:
     local = local_chain()
     local.address(STUDIO)
     for place, code in codes.items():
         local.put(place, code)
     studio, renderer = artifact(STUDIO).interface, artifact("Renderer").interface
-    reading = local.call(STUDIO, studio.encode("scene(address)", pointer))
+    reading = local.call(STUDIO, studio.encode("scene(address)", icon[1]))
     scene = studio.decode("scene(address)", reading.output)
     drawing = local.call("Renderer", renderer.encode("renderTile", scene, (0, 0, 1, 1)))
-    return reading.gas + drawing.gas
+    call = contract.prepare("add", *icon)
+    return replace(call, gas=call.gas + reading.gas + drawing.gas)
 
 
-def check_sale(pieces: Sequence[Piece], price: int, supply: int, reserve: int) -> None:
-    """Raise InputError if a collection would refuse the icons."""
-    if not 0 <= price < 1 << 96:
-        raise InputError(f"the price of an icon must be below {1 << 96} wei, not {price}")
-    if not (1 <= supply < 1 << 32 and 0 <= reserve <= supply):
-        raise InputError(f"an icon needs 1 token or more, and no more in the reserve: {supply}, {reserve}")
-    if len(pieces) >= 1 << 24:
-        raise InputError(f"{len(pieces):,} icons are too many for a collection")
+def check_sale(supply: int, reserve: int) -> None:
+    """Raise InputError if a collection would refuse an icon of so many tokens."""
+    whole(supply, "the supply of an icon", 1, (1 << 32) - 1)
+    whole(reserve, "the reserve of an icon", 0, supply)
 
 
 #: Licences that allow commercial use of changed copies, in lower case, with single spaces between the words.
@@ -183,14 +176,12 @@ def licence_of(source: Path | Piece | Link, stated: str | None) -> str:
                 "use of changed copies, and nothing can be removed from a chain"
             )
         return source.licence
-    if stated is None:
+    words = " ".join((stated or "").split())
+    if not words:
         raise InputError(
             f"check the licence of {source} yourself, and state it with `licence`, for instance CC0-1.0 or "
             "'my own work'"
         )
-    words = " ".join(stated.split())
-    if not words:
-        raise InputError("`licence` is empty: state it, for instance CC0-1.0 or 'my own work'")
     if not allows(words):
         raise InputError(
             f"{source} must not be stored under the licence {words!r}: it is not known to allow commercial use of "

@@ -8,11 +8,11 @@ from typing import Any
 
 from ..artifacts import artifact
 from ..chain import Connection
+from ..checks import whole
 from ..deploy import (
     Call,
     Deployer,
     Deployment,
-    DeploymentStep,
     Fees,
     Plan,
     Quote,
@@ -25,9 +25,8 @@ from ..deploy import (
     make_quotes,
 )
 from ..errors import InputError, VerificationError
-from ..ethereum import PROXY, checksum_address, create2_address, ether, word
+from ..ethereum import PROXY, checksum_address, create2_address, word
 from ._collection import Collection, CollectionKind
-from ._contract import call_of
 from ._icons import add_call, icons_of
 
 MAX_PER_TRANSACTION = 100
@@ -55,45 +54,24 @@ class CollectionTerms:
 
     def __post_init__(self) -> None:
         """Raise InputError if the contract would refuse the terms."""
-        checks = (
-            (0 <= self.reserve <= GENESIS_SUPPLY, f"the reserve must be 0 to {GENESIS_SUPPLY:,}, not {self.reserve}"),
-            (
-                1 <= self.per_transaction <= MAX_PER_TRANSACTION,
-                f"a call may mint 1 to {MAX_PER_TRANSACTION} tokens, not {self.per_transaction}",
-            ),
-            (
-                0 <= self.royalty <= MAX_ROYALTY,
-                f"royalties can be 0 to {MAX_ROYALTY / 100:g} %, not {self.royalty / 100:g} %",
-            ),
-            (0 <= self.price < 2**128, f"the price must be below 2^128 wei, not {ether(self.price)}"),
-            (0 <= self.salt < 2**256, f"the salt must be a number of 256 bits, not {self.salt}"),
-            (
-                int(self.royalty_receiver, 16) != 0 or not self.royalty,
-                "royalties need a receiver other than the address 0",
-            ),
-            (int(self.owner, 16) != 0, "the owner cannot be the address 0"),
-        )
-        for holds, message in checks:
-            if not holds:
-                raise InputError(message)
-
-    @property
-    def struct(self) -> tuple[str, int, str, int]:
-        """The struct Terms of contracts/src/tokens/Collection.sol."""
-        return self.owner, self.per_transaction, self.royalty_receiver, self.royalty
+        whole(self.reserve, "the reserve", 0, GENESIS_SUPPLY)
+        whole(self.per_transaction, "the number of tokens that a call may mint", 1, MAX_PER_TRANSACTION)
+        whole(self.royalty, "the royalty, in hundredths of a percent,", 0, MAX_ROYALTY)
+        whole(self.salt, "the salt", 0, (1 << 256) - 1)
+        if self.royalty and int(self.royalty_receiver, 16) == 0:
+            raise InputError("royalties need a receiver other than the address 0")
+        if int(self.owner, 16) == 0:
+            raise InputError("the owner cannot be the address 0")
 
 
-def parts_of(contract: str, itself: bool = False) -> list[Deployment]:
-    """Return the contracts that a contract needs, in the order of deployment.
-
-    itself: add the contract, whose constructor must take nothing else.
-    """
-    return in_order([contract] if itself else artifact(contract).parts)
+def parts_of(contract: str) -> list[Deployment]:
+    """Return the contracts that a contract needs, in the order of deployment."""
+    return in_order(artifact(contract).parts)
 
 
-def address_of(deployments: Sequence[Deployment], name: str) -> str:
-    """Return the address of one of these contracts."""
-    return checksum_address(next(each.address for each in deployments if each.name == name))
+def address_of(contract: str) -> str:
+    """Return the address of a contract that exists once on each chain: its constructor takes only such contracts."""
+    return checksum_address(in_order([contract])[-1].address)
 
 
 @dataclass(frozen=True)
@@ -119,18 +97,13 @@ class Launch:
         """Quotes of all transactions."""
         return self.parts.quotes + ([] if self.quote is None else [self.quote])
 
-    @property
-    def gas(self) -> int:
-        """Gas of all transactions, as counted here."""
-        return self.parts.gas + (0 if self.quote is None else self.quote.call.gas)
-
 
 def creation_code(kind: CollectionKind, parts: Sequence[Deployment], terms: CollectionTerms) -> bytes:
     """Return the creation code of a collection, with the arguments of its constructor."""
-    arguments: list[Any] = [address_of(parts, part) for part in artifact(kind.contract).parts]
-    arguments += [getattr(terms, term) for term in kind.terms]
-    built = artifact(kind.contract)
-    return built.creation + built.interface.construct(*arguments, terms.struct)
+    built, places = artifact(kind.contract), {part.name: part.address for part in parts}
+    arguments = [*(places[name] for name in built.parts), *(getattr(terms, term) for term in kind.terms)]
+    struct = (terms.owner, terms.per_transaction, terms.royalty_receiver, terms.royalty)
+    return built.creation + built.interface.construct(*arguments, struct)
 
 
 def plan_launch(
@@ -153,7 +126,7 @@ def plan_launch(
 def launch(
     launch: Launch,
     transactor: Transactor,
-    report: Callable[[DeploymentStep, Sequence[Receipt]], None] | None = None,
+    report: Callable[[str, bytes, Receipt], None] | None = None,
 ) -> tuple[Collection, Receipt | None]:
     """Deploy the missing contracts, then the collection, and compare its code.
 
@@ -169,7 +142,7 @@ def launch(
         receipt = create(transactor, launch.quote, lambda: _is_deployed(connection, kind, place), kind.title, place)
     deployer.book.write(connection.chain_id, {kind.contract: place})
     if report is not None and receipt is not None:
-        report(DeploymentStep(kind.contract, place, False), [receipt])
+        report(kind.contract, place, receipt)
     return Collection(connection, kind, launch.address), receipt
 
 
@@ -181,14 +154,6 @@ def _is_deployed(connection: Connection, kind: CollectionKind, place: bytes) -> 
     return bool(code)
 
 
-@dataclass(frozen=True)
-class SetupStep:
-    """A transaction of the owner before the sale. what: description of its result."""
-
-    what: str
-    quote: Quote
-
-
 def plan_setup(
     connection: Connection,
     launch: Launch,
@@ -197,28 +162,27 @@ def plan_setup(
     icons: Sequence[tuple[Any, ...]],
     codes: Mapping[bytes, bytes],
     known: Sequence[Quote],
-) -> list[SetupStep]:
-    """Plan the transactions that set the allow list and add icons, without those that were sent already.
+) -> dict[str, Quote]:
+    """Plan the transactions by which the owner sets the allow list and adds icons, without those sent already.
 
     allow_list: root, and signer of permissions; None sets none. icons: arguments of `add` for each. codes: code of
-    their stored scenes, by address. known: quotes of earlier transactions. Raises InputError if the collection is
-    sealed and lacks icons.
+    their stored scenes, by address. known: quotes of earlier transactions. Returns quotes by a description of what was
+    done. Raises InputError if the collection is sealed and lacks icons.
     """
-    deployed = None if launch.quote is not None else Collection(connection, launch.kind, launch.address)
-    interface = artifact(launch.kind.contract).interface
-    wanted: list[tuple[str, Call]] = []
+    collection, is_deployed = Collection(connection, launch.kind, launch.address), launch.quote is None
+    contract = collection.contract
+    wanted: dict[str, Call] = {}
     if allow_list is not None:
         root, signer = allow_list[0], allow_list[1] or ZERO_ADDRESS
-        state = None if deployed is None else deployed.state()
-        if state is None or (state.allow_list_root, state.allow_list_signer) != (root, signer):
-            wanted.append(("allow list set", call_of(interface, launch.address, "setAllowList", root, signer)))
-    scenes = {} if deployed is None or not icons else {icon.name: icon.scene for icon in icons_of(deployed)}
+        if not is_deployed or (contract.call("allowListRoot"), contract.account("allowListSigner")) != (root, signer):
+            wanted["allow list set"] = contract.prepare("setAllowList", root, signer)
+    scenes = {icon.name: icon.scene for icon in icons_of(collection)} if is_deployed and icons else {}
     missing = [each for each in icons if scenes.get(each[0]) != each[1]]
-    if deployed is not None and missing and deployed.contract.call("isSealed"):
-        raise InputError(f"{deployed.name} at {deployed.address} is sealed without {missing[0][0]}: use another `salt`")
-    wanted += [(f"{each[0]}: added", add_call(interface, launch.address, each, codes)) for each in missing]
-    quotes = make_quotes(connection, [call for _, call in wanted], fees, known)
-    return [SetupStep(what, quote) for (what, _), quote in zip(wanted, quotes, strict=True)]
+    if is_deployed and missing and contract.call("isSealed"):
+        raise InputError(f"{collection.name} at {launch.address} is sealed without {missing[0][0]}: use another `salt`")
+    wanted |= {f"{each[0]}: added": add_call(contract, each, codes) for each in missing}
+    quotes = make_quotes(connection, list(wanted.values()), fees, known)
+    return dict(zip(wanted, quotes, strict=True))
 
 
 PUSH1, PUSH32 = 0x60, 0x7F
@@ -240,15 +204,18 @@ def immutable_places(runtime: bytes) -> list[int]:
     return places
 
 
-def immutable_values(code: bytes, runtime: bytes) -> set[bytes]:
-    """Return the immutable values of deployed code. Raises VerificationError if it differs elsewhere from `runtime`."""
+def immutable_values(code: bytes, runtime: bytes) -> dict[int, bytes]:
+    """Return the immutable values of deployed code by their offsets.
+
+    Raises VerificationError if it differs elsewhere from `runtime`.
+    """
     places = immutable_places(runtime)
+    if len(code) != len(runtime):
+        raise VerificationError(f"its code has {len(code):,} bytes, not {len(runtime):,}")
     masked = bytearray(code)
     for place in places:
         masked[place : place + 32] = EMPTY
-    if len(code) != len(runtime):
-        raise VerificationError(f"its code has {len(code):,} bytes, not {len(runtime):,}")
     if bytes(masked) != runtime:
         at = next(at for at, (one, other) in enumerate(zip(masked, runtime, strict=True)) if one != other)
         raise VerificationError(f"its code differs from the compiled contract at byte {at:,}")
-    return {code[place : place + 32] for place in places}
+    return {place: code[place : place + 32] for place in places}

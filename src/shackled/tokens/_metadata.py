@@ -23,8 +23,6 @@ from ..whole_file import write_output
 
 #: Maximum size of a `tokenURI` in bytes; marketplaces do not show longer ones.
 MAX_LENGTH = 100_000
-#: Media types that wallets show, and Pillow's names of them.
-PICTURES = {"image/png": "PNG", "image/bmp": "BMP"}
 #: The last chunk of every PNG.
 PNG_END = bytes.fromhex("0000000049454e44ae426082")
 #: Maximum side of a picture, in pixels.
@@ -37,57 +35,42 @@ Trait = str | int | float | bool
 class Metadata:
     """The metadata of a token.
 
-    traits: values by name, in their order. media_type: "image/png" or "image/bmp". picture: file in `image`; None if
-    there is none. document: the whole JSON. length: size of the `tokenURI`, in bytes.
+    traits: values by name, in their order. picture: the PNG file in `image`. document: the whole JSON. uri: `tokenURI`.
     """
 
     name: str
     description: str
     traits: dict[str, Trait]
-    media_type: str | None
-    picture: bytes | None
+    picture: bytes
     document: dict[str, Any]
-    length: int
+    uri: str
+
+    @property
+    def length(self) -> int:
+        """Size of the `tokenURI`, in bytes."""
+        return len(self.uri.encode())
 
     @property
     def pixels(self) -> NDArray[np.uint8]:
-        """The picture, (H, W, 3) uint8, rows from the top. Raises VerificationError if it is missing or damaged."""
-        if self.picture is None or self.media_type is None:
-            raise VerificationError(f"{self.name} has no picture")
-        return decode_picture(self.picture, self.media_type)
-
-    @property
-    def extension(self) -> str:
-        """Extension of the picture's format: ".png" or ".bmp"."""
-        return f".{(self.media_type or 'image/png').partition('/')[2]}"
+        """The picture, (H, W, 3) uint8, rows from the top."""
+        return decode_picture(self.picture)
 
     def save(self, path: Path) -> None:
-        """Write the picture: the bytes of the token if the extension is that of its format, else the same pixels."""
-        content = self.picture
-        if content is None or path.suffix.lower() != self.extension:
-            content = Image(self.pixels).encode(path.suffix)
-        write_output(path, content)
+        """Write the picture: the bytes of the token if the extension is .png, else the same pixels."""
+        is_png = path.suffix.lower() == ".png"
+        write_output(path, self.picture if is_png else Image(self.pixels).encode(path.suffix))
 
 
 def read_token_uri(uri: str, max_length: int = MAX_LENGTH) -> Metadata:
     """Parse a `tokenURI`. Raises VerificationError if it is invalid, or longer than `max_length` bytes."""
     document = _document(uri, max_length)
-    name, description = _text(document, "name"), _text(document, "description")
-    image, label = _text(document, "image"), plain(name)[:60]
+    name, description, image = (_text(document, key) for key in ("name", "description", "image"))
+    label = plain(name)[:60]
     media_type, picture = read_data_uri(image, f"the image of {label}")
-    if media_type not in PICTURES:
-        raise VerificationError(f"the image of {label} has the type {media_type}, not one of {', '.join(PICTURES)}")
-    metadata = Metadata(
-        name=name,
-        description=description,
-        traits=_traits(document, label),
-        media_type=media_type,
-        picture=picture,
-        document=document,
-        length=len(uri.encode()),
-    )
-    decode_picture(picture, media_type)
-    return metadata
+    if media_type != "image/png":
+        raise VerificationError(f"the image of {label} has the type {media_type}, not image/png")
+    decode_picture(picture)
+    return Metadata(name, description, _traits(document, label), picture, document, uri)
 
 
 def read_data_uri(uri: str, what: str) -> tuple[str, bytes]:
@@ -104,17 +87,12 @@ def read_data_uri(uri: str, what: str) -> tuple[str, bytes]:
         raise VerificationError(f"{what} is not valid Base64") from None
 
 
-def decode_picture(picture: bytes, media_type: str) -> NDArray[np.uint8]:
-    """Decode a PNG or BMP to (H, W, 3) uint8. Raises VerificationError if it is damaged, transparent, or too large."""
-    whole = (
-        picture.endswith(PNG_END) if media_type == "image/png" else picture[2:6] == len(picture).to_bytes(4, "little")
-    )
-    if not whole:
-        raise VerificationError(
-            f"the picture of the token is not a complete {media_type}: it does not end where it should"
-        )
+def decode_picture(picture: bytes) -> NDArray[np.uint8]:
+    """Decode a PNG file to (H, W, 3) uint8. Raises VerificationError if it is damaged, transparent, or too large."""
+    if not picture.endswith(PNG_END):
+        raise VerificationError("the picture of the token is not a complete PNG file: it does not end where it should")
     try:
-        with PillowImage.open(io.BytesIO(picture), formats=[PICTURES[media_type]]) as opened:
+        with PillowImage.open(io.BytesIO(picture), formats=["PNG"]) as opened:
             if max(opened.size) > MAX_SIDE:
                 raise VerificationError(f"the picture of the token has {opened.size[0]} x {opened.size[1]} pixels")
             opened.load()
@@ -122,17 +100,7 @@ def decode_picture(picture: bytes, media_type: str) -> NDArray[np.uint8]:
                 raise VerificationError("the picture of the token has transparent pixels")
             return np.array(opened.convert("RGB"))
     except (OSError, ValueError, SyntaxError) as error:
-        raise VerificationError(f"the picture of the token is not a complete {media_type}: {error}") from None
-
-
-def shrink(pixels: NDArray[np.uint8], width: int, height: int) -> NDArray[np.uint8] | None:
-    """Undo the enlargement of a picture of `width` x `height` pixels to squares; None if it is not one."""
-    factor = pixels.shape[1] // width
-    if factor == 0 or pixels.shape[:2] != (height * factor, width * factor):
-        return None
-    small = pixels[::factor, ::factor]
-    whole = small.repeat(factor, axis=0).repeat(factor, axis=1)
-    return small if np.array_equal(whole, pixels) else None
+        raise VerificationError(f"the picture of the token is not a complete PNG file: {error}") from None
 
 
 def _document(uri: str, max_length: int) -> dict[str, Any]:
@@ -145,8 +113,8 @@ def _document(uri: str, max_length: int) -> dict[str, Any]:
     if media_type != "application/json":
         raise VerificationError(f"the tokenURI has the type {media_type}, not application/json")
     try:
-        document = read_json(content.decode(), object_pairs_hook=_once, parse_constant=_no_number)
-        # this reader accepts lone surrogates and huge numbers, which most others do not
+        document = read_json(content.decode(), object_pairs_hook=_once)
+        # this reader accepts lone surrogates, NaN and huge numbers, which most others do not
         json.dumps(document, ensure_ascii=False, allow_nan=False).encode()
     except (UnicodeDecodeError, ValueError, RecursionError) as error:
         raise VerificationError(f"the tokenURI is not valid JSON: {' '.join(str(error).split())[:100]}") from None
@@ -160,10 +128,6 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     if len(set(keys)) < len(keys):
         raise ValueError(f"{next(key for key in keys if keys.count(key) > 1)!r} occurs twice")
     return dict(pairs)
-
-
-def _no_number(text: str) -> Any:
-    raise ValueError(f"{text} is not a number")
 
 
 def _text(document: dict[str, Any], key: str) -> str:
@@ -180,9 +144,8 @@ def _traits(document: dict[str, Any], name: str) -> dict[str, Trait]:
         raise VerificationError(f"the attributes of {name} are not a list")
     traits: dict[str, Trait] = {}
     for attribute in attributes:
-        kind, value = (
-            (attribute.get("trait_type"), attribute.get("value")) if isinstance(attribute, dict) else (None, None)
-        )
+        given = attribute if isinstance(attribute, dict) else {}
+        kind, value = given.get("trait_type"), given.get("value")
         if not isinstance(kind, str) or not isinstance(value, str | int | float | bool):
             raise VerificationError(f"an attribute of {name} has no trait_type and value: {plain(str(attribute))[:80]}")
         if kind in traits:

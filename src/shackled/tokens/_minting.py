@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..deploy import Call
 from ..errors import InputError
-from ..ethereum import checksum_address, parse_address, to_hex
+from ..ethereum import checksum_address, encode_values, parse_address, to_hex
 from ..untrusted import read_json
-from ._allow_list import AllowList, read_allow_list
+from ._allow_list import AllowList
 from ._collection import Collection
-from ._contract import ContractCall
 from ._icons import icon_at
 
 if TYPE_CHECKING:
@@ -23,45 +22,38 @@ def mint_call(
     collection: Collection,
     account: str,
     quantity: int,
-    allow_list: Path | AllowList | None = None,
-    permission: Path | Allowance | None = None,
+    allow_list: AllowList | None = None,
+    permission: Allowance | None = None,
     reserve_to: str | None = None,
     icon: int | None = None,
-) -> ContractCall:
-    """Return the call with which an account mints.
+) -> Call:
+    """Return the transaction with which an account mints.
 
     reserve_to: receiver of tokens from the reserve. icon: number of the icon, for collections of icons.
     Raises InputError if the allow list or the permission is not for this account and collection.
     """
-    which = () if icon is None else (icon,)
+    prepare, which = collection.contract.prepare, () if icon is None else (icon,)
     if reserve_to is not None:
-        return ContractCall("mintReserve", (*which, reserve_to, quantity))
-    price = collection.contract.call("price") if icon is None else icon_at(collection, icon).price
-    value = quantity * int(price)
+        return prepare("mintReserve", *which, reserve_to, quantity)
+    value = quantity * int(collection.contract.call("price") if icon is None else icon_at(collection, icon).price)
     if allow_list is not None:
-        listed = allow_list if isinstance(allow_list, AllowList) else read_allow_list(allow_list)
         root = collection.contract.call("allowListRoot")
-        if root != listed.root:
-            actual = f"0x{root.hex()}" if any(root) else "none"
+        if root != allow_list.root:
             raise InputError(
-                f"the allow list has the root 0x{listed.root.hex()}, but that of the collection is {actual}"
+                f"the allow list has the root {to_hex(allow_list.root)}, but that of the collection is "
+                f"{to_hex(root) if any(root) else 'none'}"
             )
-        return ContractCall(
-            "mintWithProof", (*which, quantity, listed.allowance(account), listed.proof(account)), value
-        )
+        proven = allow_list.allowance(account), allow_list.proof(account)
+        return prepare("mintWithProof", *which, quantity, *proven, value=value)
     if permission is not None:
-        allowed = permission if isinstance(permission, Allowance) else read_allowance(permission)
-        if allowed.account != account:
-            raise InputError(f"the permission is for {allowed.account}, not for {account}")
-        return ContractCall("mintWithSignature", (*which, quantity, allowed.struct, allowed.signature), value)
-    return ContractCall("mint", (*which, quantity), value)
+        if permission.account != account:
+            raise InputError(f"the permission is for {permission.account}, not for {account}")
+        signed = permission.struct, permission.signature
+        return prepare("mintWithSignature", *which, quantity, *signed, value=value)
+    return prepare("mint", *which, quantity, value=value)
 
 
-ALLOWANCE_FIELDS = [
-    {"name": "account", "type": "address"},
-    {"name": "quantity", "type": "uint256"},
-    {"name": "deadline", "type": "uint256"},
-]
+FIELDS = {"account": "address", "quantity": "uint256", "deadline": "uint256"}
 
 
 @dataclass(frozen=True)
@@ -103,8 +95,9 @@ def sign_allowance(
         "chainId": collection.connection.chain_id,
         "verifyingContract": collection.address,
     }
+    types = {"Allowance": [{"name": name, "type": kind} for name, kind in FIELDS.items()]}
     message = {"account": account, "quantity": quantity, "deadline": deadline}
-    signed = signer.sign_message(encode_typed_data(domain, {"Allowance": ALLOWANCE_FIELDS}, message))
+    signed = signer.sign_message(encode_typed_data(domain, types, message))
     return Allowance(account, quantity, deadline, bytes(signed.signature))
 
 
@@ -112,19 +105,12 @@ def read_allowance(path: Path) -> Allowance:
     """Read a permission from a file. Raises InputError if it is invalid."""
     try:
         document = read_json(path.read_text("utf-8"))
-        account, quantity, deadline, signature = (
-            str(document[name]) for name in ("account", "quantity", "deadline", "signature")
-        )
+        account = checksum_address(parse_address(document["account"], "its account"))
+        signature = bytes.fromhex(document["signature"].removeprefix("0x"))
+        allowance = Allowance(account, int(document["quantity"]), int(document["deadline"]), signature)
+        encode_values(["(address,uint256,uint256)"], [allowance.struct])
     except OSError as error:
         raise InputError(f"the permission {path} cannot be read: {error.strerror}") from None
-    except (ValueError, KeyError, TypeError, RecursionError):
+    except (AttributeError, KeyError, RecursionError, TypeError, ValueError):
         raise InputError(f"{path} is not a permission as `shackled token permit` writes it") from None
-    if not (
-        re.fullmatch("[0-9]{1,78}", quantity)
-        and re.fullmatch("[0-9]{1,78}", deadline)
-        and max(int(quantity), int(deadline)) < 2**256
-        and re.fullmatch("0x([0-9a-fA-F]{2}){1,1024}", signature)
-    ):
-        raise InputError(f"{path} is not a permission: its quantity, deadline or signature is invalid")
-    address = checksum_address(parse_address(account, f"the account of {path}"))
-    return Allowance(address, int(quantity), int(deadline), bytes.fromhex(signature[2:]))
+    return allowance

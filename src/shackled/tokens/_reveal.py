@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from ..chain import Connection, quantity
-from ..deploy import Call, Fees, Quote, Transactor, make_quotes
-from ..errors import ChainError, InputError, NodeError, RevertError, TransactionError
+from ..deploy import Call, Fees, Quote, make_quotes
+from ..errors import InputError, NoAnswerError, NodeError, RevertError, TransactionError
 from ..ethereum import encode_header, keccak256, to_hex
+from ..values import plural
 from ._collection import Collection
-from ._contract import ContractCall, call_of, plan
+from ._contract import simulate
 
 #: Maximum number of rounds in a transaction.
 ROUNDS_AT_ONCE = 40
@@ -53,67 +54,43 @@ def hidden_rounds(collection: Collection) -> list[Round]:
     return [Round(number, collection.contract.call("blockOf", number)) for number in sorted(set(numbers))]
 
 
-def latest_block(collection: Collection) -> int:
-    """Return the number of the latest block."""
-    return collection.connection.number("eth_blockNumber")
+def reveal_calls(collection: Collection, rounds: list[Round]) -> dict[str, Call]:
+    """Return the transactions that reveal rounds whose blocks are not missing, in order, by their purpose.
 
-
-def reveal_calls(collection: Collection, rounds: list[Round]) -> list[ContractCall]:
-    """Return the calls that reveal rounds whose blocks are not missing, in order.
-
-    If block hashes are no longer available on the chain, the first calls prove them. Every header is compared with the
-    hash that the collection has of its block, or proves. Raises NodeError or InputError if one differs.
+    If block hashes are no longer available on the chain, the first ones prove them. Every header is compared with the
+    hash that the collection has of its block, or proves. Raises NodeError if one differs.
     """
     hashes = {each.block: _hash_of(collection, each.block) for each in rounds}
-    calls = list(_proofs(collection, hashes))
+    calls = dict(_proofs(collection, hashes))
     for first in range(0, len(rounds), ROUNDS_AT_ONCE):
         some = rounds[first : first + ROUNDS_AT_ONCE]
+        numbers = [each.number for each in some]
         headers = [header_of(collection, each.block, hashes[each.block]) for each in some]
-        calls.append(reveal_call(some, headers))
+        purpose = f"reveal {plural(len(some), 'round')}, {', '.join(map(str, numbers))}"
+        gas = FIRST_GAS + REVEAL_GAS * len(some)
+        calls[purpose] = collection.contract.prepare("reveal", numbers, headers, gas=gas)
     return calls
 
 
-def reveal_call(rounds: Sequence[Round], headers: list[bytes]) -> ContractCall:
-    """Return the call that reveals rounds by the headers of their blocks."""
-    return ContractCall("reveal", ([each.number for each in rounds], headers), gas=FIRST_GAS + REVEAL_GAS * len(rounds))
-
-
-def price_calls(transactor: Transactor, collection: Collection, calls: Sequence[ContractCall]) -> list[Quote]:
-    """Return the quotes of one or more calls. Raises RevertError, with an explanation, if the first would revert."""
-    first, contract = calls[0], collection.contract
-    quote = plan(transactor, contract, first.function, *first.arguments, gas=first.gas)
-    later = _transactions(collection, calls[1:])
-    return [quote, *make_quotes(transactor.connection, later, quote.fees, [quote], transactor.address)]
-
-
-def price_wallet_calls(collection: Collection, calls: Sequence[ContractCall], fees: Fees) -> list[Quote]:
-    """Return the quotes of one or more calls that some wallet will send, so without an account.
+def price_calls(connection: Connection, calls: Sequence[Call], fees: Fees, sender: bytes | None = None) -> list[Quote]:
+    """Return the quotes of one or more transactions that follow each other. sender: None if a wallet sends them.
 
     Raises RevertError, with an explanation, if the first would revert.
     """
-    first = calls[0]
-    collection.contract.call(first.function, *first.arguments)
-    return make_quotes(collection.connection, _transactions(collection, calls), fees)
+    simulate(connection, calls[0], sender)
+    return make_quotes(connection, calls, fees, sender=sender)
 
 
 def header_of(collection: Collection, number: int, expected: bytes) -> bytes:
-    """Return the RLP header of a block from the node. Raises as `checked_header`. expected: the hash of the block."""
-    connection = collection.connection
-    return checked_header(connection.block(number), number, expected, connection.name)
+    """Return the RLP header of a block from the node. Raises NodeError if it is invalid.
 
-
-def checked_header(block: Mapping[str, Any], number: int, expected: bytes, name: str) -> bytes:
-    """Return the RLP header of a block, as `eth_getBlockByNumber` returns it.
-
-    expected: the hash of the block that the collection has. name: of the node, for messages. Raises NodeError if a
-    field is invalid or the hash is another one, InputError if the header has not the hash that the block states.
+    expected: the hash of the block that the collection has.
     """
+    name = collection.connection.name
     try:
-        header = encode_header(block)
-    except InputError:
-        raise
-    except (OverflowError, TypeError, ValueError):
-        raise NodeError(f"the {name} returned invalid fields of block {number:,}: {block!r:.60}") from None
+        header = encode_header(collection.connection.block(number))
+    except InputError as error:
+        raise NodeError(f"the {name} returned an invalid block {number:,}: {error}") from None
     found = keccak256(header)
     if found != expected:
         raise NodeError(
@@ -123,20 +100,15 @@ def checked_header(block: Mapping[str, Any], number: int, expected: bytes, name:
     return header
 
 
-def _transactions(collection: Collection, calls: Sequence[ContractCall]) -> list[Call]:
-    interface, address = collection.contract.interface, collection.address
-    return [call_of(interface, address, each.function, *each.arguments, gas=each.gas) for each in calls]
+def _proofs(collection: Collection, hashes: dict[int, bytes]) -> Iterator[tuple[str, Call]]:
+    """Yield transactions that go back, header by header, from a block whose hash is available to each of the old ones.
 
-
-def _proofs(collection: Collection, hashes: dict[int, bytes]) -> Iterator[ContractCall]:
-    """Yield calls that go back, header by header, from a block whose hash is available to each of the old ones.
-
-    hashes: by block; those of the old ones are zeros, and are replaced by what the calls prove.
+    hashes: by block; those of the old ones are zeros, and are replaced by what the transactions prove.
     """
     old = sorted((block for block, known in hashes.items() if not any(known)), reverse=True)
     if not old:
         return
-    latest = latest_block(collection)
+    latest = collection.connection.number("eth_blockNumber")
     starts = (max(latest - back, 1) for back in (KNOWN_BLOCKS, KNOWN_BLOCKS_BEFORE))
     number, expected = next(
         ((start, known) for start in starts if any(known := _hash_of(collection, start))), (0, bytes(32))
@@ -154,7 +126,8 @@ def _proofs(collection: Collection, hashes: dict[int, bytes]) -> Iterator[Contra
                 expected = headers[-1][4:36]
                 number -= 1
             # the contract then stores the hash of block `number`
-            yield ContractCall("keepHash", (first, headers), gas=FIRST_GAS + HEADER_GAS * len(headers))
+            gas = FIRST_GAS + HEADER_GAS * len(headers)
+            yield f"prove blocks before {first}", collection.contract.prepare("keepHash", first, headers, gas=gas)
         hashes[block] = expected
 
 
@@ -200,25 +173,22 @@ def check_randomness(connection: Connection, any_chain: bool = False) -> None:
 
 def _check_header(connection: Connection, block: dict[str, Any]) -> None:
     """Raise TransactionError if the function `reveal` would refuse a header."""
-    chain = connection.chain_id
+    never = f"tokens could never be revealed on chain {connection.chain_id}"
     try:
-        encode_header(block)
-        number = quantity(block.get("number"))
-    except (OverflowError, TypeError, ValueError) as error:
+        number, found = quantity(block.get("number")), to_hex(keccak256(encode_header(block)))
+    except (OverflowError, ValueError) as error:
+        raise TransactionError(f"{never}, whose headers are not Ethereum's: {error}") from None
+    if found != str(block.get("hash")).lower():
         raise TransactionError(
-            f"tokens could never be revealed on chain {chain}, whose headers are not Ethereum's: {error}"
-        ) from None
+            f"{never}, whose headers have other fields than Ethereum's: that of block {number:,} has the hash {found}, "
+            f"not {block.get('hash')!s:.66}"
+        )
     program = HASH_PROGRAM[0] + number.to_bytes(8, "big").hex() + HASH_PROGRAM[1]
     try:
-        found = connection.data("eth_call", {"data": "0x" + program}, "latest")
-    except RevertError:
-        return  # some nodes refuse calls without a receiver
-    except ChainError as error:
-        if type(error) is NodeError:
-            return
+        seen = to_hex(connection.data("eth_call", {"data": "0x" + program}, "latest"))
+    except NoAnswerError:
         raise
-    if to_hex(found) != str(block.get("hash")).lower():
-        raise TransactionError(
-            f"tokens could never be revealed on chain {chain}: its contracts see 0x{found.hex()} as the hash of block "
-            f"{number:,}, whose header has {block.get('hash')!s:.66}"
-        )
+    except (NodeError, RevertError):
+        return  # some nodes refuse calls without a receiver
+    if seen != found:
+        raise TransactionError(f"{never}: its contracts see {seen} as the hash of block {number:,}, which has {found}")

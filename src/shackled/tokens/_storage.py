@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
 
@@ -12,7 +11,6 @@ from ..chain import Connection, read_all
 from ..deploy import (
     Call,
     Deployer,
-    DeploymentStep,
     Fees,
     Plan,
     Quote,
@@ -20,6 +18,7 @@ from ..deploy import (
     Transactor,
     create,
     current_fees,
+    in_order,
     make_quotes,
 )
 from ..errors import VerificationError
@@ -28,7 +27,6 @@ from ..image import Image, decode_bmp
 from ..scene import Scene
 from ..studio import STUDIO, StoreTransaction, store_scene
 from ._contract import Contract
-from ._launch import address_of, parts_of
 
 #: The Studio has two functions called `render`.
 RENDER = "render(address)"
@@ -84,31 +82,30 @@ def plan_storage(connection: Connection, wanted: Iterable[SceneToStore], fees: F
     fees: None uses the current ones. Each scene is rendered first, so that errors occur before anything is paid.
     """
     fees = current_fees(connection) if fees is None else fees
-    parts = parts_of(STUDIO, itself=True)
-    studio = address_of(parts, STUDIO)
+    parts = in_order([STUDIO])
+    place = parts[-1].address
     stored: dict[bytes, tuple[str, StoreTransaction]] = {}
     pointers = []
     for each in wanted:
         render(each.scene)
-        transactions = store_scene(each.scene, bytes.fromhex(studio[2:]), each.position_bits, each.normal_bits)
+        transactions = store_scene(each.scene, place, each.position_bits, each.normal_bits)
         pointers.append(checksum_address(transactions[-1].pointer))
         for transaction in transactions:
             stored.setdefault(transaction.pointer, (each.name, transaction))
     is_there = read_all(partial(_is_stored, connection), list(stored))
     missing = [part for part, is_stored in zip(stored.values(), is_there, strict=True) if not is_stored]
     plan = Deployer(connection).plan(parts, fees)
-    place = bytes.fromhex(studio[2:])
     calls = [Call(place, each.data, each.gas, needs=plan.codes) for _, each in missing]
     quotes = make_quotes(connection, calls, fees, plan.quotes)
     quoted = (QuotedStorage(*named, quote) for named, quote in zip(missing, quotes, strict=True))
     codes = {pointer: each.code for pointer, (_, each) in stored.items()}
-    return StoragePlan(plan, studio, tuple(quoted), tuple(pointers), codes)
+    return StoragePlan(plan, checksum_address(place), tuple(quoted), tuple(pointers), codes)
 
 
 def store(
     storage: StoragePlan,
     transactor: Transactor,
-    report: Callable[[DeploymentStep, Sequence[Receipt]], None] | None = None,
+    report: Callable[[str, bytes, Receipt], None] | None = None,
 ) -> list[Receipt]:
     """Deploy missing contracts, store missing parts of scenes, and return the receipts of the latter.
 
@@ -126,7 +123,7 @@ def store(
         receipts.append(receipt)
         if report is not None:
             name = f"{quoted.name}, {each.what}, {each.size:,} bytes"
-            report(DeploymentStep(name, each.pointer, False), [receipt])
+            report(name, each.pointer, receipt)
     return receipts
 
 
@@ -136,15 +133,13 @@ def read_back(connection: Connection, studio: str, pointer: str, wanted: SceneTo
     Raises VerificationError if it is wrong; if the scene was stored exactly, all bytes are compared.
     """
     contract = Contract(connection, STUDIO, studio)
-    started = time.perf_counter()
     bmp: bytes = contract.call(RENDER, pointer)
-    seconds = time.perf_counter() - started
     pixels = decode_bmp(bmp, wanted.scene.width, wanted.scene.height)
     if wanted.position_bits is None and wanted.normal_bits == 10 and bmp != render(wanted.scene).bmp:
         raise VerificationError(
             f"the picture of {wanted.name} on chain {connection.chain_id} differs from the one computed here"
         )
-    return Image(pixels, bmp, contract.gas(RENDER, pointer), None, connection.name, seconds)
+    return Image(pixels, bmp, contract.gas(RENDER, pointer), None, connection.name)
 
 
 def _is_stored(connection: Connection, pointer: bytes) -> bool:

@@ -6,26 +6,20 @@ import base64
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ..artifacts import artifact
 from ..chain import CHAIN_ID, EmbeddedChain
 from ..deploy import Deployer, deployment, local_chain
 from ..errors import ChainError, NodeError, OutOfGasError, VerificationError
-from ..ethereum import checksum_address, keccak256, parse_address, to_hex, word
-from ..image import decode_bmp
+from ..ethereum import checksum_address, keccak256, to_hex, word
 from ..studio import STUDIO, stored_codes
 from ._collection import EDITIONS, Collection, CollectionKind
 from ._editions import Edition, edition_at
 from ._icons import CollectionIcon, icon_at
-from ._launch import CollectionTerms, creation_code, immutable_places, immutable_values, parts_of
-from ._metadata import Metadata, read_data_uri, shrink
+from ._launch import CollectionTerms, creation_code, immutable_values, parts_of
+from ._metadata import Metadata, read_data_uri
 
 #: The type of the EIP-712 domain of permissions.
 DOMAIN = b"EIP712Domain(string name,string version,uint256 chainId,address verifyingContract)"
-#: Side of the canvas, in pixels.
-SIDE = 128
 
 
 @dataclass(frozen=True)
@@ -39,10 +33,8 @@ class Check:
 
 def check_code(collection: Collection) -> Iterator[Check]:
     """Compare the code of a collection, and of all contracts that it calls, with the compiled contracts."""
-    connection = collection.connection
-    parts = parts_of(collection.kind.contract)
-    deployer = Deployer(connection)
-    for part in parts:
+    deployer = Deployer(collection.connection)
+    for part in parts_of(collection.kind.contract):
         what = f"{part.name} at {checksum_address(part.address)}"
         try:
             yield Check(what, "" if deployer.is_deployed(part) else "it is not deployed")
@@ -52,9 +44,9 @@ def check_code(collection: Collection) -> Iterator[Check]:
     try:
         check_collection_code(collection)
         yield Check(what)
+    except NodeError:
+        raise
     except ChainError as error:
-        if isinstance(error, NodeError):
-            raise
         yield Check(what, str(error))
 
 
@@ -63,76 +55,63 @@ def check_collection_code(collection: Collection) -> None:
 
     Raises VerificationError if a byte differs.
     """
-    connection, kind = collection.connection, collection.kind
+    kind, call = collection.kind, collection.contract.call
+    code = collection.connection.code(collection.contract.place)
     if kind is EDITIONS:
         # it has no terms, so its code is the same everywhere
-        (*_, expected) = parts_of(kind.contract, itself=True)
-        if connection.code(bytes.fromhex(collection.address[2:])) != expected.code:
+        if code != local_chain().code(kind.contract):
             raise VerificationError("its code differs from the compiled contract")
         return
     runtime = artifact(kind.contract).runtime
-    code = connection.code(bytes.fromhex(collection.address[2:]))
-    immutable_values(code, runtime)
+    values = immutable_values(code, runtime)
     # a local run of the constructor with unique numbers shows where it writes each of them
     sentinels = CollectionTerms("0x" + "11" * 20, "0x" + "11" * 20, price=0xABCDEF01, reserve=513, per_transaction=77)
-    trial, local = trial_code(kind, sentinels)
-    numbers = {"price": sentinels.price, "reserve": sentinels.reserve, "perTransaction": sentinels.per_transaction}
-    meaning = {
-        word(number): word(collection.contract.call(name))
-        for name, number in numbers.items()
-        if name in ("perTransaction", *kind.terms)
-    }
-    fixed = _fixed_values(kind)
-    here = {word(local.chain_id): {word(connection.chain_id)}}
-    if kind.hidden:
-        here.setdefault(word(local.block), set()).add(word(collection.contract.call("firstBlock")))
-    place = word(int(collection.address, 16))
-    for at in immutable_places(runtime):
-        value, found = trial[at : at + 32], code[at : at + 32]
-        if value in fixed:
-            allowed = {value}
-        elif value in meaning:
-            allowed = {meaning[value]}
-        elif value in here:
-            allowed = here[value]
+    parts = parts_of(kind.contract)
+    trial = deployment(kind.contract, creation_code(kind, parts, sentinels), [each.name for each in parts]).code
+    chain_id, place = collection.connection.chain_id, word(collection.contract.place)
+    meaning = {word(sentinels.per_transaction): word(call("perTransaction")), word(CHAIN_ID): word(chain_id)}
+    meaning |= {word(getattr(sentinels, term)): word(call(term)) for term in kind.terms}
+    meaning |= {value: value for value in _fixed_values(kind)}
+    for at, value in immutable_values(trial, runtime).items():
+        if value in meaning:
+            wanted = meaning[value]
+        elif int.from_bytes(value, "big") < 1 << 64:
+            wanted = word(call("firstBlock"))
         else:
-            allowed = {place if int.from_bytes(value, "big") < 1 << 160 else _domain(kind, connection.chain_id, place)}
-        if found not in allowed:
-            raise VerificationError(f"its code has 0x{found.hex()} at byte {at:,}, not 0x{min(allowed).hex()}")
+            wanted = place if int.from_bytes(value, "big") < 1 << 160 else _domain(kind, chain_id, place)
+        if values[at] != wanted:
+            raise VerificationError(f"its code has {to_hex(values[at])} at byte {at:,}, not {to_hex(wanted)}")
 
 
-def check_token(collection: Collection, token: int, local: EmbeddedChain, uri: str | None = None) -> Check:
+def check_token(collection: Collection, token: int, local: EmbeddedChain) -> Check:
     """Compare a token's seed with the block that determines it, and its `tokenURI` with the one computed here.
 
-    local: an EVM with the contracts. uri: the `tokenURI`, if it was read already.
+    local: an EVM with the contracts.
     """
-    what = f"{collection.name} #{token}"
+    what, call = f"{collection.name} #{token}", collection.contract.call
     try:
-        uri = collection.token_uri(token) if uri is None else uri
-        metadata = collection.parse(uri)
+        metadata = collection.metadata(token)
         if not collection.kind.hidden:
             return Check(f"{what}, {metadata.name}", _scene_failure(collection, token, metadata, local))
-        if not collection.is_revealed(token):
-            block = collection.contract.call("blockOf", collection.round_of(token))
-            expected = local.ask("GenesisMetadata", "hiddenURI", token, block)
-            return Check(
-                f"{what}, not revealed", "" if uri == expected else "its tokenURI differs from the one computed here"
-            )
-        drawn, failure = draw(collection, token)
-        if failure:
-            return Check(what, failure)
+        number = collection.round_of(token)
+        block_number, randomness = call("blockOf", number), call("randomnessOf", number)
+        if not any(randomness):
+            expected = local.ask("GenesisMetadata", "hiddenURI", token, block_number)
+            failure = "" if metadata.uri == expected else "its tokenURI differs from the one computed here"
+            return Check(f"{what}, not revealed", failure)
+        if collection.connection.block(block_number).get("mixHash") != to_hex(randomness):
+            return Check(what, f"the randomness of its round differs from that of block {block_number:,}")
+        drawn = keccak256(randomness + word(collection.contract.place) + word(token))
         seed, _ = local.ask("GenesisMetadata", "settle", drawn)
-        if seed != collection.contract.call("seedOf", token):
+        if seed != call("seedOf", token):
             return Check(what, "its seed does not follow from its block and its number")
-        bmp = local.ask("Genesis", "render", seed)
-        if uri != _of_chain(local.ask("GenesisMetadata", "tokenURI", token, drawn), collection.connection.chain_id):
-            return Check(what, "its tokenURI differs from the one computed here from its seed")
-        return Check(what, "" if _same_picture(metadata.pixels, bmp) else "its picture differs from that of its seed")
+        uri = _of_chain(local.ask("GenesisMetadata", "tokenURI", token, drawn), collection.connection.chain_id)
+        return Check(what, "" if metadata.uri == uri else "its tokenURI differs from the one computed from its seed")
     except OutOfGasError as error:
         return Check(what, unread=str(error))
+    except NodeError:
+        raise
     except ChainError as error:
-        if isinstance(error, NodeError):
-            raise
         return Check(what, str(error))
 
 
@@ -157,47 +136,11 @@ def _scene_failure(collection: Collection, token: int, metadata: Metadata, local
     return ""
 
 
-def draw(collection: Collection, token: int) -> tuple[bytes, str]:
-    """Return the random bytes of a token, computed here, and what is wrong with its round, or ""."""
-    number = collection.round_of(token)
-    randomness = collection.contract.call("randomnessOf", number)
-    block_number = collection.contract.call("blockOf", number)
-    block = collection.connection.block(block_number)
-    drawn = keccak256(randomness + word(parse_address(collection.address, "the collection")) + word(token))
-    if block.get("mixHash") != to_hex(randomness):
-        return drawn, f"the randomness of its round differs from that of block {block_number:,}"
-    return drawn, ""
-
-
 def _of_chain(uri: str, chain_id: int) -> str:
     """Return a `tokenURI` that was computed here as contracts on another chain return it: its link names the chain."""
     media_type, content = read_data_uri(uri, "the metadata")
     content = content.replace(f":{CHAIN_ID}/render/0x".encode(), f":{chain_id}/render/0x".encode())
     return f"data:{media_type};base64,{base64.b64encode(content).decode()}"
-
-
-def _same_picture(pixels: NDArray[np.uint8], bmp: bytes) -> bool:
-    small = shrink(pixels, SIDE, SIDE)
-    return small is not None and bool((small == decode_bmp(bmp, SIDE, SIDE)).all())
-
-
-@dataclass(frozen=True)
-class Surroundings:
-    """Properties of the chain that a constructor reads."""
-
-    chain_id: int
-    block: int
-
-
-def trial_code(kind: CollectionKind, terms: CollectionTerms) -> tuple[bytes, Surroundings]:
-    """Return the code of a collection from a local run of its constructor, and what the constructor read there."""
-    local, parts = local_chain(), parts_of(kind.contract)
-    made = deployment(kind.contract, creation_code(kind, parts, terms), [each.name for each in parts], local)
-    probe = bytes.fromhex("c0de") + bytes(17) + b"\xff"
-    # CHAINID PUSH0 MSTORE NUMBER PUSH1 32 MSTORE PUSH1 64 PUSH0 RETURN
-    local.put(probe, bytes.fromhex("465f524360205260405ff3"))
-    answer = local.run(probe, b"").output
-    return made.code, Surroundings(int.from_bytes(answer[:32], "big"), int.from_bytes(answer[32:], "big"))
 
 
 def _fixed_values(kind: CollectionKind) -> set[bytes]:

@@ -7,13 +7,14 @@ import hashlib
 import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from html import escape
 from importlib.resources import files
 from string import Template
 from typing import Any
 
 from ..chain import Report, read_all
-from ._collection import Collection, Token
+from ._collection import Collection
 from ._metadata import Metadata
 
 
@@ -41,7 +42,6 @@ class TokenView:
 
     def document(self) -> dict[str, Any]:
         """Return all properties, for JSON."""
-        picture = self.metadata.picture or b""
         height, width = self.metadata.pixels.shape[:2]
         return {
             "collection": self.collection,
@@ -50,11 +50,11 @@ class TokenView:
             "gas": self.gas,
             "bytes": self.metadata.length,
             "picture": {
-                "type": self.metadata.media_type,
+                "type": "image/png",
                 "width": width,
                 "height": height,
-                "bytes": len(picture),
-                "sha256": hashlib.sha256(picture).hexdigest(),
+                "bytes": len(self.metadata.picture),
+                "sha256": hashlib.sha256(self.metadata.picture).hexdigest(),
             },
         }
 
@@ -64,25 +64,22 @@ class TokenView:
         return str(self.token), shorten(self.owner), "yes" if self.revealed else "no", *cells
 
 
-def view_of(collection: Collection, token: Token, metadata: Metadata, gas: int | None = None) -> TokenView:
-    """Return the view of a token that was read already."""
-    return TokenView(collection.name, collection.address, token.number, token.owner, token.revealed, metadata, gas)
-
-
-def read_view(collection: Collection, number: int) -> TokenView:
-    """Read a token, and measure the gas of its `tokenURI`. Raises InputError if it does not exist."""
-    token, metadata = collection.token(number), collection.metadata(number)
-    return view_of(collection, token, metadata, collection.contract.gas("tokenURI", number))
+def read_view(collection: Collection, number: int, measured: bool = False) -> TokenView:
+    """Read a token. Raises InputError if it does not exist. measured: also measure the gas of its `tokenURI`."""
+    return TokenView(
+        collection.name,
+        collection.address,
+        number,
+        collection.owner_of(number),
+        collection.is_revealed(number),
+        collection.metadata(number),
+        collection.contract.gas("tokenURI", number) if measured else None,
+    )
 
 
 def read_views(collection: Collection, report: Report | None = None) -> Iterator[TokenView]:
     """Yield all tokens in the order of their numbers; several are read concurrently."""
-
-    def read(number: int) -> TokenView:
-        metadata = collection.metadata(number)
-        return view_of(collection, collection.token(number), metadata)
-
-    yield from read_all(read, range(collection.minted()), report)
+    yield from read_all(partial(read_view, collection), range(collection.minted()), report)
 
 
 def shorten(address: str) -> str:
@@ -94,17 +91,16 @@ def shorten(address: str) -> str:
 class ActionCost:
     """The gas of an action: of a transaction all of it, of a read the execution alone.
 
-    original: lowest and highest gas of the same action in the Shackled contracts of 2021; None if it is unknown.
+    original: gas of the same action in the Shackled contracts of 2021; None if it is unknown.
     """
 
     name: str
     gas: int
-    original: tuple[int, int] | None = None
+    original: int | None = None
 
 
-#: Gas of actions in the contracts of 2021.
-ORIGINAL_MINT_1 = (124_000, 124_000)
-ORIGINAL_MINT_5 = (712_000, 712_000)
+#: Gas of actions in the contracts of 2021; that of `tokenURI` from the lowest to the highest.
+ORIGINAL_MINT_1, ORIGINAL_MINT_5 = 124_000, 712_000
 ORIGINAL_TOKEN_URI = (5_700_000_000, 14_400_000_000)
 
 
@@ -112,13 +108,11 @@ def comparison(costs: Sequence[ActionCost]) -> list[tuple[str, str, str, str]]:
     """Return the rows of a table, heading first: action, gas, gas of the original, ratio."""
     rows = [("action", "gas", "original", "times less")]
     for cost in costs:
-        if cost.original is None:
-            rows.append((cost.name, f"{cost.gas:,}", "-", "-"))
-            continue
-        low, high = cost.original
-        original = _rounded_gas(low) if low == high else f"{_rounded_gas(low)} to {_rounded_gas(high)}"
-        ratios = [f"{each / cost.gas:,.{1 if each < 20 * cost.gas else 0}f}" for each in (low, high)]
-        rows.append((cost.name, f"{cost.gas:,}", original, " to ".join(dict.fromkeys(ratios))))
+        original, times = "-", "-"
+        if cost.original is not None:
+            ratio = cost.original / cost.gas
+            original, times = _rounded_gas(cost.original), f"{ratio:,.{1 if ratio < 20 else 0}f}"
+        rows.append((cost.name, f"{cost.gas:,}", original, times))
     return rows
 
 
@@ -167,7 +161,7 @@ def _section(place: str, name: str, tokens: Sequence[TokenView]) -> str:
 
 def _card(token: TokenView) -> str:
     metadata = token.metadata
-    data = base64.b64encode(metadata.picture or b"").decode()
+    data = base64.b64encode(metadata.picture).decode()
     traits = "".join(f"<dt>{escape(key)}</dt><dd>{escape(str(value))}</dd>" for key, value in metadata.traits.items())
     words = " ".join([metadata.name, token.owner, *(f"{key} {value}" for key, value in metadata.traits.items())])
     gas = "" if token.gas is None else f'<span class="gas number">{token.gas / 1e6:.2f} M gas</span>'
@@ -175,7 +169,7 @@ def _card(token: TokenView) -> str:
         f'<article data-words="{escape(words.lower())}">'
         f'<button class="picture" type="button" aria-label="Enlarge {escape(metadata.name)}"'
         f' data-about="{escape(metadata.description)}">'
-        f'<img src="data:{metadata.media_type};base64,{data}" alt="{escape(metadata.name)}"></button>'
+        f'<img src="data:image/png;base64,{data}" alt="{escape(metadata.name)}"></button>'
         f'<div class="words"><div class="head"><h3>{escape(metadata.name)}</h3>{gas}</div>'
         f'<dl class="traits">{traits}</dl>'
         f'<div class="owner"><code title="{escape(token.owner)}">{escape(shorten(token.owner))}</code>'

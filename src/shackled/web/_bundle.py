@@ -15,7 +15,7 @@ ASSETS = ("view.js", "evm.wasm", "contracts.json")
 
 @cache
 def asset(name: str) -> bytes:
-    """Return one of the files view.js, evm.wasm, contracts.json and stages.json."""
+    """Return one of the files view.js, evm.wasm, contracts.json, stages.json and template.html."""
     return module_bytes() if name == "evm.wasm" else files(__package__).joinpath(name).read_bytes()
 
 

@@ -28,18 +28,6 @@ GAS_LIMIT = 30_000_000_000
 MAX_CALL = 1 << 24
 #: The most bytes of a PNG file within a page.
 MAX_PNG = 1 << 19
-#: Milliseconds that a picture may take in the browser.
-TIMEOUT = 600_000
-
-STYLE = """
-:root { color-scheme: light dark; }
-body { margin: 0; padding: 1.5rem; font: 1rem/1.5 system-ui, sans-serif; }
-main { max-width: 34rem; margin: 0 auto; }
-h1 { margin: 0 0 1rem; font-size: 1.25rem; font-weight: 600; overflow-wrap: anywhere; }
-img { display: block; width: 100%; height: auto; }
-p { margin: 1rem 0 0; font-size: 0.8125rem; opacity: 0.8; }
-code { font: 0.92em ui-monospace, monospace; overflow-wrap: anywhere; }
-"""
 
 
 def export(
@@ -119,57 +107,19 @@ def make_page(image: Image, title: str, notice: str = "") -> bytes:
 @cache
 def page_template() -> str:
     """Return the page with places for the values of `make_page`: {{title}}, {{scene}} and so on."""
+    text, script = asset("template.html").decode(), asset("view.js").decode()
+    assert not re.search("</script|<!--", script, re.IGNORECASE)
+    style = text[text.index("<style>") + len("<style>") : text.index("</style>")]
     policy = (
-        f"default-src 'none'; script-src '{_hash(_script())}' 'wasm-unsafe-eval'; worker-src blob:; "
-        f"style-src '{_hash(STYLE)}'; img-src data:; connect-src http: https:; base-uri 'none'; form-action 'none'"
+        f"default-src 'none'; script-src '{_hash(script)}' 'wasm-unsafe-eval'; worker-src blob:; "
+        f"style-src '{_hash(style)}'; img-src data:; connect-src http: https:; base-uri 'none'; form-action 'none'"
     )
-    text = f"""<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="{policy}">
-<meta name="viewport" content="width=device-width">
-<meta name="generator" content="Shackled">
-<title>{{{{title}}}}</title>
-<style>{STYLE}</style>
-</head>
-<body>
-<main>
-<h1>{{{{title}}}}</h1>
-<shackled-view src="#scene" evm="#evm" contracts="#contracts" label="{{{{title}}}}" timeout="{TIMEOUT}">
-{{{{still}}}}
-</shackled-view>
-<p>A scene of {{{{triangles}}}}, drawn by the Ethereum smart contracts of Shackled. Turn it, and this browser runs the
-same contracts for each picture. As <code>shackled render</code> draws it: {{{{width}}}} x {{{{height}}}}
-pixels{{{{gas}}}}; SHA-256 of the pixels <code>{{{{sha256}}}}</code>.</p>
-{{{{notice}}}}
-</main>
-{_data("scene", "{{scene}}")}
-{_data("evm", "{{evm}}")}
-{_data("contracts", "{{contracts}}")}
-<script type="module">{_script()}</script>
-</body>
-</html>
-"""
-    return text
+    return text.replace("{{policy}}", policy).replace("{{script}}", script)
 
 
 @cache
 def _packed_asset(name: str) -> str:
     return packed(asset(name))
-
-
-def _data(name: str, text: str) -> str:
-    """Return an element with text that the script reads."""
-    return f'<script type="text/plain" id="{name}">{text}</script>'
-
-
-@cache
-def _script() -> str:
-    script = asset("view.js").decode()
-    assert "</script" not in script.lower()
-    assert "<!--" not in script
-    return script
 
 
 def _hash(text: str) -> str:

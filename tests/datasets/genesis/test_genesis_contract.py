@@ -19,21 +19,28 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from attrs import evolve
 
 from original_scenes import genesis_document
-from shackled import Light, render
+from shackled import render
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
-from shackled.datasets.genesis import COUNT, GenesisPiece, generate, parse_seed, picture_on_chain, seed_of
-from shackled.datasets.genesis._collection import find, pieces
-from shackled.datasets.genesis._contract import call, decode_piece
+from shackled.datasets.genesis import (
+    COUNT,
+    GenesisPiece,
+    call,
+    decode_piece,
+    find,
+    generate,
+    parse_seed,
+    picture_on_chain,
+    pieces,
+    seed_of,
+)
 from shackled.errors import InputError, RenderError
 from shackled.ethereum import keccak256
 from shackled.scene import encode
 from shackled.scene._files.original import original_scene
 
-SOURCES = Path(__file__).resolve().parents[3] / "contracts" / "src" / "genesis"
 VECTORS = Path(__file__).with_name("pieces.json")
 
 #: The median and the mean of the gas are over as many of the collection.
@@ -61,11 +68,6 @@ def vector(piece: GenesisPiece) -> list[str | int]:
     return [*names, piece.prisms, int(piece.wireframe), int(piece.invert), digest(piece)[:32]]
 
 
-def vectors() -> dict[str, list[str | int]]:
-    found: dict[str, list[str | int]] = json.loads(VECTORS.read_text("utf-8"))
-    return found
-
-
 def seeds() -> Iterator[bytes]:
     """Of the collection, others, and four that are hardly random."""
     yield from (seed_of(number) for number in range(SEEDS))
@@ -74,7 +76,7 @@ def seeds() -> Iterator[bytes]:
 
 
 def test_pieces_are_those_of_the_model() -> None:
-    expected = vectors()
+    expected: dict[str, list[str | int]] = json.loads(VECTORS.read_text("utf-8"))
     assert list(expected) == [seed.hex() for seed in seeds()]
     kinds = set()
     for seed, row in expected.items():
@@ -92,47 +94,28 @@ def test_pieces_are_those_of_the_original() -> None:
     assert whole == "886afc766687b5b269ac075ef7b459c25053e6312655d5b704e716316b59decc"
 
 
-def test_a_piece() -> None:
-    piece = generate(seed_of(3))
-    assert piece.seed.hex() == "4d3e28f746c4f4e200a8302ae65d4f6fd8a76f08915a294e7deed915354747e6"
-    assert (piece.structure, piece.chroma, piece.pseudosymmetry) == ("Uniform", "Sunset", "Diagonal")
-    assert (piece.prisms, piece.wireframe, piece.culling, piece.invert) == (4, True, False, False)
-    assert piece.background == ((250, 103, 247), (157, 104, 250))
-    assert piece.verts[:4] == [(-268, 650, -183), (-622, 650, -108), (-432, 344, -81), (-230, 689, -1)]
-    far, near = [(87, 0, 128), (0, 0, 122), (0, 0, 119)], [(148, 0, 255), (142, 0, 255), (220, 0, 255)]
-    assert piece.cols[:6] == far + near
-    assert piece.faces[6:9] == [(3, 5, 2), (9, 10, 11), (10, 9, 6)]
-
-
 @pytest.mark.parametrize(
     ("seed", "error"),
-    [
-        # the only one of so many: all triangles are to be equal, but each would be below the least size by a rounding
-        (keccak256(b"seed-308884"), "NoTriangle()"),
-        (keccak256(b"seed-253"), "NoPrismToChoose()"),
-    ],
+    # the first is the only one of so many: all triangles are to be equal, but each would be below the least size by a
+    # rounding
+    [("seed-308884", "NoTriangle()"), ("seed-253", "NoPrismToChoose()")],
 )
-def test_seeds_without_a_piece(seed: bytes, error: str) -> None:
+def test_seeds_without_a_piece(seed: str, error: str) -> None:
     for function in ("generate", "scene", "render", "renderDataURI", "renderSVG"):
         with pytest.raises(RenderError, match=re.escape(f"the contract refused: {error}")):
-            call(function, seed)
+            call(function, keccak256(seed.encode()))
 
 
-def test_scene_is_that_of_the_piece() -> None:
-    for number in range(24):
-        scene = generate(seed_of(number)).scene()
-        assert call("scene", seed_of(number)).output == encode(bytes(4), scene)[4:]
-        assert encode(b"", scene) == encode(b"", original_scene(genesis_document(number)))
-
-
-def test_traits_are_those_of_the_piece() -> None:
-    for number in range(24):
-        seed = seed_of(number)
-        piece, output = generate(seed), call("traits", seed).output
-        words = [int.from_bytes(output[at : at + 32], "big") for at in range(32, len(output), 32)]
-        assert words[3:6] == [piece.prisms, piece.wireframe, piece.invert]
-        for name, place in zip((piece.structure, piece.chroma, piece.pseudosymmetry), words, strict=False):
-            assert output[32 + place :].startswith(len(name).to_bytes(32, "big") + name.encode())
+@pytest.mark.parametrize("number", range(24))
+def test_scene_and_traits_are_those_of_the_piece(number: int) -> None:
+    seed = seed_of(number)
+    piece, output = generate(seed), call("traits", seed).output
+    assert call("scene", seed).output == encode(bytes(4), piece.scene())[4:]
+    assert encode(b"", piece.scene()) == encode(b"", original_scene(genesis_document(number)))
+    words = [int.from_bytes(output[at : at + 32], "big") for at in range(32, len(output), 32)]
+    assert words[3:6] == [piece.prisms, piece.wireframe, piece.invert]
+    for name, place in zip((piece.structure, piece.chroma, piece.pseudosymmetry), words, strict=False):
+        assert output[32 + place :].startswith(len(name).to_bytes(32, "big") + name.encode())
 
 
 @pytest.mark.parametrize("number", [0, 3, 4, 16])
@@ -142,9 +125,7 @@ def test_picture_is_that_of_the_scene(number: int) -> None:
     assert image.bmp == expected.bmp
     assert (image.triangles, image.covered_pixels) == (expected.triangles, expected.covered_pixels)
     assert (image.covered_pixels or 0) > 300
-    assert image.gas is not None
-    assert expected.gas is not None
-    assert image.gas > expected.gas
+    assert (image.gas or 0) > (expected.gas or 0)
 
 
 @pytest.mark.parametrize("function", ["renderDataURI", "renderSVG"])
@@ -153,20 +134,6 @@ def test_other_formats_are_those_of_the_renderer(function: str) -> None:
     scene = generate(seed_of(5)).scene()
     expected = chain.call("Renderer", encode(artifact("Renderer").selectors[function], scene)).output
     assert call(function, seed_of(5)).output == expected
-
-
-def test_light_comes_from_the_left() -> None:
-    scene = generate(seed_of(15)).scene()
-    image = picture_on_chain(generate(seed_of(15)))
-    brightened = image.pixels.astype(int) - render(evolve(scene, lights=[])).pixels
-    assert brightened.min() == 0
-    # black and green prisms, and a white light: black faces turn grey
-    red, green, blue = brightened.reshape(-1, 3).T
-    lit = (red > 20) & (green == red) & (blue == red)
-    assert lit.sum() > 100
-    # from the right, it is other faces that are lit
-    mirrored = render(evolve(scene, lights=[Light("directional", (50, 0, 0))])).pixels.astype(int)
-    assert ((mirrored - image.pixels).reshape(-1, 3)[lit] < 0).all()
 
 
 @pytest.mark.parametrize(
@@ -181,36 +148,8 @@ def test_gas(function: str, median: int, mean: int) -> None:
     assert max(gas) <= 5 * median
 
 
-def test_the_constants_are_sines() -> None:
-    """Those of the original, whose table is rough: sin 30, sin 60 and cos 12 degrees are known to the last digit."""
-    text = (SOURCES / "Trigonometry.sol").read_text("utf-8")
-    table = bytes.fromhex("".join(re.findall(r'hex"([0-9a-f]+)"', text)))
-    sines = [int.from_bytes(table[at : at + 8], "big", signed=True) for at in range(0, len(table), 8)]
-    exact = np.sin(np.radians(30 * np.arange(15)))
-    assert np.abs(np.array(sines, float) / 1e18 - exact).max() < 5e-6
-    assert (sines[1], sines[3]) == (499997878680004681, 10**18)
-    found = {
-        (name, int(degrees)): int(value) for name, degrees, value in re.findall(r"(SINE|COSINE)_(\d+) = (-?\d+);", text)
-    }
-    assert len(found) == 6
-    assert (found["SINE", 12], found["COSINE", 12]) == (207911222804296399, 978145476420477720)
-    assert (found["SINE", 30], found["COSINE", 30]) == (499997878680004681, 866021797929900604)
-    assert found["SINE", 348] == -207911314539570042
-    for (name, degrees), value in found.items():
-        function = np.sin if name == "SINE" else np.cos
-        assert abs(value / 1e18 - function(np.radians(degrees))) < 5e-6, (name, degrees)
-
-
-def test_tags_know_their_lengths() -> None:
-    text = "".join(path.read_text("utf-8") for path in SOURCES.glob("*.sol"))
-    tags = re.findall(r'Tag\.wrap\(bytes32\("(\w+)"\) \| bytes32\(uint256\((\d+)\)\)\)', text)
-    assert len(tags) >= 30
-    assert [tag for tag, length in tags if len(tag) != int(length)] == []
-
-
 def test_the_collection() -> None:
-    names = [piece.name for piece in pieces()]
-    assert names == [f"genesis/{number}" for number in range(COUNT)]
+    assert [piece.name for piece in pieces()] == [f"genesis/{number}" for number in range(COUNT)]
     piece = find("12")
     assert piece is not None
     assert (piece.name, piece.dataset) == ("genesis/12", "genesis")
@@ -257,10 +196,8 @@ def main() -> None:
         return
     for name in ("generate", "render"):
         figures = np.array([call(name, seed_of(number)).gas for number in range(options.count)])
-        print(
-            f"{name}: median {np.median(figures):,.0f}, mean {figures.mean():,.0f},"
-            f" {figures.min():,} to {figures.max():,} gas"
-        )
+        middle, mean = np.median(figures), figures.mean()
+        print(f"{name}: median {middle:,.0f}, mean {mean:,.0f}, {figures.min():,} to {figures.max():,} gas")
 
 
 if __name__ == "__main__":

@@ -20,18 +20,12 @@ from shackled.scene._mesh import DEFAULT_COLOR
 Values = NDArray[Any]
 
 
-class Writer:
+class Writer(Gltf):
     """A document of two scenes, each of some trees of nodes; meshes are shown once, several times, or not at all."""
 
     def __init__(self, seed: int) -> None:
+        super().__init__(materials=[{}, {"pbrMetallicRoughness": {"baseColorFactor": [0.25, 1.0, 0.5, 1.0]}}])
         self.random = np.random.default_rng(seed)
-        self.data = b""
-        self.document: dict[str, Any] = {
-            "asset": {"version": "2.0"},
-            "accessors": [],
-            "bufferViews": [],
-            "materials": [{}, {"pbrMetallicRoughness": {"baseColorFactor": [0.25, 1.0, 0.5, 1.0]}}],
-        }
         self.with_normals = bool(self.chance(0.5))
         self.document["meshes"] = [
             {"primitives": [self.primitive() for _ in range(self.random.integers(1, 4))]} for _ in range(3)
@@ -87,7 +81,7 @@ class Writer:
         if self.chance(0.6):
             kind = str(self.random.choice(["u1", "u2", "u4"]))
             order = self.random.integers(0, count, 3 * int(self.random.integers(1, 6))).astype(kind)
-            primitive["indices"] = self.accessor(order[:, None])
+            primitive["indices"] = self.rows(order[:, None])
         if self.chance(0.5):
             primitive["material"] = int(self.random.integers(2))
         return primitive
@@ -95,17 +89,17 @@ class Writer:
     def positions(self, count: int) -> int:
         kind = self.random.choice(["f4", "i1", "u1", "i2", "u2"])
         if kind == "f4":
-            return self.accessor(self.random.normal(size=(count, 3)).astype(kind), sparse=self.chance(0.4))
+            return self.rows(self.random.normal(size=(count, 3)).astype(kind), sparse=self.chance(0.4))
         limits = np.iinfo(kind)
         values = self.random.integers(limits.min, limits.max, (count, 3), dtype=kind, endpoint=True)
-        return self.accessor(values, normalized=self.chance(0.7), sparse=self.chance(0.3))
+        return self.rows(values, normalized=self.chance(0.7), sparse=self.chance(0.3))
 
     def colors(self, count: int) -> int:
         width = int(self.random.integers(3, 5))
         kind = self.random.choice(["f4", "u1", "u2"])
         if kind == "f4":
-            return self.accessor(self.random.random((count, width)).astype(kind))
-        return self.accessor(
+            return self.rows(self.random.random((count, width)).astype(kind))
+        return self.rows(
             self.random.integers(0, np.iinfo(kind).max, (count, width), dtype=kind, endpoint=True), normalized=True
         )
 
@@ -113,11 +107,11 @@ class Writer:
         values = self.random.normal(size=(count, 3))
         values /= np.linalg.norm(values, axis=1, keepdims=True)
         if self.chance(0.5):
-            return self.accessor(values.astype("f4"))
+            return self.rows(values.astype("f4"))
         kind = self.random.choice(["i1", "i2"])
-        return self.accessor(np.rint(values * np.iinfo(kind).max).astype(kind), normalized=True)
+        return self.rows(np.rint(values * np.iinfo(kind).max).astype(kind), normalized=True)
 
-    def accessor(self, values: Values, normalized: bool = False, sparse: bool = False) -> int:
+    def rows(self, values: Values, normalized: bool = False, sparse: bool = False) -> int:
         count, width = values.shape
         accessor: dict[str, Any] = {"componentType": self.code(values), "count": count, "type": TYPES[width]}
         if normalized:
@@ -128,35 +122,31 @@ class Writer:
             )
             accessor["sparse"] = {
                 "count": len(places),
-                "indices": {**self.view(places[:, None], False), "componentType": self.code(places)},
-                "values": self.view(values[places], False),
+                "indices": {**self.place(places[:, None], False), "componentType": self.code(places)},
+                "values": self.place(values[places], False),
             }
         if not sparse or self.chance(0.5):
-            accessor |= self.view(values, width > 1)
+            accessor |= self.place(values, width > 1)
         self.document["accessors"].append(accessor)
         return len(self.document["accessors"]) - 1
 
     def code(self, values: Values) -> int:
         return CODES[values.dtype.str[1:]]
 
-    def view(self, values: Values, may_have_gaps: bool) -> dict[str, int]:
+    def place(self, values: Values, may_have_gaps: bool) -> dict[str, int]:
         """The bytes, at some place in a view of their own; with gaps between the rows, if they may."""
         rows = [row.tobytes() for row in values]
-        view: dict[str, int] = {"buffer": 0}
+        stride: dict[str, int] = {}
         if may_have_gaps and self.chance(0.4):
-            view["byteStride"] = stride = (len(rows[0]) + 3) // 4 * 4 + 4
-            rows = [row + b"\xee" * (stride - len(row)) for row in rows]
+            stride["byteStride"] = size = (len(rows[0]) + 3) // 4 * 4 + 4
+            rows = [row.ljust(size, b"\xee") for row in rows]
         start = 4 * int(self.random.integers(3))
-        self.data += bytes(-len(self.data) % 4)
-        view |= {"byteOffset": len(self.data), "byteLength": start + sum(map(len, rows))}
-        self.data += b"\xdd" * start + b"".join(rows)
-        self.document["bufferViews"].append(view)
-        return {"bufferView": len(self.document["bufferViews"]) - 1, "byteOffset": start}
+        number = self.view(b"\xdd" * start + b"".join(rows))
+        self.document["bufferViews"][number] |= stride
+        return {"bufferView": number, "byteOffset": start}
 
     def write(self, folder: Path) -> Path:
-        file = Gltf()
-        file.document, file.data = self.document, self.data
-        return file.gltf(folder / "model.gltf") if self.chance(0.5) else file.glb(folder / "model.glb")
+        return self.gltf(folder / "model.gltf") if self.chance(0.5) else self.glb(folder / "model.glb")
 
 
 def srgb(color: gltf_reader.Vector) -> list[float]:

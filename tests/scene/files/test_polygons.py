@@ -26,24 +26,13 @@ def star(distances: list[float]) -> Array:
     return np.asarray(np.stack([np.cos(turns), np.sin(turns), 0 * turns], axis=1) * np.array(distances)[:, None])
 
 
-def vector_area(points: Array) -> Array:
-    """What is the same for any way to cut a polygon, along the normal from which it runs counter-clockwise."""
-    area: Array = np.cross(points, np.roll(points, -1, axis=0)).sum(axis=0) / 2
-    return area
-
-
-def cut_areas(points: Array) -> Array:
+def check_filled(points: Array) -> None:
+    """The triangles have the area of the polygon, however it is cut, and all turn as it does."""
+    whole = np.cross(points, np.roll(points, -1, axis=0)).sum(axis=0) / 2
     triangles = cut(points, [len(points)], np.arange(len(points)))
     assert (triangles[:, 3] == 0).all()
     a, b, c = np.moveaxis(points[triangles[:, :3]], 1, 0)
-    areas: Array = np.cross(b - a, c - a) / 2
-    return areas
-
-
-def check_filled(points: Array) -> None:
-    """The triangles have the area of the polygon, and all turn as it does."""
-    whole, areas = vector_area(points), cut_areas(points)
-    size = float(np.linalg.norm(whole))
+    areas, size = np.cross(b - a, c - a) / 2, float(np.linalg.norm(whole))
     np.testing.assert_allclose(areas.sum(axis=0), whole, atol=1e-9 * size)
     assert np.linalg.norm(areas, axis=1).sum() == pytest.approx(size, rel=1e-6)
 

@@ -6,12 +6,12 @@ import pytest
 
 import mesh_files
 from mesh_files import corner_colors, corner_positions
-from shackled.errors import InputError
-from shackled.scene import Mesh, read_mesh
+from shackled.scene import Mesh
 from shackled.scene._mesh import DEFAULT_COLOR
 
 POINTS = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
 ASCII_STL = "solid s\nfacet normal 0 0 1\nouter loop\n{}endloop\nendfacet\nendsolid s\n"
+ONE = ASCII_STL.format("".join(f"vertex {x} {y} {z}\n" for x, y, z in POINTS))
 
 
 def binary(declared: int, attributes: tuple[int, ...] = (0,), header: bytes = b"") -> bytes:
@@ -26,62 +26,33 @@ def read_with_notes(folder: Path, content: bytes) -> tuple[Mesh, list[str]]:
     return mesh_files.read_with_notes(folder / "model.stl", content)
 
 
-def test_stl_in_binary(tmp_path: Path) -> None:
-    path = tmp_path / "model.stl"
-    triangle = struct.pack("<12fH", 0, 0, 1, *(float(c) for point in POINTS for c in point), 0)
-    path.write_bytes(bytes(80) + struct.pack("<I", 2) + 2 * triangle)
-    mesh = read_mesh(path)
-    assert corner_positions(mesh) == [[list(p) for p in POINTS]] * 2
-    assert len(mesh.positions) == 3
-    assert corner_colors(mesh) == [[list(DEFAULT_COLOR)] * 3] * 2
-    assert mesh.normals is None
-
-
-def test_stl_as_text_with_two_solids(tmp_path: Path) -> None:
-    path = tmp_path / "model.STL"
-    one = ASCII_STL.format("".join(f"vertex {x} {y} {z}\n" for x, y, z in POINTS))
-    path.write_text(one + one.replace("vertex 1 0 0", "vertex 2 0 0"))
-    mesh = read_mesh(path)
-    assert mesh.triangles == 2
-    assert len(mesh.positions) == 4
+def test_equal_corners_are_one_vertex(tmp_path: Path) -> None:
+    mesh, _ = read_with_notes(tmp_path, ONE.encode() + ONE.replace("vertex 1 0 0", "vertex 2 0 0").encode())
+    assert (mesh.triangles, len(mesh.positions), mesh.normals) == (2, 4, None)
 
 
 def test_line_ends_of_an_old_mac_and_names_of_any_words(tmp_path: Path) -> None:
-    path = tmp_path / "model.stl"
-    text = ASCII_STL.format("".join(f"VERTEX {x} {y} {z}\n" for x, y, z in POINTS))
-    path.write_bytes(text.replace("solid s", "solid a vertex 1 2 3 endfacet").replace("\n", "\r").encode())
-    assert corner_positions(read_mesh(path)) == [[list(p) for p in POINTS]]
+    text = ONE.replace("vertex", "VERTEX").replace("solid s", "solid a vertex 1 2 3 endfacet").replace("\n", "\r")
+    mesh, _ = read_with_notes(tmp_path, text.encode())
+    assert corner_positions(mesh) == [[list(p) for p in POINTS]]
 
 
 @pytest.mark.parametrize(
     ("content", "message"),
     [
+        (b"\x00\x01garbage!" * 10, "it is not text, and with 100 bytes too short for a triangle of a binary STL file"),
+        (binary(9)[:-3], "it is not text, and with 131 bytes too short for a triangle of a binary STL file"),
         (
-            b"\x00\x01garbage!" * 10,
-            ": it is not text, and with 100 bytes too short for a triangle of a binary STL file",
+            ONE.replace("1 0 0", "1 zero 0").encode(),
+            "facet 1 has a vertex that is not three numbers: [['0', '0', '0'], ['1', 'zero', '0'], ['0', '1', '0']]",
         ),
-        (
-            ASCII_STL.format("vertex 0 0 0\nvertex 1 zero 0\nvertex 0 1 0\n").encode(),
-            ": facet 1 has a vertex that is not three numbers: [['0', '0', '0'], ['1', 'zero', '0'], ['0', '1', '0']]",
-        ),
-        (ASCII_STL.format("vertex 0 0 0\nvertex 1 0 0\n").encode(), ": facet 1 has 2 vertices, not 3"),
-        (b"solid of nothing\nendsolid\n", ": it has no triangles"),
-        (b"\0x" * 42, ": it is not text, and with 84 bytes too short for a triangle"),
-        (binary(9)[:-3], ": it is not text, and with 131 bytes too short for a triangle"),
-        (
-            ASCII_STL.format("vertex 0 0 0\nvertex 1 nan 0\nvertex 0 1 0\n").encode(),
-            ": none of its facets has finite coordinates",
-        ),
+        (ONE.replace("vertex 0 1 0\n", "").encode(), "facet 1 has 2 vertices, not 3"),
+        (b"solid of nothing\nendsolid\n", "it has no triangles"),
+        (ONE.replace("1 0 0", "1 nan 0").encode(), "none of its facets has finite coordinates"),
     ],
 )
 def test_broken_stl_is_told_in_one_line(tmp_path: Path, content: bytes, message: str) -> None:
-    path = tmp_path / "model.stl"
-    path.write_bytes(content)
-    with pytest.raises(InputError) as error:
-        read_mesh(path)
-    assert str(error.value).startswith(str(path))
-    assert message in str(error.value)
-    assert "\n" not in str(error.value)
+    assert mesh_files.refusal(tmp_path / "model.stl", content) == message
 
 
 SAYS = "its header says {}; there are 2, which are read"
@@ -91,15 +62,11 @@ TWO = (0, 0)
 @pytest.mark.parametrize(
     ("content", "notes"),
     [
-        (binary(2, TWO), []),
         (binary(2, TWO, b"solid made by a program"), []),
-        (binary(0, TWO), [SAYS.format("0 facets")]),
-        (binary(1, TWO), [SAYS.format("1 facet")]),
         (binary(2**32 - 1, TWO), [SAYS.format("4,294,967,295 facets")]),
-        (binary(2, TWO)[:-2], []),
+        (binary(1, TWO), [SAYS.format("1 facet")]),
         (binary(2, TWO)[:-1], []),
         (binary(3, (0, 0, 0))[:-3], [SAYS.format("3 facets"), "what is behind its facets is left out: 47 bytes"]),
-        (binary(2, TWO) + b"\r\n", ["what is behind its facets is left out: 2 bytes"]),
         (binary(2, TWO) + b"x", ["what is behind its facets is left out: 1 byte"]),
         (binary(2, TWO) + b"a thumbnail" * 9, ["what is behind its facets is left out: 99 bytes"]),
     ],
@@ -111,18 +78,16 @@ def test_wrong_lengths_of_binary_files(tmp_path: Path, content: bytes, notes: li
     assert told == notes
 
 
-@pytest.mark.parametrize("end", ["\0", "\0" * 500, "\r\n", "\n\0\0"])
+@pytest.mark.parametrize("end", ["\0" * 500, "\r\n", "\n\0\0"])
 def test_what_may_be_behind_a_text(tmp_path: Path, end: str) -> None:
-    text = ASCII_STL.format("".join(f"vertex {x} {y} {z}\n" for x, y, z in POINTS)).replace("\n", "\r\n") + end
-    mesh, told = read_with_notes(tmp_path, text.encode())
+    mesh, told = read_with_notes(tmp_path, (ONE.replace("\n", "\r\n") + end).encode())
     assert (corner_positions(mesh), told) == ([[list(p) for p in POINTS]], [])
 
 
 @pytest.mark.parametrize("number", ["nan", "-inf", "-1.#IND", "1.#QNAN0", "-nan(ind)"])
 def test_facets_that_are_not_finite_are_left_out(tmp_path: Path, number: str) -> None:
     note = "facets with coordinates that are not finite numbers are left out: 1"
-    one = ASCII_STL.format("".join(f"vertex {x} {y} {z}\n" for x, y, z in POINTS))
-    mesh, told = read_with_notes(tmp_path, (one.replace("vertex 1 0 0", f"vertex 1 {number} 0") + one).encode())
+    mesh, told = read_with_notes(tmp_path, (ONE.replace("vertex 1 0 0", f"vertex 1 {number} 0") + ONE).encode())
     assert (corner_positions(mesh), told) == ([[list(p) for p in POINTS]], [note])
     content = bytearray(binary(2, (31 | 1 << 15, 31 << 10 | 1 << 15)))
     content[84 + 12 : 84 + 16] = struct.pack("<f", np.nan)

@@ -19,9 +19,10 @@ import shackled
 from mesh_files import Gltf, png
 from shackled import InputError, Material, Mesh, Object, Scene, Texture, load
 from shackled.errors import InputWarning
-from shackled.scene import decode, read_mesh, read_model, render_call, simplify
+from shackled.scene import read_mesh, read_model, render_call, simplify
 from shackled.scene._files.model import TEXTURED
 from shackled.scene._packed import unpack_texture
+from shackled.scene._texture import sample
 
 Pixels = NDArray[np.uint8]
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=np.float32)
@@ -34,7 +35,7 @@ def pixels_of(width: int, height: int, seed: int = 1) -> Pixels:
 
 
 def glb(path: Path, images: list[bytes | str], samplers: list[dict[str, int]] | None = None, **more: Any) -> Path:
-    """A GLB with a square for each image: its bytes, or a URI. more: uvs, colors, factor."""
+    """A GLB with a square for each image: its bytes, or a URI. more: uvs, colors, factor, index."""
     file = Gltf()
     attributes = {
         "POSITION": file.accessor(SQUARE),
@@ -42,27 +43,17 @@ def glb(path: Path, images: list[bytes | str], samplers: list[dict[str, int]] | 
     }
     if "colors" in more:
         attributes["COLOR_0"] = file.accessor(np.asarray(more["colors"], dtype=np.float32))
-    indices = file.accessor(FACES)
-    count = len(images)
+    primitive = {"attributes": attributes, "indices": file.accessor(FACES)}
+    numbers = range(len(images))
+    infos = [{"baseColorTexture": {"index": more.get("index", number)}} for number in numbers]
     file.document |= {
         "images": [{"uri": each} if isinstance(each, str) else {"bufferView": file.view(each)} for each in images],
         "samplers": samplers or [{}],
-        "textures": [{"source": number, "sampler": number if samplers else 0} for number in range(count)],
-        "materials": [
-            {
-                "pbrMetallicRoughness": {
-                    "baseColorTexture": {"index": more.get("index", number)},
-                    **more.get("factor", {}),
-                }
-            }
-            for number in range(count)
-        ],
-        "meshes": [
-            {"primitives": [{"attributes": attributes, "indices": indices, "material": number}]}
-            for number in range(count)
-        ],
-        "nodes": [{"mesh": number, "translation": [2 * number, 0, 0]} for number in range(count)],
-        "scenes": [{"nodes": list(range(count))}],
+        "textures": [{"source": number, "sampler": number if samplers else 0} for number in numbers],
+        "materials": [{"pbrMetallicRoughness": info | more.get("factor", {})} for info in infos],
+        "meshes": [{"primitives": [{**primitive, "material": number}]} for number in numbers],
+        "nodes": [{"mesh": number, "translation": [2 * number, 0, 0]} for number in numbers],
+        "scenes": [{"nodes": list(numbers)}],
     }
     return file.glb(path)
 
@@ -190,40 +181,45 @@ def test_coordinates_that_are_no_numbers(tmp_path: Path, value: float) -> None:
     ]
 
 
-def test_a_missing_image_leaves_white(tmp_path: Path) -> None:
-    path = glb(tmp_path / "a.glb", ["lost.png"])
-    with pytest.warns(InputWarning) as told:
-        scene = load(path)
-    assert messages(told) == [f"{path}: a texture is left out: images[0].uri: {tmp_path / 'lost.png'} does not exist"]
-    assert scene.objects[0].material.texture is None
-    assert (scene.objects[0].mesh.colors == 255).all()
-
-
 def test_an_image_inside_of_the_document(tmp_path: Path) -> None:
     pixels = pixels_of(4, 4)
     uri = "data:image/png;base64," + base64.b64encode(png(pixels)).decode()
     assert (texture_of(load(glb(tmp_path / "a.glb", [uri]))).pixels == pixels).all()
 
 
-@pytest.mark.parametrize(
-    "uri", ["data:image/png;base64,####", "data:image/png;base64,AAAA", "data:,no image", "../a.png", "http://x/a.png"]
-)
-def test_data_that_are_no_image(tmp_path: Path, uri: str) -> None:
-    path = glb(tmp_path / "a.glb", [uri])
-    with pytest.warns(InputWarning, match=r"a texture is left out: images\[0\]"):
-        assert load(path).objects[0].material.texture is None
-
-
 def chunk(kind: bytes, content: bytes) -> bytes:
     return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
 
 
-def test_an_image_that_says_it_is_huge(tmp_path: Path) -> None:
-    header = chunk(b"IHDR", struct.pack(">IIBBBBB", 60_000, 60_000, 8, 2, 0, 0, 0))
-    data = b"\x89PNG\r\n\x1a\n" + header + chunk(b"IDAT", zlib.compress(bytes(1000))) + chunk(b"IEND", b"")
-    path = glb(tmp_path / "a.glb", [data])
-    with pytest.warns(InputWarning, match=r"a texture is left out: images\[0\]"):
-        assert load(path).objects[0].material.texture is None
+#: A PNG file that says it is huge.
+HUGE = b"\x89PNG\r\n\x1a\n" + b"".join(
+    (
+        chunk(b"IHDR", struct.pack(">IIBBBBB", 60_000, 60_000, 8, 2, 0, 0, 0)),
+        chunk(b"IDAT", zlib.compress(bytes(1000))),
+        chunk(b"IEND", b""),
+    )
+)
+
+
+@pytest.mark.parametrize(
+    ("image", "message"),
+    [
+        ("lost.png", ".uri: {folder}/lost.png does not exist"),
+        ("data:image/png;base64,####", " is not an image that can be read"),
+        ("data:,no image", " is not an image that can be read"),
+        ("../a.png", ".uri is '../a.png'; only files in the folder of the glTF file are read"),
+        ("http://x/a.png", ".uri is 'http://x/a.png'; only files in the folder of the glTF file are read"),
+        (HUGE, " is not an image that can be read"),
+    ],
+    ids=lambda value: str(value)[:20],
+)
+def test_an_image_that_cannot_be_had_leaves_white(tmp_path: Path, image: bytes | str, message: str) -> None:
+    path = glb(tmp_path / "a.glb", [image])
+    with pytest.warns(InputWarning) as told:
+        scene = load(path)
+    assert messages(told) == [f"{path}: a texture is left out: images[0]{message.format(folder=tmp_path)}"]
+    assert scene.objects[0].material.texture is None
+    assert (scene.objects[0].mesh.colors == 255).all()
 
 
 def test_a_texture_that_is_not_there(tmp_path: Path) -> None:
@@ -232,82 +228,50 @@ def test_a_texture_that_is_not_there(tmp_path: Path) -> None:
         load(path)
 
 
-# ---- OBJ ----
-
-OBJ = """mtllib m.mtl
-v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0
-vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1
-usemtl a\nf 1/1 2/2 3/3\nf 1/2 3/3 4/4
-"""
-
-
-def obj(folder: Path, materials: str, text: str = OBJ) -> Path:
-    (folder / "m.mtl").write_text(materials)
-    (folder / "a.obj").write_text(text)
-    return folder / "a.obj"
-
-
-def test_corners_of_an_obj_have_their_own_coordinates(tmp_path: Path) -> None:
-    pixels = pixels_of(5, 5)
-    Image.fromarray(pixels).save(tmp_path / "wood.png")
-    scene = load(obj(tmp_path, "newmtl a\nKd 0.1 0.1 0.1\nmap_Kd wood.png\n"))
-    assert texture_of(scene) == Texture(pixels)
-    mesh = scene.objects[0].mesh
-    assert mesh.uvs is not None
-    # v is upward in the file
-    assert mesh.uvs[mesh.faces].tolist() == [[[0, 1], [1, 1], [1, 0]], [[1, 1], [1, 0], [0, 0]]]
-    assert len(mesh.positions) == 5
-    assert (mesh.colors == 255).all()
+# ---- other ways ----
 
 
 def test_an_obj_with_two_textures_and_a_color(tmp_path: Path) -> None:
     for name in ("wood", "bark"):
-        Image.fromarray(pixels_of(4, 4, len(name) + ord(name[0]))).save(tmp_path / f"{name}.png")
-    materials = "newmtl a\nmap_Kd wood.png\nnewmtl b\nmap_Kd -clamp on bark.png\nnewmtl c\nKd 1 0 0\n"
-    text = OBJ + "usemtl b\nf 1/1 2/2 4/4\nusemtl c\nf 2 3 4\n"
-    parts = read_model(obj(tmp_path, materials, text))
-    assert [part.mesh.triangles for part in parts] == [1, 2, 1]
-    assert [getattr(part.material.get("texture"), "wrap", None) for part in parts] == [None, "repeat", "clamp"]
+        Image.fromarray(pixels_of(4, 4, ord(name[0]))).save(tmp_path / f"{name}.png")
+    (tmp_path / "m.mtl").write_text(
+        "newmtl a\nmap_Kd wood.png\nnewmtl b\nmap_Kd -clamp on bark.png\nnewmtl c\nKd 1 0 0\n"
+    )
+    (tmp_path / "a.obj").write_text(
+        "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+        "usemtl a\nf 1/1 2/2 3/3\nf 1/2 3/3 4/4\nusemtl b\nf 1/1 2/2 4/4\nusemtl c\nf 2 3 4\n"
+    )
+    plain, wood, bark = read_model(tmp_path / "a.obj")
+    assert [part.mesh.triangles for part in (plain, wood, bark)] == [1, 2, 1]
+    assert (plain.material, wood.material["texture"].wrap, bark.material["texture"].wrap) == ({}, "repeat", "clamp")
+    # corners have their own coordinates, of which v is upward in the file
+    assert np.asarray(wood.mesh.uvs)[wood.mesh.faces].tolist() == [[[0, 1], [1, 1], [1, 0]], [[1, 1], [1, 0], [0, 0]]]
+    assert (len(wood.mesh.positions), (wood.mesh.colors == 255).all()) == (5, True)
     with pytest.warns(InputWarning, match=TEXTURED):
         assert read_mesh(tmp_path / "a.obj").triangles == 4
 
 
-# ---- other ways ----
-
-
-def textured(pixels: Pixels | None = None) -> Object:
-    mesh = Mesh(SQUARE, FACES.reshape(-1, 3), [[255, 255, 255]] * 4, None, UVS)
-    return Object(mesh, material=Material(texture=Texture(pixels_of(6, 5) if pixels is None else pixels, "nearest")))
-
-
-def test_scene_files_links_and_pictures_keep_textures(tmp_path: Path) -> None:
-    scene = Scene([textured(), textured(pixels_of(20, 20))], width=32, height=32)
-    scene.save(tmp_path / "scene.json")
-    assert load(tmp_path / "scene.json") == scene
-    call = render_call(scene)
-    assert render_call(decode(call)) == call
-    shackled.render(scene).save(tmp_path / "scene.png")
-    assert render_call(load(tmp_path / "scene.png")) == call
+def textured() -> Object:
+    mesh = Mesh(SQUARE, FACES.reshape(-1, 3), "white", uvs=UVS)
+    return Object(mesh, material=Material(texture=Texture(pixels_of(6, 5), "nearest")))
 
 
 def test_a_texture_by_its_path_in_a_scene_file(tmp_path: Path) -> None:
     pixels = pixels_of(3, 3)
     Image.fromarray(pixels).save(tmp_path / "wood.png")
     mesh = f"{{ positions = {SQUARE.tolist()}, faces = {FACES.reshape(-1, 3).tolist()}, uvs = {UVS.tolist()} }}"
-    path = tmp_path / "scene.toml"
-    path.write_text(f'[[objects]]\nmesh = {mesh}\nmaterial = {{ texture = "wood.png" }}\n')
-    assert texture_of(load(path)) == Texture(pixels)
-    keys = 'image = "wood.png", filter = "nearest", wrap = "clamp"'
-    path.write_text(f"[[objects]]\nmesh = {mesh}\nmaterial = {{ texture = {{ {keys} }} }}\n")
-    assert texture_of(load(path)) == Texture(pixels, "nearest", "clamp")
-    path.write_text(f'[[objects]]\nmesh = {mesh}\nmaterial = {{ texture = "lost.png" }}\n')
+
+    def loaded(texture: str) -> Texture:
+        (tmp_path / "scene.toml").write_text(f"[[objects]]\nmesh = {mesh}\nmaterial = {{ texture = {texture} }}\n")
+        return texture_of(load(tmp_path / "scene.toml"))
+
+    assert loaded('"wood.png"') == Texture(pixels)
+    keys = '{ image = "wood.png", filter = "nearest", wrap = "clamp" }'
+    assert loaded(keys) == Texture(pixels, "nearest", "clamp")
     with pytest.raises(InputError, match=r"objects\[0\]\.material\.texture: .*lost\.png does not exist"):
-        load(path)
-    path.write_text(
-        f'[[objects]]\nmesh = {mesh}\nmaterial = {{ texture = {{ width = 1, height = 1, pixels = "AAA=" }} }}\n'
-    )
+        loaded('"lost.png"')
     with pytest.raises(InputError, match="1 x 1 pixels need 3 bytes, not 2"):
-        load(path)
+        loaded('{ width = 1, height = 1, pixels = "AAA=" }')
 
 
 def test_a_texture_of_trimesh(tmp_path: Path) -> None:
@@ -317,15 +281,6 @@ def test_a_texture_of_trimesh(tmp_path: Path) -> None:
     ours, theirs = load(path), load(mesh)
     assert texture_of(theirs) == texture_of(ours)
     assert shackled.render(theirs, 48).pixels.tolist() == shackled.render(ours, 48).pixels.tolist()
-
-
-def test_a_grey_texture_of_trimesh_with_16_bits() -> None:
-    levels = np.array([[0, 8192], [49152, 65535]], "<u2")
-    image = Image.frombytes("I;16", (2, 2), levels.tobytes())
-    library: Any = trimesh
-    visual = library.visual.TextureVisuals([(0, 0), (1, 0), (0, 1)], image=image)
-    mesh = trimesh.Trimesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)], visual=visual, process=False)
-    assert texture_of(load(mesh)).pixels[..., 0].tolist() == [[0, 32], [192, 255]]
 
 
 def test_one_color_for_all_is_without_texture() -> None:
@@ -389,3 +344,35 @@ def test_packed_bytes_that_are_wrong(place: int) -> None:
     data[place] = 255
     with pytest.raises(InputError, match="a packed texture"):
         unpack_texture(bytes(data), 4)
+
+
+# ---- samples ----
+
+RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
+
+
+def checker() -> Image.Image:
+    """Red and green above, blue and white below."""
+    image = Image.new("RGB", (2, 2))
+    for place, color in zip([(0, 0), (1, 0), (0, 1), (1, 1)], [RED, GREEN, BLUE, WHITE], strict=True):
+        image.putpixel(place, color)
+    return image
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "expected"),
+    [
+        ([[0, 1], [1, 1], [0, 0], [1, 0]], [RED, GREEN, BLUE, WHITE]),
+        # between texels, and beyond the borders, where the image repeats
+        ([[0.5, 1], [0.5, 0.5]], [(128, 128, 0), (128, 128, 128)]),
+        ([[1.75, 1.75], [-1, 3]], [GREEN, BLUE]),
+        ([[float("nan"), float("inf")]], [BLUE]),
+    ],
+)
+def test_samples(coordinates: list[list[float]], expected: list[tuple[int, ...]]) -> None:
+    assert sample(checker(), coordinates).tolist() == [list(color) for color in expected]
+
+
+def test_palettes_and_greys_are_read() -> None:
+    assert sample(Image.new("L", (1, 1), 77), [[0.3, 0.3]]).tolist() == [[77, 77, 77]]
+    assert sample(checker().convert("P"), [[0, 1]]).tolist() == [list(RED)]

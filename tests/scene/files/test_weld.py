@@ -9,37 +9,21 @@ RED, BLUE = [255, 0, 0], [0, 0, 255]
 
 
 def test_equal_positions_become_one_vertex() -> None:
-    mesh = weld([*SQUARE, *SQUARE], [[0, 1, 2], [4, 6, 7]])
-    assert len(mesh.positions) == 4
+    mesh = weld([*SQUARE, *SQUARE, [9, 9, 9]], [[0, 1, 2], [4, 6, 7]])
+    assert mesh.positions.tolist() == SQUARE
     assert mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3]]
+    points: list[list[float]] = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-0.0, 0.0, -0.0], [0, 1, 0], [-1, 0, 0]]
+    assert len(weld(points, [[0, 1, 2], [3, 4, 5]]).positions) == 4
 
 
-def test_negative_zero_is_zero() -> None:
-    mesh = weld(
-        np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [-0.0, 0.0, -0.0], [0, 1, 0], [-1, 0, 0]]), [[0, 1, 2], [3, 4, 5]]
-    )
-    assert len(mesh.positions) == 4
-
-
-def test_a_vertex_between_two_colors_is_split() -> None:
-    mesh = weld(SQUARE, [[0, 1, 2], [0, 2, 3]], [[RED] * 3, [BLUE] * 3])
+def test_a_vertex_between_two_colors_or_normals_is_split() -> None:
+    colors, normals = [[RED] * 3, [BLUE] * 3], [[[0, 0, 1]] * 3, [[0, 1, 0]] * 3]
+    mesh = weld(SQUARE, [[0, 1, 2], [0, 2, 3]], colors)
     assert len(mesh.positions) == 6
-    corners = mesh.colors[mesh.faces]
-    assert corners.tolist() == [[RED] * 3, [BLUE] * 3]
-    assert mesh.positions[mesh.faces].tolist() == [
-        SQUARE[:3],
-        [SQUARE[0], SQUARE[2], SQUARE[3]],
-    ]
-
-
-def test_a_vertex_between_two_normals_is_split() -> None:
-    normals = [[[0, 0, 1]] * 3, [[0, 1, 0]] * 3]
+    assert mesh.colors[mesh.faces].tolist() == colors
+    assert mesh.positions[mesh.faces].tolist() == [SQUARE[:3], [SQUARE[0], SQUARE[2], SQUARE[3]]]
     mesh = weld(SQUARE, [[0, 1, 2], [0, 2, 3]], normals=normals)
     assert np.asarray(mesh.normals)[mesh.faces].tolist() == normals
-
-
-def test_unused_vertices_are_left_out() -> None:
-    assert len(np.asarray(weld([*SQUARE, [9, 9, 9]], [[0, 1, 2]]).positions)) == 3
 
 
 def test_wrong_numbers_are_refused() -> None:

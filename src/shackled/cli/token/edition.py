@@ -3,33 +3,29 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-from ...checks import number
 from ...errors import VerificationError
 from ...ethereum import amount, ether, parse_ether
 from ...tokens import OPEN
 from ...values import plural
-from ..chain_options import Json, NodeOptions, parse_checksum_address
+from ..chain_options import JSON, NodeOptions, PayerOptions, address
 from ..option import argument, option
 from ..output import print_json, print_line, print_table
 from ..progress import LateBar
-from .options import MAX_NUMBER, TokenPayerOptions
+from .options import MAX_NUMBER, POINTER, ROYALTY, SCALE
 
 if TYPE_CHECKING:
     from ...tokens import Collection
 
-Number = Annotated[int, argument("Number of the edition.", "EDITION", min=0, max=MAX_NUMBER)]
+NUMBER = argument("Number of the edition.", "EDITION", min=0, max=MAX_NUMBER)
 
 
 @dataclass(frozen=True)
 class EditionsOptions(NodeOptions):
     """The collection of editions that a command uses, and the node."""
 
-    collection: Annotated[
-        str | None,
-        option("-c --collection", "Address of the collection. Default: the same on every chain.", "ADDRESS"),
-    ] = None
+    collection: str | None = address("-c --collection", "Address of the collection. Default: the same on every chain.")
 
     def open(self, exact: bool = False) -> Collection:
         """Return the collection. InputError if it is not on the chain.
@@ -38,8 +34,7 @@ class EditionsOptions(NodeOptions):
         """
         from ...tokens import check_collection_code, open_editions
 
-        address = None if self.collection is None else parse_checksum_address(self.collection, "--collection")
-        collection = open_editions(self.connect(), address)
+        collection = open_editions(self.connect(), self.collection)
         if exact:
             try:
                 check_collection_code(collection)
@@ -54,42 +49,33 @@ class EditionsOptions(NodeOptions):
 
 
 def add(
-    pointer: Annotated[str, argument("Address of the stored scene, from `shackled store`.", "POINTER")],
-    name: Annotated[str, argument("Name of the edition, 1 to 64 bytes.", "NAME")],
     which: EditionsOptions,
-    payer: TokenPayerOptions,
-    price: Annotated[str, option("--price", "Price of a token, in ether; may be 0.", "ETHER")],
-    supply: Annotated[int | None, option("--supply", "Maximum number of tokens. Default: no limit.", "N")] = None,
-    royalty: Annotated[float, option("--royalty", "Share of the price of resales, 0 to 10.", "PERCENT")] = 5,
-    copies: Annotated[int, option("--copies", "Tokens minted to you free of charge, 0 to 100.", "N")] = 1,
-    scale: Annotated[int, option("--scale", "Side of the square that each pixel becomes.", "N", min=1, max=8)] = 4,
-    model: Annotated[bool, option("--model", "Add the scene as a GLB model to the metadata (animation_url).")] = False,
-    as_json: Json = False,
+    payer: PayerOptions,
+    pointer: str = POINTER,
+    name: str = argument("Name of the edition, 1 to 64 bytes.", "NAME"),
+    price: int = option("--price", "Price of a token, in ether; may be 0.", "ETHER", parse=parse_ether),
+    supply: int | None = option("--supply", "Maximum number of tokens. Default: no limit.", "N"),
+    royalty: int = ROYALTY,
+    copies: int = option("--copies", "Tokens minted to you free of charge, 0 to 100.", "N", default=1),
+    scale: int = SCALE,
+    model: bool = option("--model", "Add the scene as a GLB model to the metadata (animation_url)."),
+    as_json: bool = JSON,
 ) -> None:
     """Add a scene as an edition, of which anyone can mint tokens. It cannot be changed later."""
     from ...deploy import local_chain
     from ...studio import STUDIO, stored_codes
     from ...tokens import EditionTerms, add_gas, added_number, edition_at, minted_tokens
 
-    terms = EditionTerms(
-        name=name,
-        scene=parse_checksum_address(pointer, "the pointer"),
-        price=parse_ether(price, "--price"),
-        supply=OPEN if supply is None else supply,
-        royalty=round(100 * number(royalty, "--royalty", 0, 10)),
-        copies=copies,
-        scale=scale,
-        model=model,
-    )
+    terms = EditionTerms(name, pointer, price, OPEN if supply is None else supply, royalty, copies, scale, model)
     collection = which.open(exact=True)
     scene, studio = bytes.fromhex(terms.scene[2:]), local_chain().address(STUDIO)
     # fails before the confirmation if the scene cannot be drawn
     gas = add_gas(terms, stored_codes(collection.connection, studio, scene))
     tokens = "any number of tokens" if supply is None else plural(supply, "token")
     title = f"add {name}, {tokens} at {ether(terms.price)}; this cannot be changed later"
-    receipt = payer.send(collection, title, "add", *terms.arguments, gas=gas)
+    receipt = payer.send(collection, title, collection.contract.prepare("add", *terms.arguments, gas=gas))
     added = edition_at(collection, added_number(receipt.logs, collection.address))
-    added.check(str(payer.signer.address), terms)
+    added.check(payer.address, terms)
     numbers = minted_tokens(receipt.logs, collection.address)
     if as_json:
         print_json(added.document() | {"tokens": numbers, "transaction": receipt.hash, "gas": receipt.gas})
@@ -101,21 +87,21 @@ def add(
 
 
 def mint(
-    edition: Number,
     which: EditionsOptions,
-    payer: TokenPayerOptions,
-    quantity: Annotated[int, argument("Number of tokens, 1 to 100.", "N", min=1, max=100)] = 1,
-    as_json: Json = False,
+    payer: PayerOptions,
+    edition: int = NUMBER,
+    quantity: int = argument("Number of tokens, 1 to 100.", "N", min=1, max=100, default=1),
+    as_json: bool = JSON,
 ) -> None:
     """Mint tokens of an edition. Prints the price first."""
-    from ...tokens import edition_at, edition_mint_call, minted_tokens
+    from ...tokens import edition_at, minted_tokens
 
     collection = which.open(exact=True)
     chosen = edition_at(collection, edition)
-    call = edition_mint_call(chosen, quantity)
+    call = collection.contract.prepare("mint", edition, quantity, value=quantity * chosen.price)
     left = "" if chosen.supply == OPEN else f", {chosen.left} left"
     title = f"mint {quantity} of {chosen.name} by {chosen.artist}{left}"
-    receipt = payer.send(collection, title, call.function, *call.arguments, value=call.value)
+    receipt = payer.send(collection, title, call)
     numbers = minted_tokens(receipt.logs, collection.address)
     if as_json:
         print_json({"tokens": numbers, "transaction": receipt.hash, "gas": receipt.gas, "wei": call.value})
@@ -128,16 +114,15 @@ def mint(
 
 def list_(
     which: EditionsOptions,
-    artist: Annotated[str | None, option("--artist", "Only the editions of this account.", "ADDRESS")] = None,
-    as_json: Json = False,
+    artist: str | None = address("--artist", "Only the editions of this account."),
+    as_json: bool = JSON,
 ) -> None:
     """List the editions, with the amounts that their artists can withdraw."""
     from ...tokens import editions_of
 
-    account = None if artist is None else parse_checksum_address(artist, "--artist")
     collection = which.open()
     with LateBar("reading editions") as bar:
-        found = editions_of(collection, account, bar.set)
+        found = editions_of(collection, artist, bar.set)
     if as_json:
         print_json(
             {
@@ -167,40 +152,38 @@ def list_(
         print_table(("edition", "name", "ether", "supply", "minted", "sale", "to withdraw", "artist", "scene"), rows)
 
 
-def close(edition: Number, which: EditionsOptions, payer: TokenPayerOptions) -> None:
+def close(which: EditionsOptions, payer: PayerOptions, edition: int = NUMBER) -> None:
     """Close an edition: no more tokens can be minted. Cannot be undone. For its artist."""
     from ...tokens import edition_at
 
     collection = which.open()
     chosen = edition_at(collection, edition)
     title = f"close {chosen.name} with {plural(chosen.minted, 'token')}; this cannot be undone"
-    receipt = payer.send(collection, title, "close", edition)
+    receipt = payer.send(collection, title, collection.contract.prepare("close", edition))
     print_line(f"edition {edition} is closed; {receipt.gas:,} gas")
 
 
 def withdraw(
     which: EditionsOptions,
-    payer: TokenPayerOptions,
-    editions: Annotated[list[int] | None, argument("Editions; default: all of yours.", "EDITION", min=0)] = None,
-    to: Annotated[str | None, option("--to", "Receiver; default: you.", "ADDRESS")] = None,
+    payer: PayerOptions,
+    editions: tuple[int, ...] = argument("Editions; default: all of yours.", "EDITION", min=0),
+    to: str | None = address("--to", "Receiver; default: you."),
 ) -> None:
     """Withdraw the proceeds of your editions."""
-    from ...tokens import edition_at, editions_of, withdraw_gas, withdrawn
+    from ...tokens import edition_at, editions_of, withdraw_call, withdrawn
 
-    account = str(payer.signer.address)
-    receiver = account if to is None else parse_checksum_address(to, "--to")
+    receiver = to or payer.address
     collection = which.open()
     if editions:
         found = [edition_at(collection, each) for each in dict.fromkeys(editions)]
     else:
         with LateBar("reading editions") as bar:
-            found = [each for each in editions_of(collection, account, bar.set) if each.proceeds]
+            found = [each for each in editions_of(collection, payer.address, bar.set) if each.proceeds]
     total = sum(each.proceeds for each in found)
     if not total:
         print_line("there is nothing to withdraw")
         return
     numbers = [each.number for each in found]
     title = f"send {ether(total)} of {plural(len(found), 'edition')} to {receiver}"
-    gas = withdraw_gas(collection, numbers, receiver)
-    receipt = payer.send(collection, title, "withdraw", numbers, receiver, gas=gas)
+    receipt = payer.send(collection, title, withdraw_call(collection, numbers, receiver))
     print_line(f"{ether(withdrawn(receipt.logs, collection.address))} sent to {receiver}; {receipt.gas:,} gas")

@@ -1,43 +1,59 @@
-"""Options and steps that the commands of `shackled token` share: which collection, and a transaction to it."""
+"""Options that the commands of `shackled token` share: which collection."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING
 
 from ...chain import AddressBook
+from ...checks import number
 from ...errors import InputError
 from ...ethereum import checksum_address
 from ...tokens import EDITIONS, KINDS
-from ..chain_options import NodeOptions, PayerOptions, parse_checksum_address
-from ..option import option
-from ..output import print_note
+from ..chain_options import NodeOptions, parse_checksum_address
+from ..option import argument, option
 
 if TYPE_CHECKING:
-    from ...deploy import Receipt
     from ...tokens import Collection
 
-#: The phases of a sale as they are typed, in the order of the contract's numbers.
-PHASES = ("closed", "allow-list", "public")
 #: The largest number of an argument.
 MAX_NUMBER = 2**64 - 1
+
+TOKEN = argument("Number of the token.", "ID", min=0, max=MAX_NUMBER)
+POINTER = argument("Address of the stored scene, from `shackled store`.", "POINTER", parse=parse_checksum_address)
+SCALE = option("--scale", "Side of the square that each pixel becomes.", "N", min=1, max=8, default=4)
+
+
+def parse_royalty(percent: float, name: str) -> int:
+    """Return a share of the price of resales in hundredths of a percent. InputError if it is not from 0 to 10 %."""
+    return round(100 * number(percent, name, 0, 10))
+
+
+ROYALTY = option(
+    "--royalty", "Share of the price of resales, 0 to 10.", "PERCENT", type=float, default=5, parse=parse_royalty
+)
 
 
 @dataclass(frozen=True)
 class CollectionOptions(NodeOptions):
     """The collection that a command uses, and the node."""
 
-    accepts_editions: ClassVar[bool] = False
-    collection: Annotated[
-        str, option("-c --collection", "Name in the address book, genesis or icons, or an ADDRESS.", "COLLECTION")
-    ] = "genesis"
+    collection: str = option(
+        "-c --collection",
+        "genesis or icons, from the address book; for commands that accept every token, editions; or an ADDRESS.",
+        "COLLECTION",
+        default="genesis",
+    )
 
-    def open(self) -> Collection:
-        """Return the collection. InputError if there is none of that name or at that address."""
+    def open(self, or_editions: bool = False) -> Collection:
+        """Return the collection. InputError if there is none of that name or at that address.
+
+        or_editions: whether it may be that of the editions, which has no owner and no sale.
+        """
         from ...tokens import open_collection, open_editions
 
         name = self.collection
-        if name == EDITIONS.name and not self.accepts_editions:
+        if name == EDITIONS.name and not or_editions:
             raise InputError(
                 "the collection of editions has no owner and no sale phases: see shackled token edition --help"
             )
@@ -45,7 +61,7 @@ class CollectionOptions(NodeOptions):
         if name == EDITIONS.name:
             return open_editions(connection)
         if name.startswith("0x"):
-            return open_collection(connection, parse_checksum_address(name, "--collection"), self.accepts_editions)
+            return open_collection(connection, parse_checksum_address(name, "--collection"), or_editions)
         if name not in KINDS:
             raise InputError(f"--collection must be {', '.join(KINDS)} or an address, not {name!r}")
         place = AddressBook().find(connection.chain_id, KINDS[name].contract)
@@ -63,56 +79,16 @@ class CollectionOptions(NodeOptions):
 
 
 @dataclass(frozen=True)
-class AnyCollectionOptions(CollectionOptions):
-    """Any collection, and the node: for commands that accept every token."""
-
-    accepts_editions = True
-    collection: Annotated[
-        str,
-        option("-c --collection", "editions; genesis or icons, from the address book; or an ADDRESS.", "COLLECTION"),
-    ] = "genesis"
-
-
-@dataclass(frozen=True)
 class IconsOptions(CollectionOptions):
     """The collection of icons that a command uses, and the node."""
 
-    collection: Annotated[
-        str, option("-c --collection", "The name icons, from the address book, or an ADDRESS.", "COLLECTION")
-    ] = "icons"
+    collection: str = option(
+        "-c --collection", "The name icons, from the address book, or an ADDRESS.", "COLLECTION", default="icons"
+    )
 
-    def open(self) -> Collection:
+    def open(self, or_editions: bool = False) -> Collection:
         """Return the collection. InputError if it is missing or has no icons."""
         collection = super().open()
         if collection.kind.hidden:
             raise InputError(f"{collection.name} has no icons: give --collection icons, or the address of one that has")
         return collection
-
-
-@dataclass(frozen=True)
-class TokenPayerOptions(PayerOptions):
-    """The account that signs and pays for transactions to a collection."""
-
-    def send(
-        self,
-        collection: Collection,
-        title: str,
-        function: str,
-        *arguments: Any,
-        value: int = 0,
-        gas: int | None = None,
-    ) -> Receipt:
-        """Print the price of a transaction, ask for consent, and send it.
-
-        title: what it does. value: in wei. gas: see `plan`.
-        """
-        from ...tokens import plan
-
-        transactor = self.transactor(collection.connection)
-        quote = plan(transactor, collection.contract, function, *arguments, value=value, gas=gas)
-        print_note(f"{collection.name} on chain {collection.connection.chain_id}: {title}")
-        self.confirm(transactor, [quote])
-        receipt = transactor.send(quote)
-        # printed even if what follows fails
-        print_note(f"done: transaction {receipt.hash}")
-        return receipt

@@ -4,26 +4,19 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 from ...errors import InputError
 from ...ethereum import checksum_address, to_hex
 from ...values import plural
-from ..chain_options import (
-    Calldata,
-    Json,
-    check_calldata,
-    parse_checksum_address,
-    print_price,
-    write_calls,
-)
-from ..option import argument, option
+from ..chain_options import CALLDATA, JSON, PayerOptions, address, parse_checksum_address, print_price, write_calls
+from ..option import argument, exclude, option
 from ..output import print_json, print_line, print_note
-from .options import MAX_NUMBER, AnyCollectionOptions, CollectionOptions, TokenPayerOptions
+from .options import MAX_NUMBER, TOKEN, CollectionOptions
 
 if TYPE_CHECKING:
     from ...deploy import Quote
-    from ...tokens import Collection, ContractCall, Round
+    from ...tokens import Collection, Round
 
 #: Seconds between two requests while waiting for a block.
 PAUSE = 4.0
@@ -33,28 +26,21 @@ SAFE_TRANSFER = "safeTransferFrom(address,address,uint256)"
 
 def mint(
     which: CollectionOptions,
-    payer: TokenPayerOptions,
-    quantity: Annotated[int, argument("Number of tokens.", "N", min=1, max=MAX_NUMBER)] = 1,
-    allow_list: Annotated[
-        Path | None, option("--allow-list", "The allow list that the owner published, with your account.", "FILE")
-    ] = None,
-    permission: Annotated[
-        Path | None, option("--permission", "Mint with a permission from `shackled token permit`.", "FILE")
-    ] = None,
-    icon: Annotated[
-        str | None, option("--icon", "Name or number of the icon, in a collection of icons.", "NAME")
-    ] = None,
-    reserve_to: Annotated[
-        str | None, option("--reserve-to", "Mint from the reserve, for this account. For the owner.", "ADDRESS")
-    ] = None,
-    as_json: Json = False,
+    payer: PayerOptions,
+    quantity: int = argument("Number of tokens.", "N", min=1, max=MAX_NUMBER, default=1),
+    allow_list: Path | None = option(
+        "--allow-list", "The allow list that the owner published, with your account.", "FILE"
+    ),
+    permission: Path | None = option("--permission", "Mint with a permission from `shackled token permit`.", "FILE"),
+    icon: str | None = option("--icon", "Name or number of the icon, in a collection of icons.", "NAME"),
+    reserve_to: str | None = address("--reserve-to", "Mint from the reserve, for this account. For the owner."),
+    as_json: bool = JSON,
 ) -> None:
     """Mint tokens. Prints the price first."""
-    from ...tokens import find_icon, mint_call, minted_tokens
+    from ...tokens import find_icon, mint_call, minted_tokens, read_allow_list, read_allowance
 
-    if sum(each is not None for each in (allow_list, permission, reserve_to)) > 1:
-        raise InputError("--allow-list, --permission and --reserve-to exclude each other: give one of them")
-    receiver = None if reserve_to is None else parse_checksum_address(reserve_to, "--reserve-to")
+    exclude("--allow-list", allow_list, {"--permission": permission, "--reserve-to": reserve_to})
+    exclude("--permission", permission, {"--reserve-to": reserve_to})
     collection = which.open()
     if collection.kind.hidden and icon is not None:
         raise InputError(f"--icon is for collections of icons, and {collection.name} has none")
@@ -62,11 +48,12 @@ def mint(
         raise InputError("--icon is missing: `shackled token list -c icons` prints the names")
     chosen = None if icon is None else find_icon(collection, icon)
     number = None if chosen is None else chosen.number
-    account = str(payer.signer.address)
-    call = mint_call(collection, account, quantity, allow_list, permission, receiver, number)
+    listed = None if allow_list is None else read_allow_list(allow_list)
+    allowed = None if permission is None else read_allowance(permission)
+    call = mint_call(collection, payer.address, quantity, listed, allowed, reserve_to, number)
     first = collection.minted()
     title = f"mint {quantity}" if chosen is None else f"mint {quantity} of {chosen.name}, {chosen.left} left"
-    receipt = payer.send(collection, title, call.function, *call.arguments, value=call.value)
+    receipt = payer.send(collection, title, call)
     numbers = minted_tokens(receipt.logs, collection.address)
     if as_json:
         print_json({"tokens": numbers, "transaction": receipt.hash, "gas": receipt.gas, "wei": call.value})
@@ -81,70 +68,63 @@ def mint(
 
 def reveal(
     which: CollectionOptions,
-    payer: TokenPayerOptions,
-    wait: Annotated[bool, option("--wait", "Wait for blocks that are not mined yet.")] = False,
-    calldata: Calldata = None,
-    as_json: Json = False,
+    payer: PayerOptions,
+    wait: bool = option("--wait", "Wait for blocks that are not mined yet."),
+    calldata: Path | None = CALLDATA,
+    as_json: bool = JSON,
 ) -> None:
     """Reveal the tokens whose blocks are mined. Anyone can do this."""
     from ...deploy import current_fees
-    from ...tokens import hidden_rounds, price_calls, price_wallet_calls, reveal_calls
+    from ...tokens import hidden_rounds, price_calls, reveal_calls
 
-    check_calldata(calldata)
     collection = which.open()
+    say = print_note if as_json else print_line
     if not collection.kind.hidden:
         raise InputError(f"the tokens of {collection.name} are never hidden: there is nothing to reveal")
     rounds = hidden_rounds(collection)
     if not rounds:
         if calldata is not None:
             raise InputError(f"there is nothing to reveal: {calldata} was not written")
+        say("there is nothing to reveal")
         if as_json:
             print_json({"rounds": [], "transactions": [], "gas": 0})
-        else:
-            print_line("there is nothing to reveal")
         return
     ready = _ready_rounds(collection, rounds, wait)
     transactor = None if calldata is not None else payer.transactor(collection.connection)
     calls = reveal_calls(collection, ready)
-    if transactor is None:
-        quotes = price_wallet_calls(collection, calls, current_fees(collection.connection, payer.max_wei))
-    else:
-        quotes = price_calls(transactor, collection, calls)
-    proofs = sum(call.function != "reveal" for call in calls)
+    fees = current_fees(collection.connection, payer.max_fee)
+    sender = None if transactor is None else transactor.address
+    quotes = price_calls(collection.connection, list(calls.values()), fees, sender)
+    named = dict(zip(calls, quotes, strict=True))
+    proofs = sum(not name.startswith("reveal") for name in named)
     more = f", and {plural(proofs, 'transaction')} to prove old blocks" if proofs else ""
     print_note(plural(len(ready), "round") + more)
     if calldata is not None:
         print_price(quotes)
-        named = {_name_of(call): quote for call, quote in zip(calls, quotes, strict=True)}
         write_calls(calldata, collection.connection.chain_id, named, as_json)
         if not as_json:
             _print_pasting(quotes, calldata)
     elif transactor is not None:
         payer.confirm(transactor, quotes)
         receipts = []
-        for call, quote in zip(calls, quotes, strict=True):
+        for name, quote in named.items():
             receipts.append(transactor.send(quote))
-            done = f"{'revealed' if call.function == 'reveal' else 'proved older blocks'}; {receipts[-1].gas:,} gas"
-            (print_note if as_json else print_line)(done)
+            say(f"{'revealed' if name.startswith('reveal') else 'proved older blocks'}; {receipts[-1].gas:,} gas")
         if as_json:
-            hashes = [receipt.hash for receipt in receipts]
-            gas = sum(receipt.gas for receipt in receipts)
+            hashes, gas = [receipt.hash for receipt in receipts], sum(receipt.gas for receipt in receipts)
             print_json({"rounds": [each.number for each in ready], "transactions": hashes, "gas": gas})
     if len(ready) < len(rounds):
         waiting, following = plural(len(rounds) - len(ready), "round"), rounds[len(ready)]
-        text = f"not yet revealable: {waiting}; the next one needs block {following.block:,}"
-        (print_note if as_json else print_line)(text)
+        say(f"not yet revealable: {waiting}; the next one needs block {following.block:,}")
 
 
 def _ready_rounds(collection: Collection, rounds: list[Round], wait: bool) -> list[Round]:
     """Return the rounds that can be revealed now; with `wait`, wait for all. InputError if there are none."""
-    from ...tokens import latest_block
-
-    latest = latest_block(collection)
+    latest = collection.connection.number("eth_blockNumber")
     while wait and (missing := rounds[-1].missing_blocks(latest)):
         print_note(f"waiting for block {rounds[-1].block:,}: {plural(missing, 'more block')}")
         time.sleep(PAUSE)
-        latest = latest_block(collection)
+        latest = collection.connection.number("eth_blockNumber")
     ready = [each for each in rounds if not each.missing_blocks(latest)]
     if not ready:
         raise InputError(
@@ -152,14 +132,6 @@ def _ready_rounds(collection: Collection, rounds: list[Round], wait: bool) -> li
             f"wait for {plural(rounds[0].missing_blocks(latest), 'more block')}, or add --wait"
         )
     return ready
-
-
-def _name_of(call: ContractCall) -> str:
-    """Return the purpose of a call; no two calls of a reveal have the same one."""
-    if call.function != "reveal":
-        return f"prove blocks before {call.arguments[0]}"
-    numbers = call.arguments[0]
-    return f"reveal {plural(len(numbers), 'round')}, {', '.join(map(str, numbers))}"
 
 
 def _print_pasting(quotes: list[Quote], path: Path) -> None:
@@ -176,17 +148,16 @@ def _print_pasting(quotes: list[Quote], path: Path) -> None:
 
 
 def transfer(
-    token_id: Annotated[int, argument("Number of the token.", "ID", min=0, max=MAX_NUMBER)],
-    to: Annotated[str, argument("The new owner.", "ADDRESS")],
-    which: AnyCollectionOptions,
-    payer: TokenPayerOptions,
+    which: CollectionOptions,
+    payer: PayerOptions,
+    token_id: int = TOKEN,
+    to: str = argument("The new owner.", "ADDRESS", parse=parse_checksum_address),
 ) -> None:
     """Transfer a token to another account."""
-    receiver = parse_checksum_address(to, "the receiver")
-    collection = which.open()
-    owner, signer = collection.owner_of(token_id), str(payer.signer.address)
-    if owner != signer:
-        raise InputError(f"token {token_id} belongs to {owner}, not to {signer}")
-    title = f"transfer #{token_id} to {receiver}"
-    receipt = payer.send(collection, title, SAFE_TRANSFER, owner, receiver, token_id)
+    collection = which.open(or_editions=True)
+    owner = collection.owner_of(token_id)
+    if owner != payer.address:
+        raise InputError(f"token {token_id} belongs to {owner}, not to {payer.address}")
+    call = collection.contract.prepare(SAFE_TRANSFER, owner, to, token_id)
+    receipt = payer.send(collection, f"transfer #{token_id} to {to}", call)
     print_line(f"#{token_id} belongs to {collection.owner_of(token_id)}; {receipt.gas:,} gas")

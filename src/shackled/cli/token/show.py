@@ -4,36 +4,36 @@ from __future__ import annotations
 
 from itertools import chain
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 from ...animation import DURATION
 from ...errors import InputError, VerificationError
 from ...ethereum import amount, ether
 from ...image import check_output, one_of
-from ...tokens import EDITIONS
+from ...tokens import EDITIONS, PHASES
 from ...whole_file import check_output_file, write_output
-from ..chain_options import Json, NodeOptions, parse_checksum_address
+from ..chain_options import JSON, NodeOptions
 from ..look_options import parse_size
-from ..option import argument, option
+from ..option import argument, need, option
 from ..output import print_json, print_line, print_table
 from ..progress import LateBar
-from .options import MAX_NUMBER, PHASES, AnyCollectionOptions, CollectionOptions
+from .options import POINTER, SCALE, TOKEN, CollectionOptions
 
 
 def show(
-    token_id: Annotated[int, argument("Number of the token.", "ID", min=0, max=MAX_NUMBER)],
-    which: AnyCollectionOptions,
-    output: Annotated[
-        Path | None, option("-o --output", "File for the picture; unchanged if it has the token's format.", "FILE")
-    ] = None,
-    as_json: Json = False,
+    which: CollectionOptions,
+    token_id: int = TOKEN,
+    output: Path | None = option(
+        "-o --output", "File for the picture; unchanged if it has the token's format.", "FILE"
+    ),
+    as_json: bool = JSON,
 ) -> None:
     """Show the traits of a token, and save its picture, both from its `tokenURI`."""
     from ...tokens import read_view
 
     if output is not None:
         check_output(output)
-    view = read_view(which.open(), token_id)
+    view = read_view(which.open(or_editions=True), token_id, measured=True)
     metadata = view.metadata
     if output is not None:
         metadata.save(output)
@@ -53,34 +53,35 @@ def show(
         print_line(f"{key:{width}}  {value}")
 
 
-def list_(which: CollectionOptions, as_json: Json = False) -> None:
+def list_(which: CollectionOptions, as_json: bool = JSON) -> None:
     """List the tokens with owners and traits, and the state of the collection."""
     from ...tokens import icons_of, read_views
 
     if which.collection == EDITIONS.name:
         raise InputError("editions have no sale phases: shackled token edition list lists them")
     collection = which.open()
-    state = collection.state()
+    owner, phase, balance = collection.contract.account("owner"), collection.phase(), collection.balance()
     with LateBar("reading tokens") as bar:
         icons = [] if collection.kind.hidden else icons_of(collection)
         views = list(read_views(collection, bar.set))
     if as_json:
         print_json(
             {
-                "collection": state.name,
+                "collection": collection.name,
                 "address": collection.address,
                 "chain_id": collection.connection.chain_id,
-                "owner": state.owner,
-                "phase": PHASES[state.phase],
-                "minted": state.minted,
-                "balance": amount(state.balance),
+                "owner": owner,
+                "phase": phase,
+                "minted": len(views),
+                "balance": amount(balance),
                 "icons": [each.document() for each in icons],
                 "tokens": [each.summary() for each in views],
             }
         )
         return
-    print_line(f"{state.name} at {collection.address}: {state.phase_name}, {state.minted:,} minted")
-    print_line(f"owner {state.owner}, {ether(state.balance)} to withdraw, royalties {state.royalty / 100:g} %")
+    print_line(f"{collection.name} at {collection.address}: {PHASES[phase]}, {len(views):,} minted")
+    royalty = collection.contract.call("royaltyInfo", 0, 10_000)[1]
+    print_line(f"owner {owner}, {ether(balance)} to withdraw, royalties {royalty / 100:g} %")
     if icons:
         print()
         rows = [(str(e.number), e.name, amount(e.price), str(e.supply), str(e.left), e.scene) for e in icons]
@@ -91,45 +92,38 @@ def list_(which: CollectionOptions, as_json: Json = False) -> None:
 
 
 def picture(
-    pointer: Annotated[str, argument("Address of the stored scene, from `shackled store`.", "POINTER")],
     node: NodeOptions,
-    output: Annotated[
-        Path, option("-o --output", "Output file: a picture, .png or .svg, or a 3D model, .glb.", "FILE")
-    ],
-    scale: Annotated[int, option("--scale", "Side of the square that each pixel becomes.", "N", min=1, max=8)] = 4,
-    turntable: Annotated[
-        int | None, option("--turntable", "Animated PNG of a full turn in this many frames.", "FRAMES", min=2, max=360)
-    ] = None,
-    duration: Annotated[
-        int, option("--duration", "Duration of a frame.", "MILLISECONDS", min=20, max=10_000)
-    ] = DURATION,
-    size: Annotated[str | None, option("--size", "Pixels of a frame, as 64 or 80x60.", "SIZE")] = None,
+    pointer: str = POINTER,
+    output: Path = option("-o --output", "Output file: a picture, .png or .svg, or a 3D model, .glb.", "FILE"),
+    scale: int = SCALE,
+    turntable: int | None = option(
+        "--turntable", "Animated PNG of a full turn in this many frames.", "FRAMES", min=2, max=360
+    ),
+    duration: int = option("--duration", "Duration of a frame.", "MILLISECONDS", min=20, max=10_000, default=DURATION),
+    size: tuple[int, int] | None = option("--size", "Pixels of a frame, as 64 or 80x60.", "SIZE", parse=parse_size),
 ) -> None:
     """Render a stored scene on a chain."""
     from ...studio import ANIMATE, STUDIO
-    from ...tokens import Contract, address_of, parts_of
+    from ...tokens import Contract, address_of
 
-    place = parse_checksum_address(pointer, "the pointer")
     calls: dict[str, tuple[Any, ...]] = {
-        ".png": ("renderPNG(address,uint256)", place, scale),
-        ".svg": ("renderSVG(address,uint256)", place, scale),
-        ".glb": ("glb(address)", place),
+        ".png": ("renderPNG(address,uint256)", pointer, scale),
+        ".svg": ("renderSVG(address,uint256)", pointer, scale),
+        ".glb": ("glb(address)", pointer),
     }
     kind = output.suffix.lower()
     if kind not in calls:
         raise InputError(f"the picture {output} must end in {one_of(calls)}")
-    if turntable is None and size is not None:
-        raise InputError("--size needs --turntable: a stored scene has its size")
+    need("--turntable: a stored scene has its size", turntable, {"--size": size})
     if turntable is not None:
         if kind != ".png":
             raise InputError(f"the turntable {output} must end in .png")
-        width, height = (0, 0) if size is None else parse_size(size)
         # the axis (0, 1, 0) as Q32, the camera moved back; changes of the canvas only
         spin = (turntable, duration, scale, (0, 1 << 32, 0), True)
-        changes = (16 if size else 0, (0, 0, 0, 0), 0, (0, 0), 0, (width, height))
-        calls[kind] = (ANIMATE, place, spin, changes)
+        changes = (16 if size else 0, (0, 0, 0, 0), 0, (0, 0), 0, size or (0, 0))
+        calls[kind] = (ANIMATE, pointer, spin, changes)
     check_output_file(output, "picture")
-    studio = Contract(node.connect(), STUDIO, address_of(parts_of(STUDIO, itself=True), STUDIO))
+    studio = Contract(node.connect(), STUDIO, address_of(STUDIO))
     content = studio.call(*calls[kind])
     content = content.encode() if isinstance(content, str) else content
     write_output(output, content)
@@ -137,18 +131,16 @@ def picture(
     print_line(f"{output}: {len(content):,} bytes" + ("" if gas is None else f", {gas:,} gas"))
 
 
-def verify(
-    which: AnyCollectionOptions,
-    numbers: Annotated[list[int] | None, argument("Tokens; default: all.", "ID")] = None,
-) -> None:
+def verify(which: CollectionOptions, numbers: tuple[int, ...] = argument("Tokens; default: all.", "ID")) -> None:
     """Compare the code, the seeds and the pictures of a collection with those computed here."""
     from ...deploy import local_chain
     from ...tokens import check_code, check_token
 
-    collection = which.open()
-    local = local_chain()
+    collection, local = which.open(or_editions=True), local_chain()
     failed = unread = 0
-    wanted = range(collection.minted()) if not numbers else [collection.token(each).number for each in numbers]
+    for each in numbers or ():
+        collection.owner_of(each)
+    wanted = numbers or range(collection.minted())
     for check in chain(check_code(collection), (check_token(collection, each, local) for each in wanted)):
         failed += bool(check.failure)
         unread += bool(check.unread)

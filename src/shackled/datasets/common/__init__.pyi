@@ -1,9 +1,8 @@
 from ._fetch import fetch, take
-from ._models import find, model, models, pieces
+from ._models import model, models, pieces
 
 __all__ = [
     "fetch",
-    "find",
     "model",
     "models",
     "pieces",

@@ -3,22 +3,15 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from itertools import product
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...errors import InputError
-from ...scene import FORCEFUL, GENTLE, Mesh, components, from_euler, is_closed, rotate, simplify, weld, without_slivers
+from ...scene import GENTLE, Mesh, from_euler, rotate, simplify, without_slivers
 
 #: The number of triangles of the largest object of the Shackled paper.
 MAX_TRIANGLES = 1198
-#: Parts of fewer triangles are crumbs of a scan, if they are also a small share of the whole.
-CRUMB = 12
-CRUMB_SHARE = 0.001
-
-#: Where simplification may stop on its way.
-STOPS = (3000, 6000, 12000, 2000)
 #: Along the longest side of a mesh, and where simplification stops on its way then.
 CELLS = (512, 384, 256, 192, 128, 96, 64)
 STEPPING_STONE = 4000
@@ -44,8 +37,7 @@ def prepare(
     if turn_inside_out:
         mesh = Mesh(mesh.positions, mesh.faces[:, ::-1], mesh.colors)
     # simplified in a space of its own, so that the units of the file do not matter
-    mesh = without_crumbs(reduce(placed(mesh, rotation), max_triangles))
-    return placed(mesh)
+    return placed(reduce(placed(mesh, rotation), max_triangles))
 
 
 def clean(mesh: Mesh) -> Mesh:
@@ -105,33 +97,15 @@ def capped(mesh: Mesh) -> Mesh:
     return Mesh(np.array(points), np.concatenate([faces, caps]), np.array(colors))
 
 
-def without_crumbs(mesh: Mesh) -> Mesh:
-    """Return the mesh without unconnected parts of a few triangles."""
-    faces = mesh.faces
-    part = components(faces, len(mesh.positions))[faces[:, 0]]
-    count = np.bincount(part)[part]
-    least = min(CRUMB, count.max())
-    kept = (count >= least) | (_size_of_parts(mesh, part) > CRUMB_SHARE**0.5)
-    return _compact(mesh.positions, faces[kept], mesh.colors)
-
-
 def reduce(mesh: Mesh, max_triangles: int) -> Mesh:
-    """Simplify a mesh; a closed mesh stays closed if possible, since its back faces need not be drawn.
-
-    Where edge collapse fails, near vertices are merged first, on grids that grow coarser.
-    """
+    """Simplify a mesh. Where edge collapse fails, near vertices are merged first, on grids that grow coarser."""
     try:
-        first = clean(simplify(mesh, max_triangles))
-        for stop in STOPS if is_closed(mesh) and not is_closed(first) else ():
-            other = clean(simplify(simplify(mesh, stop), max_triangles))
-            if is_closed(other):
-                return other
-        return first
+        return clean(simplify(mesh, max_triangles))
     except InputError:
-        for tries, cells in product((GENTLE, FORCEFUL), CELLS):
+        for cells in CELLS:
             with suppress(InputError):
-                fine = simplify(clean(_clustered(mesh, cells)), max(STEPPING_STONE, max_triangles), tries)
-                return clean(simplify(fine, max_triangles, tries))
+                fine = simplify(clean(_clustered(mesh, cells)), max(STEPPING_STONE, max_triangles), GENTLE)
+                return clean(simplify(fine, max_triangles, GENTLE))
         raise
 
 
@@ -140,41 +114,6 @@ def placed(mesh: Mesh, rotation: ArrayLike = (0, 0, 0)) -> Mesh:
     positions = rotate(from_euler(rotation), mesh.positions)
     positions = positions - (positions.min(axis=0) + positions.max(axis=0)) / 2
     return Mesh(positions / np.linalg.norm(positions, axis=1).max(), mesh.faces, mesh.colors)
-
-
-def creased(mesh: Mesh, degrees: float) -> Mesh:
-    """Return the mesh with smooth normals, except across edges at which it turns by more than `degrees`.
-
-    The normal of a corner is the mean, weighted by area, of the faces around it that turn away from its own by less.
-    """
-    positions, faces = mesh.positions, mesh.faces
-    a, b, c = positions[faces].transpose(1, 0, 2)
-    areas = np.cross(b - a, c - a)
-    units = areas / np.linalg.norm(areas, axis=1, keepdims=True)
-    around: list[list[int]] = [[] for _ in positions]
-    for number, face in enumerate(faces.tolist()):
-        for vertex in face:
-            around[vertex].append(number)
-    normals = np.empty((len(faces), 3, 3))
-    least = np.cos(np.radians(degrees)) - 1e-9
-    for number, face in enumerate(faces.tolist()):
-        for corner, vertex in enumerate(face):
-            near = np.array(around[vertex])
-            mean = areas[near[units[near] @ units[number] >= least]].sum(axis=0)
-            length = np.linalg.norm(mean)
-            normals[number, corner] = mean / length if length else units[number]
-    return weld(positions, faces, mesh.colors[faces], np.round(normals, 6))
-
-
-def _size_of_parts(mesh: Mesh, part: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return, for each face, the extent of its part as a share of that of the mesh."""
-    corners = mesh.positions[mesh.faces]
-    low = np.full((part.max() + 1, 3), np.inf)
-    high = -low
-    np.minimum.at(low, part, corners.min(axis=1))
-    np.maximum.at(high, part, corners.max(axis=1))
-    whole = np.linalg.norm(np.ptp(mesh.positions, axis=0))
-    return np.asarray(np.linalg.norm(high[part] - low[part], axis=1) / whole)
 
 
 def _clustered(mesh: Mesh, cells: int) -> Mesh:

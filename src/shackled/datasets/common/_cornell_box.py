@@ -42,18 +42,18 @@ def cornell_box() -> Scene:
 
     Its light casts no shadows.
     """
-    room = [(FLOOR, WHITE), *((part, WHITE) for part in _ceiling()), (BACK_WALL, WHITE)]
-    room += [(RIGHT_WALL, GREEN), (LEFT_WALL, RED)]
+    ceiling = [(CEILING[k], CEILING[(k + 1) % 4], LAMP[(k + 1) % 4], LAMP[k]) for k in range(4)]
+    room = [FLOOR, *ceiling, BACK_WALL, RIGHT_WALL, LEFT_WALL]
     material = Material("flat", ambient=0.35, diffuse=0.75, specular=0, shininess=1)
     # in the place of the light that the walls throw back at them
     brighter = Material("flat", ambient=0.52, diffuse=0.6, specular=0, shininess=1)
     middle = np.mean(LAMP, axis=0)
     return Scene(
         [
-            Object(_quads(room), material=material),
-            Object(_quads([(side, WHITE) for side in _block(*SHORT_BLOCK)]), material=brighter),
-            Object(_quads([(side, WHITE) for side in _block(*TALL_BLOCK)]), material=brighter),
-            Object(_quads([(LAMP, LAMP_COLOR)]), material=Material("unlit")),
+            Object(_quads(room, *[WHITE] * 6, GREEN, RED), material=material),
+            Object(_block(*SHORT_BLOCK), material=brighter),
+            Object(_block(*TALL_BLOCK), material=brighter),
+            Object(_quads([LAMP], LAMP_COLOR), material=Material("unlit")),
         ],
         camera=Camera(EYE, (EYE[0], EYE[1], 0), half_height=HALF_HEIGHT),
         # a little below the ceiling, so that its light brushes along it
@@ -62,23 +62,14 @@ def cornell_box() -> Scene:
     )
 
 
-def _ceiling() -> list[Quad]:
-    """Return the ceiling around the lamp."""
-    return [(CEILING[k], CEILING[(k + 1) % 4], LAMP[(k + 1) % 4], LAMP[k]) for k in range(4)]
-
-
-def _block(height: float, corners: Sequence[tuple[float, float]]) -> list[Quad]:
+def _block(height: float, corners: Sequence[tuple[float, float]]) -> Mesh:
     """Return the top and the four sides of a block, seen from outside."""
-    top = [(x, height, z) for x, z in corners]
-    bottom = [(x, 0.0, z) for x, z in corners]
-    sides: list[Quad] = [(top[k], bottom[k], bottom[(k + 1) % 4], top[(k + 1) % 4]) for k in range(4)]
-    return [(top[0], top[1], top[2], top[3]), *sides]
+    top, bottom = ([(x, y, z) for x, z in corners] for y in (height, 0.0))
+    sides = [(top[k], bottom[k], bottom[(k + 1) % 4], top[(k + 1) % 4]) for k in range(4)]
+    return _quads([(top[0], top[1], top[2], top[3]), *sides], *[WHITE] * 5)
 
 
-def _quads(quads: Sequence[tuple[Quad, Color]]) -> Mesh:
+def _quads(quads: Sequence[Quad], *colors: Color) -> Mesh:
     first = 4 * np.arange(len(quads))[:, None]
-    return Mesh(
-        np.array([quad for quad, _ in quads]).reshape(-1, 3),
-        np.concatenate([first + np.array(half) for half in ((0, 1, 2), (0, 2, 3))]),
-        np.repeat([color for _, color in quads], 4, axis=0),
-    )
+    faces = np.concatenate([first + np.array(half) for half in ((0, 1, 2), (0, 2, 3))])
+    return Mesh(np.reshape(quads, (-1, 3)), faces, np.repeat(colors, 4, axis=0))

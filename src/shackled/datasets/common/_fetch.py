@@ -1,48 +1,44 @@
-"""Download and preparation of models.
-
-A file is downloaded under a name that ends in .part, and renamed if its checksum is right, so that files in the cache
-are always complete. An interrupted download continues where it stopped, if the server can do that.
-"""
+"""Download, unpacking and preparation of models."""
 
 from __future__ import annotations
 
-import errno
 import hashlib
+import io
+import tempfile
+import warnings
+import zipfile
+import zlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
-from typing import Any
+from pathlib import Path, PurePosixPath
+from xml.etree import ElementTree
 
-from ...errors import FetchError, InputError
-from ...scene import MAX_BYTES, about
-from .. import cache_folder
+import numpy as np
+
+from ...errors import FetchError, InputError, InputWarning
+from ...scene import MAX_BYTES, READERS, Mesh, about, read_mesh, weld
+from .. import cache_folder, keep
 from ._clean import prepare
 from ._models import Model, save_mesh
-from ._unpack import read_model
 
+MODEL_3MF = "3D/3dmodel.model"
 #: Timeouts in seconds: of a connection, and between parts of the file.
 TIMEOUT = (10, 30)
-#: Bytes that are read and written at a time.
+#: Bytes that are read at a time.
 CHUNK = 1 << 13
 
 #: Called with the bytes downloaded so far, and the size of the file, None if it is not known.
-Progress = Callable[[int, int | None], None]
+Progress = Callable[[int, int | None], object]
 
 
-def _no_progress(here: int, whole: int | None) -> None:
-    pass
-
-
-def fetch(model: Model, again: bool = False, progress: Progress = _no_progress) -> bool:
+def fetch(model: Model, again: bool = False, progress: Progress = lambda here, whole: None) -> bool:
     """Download a model unless it is in the cache, and prepare it; return whether anything was done.
 
     again: prepare it again, replacing a file of the user. FetchError if it cannot be downloaded or written.
     """
-    prepared = model.prepared()
     if not again and model.kept() is not None:
         return False
-    _keep(model, download(model, progress), prepared)
-    model.prepared(own=True).unlink(missing_ok=True)
+    _save(model, _prepared(model, download(model, progress)))
     return True
 
 
@@ -52,149 +48,77 @@ def take(model: Model, path: Path) -> bool:
     InputError if it is not a readable mesh.
     """
     if not path.is_file():
-        raise InputError(
-            f"{path} {'is no file' if path.exists() else 'does not exist'}; a mesh file or archive is needed"
-        )
-    same = checksum(path, model.checksum) == model.checksum
-    _keep(model, path, model.prepared(own=not same))
-    if same:
-        model.prepared(own=True).unlink(missing_ok=True)
+        wrong = "is no file" if path.exists() else "does not exist"
+        raise InputError(f"{path} {wrong}; a mesh file or archive is needed")
+    mesh = _prepared(model, path)
+    same = checksum(path.read_bytes(), model.checksum) == model.checksum
+    _save(model, mesh, own=not same)
     return same
 
 
-def checksum(path: Path, like: str) -> str:
+def checksum(data: bytes, like: str) -> str:
     """Return the checksum of a file, of the kind of another: "sha256:..." or "git-blob:..."."""
     kind = like.partition(":")[0]
-    digest = hashlib.sha256()
+    digest = hashlib.sha256(data)
     if kind == "git-blob":
-        digest = hashlib.sha1(f"blob {path.stat().st_size}\0".encode(), usedforsecurity=False)
-    with path.open("rb") as file:
-        while data := file.read(CHUNK):
-            digest.update(data)
+        digest = hashlib.sha1(b"blob %d\0" % len(data) + data, usedforsecurity=False)
     return f"{kind}:{digest.hexdigest()}"
 
 
-def _keep(model: Model, path: Path, prepared: Path) -> None:
-    mesh = read_model(path, model.member)
+def _prepared(model: Model, path: Path) -> Mesh:
+    mesh = read_model(path)
     with about(str(path)):
-        mesh = prepare(mesh, model.rotation, model.cap, model.inside_out)
+        return prepare(mesh, model.rotation, model.cap, model.inside_out)
+
+
+def _save(model: Model, mesh: Mesh, own: bool = False) -> None:
     with _on_disk(model):
-        save_mesh(mesh, prepared)
+        save_mesh(mesh, model.prepared(own))
+        if not own:
+            model.prepared(own=True).unlink(missing_ok=True)
 
 
-# ---- the download ----
-
-
-def download(model: Model, progress: Progress = _no_progress) -> Path:
-    """Return the path of the published file, from the cache or from the first address that has it."""
+def download(model: Model, progress: Progress = lambda here, whole: None) -> Path:
+    """Return the path of the published file, from the cache or from its address."""
     place = model.original
     with _on_disk(model):
-        if place.is_file() and checksum(place, model.checksum) == model.checksum:
-            return place
-        place.unlink(missing_ok=True)
-        place.parent.mkdir(parents=True, exist_ok=True)
-    failures: list[FetchError] = []
-    for address in model.addresses:
-        try:
-            with _on_disk(model):
-                _download(model, address, progress)
-            return place
-        except FetchError as error:
-            failures.append(error)
-    raise failures[-1]
+        if not place.is_file() or checksum(place.read_bytes(), model.checksum) != model.checksum:
+            keep(place, _download(model, progress))
+    return place
 
 
-def _download(model: Model, address: str, progress: Progress) -> None:
-    """Download the file from an address, from where that was cut, and move it to its place if its checksum is right."""
-    part = _part(model)
-    resumed = part.is_file() and part.stat().st_size > 0
-    _transfer(model, address, part, progress)
-    found = checksum(part, model.checksum)
-    if found != model.checksum and resumed:
-        # what was there may have been the beginning of something else
-        part.unlink()
-        _transfer(model, address, part, progress)
-        found = checksum(part, model.checksum)
-    if found != model.checksum:
-        part.unlink()
-        raise FetchError(
-            f"{model.name}: what {address} sends is not the file that was expected: its checksum is {found}"
-            f" instead of {model.checksum}"
-        )
-    part.replace(model.original)
-
-
-def _transfer(model: Model, address: str, part: Path, progress: Progress) -> None:
-    """Download the missing part of the file."""
+def _download(model: Model, progress: Progress) -> bytes:
     import requests
 
-    name = model.name
-    here = part.stat().st_size if part.is_file() else 0
-    headers = {"Accept-Encoding": "identity"}
-    if here:
-        headers["Range"] = f"bytes={here}-"
-    whole, answered = model.size, False
+    name, address, size = model.name, model.address, model.size
+    host, most = address.split("/")[2], MAX_BYTES if size is None else size
+    data = b""
     try:
-        with requests.get(address, headers=headers, stream=True, timeout=TIMEOUT) as response:
-            answered = True
-            if response.status_code == 416:  # there is no more than what is here
-                if whole is None or here == whole:
-                    return
-                part.unlink()
-                raise FetchError(f"{name}: {address} sent {here:,} bytes instead of {whole:,}; run it again")
-            if response.status_code not in (200, 206):
+        with requests.get(address, stream=True, timeout=TIMEOUT) as response:
+            if response.status_code != 200:
                 raise FetchError(f"{name}: {address} answers {response.status_code} {response.reason}")
-            goes_on = response.status_code == 206 and response.headers.get("Content-Range", "").startswith(
-                f"bytes {here}-"
-            )
-            if not goes_on:
-                here = 0
-            with part.open("ab" if goes_on else "wb") as file:
-                for data in response.iter_content(CHUNK):
-                    here += len(data)
-                    if here > (MAX_BYTES if whole is None else whole):
-                        file.close()
-                        part.unlink()
-                        raise FetchError(f"{name}: {address} sends more than the {whole or MAX_BYTES:,} bytes expected")
-                    _write(file, data)
-                    progress(here, whole)
-    except requests.exceptions.ConnectTimeout:
-        raise FetchError(f"{name}: no answer from {_host(address)} within {TIMEOUT[0]} seconds") from None
-    except (
-        requests.exceptions.ConnectionError,
-        requests.exceptions.ChunkedEncodingError,
-        requests.exceptions.Timeout,
-    ):
-        if answered:
-            raise _cut(model, here) from None
-        raise FetchError(
-            f"{name}: {_host(address)} cannot be reached; is there a network?"
-            f" A file that you have goes in with: shackled datasets fetch {name} --from FILE"
-        ) from None
+            for part in response.iter_content(CHUNK):
+                data += part
+                if len(data) > most:
+                    raise FetchError(f"{name}: {address} sends more than the {most:,} bytes expected")
+                progress(len(data), size)
+            is_cut = size is not None and len(data) < size
     except requests.exceptions.RequestException as error:
-        raise FetchError(f"{name}: {address} cannot be fetched: {type(error).__name__}") from None
-    if whole is not None and here < whole:
-        raise _cut(model, here)
-
-
-def _cut(model: Model, here: int) -> FetchError:
-    of = "" if model.size is None else f" of {model.size:,}"
-    return FetchError(
-        f"{model.name}: the connection was cut after {here:,}{of} bytes; run it again to go on from there"
-    )
-
-
-def _part(model: Model) -> Path:
-    """Return the path of an unfinished download."""
-    return model.original.with_name(f"{model.original.name}.part")
-
-
-def _write(file: Any, data: bytes) -> None:
-    file.write(data)
-
-
-def _host(address: str) -> str:
-    return address.split("/")[2]
+        if not data:
+            raise FetchError(
+                f"{name}: {host} cannot be reached ({type(error).__name__}); is there a network?"
+                f" A file that you have goes in with: shackled datasets fetch {name} --from FILE"
+            ) from None
+        is_cut = True
+    if is_cut:
+        raise FetchError(f"{name}: the connection was cut after {len(data):,} bytes; run it again")
+    found = checksum(data, model.checksum)
+    if found != model.checksum:
+        raise FetchError(
+            f"{name}: what {address} sends is not the file that was expected: its checksum is {found}"
+            f" instead of {model.checksum}"
+        )
+    return data
 
 
 @contextmanager
@@ -203,8 +127,68 @@ def _on_disk(model: Model) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        folder = cache_folder()
-        if error.errno in (errno.ENOSPC, errno.EDQUOT):
-            _part(model).unlink(missing_ok=True)
-            raise FetchError(f"{model.name}: the disk is full: no space for it in {folder}") from None
-        raise FetchError(f"{model.name}: the cache {folder} cannot be used: {error.strerror or error}") from None
+        reason = error.strerror or error
+        raise FetchError(f"{model.name}: the cache {cache_folder()} cannot be used: {reason}") from None
+
+
+def read_model(path: Path) -> Mesh:
+    """Read the mesh of a mesh file, a 3MF, or the largest mesh file in a zip archive.
+
+    Materials and textures are ignored without a warning, since only the mesh of a model is fetched. InputError, one
+    line that begins with the path, for anything that is wrong with the file.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", InputWarning)
+        try:
+            with path.open("rb") as file:
+                if file.read(4) != b"PK\3\4":
+                    return read_mesh(path)
+            with zipfile.ZipFile(path) as archive:
+                return _from_zip(path, archive)
+        except (OSError, EOFError, zipfile.BadZipFile, zlib.error, RuntimeError) as error:
+            reason = getattr(error, "strerror", None) or str(error) or type(error).__name__
+            raise InputError(f"{path} cannot be read: {reason}") from None
+
+
+def _from_zip(path: Path, archive: zipfile.ZipFile) -> Mesh:
+    sizes = {each.filename: each.file_size for each in archive.infolist()}
+    meshes = [name for name in sizes if PurePosixPath(name).suffix.lower() in READERS]
+    if not meshes and MODEL_3MF not in sizes:
+        raise InputError(f"{path} contains no mesh file; known are {', '.join(READERS)}")
+    name = MODEL_3MF if MODEL_3MF in sizes else max(meshes, key=lambda each: (sizes[each], each))
+    with archive.open(name) as file:
+        data = file.read(MAX_BYTES + 1)
+    if len(data) > MAX_BYTES:
+        raise InputError(f"{path} unpacks to more than {MAX_BYTES >> 20} MB, the most that is read")
+    if name == MODEL_3MF:
+        return _read_3mf(path, data)
+    with tempfile.TemporaryDirectory() as folder:
+        unpacked = Path(folder, f"model{PurePosixPath(name).suffix}")
+        unpacked.write_bytes(data)
+        try:
+            return read_mesh(unpacked)
+        except InputError as error:
+            raise InputError(str(error).replace(str(unpacked), f"{path}: {name}")) from None
+
+
+def _read_3mf(path: Path, model: bytes) -> Mesh:
+    """Read all meshes of a 3MF, each in its own coordinates."""
+    positions: list[list[float]] = []
+    faces: list[list[int]] = []
+    first = 0
+    try:
+        for _, element in ElementTree.iterparse(io.BytesIO(model), events=("end",)):
+            kind = element.tag.rpartition("}")[2]
+            if kind == "vertex":
+                positions.append([float(element.attrib[axis]) for axis in ("x", "y", "z")])
+            elif kind == "triangle":
+                faces.append([first + int(element.attrib[corner]) for corner in ("v1", "v2", "v3")])
+            elif kind == "mesh":
+                first = len(positions)
+            if kind in ("vertex", "triangle", "mesh"):
+                element.clear()
+        if not faces:
+            raise ValueError("it has no triangles")
+        return weld(np.array(positions), np.array(faces))
+    except (InputError, KeyError, ValueError, ElementTree.ParseError) as error:
+        raise InputError(f"{path} is not a 3MF file that can be read: {error}") from None

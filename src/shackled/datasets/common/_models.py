@@ -12,10 +12,9 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import InputError
-from ...scene import Material, Mesh, Object, Scene, contrasting, painted, stage
+from ...scene import LookOptions, Material, Mesh, Object, Scene, contrasting, painted, stage
 from .. import Piece, cache_folder, keep
 from . import builtin
-from ._clean import creased
 
 #: Incremented when `prepare` or the format of its files changes, so that caches are not reused.
 VERSION = 1
@@ -33,10 +32,9 @@ class Model:
     author: str
     licence: str
     commercial: bool
-    addresses: list[str]
+    address: str
     checksum: str
     size: int | None = None
-    member: str | None = None
     rotation: list[float] = field(default_factory=lambda: [0, 0, 0])
     color: str | None = None
     azimuth: float = 30
@@ -49,7 +47,7 @@ class Model:
     @property
     def original(self) -> Path:
         """The path of the downloaded file."""
-        suffix = Path(self.addresses[0]).suffix
+        suffix = Path(self.address).suffix
         return cache_folder() / "originals" / f"{self.name}-{self.checksum.partition(':')[2][:12]}{suffix}"
 
     def prepared(self, own: bool = False) -> Path:
@@ -90,24 +88,23 @@ class Model:
         """Return the scene of a prepared mesh, in the colours of its file if there are any."""
         if self.color is not None and len(np.unique(mesh.colors, axis=0)) == 1:
             mesh = painted(mesh, self.color)
-        return stage(
-            mesh if self.crease is None else creased(mesh, self.crease),
-            material=MATERIAL,
+        look = LookOptions(
             background=contrasting([Object(mesh)]),
             azimuth=self.azimuth,
             elevation=self.elevation,
             half_height=0.3,
             cull=self.cull,
         )
+        if self.crease is not None:
+            look["crease"] = self.crease
+        return stage(mesh, material=MATERIAL, **look)
 
 
 @cache
 def models() -> dict[str, Model]:
     """Return all models by name."""
-    text = files(__package__).joinpath("models.toml").read_text("utf-8")
-    return {
-        name: Model(name=name, size=entry.pop("bytes", None), **entry) for name, entry in tomllib.loads(text).items()
-    }
+    entries = tomllib.loads(files(__package__).joinpath("models.toml").read_text("utf-8"))
+    return {name: Model(name=name, size=entry.pop("bytes", None), **entry) for name, entry in entries.items()}
 
 
 def model(name: str) -> Model:
@@ -122,22 +119,11 @@ def pieces() -> list[Piece]:
     return [*builtin.pieces(), *(each.piece() for each in models().values())]
 
 
-def find(name: str) -> Piece | None:
-    """Return the piece of that name; None if there is none."""
-    if name in models():
-        return models()[name].piece()
-    return next((piece for piece in builtin.pieces() if piece.name == name), None)
-
-
 def save_mesh(mesh: Mesh, path: Path) -> None:
     """Write a prepared mesh. OSError if it cannot be written."""
     stream = io.BytesIO()
-    np.savez_compressed(
-        stream,
-        positions=mesh.positions.astype(np.float32),
-        faces=mesh.faces.astype(np.uint16),
-        colors=mesh.colors,
-    )
+    positions, faces = mesh.positions.astype(np.float32), mesh.faces.astype(np.uint16)
+    np.savez_compressed(stream, positions=positions, faces=faces, colors=mesh.colors)
     keep(path, stream.getvalue())
 
 

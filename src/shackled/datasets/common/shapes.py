@@ -26,10 +26,27 @@ def patch(surface: Surface, across: int, down: int) -> Mesh:
 
     Equal points are one vertex, so seams and poles are smooth. Triangles without area are left out.
     """
-    u, v = np.meshgrid(np.linspace(0, 1, across + 1), np.linspace(0, 1, down + 1), indexing="ij")
-    points, faces = surface(u, v).reshape(-1, 3), _grid(across, down)
+    return smooth(surface(*_parameters(across, down)).reshape(-1, 3), cells(across + 1, down + 1))
+
+
+def smooth(points: Array, faces: NDArray[np.int64]) -> Mesh:
+    """Return a mesh with normals, in which equal points are one vertex, without triangles that have no area."""
     positions, number = np.unique(np.round(points, 9) + 0.0, axis=0, return_inverse=True)
-    return _smooth(positions, without_slivers(number.reshape(-1)[faces]))
+    merged = without_slivers(number.reshape(-1)[faces])
+    return Mesh(positions, merged, normals=vertex_normals(positions, merged))
+
+
+def cells(rows: int, columns: int) -> NDArray[np.int64]:
+    """Return two faces for each cell of a grid of vertices, counter-clockwise from row to column."""
+    number = np.arange(rows * columns).reshape(rows, columns)
+    a, b, c, d = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
+    return np.stack([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)], axis=-2).reshape(-1, 3)
+
+
+def around(angle: ArrayLike, height: ArrayLike, reach: ArrayLike) -> Array:
+    """Return points about the y axis, (..., 3)."""
+    x, y, z = np.broadcast_arrays(reach * np.cos(angle), height, np.negative(reach) * np.sin(angle))
+    return np.stack([x, y, z], axis=-1)
 
 
 def one_sided(surface: Surface, across: int, down: int) -> Mesh:
@@ -38,13 +55,13 @@ def one_sided(surface: Surface, across: int, down: int) -> Mesh:
     Each face is lit and seen from its own side. Vertices where the surface closes upon itself are not merged, because
     their normals may point opposite ways.
     """
-    u, v = np.meshgrid(np.linspace(0, 1, across + 1), np.linspace(0, 1, down + 1), indexing="ij")
+    u, v = _parameters(across, down)
     step = 1e-5
     along = surface(u + step, v) - surface(u - step, v)
     beside = surface(u, v + step) - surface(u, v - step)
     normals = np.cross(along, beside).reshape(-1, 3)
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-    points, faces = surface(u, v).reshape(-1, 3), _grid(across, down)
+    points, faces = surface(u, v).reshape(-1, 3), cells(across + 1, down + 1)
     return Mesh(
         np.concatenate([points, points]),
         np.concatenate([faces, faces[:, ::-1] + len(points)]),
@@ -54,14 +71,14 @@ def one_sided(surface: Surface, across: int, down: int) -> Mesh:
 
 def sphere(across: int = 32, down: int = 16) -> Mesh:
     """Return a sphere of radius 1, divided by longitude and latitude."""
-    return patch(lambda u, v: _around(TURN * u, -np.cos(np.pi * v), np.sin(np.pi * v)), across, down)
+    return patch(lambda u, v: around(TURN * u, -np.cos(np.pi * v), np.sin(np.pi * v)), across, down)
 
 
 def torus(radius: float = 0.72, thickness: float = 0.28, across: int = 36, down: int = 16) -> Mesh:
     """Return a ring about the y axis."""
 
     def surface(u: Array, v: Array) -> Array:
-        return _around(TURN * u, -thickness * np.sin(TURN * v), radius + thickness * np.cos(TURN * v))
+        return around(TURN * u, -thickness * np.sin(TURN * v), radius + thickness * np.cos(TURN * v))
 
     return patch(lambda u, v: surface(u, -v), across, down)
 
@@ -113,7 +130,7 @@ def moebius_strip(across: int = 60, down: int = 5, width: float = 0.38) -> Mesh:
     def surface(u: Array, v: Array) -> Array:
         angle, offset = TURN * u, width * (2 * v - 1)
         reach = 0.72 + offset * np.cos(angle / 2)
-        return _around(angle, offset * np.sin(angle / 2), reach)
+        return around(angle, offset * np.sin(angle / 2), reach)
 
     return one_sided(surface, across, down)
 
@@ -159,7 +176,7 @@ def seashell(across: int = 66, down: int = 9, turns: float = 4) -> Mesh:
         angle, growth = TURN * turns * u, np.exp(0.62 * turns * (u - 1))
         radius, turn = 0.46 * growth, -TURN * v
         reach = 0.44 * growth + radius * np.cos(turn)
-        return _around(angle, 0.95 - 1.55 * growth - 1.1 * radius * np.sin(turn), reach)
+        return around(angle, 0.95 - 1.55 * growth - 1.1 * radius * np.sin(turn), reach)
 
     return patch(surface, across, down)
 
@@ -167,31 +184,31 @@ def seashell(across: int = 66, down: int = 9, turns: float = 4) -> Mesh:
 # ---- what has edges ----
 
 
-def cylinder(around: int = 40) -> Mesh:
+def cylinder(count: int = 40) -> Mesh:
     """Return a cylinder of radius 0.75 and height 1.8 along the y axis."""
-    return _lathe([0, 0.75, 0.75, 0], [-0.9, -0.9, 0.9, 0.9], around)
+    return _turned([0, 0.75, 0.75, 0], [-0.9, -0.9, 0.9, 0.9], count)
 
 
-def cone(around: int = 40) -> Mesh:
+def cone(count: int = 40) -> Mesh:
     """Return a cone of radius 0.85 and height 1.8 that points upward."""
-    return _lathe([0, 0.85, 0], [-0.9, -0.9, 0.9], around)
+    return _turned([0, 0.85, 0], [-0.9, -0.9, 0.9], count)
 
 
-def _lathe(radii: list[float], heights: list[float], around: int) -> Mesh:
+def _turned(radii: list[float], heights: list[float], count: int) -> Mesh:
     """Return the surface of a polyline turned about the y axis, smooth around, with edges between its parts."""
     parts = []
-    k, top = np.arange(around), around + 1
-    angle = TURN * np.arange(around + 1) / around
+    k, top = np.arange(count), count + 1
+    angle = TURN * np.arange(count + 1) / count
     up = np.array([0.0, 1.0, 0.0])
     for r0, h0, r1, h1 in zip(radii, heights, radii[1:], heights[1:], strict=False):
-        ring = _around(angle, np.zeros(1), np.ones(1))
-        points = np.concatenate([r0 * ring + h0 * up, r1 * ring + h1 * up])
+        ring = around(angle, 0, 1)
+        points = np.concatenate([around(angle, h0, r0), around(angle, h1, r1)])
         # at a tip each face has the normal of its own middle
-        middle = _around(angle + TURN / around / 2, np.zeros(1), np.ones(1))
+        middle = around(angle + TURN / count / 2, 0, 1)
         outward = np.concatenate([ring if r0 else middle, ring if r1 else middle])
         lower = np.stack([k, k + 1, top + (k + 1 if r1 else k)], axis=-1)
         upper = np.stack([k, top + k + 1, top + k], axis=-1)
-        faces = np.concatenate([lower[: around if r0 else 0], upper[: around if r1 else 0]])
+        faces = np.concatenate([lower[: count if r0 else 0], upper[: count if r1 else 0]])
         points = np.round(points, 9) + 0.0  # so that the last edge is the first one, and parts meet
         parts.append(Mesh(points, faces, normals=_unit((h1 - h0) * outward + (r0 - r1) * up)))
     return joined(*parts)
@@ -236,7 +253,8 @@ def icosphere(halvings: int = 2) -> Mesh:
         soup = np.stack([a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca], axis=1).reshape(-1, 3)
         positions, number = np.unique(np.round(soup, 9) + 0.0, axis=0, return_inverse=True)
         faces = number.reshape(-1, 3)
-    return _smooth(_unit(positions), faces)
+    positions = _unit(positions)
+    return Mesh(positions, faces, normals=vertex_normals(positions, faces))
 
 
 def hull(points: ArrayLike) -> Mesh:
@@ -277,11 +295,16 @@ def menger_sponge(depth: int = 2) -> Mesh:
 
 def shaded(mesh: Mesh, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1, 0)) -> Mesh:
     """Return the mesh in colours from `low` to `high` along an axis."""
-    height = mesh.positions @ np.asarray(axis, dtype=np.float64)
-    share = ((height - height.min()) / (np.ptp(height) or 1))[:, None]
-    ends = np.array([checked_color(low, "a colour"), checked_color(high, "a colour")], dtype=np.float64)
-    colors = np.rint((1 - share) * ends[0] + share * ends[1]).astype(np.uint8)
+    colors = gradient(mesh.positions @ np.asarray(axis, dtype=np.float64), low, high)
     return Mesh(mesh.positions, mesh.faces, colors, mesh.normals)
+
+
+def gradient(heights: Array, low: ArrayLike, high: ArrayLike) -> NDArray[np.uint8]:
+    """Return colours, (..., 3), from `low` at the least of the heights, (...), to `high` at the greatest."""
+    share = ((heights - heights.min()) / (np.ptp(heights) or 1))[..., None]
+    start, end = (np.array(checked_color(color, "a colour"), dtype=np.float64) for color in (low, high))
+    colors: NDArray[np.uint8] = np.rint((1 - share) * start + share * end).astype(np.uint8)
+    return colors
 
 
 def joined(*meshes: Mesh) -> Mesh:
@@ -298,24 +321,13 @@ def joined(*meshes: Mesh) -> Mesh:
 # ---- parts of the above ----
 
 
-def _around(angle: Array, height: Array, reach: Array) -> Array:
-    """Return points about the y axis."""
-    x, y, z = np.broadcast_arrays(reach * np.cos(angle), height, -reach * np.sin(angle))
-    return np.stack([x, y, z], axis=-1)
-
-
 def _unit(vectors: Array) -> Array:
     return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
 
 
-def _grid(across: int, down: int) -> NDArray[np.int64]:
-    number = np.arange((across + 1) * (down + 1)).reshape(across + 1, down + 1)
-    a, b, c, d = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
-    return np.stack([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)], axis=-2).reshape(-1, 3)
-
-
-def _smooth(positions: Array, faces: NDArray[np.int64]) -> Mesh:
-    return Mesh(positions, faces, normals=vertex_normals(positions, faces))
+def _parameters(across: int, down: int) -> tuple[Array, Array]:
+    u, v = np.meshgrid(np.linspace(0, 1, across + 1), np.linspace(0, 1, down + 1), indexing="ij")
+    return u, v
 
 
 def _faces_of(points: ArrayLike) -> NDArray[np.int64]:

@@ -1,6 +1,5 @@
-from ._collection import find, pieces
+from ._icons import pieces
 
 __all__ = [
-    "find",
     "pieces",
 ]

@@ -9,13 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ... import checks
 from ...scene import Mesh, from_euler, rotate
-from .outlines import chamfered, inset, rectangle, regular, triangulate
+from ..common import shapes
+from .outlines import arc, chamfered, inset, rectangle, regular, triangulate
 
 Array = NDArray[np.float64]
 Where = Callable[[Array], NDArray[np.bool_]]
@@ -41,8 +43,6 @@ class Solid:
     def __add__(self, other: Solid) -> Solid:
         return union(self, other)
 
-    # ---- moving ----
-
     def moved(self, x: float = 0, y: float = 0, z: float = 0) -> Solid:
         """Return the solid moved."""
         return replace(self, corners=self.corners + np.array((x, y, z)))
@@ -53,20 +53,11 @@ class Solid:
 
     def scaled(self, x: float = 1, y: float = 1, z: float = 1) -> Solid:
         """Return the solid scaled about the origin; a negative factor mirrors it, and faces still point outward."""
-        return self.bent(lambda points: points * (x, y, z))
+        return _outward(replace(self, corners=self.corners * (x, y, z)))
 
     def mirrored(self) -> Solid:
         """Return the mirror image, left and right exchanged."""
         return self.scaled(x=-1)
-
-    def bent(self, function: Callable[[Array], Array]) -> Solid:
-        """Return the solid with a function applied to its points, (n, 3).
-
-        The function may mirror the solid, but not turn it inside out in any other way.
-        """
-        return _outward(replace(self, corners=function(self.corners.reshape(-1, 3)).reshape(-1, 3, 3)))
-
-    # ---- colouring ----
 
     def painted(self, color: ArrayLike, where: Where | None = None) -> Solid:
         """Return the solid in one colour, or only the triangles whose centres, (m, 3), `where` selects."""
@@ -76,12 +67,7 @@ class Solid:
 
     def shaded(self, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1, 0)) -> Solid:
         """Return the solid in a gradient along an axis, from its lowest to its highest point."""
-        along = self.corners @ np.asarray(axis, dtype=np.float64)
-        part = ((along - along.min()) / np.ptp(along))[..., None]
-        start, end = (np.array(checks.color(color, "the colour of a solid")) for color in (low, high))
-        return replace(self, colors=np.rint(start + (end - start) * part).astype(np.uint8))
-
-    # ---- the result ----
+        return replace(self, colors=shapes.gradient(self.corners @ np.asarray(axis, dtype=np.float64), low, high))
 
     def volume(self) -> float:
         """Return the sum of the volumes of the parts."""
@@ -152,7 +138,7 @@ def loft(rings: ArrayLike, closed: bool = False) -> Solid:
         triangles += [_cap(points[0])[:, ::-1], _cap(points[-1])]
     corners = np.concatenate(triangles)
     corners = corners[_distinct(corners)]
-    return _outward(Solid(corners, np.full(corners.shape, 200, dtype=np.uint8)))
+    return _outward(_grey(corners))
 
 
 def prism(outline: ArrayLike, depth: float, bevel: float = 0) -> Solid:
@@ -174,11 +160,8 @@ def revolve(profile: ArrayLike, segments: int, closed: bool = False) -> Solid:
     """
     circle = regular(segments, 1.0, 180 / segments)
     radius, y = np.asarray(profile, dtype=np.float64).T
-    rings = np.empty((len(radius), segments, 3))
-    rings[..., 0] = radius[:, None] * circle[:, 0]
-    rings[..., 1] = y[:, None]
-    rings[..., 2] = radius[:, None] * circle[:, 1]
-    return loft(rings, closed)
+    x, z = radius[:, None] * circle[:, 0], radius[:, None] * circle[:, 1]
+    return loft(np.stack(np.broadcast_arrays(x, y[:, None], z), axis=-1), closed)
 
 
 def sweep(outline: ArrayLike, path: ArrayLike, closed: bool = False, scales: Sequence[float] | None = None) -> Solid:
@@ -231,8 +214,7 @@ def cone(radius: float, height: float, segments: int) -> Solid:
 
 def sphere(radius: float, segments: int, rings: int) -> Solid:
     """Return a sphere about the origin of 2 * segments * (rings - 1) triangles."""
-    angles = np.linspace(-90, 90, rings + 1)
-    profile = np.stack([np.cos(np.radians(angles)), np.sin(np.radians(angles))], axis=1) * radius
+    profile = arc(radius, -90, 90, rings)
     profile[[0, -1], 0] = 0
     return revolve(profile, segments)
 
@@ -241,22 +223,18 @@ def icosphere(radius: float, divisions: int) -> Solid:
     """Return a sphere about the origin of 20 * 4^divisions nearly equal triangles."""
     golden = (1 + 5**0.5) / 2
     pairs = [(s, t * golden) for s in (-1, 1) for t in (-1, 1)]
-    points = np.array([np.roll((0, *pair), axis) for axis in range(3) for pair in pairs], dtype=np.float64)
-    distance = np.linalg.norm(points[:, None] - points, axis=2)
-    near = np.isclose(distance, 2)
-    corners = points[
-        [(i, j, k) for i in range(12) for j in range(i) for k in range(j) if near[i, j] & near[j, k] & near[k, i]]
-    ]
+    points = np.array([np.roll((0, *pair), axis) for axis in range(3) for pair in pairs])
+    near = np.isclose(np.linalg.norm(points[:, None] - points, axis=2), 2)
+    numbers = [each for each in combinations(range(11, -1, -1), 3) if near[np.ix_(each, each)].sum() == 6]
+    corners = points[sorted(numbers)]
     inward = np.linalg.det(corners) < 0
     corners[inward] = corners[inward][:, ::-1]
     for _ in range(divisions):
         a, b, c = corners.transpose(1, 0, 2)
         d, e, f = a + b, b + c, c + a
-        parts = [(a, d, f), (d, b, e), (f, e, c), (d, e, f)]
-        corners = np.concatenate([np.stack(part, axis=1) for part in parts])
+        corners = np.concatenate([np.stack(part, axis=1) for part in ((a, d, f), (d, b, e), (f, e, c), (d, e, f))])
         corners /= np.linalg.norm(corners, axis=2, keepdims=True)
-    corners = radius * corners / np.linalg.norm(corners, axis=2, keepdims=True)
-    return Solid(corners, np.full(corners.shape, 200, dtype=np.uint8))
+    return _grey(radius * corners / np.linalg.norm(corners, axis=2, keepdims=True))
 
 
 def torus(radius: float, thickness: float, segments: int, sides: int) -> Solid:
@@ -276,9 +254,7 @@ def link(length: float, width: float, thickness: float, steps: int, sides: int) 
 
     length, width: between the centres of opposite rods. thickness: the radius of the rod.
     """
-    radius = width / 2
-    angles = np.radians(np.linspace(-90, 90, steps + 1))
-    half = np.stack([(length - width) / 2 + radius * np.cos(angles), radius * np.sin(angles), 0 * angles], axis=1)
+    half = _at(arc(width / 2, -90, 90, steps, ((length - width) / 2, 0)), 0)
     return tube(np.vstack([half, half * (-1, -1, 1)]), thickness, sides, closed=True)
 
 
@@ -316,6 +292,10 @@ def pixels(rows: Sequence[str], palette: dict[str, str], depth: float) -> Solid:
 
 def _at(outline: Array, z: float) -> Array:
     return np.column_stack([outline, np.full(len(outline), z)])
+
+
+def _grey(corners: Array) -> Solid:
+    return Solid(corners, np.full(corners.shape, 200, dtype=np.uint8))
 
 
 def _distinct(corners: Array) -> NDArray[np.bool_]:

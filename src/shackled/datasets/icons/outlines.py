@@ -51,9 +51,8 @@ def stroke(path: ArrayLike, width: float) -> Outline:
     along = np.diff(points, axis=0)
     along /= np.linalg.norm(along, axis=1, keepdims=True)
     left = np.stack([-along[:, 1], along[:, 0]], axis=1)
-    before, after = np.vstack([left[:1], left]), np.vstack([left, left[-1:]])
-    mitre = (before + after) / (1 + (before * after).sum(axis=1, keepdims=True))
-    return counter_clockwise(np.vstack([points - mitre * width / 2, (points + mitre * width / 2)[::-1]]))
+    aside = _mitres(np.vstack([left[:1], left]), np.vstack([left, left[-1:]]), width / 2)
+    return counter_clockwise(np.vstack([points - aside, (points + aside)[::-1]]))
 
 
 def inset(outline: ArrayLike, distance: float) -> Outline:
@@ -62,8 +61,12 @@ def inset(outline: ArrayLike, distance: float) -> Outline:
     along = np.roll(points, -1, axis=0) - points
     along /= np.linalg.norm(along, axis=1, keepdims=True)
     after = np.stack([-along[:, 1], along[:, 0]], axis=1)
-    before = np.roll(after, 1, axis=0)
-    return np.asarray(points + distance * (before + after) / (1 + (before * after).sum(axis=1, keepdims=True)))
+    return points + _mitres(np.roll(after, 1, axis=0), after, distance)
+
+
+def _mitres(before: Outline, after: Outline, distance: float) -> Outline:
+    """Return how far corners move if the sides beside them move by a distance along these unit vectors."""
+    return np.asarray(distance * (before + after) / (1 + (before * after).sum(axis=1, keepdims=True)))
 
 
 def area(outline: ArrayLike) -> float:

@@ -25,9 +25,9 @@ _MASK, _HIDDEN = 0.95, 128
 def picture_beside(
     path: Path, folders: Sequence[Path], name: str, wrap: FileWrap = "repeat", alpha: str | None = None
 ) -> Picture | None:
-    """Return the picture that a mesh file names, as `read_beside`; None, with an InputWarning, if it cannot be read.
+    """Return the picture that a mesh file names, "" for a white one; None, with an InputWarning, if it cannot be read.
 
-    name: "" for a white one. alpha: the name of the image of its alpha, which has an alpha itself, or is grey.
+    alpha: the name of the image of its alpha, which has an alpha itself, or is grey.
     """
 
     def found(name: str, convert: Callable[[Image.Image], Image.Image] | None = None) -> Found:

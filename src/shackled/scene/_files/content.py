@@ -16,7 +16,7 @@ from ...untrusted import read_json, read_toml
 MAX_BYTES = 256 * 2**20
 
 #: Numbers that are none, as programs of Windows write them.
-_NAN = re.compile(r"(?<!\S)-?(1\.#(IND|INF|QNAN|SNAN)\d*|nan\(\w*\))(?!\S)", re.IGNORECASE)
+_NAN = re.compile(r"(?<!\S)[-+]?(1\.#(IND|INF|QNAN|SNAN)\d*|nan\(\w*\))(?!\S)", re.IGNORECASE)
 
 _AT_ONCE = getattr(os, "O_NONBLOCK", 0)
 
@@ -46,21 +46,14 @@ def read_bytes(path: Path) -> bytes:
 
 def read_text(path: Path) -> str:
     """Return the text of a file as `plain_text` does. InputError for binary data."""
-    return checked_text(path, read_bytes(path))
-
-
-def checked_text(path: Path, data: bytes) -> str:
-    """Return the text of bytes, with `plain_text`. InputError for binary data; `path` is for its message."""
+    data = read_bytes(path)
     if b"\0" in data:
         raise InputError(f"{path} is not a text file, as a {path.suffix} file should be")
     return plain_text(data)
 
 
 def plain_text(data: bytes) -> str:
-    """Return the text in bytes, with line ends of Unix, and with nan for what Windows writes for it, such as -1.#IND.
-
-    What is not UTF-8, as in old files, is taken as the code page of Windows.
-    """
+    """Return text, UTF-8 or else of the code page of Windows, with line ends of Unix, and nan for what is -1.#IND."""
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:

@@ -24,19 +24,15 @@ from .stl import read_stl
 _THIN = 1e-6
 
 
-def _alone(read: Callable[[Path], Mesh]) -> Callable[[Path], list[MeshPart]]:
-    return lambda path: [MeshPart(read(path), {})]
-
-
 #: The extensions of glTF files.
 GLTF = (".glb", ".gltf")
 
 READERS: dict[str, Callable[..., list[MeshPart]]] = {
     ".obj": read_obj,
     ".ply": read_ply,
-    ".stl": _alone(read_stl),
+    ".stl": read_stl,
     **dict.fromkeys(GLTF, read_gltf),
-    ".off": _alone(read_off),
+    ".off": read_off,
 }
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
+from ...checks import Color
 from ...errors import warn
 from .._crease import filled
 from .._mesh import DEFAULT_COLOR, Mesh, faces_of_all, weld
@@ -45,17 +46,14 @@ class MeshPart:
     """
 
     mesh: Mesh
-    material: dict[str, Any]
+    material: dict[str, Any] = field(default_factory=dict)
     opacity: float = 1.0
     two_sided: bool = False
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Picture:
-    """An image of a file, and how it is to be sampled. name: for messages, with the path of the file.
-
-    image: RGB, or RGBA if its alpha counts. wraps: along u and v. cutoff: of a `Texture`.
-    """
+    """An image, RGB, or RGBA if its alpha counts, and how it is sampled. name: for messages, with the path."""
 
     image: Image.Image
     name: str
@@ -69,10 +67,7 @@ class Picture:
         return self.image.mode == "RGBA" or any(np.ptp(np.asarray(self.image), axis=(0, 1)))
 
     def is_plain(self, uvs: Array) -> bool:
-        """Return whether every triangle shows one colour only, as where colours are kept in a palette image.
-
-        uvs: of corners, (m, 3, 2). Triangles that reach beyond the image do not count as plain.
-        """
+        """Return whether each triangle, (m, 3, 2), is within the image and shows one colour, as of a palette."""
         if self.image.mode == "RGBA":
             return False
         pixels = np.asarray(self.image).astype(np.int64)
@@ -96,16 +91,14 @@ class Picture:
         return not (across + down).any()
 
     def texture(self, uvs: Array, count: int) -> tuple[Texture, Array]:
-        """Return the texture, and the coordinates of corners, (m, 3, 2), on it.
-
-        uvs: of corners, (m, 3, 2), finite. count: how many textures the file has. An InputWarning tells what changes.
-        """
+        """Return the texture of a file with so many, and where corners, (m, 3, 2), are on it; warn of what changes."""
         image, uvs = self.image, uvs.copy()
         outside = [bool((axis < -_ROUNDING).any() or (axis > 1 + _ROUNDING).any()) for axis in np.moveaxis(uvs, 2, 0)]
         wraps: list[Wrap] = []
         for axis, wrap in enumerate(self.wraps):
             if wrap == "mirror" and outside[axis]:
-                image = _mirrored(image, axis)
+                pixels = np.asarray(image)
+                image = Image.fromarray(np.concatenate([pixels, np.flip(pixels, 1 - axis)], axis=1 - axis))
                 uvs[:, :, axis] /= 2
             wraps.append("clamp" if wrap == "clamp" or (wrap == "mirror" and not outside[axis]) else "repeat")
         needed = {wrap for wrap, is_outside in zip(wraps, outside, strict=True) if is_outside} or set(wraps)
@@ -123,10 +116,10 @@ class Picture:
 
 @dataclass(frozen=True)
 class Look:
-    """What the triangles of a part have in common: their texture, other fields of a `Material`, and their opacity."""
+    """What the triangles of a part have in common."""
 
     picture: Picture | None = None
-    fields: Mapping[str, Any] = field(default_factory=dict)
+    emission: Color = (0, 0, 0)
     opacity: float = 1.0
 
 
@@ -141,14 +134,14 @@ def split(
 ) -> list[MeshPart]:
     """Return the triangles as meshes, one for each look that some of them have.
 
-    corners: (m, 3), rows of `positions`. colors, normals, uvs: of corners. look: (m,), the place in `looks` of that of
-    each triangle.
+    corners: (m, 3), rows of `positions`. colors, normals, uvs: of corners. look: (m,), places in `looks`.
     """
-    textures = len({id(each.picture) for each in looks if each.picture is not None})
+    textures = len({each.picture for each in looks if each.picture is not None})
     parts = []
     for number in np.unique(look).tolist():
         own, each = np.flatnonzero(look == number), looks[number]
-        fields, own_uvs = dict(each.fields), None
+        fields: dict[str, Any] = {"emission": each.emission} if any(each.emission) else {}
+        own_uvs = None
         if each.picture is not None:
             fields["texture"], own_uvs = each.picture.texture(uvs[own], textures)
         own_normals = None if normals is None else normals[own]
@@ -158,9 +151,8 @@ def split(
 
 
 def under(picture: Picture, uvs: Array, colors: Array) -> tuple[Array, bool]:
-    """Return the colours of corners, (m, 3, n), that show a picture, and whether they need it as a texture.
-
-    They are white; or those of the picture, where each triangle shows one colour of it.
+    """Return white for the corners of triangles, (m, 3, n), or their colours on a picture of which each shows only one;
+    and whether they need the picture as a texture.
     """
     shown = np.array(colors, dtype=np.float64)
     shown[..., :3] = 255
@@ -175,17 +167,11 @@ def replaced(colors: Array) -> int:
     return int((~(plain[0] | plain[1])).sum())
 
 
-def _mirrored(image: Image.Image, axis: int) -> Image.Image:
-    """Return an image beside, or above, its mirror image."""
-    pixels = np.asarray(image)
-    return Image.fromarray(np.concatenate([pixels, np.flip(pixels, 1 - axis)], axis=1 - axis))
-
-
 def _side(count: int) -> int:
     side = MAX_TEXTURE_SIDE
-    while count > _FULL_SIZE:
+    while count > _FULL_SIZE and side > 1:
         side, count = side // 2, (count + 3) // 4
-    return max(side, 1)
+    return side
 
 
 def is_transparent(image: Image.Image) -> bool:
@@ -203,10 +189,7 @@ def finite_uvs(uvs: ArrayLike, name: str) -> Array:
 
 
 def given_normals(normals: Array | None, positions: Array, corners: NDArray[np.int64], name: str) -> Array | None:
-    """Return the normals of corners, (m, 3, 3), from those of vertices, (n, 3); None if there are none.
-
-    Zeros, and normals that are not finite, of which an InputWarning tells, are replaced by computed ones.
-    """
+    """Return normals of corners, (m, 3, 3), of those of vertices, (n, 3): computed where these are 0 or not finite."""
     if normals is None:
         return None
     bad = np.asarray(~np.isfinite(normals).all(axis=1))
@@ -233,10 +216,8 @@ def baked(parts: Sequence[MeshPart]) -> tuple[Mesh, bool]:
     faces = faces_of_all(part.mesh for part in parts)
     colors = np.concatenate([_baked_colors(part) for part in parts])
     positions = np.concatenate([part.mesh.positions for part in parts])
-    normals = [part.mesh.normals for part in parts]
-    found = None
-    if all(each is not None for each in normals):
-        found = np.concatenate([each for each in normals if each is not None])[faces]
+    normals = [part.mesh.normals for part in parts if part.mesh.normals is not None]
+    found = np.concatenate(normals)[faces] if len(normals) == len(parts) else None
     return weld(positions, faces, colors[faces], found), bool(textured)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -14,8 +15,6 @@ from .beside import read_beside
 from .content import read_text
 from .model import FileWrap
 
-Triple = tuple[float, float, float]
-
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?!\S)"
 #: Options of a map and their values; they stand before the name of the image, or behind it.
 _OPTION = re.compile(
@@ -23,8 +22,6 @@ _OPTION = re.compile(
     r"|(bm|boost|texres|imfchan|type)\s+(\S+))(?!\S)",
     re.IGNORECASE,
 )
-#: An option that is in no specification, before the name.
-_OTHER_OPTION = re.compile(rf"-[A-Za-z_]+(?:\s+(?:on|off|{_NUMBER}))*\s+", re.IGNORECASE)
 #: The values without effect of options that are not drawn. Of the others, any: there are neither mipmaps nor bumps.
 _DEFAULTS = {"t": (0.0, 0.0, 0.0), "mm": (0.0, 1.0)}
 
@@ -38,9 +35,7 @@ _MESHLAB = re.compile(r"^#.*\bmeshlab\b", re.IGNORECASE | re.MULTILINE)
 
 @dataclass(frozen=True)
 class Map:
-    """An image that a material names, "" for a white one. folders: where it may be. alpha: the name of that of its
-    alpha.
-    """
+    """An image that a material names, "" for a white one. folders: where it may be. alpha: the image of its alpha."""
 
     name: str
     folders: tuple[Path, ...]
@@ -55,13 +50,13 @@ class ObjMaterial:
     left_out: statements, and options of its image, that are not drawn. scale, offset: of texture coordinates.
     """
 
-    color: Triple = (1.0, 1.0, 1.0)
-    emission: Triple = (0.0, 0.0, 0.0)
+    color: Sequence[float] = (1.0, 1.0, 1.0)
+    emission: Sequence[float] = (0.0, 0.0, 0.0)
     opacity: float = 1.0
     image: Map | None = None
     alpha: Map | None = None
-    scale: tuple[float, float] = (1.0, 1.0)
-    offset: tuple[float, float] = (0.0, 0.0)
+    scale: Sequence[float] = (1.0, 1.0)
+    offset: Sequence[float] = (0.0, 0.0)
     left_out: set[str] = field(default_factory=set)
 
     @property
@@ -115,24 +110,23 @@ def _parse(folders: tuple[Path, ...], text: str) -> dict[str, ObjMaterial]:
             material, given = ObjMaterial(), set()
             materials[material_name(line)] = material
         elif key in ("kd", "ke", "d", "tr"):
-            values = _numbers(words[words[:1] == ["-halo"] :])
+            values = []
+            with suppress(ValueError):
+                values = [float(word) for word in words[words[:1] == ["-halo"] :]]
             if len(values) not in (1, 3, 4) or not np.isfinite(values).all():
                 material.left_out.add(keyword)
             elif key == "kd":
-                material.color = _triple(values)
+                material.color = (3 * values)[:3]  # one number is all of them
             elif key == "ke" and "map_ke" not in given:
-                material.emission = _triple(values)
+                material.emission = (3 * values)[:3]
             elif key == "d" or (key == "tr" and "d" not in given):  # some exporters write the same number to both
                 material.opacity = min(max(values[0] if key in opacities else 1 - values[0], 0.0), 1.0)
             given.add(key)
         elif key == "map_kd" or (key == "map_ka" and "map_kd" not in given):
-            _add_map(material, folders, name_of(line))
+            material.image, material.scale, material.offset = _map(material, folders, name_of(line))
             given.add(key)
         elif key == "map_d":
-            own = ObjMaterial()
-            _add_map(own, folders, name_of(line))
-            material.alpha = own.image
-            material.left_out |= own.left_out
+            material.alpha, *_ = _map(material, folders, name_of(line))
         elif key.startswith(("map_", "bump", "norm", "disp", "decal", "refl")) and key != "map_ka":
             material.left_out.add(keyword)
             if key == "map_ke":  # without it, all of the surface would emit light
@@ -141,36 +135,22 @@ def _parse(folders: tuple[Path, ...], text: str) -> dict[str, ObjMaterial]:
     return materials
 
 
-def _numbers(words: Sequence[str]) -> list[float]:
-    """Return numbers; none if one of the words is something else."""
-    try:
-        return [float(word) for word in words]
-    except ValueError:
-        return []
-
-
-def _triple(values: list[float]) -> Triple:
-    """Return red, green and blue; one number is all of them."""
-    red, green, blue = (3 * values)[:3]
-    return red, green, blue
-
-
-def _add_map(material: ObjMaterial, folders: tuple[Path, ...], text: str) -> None:
+def _map(
+    material: ObjMaterial, folders: tuple[Path, ...], text: str
+) -> tuple[Map | None, Sequence[float], Sequence[float]]:
+    """Return the image that a statement names, with the scale and the offset of texture coordinates."""
     wrap: FileWrap = "repeat"
-    material.scale, material.offset = (1.0, 1.0), (0.0, 0.0)
+    scale: Sequence[float] = (1.0, 1.0)
+    offset: Sequence[float] = (0.0, 0.0)
     for several, numbers, switch, state, *_ in _OPTION.findall(text):
-        option, values = (several or switch).lower(), tuple(_numbers(numbers.split()))
+        option, values = (several or switch).lower(), tuple(map(float, numbers.split()))
         if option == "s":
-            material.scale = (values[0], values[1] if len(values) > 1 else 1.0)
+            scale = (values[0], *values[1:2], 1.0)[:2]
         elif option == "o":
-            material.offset = (values[0], values[1] if len(values) > 1 else 0.0)
+            offset = (values[0], *values[1:2], 0.0)[:2]
         elif option == "clamp" and state.lower() == "on":
             wrap = "clamp"
         elif option in _DEFAULTS and values != _DEFAULTS[option][: len(values)]:
             material.left_out.add(f"-{option}")
     name = _OPTION.sub(" ", text).strip()
-    while other := _OTHER_OPTION.match(name):
-        material.left_out.add(other[0].split()[0])
-        name = name[other.end() :]
-    if name:
-        material.image = Map(unquoted(name), folders, wrap)
+    return Map(unquoted(name), folders, wrap) if name else None, scale, offset

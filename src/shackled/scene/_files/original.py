@@ -1,10 +1,9 @@
 """Scenes of the original Shackled contracts, as JSON.
 
-Exact: geometry, position and scale, camera, culling, wireframe, background, invert. The original's
-light is one directional light, purely additive: the colour of the surface shows in full, and a highlight and a diffuse
-term are added to it. Here the ambient coefficient is 1, so that the colour shows in full; the highlight is that of the
-original; the diffuse term is multiplied by the colour of the surface, as it should be, and with `k = lightDiffPower /
-|lightPos|^2` not cut to an integer. Not expressible, and left out: `lightAmbiPower` (a colour added everywhere), and a
+Exact: geometry, position and scale, camera, culling, wireframe, background, invert. The original's light is one
+directional light that adds a highlight and a diffuse term to the colour of the surface. Here the ambient coefficient is
+1, so that the colour shows in full, too; the diffuse term is multiplied by the colour of the surface, and `k =
+lightDiffPower / |lightPos|^2` is not cut to an integer. Left out: `lightAmbiPower` (a colour added everywhere), and a
 diffuse colour of another hue than the specular one, of which the mean is taken while there is a highlight.
 """
 
@@ -22,7 +21,7 @@ from .._camera import Camera
 from .._effects import Background
 from .._light import Light
 from .._mesh import Mesh
-from .._object import Material, Object
+from .._object import COEFFICIENTS, Material, Object
 from .._scene import Scene
 from .._staging import MAX_SIDE
 from .table import Table, about
@@ -31,18 +30,12 @@ from .table import Table, about
 ORTHOGRAPHIC_UNITS = 500
 
 
-def is_original(document: Mapping[str, Any]) -> bool:
-    """Return whether a JSON object is a scene of the original."""
-    return "canvasDim" in document
-
-
 def original_scene(document: Mapping[str, Any]) -> Scene:
     """Return the scene of the original's JSON.
 
-    Its parameters stand at the top level or under `renderParams`; `verts`, `faces` and `canvasDim` are needed, the
-    others have defaults, and keys that it does not know are passed over. `rotation`, if there, is in degrees about x,
-    then y, then z, through the origin of the mesh. A scene without faces is one of background only. InputError names
-    the key that is wrong.
+    Its parameters stand at the top level or under `renderParams`; `verts`, `faces` and `canvasDim` are needed.
+    `rotation`, if there, is in degrees about x, then y, then z. Without faces it is one of background only. InputError
+    names the key that is wrong.
     """
     keys = Table({**Table(document, "").table("renderParams").values, **document}, "")
     for key in ("canvasDim", "verts", "faces"):
@@ -51,10 +44,8 @@ def original_scene(document: Mapping[str, Any]) -> Scene:
     side = keys.get("canvasDim")
     if type(side) is not int or not 1 <= side <= MAX_SIDE:
         raise InputError(f"canvasDim must be a whole number from 1 to {MAX_SIDE}, not {side!r:.60}")
-    if keys.flag("perspCamera", True):
-        camera = Camera()
-    else:
-        camera = Camera(projection="orthographic", half_height=ORTHOGRAPHIC_UNITS * side)
+    orthographic = Camera(projection="orthographic", half_height=ORTHOGRAPHIC_UNITS * side)
+    camera = Camera() if keys.flag("perspCamera", True) else orthographic
     material, lights = _light(keys.table("lightingParams"))
     scale = keys.number("objScale", 1)
     position = keys.numbers("objPosition", (0, 0, 0))
@@ -108,8 +99,8 @@ def _light(lighting: Table) -> tuple[Material, list[Light]]:
     material = Material(
         "flat",
         ambient=1,
-        diffuse=_coefficient(diffuse * float(diffuse_color.mean() / hue.mean())),
-        specular=_coefficient(specular * float(specular_color.max() / 255)),
+        diffuse=np.clip(diffuse * float(diffuse_color.mean() / hue.mean()), *COEFFICIENTS),
+        specular=np.clip(specular * float(specular_color.max() / 255), *COEFFICIENTS),
         shininess=round(min(max(lighting.number("inverseShininess", 1), 1), 128)),
     )
     return material, [Light("directional", vector, hue)]
@@ -121,10 +112,6 @@ def _light_color(lighting: Table, key: str) -> NDArray[np.float64]:
     if (color < 0).any():
         raise InputError(f"{lighting.place(key)} must not be negative, not {lighting.get(key)!r:.60}")
     return color
-
-
-def _coefficient(value: float) -> float:
-    return min(max(value, 0.0), 4.0)
 
 
 def _background(keys: Table) -> Background:

@@ -18,14 +18,11 @@ from .table import about
 #: The extension of pictures that carry their scene.
 PICTURE = ".png"
 
-#: The kind of the chunk, and its keyword.
+#: The kind of the chunk, and its keyword; and all chunks of text.
 CHUNK, KEYWORD = b"zTXt", b"shackled"
-#: Other chunks of text.
 TEXTS = (CHUNK, b"tEXt", b"iTXt")
-#: The most bytes of the chunk that are written unless asked for.
-MAX_CHUNK = 64 * 1024
-#: The most characters of its text that are written unless asked for: Pillow opens no picture with more.
-MAX_TEXT = 2**20
+#: The most bytes of the chunk, and characters of its text, that are written unless asked for: Pillow opens no more.
+MAX_CHUNK, MAX_TEXT = 64 * 1024, 2**20
 #: The most characters that are written or read at all; libpng passes over more.
 LONGEST_TEXT = 8_000_000
 
@@ -63,17 +60,13 @@ def read_picture(path: Path) -> Scene:
     """Return the scene that a PNG file carries. InputError, with the path, if there is none. Pixels are not read."""
     data = read_bytes(path)
     with about(str(path)):
-        found = [(kind, content) for kind, content in _chunks(data) if _is_scene(kind, content)]
-        if not found:
-            raise InputError(
-                f"the picture carries no scene: it has no chunk {CHUNK.decode()} with the keyword {KEYWORD.decode()},"
-                " in which Shackled writes one"
-            )
-        if len(found) > 1:
-            raise InputError(f"the picture carries {len(found)} scenes, in chunks {KEYWORD.decode()}; one is right")
-        kind, content = found[0]
-        if kind != CHUNK:
-            raise InputError(f"its scene is in a chunk {kind.decode()}, not {CHUNK.decode()}")
+        found = [each for each in _chunks(data) if each[0] in TEXTS and each[1].startswith(KEYWORD + b"\0")]
+        kinds = [kind for kind, _ in found]
+        if kinds != [CHUNK]:
+            needed = f"one chunk {CHUNK.decode()} with the keyword {KEYWORD.decode()}"
+            there = b", ".join(kinds).decode() or "none"
+            raise InputError(f"the picture carries no scene: it needs {needed}, not {there}")
+        content = found[0][1]
         call = _call(content[len(KEYWORD) + 1 :])
         with about(f"the chunk {KEYWORD.decode()}"):
             return decode(call)
@@ -95,26 +88,17 @@ def _chunks(data: bytes) -> Iterator[tuple[bytes, bytes]]:
         place = end + 4
 
 
-def _is_scene(kind: bytes, content: bytes) -> bool:
-    return kind in TEXTS and content.startswith(KEYWORD + b"\0")
-
-
 def _call(content: bytes) -> bytes:
     """Return the call in a compressed text. content: the method of compression, and the text."""
-    if content[:1] != b"\0":
-        raise InputError("its scene is compressed by an unknown method; 0, deflate, is right")
     inflater = zlib.decompressobj()
     try:
         text = inflater.decompress(content[1:], LONGEST_TEXT + 1)
-    except zlib.error as error:
-        raise InputError(f"its scene cannot be decompressed: {error}") from None
-    if len(text) > LONGEST_TEXT:
-        raise InputError(f"its scene has more than {LONGEST_TEXT:,} characters, the most that are read")
-    if not inflater.eof or inflater.unused_data:
-        raise InputError(f"its scene {'is followed by other bytes' if inflater.eof else 'is cut off'}")
-    try:
-        if text.startswith(b"0x"):
+        if len(text) > LONGEST_TEXT:
+            raise InputError(f"its scene has more than {LONGEST_TEXT:,} characters, the most that are read")
+        if content[:1] == b"\0" and text.startswith(b"0x") and inflater.eof and not inflater.unused_data:
             return unhexlify(text[2:])
-    except Error:
+    except (zlib.error, Error):
         pass
-    raise InputError(f"its chunk {KEYWORD.decode()} holds no scene: its text must be 0x and the call in hexadecimal")
+    raise InputError(
+        f"its chunk {KEYWORD.decode()} holds no scene: it must be 0x and the call in hexadecimal, compressed by deflate"
+    )

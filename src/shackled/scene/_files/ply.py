@@ -23,6 +23,9 @@ from .content import plain_text, read_bytes
 from .model import REPLACED, Look, MeshPart, Picture, finite_uvs, given_normals, replaced, split, under
 from .polygons import cut
 
+Array = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
 _TYPES = {
     "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1",
     "short": "i2", "int16": "i2", "ushort": "u2", "uint16": "u2",
@@ -41,56 +44,48 @@ _COLORS = (
 )
 
 
-def read_elements(data: bytes) -> tuple[dict[str, Element], list[str]]:
-    """Return the elements of a PLY file by their names, and the textures that its comments name."""
-    header, source = _open(data)
-    for element in header.elements:
-        _read_element(element, source)
-    if isinstance(source, _Text):
-        source.finish()
-    return {element.name: element for element in header.elements}, header.textures
-
-
 @dataclass
 class _Property:
+    """A number of an element, or a list of them after its length, whose type is `length`."""
+
     name: str
     type: str
-    #: the type of the length if this is a list
     length: str | None = None
 
 
 @dataclass
 class Element:
-    """A table of a file. used: the names of its properties that were asked for and found."""
+    """A table of a file. used: the names of its properties that were asked for and found.
+
+    values: by property, the rows, each of one number or of those of a list.
+    """
 
     name: str
     count: int
     properties: list[_Property] = field(default_factory=list)
-    #: by property: (count,) numbers; of lists (count, length), or a list of lists if their lengths differ
     values: dict[str, Any] = field(default_factory=dict)
     used: set[str] = field(default_factory=set)
 
-    def table(self, *names: str) -> NDArray[np.float64] | None:
+    def table(self, *names: str) -> Array | None:
         """Return the scalar properties of these names side by side, or None if one is missing."""
-        scalars = {p.name for p in self.properties if p.length is None}
-        if not scalars.issuperset(names):
+        if not {p.name for p in self.properties if p.length is None}.issuperset(names):
             return None
         self.used.update(names)
-        return np.stack([np.asarray(self.values[name], dtype=np.float64) for name in names], axis=1)
+        columns = [np.asarray(self.values.get(name, []), dtype=np.float64).reshape(-1) for name in names]
+        return np.stack(columns, axis=1)
 
-    def lists(self, *names: str) -> tuple[NDArray[np.int64], NDArray[np.float64]] | None:
+    def lists(self, *names: str) -> tuple[Ints, Array] | None:
         """Return the first list property of one of these names, as lengths of its lists and all numbers; or None."""
-        for name in names:
-            if any(p.name == name and p.length is not None for p in self.properties):
-                self.used.add(name)
-                rows = self.values[name]
-                if isinstance(rows, np.ndarray):
-                    return np.full(len(rows), rows.shape[1]), rows.reshape(-1).astype(np.float64)
-                sizes = np.array([len(row) for row in rows], dtype=np.int64)
-                return sizes, np.fromiter(chain.from_iterable(rows), dtype=np.float64)
-        return None
+        name = next((n for n in names if any(p.name == n and p.length is not None for p in self.properties)), None)
+        if name is None:
+            return None
+        self.used.add(name)
+        rows = self.values.get(name, [])
+        if isinstance(rows, np.ndarray):
+            return np.full(len(rows), rows.shape[1]), rows.reshape(-1).astype(np.float64)
+        return np.array([len(row) for row in rows], dtype=np.int64), np.fromiter(chain.from_iterable(rows), np.float64)
 
-    def colors(self) -> NDArray[np.float64] | None:
+    def colors(self) -> Array | None:
         """Return (n, 4) colours with alpha, 0..255; None if there are none."""
         for *names, alpha in _COLORS:
             if (colors := self._levels(*names)) is not None:
@@ -98,7 +93,7 @@ class Element:
                 return np.hstack([colors, np.full((len(colors), 1), 255.0) if opacities is None else opacities])
         return None
 
-    def _levels(self, *names: str) -> NDArray[np.float64] | None:
+    def _levels(self, *names: str) -> Array | None:
         table = self.table(*names)
         if table is None or not len(table):
             return None
@@ -106,20 +101,24 @@ class Element:
         return to_bytes(table, _LARGEST.get(kind))
 
 
-@dataclass
-class _Header:
-    encoding: str = ""
-    elements: list[Element] = field(default_factory=list)
-    textures: list[str] = field(default_factory=list)
+def read_elements(data: bytes) -> tuple[dict[str, Element], list[str]]:
+    """Return the elements of a PLY file by their names, and the textures that its comments name."""
+    elements, textures, source = _open(data)
+    for element in elements:
+        if element.count and element.properties:
+            element.values = _values(element, source)
+    if isinstance(source, _Text):
+        source.finish()
+    return {element.name: element for element in elements}, textures
 
 
-def _open(data: bytes) -> tuple[_Header, _Text | _Binary]:
-    """Return the header, with elements that have no values yet, and where these are."""
-    header, start, number = _Header(), 0, 0
+def _open(data: bytes) -> tuple[list[Element], list[str], _Text | _Binary]:
+    """Return what the header says: elements that have no values yet, and textures; and where the values are."""
+    elements, textures, encoding = list[Element](), list[str](), ""
     if not data.startswith((b"ply", b"PLY")):
         raise InputError("a PLY file begins with the line ply")
     line_end = b"\r" if data[3:4] == b"\r" and data[4:5] != b"\n" else b"\n"
-    line = ""
+    line, start, number = "", 0, 0
     while line != "end_header":
         end = data.find(line_end, start)
         if end < 0:
@@ -127,37 +126,34 @@ def _open(data: bytes) -> tuple[_Header, _Text | _Binary]:
         line = data[start:end].decode("ascii", errors="replace").strip()
         start, number = end + 1, number + 1
         try:
-            _read_header_line(header, line)
+            match line.split():
+                case ["format", "ascii" | "binary_little_endian" | "binary_big_endian" as encoding, _]:
+                    pass
+                case ["element", name, count] if int(count) >= 0:
+                    elements.append(Element(name, int(count)))
+                case ["property", "list", length, kind, name]:
+                    elements[-1].properties.append(_Property(name, _TYPES[kind], _TYPES[length]))
+                case ["property", kind, name]:
+                    elements[-1].properties.append(_Property(name, _TYPES[kind]))
+                case ["comment", "TextureFile", *words]:
+                    textures.append(" ".join(words))
+                case ["ply" | "PLY"] | ["end_header"] | ["comment" | "obj_info", *_] | []:
+                    pass
+                case _:
+                    raise ValueError
         except (ValueError, KeyError, IndexError):
             raise InputError(
                 f"line {number} of its header is {line[:60]!r}; known are format, element and its count, then property "
                 "and its type, and comment, obj_info, end_header"
             ) from None
-    if not header.encoding:
+    if not encoding:
         raise InputError("its header has no line format")
-    if header.encoding == "ascii":
-        return header, _Text(data[start:], number)
-    return header, _Binary(data[start:], "<" if "little" in header.encoding else ">")
+    if encoding == "ascii":
+        return elements, textures, _Text(data[start:], number)
+    return elements, textures, _Binary(data[start:], "<" if "little" in encoding else ">")
 
 
-def _read_header_line(header: _Header, line: str) -> None:
-    match line.split():
-        case ["format", name, _] if name in ("ascii", "binary_little_endian", "binary_big_endian"):
-            header.encoding = name
-        case ["element", name, count] if int(count) >= 0:
-            header.elements.append(Element(name, int(count)))
-        case ["property", "list", length, kind, name]:
-            header.elements[-1].properties.append(_Property(name, _TYPES[kind], _TYPES[length]))
-        case ["property", kind, name]:
-            header.elements[-1].properties.append(_Property(name, _TYPES[kind]))
-        case ["comment", "TextureFile", *words]:
-            header.textures.append(" ".join(words))
-        case ["ply" | "PLY"] | ["end_header"] | ["comment" | "obj_info", *_] | []:
-            pass
-        case _:
-            raise ValueError
-
-
+#: Name, type, and count of numbers.
 _Field = tuple[str, str, int]
 
 
@@ -171,42 +167,40 @@ class _Text:
         self.at = 0
 
     def table(self, fields: list[_Field], count: int) -> dict[str, NDArray[Any]] | None:
-        """Return `count` rows of these fields (name, type, count of numbers), or None if the data has another form."""
+        """Return `count` rows of these fields, or None if the data has another form."""
         self._skip_blank()
         try:
             table = np.loadtxt(self.lines[self.at : self.at + count], ndmin=2, comments=None)
         except ValueError:
             return None
-        if table.shape != (count, sum(size for _, _, size in fields)):
+        ends = np.cumsum([size for _, _, size in fields])
+        if table.shape != (count, ends[-1]):
             return None
         self.at += count
-        starts = np.cumsum([0, *(size for _, _, size in fields)]).tolist()
-        return {name: table[:, at : at + size] for (name, _, size), at in zip(fields, starts, strict=False)}
+        return dict(zip((name for name, _, _ in fields), np.split(table, ends[:-1], axis=1), strict=True))
 
     def row(self, element: Element) -> dict[str, list[float]]:
         """Return the values of a line, by property."""
         self._skip_blank()
         if self.at == len(self.lines):
             raise _ended(element)
-        line, place = self.lines[self.at], f"line {self.before + self.at + 1}"
+        line = self.lines[self.at]
         self.at += 1
-        words = line.split()
-        row, used = {}, 0
+        words = iter(line.split())
         try:
+            row = {}
             for p in element.properties:
-                size = 1
-                if p.length is not None:
-                    size, used = int(words[used]), used + 1
-                row[p.name] = [float(word) for word in words[used : used + size]]
-                if len(row[p.name]) != size:
+                size = 1 if p.length is None else int(next(words))
+                row[p.name] = [float(next(words)) for _ in range(size)]
+                if size < 0:
                     raise ValueError
-                used += size
-            if used < len(words):
+            if next(words, None) is not None:
                 raise ValueError
-        except (ValueError, IndexError):
+        except (ValueError, StopIteration):
             form = ", ".join(f"a list {p.name} after its length" if p.length else p.name for p in element.properties)
             raise InputError(
-                f"{place} should hold an element {element.name} ({form}) and nothing else, not {line.strip()[:60]!r}"
+                f"line {self.before + self.at} should hold an element {element.name} ({form}) and nothing else, not "
+                f"{line.strip()[:60]!r}"
             ) from None
         return row
 
@@ -216,9 +210,12 @@ class _Text:
 
     def finish(self) -> None:
         """Refuse what is left over."""
-        for number, line in enumerate(self.lines[self.at :], self.before + self.at + 1):
-            if line.strip():
-                raise InputError(f"line {number} is left over behind the elements of its header: {line.strip()[:60]!r}")
+        self._skip_blank()
+        if self.at < len(self.lines):
+            raise InputError(
+                f"line {self.before + self.at + 1} is left over behind the elements of its header: "
+                f"{self.lines[self.at].strip()[:60]!r}"
+            )
 
 
 class _Binary:
@@ -230,7 +227,7 @@ class _Binary:
         self.at = 0
 
     def table(self, fields: list[_Field], count: int) -> dict[str, NDArray[Any]] | None:
-        """Return `count` rows of these fields (name, type, count of numbers), or None if the data is too short."""
+        """Return `count` rows of these fields, or None if the data is too short."""
         row = np.dtype([(name, self.order + kind, (size,)) for name, kind, size in fields])
         if self.at + row.itemsize * count > len(self.data):
             return None
@@ -258,39 +255,25 @@ def _ended(element: Element) -> InputError:
     return InputError(f"it ends before its {element.count} elements {element.name} are complete")
 
 
-def _read_element(element: Element, source: _Text | _Binary) -> None:
-    lists = [p for p in element.properties if p.length is not None]
-    if not element.count or not element.properties:
-        element.values = {p.name: [] for p in element.properties}
-        return
+def _values(element: Element, source: _Text | _Binary) -> dict[str, Any]:
+    """Return the rows of each property. Nearly always all lists are of one length, and all rows are one table."""
     start = source.at
-    first = source.row(element)
+    sizes = {name: len(row) for name, row in source.row(element).items()}
     source.at = start
-    # nearly always all lists of an element are of one length: then it is read as one table
-    table = source.table(
-        [
-            part
-            for p in element.properties
-            for part in (
-                [(p.name, p.type, 1)]
-                if p.length is None
-                else [(f"length of {p.name}", p.length, 1), (p.name, p.type, len(first[p.name]))]
-            )
-        ],
-        element.count,
-    )
-    if table is not None and all((table[f"length of {p.name}"] == len(first[p.name])).all() for p in lists):
-        element.values = {
-            p.name: table[p.name][:, 0] if p.length is None else table[p.name] for p in element.properties
-        }
-        return
-    if not lists and isinstance(source, _Binary):
+    fields, lengths = list[_Field](), dict[str, int]()
+    for p in element.properties:
+        if p.length is not None:
+            fields.append((f"length of {p.name}", p.length, 1))
+            lengths[fields[-1][0]] = sizes[p.name]
+        fields.append((p.name, p.type, sizes[p.name]))
+    table = source.table(fields, element.count)
+    if table is not None and all((table[name] == size).all() for name, size in lengths.items()):
+        return table
+    if not lengths and isinstance(source, _Binary):
         raise _ended(element)
     source.at = start
     rows = [source.row(element) for _ in range(element.count)]
-    element.values = {
-        p.name: [row[p.name][0] if p.length is None else row[p.name] for row in rows] for p in element.properties
-    }
+    return {p.name: [row[p.name] for row in rows] for p in element.properties}
 
 
 #: The names of texture coordinates, which go to the right and up.
@@ -299,9 +282,6 @@ _COORDINATES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"))
 _END = -1
 #: The number of a texture that there is not.
 _NONE = -1
-
-Array = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 def read_ply(path: Path) -> list[MeshPart]:
@@ -326,7 +306,10 @@ def read_ply(path: Path) -> list[MeshPart]:
             "a mesh needs an element vertex with x, y and z, and an element face with a list vertex_indices; this file"
             f" has the elements {', '.join(elements) or 'none'}"
         )
-    sizes, numbers = polygons[0], _whole(polygons[1])
+    bad = np.flatnonzero(polygons[1] % 1 != 0)
+    if len(bad):
+        raise InputError(f"the numbers of vertices must be whole, not {polygons[1][bad[0]]}")
+    sizes, numbers = polygons[0], polygons[1].astype(np.int64)
     is_strips = face.name == "tristrips"
     if is_strips:
         numbers = _strips(sizes, numbers)
@@ -335,22 +318,15 @@ def read_ply(path: Path) -> list[MeshPart]:
     corners, polygon = numbers[triangles[:, :3]], triangles[:, 3]
     colors = _colors(path, vertex, Element("face", 0) if is_strips else face, corners, polygon)
     normals = given_normals(vertex.table("nx", "ny", "nz"), positions, corners, str(path))
-    pictures = _pictures(path, textures)
+    opened = [picture_beside(path, [path.parent], name) for name in textures]
+    pictures = {number: each for number, each in enumerate(opened) if each is not None}
     picture, uvs = np.full(len(corners), _NONE), np.zeros((len(corners), 3, 2))
     if pictures:
         picture, uvs = _textured(path, vertex, face, sizes, triangles, corners)
         _paint(path, pictures, picture, uvs, colors)
-    _tell_what_is_left(path, elements, face)
+    _tell_what_is_left(path, elements)
     # the last one is that of _NONE
-    looks = [*(Look(pictures.get(number)) for number in range(len(textures))), Look()]
-    return split(positions, corners, colors, normals, uvs, picture, looks)
-
-
-def _whole(numbers: Array) -> Ints:
-    bad = np.flatnonzero(numbers % 1 != 0)
-    if len(bad):
-        raise InputError(f"the numbers of vertices must be whole, not {numbers[bad[0]]}")
-    return numbers.astype(np.int64)
+    return split(positions, corners, colors, normals, uvs, picture, [*map(Look, opened), Look()])
 
 
 def _strips(sizes: Ints, numbers: Ints) -> Ints:
@@ -376,14 +352,6 @@ def _colors(path: Path, vertex: Element, face: Element, corners: Ints, polygon: 
     if of_vertices is not None:
         return of_vertices[corners]
     return np.full((*corners.shape, 4), (*DEFAULT_COLOR, 255.0))
-
-
-def _pictures(path: Path, names: list[str]) -> dict[int, Picture]:
-    pictures = {}
-    for number, name in enumerate(names):
-        if found := picture_beside(path, [path.parent], name):
-            pictures[number] = found
-    return pictures
 
 
 def _textured(
@@ -425,14 +393,9 @@ def _paint(path: Path, pictures: dict[int, Picture], picture: Ints, uvs: Array, 
             picture[faces] = _NONE
 
 
-def _tell_what_is_left(path: Path, elements: dict[str, Element], face: Element) -> None:
+def _tell_what_is_left(path: Path, elements: dict[str, Element]) -> None:
     left = [f"{each.name} ({each.count:,})" for each in elements.values() if each.count and not each.used]
-    left += [
-        f"{p.name} of {each.name}"
-        for each in elements.values()
-        if each.used
-        for p in each.properties
-        if p.name not in each.used
-    ]
+    used = [each for each in elements.values() if each.used]
+    left += [f"{p.name} of {each.name}" for each in used for p in each.properties if p.name not in each.used]
     if left:
         warn(f"{path}: of its elements are left out: {', '.join(left)}")

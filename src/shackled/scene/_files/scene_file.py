@@ -9,6 +9,7 @@ import base64
 import math
 import os
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -23,31 +24,37 @@ from .._camera import PROJECTIONS, Camera, half_height_in
 from .._crease import CREASES, shaded
 from .._effects import Background, Fog, Hemisphere, Rim, Tone
 from .._ground import Ground
-from .._light import LIGHT_KINDS, WHITE, Light
+from .._light import LIGHT_KINDS, WHITE, Light, LightKind
 from .._look import view_of
 from .._mesh import Mesh
 from .._object import Material, Object
 from .._scene import Scene
-from .._settings import Kind, Part, Setting, exclude, settings_of
+from .._settings import Kind, Part, exclude, settings_of
 from .._staging import BACKGROUND, DEFAULT_SIDE, Viewpoint, frame, key_light, painted_object
 from .._texture import FILTERS, WRAPS, Texture
 from .._upright import AXES, axis_of_file, upright
 from .content import parse, read_text
 from .mesh_file import READERS, read_model
 from .model import MeshPart
-from .original import is_original, original_scene
+from .original import original_scene
 from .picture import PICTURE, read_picture
 from .table import Table, about
 from .written import MESH, keys_of
 
 SCENES = (".toml", ".json")
 
+_Read = Callable[[Table, str], Any]
 
 #: `creator`: a table of the Creator, which has no effect here.
 _SCENE = keys_of("scene", "size", "camera", "objects", "tone", "creator")
 _CAMERA = keys_of("camera", "projection")
 _OBJECT = keys_of("object", "mesh", "position", "rotation", "up_axis", "scale", "material", "fade", "crease")
-_LIGHT = ("kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow")
+#: The vectors that a light of each kind must have, and the angles that it may have.
+_LIGHT: dict[LightKind, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "directional": (("direction",), ()),
+    "point": (("position",), ()),
+    "spot": (("position", "direction"), ("inner_angle", "outer_angle")),
+}
 _PIECE = ("piece", "object")
 _TEXTURE = ("image", "width", "height", "pixels", "filter", "wrap", "alpha", "cutoff")
 _ROTATION = ("quaternion", "axis", "angle")
@@ -70,7 +77,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
         raise InputError(f"{path} is neither a mesh nor a scene file by its extension; known are {known}")
     document = parse(path, read_text(path), extension)
     with about(str(path)):
-        if extension == ".json" and is_original(document):
+        if extension == ".json" and "canvasDim" in document:
             return original_scene(document)
         return scene_of(document, path.parent)
 
@@ -91,16 +98,14 @@ def scene_of(document: Mapping[str, Any], folder: Path | None) -> Scene:
 def _settings(keys: Table, part: Part) -> dict[str, Any]:
     """Return the settings of a part of a scene that a table has."""
     return {
-        setting.name: setting.check(_READ[setting.kind](keys, setting), keys.place(setting.name))
-        for setting in settings_of(part)
-        if setting.name in keys
+        each.name: each.check(_READ[each.kind](keys, each.name), keys.place(each.name))
+        for each in settings_of(part)
+        if each.name in keys
     }
 
 
 def _size(table: Table) -> tuple[int, int]:
-    size = table.get("size")
-    if size is None:
-        return DEFAULT_SIDE, DEFAULT_SIDE
+    size = table.values.get("size", DEFAULT_SIDE)
     sides = size if isinstance(size, list) else [size, size]
     if len(sides) != 2 or not all(type(side) is int for side in sides):
         raise InputError(f"size must be a number of pixels, or width and height, not {size!r:.60}")
@@ -109,66 +114,54 @@ def _size(table: Table) -> tuple[int, int]:
     return sides[0], sides[1]
 
 
-def _background(keys: Table, setting: Setting) -> Background:
-    value = keys.get(setting.name)
-    return _effect(keys, setting) if isinstance(value, Mapping) else Background(keys.color(setting.name))
+def _background(keys: Table, name: str) -> Any:
+    is_table = isinstance(keys.get(name), Mapping)
+    return _effect(Background, keys, name, top=Table.color, bottom=Table.color) if is_table else keys.color(name)
 
 
-def _effect(keys: Table, setting: Setting) -> Any:
+def _effect(kind: type[Any], keys: Table, name: str, **reads: _Read) -> Any:
     """Return what a table has the fields of; those that it must have are those without a default."""
-    kind, reads = _EFFECTS[setting.kind]
-    inside = keys.table(setting.name, tuple(reads))
+    inside = keys.table(name, tuple(reads))
     needed = {each.name for each in fields(kind) if each.default is NOTHING}
     given = {name: read(inside, name) for name, read in reads.items() if name in inside or name in needed}
     with about(inside.where):
         return kind(**given)
 
 
-#: The classes of what is given as a table, and how their fields are read.
-_EFFECTS: dict[Kind, tuple[Any, dict[str, Callable[[Table, str], Any]]]] = {
-    "background": (Background, {"top": Table.color, "bottom": Table.color}),
-    "hemisphere": (Hemisphere, {"sky": Table.color, "ground": Table.color}),
-    "rim": (Rim, {"color": Table.color, "power": Table.whole}),
-    "fog": (Fog, {"color": Table.color, "near": Table.number, "far": Table.number}),
-    "ground": (
-        Ground,
-        {
-            "color": Table.color,
-            **dict.fromkeys(("height", "radius", "inner"), Table.number),
-            "center": lambda keys, name: keys.numbers(name, (0, 0)),
-        },
-    ),
-}
-#: How the values of kinds are read, besides the range.
-_READ: dict[Kind, Callable[[Table, Setting], Any]] = {
-    "whole": lambda keys, setting: keys.whole(setting.name),
-    "number": lambda keys, setting: keys.number(setting.name),
-    "vector": lambda keys, setting: keys.numbers(setting.name, (0, 0, 0)),
-    "flag": lambda keys, setting: keys.flag(setting.name),
-    "color": lambda keys, setting: keys.color(setting.name),
+#: How the values of kinds are read, besides their ranges and choices.
+_READ: dict[Kind, _Read] = {
+    "whole": Table.whole,
+    "number": Table.number,
+    "vector": lambda keys, name: keys.numbers(name, (0, 0, 0)),
+    "flag": Table.flag,
+    "color": Table.color,
+    "choice": Table.get,
+    "lights": lambda keys, name: [_light(part, where) for where, part in keys.rows(name)],
     "background": _background,
-    "choice": lambda keys, setting: keys.choice(setting.name, setting.choices),
-    "lights": lambda keys, setting: [_light(part, where) for where, part in keys.rows(setting.name)],
-    **dict.fromkeys(("hemisphere", "rim", "fog", "ground"), _effect),
+    "hemisphere": partial(_effect, Hemisphere, sky=Table.color, ground=Table.color),
+    "rim": partial(_effect, Rim, color=Table.color, power=Table.whole),
+    "fog": partial(_effect, Fog, color=Table.color, near=Table.number, far=Table.number),
+    "ground": partial(
+        _effect,
+        Ground,
+        color=Table.color,
+        height=Table.number,
+        radius=Table.number,
+        inner=Table.number,
+        center=lambda keys, name: keys.numbers(name, (0, 0)),
+    ),
 }
 
 
 def _camera(keys: Table, width: int, height: int, objects: list[Object]) -> tuple[Viewpoint, Camera]:
     given = _settings(keys, "camera")
     exclude(given, keys.place)
-    if ("eye" in given) != ("target" in given):
-        there, missing = ("eye", "target") if "eye" in given else ("target", "eye")
-        raise InputError(
-            f"camera.{there} needs a camera.{missing}; without both the camera is placed so that all is seen"
-        )
-    if "up" in given and "eye" not in given:
-        raise InputError("camera.up needs a camera.eye and a camera.target")
+    for name in ("eye", "target", "up"):
+        for needed in ("eye", "target"):
+            if name in given and needed not in given:
+                raise InputError(f"camera.{name} needs a camera.{needed}, too; without any, all is seen")
     projection = keys.choice("projection", PROJECTIONS, "perspective")
     orthographic = projection == "orthographic"
-    if orthographic and "fov" in given:
-        raise InputError(
-            "camera.fov is for the perspective projection; the orthographic one has half_height, in world units"
-        )
     with about("camera"):
         half_height = half_height_in(given, orthographic)
         view = view_of(given, width, height, orthographic)
@@ -177,10 +170,6 @@ def _camera(keys: Table, width: int, height: int, objects: list[Object]) -> tupl
                 raise InputError("an orthographic camera with an eye needs half_height, in world units")
             places = {name: given[name] for name in ("eye", "target", "up") if name in given}
             camera = Camera(**places, projection=projection)
-            if not camera.up.any():
-                raise InputError("up must not be (0, 0, 0)")
-            if np.array_equal(camera.eye, camera.target):
-                raise InputError("eye and target are the same point")
         else:
             points = [np.zeros((0 if objects else 1, 3)), *(thing.world_positions() for thing in objects)]
             camera = frame(np.concatenate(points), view)
@@ -189,22 +178,17 @@ def _camera(keys: Table, width: int, height: int, objects: list[Object]) -> tupl
 
 
 def _light(value: object, where: str) -> Light:
-    keys = Table(value, where, _LIGHT)
-    kind = keys.choice("kind", LIGHT_KINDS)
-    color = keys.color("color", WHITE)
-    vectors = {"directional": ("direction",), "point": ("position",), "spot": ("position", "direction")}[kind]
-    angles = ("inner_angle", "outer_angle") if kind == "spot" else ()
-    for name in ("position", "direction", "inner_angle", "outer_angle"):
-        if name in vectors and name not in keys:
+    kind = Table(value, where).choice("kind", LIGHT_KINDS)
+    vectors, angles = _LIGHT[kind]
+    keys = Table(value, where, ("kind", *vectors, "color", *angles, "shadow"))
+    for name in vectors:
+        if name not in keys:
             raise InputError(f"{where} must have a {name}, as its kind is {kind}")
-        if name in keys and name not in (*vectors, *angles):
-            raise InputError(f"{where} must have no {name}, as its kind is {kind}")
     place, *direction = (keys.numbers(name, (0, 0, 0)) for name in vectors)
     given: dict[str, Any] = {name: keys.number(name) for name in angles if name in keys}
-    if "shadow" in keys:
-        given["shadow"] = keys.flag("shadow")
+    given |= {"color": keys.color("color", WHITE), "shadow": keys.flag("shadow", False)}
     with about(where):
-        return Light(kind, place, color, *direction, **given)
+        return Light(kind, place, direction=direction[0] if direction else None, **given)
 
 
 def _objects(value: object, where: str, folder: Path | None) -> list[Object]:
@@ -220,7 +204,8 @@ def _objects(value: object, where: str, folder: Path | None) -> list[Object]:
     is_inside = isinstance(mesh := keys.get("mesh"), Mapping) and "piece" not in mesh
     if not is_inside or crease is not None:
         fields["shading"] = "flat"
-    texture = _texture(surface, folder) if "texture" in surface else None
+    if "texture" in surface:
+        fields["texture"] = _texture(surface, folder)
     position, scale = keys.numbers("position", (0, 0, 0)), keys.number("scale", 1)
     axis = keys.choice("up_axis", AXES, "y")
     if not isinstance(name := keys.get("mesh"), str):
@@ -235,11 +220,9 @@ def _objects(value: object, where: str, folder: Path | None) -> list[Object]:
     with about(where):
         objects = []
         for part in parts:
-            own_fields = {"opacity": part.opacity, "two_sided": part.two_sided}
             own = {name: part.material[name] for name in ("texture", "emission") if name in part.material}
-            given_texture = {} if texture is None else {"texture": texture}
-            material = Material(**(own | fields | given_texture))
-            thing = Object(part.mesh, position, rotation, scale, material, **(own_fields | given))
+            own_fields = {"opacity": part.opacity, "two_sided": part.two_sided}
+            thing = Object(part.mesh, position, rotation, scale, Material(**(own | fields)), **(own_fields | given))
             thing = shaded(thing, shading, crease, anew=crease is not None)
             objects.append(thing if color is None else painted_object(thing, color))
         return objects
@@ -247,29 +230,33 @@ def _objects(value: object, where: str, folder: Path | None) -> list[Object]:
 
 def _parts(keys: Table, where: str, folder: Path | None) -> list[MeshPart]:
     value = keys.get("mesh")
+    if folder is None and isinstance(value, Mapping) and "file" in value:  # one that was opened on the page
+        value = str(value["file"])
     if isinstance(value, str) and value:
         with about(keys.place("mesh")):
             return read_model(_beside(folder, value))
     if value is None or isinstance(value, str):
         raise InputError(f"{where} needs a mesh: the path of a file, relative to the scene file")
     if isinstance(value, Mapping) and "piece" in value:
-        return [MeshPart(_mesh_of_piece(keys.table("mesh", _PIECE)), {})]
+        return [MeshPart(_mesh_of_piece(keys.table("mesh", _PIECE)))]
     inside = keys.table("mesh", MESH)
+    # with alpha if the first row has one
+    has_alpha = any(isinstance(row, list) and len(row) == 4 for _, row in inside.rows("colors")[:1])
     with about(inside.where):
         mesh = Mesh(
             inside.matrix("positions"),
             inside.matrix("faces", whole=True),
-            _colors(inside) if "colors" in inside else None,
+            inside.matrix("colors", whole=True, width=3 + has_alpha) if "colors" in inside else None,
             inside.matrix("normals") if "normals" in inside else None,
             inside.matrix("uvs", width=2) if "uvs" in inside else None,
             inside.series("opacities") if "opacities" in inside else None,
         )
-    return [MeshPart(mesh, {})]
+    return [MeshPart(mesh)]
 
 
 def _beside(folder: Path | None, name: str) -> Path:
     if folder is None:
-        raise InputError(f"a link cannot name files, such as {name!r:.60}")
+        raise InputError(f"a link cannot name files, such as {name!r:.60}; save a scene file in the Creator instead")
     return folder / name
 
 
@@ -278,20 +265,12 @@ def _mesh_of_piece(keys: Table) -> Mesh:
     # a dataset is made of scenes
     from ...datasets import require
 
-    name, index = keys.get("piece"), keys.whole("object", 0)
+    name = keys.get("piece")
     if not isinstance(name, str):
         raise InputError(f"{keys.place('piece')} must be the name of a piece, not {name!r:.60}")
     with about(keys.place("piece")):
         objects = require(name).make().objects
-    if not 0 <= index < len(objects):
-        raise InputError(f"{keys.place('object')} must be from 0 to {len(objects) - 1} for {name}, not {index}")
-    return objects[index].mesh
-
-
-def _colors(mesh: Table) -> NDArray[Any]:
-    """Return rows of red, green and blue, or with alpha if the first row has one."""
-    _, first = next(iter(mesh.rows("colors")), ("", None))
-    return mesh.matrix("colors", whole=True, width=4 if isinstance(first, list) and len(first) == 4 else 3)
+    return objects[keys.index("object", len(objects), "objects", 0)].mesh
 
 
 def _texture(surface: Table, folder: Path | None) -> Texture:

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from ...errors import InputError, warn
 from ...values import plural
-from .._mesh import DEFAULT_COLOR, Mesh, weld
+from .._mesh import DEFAULT_COLOR, weld
 from .content import plain_text, read_bytes
+from .model import MeshPart
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER, _COUNT = 80, 4
@@ -26,7 +27,7 @@ _PLAUSIBLE = 1e15
 Array = NDArray[np.float64]
 
 
-def read_stl(path: Path) -> Mesh:
+def read_stl(path: Path) -> list[MeshPart]:
     """Return the mesh of an STL file, in light grey unless its facets have colours.
 
     The normals of its faces follow from their vertices. An InputWarning tells of facets that are left out because they
@@ -44,7 +45,8 @@ def read_stl(path: Path) -> Mesh:
     if not finite.all():
         warn(f"{path}: facets with coordinates that are not finite numbers are left out: {(~finite).sum()}")
     faces = np.arange(3 * int(finite.sum())).reshape(-1, 3)
-    return weld(corners[finite].reshape(-1, 3), faces, None if colors is None else colors[finite].repeat(3, axis=1))
+    corner_colors = None if colors is None else colors[finite].repeat(3, axis=1)
+    return [MeshPart(weld(corners[finite].reshape(-1, 3), faces, corner_colors))]
 
 
 def _binary(path: Path, data: bytes) -> tuple[Array, Array | None]:
@@ -70,12 +72,9 @@ def _binary(path: Path, data: bytes) -> tuple[Array, Array | None]:
 
 
 def _colors(path: Path, header: bytes, attributes: NDArray[np.int64]) -> Array | None:
-    """Return the colours of facets, 0..255 with alpha, (n, 1, 4); None if there are none.
-
-    An attribute has five bits for each of red, green and blue. Its highest bit says in Magics that the facet has the
-    colour of the header, in the other programs that it has one of its own. Many programs write the colour of the header
-    only, and 0 as all attributes.
-    """
+    """Return the colours of facets, 0..255 with alpha, (n, 1, 4); None if there are none."""
+    # five bits for each of red, green and blue; the highest one says in Magics that the facet has the colour of the
+    # header, else that it has its own. Many programs write the colour of the header only, and 0 as all attributes
     own = attributes >= 1 << 15
     default = np.array([*DEFAULT_COLOR, 255])
     shifts = [10, 5, 0]

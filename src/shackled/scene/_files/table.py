@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from typing import Any, TypeVar, cast
 
 import numpy as np
@@ -59,73 +60,68 @@ class Table:
 
     def number(self, key: str, default: float | None = None) -> float:
         """Return a finite number."""
-        value: Any = self.values.get(key, default)
-        if not is_number(value):
-            raise InputError(f"{self.place(key)} must be a number, not {value!r:.60}")
-        return float(value)
+        return float(self._checked(key, default, _is_number, "a number"))
 
     def whole(self, key: str, default: int | None = None) -> int:
         """Return a whole number that is not negative."""
-        value: Any = self.values.get(key, default)
-        if not is_number(value) or value < 0 or value % 1:
-            raise InputError(f"{self.place(key)} must be a whole number, at least 0, not {value!r:.60}")
-        return int(value)
+        return int(self._checked(key, default, _is_count, "a whole number, at least 0"))
+
+    def index(self, key: str, count: int, kind: str, default: int | None = None) -> int:
+        """Return the number of one of `count` things of a kind."""
+        number = self.whole(key, default)
+        if number >= count:
+            raise InputError(f"{self.place(key)} is {number}, but there are {count} {kind}, numbered from 0")
+        return number
 
     def numbers(self, key: str, default: tuple[float, ...]) -> tuple[float, ...]:
         """Return as many numbers as the default has."""
-        value, count = self.values.get(key, default), len(default)
-        if not isinstance(value, list | tuple) or len(value) != count or not all(is_number(part) for part in value):
-            raise InputError(f"{self.place(key)} must be {count} numbers, not {value!r:.60}")
-        return tuple(float(part) for part in value)
+        count = len(default)
+        return tuple(map(float, self._checked(key, default, partial(_is_row, width=count), f"{count} numbers")))
 
     def series(self, key: str) -> NDArray[np.float64]:
         """Return a list of numbers, (n,)."""
-        for place, value in self.rows(key):
-            if not is_number(value):
-                raise InputError(f"{place} must be a number, not {value!r:.60}")
-        return np.array([value for _, value in self.rows(key)], dtype=np.float64)
+        return np.array([_check(value, place, _is_number, "a number") for place, value in self.rows(key)], np.float64)
 
     def matrix(self, key: str, whole: bool = False, width: int = 3) -> NDArray[Any]:
         """Return rows of `width` numbers, (n, width), none if the key is absent; integers if they must be whole."""
-        rows, kind = self.rows(key), "whole numbers" if whole else "numbers"
         count = {2: "two", 3: "three", 4: "four"}[width]
-        for place, row in rows:
-            if not isinstance(row, list) or len(row) != width or not all(is_number(value) for value in row):
-                raise InputError(f"{place} must be {count} {kind}, not {row!r:.60}")
-            if whole and not all(value % 1 == 0 and abs(value) < 2**53 for value in row):
-                raise InputError(f"{place} must be {count} {kind}, not {row!r:.60}")
-        table: NDArray[Any] = np.array([row for _, row in rows], dtype=np.int64 if whole else np.float64)
-        return table.reshape(-1, width)
+        what = f"{count} {'whole ' * whole}numbers"
+        is_right = partial(_is_row, width=width, whole=whole)
+        rows = [_check(row, place, is_right, what) for place, row in self.rows(key)]
+        return np.array(rows, dtype=np.int64 if whole else np.float64).reshape(-1, width)
 
     def flag(self, key: str, default: bool | None = None) -> bool:
         """Return true or false."""
-        value = self.values.get(key, default)
-        if not isinstance(value, bool):
-            raise InputError(f"{self.place(key)} must be true or false, not {value!r:.60}")
-        return value
+        return bool(self._checked(key, default, lambda value: isinstance(value, bool), "true or false"))
 
     def choice(self, key: str, choices: tuple[Word, ...], default: Word | None = None) -> Word:
         """Return one of some words."""
-        value = self.values.get(key, default)
-        if value not in choices:
-            raise InputError(f"{self.place(key)} must be one of {', '.join(choices)}, not {value!r:.60}")
+        value = self._checked(key, default, lambda value: value in choices, f"one of {', '.join(choices)}")
         return cast(Word, value)
 
     def color(self, key: str, default: Color | None = None) -> Color:
         """Return red, green and blue, 0..255, of a list of numbers or a text."""
-        value = self.values.get(key, default)
-        if isinstance(value, str):
-            return color(value, self.place(key))
-        if not isinstance(value, list | tuple) or not all(is_number(part) for part in value):
-            raise InputError(f"{self.place(key)} must be {COLORS}, not {value!r:.60}")
-        return color(list(value), self.place(key))
+        value = self._checked(key, default, lambda value: isinstance(value, str) or _is_row(value), COLORS)
+        return color(value if isinstance(value, str) else list(value), self.place(key))
 
-    def rows(self, key: str) -> list[tuple[str, object]]:
+    def tables(self, key: str) -> list[Table]:
+        """Return the tables of a list; none if the key is absent."""
+        return [Table(value, where) for where, value in self.rows(key)]
+
+    def rows(self, key: str) -> list[tuple[str, Any]]:
         """Return the parts of a list, each with its place; none if the key is absent."""
-        value = self.values.get(key, [])
-        if not isinstance(value, list):
-            raise InputError(f"{self.place(key)} must be a list, not {value!r:.60}")
+        value = self._checked(key, [], lambda value: isinstance(value, list), "a list")
         return [(f"{self.place(key)}[{number}]", part) for number, part in enumerate(value)]
+
+    def _checked(self, key: str, default: object, is_right: Callable[[Any], bool], what: str) -> Any:
+        return _check(self.values.get(key, default), self.place(key), is_right, what)
+
+
+def _check(value: Any, place: str, is_right: Callable[[Any], bool], what: str) -> Any:
+    """Return a value, if it is right. InputError with its place and what it must be, otherwise."""
+    if not is_right(value):
+        raise InputError(f"{place} must be {what}, not {value!r:.60}")
+    return value
 
 
 @contextmanager
@@ -137,6 +133,16 @@ def about(where: str) -> Iterator[None]:
         raise InputError(f"{where}: {error}") from None
 
 
-def is_number(value: object) -> bool:
+def _is_number(value: object) -> bool:
     """Return whether a value is a finite number, and not a truth value."""
     return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e300
+
+
+def _is_count(value: Any) -> bool:
+    return _is_number(value) and value >= 0 and value % 1 == 0
+
+
+def _is_row(value: Any, width: int | None = None, whole: bool = False) -> bool:
+    """Return whether a value is a list of numbers; width: how many."""
+    is_list = isinstance(value, list | tuple) and width in (None, len(value)) and all(map(_is_number, value))
+    return is_list and not (whole and any(each % 1 or abs(each) >= 2**53 for each in value))

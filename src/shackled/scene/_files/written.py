@@ -44,15 +44,11 @@ def write_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
 
 def encode_scene_file(scene: Scene) -> bytes:
     """Return the bytes of a scene file in JSON, such that loading it gives the same scene."""
-    camera = scene.camera
     document = {
         "size": [scene.width, scene.height],
         **_fields(scene, "scene"),
         **({} if scene.tone is None else {"tone": _fields(scene.tone, "tone")}),
-        "camera": {
-            **{name: getattr(camera, name) for name in ("eye", "target", "up", "projection", "half_height")},
-            **({} if camera.near is None else {"near": camera.near}),
-        },
+        "camera": asdict(scene.camera, filter=_is_given),
         "objects": [
             {
                 "mesh": {name: value for name in MESH if (value := getattr(thing.mesh, name)) is not None},
@@ -69,6 +65,10 @@ def encode_scene_file(scene: Scene) -> bytes:
     return f"{json.dumps(document, default=_plain)}\n".encode("ascii")
 
 
+def _is_given(_: object, value: object) -> bool:
+    return value is not None
+
+
 def _fields(value: object, part: Part) -> dict[str, Any]:
     """Return the settings that are fields of a value and not None; an object has no colour of its own."""
     fields = {name: getattr(value, name, None) for name in keys_of(part)}
@@ -78,20 +78,16 @@ def _fields(value: object, part: Part) -> dict[str, Any]:
 def _texture_keys(texture: Texture | None) -> dict[str, Any]:
     if texture is None:
         return {}
-    pixels = base64.b64encode(texture.pixels.tobytes()).decode("ascii")
-    sides = {"width": texture.width, "height": texture.height}
-    keys = {**sides, "filter": texture.filter, "wrap": texture.wrap, "pixels": pixels}
-    if texture.alpha is not None:
-        keys |= {"alpha": base64.b64encode(texture.alpha.tobytes()).decode("ascii"), "cutoff": texture.cutoff}
-    return {"texture": keys}
+    names = ("width", "height", "filter", "wrap", "cutoff")[: 4 if texture.alpha is None else 5]
+    levels = {"pixels": texture.pixels, "alpha": texture.alpha}
+    packed = {name: base64.b64encode(each.tobytes()).decode() for name, each in levels.items() if each is not None}
+    return {"texture": {**{name: getattr(texture, name) for name in names}, **packed}}
 
 
 def _plain(value: Any) -> Any:
     """Return what JSON has for an array, or for a background, a light or an effect."""
-    if isinstance(value, Background | Hemisphere | Rim | Fog):
-        return asdict(value)
-    if isinstance(value, Ground):
-        return {name: found for name, found in asdict(value).items() if found is not None}
+    if isinstance(value, Background | Hemisphere | Rim | Fog | Ground):
+        return asdict(value, filter=_is_given)
     if not isinstance(value, Light):
         return value.tolist()
     place = "direction" if value.kind == "directional" else "position"

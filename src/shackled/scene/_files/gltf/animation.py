@@ -22,26 +22,19 @@ _NEAR = 0.9995
 
 
 def posed(gltf: Document, nodes: Sequence[Table], animation: str | int, time: float) -> list[Table]:
-    """Return the nodes as an animation, by its name or number, puts them at a time in seconds.
-
-    Before its first keyframe, and after its last one, they are as there.
-    """
+    """Return the nodes where an animation puts them at a time in seconds, as at its nearest end outside of it."""
     keys = gltf.named(animation, "animations", "animation")
-    samplers = [Table(value, where) for where, value in keys.rows("samplers")]
+    samplers = keys.tables("samplers")
     moved: list[dict[str, Any]] = [dict(node.values) for node in nodes]
-    for where, value in keys.rows("channels"):
-        channel = Table(value, where)
-        target, number = channel.table("target"), channel.whole("sampler")
+    for channel in keys.tables("channels"):
+        target = channel.table("target")
         path = str(target.get("path"))
         if path not in _PATHS or "node" not in target:
-            gltf.leave_out("channel", where, "{} of the animation")
+            gltf.leave_out("channel", channel.where, "{} of the animation")
             continue
-        node = target.whole("node")
-        if node >= len(nodes):
-            raise InputError(f"{target.place('node')} is {node}, but there are {len(nodes)} nodes, numbered from 0")
-        if number >= len(samplers):
-            raise InputError(f"{channel.place('sampler')} is {number}, but there are {len(samplers)} samplers")
-        moved[node][path] = _sampled(gltf, samplers[number], path, time).tolist()
+        node = target.index("node", len(nodes), "nodes")
+        sampler = samplers[channel.index("sampler", len(samplers), "samplers")]
+        moved[node][path] = _sampled(gltf, sampler, path, time).tolist()
         # it would hide what moves
         moved[node].pop("matrix", None)
     return [Table(values, node.where) for values, node in zip(moved, nodes, strict=True)]
@@ -56,13 +49,11 @@ def animation_length(path: Path, animation: str | int) -> float:
 def animations_of(path: Path) -> list[tuple[str, float]]:
     """Return the name of each animation of a file, and the time of its last keyframe in seconds."""
     gltf = Document(path)
-    animations = [Table(value, where) for where, value in gltf.keys.rows("animations")]
-    return [(str(each.get("name") or ""), _length(gltf, each)) for each in animations]
+    return [(str(each.get("name") or ""), _length(gltf, each)) for each in gltf.keys.tables("animations")]
 
 
 def _length(gltf: Document, animation: Table) -> float:
-    samplers = animation.rows("samplers")
-    times = [numbers(gltf, Table(value, where), "input", "SCALAR") for where, value in samplers]
+    times = [numbers(gltf, sampler, "input", "SCALAR") for sampler in animation.tables("samplers")]
     return max((float(each.max()) for each in times if len(each) and np.isfinite(each).all()), default=0.0)
 
 

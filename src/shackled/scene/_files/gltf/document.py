@@ -39,11 +39,7 @@ _SURFACES = "KHR_materials_"
 
 
 class Document:
-    """A document, and what its parts refer to.
-
-    decoded: the elements of accessors that are compressed, by their places. images: likewise, RGBA; None for those that
-    cannot be read.
-    """
+    """A document, and what it refers to. decoded: elements of compressed accessors, by their places; images: RGBA."""
 
     def __init__(self, path: Path) -> None:
         """Read a file. InputError for what asks for another reader."""
@@ -80,10 +76,7 @@ class Document:
         self._extensions |= set(extensions) - _KNOWN
 
     def leave_out(self, what: str, where: str, sentence: str = "{}") -> None:
-        """Keep, for a note, that something at a place in the document is left out.
-
-        what: a noun, which gets its count. sentence: around it.
-        """
+        """Keep, for a note, that something at a place is left out. what: a noun; sentence: around its count."""
         self._left_out.setdefault((what, sentence), set()).add(where)
 
     def left_out(self) -> list[str]:
@@ -94,21 +87,15 @@ class Document:
             found.append(f"what {'extension' if len(self._extensions) == 1 else 'extensions'} {names} would change")
         return [f"left out: {each}" for each in found]
 
-    def item(self, keys: Table, key: str, kind: str) -> Table:
-        """Return the part of the document that a key names by its number."""
-        return self.numbered(keys.whole(key), kind, keys.place(key))
-
-    def numbered(self, number: int, kind: str, place: str) -> Table:
-        """Return the part of this kind and number, which stands at a place in the document."""
+    def item(self, keys: Table, key: str, kind: str, default: int | None = None) -> Table:
+        """Return the part of this kind that a key names by its number."""
         items = self.keys.get(kind)
-        count = len(items) if isinstance(items, list) else 0
-        if number >= count:
-            raise InputError(f"{place} is {number}, but there are {count} {kind}, numbered from 0")
+        number = keys.index(key, len(items) if isinstance(items, list) else 0, kind, default)
         return Table(items[number], f"{kind}[{number}]")
 
     def named(self, name: str | int, kind: str, word: str) -> Table:
         """Return the part of this kind with a name, or else a number. InputError, with those there are, if none has."""
-        items = [Table(value, where) for where, value in self.keys.rows(kind)]
+        items = self.keys.tables(kind)
         names = [str(item.get("name") or "") for item in items]
         for keys in (names, [str(number) for number in range(len(items))]):
             if str(name) in keys:

@@ -15,10 +15,7 @@ _NAME = "KHR_draco_mesh_compression"
 
 
 def decompress(gltf: Document, primitive: Table) -> bool:
-    """Put what a primitive has in compressed form in the places of its accessors, and return whether it has.
-
-    Plain data beside it is preferred.
-    """
+    """Put what a primitive has in compressed form only in the places of its accessors; return whether it has."""
     attributes, extensions = primitive.table("attributes"), primitive.table("extensions")
     if _NAME not in extensions or "bufferView" in gltf.item(attributes, "POSITION", "accessors"):
         return False

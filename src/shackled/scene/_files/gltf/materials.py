@@ -5,11 +5,9 @@ from __future__ import annotations
 import io
 import math
 from dataclasses import dataclass, replace
-from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 from ....checks import Color
 from ....errors import InputError, warn
@@ -19,17 +17,28 @@ from ..model import FileWrap, Picture, finite_uvs, is_transparent
 from ..table import Table
 from .document import Document, Vertices
 
+Array = NDArray[np.float64]
+
 #: Filters and wraps of samplers, by their numbers in OpenGL.
 _NEAREST = 9728
 _FILE_WRAPS: dict[int, FileWrap] = {10497: "repeat", 33071: "clamp", 33648: "mirror"}
 
 
-def picture_of(gltf: Document, texture: Table, has_alpha: bool = False) -> Picture | None:
-    """Return the image of a texture with its sampler; None, with a warning, if it cannot be had.
-
-    has_alpha: whether its alpha counts.
-    """
-    image = _image(gltf, texture)
+def _picture(gltf: Document, texture: Table, has_alpha: bool) -> Picture | None:
+    """Return a texture; None, with a warning, if its image cannot be had. has_alpha: whether its alpha counts."""
+    webp = texture.table("extensions").table("EXT_texture_webp")
+    keys = webp if "source" in webp else texture
+    place = keys.place("source")
+    if place not in gltf.images:
+        gltf.images[place] = None
+        try:
+            source = gltf.item(keys, "source", "images")
+            data = gltf.view(gltf.item(source, "bufferView", "bufferViews")) if "bufferView" in source else None
+            file = io.BytesIO(gltf.resource(source) if data is None else data)
+            gltf.images[place] = open_image(file, source.where, as_rgba)
+        except InputError as error:
+            warn(f"{gltf.path}: a texture is left out: {error}")
+    image = gltf.images[place]
     if image is None:
         return None
     if not has_alpha or not is_transparent(image):
@@ -40,26 +49,7 @@ def picture_of(gltf: Document, texture: Table, has_alpha: bool = False) -> Pictu
     return Picture(image, f"{gltf.path}: {texture.where}", filter, (u, v))
 
 
-def _image(gltf: Document, texture: Table) -> Image.Image | None:
-    webp = texture.table("extensions").table("EXT_texture_webp")
-    keys = webp if "source" in webp else texture
-    if keys.place("source") not in gltf.images:
-        image = None
-        try:
-            source = gltf.item(keys, "source", "images")
-            data = gltf.view(gltf.item(source, "bufferView", "bufferViews")) if "bufferView" in source else None
-            file = io.BytesIO(gltf.resource(source) if data is None else data)
-            image = open_image(file, source.where, as_rgba)
-        except InputError as error:
-            warn(f"{gltf.path}: a texture is left out: {error}")
-        gltf.images[keys.place("source")] = image
-    return gltf.images[keys.place("source")]
-
-
-Array = NDArray[np.float64]
-
 _GLOSSINESS = "KHR_materials_pbrSpecularGlossiness"
-_ALPHA_MODES = ("OPAQUE", "MASK", "BLEND")
 
 
 @dataclass(frozen=True)
@@ -67,8 +57,7 @@ class Surface:
     """A material.
 
     factor: linear red, green, blue and alpha. texture: where the base colour texture is told. gloss: roughness and
-    metalness, 0..1; None if the file does not say. cutoff: alpha below it is not seen; None if it all is. has_alpha:
-    whether the alpha of the texture counts.
+    metalness, 0..1; None if the file does not say. cutoff: alpha below it is not seen; None if it all is.
     """
 
     factor: tuple[float, ...] = (1.0, 1.0, 1.0, 1.0)
@@ -79,18 +68,26 @@ class Surface:
     is_blended: bool = False
     is_two_sided: bool = False
     cutoff: float | None = None
-    has_alpha: bool = False
 
     @property
-    def is_hidden(self) -> bool:
-        """Whether nothing of it is seen: textures and colours of vertices only lower the alpha."""
-        return self.cutoff is not None and self.factor[3] < self.cutoff
+    def opacity(self) -> float:
+        """That of an object: only what is blended has one."""
+        return self.factor[3] if self.is_blended else 1.0
+
+    @property
+    def has_alpha(self) -> bool:
+        """Whether the alpha of the texture counts."""
+        return self.is_blended or (self.cutoff is not None and self.cutoff > 0)
 
 
-def surface_of(gltf: Document, primitive: Table) -> Surface | None:
-    """Return the material of a primitive; None if it has none."""
+#: That of primitives without a material.
+PLAIN = Surface()
+
+
+def surface_of(gltf: Document, primitive: Table) -> Surface:
+    """Return the material of a primitive."""
     if "material" not in primitive:
-        return None
+        return PLAIN
     material = gltf.item(primitive, "material", "materials")
     extensions = material.table("extensions")
     gltf.uses(extensions.values)
@@ -109,35 +106,22 @@ def surface_of(gltf: Document, primitive: Table) -> Surface | None:
         elif emitted.any():
             gltf.leave_out("emissive texture", material.where)
         emitted = np.zeros(3)
-    _tell_of_textures(gltf, material, keys)
-    mode = material.choice("alphaMode", _ALPHA_MODES, "OPAQUE")
-    cutoff = material.number("alphaCutoff", 0.5) if mode == "MASK" else None
-    return Surface(
-        color,
-        shown,
-        None if is_unlit else _gloss(keys, _GLOSSINESS in extensions),
-        (0, 0, 0) if is_unlit else cast(Color, tuple(to_srgb(emitted).astype(int).tolist())),
-        is_unlit,
-        mode == "BLEND",
-        material.flag("doubleSided", False),
-        cutoff,
-        mode == "BLEND" or (cutoff is not None and cutoff > 0),
-    )
-
-
-def _tell_of_textures(gltf: Document, material: Table, keys: Table) -> None:
     for key, name in (("normalTexture", "normal texture"), ("occlusionTexture", "occlusion texture")):
         if key in material:
             gltf.leave_out(name, material.where)
     if "metallicRoughnessTexture" in keys or "specularGlossinessTexture" in keys:
         gltf.leave_out("texture", material.where, "{} of roughness")
+    mode = material.choice("alphaMode", ("OPAQUE", "MASK", "BLEND"), "OPAQUE")
+    cutoff = material.number("alphaCutoff", 0.5) if mode == "MASK" else None
+    gloss = None if is_unlit else _gloss(keys, _GLOSSINESS in extensions)
+    red, green, blue = (0, 0, 0) if is_unlit else to_srgb(emitted).astype(int).tolist()
+    two_sided = material.flag("doubleSided", False)
+    return Surface(color, shown, gloss, (red, green, blue), is_unlit, mode == "BLEND", two_sided, cutoff)
 
 
 def _gloss(keys: Table, is_older: bool) -> tuple[float, float] | None:
-    """Return roughness and metalness.
-
-    A roughness by texture is not read, and one that is left out, of 1 by the specification, is often not meant.
-    """
+    """Return roughness and metalness, if they are told without a texture."""
+    # a roughness that is left out, of 1 by the specification, is often not meant
     if is_older:
         return None if "specularGlossinessTexture" in keys else (1 - keys.number("glossinessFactor", 1), 0.0)
     if "roughnessFactor" not in keys or "metallicRoughnessTexture" in keys:
@@ -145,19 +129,12 @@ def _gloss(keys: Table, is_older: bool) -> tuple[float, float] | None:
     return keys.number("roughnessFactor"), keys.number("metallicFactor", 1)
 
 
-def colors_of(vertices: Vertices, surface: Surface | None, where: str) -> tuple[Array, float]:
-    """Return the colours of vertices with alpha, (n, 4), 0..255, without those of a texture; and the opacity of the
-    material.
-
-    Only materials that are blended have either.
-    """
+def colors_of(vertices: Vertices, surface: Surface, where: str) -> Array:
+    """Return colours of vertices with alpha, (n, 4), 0..255, without a texture's and the opacity of the material."""
     vertex_colors = vertices.values("COLOR_0", "VEC3", "VEC4")
-    if surface is None and vertex_colors is None:
-        return np.full((len(vertices.used), 4), (*DEFAULT_COLOR, 255), dtype=np.float64), 1.0
-    surface = surface or Surface()
-    *factor, opacity = surface.factor
-    linear = np.ones((len(vertices.used), 4))
-    linear[:, :3] *= factor
+    if surface is PLAIN and vertex_colors is None:
+        return np.full((len(vertices.used), 4), (*DEFAULT_COLOR, 255), dtype=np.float64)
+    linear = np.tile([*surface.factor[:3], 1.0], (len(vertices.used), 1))
     if vertex_colors is not None:
         most = np.iinfo(vertex_colors.dtype).max if vertex_colors.dtype.kind in "iu" else 1
         own = vertex_colors.astype(np.float64) / most
@@ -165,22 +142,22 @@ def colors_of(vertices: Vertices, surface: Surface | None, where: str) -> tuple[
         if len(bad):
             raise InputError(f"colour {bad[0]} must be finite numbers, not {own[bad[0]].tolist()}")
         linear[:, : own.shape[1]] *= np.clip(own, 0, 1)
-    if surface.cutoff is not None and (linear[:, 3] * opacity < surface.cutoff).any():
+    if surface.cutoff is not None and (linear[:, 3] * surface.factor[3] < surface.cutoff).any():
         vertices.gltf.leave_out("primitive", where, "the alpha of vertices of {}")
     alpha = np.rint(255 * linear[:, 3:]) if surface.is_blended else np.full((len(linear), 1), 255.0)
-    return np.hstack([to_srgb(linear[:, :3]), alpha]), opacity if surface.is_blended else 1.0
+    return np.hstack([to_srgb(linear[:, :3]), alpha])
 
 
-def picture_on(vertices: Vertices, surface: Surface | None, where: str) -> tuple[Picture | None, Array]:
+def picture_on(vertices: Vertices, surface: Surface, where: str) -> tuple[Picture | None, Array]:
     """Return the image of the base colour texture, None if there is none, and where the vertices are on it, (n, 2)."""
     nowhere = np.zeros((len(vertices.used), 2))
-    if surface is None or surface.texture is None:
+    if surface.texture is None:
         return None, nowhere
     info = surface.texture
     transform = info.table("extensions").table("KHR_texture_transform")
     number = transform.whole("texCoord", info.whole("texCoord", 0))
     coordinates = vertices.values(f"TEXCOORD_{number}", "VEC2")
-    picture = picture_of(vertices.gltf, vertices.gltf.item(info, "index", "textures"), surface.has_alpha)
+    picture = _picture(vertices.gltf, vertices.gltf.item(info, "index", "textures"), surface.has_alpha)
     if picture is not None and surface.cutoff is not None and surface.has_alpha:
         # of the texture times the factor
         picture = replace(picture, cutoff=cutoff_of(surface.cutoff / max(surface.factor[3], 1e-9)))

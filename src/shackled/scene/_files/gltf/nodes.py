@@ -15,7 +15,8 @@ from .document import Document, Vertices, numbers
 
 Array = NDArray[np.float64]
 
-_IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+#: The parts of a place, by their names as attributes, where they are not told.
+_RESTS: dict[str, tuple[float, ...]] = {"TRANSLATION": (0, 0, 0), "ROTATION": (0, 0, 0, 1), "SCALE": (1, 1, 1)}
 
 
 @dataclass(frozen=True)
@@ -31,36 +32,28 @@ def placed(gltf: Document, nodes: Sequence[Table]) -> dict[int, Node]:
     """Return all nodes by their numbers; first those of the scene, the default one or the first, in its order."""
     children = [_links(node, "children", len(nodes)) for node in nodes]
     heads = sorted(set(range(len(nodes))).difference(*children))
-    scenes = gltf.keys.rows("scenes")
-    roots = heads
+    roots, scenes = heads, gltf.keys.rows("scenes")
     if "scene" in gltf.keys or scenes:
-        scene = gltf.numbered(gltf.keys.whole("scene", 0), "scenes", "scene")
+        scene = gltf.item(gltf.keys, "scene", "scenes", 0)
         roots = _links(scene, "nodes", len(nodes))
         for where, _ in scenes:
             if where != scene.where:
                 gltf.leave_out("other scene", where)
     found: dict[int, Node] = {}
-    _walk(nodes, children, roots, True, found)
-    # joints may be elsewhere
-    _walk(nodes, children, [head for head in heads if head not in found], False, found)
-    return found
-
-
-def _walk(
-    nodes: Sequence[Table], children: Sequence[list[int]], roots: list[int], are_shown: bool, found: dict[int, Node]
-) -> None:
-    waiting = [(number, np.eye(4), are_shown) for number in reversed(roots)]
+    # first the scene; joints may be elsewhere
+    waiting = [(n, np.eye(4), False) for n in reversed(heads)] + [(n, np.eye(4), True) for n in reversed(roots)]
     while waiting:
         number, above, is_shown = waiting.pop()
         node = nodes[number]
         if number in found:
-            if not are_shown:
+            if not is_shown:
                 continue
             raise InputError(f"{node.where} hangs on several nodes, or on itself, which glTF does not allow")
         visibility = node.table("extensions").table("KHR_node_visibility")
         here = Node(node, above @ _matrix(node), is_shown and visibility.flag("visible", True))
         found[number] = here
         waiting += [(child, here.matrix, here.is_shown) for child in reversed(children[number])]
+    return found
 
 
 def _links(keys: Table, key: str, count: int) -> list[int]:
@@ -68,18 +61,14 @@ def _links(keys: Table, key: str, count: int) -> list[int]:
     for place, number in keys.rows(key):
         if type(number) is not int or not 0 <= number < count:
             raise InputError(f"{place} is {number!r:.20}, but there are {count} nodes, numbered from 0")
-    return [int(number) for number in keys.get(key) or []]
+    return list(keys.get(key) or [])
 
 
 def _matrix(node: Table) -> Array:
     if "matrix" in node:
-        return np.array(node.numbers("matrix", _IDENTITY)).reshape(4, 4).T
+        return np.array(node.numbers("matrix", tuple(np.eye(4).flat))).reshape(4, 4).T
     with about(node.where):
-        return _composed(
-            node.numbers("translation", (0, 0, 0)),
-            node.numbers("rotation", (0, 0, 0, 1)),
-            node.numbers("scale", (1, 1, 1)),
-        )
+        return _composed(*(node.numbers(name.lower(), rest) for name, rest in _RESTS.items()))
 
 
 def _composed(translation: Sequence[float], rotation: Sequence[float], scale: Sequence[float]) -> Array:
@@ -95,23 +84,22 @@ def instances(gltf: Document, node: Node) -> list[Array]:
     if "EXT_mesh_gpu_instancing" not in extensions:
         return [node.matrix]
     attributes = extensions.table("EXT_mesh_gpu_instancing").table("attributes")
-    rests = {"TRANSLATION": [0, 0, 0], "ROTATION": [0, 0, 0, 1], "SCALE": [1, 1, 1]}
     given = {
         name: numbers(gltf, attributes, name, f"VEC{len(rest)}").astype(np.float64)
-        for name, rest in rests.items()
+        for name, rest in _RESTS.items()
         if name in attributes
     }
     counts = {len(values) for values in given.values()}
     if len(counts) != 1:
         raise InputError(f"{attributes.where} must have as many elements in each, not {sorted(counts)}")
     (count,) = counts
-    columns = [given.get(name, np.tile(rest, (count, 1))) for name, rest in rests.items()]
+    columns = [given.get(name, np.tile(rest, (count, 1))) for name, rest in _RESTS.items()]
     with about(attributes.where):
         return [node.matrix @ _composed(*row) for row in zip(*columns, strict=True)]
 
 
 #: Other attributes of morph targets are not read; tangents are for normal textures, which are not, either.
-_MORPHED = ("POSITION", "NORMAL", "TANGENT")
+_MORPHED = {"POSITION", "NORMAL", "TANGENT"}
 
 
 def weights_of(node: Table, mesh: Table) -> Array:
@@ -121,34 +109,29 @@ def weights_of(node: Table, mesh: Table) -> Array:
 
 def morphed(vertices: Vertices, primitive: Table, weights: Array, name: str, values: Array) -> Array:
     """Return values of vertices, (n, 3), of the attribute POSITION or NORMAL, moved by the morph targets."""
-    for (where, target), weight in zip(primitive.rows("targets"), weights, strict=False):
-        keys = Table(target, where)
+    for keys, weight in zip(primitive.tables("targets"), weights, strict=False):
         if weight == 0:
             continue
-        for other in keys.values:
-            if other not in _MORPHED:
-                vertices.gltf.leave_out("morph target", where, "what {} would change besides positions and normals")
+        if not keys.values.keys() <= _MORPHED:
+            vertices.gltf.leave_out("morph target", keys.where, "what {} would change besides positions and normals")
         if name in keys:
             values = values + weight * vertices.of(keys, name, "VEC3")
     return values
 
 
 def skinned(vertices: Vertices, node: Table, nodes: Mapping[int, Node]) -> Array | None:
-    """Return the matrix, (n, 4, 4), that puts each vertex into the world; None without a skin.
-
-    It is the mean of those of the joints. The place of the node itself has no effect then, says glTF.
-    """
+    """Return the mean of the matrices of joints, (n, 4, 4), that puts vertices into the world; None without a skin."""
     if "skin" not in node or "JOINTS_0" not in vertices.attributes:
         return None
     gltf = vertices.gltf
     skin = gltf.item(node, "skin", "skins")
     matrices = _joints(gltf, skin, nodes)
     sets = sum(f"JOINTS_{number}" in vertices.attributes for number in range(len(vertices.attributes.values)))
-    joints = np.hstack([vertices.of(vertices.attributes, f"JOINTS_{number}", "VEC4") for number in range(sets)])
-    weights = np.hstack(
-        [vertices.of(vertices.attributes, f"WEIGHTS_{number}", "VEC4") for number in range(sets)]
-    ).astype(np.float64)
-    weights = np.nan_to_num(weights)
+    joints, weights = (
+        np.hstack([vertices.of(vertices.attributes, f"{name}_{number}", "VEC4") for number in range(sets)])
+        for name in ("JOINTS", "WEIGHTS")
+    )
+    weights = np.nan_to_num(weights.astype(np.float64))
     total = weights.sum(axis=1, keepdims=True)
     # a vertex without weights hangs on its first joint
     weights = np.where(total > 0, weights / np.where(total > 0, total, 1), np.eye(1, weights.shape[1]))
@@ -156,8 +139,8 @@ def skinned(vertices: Vertices, node: Table, nodes: Mapping[int, Node]) -> Array
     if joints.size and not 0 <= joints.min() <= joints.max() < len(matrices):
         raise InputError(f"a vertex hangs on joint {joints.max()}, but {skin.where} has {len(matrices)}")
     found = np.zeros((len(joints), 4, 4))
-    for column in range(joints.shape[1]):
-        found += weights[:, column, None, None] * matrices[joints[:, column]]
+    for weight, joint in zip(weights.T, joints.T, strict=True):
+        found += weight[:, None, None] * matrices[joint]
     return found
 
 

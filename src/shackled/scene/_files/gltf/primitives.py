@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ....errors import InputError
 from ..model import Picture, tinted
-from ..table import Table, about
+from ..table import about
 from .document import Document, Vertices, numbers
 from .draco import decompress
 from .materials import Surface, colors_of, picture_on, surface_of
@@ -25,41 +25,33 @@ _POINTS_OR_LINES, _TRIANGLES, _STRIP, _FAN = range(4), 4, 5, 6
 class Piece:
     """A primitive with triangles.
 
-    colors: (n, 4), with alpha. normals: zeros if there are none. picture, uvs: of its texture, or None. opacity: of its
-    material. matrices: (n, 4, 4), that put skinned vertices into the world.
+    colors: (n, 4), with alpha. normals: zeros if there are none. picture, uvs: of its texture, or None.
+    matrices: (n, 4, 4), that put skinned vertices into the world.
     """
 
     positions: Array
     faces: NDArray[np.int64]
     colors: Array
     normals: Array
-    surface: Surface | None
+    surface: Surface
     picture: Picture | None
     uvs: Array
-    opacity: float
     matrices: Array | None
 
     @property
     def group(self) -> tuple[object, ...]:
         """What pieces of one object have in common: the texture, light, and how they hide what is behind them."""
-        surface = self.surface or Surface()
-        return (
-            self.picture.name if self.picture else "",
-            self.opacity,
-            bool((self.colors[:, 3] < 255).any()),
-            surface.emission,
-            surface.is_unlit,
-            surface.is_two_sided,
-        )
+        surface, has_alpha = self.surface, bool((self.colors[:, 3] < 255).any())
+        name = self.picture.name if self.picture else ""
+        return name, surface.opacity, has_alpha, surface.emission, surface.is_unlit, surface.is_two_sided
 
 
 def pieces_of(gltf: Document, node: Node, nodes: Mapping[int, Node]) -> Iterator[Piece]:
     """Return the primitives of the mesh of a node that have triangles, in its coordinates."""
     mesh = gltf.item(node.keys, "mesh", "meshes")
     weights = weights_of(node.keys, mesh)
-    for where, value in mesh.rows("primitives"):
-        keys = Table(value, where)
-        attributes = keys.table("attributes")
+    for keys in mesh.tables("primitives"):
+        where, attributes = keys.where, keys.table("attributes")
         mode = keys.whole("mode", _TRIANGLES)
         if mode in _POINTS_OR_LINES:
             gltf.leave_out("primitive", where, "{} of points or lines")
@@ -85,28 +77,19 @@ def pieces_of(gltf: Document, node: Node, nodes: Mapping[int, Node]) -> Iterator
         vertices = Vertices(gltf, attributes, used, len(positions))
         with about(where):
             surface = surface_of(gltf, keys)
-            if surface is not None and surface.is_hidden:
+            # textures and colours of vertices only lower the alpha
+            if surface.cutoff is not None and surface.factor[3] < surface.cutoff:
                 continue
-            normals = vertices.values("NORMAL", "VEC3")
-            colors, opacity = colors_of(vertices, surface, where)
+            normals = np.zeros((len(used), 3))
+            if (given := vertices.values("NORMAL", "VEC3")) is not None:
+                normals = morphed(vertices, keys, weights, "NORMAL", given.astype(np.float64))
+            colors = colors_of(vertices, surface, where)
             picture, uvs = picture_on(vertices, surface, where)
             points = morphed(vertices, keys, weights, "POSITION", positions[used].astype(np.float64))
-            if normals is not None:
-                normals = morphed(vertices, keys, weights, "NORMAL", normals.astype(np.float64))
             matrices = skinned(vertices, node.keys, nodes)
         if picture is not None and not picture.is_varied:
             colors, picture = tinted(colors, picture, uvs), None
-        yield Piece(
-            points,
-            corners.reshape(-1, 3),
-            colors,
-            np.zeros((len(used), 3)) if normals is None else normals,
-            surface,
-            picture,
-            uvs,
-            opacity,
-            matrices,
-        )
+        yield Piece(points, corners.reshape(-1, 3), colors, normals, surface, picture, uvs, matrices)
 
 
 def _corners(mode: int, count: int, place: str) -> NDArray[np.int64]:

@@ -14,7 +14,6 @@ from ..._crease import filled
 from ..._mesh import weld
 from ..._object import EXPONENTS
 from ..model import MeshPart, tinted
-from ..table import Table
 from .animation import posed
 from .document import Document
 from .nodes import Node, instances, placed
@@ -69,7 +68,7 @@ def read_gltf(
 
 def nodes_of(gltf: Document, animation: str | int | None, time: float | None) -> dict[int, Node]:
     """Return the nodes in their places, at rest or moved by an animation."""
-    nodes = [Table(value, where) for where, value in gltf.keys.rows("nodes")]
+    nodes = gltf.keys.tables("nodes")
     if animation is not None or time is not None:
         nodes = posed(gltf, nodes, 0 if animation is None else animation, time or 0.0)
     return placed(gltf, nodes)
@@ -78,17 +77,18 @@ def nodes_of(gltf: Document, animation: str | int | None, time: float | None) ->
 def _material(pieces: Sequence[Piece]) -> dict[str, Any]:
     """Return the fields of a Material; highlights are the mean of all pieces that tell of them, by area."""
     first = pieces[0].surface
-    if first is not None and first.is_unlit:
+    if first.is_unlit:
         return {"shading": "unlit"}
-    fields: dict[str, Any] = {"emission": first.emission} if first is not None and any(first.emission) else {}
-    known = [(piece, each.gloss) for piece in pieces if (each := piece.surface) is not None and each.gloss is not None]
-    areas = []
-    for piece, _ in known:
-        a, b, c = piece.positions[piece.faces].transpose(1, 0, 2)
-        areas.append(float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()))
+    fields: dict[str, Any] = {"emission": first.emission} if any(first.emission) else {}
+    gloss, areas = [], []
+    for piece in pieces:
+        if piece.surface.gloss is not None:
+            a, b, c = piece.positions[piece.faces].transpose(1, 0, 2)
+            gloss.append(piece.surface.gloss)
+            areas.append(float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()))
     if not 0 < sum(areas) < math.inf:
         return fields
-    roughness, metalness = np.clip(np.average([gloss for _, gloss in known], 0, areas), 0, 1).tolist()
+    roughness, metalness = np.clip(np.average(gloss, 0, areas), 0, 1).tolist()
     # Beckmann's roughness of a Blinn-Phong exponent; the strength of highlights is a matter of taste
     return fields | {
         "specular": round((0.8 + 0.3 * metalness) * (1 - roughness), 3),
@@ -112,4 +112,4 @@ def _join(pieces: Sequence[Piece], count: int) -> MeshPart:
         material["texture"], corner_uvs = picture.texture(uvs[corners], count)
     found = filled(positions, corners, normals[corners]) if normals.any() else None
     mesh = weld(positions, corners, corner_colors, found, corner_uvs)
-    return MeshPart(mesh, material, pieces[0].opacity, surface is not None and surface.is_two_sided)
+    return MeshPart(mesh, material, surface.opacity, surface.is_two_sided)

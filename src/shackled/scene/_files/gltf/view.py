@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from attrs import evolve
@@ -15,7 +16,7 @@ from ....values import plural
 from ..._camera import Camera
 from ..._light import LIGHT_KINDS, MAX_LIGHTS, Light
 from ..._texture import to_srgb
-from ..table import Table, about
+from ..table import about
 from .document import Document
 from .nodes import Node
 from .read import nodes_of
@@ -49,8 +50,7 @@ def _camera(gltf: Document, nodes: Mapping[int, Node], name: str | int) -> Camer
         raise InputError(f"no node has {keys.where}")
     kind = keys.choice("type", ("perspective", "orthographic"))
     lens = keys.table(kind)
-    perspective = kind == "perspective"
-    half_height = math.tan(lens.number("yfov") / 2) if perspective else lens.number("ymag")
+    half_height = math.tan(lens.number("yfov") / 2) if kind == "perspective" else lens.number("ymag")
     eye, back = node.matrix[:3, 3], _unit(node.matrix[:3, 2])
     with about(keys.where):
         return Camera(eye, eye - back, node.matrix[:3, 1], kind, half_height, lens.number("znear"))
@@ -58,32 +58,25 @@ def _camera(gltf: Document, nodes: Mapping[int, Node], name: str | int) -> Camer
 
 def _lights(gltf: Document, nodes: Mapping[int, Node], middle: NDArray[np.float64]) -> list[Light]:
     """Return the lights that are shown, the brightest first."""
-    declared = gltf.keys.table("extensions").table(_LIGHTS).rows("lights")
+    declared = gltf.keys.table("extensions").table(_LIGHTS).tables("lights")
     found: list[tuple[float, NDArray[np.float64], Light]] = []
     for node in nodes.values():
         keys = node.keys.table("extensions").table(_LIGHTS)
         if not node.is_shown or "light" not in keys:
             continue
-        if (number := keys.whole("light")) >= len(declared):
-            raise InputError(
-                f"{keys.place('light')} is {number}, but there are {len(declared)} lights, numbered from 0"
-            )
-        where, value = declared[number]
-        light = Table(value, where)
+        light = declared[keys.index("light", len(declared), "lights")]
         kind = light.choice("type", LIGHT_KINDS)
         place, back = node.matrix[:3, 3], _unit(node.matrix[:3, 2])
         strength = light.number("intensity", 1)
         if kind != "directional":
             strength /= max(float(np.sum((place - middle) ** 2)), 1e-12)
-        with about(where):
-            if kind == "directional":
-                made = Light.directional(toward=back)
-            elif kind == "point":
-                made = Light.point(place)
-            else:
-                cone = light.table("spot")
-                inner, outer = cone.number("innerConeAngle", 0), cone.number("outerConeAngle", math.pi / 4)
-                made = Light.spot(place, -back, inner_angle=math.degrees(inner), outer_angle=math.degrees(outer))
+        given: dict[str, Any] = {}
+        if kind == "spot":
+            cone = light.table("spot")
+            inner, outer = cone.number("innerConeAngle", 0), cone.number("outerConeAngle", math.pi / 4)
+            given = {"direction": -back, "inner_angle": math.degrees(inner), "outer_angle": math.degrees(outer)}
+        with about(light.where):
+            made = Light(kind, back if kind == "directional" else place, **given)
         found.append((strength, np.array(light.numbers("color", (1, 1, 1))), made))
     most = max((strength * color.max() for strength, color, _ in found), default=0)
     found = sorted((each for each in found if most > 0), key=lambda each: -each[0])

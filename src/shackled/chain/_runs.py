@@ -7,17 +7,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import groupby
+from typing import NamedTuple
 
 from ..artifacts import artifact
-from ..chain import CallResult, ContractChain, returned_bytes
+from ..errors import ChainError
+from ..ethereum import word
 from ..scene import WIREFRAME, Rectangle, Scene, encode
 from . import _layout as layout
+from ._chain import CallResult, ContractChain, returned_bytes
 
 #: As in Pipeline.sol.
 BAND_PIXELS = 16384
 #: Bytes of an answer before its pixels.
 HEAD = 0x40
+#: The contracts that draw pictures with four samples per pixel, with effects, and others.
+ANTIALIASED = ("AntialiasedEngine", "AntialiasedFragmentEngine", "AntialiasedSmoothEngine")
+EFFECTS, PLAIN = ("EffectsEngine", "Effects"), ("Engine", "FragmentEngine")
 
 
 @dataclass(frozen=True)
@@ -29,12 +36,11 @@ class EngineCall:
     result: CallResult
 
 
-@dataclass(frozen=True)
-class _Object:
-    number: int
-    position: int
+class _Object(NamedTuple):
     engine: str
     is_blended: bool
+    number: int
+    position: int
 
 
 def engine_calls(scene: Scene, chain: ContractChain) -> list[EngineCall]:
@@ -51,6 +57,25 @@ def engine_calls(scene: Scene, chain: ContractChain) -> list[EngineCall]:
     return calls
 
 
+@lru_cache(4)
+def engines(scene: bytes, chain: ContractChain) -> tuple[str, ...]:
+    """Return the contracts that may draw an ABI-encoded scene; those of plain scenes if it is none.
+
+    Of the three for antialiased scenes only those that are needed: together they leave little space in a creation call.
+    """
+    call = artifact("Renderer").selectors["engineCall"] + word(0xA0) + bytes(64) + scene[:64] + scene
+    try:
+        uniforms = returned_bytes(chain.call("Renderer", call).output, 0)
+    except ChainError:
+        return PLAIN
+    if _load(uniforms, _place(layout.EFFECTS_OFFSET)):
+        return EFFECTS
+    if not _load(uniforms, _place(layout.FRAME_IS_ANTIALIASED)):
+        return PLAIN
+    needed = {each.engine for run in _runs(uniforms) for each in run}
+    return tuple(name for name in ANTIALIASED if name in needed) or ANTIALIASED[:1]
+
+
 def _uniforms(scene: Scene, tile: Rectangle, chain: ContractChain) -> bytes:
     data = encode(artifact("Renderer").selectors["engineCall"], scene, tile)
     return returned_bytes(chain.call("Renderer", data).output, 0)
@@ -61,11 +86,7 @@ def _calls(uniforms: bytes, chain: ContractChain) -> Iterator[EngineCall]:
     invert = _load(uniforms, _place(layout.INVERT))
     for run in runs:
         is_last = run is runs[-1]
-        values = {
-            layout.OBJECT_COUNT: len(run),
-            layout.RETURNS_DEPTHS: not is_last,
-            layout.INVERT: invert if is_last else 0,
-        }
+        values = {layout.OBJECT_COUNT: len(run), layout.RETURNS_DEPTHS: not is_last, layout.INVERT: invert * is_last}
         if run:
             values |= {layout.OBJECTS: run[0].position, layout.OBJECT_FIRST: run[0].number}
         if drawn:
@@ -93,12 +114,11 @@ def _runs(data: bytes) -> list[list[_Object]]:
             engine = "AntialiasedSmoothEngine"
         elif is_blended or flags & WIREFRAME or mode & (layout.IS_SMOOTH | layout.IS_SPOT_LIT):
             engine = kind + "FragmentEngine"
-        objects.append(_Object(number, position, "EffectsEngine" if has_effects else engine, is_blended))
+        objects.append(_Object("EffectsEngine" if has_effects else engine, is_blended, number, position))
         position += _load(data, position)
-    runs = [(key, list(run)) for key, run in groupby(objects, lambda each: (each.engine, each.is_blended))]
+    runs = [list(run) for _, run in groupby(objects, lambda each: each[:2])]
     # a stable sort: blended objects come last
-    ordered = [run for _, run in sorted(runs, key=lambda each: each[0][1])]
-    return ordered or [[]]
+    return sorted(runs, key=lambda run: run[0].is_blended) or [[]]
 
 
 def _place(register: int) -> int:

@@ -1,15 +1,19 @@
-"""The scenes of the showcase. Lengths are about those of the still life, whose teapot is 3 high and stands on y = 0."""
+"""The showcase: twelve scenes that show the options of the renderer, and how they are drawn into a folder.
+
+Lengths are about those of the still life, whose teapot is 3 high and stands on y = 0.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
-from ...scene import (
+from ..scene import (
     Background,
     Camera,
     Fog,
@@ -28,21 +32,26 @@ from ...scene import (
     stage,
     view_axes,
 )
-from .. import require, teapot
-from ..common import shapes
+from ..whole_file import write_output
+from ._drawing import Thumbnail, sheet
+from ._pieces import Piece, require
+from ._teapot import teapot
+from .common import shapes
 
 Array = NDArray[np.float64]
 
 #: Of every scene.
 SIZE = (320, 240)
 UNLIT = Material("unlit")
+#: The scene that is drawn as a turntable, its frames, and their duration in milliseconds.
+TURNED, FRAMES, DURATION = "showcase/rocket", 16, 90
+COLUMNS = 4
 
 
 def _scene(
     objects: Sequence[Object], camera: Camera, lights: Sequence[Light], background: Background, **fields: Any
 ) -> Scene:
-    width, height = SIZE
-    return Scene(objects, camera, lights, background, width=width, height=height, antialias=True, **fields)
+    return Scene(objects, camera, lights, background, width=SIZE[0], height=SIZE[1], antialias=True, **fields)
 
 
 def _put(
@@ -75,17 +84,7 @@ def _terrain(xs: Array, zs: Array, height: float | Array) -> Mesh:
     """Return a surface over a grid, seen from above."""
     z, x = np.meshgrid(zs, xs, indexing="ij")
     points = np.stack([x, np.broadcast_to(height, x.shape), z], axis=-1).reshape(-1, 3)
-    return Mesh(points, _cells(*x.shape))
-
-
-def _cells(rows: int, columns: int) -> NDArray[np.int64]:
-    """Return two faces for each cell of a grid of vertices, counter-clockwise from row to column."""
-    number = np.arange(rows * columns).reshape(rows, columns)
-    a, b, c, d = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
-    return np.stack([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)], axis=-2).reshape(-1, 3)
-
-
-# ---- still life ----
+    return Mesh(points, shapes.cells(*x.shape))
 
 
 def still_life() -> Scene:
@@ -119,14 +118,9 @@ def _goblet() -> Mesh:
 
 def _lathe(radius: ArrayLike, height: ArrayLike, around: int) -> Mesh:
     """Return the surface that a profile, from the top down, sweeps about the y axis."""
-    r, h = np.asarray(radius, np.float64), np.asarray(height, np.float64)
-
-    def surface(u: Array, v: Array) -> Array:
-        place = np.linspace(0, 1, len(r))
-        reach, y, angle = np.interp(1 - v, place, r), np.interp(1 - v, place, h), 2 * np.pi * u
-        return np.stack([reach * np.cos(angle), y, -reach * np.sin(angle)], axis=-1)
-
-    return shapes.patch(surface, around, len(r) - 1)
+    angle = 2 * np.pi * np.linspace(0, 1, around + 1)[:, None]
+    points = shapes.around(angle, np.asarray(height)[::-1], np.asarray(radius)[::-1])
+    return shapes.smooth(points.reshape(-1, 3), shapes.cells(*points.shape[:2]))
 
 
 def _chessboard(side: int = 12) -> Object:
@@ -137,9 +131,6 @@ def _chessboard(side: int = 12) -> Object:
     line = np.array([-side / 2, side / 2])
     mesh = evolve(_terrain(line, line, 0.0), colors="#ffffff", uvs=[(0, 0), (1, 0), (0, 1), (1, 1)])
     return Object(mesh, material=material)
-
-
-# ---- glass ----
 
 
 def glass() -> Scene:
@@ -172,9 +163,6 @@ def glass() -> Scene:
     )
 
 
-# ---- texture ----
-
-
 def vase() -> Scene:
     """Return an amphora, painted by a texture."""
     corners = np.array(
@@ -189,12 +177,9 @@ def vase() -> Scene:
     radius, height = (np.interp(steps, along, corners[:, axis]) for axis in (0, 1))
     outward = np.stack([-np.gradient(height), np.gradient(radius)])
     u = np.linspace(0, 1, 57)[:, None]
-    ring = np.stack([np.cos(2 * np.pi * u), 0 * u, -np.sin(2 * np.pi * u)], axis=-1)
-    up = np.array([0.0, 1.0, 0.0])
-    points = radius[:, None] * ring + height[:, None] * up
-    normals = outward[0][:, None] * ring + outward[1][:, None] * up
+    points, normals = (shapes.around(2 * np.pi * u, y, x) for x, y in ((radius, height), outward))
     uvs = np.stack(np.broadcast_arrays(2 * u, 1 - height / 2.62), axis=-1)
-    faces = _cells(len(u), len(height))[:, ::-1]
+    faces = shapes.cells(len(u), len(height))[:, ::-1]
     mesh = Mesh(points.reshape(-1, 3), faces, "#ffffff", normals.reshape(-1, 3), uvs.reshape(-1, 2))
     clay = Material("smooth", ambient=0.42, diffuse=0.7, specular=0.45, shininess=36, texture=Texture(_bands()))
     return _scene(
@@ -229,9 +214,6 @@ def _bands() -> Array:
     # rays at the foot
     black |= (row > 0.76) & (row < 0.93) & (np.abs(column * 12 % 1 - 0.5) < 0.5 * (row - 0.76) / 0.17)
     return np.where(black[..., None], glaze, clay)
-
-
-# ---- fog ----
 
 
 def forest() -> Scene:
@@ -274,16 +256,10 @@ def _fir(rng: np.random.Generator, x: float, y: float, z: float) -> Mesh:
 def _cone(top: float, bottom: float, low: float, high: float, sides: int, color: str, turn: float) -> Mesh:
     """Return the side of a cone, cut off unless its radius at the top is 0."""
     angle = turn + 2 * np.pi * np.arange(sides) / sides
-    ring = np.stack([np.cos(angle), 0 * angle, -np.sin(angle)], axis=1)
-    points = np.concatenate([bottom * ring + (0, low, 0), top * ring + (0, high, 0)])
+    points = np.concatenate([shapes.around(angle, y, radius) for y, radius in ((low, bottom), (high, top))])
     k, following = np.arange(sides), np.roll(np.arange(sides), -1)
-    faces = [np.stack([k, following, sides + k], axis=1)]
-    if top:
-        faces.append(np.stack([following, sides + following, sides + k], axis=1))
-    return painted(Mesh(points, np.concatenate(faces)), color)
-
-
-# ---- rim ----
+    lower, upper = (k, following, sides + k), (following, sides + following, sides + k)
+    return painted(Mesh(points, np.hstack([lower, upper] if top else [lower]).T), color)
 
 
 def skull() -> Scene:
@@ -306,24 +282,15 @@ def _piece(name: str, **look: Any) -> Scene:
     return look_at(require(name).make(), {"size": SIZE, "antialias": True, **look})
 
 
-# ---- Genesis ----
-
-
 def genesis() -> Scene:
     """Return a piece of Genesis, antialiased."""
     return _piece("genesis/21")
-
-
-# ---- turntable ----
 
 
 def rocket() -> Scene:
     """Return the icon of a rocket, of which the showcase draws a turntable."""
     look = {"background": Background("#141638", "#3c2a68"), "ambient_light": (200, 205, 255), "margin": 0.04}
     return evolve(_piece("icons/rocket", **look), rim=Rim("#5c78ff", 3))
-
-
-# ---- tone ----
 
 
 def knot() -> Scene:
@@ -340,9 +307,6 @@ def knot() -> Scene:
         Background("#121018", "#2c2438"),
         tone=Tone(1.5, filmic=True, gamma=True),
     )
-
-
-# ---- hemisphere ----
 
 
 def plaster() -> Scene:
@@ -366,9 +330,6 @@ def plaster() -> Scene:
         hemisphere=Hemisphere("#7ea8e8", "#c0702c"),
         tone=Tone(1.15, gamma=True),
     )
-
-
-# ---- wires ----
 
 
 def wires() -> Scene:
@@ -395,17 +356,11 @@ def wires() -> Scene:
     )
 
 
-# ---- the Cornell box ----
-
-
 def cornell_box() -> Scene:
     """Return the Cornell box with shadows, its light added up in linear space."""
     scene = _piece("cornell-box")
     lamp = evolve(scene.lights[0], shadow=True)
     return evolve(scene, lights=[lamp], tone=Tone(0.9, filmic=True, gamma=True))
-
-
-# ---- hemisphere and rim ----
 
 
 def shell() -> Scene:
@@ -420,3 +375,48 @@ def shell() -> Scene:
         rim=Rim("#ffe4c0", 5),
         tone=Tone(1.0, gamma=True),
     )
+
+
+def pieces() -> list[Piece]:
+    """Return all scenes, in the order in which they are shown."""
+    titles = {
+        still_life: "Still life with shadows, antialiased",
+        glass: "Glass: opacity and a rim",
+        vase: "A texture, and a ground",
+        forest: "Fog",
+        skull: "An icon with a rim",
+        knot: "Linear light and a filmic curve",
+        plaster: "Hemisphere light and shadows",
+        shell: "Light from sky and sand",
+        wires: "Wires, antialiased",
+        cornell_box: "The Cornell box, with shadows, in linear light",
+        genesis: "A piece of Genesis, antialiased",
+        rocket: "A turntable, made by a contract",
+    }
+    names = {make: make.__name__.replace("_", "-") for make in titles}
+    return [Piece(f"showcase/{names[make]}", "showcase", title, "MIT", make) for make, title in titles.items()]
+
+
+def draw_showcase(folder: Path, chosen: Sequence[Piece] = ()) -> Iterator[Thumbnail]:
+    """Draw scenes into a folder, which must exist, and yield each when it is done; then sheet.png.
+
+    chosen: the scenes; all if it is empty. OutputError where the disk is full or fails.
+    """
+    listed, drawings = chosen or pieces(), {}
+    for piece in listed:
+        drawing = drawings[piece.name] = _draw(piece)
+        write_output(folder / f"{piece.name.partition('/')[2]}.png", drawing.png)
+        yield drawing
+    write_output(folder / "sheet.png", sheet(listed, drawings, SIZE, min(COLUMNS, len(listed))))
+
+
+def _draw(piece: Piece) -> Thumbnail:
+    from .._render import render
+    from ..studio import make_apng
+
+    scene = piece.make()
+    if piece.name == TURNED:
+        film = make_apng(scene, FRAMES, DURATION, scale=SIZE[0] // scene.width)
+        return Thumbnail(piece.name, scene.triangles, film.gas, film.content)
+    image = render(scene)
+    return Thumbnail(piece.name, scene.triangles, image.gas, image.encode(".png"))
