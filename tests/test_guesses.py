@@ -155,7 +155,10 @@ NAMED: dict[str, tuple[Callable[[], Any], str]] = {
     "Scene().add": (lambda: s.Scene().add(MESH), "objects"),
     "scene.add": (lambda: s.load("cube").add(MESH), "give all objects to Scene([...])"),
     "gas()": (lambda: s.gas("cube"), "shackled.gas is a package: call one of its functions, "),
-    "to_trimesh": (lambda: MESH.to_trimesh(), "trimesh.Trimesh(mesh.positions, mesh.faces, "),
+    "to_trimesh": (
+        lambda: s.Mesh(BOX.vertices, BOX.faces).to_trimesh(),
+        "trimesh.Trimesh(mesh.positions, mesh.faces, ",
+    ),
     "Object of a name": (lambda: s.Object("cube"), "shackled.load('cube') has objects"),
     "scenes that differ": (lambda: s.render([s.load("cube"), s.load("teapot")]), "[*one.objects, *other.objects]"),
     "depth": (lambda: cube().depth, "depths are not returned"),
