@@ -71,8 +71,8 @@ def test_the_camera_of_a_file(file: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"frames": 1}, "the number of frames of an animation must be a finite number from 2 to 720, not 1"),
-        ({"frames": 2.5}, "the number of frames of an animation must be a whole number, not 2.5"),
+        ({"frames": 1}, "the number of frames of an animation must be a whole number from 2 to 720, not 1"),
+        ({"frames": 2.5}, "the number of frames of an animation must be a whole number from 2 to 720, not 2.5"),
         ({"time": 1}, "`time` is for one picture: frames take all times of an animation"),
         ({"animation": "Run"}, "walk.gltf: it has no animation 'Run'; it has 0 Slide, 1 Spin"),
         ({"thing": "cube"}, "cube has no animation: those of glTF files are read, .glb or .gltf"),

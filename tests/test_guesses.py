@@ -50,6 +50,7 @@ SAME: list[tuple[Callable[[], Any], Callable[[], Any]]] = [
     (lambda: s.render(trimesh.Scene([BOX]), size=SIDE), lambda: s.render(shackled.Object(MESH), size=SIDE)),
     (lambda: s.render((np.array(BOX.vertices), np.array(BOX.faces)), SIDE), lambda: s.render(MESH, SIDE)),
     (lambda: s.render(vertices=BOX.vertices, faces=BOX.faces), lambda: s.render(MESH)),
+    (lambda: s.render(BOX.vertices, BOX.faces), lambda: s.render(MESH)),
     (lambda: s.load([BOX, BALL], SIDE).triangles, lambda: len(BOX.faces) + len(BALL.faces)),
     (lambda: s.load(["cube", "teapot"]).triangles, lambda: sum(s.load(each).triangles for each in ("cube", "teapot"))),
     (
@@ -150,6 +151,14 @@ def test_a_node_is_asked(on: Any) -> None:
 
 #: Guesses, and words of the error that name what is right.
 NAMED: dict[str, tuple[Callable[[], Any], str]] = {
+    "Mesh.load": (lambda: s.Mesh.load("x.obj"), "shackled.load(path) returns a scene"),
+    "Scene().add": (lambda: s.Scene().add(MESH), "objects"),
+    "scene.add": (lambda: s.load("cube").add(MESH), "give all objects to Scene([...])"),
+    "gas()": (lambda: s.gas("cube"), "shackled.gas is a package: call one of its functions, "),
+    "to_trimesh": (
+        lambda: s.Mesh(BOX.vertices, BOX.faces).to_trimesh(),
+        "trimesh.Trimesh(mesh.positions, mesh.faces, ",
+    ),
     "Object of a name": (lambda: s.Object("cube"), "shackled.load('cube') has objects"),
     "scenes that differ": (lambda: s.render([s.load("cube"), s.load("teapot")]), "[*one.objects, *other.objects]"),
     "depth": (lambda: cube().depth, "depths are not returned"),
@@ -158,7 +167,6 @@ NAMED: dict[str, tuple[Callable[[], Any], str]] = {
     "PointLight": (lambda: s.PointLight(position=(1, 2, 3)), "shackled.Light.point"),
     "toward or direction": (lambda: s.Light.directional((0, 1, 0)), "toward=, the way from the scene to the light, or"),
     "a place of the sun": (lambda: s.Light(kind="directional", position=(0, 1, 0)), "give toward=, the way"),
-    "two arguments": (lambda: s.render(BOX.vertices, BOX.faces), "vertices and faces are one argument, in ()"),
     "size": (lambda: s.render("cube", "out.png"), "`save` of what is returned writes"),
     "output=": (lambda: cube(output="out.png"), "`save` of what is returned writes"),
     "background": (lambda: s.load("cube", background="transparent"), "give `transparent` for a picture without"),

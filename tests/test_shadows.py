@@ -66,7 +66,7 @@ def test_wrong_values() -> None:
         still_life(lights=[SUN, LAMP])
     with pytest.raises(InputError, match="radius of a ground must be above 0"):
         Ground("red", radius=0)
-    with pytest.raises(InputError, match="must be below the second"):
+    with pytest.raises(InputError, match="must be 0 <= first < second"):
         Object(Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]), fade=(2, 1))
 
 

@@ -20,9 +20,7 @@ pragma solidity ^0.8.25;
 
 // Written by tools/presets.py from the table of src/shackled/scene/_presets.py.
 
-import {Fixed} from "../math/Fixed.sol";
-import {Vector} from "../math/Vector.sol";
-import {Background, DIRECTIONAL, Light} from "../scene/Scene.sol";
+import {Background, DIRECTIONAL, Light, Fixed, Vector} from "../scene/Scene.sol";
 import {OWN_COLORS, Preset, StageMaker} from "./StageMaker.sol";
 
 /// @title Presets: looks for `stage.preset`, the same as in Python and on the command line.

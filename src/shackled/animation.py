@@ -40,7 +40,7 @@ from .image import (
 from .scene import PICTURE
 from .values import plural
 from .whole_file import check_output_file, check_output_folder, make_output_folder, write_output
-from .words import with_duration, words_of
+from .words import Words, with_duration, words_of
 
 if TYPE_CHECKING:
     from .studio import ContractFile
@@ -63,7 +63,7 @@ def _frames(frames: Iterable[Image | ArrayLike]) -> tuple[Image, ...]:
 
 @words_of("fps", read=with_duration)
 @frozen(repr=False)
-class Animation:
+class Animation(Words):
     """Frames as a contract made them, all of one size, repeated endlessly. They are its members: len, [n] and `for`.
 
     frames: Images, or pixels, (H, W, 3). duration: of each frame in milliseconds, 20..10,000. file: the APNG, if a

@@ -8,8 +8,10 @@ from typing import Any, ClassVar
 import numpy as np
 from attrs import Attribute
 
+from .words import Words
 
-class Value:
+
+class Value(Words):
     """A base of frozen attrs classes with arrays.
 
     Unpickling calls the constructor, because NumPy does not restore that an array is read-only.

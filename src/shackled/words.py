@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterable, Sequence
 from difflib import get_close_matches
 from functools import wraps
 from inspect import Parameter, signature
-from typing import Any, ParamSpec, TypeVar
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from attrs.exceptions import FrozenInstanceError
 
@@ -62,7 +63,8 @@ SAME = {
 
 _SURFACE = "`color`, `shading`, `specular` and others set it, or render an Object with a Material"
 _FILE = "`save` of what is returned writes it to a file"
-#: What to give instead of a keyword, or a name of the package.
+_SCENE_FIXED = "a Scene does not change: give all objects to Scene([...]), or to shackled.replace(scene, objects=...)"
+#: What to give instead of a keyword, an attribute, or a name of the package.
 INSTEAD = {
     **dict.fromkeys(("output", "path", "filename"), _FILE),
     **dict.fromkeys(("width", "height", "shape"), "`size` is the side in pixels, or (width, height)"),
@@ -70,12 +72,18 @@ INSTEAD = {
     "DirectionalLight": "shackled.Light.directional makes a light at infinity",
     "SpotLight": "shackled.Light.spot makes a light that shines into a cone",
     "PerspectiveCamera": "shackled.Camera.perspective makes one",
+    "add": _SCENE_FIXED,
+    "append": _SCENE_FIXED,
     "alpha": "`transparent` of render leaves out the background, `opacity` is that of the objects",
     "camera": "`eye`, `target`, `up` and `fov` place the camera, `use_camera` takes that of a glTF file",
     "depth": "depths are not returned",
+    "to_trimesh": "trimesh.Trimesh(mesh.positions, mesh.faces, vertex_colors=mesh.rgba, process=False) makes one",
+    "export": "shackled.export(scene, path) writes a page, and the command `shackled export` also a .glb file",
     "fps": "`duration` is the time of a frame in milliseconds",
+    "images": "`frames` has them",
     "intensity": "a light has a colour, of which darker ones are weaker; `exposure` multiplies all light",
     "list_models": "shackled.datasets.pieces() yields all pieces",
+    "load": "shackled.load(path) returns a scene, shackled.scene.read_mesh(path) a mesh, Texture.open(path) a texture",
     "material": _SURFACE,
     "projection": "did you mean orthographic?",
     "texture": f"{_SURFACE} that has a texture",
@@ -109,8 +117,11 @@ def with_words(function: Callable[P, R]) -> Callable[P, R]:
     @wraps(function)
     def understanding(*args: Any, **given: Any) -> Any:
         given = in_our_words(function.__name__, given)
-        if "thing" in named and {"vertices", "faces"} <= given.keys():
-            given["thing"] = (given.pop("vertices"), given.pop("faces"))
+        if "thing" in named:
+            if {"vertices", "faces"} <= given.keys():
+                given["thing"] = (given.pop("vertices"), given.pop("faces"))
+            elif len(args) > 1 and _is_rows(args[0]) and _is_rows(args[1]):
+                args = ((args[0], args[1]), *args[2:])
         if "transparent" in named and str(given.get("background")).strip().lower() == "transparent":
             given = {**given, "background": None, "transparent": True}
         if "duration" in named:
@@ -120,6 +131,14 @@ def with_words(function: Callable[P, R]) -> Callable[P, R]:
         return function(*args, **given)
 
     return understanding
+
+
+def _is_rows(value: Any) -> bool:
+    """Return whether a value is a table, such as the vertices or the faces of a mesh."""
+    try:
+        return not isinstance(value, str) and hasattr(value[0], "__len__")
+    except (TypeError, LookupError):
+        return False
 
 
 def with_duration(given: Given) -> Given:
@@ -174,3 +193,36 @@ def _check(owner: str, given: Given, names: Sequence[str]) -> None:
     for name in given:
         if name not in names:
             raise TypeError(f"{owner} has no keyword {name!r}; {instead_of(name, names)}")
+
+
+class Package(ModuleType):
+    """A package whose name is that of what it does: called as a function, it names its functions."""
+
+    def __call__(self, *_: object, **__: object) -> None:
+        """Raise a TypeError."""
+        raise TypeError(f"{self.__name__} is a package: call one of its functions, {', '.join(self.__all__)}")
+
+
+class Worded(type):
+    """A metaclass of values, which say what there is in place of an attribute that is not there."""
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(cls, name: str) -> Any:
+            raise _missing(cls, name)
+
+
+def _missing(kind: type, name: str) -> AttributeError:
+    hint = f"; {INSTEAD[name]}" if name in INSTEAD else ""
+    return AttributeError(f"{kind.__name__} has no attribute {name!r}{hint}", name=name)
+
+
+class Words(metaclass=Worded):
+    """A base of values, which say what there is in place of an attribute that is not there."""
+
+    __slots__ = ()
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            raise _missing(type(self), name)

@@ -12,7 +12,7 @@ from attrs import field, frozen
 from ..checks import Color, Floats, color, flag, instance, integer
 from ..errors import InputError
 from ..values import checked, plural, with_names
-from ..words import words_of
+from ..words import Words, words_of
 from ._camera import Camera
 from ._effects import Background, Fog, Hemisphere, Rim, Tone, background_of, fog_of, hemisphere_of, rim_of, tone_of
 from ._files.written import write_scene
@@ -47,7 +47,7 @@ def _side(value: int, name: str = "side") -> int:
 
 @words_of()
 @frozen(field_transformer=with_names, repr=False)
-class Scene:
+class Scene(Words):
     """Objects, drawn in their order with one depth buffer, seen by a camera.
 
     objects: also a Mesh in place of an Object, or one alone.
