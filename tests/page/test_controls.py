@@ -206,9 +206,14 @@ def test_objects(visit: Visit) -> None:
     selected()
     page.press("Control+a")()
     selected(*ids)
-    # they are moved, copied, ordered, named and removed
-    page.press("Escape", "m")()
-    page.after(lambda: page.drag(40, 0, start=places[0]))
+
+
+def test_objects_are_moved_copied_named_and_removed(visit: Visit) -> None:
+    page = visit(scene("cube", {"mesh": {"piece": "cone", "object": 0}, "position": [4, 0, 0]}, size=[96, 64]))
+    (cube, cone) = page.doc()["objects"]
+    start = place_of(page, 0)
+    page.press("m")()
+    page.after(lambda: page.drag(40, 0, start=start))
     moved = page.doc()["objects"]
     assert moved[0]["position"] != cube["position"]
     assert moved[1] == cone
@@ -218,13 +223,17 @@ def test_objects(visit: Visit) -> None:
     assert len({each["id"] for each in page.doc()["objects"]}) == 3
     page.after(page.press("Delete"))
     assert len(page.doc()["objects"]) == 2
-    page.page.locator("[data-name=objects] button").first.click()
+    first = page.page.locator("[data-name=objects] button").first
+    name = first.inner_text()
+    first.click()
     page.after(page.click("object-down"))
     assert page.doc()["objects"][1]["id"] == cube["id"]
     page.page.locator("[data-name=objects] button").last.dblclick()
-    page.page.locator("[data-name=object-name]").fill("My cube")
-    page.page.keyboard.press("Enter")
+    field = page.page.locator("[data-name=object-name]")
+    field.fill("My cube")
+    field.press("Enter")
     page.wait("app.doc.value.objects[1].name === 'My cube'")
+    assert name != "My cube"
     for _ in range(5):
         page.after(page.press("Control+z"))
     assert page.doc()["objects"] == [cube, cone]
