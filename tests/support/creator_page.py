@@ -119,8 +119,9 @@ class Creator(Tab):
         super().__init__(page, page.locator("#view"), "app?.toasts.value")
 
     def settle(self) -> bytes:
-        """Wait for the picture of the document, and return its pixels: red, green, blue, rows from the top."""
-        self.wait("app?.shown.value && app.shown.value.doc === app.doc.value && !app.busy.value")
+        """Wait for the picture and the fields of the document; its pixels: red, green, blue, rows from the top."""
+        self.wait("app?.shown.value && [app.shown.value.doc, app.calm.value].every(doc => doc === app.doc.value)")
+        self.wait("!app.busy.value")
         # it is painted before the frame after the next
         self.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(0))))")
         return self.pixels()

@@ -218,19 +218,22 @@ def test_the_picture_at_rest_does_not_delay_a_drag(show: Opener) -> None:
     view.after(view.press("Home"))
 
 
-def test_smooth_and_exact_pixels(show: Opener) -> None:
-    view = show(width=40)  # the place of the picture is smaller than the picture
-    view.wait("view.shadowRoot.querySelector('[aria-busy=false]')")
-    drawn = render(scene((96, 80))).pixels.astype(int)
-    means = (drawn.reshape(40, 2, 48, 2, 3).sum(axis=(1, 3)) + 2) >> 2
-    assert np.array_equal(view.shown(), means)
-    view.page.set_viewport_size({"width": 400, "height": 500})
+def test_exact_pixels(show: Opener) -> None:
+    view = show()
     view.wait("view.shadowRoot.querySelector('[part=figures]').textContent.includes('smoothed')")
     # larger, unless the browser is too slow for that
     assert view.shown().shape[1] >= 48
     view.after(view.button("Exact pixels"))
     assert np.array_equal(view.shown(), render(scene()).pixels)
     assert "smoothed" not in view.page.locator("[part=figures]").inner_text()
+
+
+def test_means_of_four_pixels(show: Opener) -> None:
+    view = show(width=40)  # the place of the picture is smaller than the picture
+    view.wait("view.shadowRoot.querySelector('[aria-busy=false]')")
+    drawn = render(scene((96, 80))).pixels.astype(int)
+    means = (drawn.reshape(40, 2, 48, 2, 3).sum(axis=(1, 3)) + 2) >> 2
+    assert np.array_equal(view.shown(), means)
 
 
 def test_what_is_shown_and_what_is_told(show: Opener) -> None:

@@ -62,7 +62,7 @@ async function start(): Promise<void> {
     showToasts(app);
     for (const error of problems) app.fail(error);
     for (const note of found.notes ?? []) app.tell(note);
-    addEventListener("hashchange", () => void openLink(app));
+    addEventListener("hashchange", ({ newURL }) => void openLink(app, new URL(newURL).hash));
     void assets.pieces().then((pieces) => (app.pieces.value = pieces));
     if (found.isFirst) turnIntoView(app);
 }
@@ -84,10 +84,11 @@ async function fromLink(hash: string, meshes: MeshStore): Promise<Start | null> 
     return { doc, own: await ownOf(doc, meshes) };
 }
 
-async function openLink(app: App): Promise<void> {
-    if (location.hash === app.link.value) return;
+/** Open a link that was put into the address, which may be that of the document of before again: it is kept a moment after a change. */
+async function openLink(app: App, hash: string): Promise<void> {
+    if (hash === app.link.value) return;
     await app.run("Opening the link", async () => {
-        const found = await fromLink(location.hash, app.meshes);
+        const found = await fromLink(hash, app.meshes);
         if (found) await app.openDocument(found.doc, "Open a link", found.own);
     });
 }
