@@ -1,4 +1,4 @@
-"""Write contracts/src/building/Presets.sol: the table of src/shackled/scene/_presets.py, for contracts.
+"""Write contracts/src/building/Presets.sol: the table of src/shackled/scene/presets.toml, for contracts.
 
 python tools/presets.py
 """
@@ -18,7 +18,7 @@ FILE = Path(__file__).resolve().parent.parent / "contracts" / "src" / "building"
 HEAD = """// SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-// Written by tools/presets.py from the table of src/shackled/scene/_presets.py.
+// Written by tools/presets.py from the table of src/shackled/scene/presets.toml.
 
 import {Background, DIRECTIONAL, Light, Fixed, Vector} from "../scene/Scene.sol";
 import {OWN_COLORS, Preset, StageMaker} from "./StageMaker.sol";

@@ -217,13 +217,13 @@ def _combined(things: Sequence[Any], look: Mapping[str, Any]) -> list[Object] | 
             found = _located(thing)
             if isinstance(found, list | tuple) and found and _is_input(found[0]):
                 raise InputError("a list must not hold lists: give one list of all members")
-            made = _made(found, look)
+            made = found if isinstance(found, Object) else _made(found, look)
             if isinstance(made, list):
                 model, models = [*model, *made], models + 1
                 made = _in_their_places(made, str(found) if isinstance(found, Path) else "the mesh")
             elif isinstance(made, Scene) and isinstance(found, Scene | Path | Link):
                 scenes.append(made)
-            parts = [Object(made)] if isinstance(made, Mesh) else made.objects
+            parts = [made] if isinstance(made, Object) else [Object(made)] if isinstance(made, Mesh) else made.objects
             if isinstance(found, Piece):
                 pieces.append(slice(len(objects), len(objects) + len(parts)))
             objects += parts

@@ -161,8 +161,9 @@ def choice(value: object, name: str = "a word", choices: Iterable[str] = ()) -> 
 def _range(low: float, high: float) -> str:
     if low == -math.inf and high == math.inf:
         return ""
+    least, most = (str(limit) if isinstance(limit, int) else f"{limit:g}" for limit in (low, high))
     if high == math.inf:
-        return f", at least {low:g}"
+        return f", at least {least}"
     if low == -math.inf:
-        return f", at most {high:g}"
-    return f" from {low:g} to {high:g}"
+        return f", at most {most}"
+    return f" from {least} to {most}"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-// Written by tools/presets.py from the table of src/shackled/scene/_presets.py.
+// Written by tools/presets.py from the table of src/shackled/scene/presets.toml.
 
 import {Background, DIRECTIONAL, Light, Fixed, Vector} from "../scene/Scene.sol";
 import {OWN_COLORS, Preset, StageMaker} from "./StageMaker.sol";

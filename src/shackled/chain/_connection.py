@@ -112,13 +112,20 @@ class Connection:
             raise NodeError(f"the {self.name} returned an invalid block: {block!r:.60}")
         return block
 
-    def block_number_of(self, field: str) -> int | None:
+    def block_field(self, field: str) -> int | None:
         """Return a number of the latest block, such as its base fee; None if it has none."""
         block = self.block()
         try:
             return None if block.get(field) is None else quantity(block[field])
         except ValueError:
             raise NodeError(f"the {self.name} returned an invalid block: {block!r:.60}") from None
+
+    def block_gas_limit(self) -> int:
+        """Return the gas that all transactions of a block may use."""
+        limit = self.block_field("gasLimit")
+        if limit is None:
+            raise NodeError(f"the {self.name} returned a block without a gasLimit")
+        return limit
 
     @property
     def chain_id(self) -> int:

@@ -100,12 +100,13 @@ class NodeChain(ContractCaller):
 
     def too_little(self) -> OutOfGasError:
         """Return the error for a node whose calls have too little gas for any render."""
-        why = ""
+        why, deploy = "", ""
         if self._carried_gas:
             why = f", and it has no state overrides: creating the contracts takes up to {self._carried_gas:,}"
+            deploy = "run shackled deploy, "
         return OutOfGasError(
             f"the {self.connection.name} allows a call too little gas for this: {self._probed.gas:,}{why}; "
-            "raise its limit, run shackled deploy, or use another node"
+            f"{deploy}raise its limit, or use another node"
         )
 
     def place(self, contract: str) -> bytes | None:
@@ -318,7 +319,7 @@ def _probe(connection: Connection) -> _Probed:
             # prefer calls that do not ask for an amount
             return max(found, key=lambda each: (each.gas, not each.named))
     # without creation calls, only deployed contracts can be called
-    return _Probed(False, connection.block_number_of("gasLimit") or 0, False, creations=False)
+    return _Probed(False, connection.block_gas_limit(), False, creations=False)
 
 
 def _limit(gas: int | None) -> bytes:

@@ -68,6 +68,17 @@ class Transport:
         return fields
 
     def _post(self, request: bytes, end: float) -> tuple[int, Mapping[str, str], bytes]:
+        """Send a request; again, if the node had closed the connection that was kept."""
+        is_reused, started = hasattr(self._sessions, "session"), time.monotonic()
+        try:
+            return self._attempt(request, end)
+        except requests.ConnectionError as error:
+            if not is_reused or isinstance(error, requests.Timeout) or time.monotonic() - started > 1:
+                raise
+            del self._sessions.session
+            return self._attempt(request, end)
+
+    def _attempt(self, request: bytes, end: float) -> tuple[int, Mapping[str, str], bytes]:
         """Send a request and return status, headers and body of the answer. end: when all of it must be there."""
         with self._session().post(
             self.url,

@@ -43,8 +43,8 @@ def parse_checksum_address(text: str, name: str) -> str:
     return checksum_address(parse_address(text, name))
 
 
-def parse_output(path: Path, name: str) -> Path:
-    """Return a path. InputError if no file can be written there, before the work for it begins."""
+def parse_calldata(path: Path, name: str) -> Path:
+    """Return the path of --calldata. InputError if no file can be written there, before the work for it begins."""
     return check_output_file(path, "list of transactions")
 
 
@@ -67,7 +67,7 @@ CALLDATA = option(
     "Write the transactions to a JSON file for a wallet, and send nothing.",
     "FILE",
     type=Path,
-    parse=parse_output,
+    parse=parse_calldata,
 )
 
 

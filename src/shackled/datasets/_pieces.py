@@ -1,4 +1,4 @@
-"""Pieces, and how they are found by name. Each dataset is a package with `pieces()`, imported on first use."""
+"""Pieces, and how they are found by name. Each dataset is a module with `pieces()`, imported on first use."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ class Piece:
     """A scene of a dataset, with a name and a licence.
 
     name: for instance "teapot", "icons/diamond" or "genesis/12".
-    dataset: "common", "icons" or "genesis".
+    dataset: "common", "icons", "genesis" or "showcase".
     title: for display. licence: of the model, as its source states it.
-    commercial: whether the licence is known to allow commercial use; otherwise a piece cannot be minted.
+    commercial: whether the licence is known to allow commercial use; otherwise a piece cannot be stored on a chain.
     make: makes the scene as it is measured, in general 128 x 128 pixels without antialiasing, which `load` changes. It
     may be slow, and raises InputError if a file has not been fetched.
     credit: the author to name with the picture, or "".

@@ -165,7 +165,7 @@ class Deployer:
             raise
         except ChainError:
             pass  # some nodes refuse calls without a receiver
-        limit = self.connection.block_number_of("gasLimit") or 0
+        limit = self.connection.block_gas_limit()
         for each in missing:
             if each.gas > limit:
                 raise TransactionError(

@@ -104,7 +104,7 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
     max_fee: the maximum price of a unit of gas, in wei. Raises TransactionError if gas costs more; without `max_fee`,
     if the node suggests a tip above 3 gwei, or reports no base fee, so that nothing would limit the price.
     """
-    base, is_rollup = connection.block_number_of("baseFeePerGas"), bool(connection.code(ORACLE))
+    base, is_rollup = connection.block_field("baseFeePerGas"), bool(connection.code(ORACLE))
     if base is None:
         price = connection.number("eth_gasPrice")
         if max_fee is None:

@@ -137,7 +137,7 @@ class Transactor:
 
     def _risen(self, quote: Quote) -> str:
         """Return what costs more now than was quoted; or nothing."""
-        needed, base = self.estimate(quote.call), self.connection.block_number_of("baseFeePerGas")
+        needed, base = self.estimate(quote.call), self.connection.block_field("baseFeePerGas")
         if needed > quote.gas:
             return f"the {self.connection.name} now estimates {needed:,} gas for this, and at most {quote.gas:,}"
         if base is not None and base > quote.fees.most:

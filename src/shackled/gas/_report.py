@@ -88,19 +88,17 @@ class GasReport:
 def make_report(
     scene: Scene,
     chain: ContractChain,
-    lower: int = 0,
-    upper: int | None = None,
     stages: bool = True,
     on_step: Callable[[SearchStep], None] | None = None,
     searched: NodeChain | None = None,
 ) -> GasReport:
-    """Measure a render, search for its gas limit between two bounds, and trace it.
+    """Measure a render, search for its gas limit, and trace it.
 
     on_step: called after each step of the search. searched: where to search; None is `chain`.
     """
     exact = measure(scene, chain)
     data = render_call(scene)
-    found = search(suffices(searched or chain, "Renderer", data), lower, upper, on_step)
+    found = search(suffices(searched or chain, "Renderer", data), report=on_step)
     triangles, lit_pixels = chain.count(scene)
     costs = profile(scene) if stages else None
     return GasReport(scene, exact, found, triangles, lit_pixels, costs, chain.name)

@@ -85,8 +85,8 @@ class ChainBackend:
         return piece
 
     def close(self) -> None:
-        """End the calls that run, where the chain can be stopped."""
-        if isinstance(self.chain, RevmChain) and self.chain.is_stoppable:
+        """End the calls of several threads, where the chain can be stopped; one slot may be a caller's chain."""
+        if self.slots > 1 and isinstance(self.chain, RevmChain) and self.chain.is_stoppable:
             self.chain.stop()
 
 

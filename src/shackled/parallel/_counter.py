@@ -21,8 +21,10 @@ def count(scene: Scene, evm: str | None = None) -> tuple[int, int]:
     chain = open_chain(evm)
     if not is_large(scene):
         return chain.count(scene)
-    parts = list(strips(scene.height, -(-scene.height // (os.cpu_count() or 1))))
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
+    chain.address("Renderer")  # set up here, before several threads ask for it
+    jobs = os.cpu_count() or 1
+    parts = list(strips(scene.height, -(-scene.height // jobs)))
+    with ThreadPoolExecutor(jobs) as pool:
         tiles = (Rectangle(0, rows.start, scene.width, len(rows)) for _, rows in parts)
         found = list(pool.map(lambda tile: chain.count(scene, tile), tiles))
     triangles, pixels = np.array([sign for sign, _ in parts]) @ np.array(found)

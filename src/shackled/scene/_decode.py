@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -14,12 +14,15 @@ from ..artifacts import artifact
 from ..checks import number
 from ..errors import InputError
 from . import _records as record
-from ._camera import PROJECTIONS, Camera
+from ._camera import Camera
 from ._codec import (
     CULL_BACKFACES,
     EXPOSURE_STEP,
+    LIGHTS,
     ONE,
     OPACITY_STEP,
+    PROJECTIONS,
+    SHADINGS,
     TWO_SIDED,
     WIREFRAME,
     WORD,
@@ -31,8 +34,8 @@ from ._effects import Background, Fog, Hemisphere, Rim, Tone
 from ._files.table import about
 from ._fit import MAX_COORDINATE
 from ._ground import Ground
-from ._light import LIGHT_KINDS, Light
-from ._object import SHADINGS, Material, Object
+from ._light import Light
+from ._object import Material, Object
 from ._packed import unpack, unpack_alpha, unpack_texture
 from ._scene import Scene
 
@@ -124,9 +127,9 @@ class _Words:
         return content
 
 
-def _named(names: Sequence[str], value: int) -> str:
-    """Return the name of a number, or, for the error of who takes it, the number."""
-    return names[value] if value < len(names) else str(value)
+def _named(numbers: Mapping[str, int], value: int) -> str:
+    """Return the first name of a number, or, for the error of who takes it, the number."""
+    return next((name for name, number in numbers.items() if number == value), str(value))
 
 
 def _camera(words: _Words) -> Camera:
@@ -139,7 +142,7 @@ def _camera(words: _Words) -> Camera:
 
 def _light(words: _Words, where: str) -> Light:
     with about(where):
-        return Light(_named(LIGHT_KINDS[:2], words.whole()), words.numbers(3), words.color())
+        return Light(_named(LIGHTS, words.whole()), words.numbers(3), words.color())
 
 
 def _object(words: _Words, where: str) -> Object:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from attrs import evolve
 
 from ..errors import InputError, warn
 from ._files.model import MeshPart, Picture, finite_uvs, is_transparent
@@ -64,5 +65,8 @@ def objects_of(scene: Any) -> list[Object]:
         try:
             objects.append(Object.from_matrix(part.mesh, matrix, **fields))
         except InputError:  # it shears, mirrors, or scales the axes differently
-            objects.append(Object(part_of(whole.copy().apply_transform(matrix)).mesh, **fields))
+            linear, mesh = np.asarray(matrix, dtype=np.float64)[:3, :3], part.mesh
+            faces = mesh.faces[:, ::-1] if np.linalg.det(linear) < 0 else mesh.faces
+            positions = mesh.positions @ linear.T + np.asarray(matrix)[:3, 3]
+            objects.append(Object(evolve(mesh, positions=positions, faces=faces), **fields))
     return objects

@@ -1,7 +1,7 @@
 """Allow lists: which accounts may mint before the public sale, and how many tokens, as a Merkle tree.
 
-The contract stores the root. The tree is that of OpenZeppelin's StandardMerkleTree for ["address", "uint256"]. Leaves
-are hashed twice, so that no inner node can be taken for a leaf.
+The contract stores the root. The tree is that of OpenZeppelin's StandardMerkleTree for ["address", "uint256"], whose
+files are written, not read. Leaves are hashed twice, so that no inner node can be taken for a leaf.
 """
 
 from __future__ import annotations
@@ -116,7 +116,9 @@ def read_allow_list(path: str | Path) -> AllowList:
         raise InputError(f"the allow list {path} cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
         raise InputError(f"the allow list {path} is not text") from None
-    lines = [line.strip() for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
-    if lines and not lines[0].lower().startswith("0x"):
+    lines = [line.replace('"', "").strip() for line in text.splitlines()]
+    lines = [line for line in lines if line and not line.startswith("#")]
+    # a heading has no number
+    if lines and not re.search("[0-9]", lines[0]):
         del lines[0]
     return make_allow_list((line.split(",") for line in lines), f"the allow list {path}")

@@ -63,7 +63,7 @@ def run_demo(connection: Connection, folder: Path, report: Callable[[str], None]
     facts = [
         ("tokens", f"{len(demo.tokens)}"),
         ("chain", f"{connection.chain_id} (a development node)"),
-        ("the node's limit on gas", f"{connection.block_number_of('gasLimit') or 0:,}"),
+        ("the node's limit on gas", f"{connection.block_gas_limit():,}"),
         ("tokenURI, gas", f"{min(gas) / 1e6:.1f} to {max(gas) / 1e6:.1f} million"),
         ("tokenURI, bytes", f"at most {max(token.metadata.length for token in demo.tokens):,}"),
     ]

@@ -59,6 +59,7 @@ class EditionTerms:
     def __post_init__(self) -> None:
         """Raise InputError if the contract would refuse the terms."""
         whole(len(self.name.encode(errors="replace")), "the number of bytes of the name", 1, MAX_NAME)
+        whole(self.price, "the price, in wei,", 0, (1 << 96) - 1)
         whole(self.supply, "the supply", 1, OPEN)
         whole(self.royalty, "the royalty, in hundredths of a percent,", 0, MAX_ROYALTY)
         whole(self.copies, "the number of copies for the artist", 0, min(self.supply, MOST_AT_ONCE))

@@ -54,6 +54,7 @@ class CollectionTerms:
 
     def __post_init__(self) -> None:
         """Raise InputError if the contract would refuse the terms."""
+        whole(self.price, "the price, in wei,", 0, (1 << 128) - 1)
         whole(self.reserve, "the reserve", 0, GENESIS_SUPPLY)
         whole(self.per_transaction, "the number of tokens that a call may mint", 1, MAX_PER_TRANSACTION)
         whole(self.royalty, "the royalty, in hundredths of a percent,", 0, MAX_ROYALTY)

@@ -107,8 +107,10 @@ def read_allowance(path: Path) -> Allowance:
         document = read_json(path.read_text("utf-8"))
         account = checksum_address(parse_address(document["account"], "its account"))
         signature = bytes.fromhex(document["signature"].removeprefix("0x"))
-        allowance = Allowance(account, int(document["quantity"]), int(document["deadline"]), signature)
+        allowance = Allowance(account, int(str(document["quantity"])), int(str(document["deadline"])), signature)
         encode_values(["(address,uint256,uint256)"], [allowance.struct])
+        if not signature:
+            raise ValueError
     except OSError as error:
         raise InputError(f"the permission {path} cannot be read: {error.strerror}") from None
     except (AttributeError, KeyError, RecursionError, TypeError, ValueError):

@@ -160,7 +160,7 @@ def check_randomness(connection: Connection, any_chain: bool = False) -> None:
     latest = connection.number("eth_blockNumber")
     # without the genesis block
     blocks = [connection.block(number) for number in range(max(1, latest - CHECKED_BLOCKS + 1), latest + 1)]
-    randomness = [block.get("mixHash") for block in blocks]
+    randomness = [str(block.get("mixHash")) for block in blocks]
     if len(set(randomness)) < len(blocks):
         raise TransactionError(
             f"some of the last {len(blocks)} blocks of chain {chain} have the same randomness (mixHash): seeds would "
@@ -175,7 +175,8 @@ def _check_header(connection: Connection, block: dict[str, Any]) -> None:
     """Raise TransactionError if the function `reveal` would refuse a header."""
     never = f"tokens could never be revealed on chain {connection.chain_id}"
     try:
-        number, found = quantity(block.get("number")), to_hex(keccak256(encode_header(block)))
+        number = quantity(block.get("number"))
+        place, found = number.to_bytes(8, "big").hex(), to_hex(keccak256(encode_header(block)))
     except (OverflowError, ValueError) as error:
         raise TransactionError(f"{never}, whose headers are not Ethereum's: {error}") from None
     if found != str(block.get("hash")).lower():
@@ -183,7 +184,7 @@ def _check_header(connection: Connection, block: dict[str, Any]) -> None:
             f"{never}, whose headers have other fields than Ethereum's: that of block {number:,} has the hash {found}, "
             f"not {block.get('hash')!s:.66}"
         )
-    program = HASH_PROGRAM[0] + number.to_bytes(8, "big").hex() + HASH_PROGRAM[1]
+    program = HASH_PROGRAM[0] + place + HASH_PROGRAM[1]
     try:
         seen = to_hex(connection.data("eth_call", {"data": "0x" + program}, "latest"))
     except NoAnswerError:

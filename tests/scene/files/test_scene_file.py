@@ -217,8 +217,8 @@ SPOT = {"kind": "spot", "position": [0, 0, 0]}
          "lights[0]: the inner_angle of a spot light, 50, must not be above its outer_angle, 45"),
         ({"lights": [{"kind": "point", "position": [0, 0, 0]}] * 5}, "a scene has up to 4 lights, not 5"),
         # cameras
-        ({"camera": {"eye": [0, 0, 5]}}, "camera.eye needs a camera.target, too; without any, all is seen"),
-        ({"camera": {"up": [0, 0, 5]}}, "camera.up needs a camera.eye, too; without any, all is seen"),
+        ({"camera": {"eye": [0, 0, 5]}}, "camera.eye needs a camera.target, too; without any of them, all is seen"),
+        ({"camera": {"up": [0, 0, 5]}}, "camera.up needs a camera.eye, too; without any of them, all is seen"),
         ({"camera": {"fov": 50, "half_height": 1}},
          "camera.fov and camera.half_height exclude each other: give one of them"),
         ({"camera": {"projection": "orthographic", "fov": 50}},

@@ -6,7 +6,7 @@ export type Setting = Readonly<
         Record<"low" | "high", number | null> & { part: string | null; choices: readonly string[] }
 >;
 
-/** A look: src/shackled/scene/_presets.py. Lamps are directional; their azimuths are relative to the camera. */
+/** A look: src/shackled/scene/presets.toml. Lamps are directional; their azimuths are relative to the camera. */
 export type Preset = Readonly<
     Record<"name" | "title" | "help" | "ambientLight", string> &
         Record<"wireframe" | "invert", boolean> & {

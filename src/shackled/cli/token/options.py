@@ -40,7 +40,7 @@ class CollectionOptions(NodeOptions):
 
     collection: str = option(
         "-c --collection",
-        "genesis or icons, from the address book; for commands that accept every token, editions; or an ADDRESS.",
+        "genesis or icons, from the address book, or an ADDRESS; show, verify and transfer also take editions.",
         "COLLECTION",
         default="genesis",
     )

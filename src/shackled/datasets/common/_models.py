@@ -17,7 +17,7 @@ from .. import Piece, cache_folder, keep
 from . import builtin
 
 #: Incremented when `prepare` or the format of its files changes, so that caches are not reused.
-VERSION = 1
+VERSION = 2
 
 MATERIAL = Material("smooth", 0.3, 0.8, 0.35, 24)
 OWN_LICENCE = "that of your own file"

@@ -136,7 +136,9 @@ def _numbers(words: list[str], least: int) -> list[float]:
 def _add_corners(obj: _Lines, corners: list[str]) -> None:
     vertices, texcoords, normals = len(obj.positions) // 3, len(obj.texcoords) // 2, len(obj.normals) // 3
     for corner in corners:
-        vertex, texcoord, normal, *_ = f"{corner}//".split("/")
+        vertex, texcoord, normal, *more = f"{corner}//".split("/")
+        if any(more):
+            raise ValueError
         obj.corners.append(_number(vertex, vertices))
         obj.corners.append(_number(texcoord, texcoords) if texcoord else ABSENT)
         obj.corners.append(_number(normal, normals) if normal else ABSENT)

@@ -21,7 +21,8 @@ PICTURE = ".png"
 #: The kind of the chunk, and its keyword; and all chunks of text.
 CHUNK, KEYWORD = b"zTXt", b"shackled"
 TEXTS = (CHUNK, b"tEXt", b"iTXt")
-#: The most bytes of the chunk, and characters of its text, that are written unless asked for: Pillow opens no more.
+#: The most bytes of the chunk, and characters of its text, that are written unless asked for. Pillow opens no picture
+#: with more characters.
 MAX_CHUNK, MAX_TEXT = 64 * 1024, 2**20
 #: The most characters that are written or read at all; libpng passes over more.
 LONGEST_TEXT = 8_000_000
@@ -64,8 +65,9 @@ def read_picture(path: Path) -> Scene:
         kinds = [kind for kind, _ in found]
         if kinds != [CHUNK]:
             needed = f"one chunk {CHUNK.decode()} with the keyword {KEYWORD.decode()}"
-            there = b", ".join(kinds).decode() or "none"
-            raise InputError(f"the picture carries no scene: it needs {needed}, not {there}")
+            if not kinds:
+                raise InputError(f"the picture carries no scene: it needs {needed}")
+            raise InputError(f"the scene of a picture is {needed}; this one has {b', '.join(kinds).decode()}")
         content = found[0][1]
         call = _call(content[len(KEYWORD) + 1 :])
         with about(f"the chunk {KEYWORD.decode()}"):

@@ -159,7 +159,7 @@ def _camera(keys: Table, width: int, height: int, objects: list[Object]) -> tupl
     for name in ("eye", "target", "up"):
         for needed in ("eye", "target"):
             if name in given and needed not in given:
-                raise InputError(f"camera.{name} needs a camera.{needed}, too; without any, all is seen")
+                raise InputError(f"camera.{name} needs a camera.{needed}, too; without any of them, all is seen")
     projection = keys.choice("projection", PROJECTIONS, "perspective")
     orthographic = projection == "orthographic"
     with about("camera"):
@@ -170,6 +170,8 @@ def _camera(keys: Table, width: int, height: int, objects: list[Object]) -> tupl
                 raise InputError("an orthographic camera with an eye needs half_height, in world units")
             places = {name: given[name] for name in ("eye", "target", "up") if name in given}
             camera = Camera(**places, projection=projection)
+            if not camera.up.any() or np.array_equal(camera.eye, camera.target):
+                raise InputError("eye and target must differ, and up must not be (0, 0, 0)")
         else:
             points = [np.zeros((0 if objects else 1, 3)), *(thing.world_positions() for thing in objects)]
             camera = frame(np.concatenate(points), view)
@@ -231,7 +233,7 @@ def _objects(value: object, where: str, folder: Path | None) -> list[Object]:
 def _parts(keys: Table, where: str, folder: Path | None) -> list[MeshPart]:
     value = keys.get("mesh")
     if folder is None and isinstance(value, Mapping) and "file" in value:  # one that was opened on the page
-        value = str(value["file"])
+        raise InputError(f"{where} needs a file that was opened in the Creator; save a scene file there instead")
     if isinstance(value, str) and value:
         with about(keys.place("mesh")):
             return read_model(_beside(folder, value))

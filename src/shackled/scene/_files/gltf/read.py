@@ -11,7 +11,7 @@ import numpy as np
 
 from ....errors import InputError, warn
 from ..._crease import filled
-from ..._mesh import weld
+from ..._mesh import face_normals, weld
 from ..._object import EXPONENTS
 from ..model import MeshPart, tinted
 from .animation import posed
@@ -83,9 +83,8 @@ def _material(pieces: Sequence[Piece]) -> dict[str, Any]:
     gloss, areas = [], []
     for piece in pieces:
         if piece.surface.gloss is not None:
-            a, b, c = piece.positions[piece.faces].transpose(1, 0, 2)
             gloss.append(piece.surface.gloss)
-            areas.append(float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()))
+            areas.append(float(np.linalg.norm(face_normals(piece.positions[piece.faces]), axis=1).sum()))
     if not 0 < sum(areas) < math.inf:
         return fields
     roughness, metalness = np.clip(np.average(gloss, 0, areas), 0, 1).tolist()
