@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from attrs import Attribute
@@ -23,6 +23,12 @@ class Value(Words):
     def __reduce__(self) -> tuple[Callable[..., Any], tuple[type, dict[str, Any]]]:
         values = {each.name: getattr(self, each.name) for each in self.__attrs_attrs__}
         return _rebuild, (type(self), values)
+
+    def __copy__(self) -> Self:
+        return self
+
+    def __deepcopy__(self, _: dict[int, Any]) -> Self:
+        return self
 
 
 def _rebuild(kind: Callable[..., Any], values: dict[str, Any]) -> Any:

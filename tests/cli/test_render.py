@@ -106,17 +106,27 @@ def test_every_chain_makes_the_same_picture(shackled: Shackled) -> None:
     [
         "--rotate -30,45,10",
         "--eye -1,-2,3",
+        "--target 0.5,0,0",
+        "--up 1,1,0",
+        "--near 4.5",
+        "--orthographic",
         "--fov 20 --eye 0,0,5 --target 0,0,0",
         "--half-height 3 --orthographic",
         "--light point:1,2,3:#ff0000",
         "--light spot:1,2,3:-1,-2,-3:30",
         "--light spot:1,2,3:-1,-2,-3:20,40:#ff8000",
         "--ambient 1.5",
+        "--diffuse 0",
         "--specular 2 --shininess 3",
+        "--background #ffffff",
         "--background #ff0000,#0000ff",
         "--shading smooth --crease 180",
         "--unlit",
+        "--wireframe",
+        "--opacity 0.5",
+        "--invert",
         "--azimuth -60",
+        "--elevation 70",
         "--margin 0.5",
         "--ambient-light #ff0000",
         "--color tomato",
@@ -161,6 +171,17 @@ def test_a_scene_turns_about_its_middle(shackled: Shackled) -> None:
     assert plain.any()
     assert np.count_nonzero(plain[:, :, 0] != turned[:, :, 0]) <= 8
     assert np.count_nonzero(upside_down[:16]) > np.count_nonzero(plain[:16])
+
+
+def test_meshes_are_simplified_on_request(shackled: Shackled) -> None:
+    side = 40
+    lines = [f"v {x} {y} {(x * y) % 7 / 20}" for y in range(side) for x in range(side)]
+    for y in range(side - 1):
+        for x in range(side - 1):
+            a = y * side + x + 1
+            lines += [f"f {a} {a + 1} {a + side}", f"f {a + 1} {a + side + 1} {a + side}"]
+    Path("grid.obj").write_text("\n".join(lines), "utf-8")
+    assert 0 < shackled("render grid.obj --json --max-triangles 200").json["triangles"] <= 200
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import pytest
 from attrs import evolve
 
 from shackled import InputError, Scene, load, render
-from shackled.chain import open_chain
+from shackled.chain import CallResult, open_chain
 from shackled.datasets import teapot
 from shackled.errors import InputWarning
 from shackled.gas import fit_scene, limits, render_call, suffices
@@ -21,6 +21,20 @@ LIMITS = {limit.kind: limit for limit in limits() if limit.node in ("", "geth")}
 def default() -> Scene:
     """The teapot in the default look of mesh files, which is too much for a transaction."""
     return load(load("teapot").objects[0].mesh, size=256)
+
+
+@pytest.fixture
+def tries(monkeypatch: pytest.MonkeyPatch) -> list[bytes]:
+    """The data of the calls that are made."""
+    chain, made = open_chain(), list[bytes]()
+    call = chain.call
+
+    def counted(contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
+        made.append(data)
+        return call(contract, data, gas_limit)
+
+    monkeypatch.setattr(chain, "call", counted)
+    return made
 
 
 def fits(scene: Scene, what: str) -> bool:
@@ -41,26 +55,30 @@ def dear(scene: Scene, gas_of_all: float) -> Scene:
     return evolve(scene, objects=[evolve(o, position=(0, 0, -0.01 * n)) for n in range(count)])
 
 
-def test_what_fits_is_left_as_it_is() -> None:
+def test_what_fits_is_left_as_it_is(tries: list[bytes]) -> None:
     scene = load("cube")
-    for what in FITS:
+    for count, what in enumerate(FITS, 1):
         found = fit_scene(scene, what)
         assert found.scene == scene
+        assert len(tries) == count
         assert found.sentence.startswith("the picture fits ")
 
 
-def test_antialiasing_goes_first(default: Scene) -> None:
+def test_antialiasing_goes_first(default: Scene, tries: list[bytes]) -> None:
     plain = resize(evolve(default, antialias=False), 128)
     scene = dear(plain, 0.97 * LIMITS["call"].gas)
     assert fits(scene, "call")
     assert not fits(evolve(scene, antialias=True), "call")
     words = f"to fit a read call of geth, the picture is drawn without antialiasing: {gas(scene):,} of 50,000,000 gas"
+    tries.clear()
     assert fit_scene(evolve(scene, antialias=True), "call") == Fitted(scene, words)
+    assert len(tries) == 2
 
 
-def test_the_largest_size_that_fits_comes_next(default: Scene) -> None:
+def test_the_largest_size_that_fits_comes_next(default: Scene, tries: list[bytes]) -> None:
     scene = resize(evolve(default, antialias=True), (512, 384))
     found = fit_scene(scene, "transaction")
+    assert len(tries) <= 8
     assert not found.scene.antialias
     assert found.scene.objects == scene.objects
     assert 128 < found.scene.width < 512
@@ -74,11 +92,12 @@ def test_the_largest_size_that_fits_comes_next(default: Scene) -> None:
     assert f"without antialiasing and at {size} instead of 512 x 384" in found.sentence
 
 
-def test_triangles_of_fine_meshes_go_before_the_smallest_sizes(default: Scene) -> None:
+def test_triangles_of_fine_meshes_go_before_the_smallest_sizes(tries: list[bytes]) -> None:
     pytest.importorskip("fast_simplification")
     fine = load(teapot(12), cull=True, antialias=False)
     assert fine.triangles > 5_000
     found = fit_scene(fine, "transaction")
+    assert len(tries) <= 9
     assert found.scene.width == found.scene.height == 128
     assert 128**2 // 8 <= found.scene.triangles < fine.triangles
     assert fits(found.scene, "transaction")

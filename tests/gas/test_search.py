@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import pytest
 from attrs import evolve
+from tools.anvil import AnvilChain
 
-from shackled import InputError, RenderError, Scene
+from nodes import ANVIL, needs_anvil
+from shackled import ChainError, InputError, RenderError, Scene
 from shackled.artifacts import artifact
 from shackled.chain import engine_calls, open_chain
-from shackled.errors import OutOfGasError
+from shackled.errors import OutOfGasError, RevertError
 from shackled.gas import SearchStep, margin, measure, render_call, search, suffices
 from shackled.gas._limits import KEPT, floor_gas, needed_for
 from shackled.gas._search import FIRST_LIMIT
@@ -70,6 +72,43 @@ def test_the_search_and_the_exact_figure_agree(name: str, scenes: dict[str, Scen
     # what the Renderer itself uses after its call is some of what it uses at all
     assert 0 < account.after < exact.gas - exact.engine_gas
     assert 0 <= account.gas <= exact.gas / (KEPT - 1) + 1
+
+
+def test_another_evm_needs_the_same_limit(scenes: dict[str, Scene]) -> None:
+    pytest.importorskip("eth")
+    fast, slow = open_chain(), open_chain("pyevm")
+    data = render_call(scenes["empty"])
+    least = search(suffices(fast, "Renderer", data)).gas
+    enough = suffices(slow, "Renderer", data)
+    assert enough(least)
+    assert not enough(least - 1)
+
+
+@needs_anvil
+def test_a_node_that_only_answers_calls_gives_the_same(scenes: dict[str, Scene]) -> None:
+    assert ANVIL is not None
+    scene = scenes["smooth"]
+    data = render_call(scene)
+    (out_of_gas,) = (selector for selector, (name, _) in artifact("Renderer").errors.items() if name == "OutOfGas")
+    refusals: list[ChainError] = []
+    with AnvilChain(ANVIL) as node:
+
+        def enough(limit: int) -> bool:
+            try:
+                node.read("Renderer", data, limit)
+            except ChainError as error:
+                refusals.append(error)
+                return False
+            return True
+
+        on_node = search(enough)
+    # of the Renderer's own gas, or, as it says itself, of the Engine's
+    assert refusals
+    for refused in refusals:
+        assert isinstance(refused, OutOfGasError) or (isinstance(refused, RevertError) and refused.data == out_of_gas)
+    chain = open_chain()
+    assert on_node == search(suffices(chain, "Renderer", data))
+    assert on_node.gas > measure(scene, chain).gas
 
 
 def test_a_refusal_is_not_taken_for_too_little_gas(scenes: dict[str, Scene]) -> None:

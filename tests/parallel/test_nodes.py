@@ -206,6 +206,13 @@ def test_a_node_that_caps_the_gas_of_a_call(node: str) -> None:
     assert image.bmp == open_chain().draw(scene).bmp
 
 
+def test_a_node_with_little_gas(right: Image) -> None:
+    with anvil("--gas-limit", "3000000") as little:
+        (image,) = render_frames([SCENE], Nodes(little.url))
+    assert image.bmp == right.bmp
+    assert image.gas is None or image.gas >= (right.gas or 0)
+
+
 def test_nodes_that_are_not_there(node: str, right: Image) -> None:
     gone = f"http://127.0.0.1:{free_port()}"
     notes = Notes()

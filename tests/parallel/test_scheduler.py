@@ -248,6 +248,16 @@ def test_a_place_that_begins_to_lie(tmp_path: Path) -> None:
         assert store.read(part) == draw_part(open_chain(), SCENE, part.tile)
 
 
+def test_half_a_picture_is_no_picture() -> None:
+    class Cutter(Shaky):
+        def render(self, scene: Scene, tile: Rectangle) -> Drawing:
+            piece = super().render(scene, tile)
+            return replace(piece, bmp=piece.bmp[: len(piece.bmp) // 2])
+
+    with pytest.raises(RenderError, match=r"^the cutter answers wrongly for the tile .*: the contract "):
+        run([Cutter("cutter")])
+
+
 def test_halves_of_an_earlier_run_are_taken(tmp_path: Path) -> None:
     """A place learns that parts are too large; those that were cut before are there, however they are come by."""
 
@@ -270,3 +280,12 @@ def test_a_full_disk_ends_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr("shackled.whole_file.write_whole", full)
     with pytest.raises(OutputError, match="No space left on device"):
         run([Shaky("a")], store=store)
+
+
+def test_a_listener_that_fails_ends_it() -> None:
+    class Deaf(Listener):
+        def advanced(self, pixels: int) -> None:
+            raise OSError("nobody listens")
+
+    with pytest.raises(OSError, match="nobody listens"):
+        Scheduler([SCENE], [Shaky("a")], None, Deaf()).run(PARTS)

@@ -11,6 +11,8 @@ import eth_abi
 import numpy as np
 import pytest
 from attrs import evolve
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
 
 from shackled import Background, Camera, Fog, InputError, Light, Material, Mesh, Object, Scene
 from shackled.scene import Projection, Rectangle, encode, fit, pack, vertex_normals
@@ -113,6 +115,51 @@ def placed(scene: Scene) -> np.ndarray:
     return np.asarray(scene.objects[0].world_positions() - scene.camera.eye)
 
 
+coordinate = st.floats(-1, 1)
+magnitude = st.floats(-12, 12).map(lambda e: 10.0**e)
+
+
+@settings(max_examples=150)
+@given(
+    st.lists(st.tuples(coordinate, coordinate, coordinate), min_size=3, max_size=8),
+    magnitude,
+    magnitude,
+    st.tuples(coordinate, coordinate, coordinate),
+    st.tuples(coordinate, coordinate, coordinate, coordinate).filter(lambda q: max(map(abs, q)) > 1e-3),
+)
+# a mesh without any extent, and a light that is farther than it
+@example([(0.0, 0.0, 1.0)] * 3, 1.0, 10000.0, (0.0, 0.0, 1.0), (0.0, 0.0, 0.0, 1.0))
+def test_fitting_keeps_what_the_camera_sees(
+    points: list[tuple[float, float, float]],
+    size: float,
+    scale: float,
+    position: tuple[float, float, float],
+    rotation: tuple[float, float, float, float],
+) -> None:
+    mesh = Mesh(np.array(points) * size, [[0, 1, 2]] + [[0, i, i - 1] for i in range(2, len(points))])
+    world = size * scale
+    thing = Object(mesh, np.array(position) * world, rotation, scale)
+    eye = np.array([0.3, 0.2, 3]) * world
+    light = Light("point", np.array([1, 2, 3]) * world)
+    scene = Scene([thing], Camera(eye=eye, target=(0, 0, 0)), [light])
+    fitted = fit(scene)
+    before, after = placed(scene), placed(fitted)
+    used = np.unique(mesh.faces)
+    lengths = [np.abs(np.asarray(s.lights[0].vector) - s.camera.eye).max() for s in (fitted, scene)]
+    factor = lengths[0] / lengths[1]
+    radius = np.abs(mesh.positions).max() * scale
+    # half a step of the grid along each axis, turned
+    assert np.abs(before[used] * factor - after).max() <= (radius / 32767 + 1e-9 * world) * factor
+    assert np.log2(factor) == pytest.approx(round(np.log2(factor)), abs=1e-6)
+    for vector in (fitted.camera.eye, fitted.camera.target, fitted.objects[0].position, fitted.lights[0].vector):
+        assert np.abs(np.asarray(vector)).max() <= MAX_COORDINATE
+    towards = fitted.camera.target - fitted.camera.eye
+    assert np.allclose(towards / np.linalg.norm(towards), -eye / np.linalg.norm(eye), atol=1e-9)
+    assert fitted.camera.near is not None
+    assert fitted.camera.near > 0
+    decode(encode(SELECTOR, scene))
+
+
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 @pytest.mark.parametrize(("zoom", "bound"), [(1, 0.04), (100, 0.04), (1000, 0.15)])
 def test_corners_stay_in_place_however_near_one_looks(zoom: int, bound: float, projection: Projection) -> None:
@@ -180,6 +227,13 @@ def test_the_near_plane_is_chosen_by_the_extent() -> None:
     assert near(Scene([small])) == pytest.approx(2**-10, rel=0.5)
     assert near(Scene([evolve(small, scale=1e-6)])) == pytest.approx(2**-10, rel=0.5)
     assert fit(scene_of(camera=Camera(projection="orthographic", half_height=500))).camera.near == -MAX_COORDINATE
+
+
+def test_a_chosen_near_plane_is_scaled_with_the_world() -> None:
+    mesh = Mesh(np.array([[0, 0, 0], [0.7, 0, 0], [0, 0.7, 0]]), [[0, 1, 2]])
+    scene = Scene([Object(mesh, position=(0, 0, -4))], Camera(near=2))
+    fitted = fit(scene)
+    assert fitted.camera.near == pytest.approx(-np.asarray(fitted.objects[0].position)[2] / 2)
 
 
 @pytest.mark.parametrize(

@@ -87,6 +87,35 @@ def test_broken_calls_are_refused_where_the_contracts_refuse_them() -> None:
     assert 30 < accepted < 400
 
 
+def other_numbers(call: bytes, rng: np.random.Generator) -> bytes:
+    """A call in which one or two of the first 60 words are larger or smaller by a power of two, or by a little."""
+    changed = bytearray(call)
+    for _ in range(rng.integers(1, 3)):
+        place = 4 + 32 * int(rng.integers(1, 60))
+        value, shift = int.from_bytes(changed[place : place + 32], "big", signed=True), int(rng.integers(1, 31))
+        value = [value >> shift, value << shift, value + shift - 15][rng.integers(3)]
+        changed[place : place + 32] = (value % (1 << 256)).to_bytes(32, "big")
+    return bytes(changed)
+
+
+def test_what_is_accepted_is_the_same_call() -> None:
+    """Scenes that `fit` would move or scale are refused: their pictures would change."""
+    rng, accepted, refused = np.random.default_rng(7), 0, 0
+    for seed in range(120):
+        call = render_call(random_case(seed).scene)
+        for _ in range(5):
+            mutant = other_numbers(call, rng)
+            try:
+                scene = decode(mutant)
+            except InputError as error:
+                refused += "is not the one that Shackled makes of its scene" in str(error)
+                continue
+            accepted += 1
+            assert render_call(scene) == mutant
+    assert accepted > 100
+    assert refused > 10
+
+
 def changed(place: int, value: int) -> bytes:
     """The call of SCENE with another word. place: of the word after the selector."""
     call = bytearray(render_call(SCENE))

@@ -71,7 +71,7 @@ def test_arrays_cannot_be_written_to() -> None:
         arrays: list[Any] = [view.eye, view.target, view.up, lamp.vector, lamp.direction, o.position, o.rotation]
         arrays += [mesh.positions, mesh.faces, mesh.colors, mesh.normals]
         assert not any(array.flags.writeable for array in arrays)
-    assert copy.deepcopy(thing) == thing
+    assert copy.copy(thing) is copy.deepcopy(thing) is thing
     mine = np.array(CORNERS)
     kept = Mesh(mine, FACES)
     mine[0] = 7

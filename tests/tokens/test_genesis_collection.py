@@ -16,6 +16,9 @@ from shackled.image import decode_bmp
 from token_checks import INDEPENDENT, document, pixels, traits
 
 SIDE, SCALE = 128, 4
+#: What marketplaces take.
+LONGEST_URI = 100_000
+MOST_GAS = 10_000_000
 
 
 @pytest.fixture(scope="module")
@@ -91,6 +94,16 @@ def test_there_is_nothing_to_see_of_tokens_that_are_not_there(revealed: Stage) -
         for function in ("seedOf", "traitsOf", "render", "roundOf", "ownerOf"):
             with pytest.raises(Refused, match="OwnerQueryForNonexistentToken"):
                 revealed.genesis.call(function, token)
+
+
+def test_length_and_gas(revealed: Stage) -> None:
+    lengths, gas = [], []
+    for number in range(48):
+        lengths.append(len(revealed.metadata.call("tokenURI", number, seed_of(number))))
+        gas.append(revealed.metadata.gas_of("tokenURI", number, seed_of(number)))
+    assert max(lengths) < LONGEST_URI
+    assert np.mean(gas) < 6_500_000
+    assert np.quantile(gas, 0.95) < MOST_GAS
 
 
 def test_nothing_of_it_can_be_changed() -> None:

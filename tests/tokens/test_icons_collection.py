@@ -48,6 +48,17 @@ def test_each_icon_has_its_own_supply(s: Stage) -> None:
     assert [s.icons.call("iconOf", token) for token in (9, 10, 20, 21)] == [0, 1, 0, 0]
 
 
+def test_payments_and_quantities(s: Stage) -> None:
+    for sent in (0, PRICES[1], 2 * PRICES[0] + 1, 3 * PRICES[0]):
+        with refused("Payment", sent, 2 * PRICES[0]):
+            s.icons.send("mint", 0, 2, sender=s.alice, value=sent)
+    for quantity in (0, LIMIT + 1, 2**256 - 1):
+        with refused("Quantity", quantity, LIMIT):
+            s.icons.send("mint", 0, quantity, sender=s.alice)
+        with refused("Quantity", quantity, LIMIT):
+            s.icons.send("mintReserve", 0, s.bob, quantity, sender=s.owner)
+
+
 def test_icons_that_there_are_not(s: Stage) -> None:
     for icon in (2, 2**24, 2**256 - 1):
         for function, *more in (("mint", 1), ("left",), ("iconAt",), ("renderIcon",)):

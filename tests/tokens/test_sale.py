@@ -37,6 +37,13 @@ def test_other_payments_and_quantities_are_refused(s: Stage) -> None:
     assert s.world.balance(s.alice) == 1000 * ETHER
 
 
+@pytest.mark.parametrize("phase", [CLOSED, ALLOW_LIST])
+def test_only_the_public_phase_sells_to_all(s: Stage, phase: int) -> None:
+    s.genesis.send("setPhase", phase, sender=s.owner)
+    with refused("WrongPhase", phase, PUBLIC):
+        s.genesis.send("mint", 1, sender=s.alice, value=PRICE)
+
+
 def test_the_last_token_is_sold_and_no_further(s: Stage) -> None:
     def keep(quantity: int) -> None:
         s.genesis.send("mintReserve", s.bob, quantity, sender=s.owner)
@@ -254,6 +261,16 @@ def test_ownership_changes_in_two_steps_and_is_never_given_up(s: Stage) -> None:
 
 
 # ---- the ether ----
+
+
+def test_the_owner_fetches_all_of_it(s: Stage) -> None:
+    s.mint(4)
+    treasury = account("treasury")
+    receipt = s.genesis.send("withdraw", treasury, sender=s.owner)
+    assert receipt.events == [("Withdrawn", {"to": treasury, "amount": 4 * PRICE})]
+    assert (s.world.balance(s.genesis.address), s.world.balance(treasury)) == (0, 4 * PRICE)
+    s.genesis.send("withdraw", treasury, sender=s.owner)
+    assert s.world.balance(treasury) == 4 * PRICE
 
 
 def test_who_refuses_ether_blocks_nothing(s: Stage) -> None:

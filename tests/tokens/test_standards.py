@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
 from tools.tokens.stage import Stage, stage
-from tools.tokens.world import ETHER, ZERO, Contract, keccak
+from tools.tokens.world import ETHER, ZERO, Contract, account, keccak
 
 from token_checks import refused
 
@@ -101,3 +101,21 @@ def test_a_reveal_tells_marketplaces(s: Stage) -> None:
         ("Revealed", {"round": 0, "blockNumber": block, "randomness": s.world.randomness(block)}),
         ("BatchMetadataUpdate", {"_fromTokenId": 0, "_toTokenId": 6}),
     ]
+
+
+def test_tokens_change_hands_as_approved(s: Stage) -> None:
+    with s.world.attempt():
+        carol = account("carol")
+        s.mint(3)
+        with refused("TransferCallerNotOwnerNorApproved"):
+            s.genesis.send("transferFrom", s.alice, s.bob, 1, sender=s.bob)
+        s.genesis.send("approve", s.bob, 1, sender=s.alice)
+        s.genesis.send("transferFrom", s.alice, carol, 1, sender=s.bob)
+        assert s.genesis.call("getApproved", 1) == ZERO
+        s.genesis.send("setApprovalForAll", s.bob, True, sender=s.alice)
+        s.genesis.send("safeTransferFrom", s.alice, carol, 2, sender=s.bob)
+        assert [s.genesis.call("ownerOf", token) for token in range(3)] == [s.alice, carol, carol]
+        with refused("TransferFromIncorrectOwner"):
+            s.genesis.send("transferFrom", s.alice, s.bob, 1, sender=carol)
+        with refused("TransferToZeroAddress"):
+            s.genesis.send("transferFrom", carol, ZERO, 1, sender=carol)

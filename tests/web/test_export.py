@@ -69,7 +69,7 @@ def test_in_browsers(
     assert turn["azimuth"] < -10
     assert turn["elevation"] > 0
     tab.wait(f"{VIEW}.picture?.sha256 !== '{rendered['sha256']}'")
-    assert tab.run("globalThis.frames_") > 1
+    tab.wait("globalThis.frames_ > 3")
 
 
 def picture_of(html: str, folder: Path) -> Path:
@@ -98,7 +98,9 @@ def test_what_a_page_contains(tmp_path: Path) -> None:
     shackled.export("icons/crown", path, (48, 40), title="<b>&")
     assert path.read_text("utf-8") == html
     # a thousand triangles take less than 1.5 megabytes
-    shackled.export(load("teapot", size=512, smooth=True), path)
+    scene = load("teapot", size=512, smooth=True)
+    assert sum(len(each.mesh.faces) for each in scene.objects) > 900
+    shackled.export(scene, path)
     assert path.stat().st_size < 1_500_000
 
 

@@ -41,6 +41,7 @@ from shackled.ethereum import keccak256
 from shackled.scene import encode
 from shackled.scene._files.original import original_scene
 
+SOURCES = Path(__file__).resolve().parents[3] / "contracts" / "src" / "genesis"
 VECTORS = Path(__file__).with_name("pieces.json")
 
 #: The median and the mean of the gas are over as many of the collection.
@@ -146,6 +147,33 @@ def test_gas(function: str, median: int, mean: int) -> None:
     assert statistics.mean(gas) <= mean
     # the longest search for places that there is, and the most fragments
     assert max(gas) <= 5 * median
+
+
+def test_the_constants_are_sines() -> None:
+    """Those of the original, whose table is rough: sin 30, sin 60 and cos 12 degrees are known to the last digit."""
+    text = (SOURCES / "Trigonometry.sol").read_text("utf-8")
+    table = bytes.fromhex("".join(re.findall(r'hex"([0-9a-f]+)"', text)))
+    sines = [int.from_bytes(table[at : at + 8], "big", signed=True) for at in range(0, len(table), 8)]
+    exact = np.sin(np.radians(30 * np.arange(15)))
+    assert np.abs(np.array(sines, float) / 1e18 - exact).max() < 5e-6
+    assert (sines[1], sines[3]) == (499997878680004681, 10**18)
+    found = {
+        (name, int(degrees)): int(value) for name, degrees, value in re.findall(r"(SINE|COSINE)_(\d+) = (-?\d+);", text)
+    }
+    assert len(found) == 6
+    assert (found["SINE", 12], found["COSINE", 12]) == (207911222804296399, 978145476420477720)
+    assert (found["SINE", 30], found["COSINE", 30]) == (499997878680004681, 866021797929900604)
+    assert found["SINE", 348] == -207911314539570042
+    for (name, degrees), value in found.items():
+        function = np.sin if name == "SINE" else np.cos
+        assert abs(value / 1e18 - function(np.radians(degrees))) < 5e-6, (name, degrees)
+
+
+def test_tags_know_their_lengths() -> None:
+    text = "".join(path.read_text("utf-8") for path in SOURCES.glob("*.sol"))
+    tags = re.findall(r'Tag\.wrap\(bytes32\("(\w+)"\) \| bytes32\(uint256\((\d+)\)\)\)', text)
+    assert len(tags) >= 30
+    assert [tag for tag, length in tags if len(tag) != int(length)] == []
 
 
 def test_the_collection() -> None:
