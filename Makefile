@@ -117,7 +117,7 @@ gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens
 	$(BIN)/python -m benchmarks.icons
 	$(BIN)/python -m benchmarks.motion
 
-golden: $(DEV) ## write tests/support/golden.json: digests of pixels, and gas, of 300 small scenes
+golden: $(DEV) ## write tests/support/golden.json: digests of pixels, and gas, of 450 small scenes
 	$(BIN)/python tests/support/golden.py --write
 
 bench: $(DEV) opengl ## measure, and write the tables of benchmarks/, of the README and of docs/

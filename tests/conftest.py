@@ -61,6 +61,7 @@ SLOW = (
     "studio/test_studio_gas.py",
     "test_antialiasing.py",
     "test_benchmarks.py",
+    "test_brightness.py",
     "test_docs.py",
     "test_examples.py",
     "test_golden.py",

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
+from typing import Any
 
 import numpy as np
 import pytest
 from attrs import evolve
 
-from pictures import Pixels, draw
-from shackled import Camera, Light, Material, Mesh, Object, Scene
+from pictures import WHITE, Pixels, draw, recolored
+from random_scenes import random_case
+from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
 
 SIZE = 8
 SUN, LAMP = Light("directional", (0, 0, 1)), Light("point", (300, 200, -600))
@@ -71,3 +74,51 @@ def test_brightest_vertex_colors() -> None:
         assert (pixels >= before).all()
         before = pixels
     assert (before == 255).all()
+
+
+# ---- random scenes ----
+
+KINDS = ("plain", "antialiased", "bent", "shadows")
+PARTS = ("ambient", "diffuse", "specular")
+NO_EFFECTS: dict[str, Any] = {"invert": False, "hemisphere": None, "rim": None, "fog": None, "tone": None}
+
+
+def of_materials(scene: Scene, change: Callable[[Material], Material]) -> Scene:
+    """The scene with other materials."""
+    return evolve(scene, objects=[evolve(o, material=change(o.material)) for o in scene.objects])
+
+
+def brighter(look: Material, part: str, more: int) -> Material:
+    return evolve(look, **{part: min(getattr(look, part) + more / 333, 4.0)})
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_white_in_full_light_is_white(kind: str) -> None:
+    """Whatever shines on it besides, and however little above 255 its light is; the background is white, too."""
+    for seed, more in zip(range(1, 25), 3 * (3, 4, 0, 1, 2, 5, 8, 100), strict=True):
+        scene = random_case(seed, kind).scene
+        white = [evolve(o, mesh=recolored(o.mesh, WHITE)) for o in scene.objects]
+        scene = evolve(scene, objects=white, background=Background(WHITE), ambient_light=WHITE, **NO_EFFECTS)
+        scene = of_materials(scene, partial(evolve, ambient=1 + more / 1024))
+        assert draw(scene).min() >= 254, seed
+
+
+#: How many pixels are darker: pixels of several small triangles, of which the engine for four lights takes another.
+DARKER = {("antialiased", 11): 5}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_more_light_of_random_scenes_is_never_darker(kind: str) -> None:
+    for seed, more in zip(range(1, 25), 8 * (1, 20, 100), strict=True):
+        scene = evolve(random_case(seed, kind).scene, **NO_EFFECTS)
+        extra = [evolve(light, shadow=False) for light in random_case(seed + 1, kind).scene.lights]
+        brighter_lights = [evolve(light, color=np.minimum(np.add(light.color, more), 255)) for light in scene.lights]
+        changed = [
+            evolve(scene, lights=[*scene.lights, *extra][:4]),
+            evolve(scene, lights=brighter_lights),
+            evolve(scene, ambient_light=np.minimum(np.add(scene.ambient_light, more), 255)),
+            *(of_materials(scene, partial(brighter, part=part, more=more)) for part in PARTS),
+        ]
+        before = draw(scene).astype(int)
+        darker = sum(int((before - draw(each) > 1).any(axis=2).sum()) for each in changed)
+        assert darker == DARKER.get((kind, seed), 0), seed

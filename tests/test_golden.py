@@ -26,7 +26,7 @@ def test_every_engine_draws_some_of_them() -> None:
         drawing += called
     parts = [name for name in artifact("Renderer").parts if name.endswith("Engine")]
     assert len(parts) == 6
-    assert min(drawing.count(name) for name in parts) > 15
+    assert min(drawing.count(name) for name in parts) > 20
 
 
 def test_what_changed_is_told() -> None:

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from attrs import evolve
 from numpy.typing import ArrayLike
+from tools.ledger import World as Ledger
+from tools.ledger import call_data as studio_call
 
 from judge.calldata import ALL_FACES, TURNED_AWAY, Surface, read
 from node_scripts import answers
@@ -24,6 +26,7 @@ from shackled.image import decode_bmp
 from shackled.scene import Rectangle, encode, encode_scene_file, fit, render_call
 from shackled.scene._codec import extensions
 from shackled.studio._storage import quantize
+from stored_scenes import stored
 
 SCRIPT, BUNDLE = Path(__file__).parent / "web" / "calls.mjs", files("shackled") / "web" / "shackled.js"
 
@@ -164,6 +167,30 @@ def test_numbers_of_two_bytes(kind: str) -> None:
     assert np.array_equal(draw(many), draw(scene))
     for surface, thing in zip(read(call_data("render", many)).surfaces[257:], scene.objects, strict=True):
         assert_is(surface, thing)
+
+
+@pytest.mark.parametrize("kind", ["textures", "glass", "cards", "shadows", "effects"])
+def test_stored_scenes(kind: str) -> None:
+    """Vertices and faces are stored in another order, and what belongs to them with them."""
+    world = Ledger()
+    scene = random_case(1, kind).scene
+    pointer = stored(world, scene)
+    kept = world.run(world.address("Studio"), studio_call("scene(address)", pointer))
+    there, given = read(artifact("Renderer").selectors["render"] + kept), read(call_data("render", scene))
+    for name in ("lamps", "effects", "antialias", "exact", "shadow"):
+        assert repr(getattr(there, name)) == repr(getattr(given, name))
+    for one, other in zip(there.surfaces, given.surfaces, strict=True):
+        assert corners(one) == corners(other)
+        for name in ("texture", "fade", "emission", "is_opaque"):
+            assert repr(getattr(one, name)) == repr(getattr(other, name))
+    drawn = decode_bmp(world.call("Studio", "render(address)", pointer), scene.width, scene.height)
+    assert np.array_equal(drawn, draw(scene))
+
+
+def corners(surface: Surface) -> list[list[tuple[float, ...]]]:
+    """What belongs to the corners of faces, sorted."""
+    parts = [surface.positions, surface.colors, surface.opacities, *([] if surface.uvs is None else [surface.uvs])]
+    return sorted(sorted(map(tuple, face)) for face in np.column_stack(parts)[surface.faces].tolist())
 
 
 def test_objects_far_down_the_scene_cannot_have_records() -> None:

@@ -1,6 +1,7 @@
 """The bounds within which the light of smooth triangles is made of quadratic products: see SmoothTriangle.sol.
 
-A search in float64 looks for the largest error that they let through; the judge looks for it in pictures.
+A search in float64 looks for the largest error that they let through; the judge looks for it in pictures. Beyond them,
+light is that of each point.
 """
 
 from __future__ import annotations
@@ -8,6 +9,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+
+from judge import render
+from pictures import call_data, draw
+from shackled import Camera, Light, Material, Mesh, Object, Scene
 
 Array = NDArray[np.float64]
 Booleans = NDArray[np.bool_]
@@ -165,3 +170,47 @@ def test_accepted_triangles_have_the_light_of_their_points(exact_middles: bool, 
     those of SmoothLight.sol.
     """
     assert 4 < worst(exact_middles, by_nodes) < FOUND
+
+
+# ---- beyond the bounds ----
+
+SHINY = Material("smooth", ambient=0.2, diffuse=0.7, specular=0.5, shininess=20)
+AHEAD = (0.0, 0.0, 1.0)
+LIGHTS = [Light("point", (4, 6, 3)), Light("point", (-3, 2, 2), (255, 200, 120))]
+
+
+def one_triangle(normals: list[tuple[float, float, float]], light: Light) -> Scene:
+    """A triangle before the camera."""
+    mesh = Mesh([[-200, -160, 0], [200, -160, 0], [0, 180, 0]], [[0, 1, 2]], [(200, 180, 160)] * 3, normals)
+    thing = Object(mesh, (0, 0, -5), scale=2**-10, material=SHINY, cull=False)
+    return Scene([thing], Camera(near=0.1), [light], width=64, height=64)
+
+
+def error(scene: Scene) -> int:
+    """How far the contract's picture is from the judge's where there is a triangle away from its edges."""
+    expected = render(call_data("render", scene))
+    there = expected.triangle >= 0
+    inner = there.copy()
+    inner[1:-1, 1:-1] &= there[:-2, 1:-1] & there[2:, 1:-1] & there[1:-1, :-2] & there[1:-1, 2:]
+    assert inner.any()
+    return int(np.abs(draw(scene).astype(int) - expected.pixels)[inner].max())
+
+
+def leaning(angle: float, turn: float) -> tuple[float, float, float]:
+    """A normal that leans away from the eye by an angle, in degrees."""
+    a, b = np.radians(angle), np.radians(turn)
+    return float(np.sin(a) * np.cos(b)), float(np.sin(a) * np.sin(b)), float(np.cos(a))
+
+
+#: Triangles whose light no quadratic function is near: it is computed at each of their points.
+EXACT = {
+    "normals that almost lie in the surface": ([leaning(88, turn) for turn in (0, 120, 240)], LIGHTS[0]),
+    "opposite normals": ([leaning(89, 0), leaning(89, 180), AHEAD], LIGHTS[1]),
+    "a lamp nearer than the eye": ([AHEAD] * 3, Light("point", (0, 0, -3))),
+    "a half vector against the light": ([AHEAD] * 3, Light("directional", (0.05, 0, -1))),
+}
+
+
+@pytest.mark.parametrize("name", EXACT)
+def test_light_that_is_computed_point_by_point(name: str) -> None:
+    assert error(one_triangle(*EXACT[name])) <= 1

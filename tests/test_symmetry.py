@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
+from judge import judge
 from made_scenes import painted
 from pictures import Pixels, chain, covered, draw, on_pixel_grid, pixel_grid_camera, soup, unlit_scene, words
 from random_scenes import random_case
-from shackled import Light, Material, Mesh, Object, Scene
+from shackled import Camera, Light, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
 from shackled.datasets import teapot
-from shackled.scene import from_euler, look_at, rotate, vertex_normals
+from shackled.scene import Hemisphere, fit, from_euler, look_at, rotate, vertex_normals
 from shackled.scene._look import MOST_TWO_SIDED
 from shackled.scene._object import Shading
 from test_fill_rule import edge_functions
@@ -65,24 +68,66 @@ def test_a_mirrored_scene_gives_a_mirrored_picture() -> None:
 
 @pytest.mark.parametrize("kind", ["plain", "antialiased", "effects", "contacts"])
 def test_the_order_of_lights_and_of_objects(kind: str) -> None:
-    """Of two surfaces that are equally far the first is seen, so a few pixels may differ by the order of objects."""
+    """Of two surfaces that are equally far the first is seen; each order is right."""
     for seed in range(1, 9):
         scene = random_case(seed, kind).scene
         before = draw(scene)
         assert levels(draw(evolve(scene, lights=scene.lights[::-1])), before).max() <= 1, seed
-        difference = levels(draw(evolve(scene, objects=scene.objects[::-1])), before)
-        assert (difference <= 1).mean() > (0.6 if kind == "contacts" else 0.98), seed
+        for objects in (scene.objects, scene.objects[::-1]):
+            assert judge(f"{kind} {seed}", evolve(scene, objects=objects)).faults == []
 
 
 @pytest.mark.parametrize("kind", ["plain", "antialiased", "effects", "textures"])
 def test_the_back_of_what_has_two_sides_looks_like_a_front(kind: str) -> None:
+    """What is culled has one side."""
     for seed in range(1, 9):
         scene = random_case(seed, kind).scene
+        one, both = ([evolve(o, cull=True, two_sided=sides) for o in scene.objects] for sides in (False, True))
+        assert np.array_equal(draw(evolve(scene, objects=one)), draw(evolve(scene, objects=both)))
         scene = evolve(scene, objects=[evolve(o, cull=False, two_sided=True) for o in scene.objects])
         turned = [evolve(o, mesh=inside_out(o.mesh)) for o in scene.objects]
         difference = levels(draw(evolve(scene, objects=turned)), draw(scene))
         # faces that are turned away are moved back a little, which decides at edges
         assert (difference <= 2).mean() > 0.98, seed
+
+
+#: Fields of the material, of the object, of the scene.
+LOOKS: dict[str, tuple[dict[str, Any], dict[str, Any], dict[str, Any]]] = {
+    "flat": ({"shading": "flat"}, {}, {}),
+    "flat, antialiased": ({"shading": "flat"}, {}, {"antialias": True}),
+    "smooth": ({"shading": "smooth"}, {}, {}),
+    "smooth, antialiased": ({"shading": "smooth"}, {}, {"antialias": True}),
+    "smooth, broad": ({"shading": "smooth", "shininess": 1}, {}, {"antialias": True}),
+    "glass": ({"shading": "smooth"}, {"opacity": 0.5}, {}),
+    "glass, antialiased": ({"shading": "flat"}, {"opacity": 0.5}, {"antialias": True}),
+    "effects": ({"shading": "smooth"}, {}, {"hemisphere": Hemisphere("white", "red")}),
+    "effects, flat": ({"shading": "flat"}, {}, {"hemisphere": Hemisphere("white", "red")}),
+}
+
+
+@pytest.mark.parametrize("look", LOOKS)
+@pytest.mark.parametrize("eye", [(0.4, 0.3, 3), (0.1, -0.2, 0.45)])
+def test_both_sides_of_a_sheet(look: str, eye: tuple[float, float, float]) -> None:
+    """From the front it is as with one side; from behind too, also where faces are clipped."""
+    x, y = np.meshgrid(np.linspace(-1, 1, 5), np.linspace(-1, 1, 5))
+    points = np.stack([x, y, 0.3 * np.sin(3 * x) * np.cos(2 * y)], axis=2).reshape(-1, 3)
+    corner = np.arange(25).reshape(5, 5)[:-1, :-1].reshape(-1, 1)
+    faces = np.concatenate([corner + np.array(each) for each in ((0, 1, 6), (0, 6, 5))])
+    colors = np.random.default_rng(4).integers(60, 255, (25, 3))
+    sheet = Mesh(points, faces, colors, vertex_normals(points, faces))
+    material, fields, more = LOOKS[look]
+    lights = [Light.directional(toward=(0.3, 0.5, 1)), Light.point((1, 1, 2), color="orange")]
+    scene = Scene([], Camera.perspective(eye, (0, 0, 0), fov=50), lights, width=48, height=48, **more)
+
+    def picture(mesh: Mesh, two_sided: bool) -> Pixels:
+        thing = Object(mesh, material=Material(**material), cull=False, two_sided=two_sided, **fields)
+        return draw(fit(evolve(scene, objects=[thing])))
+
+    right = picture(sheet, False)
+    assert np.array_equal(picture(sheet, True), right)
+    # the depths of faces that are turned away, by which colours are divided, are a little less
+    assert levels(picture(inside_out(sheet), True), right).max() <= 1
+    assert levels(picture(inside_out(sheet), False), right).any()
 
 
 def inside_out(mesh: Mesh) -> Mesh:

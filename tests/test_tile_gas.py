@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from pictures import call
+from pictures import call, covered
 from random_scenes import random_case
 from shackled import Camera, Light, Material, Mesh, Object, Scene, load
 from shackled.scene import Rectangle, fit
@@ -89,6 +89,37 @@ def test_a_tile_costs_no_more_than_the_whole(kind: str) -> None:
         most = (1.02 if scene.triangles < 48 else 1.35) * gas(scene) + PATCHES
         for tile in parts(scene.width, scene.height):
             assert gas(scene, tile) <= most, f"seed {seed}, {tile}"
+
+
+#: Gas of the colours of the patches that a tile cuts: two triangles, two cells each, nine colours, two lights.
+CUT = 2 * 2 * 9 * 2 * 2_500
+
+
+def test_parts_cost_the_whole_and_what_each_needs() -> None:
+    """A tile and the four around it: pixels may be of different cost, but all are shaded once."""
+    rng = np.random.default_rng(3)
+    for _ in range(60):
+        reach, left = rng.integers(1, 41), rng.integers(-150, -49)
+        corners = reach * np.array([[left, -100, 0], [left + 300, -100, 0], [left, 200, 0]])
+        look, turn = list(LOOKS.values())[rng.integers(3)], (*rng.integers(-20, 21, 2).tolist(), 0, 40)
+        mesh = Mesh(corners, [[0, 1, 2]], normals=[(0, 0, 1)] * 3)
+        wall = Object(mesh, (0, 0, -200), turn, material=look, cull=False)
+        lights = [Light("point", rng.integers(-4000, 4001, 3)) for _ in range(rng.integers(1, 3))]
+        scene = Scene([wall], Camera(near=1.0), lights, width=96, height=64)
+        width, height = int(rng.integers(1, 97)), int(rng.integers(1, 65))
+        x, y = int(rng.integers(97 - width)), int(rng.integers(65 - height))
+        around = [
+            (0, 0, 96, y),
+            (0, y, x, height),
+            (x + width, y, 96 - x - width, height),
+            (0, y + height, 96, 64 - y - height),
+        ]
+        tiles = [Rectangle(*tile) for tile in [(x, y, width, height), *around] if tile[2] and tile[3]]
+        # of a tile where nothing is; where the wall is all of the picture, one of a pixel needs all the more
+        outside = np.argwhere(~covered(scene))
+        row, column = outside[0].tolist() if len(outside) else (0, 0)
+        least = gas(scene, Rectangle(column, row, 1, 1))
+        assert sum(gas(scene, tile) for tile in tiles) <= 1.02 * gas(scene) + len(tiles) * (least + CUT)
 
 
 @pytest.mark.parametrize("side", [32, 64, 128])

@@ -25,7 +25,7 @@ if __package__ in (None, ""):
 
 from conformance import opengl
 from conformance.compare import ANOTHER, compare
-from judge.verdict import Verdict, table
+from judge.verdict import LEAST_RUN, Verdict, table
 from random_scenes import random_scene
 from shackled.datasets import pieces, require
 from shackled.scene import resize
@@ -82,7 +82,7 @@ def main() -> int:
                 print(fault, flush=True)
     whole = sum(rows.values(), Verdict())
     print(table(rows | {"all": whole}, (ANOTHER,)))
-    of_run = whole.faults_of_run()
+    of_run = whole.faults_of_run() if whole.interior >= LEAST_RUN else []
     for fault in of_run:
         print(fault)
     print(f"{len(whole.faults) + len(of_run)} out of bounds, in {time.perf_counter() - started:.0f} s")

@@ -9,7 +9,7 @@ import pytest
 from attrs import evolve
 
 from judge import Verdict, render
-from judge.verdict import MOST
+from judge.verdict import LEAST_RUN, MOST
 from made_scenes import flat, teapot_scene
 from pictures import call_data
 from random_scenes import random_scene
@@ -46,8 +46,11 @@ def _opengl() -> None:
 
 
 def test_random_scenes() -> None:
-    whole = sum((compare(f"random scene {seed}", random_scene("plain", seed)) for seed in SEEDS), Verdict())
+    found = [compare(f"random scene {seed}", random_scene("plain", seed)) for seed in SEEDS]
+    whole = sum(found, Verdict())
     assert whole.faults + whole.faults_of_run() == []
+    assert whole.interior > LEAST_RUN
+    assert sum(each.lit == 0 for each in found) < len(SEEDS) / 5
 
 
 @pytest.mark.parametrize("name", PIECES)

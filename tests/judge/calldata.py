@@ -291,7 +291,8 @@ def unpack(mesh: bytes) -> tuple[Array, Array, Array, Integers]:
     """Unpack a mesh: positions, colours, normals (zero where there are none) and faces."""
     kind, count = mesh[0], int.from_bytes(mesh[1:3], "big")
     size = 3 if kind & 2 else 2
-    rows = np.frombuffer(mesh, np.uint8, count * (3 * size + 3 + 4 * (kind & 1)), 5).reshape(count, -1)
+    width = 3 * size + 3 + 4 * (kind & 1)
+    rows = np.frombuffer(mesh, np.uint8, count * width, 5).reshape(count, width)
     points = np.zeros((count, 3), np.int64)
     for byte in range(size):
         points = points << 8 | rows[:, byte : 3 * size : size]

@@ -26,7 +26,7 @@ MEAN = 0.35
 MEAN_OF_SCENE, SHARE = 0.6, 1_000
 #: One in so many pixels may have a colour that only a rule explains.
 RARE = {"slivers": 1_000, "backs": 100, "fans": 10_000, "wires": 1_000, "wholes": 500}
-#: Interior pixels of a run for which these shares hold.
+#: Interior pixels of a run for which these shares hold; of fewer, one may be too many.
 LEAST_RUN = 100_000
 #: Faults of a scene that are described.
 SHOWN = 3
@@ -70,9 +70,7 @@ class Verdict:
         return not self.faults and self.mean <= MEAN_OF_SCENE and SHARE * self.off <= max(self.lit, SHARE)
 
     def faults_of_run(self) -> list[str]:
-        """Return what is out of the bounds that hold for many pixels together."""
-        if self.interior < LEAST_RUN:
-            return []
+        """Return what is out of the bounds that hold for many pixels together, of which LEAST_RUN are inner ones."""
         found = []
         if self.many * FEW > self.interior:
             found.append(f"{self.many} of {self.interior} interior pixels are off by more than {MANY:g} levels")

@@ -1,4 +1,4 @@
-"""What the contracts return for 300 small scenes of every kind: digests of pixels and files, and gas.
+"""What the contracts return for 450 small scenes of every kind: digests of pixels and files, and gas.
 
     python tests/support/golden.py            tells what differs from golden.json
     python tests/support/golden.py --write    and writes it there
@@ -21,6 +21,9 @@ from typing import Any
 
 import numpy as np
 
+if __name__ == "__main__":
+    sys.path.insert(0, str(Path(__file__).parents[1]))
+
 from original_scenes import call_data, document, genesis_document, object_keys
 from pictures import chain
 from random_scenes import KINDS, random_case
@@ -40,7 +43,7 @@ FILE = Path(__file__).with_name("golden.json")
 Golden = dict[str, tuple[str, int]]
 
 #: The seeds of random scenes of each kind, and the gas of a call.
-SEEDS, GAS = range(1, 21), 1 << 28
+SEEDS, GAS = range(1, 31), 1 << 28
 PIECES = (
     *("teapot", "cornell-box", "cylinder", "dodecahedron", "icons/ethereum", "icons/diamond", "icons/crown"),
     *(f"genesis/{number}" for number in range(4)),

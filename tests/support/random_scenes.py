@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any
 
 import numpy as np
 from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
+from judge.calldata import read
+from judge.pieces import pieces_of
+from judge.visibility import CENTER, seen
+from pictures import call_data
 from shackled import Background, Camera, Fog, Light, Material, Mesh, Object, Rim, Scene, Texture, Tone, load
 from shackled.datasets import pieces
 from shackled.datasets.common import shapes
@@ -25,15 +30,23 @@ Rng = np.random.Generator
 SHADINGS: tuple[Shading, ...] = ("unlit", "flat", "smooth")
 MODELS = ("teapot", "cornell-box", "torus-knot", "spring", "seashell", "klein-bottle", "moebius-strip", "genesis/5")
 GROUND = 60.0
+#: How many scenes are tried until something is seen.
+TRIALS = 20
 #: Half the extents of meshes of whole numbers, as they are typed by hand, and up to the most of a mesh.
 SMALL_NUMBERS, WIDE = (1, 2, 3, 5, 10, 50, 500), 2**23 - 1
 
 
 def random_scene(kind: str, seed: int) -> Scene:
     """Return the scene of a kind and a seed."""
+    return next(_scenes(kind, seed))
+
+
+def _scenes(kind: str, seed: int) -> Iterator[Scene]:
+    """The scene of a kind and a seed, and others that may be taken in its place."""
     rng = np.random.default_rng([zlib.crc32(kind.encode()), seed])
-    scene = KINDS[kind](rng)
-    return evolve(scene, objects=[evolve(o, two_sided=bool(rng.random() < 0.4)) for o in scene.objects])
+    while True:
+        scene = KINDS[kind](rng)
+        yield evolve(scene, objects=[evolve(o, two_sided=bool(rng.random() < 0.4)) for o in scene.objects])
 
 
 @dataclass(frozen=True)
@@ -45,9 +58,9 @@ class Case:
 
 
 def random_case(seed: int, kind: str | None = None) -> Case:
-    """Return the case of a seed, of a kind or of any."""
+    """Return the case of a seed, of any kind or of one; then something is seen in nearly all."""
     rng = np.random.default_rng(seed)
-    scene = random_scene(kind or list(KINDS)[rng.integers(len(KINDS))], seed)
+    name = kind or list(KINDS)[rng.integers(len(KINDS))]
     width, height = rng.integers(16, 64, 2).tolist()
     choice = rng.random()
     if choice < 0.1:
@@ -56,10 +69,21 @@ def random_case(seed: int, kind: str | None = None) -> Case:
     elif choice < 0.13:
         # of several bands
         width, height = int(rng.integers(300, 1025)), int(rng.integers(50, 70))
-    scene = evolve(scene, width=width, height=height)
     x, y = int(rng.integers(width)), int(rng.integers(height))
     tile = Rectangle(x, y, int(rng.integers(1, width - x + 1)), int(rng.integers(1, height - y + 1)))
-    return Case(_in_range(scene) if kind == "wild" else fit(scene), tile)
+    for drawn in islice(_scenes(name, seed), TRIALS if kind else 1):
+        scene = evolve(drawn, width=width, height=height)
+        scene = _in_range(scene) if kind == "wild" else fit(scene)
+        if is_anything_seen(scene):
+            break
+    return Case(scene, tile)
+
+
+def is_anything_seen(scene: Scene) -> bool:
+    """Whether any pixel shows an object by its centre, as the judge finds it."""
+    world = read(call_data("render", scene))
+    there = (pieces_of(world.frame, each, world.antialias) for each in world.surfaces if each.opacities.any())
+    return any(seen(pieces, world.frame, CENTER).covers.any() for pieces in there)
 
 
 # ---- kinds ----
@@ -524,7 +548,7 @@ def _light(rng: Rng, seen: Object) -> Light:
     if rng.random() < 0.5:
         return Light("directional", _direction(rng), color)
     # from far away to close above a surface
-    place = _point(rng, seen) + _size(seen) * 10.0 ** rng.uniform(-1.5, 1) * _direction(rng)
+    place = _point(rng, seen) + _size(seen) * 10.0 ** rng.uniform(-2.5, 1) * _direction(rng)
     if rng.random() < 0.6:
         return Light("point", place, color)
     outer = rng.uniform(5, 90)
