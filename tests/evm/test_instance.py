@@ -321,3 +321,29 @@ def test_another_thread_stops_a_call() -> None:
             made.call(ADDRESS, b"", 1 << 44)
     stopping.join()
     assert other.call(ADDRESS, b"", 1_000).status == Status.OUT_OF_GAS
+
+
+#: Threads drop instances while the process ends.
+DROP = """
+import threading
+from shackled.evm import Instance
+
+made = [Instance() for _ in range(24)]
+ready = threading.Barrier(25)
+
+
+def drop(number):
+    ready.wait()
+    made[number] = None
+
+
+for number in range(24):
+    threading.Thread(target=drop, args=(number,), daemon=True).start()
+ready.wait()
+"""
+
+
+def test_a_process_may_end_while_threads_drop_instances() -> None:
+    for _ in range(4):
+        ended = subprocess.run([sys.executable, "-c", DROP], capture_output=True, text=True, timeout=120)
+        assert (ended.returncode, ended.stderr) == (0, "")

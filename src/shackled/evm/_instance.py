@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..checks import integer
 from ..errors import ChainError, InputError
-from ._module import address_space, busy, start
+from ._module import address_space, start
 
 #: The largest memory of an instance in bytes, which tools/build_evm.py writes into the module.
 MEMORY = 1 << 30
@@ -141,7 +141,6 @@ class Instance:
         return bytes(self._memory.read(self._store, place, place + size)) if size else b""
 
     def _run(self, function: str, *values: int) -> Any:
-        busy.add(self._store)
         try:
             return self._exports[function](self._store, *values)
         except Exception as error:
@@ -155,8 +154,6 @@ class Instance:
             if (limit := address_space()) is not None:
                 why += f", or than this process has left of {limit >> 20:,} MB of address space (`ulimit -v`)"
             raise ChainError(why) from error
-        finally:
-            busy.discard(self._store)
 
 
 def _checked(address: bytes) -> bytes:

@@ -28,17 +28,17 @@ FULL, LEAST = 5 << 30, 512 << 20
 
 _lock = threading.Lock()
 
-#: What wasmtime has to close, and the stores in which a call runs now.
+#: What wasmtime closes when it is no longer used.
 _open: WeakSet[wasmtime.Engine | wasmtime.Module | wasmtime.Store] = WeakSet()
-busy: set[wasmtime.Store] = set()
 
 
 @atexit.register
-def _close() -> None:
-    # finalizers that run later, when wasmtime's own modules are gone, would print errors
-    # a copy, which threads that still run do not change
-    for each in _open.difference(busy.copy()):
-        each.close()
+def _leave_open() -> None:
+    # Finalizers that run later, when wasmtime's own modules are gone, would print errors. What a thread still uses, or
+    # closes at this moment, must not be closed here; the system frees all of it.
+    for each in _open.copy():
+        with suppress(ValueError):
+            each._consume()
 
 
 def start(is_stoppable: bool = False) -> tuple[wasmtime.Engine, wasmtime.Store, wasmtime.Instance]:
