@@ -56,11 +56,6 @@ def smooth() -> Image:
         return render(Path(folder, "teapot.obj"), rotate=(0, 12, 0), color=CLAY)
 
 
-def wireframe() -> Image:
-    """Draw the edges of the teapot."""
-    return render(pot(4, 256, UNLIT, color="#ffb35c", background=NIGHT, wireframe=True, cull=True))
-
-
 def still_life() -> Image:
     """Draw examples/scene.toml, larger."""
     with tempfile.TemporaryDirectory() as folder:
@@ -224,7 +219,7 @@ def main() -> None:
     """Draw all pictures, and write pictures.json."""
     IMAGES.mkdir(exist_ok=True)
     figures: dict[str, Any] = {}
-    for name, draw in {"teapot": smooth, "wireframe": wireframe, "scene": still_life}.items():
+    for name, draw in {"teapot": smooth, "scene": still_life}.items():
         image = draw()
         # in the site, pictures with a scene can be turned
         image.save(IMAGES / f"{name}.png", scene=True)
