@@ -12,10 +12,9 @@ from pathlib import Path
 from typing import Any
 
 from ..checks import choice
-from ..datasets import DATASETS, Piece, PieceCost, cost, figures, pieces
+from ..datasets import DATASETS, Piece, PieceCost, cost, pieces
 from ..errors import InputError
-from ..values import plural
-from ..whole_file import check_output_file, make_output_folder, write_output
+from ..whole_file import check_output_file, write_output
 from .option import argument, option
 from .progress import LateBar
 
@@ -109,25 +108,6 @@ def _fetch(model: Any, own: Path | None, again: bool) -> None:
         print(f"{model.name}: {own} {note}", file=sys.stderr)
     name, triangles, gas, *_ = _line(model.piece(), cost(model.piece()))
     print(f"{name}: {triangles} triangles, {gas} gas; shackled render {name}")
-
-
-def showcase(
-    names: tuple[str, ...] = argument("Scenes, such as glass; all by default.", "NAME"),
-    output: Path = option("-o --output", "Output folder.", "DIR", default=Path("showcase")),
-) -> None:
-    """Render the scenes of the showcase into a folder, with a contact sheet (sheet.png)."""
-    from ..datasets.showcase import draw_showcase
-    from ..datasets.showcase import pieces as scenes
-
-    known = {piece.name.removeprefix("showcase/"): piece for piece in scenes()}
-    chosen = [
-        known[choice(name.removeprefix("showcase/"), "a scene of the showcase", known)] for name in names or known
-    ]
-    make_output_folder(output)
-    width = max(len(piece.name) for piece in chosen)
-    for drawing in draw_showcase(output, chosen):
-        print(f"{drawing.name:{width}}  {figures(drawing)}", flush=True)
-    print(f"{output / 'sheet.png'}: {plural(len(chosen), 'scene')}")
 
 
 def gallery(

@@ -1,4 +1,4 @@
-from ._drawing import SIZE, VARIABLE, PieceCost, cache_folder, cost, draw_all, figures, keep, page, sheet
+from ._drawing import SIZE, VARIABLE, PieceCost, cache_folder, cost, draw_all, keep, page, sheet
 from ._pieces import DATASETS, Piece, find, pieces, require
 from ._teapot import teapot
 
@@ -11,7 +11,6 @@ __all__ = [
     "cache_folder",
     "cost",
     "draw_all",
-    "figures",
     "find",
     "keep",
     "page",
