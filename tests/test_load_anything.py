@@ -60,7 +60,6 @@ def test_objects_and_pieces() -> None:
     assert load(require("cube")) == load("cube") == evolve(cube, width=256, height=256, antialias=True)
     assert load("cube", 128, antialias=False) == cube
     assert load("icons/coin").antialias
-    assert load("showcase/glass") == require("showcase/glass").make()
     assert load(scene := load("cube")) is scene
 
 

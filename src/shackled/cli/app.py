@@ -19,7 +19,7 @@ from .output import noting
 
 datasets = CommandGroup(
     "datasets",
-    {name: f"datasets:{name}" for name in ("list", "fetch", "showcase", "gallery")},
+    {name: f"datasets:{name}" for name in ("list", "fetch", "gallery")},
     "List, fetch and show the pieces of the datasets.",
 )
 library = CommandGroup(
