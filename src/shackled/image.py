@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from PIL import Image as PillowImage
 from PIL.PngImagePlugin import PngInfo
 
+from .chain import open_chain
 from .checks import fixed
 from .errors import InputError, RenderError
 from .scene import CHUNK, PICTURE, Scene, SceneChunk, scene_chunk
@@ -104,11 +105,7 @@ class Image(Value):
 
     @cached_property
     def _counts(self) -> tuple[int, int] | tuple[None, None]:
-        if self.scene is None:
-            return None, None
-        from .parallel import count
-
-        return count(self.scene, self.evm)
+        return (None, None) if self.scene is None else open_chain(self.evm).count(self.scene)
 
     @property
     def sha256(self) -> str:
