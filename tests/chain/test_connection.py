@@ -279,11 +279,6 @@ def test_addresses_that_are_none(url: str) -> None:
     assert "key0123456" not in str(error.value)
 
 
-def test_timeouts_that_are_none() -> None:
-    with pytest.raises(InputError, match="`timeout` must be more than 0 seconds and at most 86,400, not 0"):
-        Connection("http://127.0.0.1", 0)
-
-
 def test_nobody_there() -> None:
     with pytest.raises(NodeUnreachableError, match="cannot be reached; is it running, and is its address right"):
         Connection(f"http://127.0.0.1:{free_port()}").request("eth_chainId")

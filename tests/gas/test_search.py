@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import pytest
 from attrs import evolve
-from tools.anvil import AnvilChain
 
-from nodes import ANVIL, needs_anvil
-from shackled import ChainError, InputError, RenderError, Scene
-from shackled.artifacts import artifact
+from made_scenes import SMALL_SCENES
+from shackled import InputError, RenderError
 from shackled.chain import open_chain
-from shackled.errors import OutOfGasError, RevertError
+from shackled.errors import OutOfGasError
 from shackled.gas import SearchStep, measure, render_call, search, suffices
 from shackled.gas._limits import KEPT, floor_gas, needed_for
 from shackled.gas._search import FIRST_LIMIT
 
-NAMES = ("smooth", "clipped, wires, inverted", "empty")
+NAMES = tuple(SMALL_SCENES)
 
 
 @pytest.mark.parametrize("least", [1, 2, 3, 1000, FIRST_LIMIT - 1, FIRST_LIMIT, FIRST_LIMIT + 1, 77_777_777])
@@ -57,9 +55,9 @@ def test_all_but_a_64th() -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_search_and_the_exact_figure_agree(name: str, scenes: dict[str, Scene]) -> None:
+def test_the_search_and_the_exact_figure_agree(name: str) -> None:
     chain = open_chain()
-    scene = scenes[name]
+    scene = SMALL_SCENES[name]
     data = render_call(scene)
     exact = measure(scene, chain)
     found = search(suffices(chain, "Renderer", data))
@@ -69,46 +67,19 @@ def test_the_search_and_the_exact_figure_agree(name: str, scenes: dict[str, Scen
     assert exact.gas <= found.gas <= needed_for(exact.gas)
 
 
-def test_another_evm_needs_the_same_limit(scenes: dict[str, Scene]) -> None:
+def test_another_evm_needs_the_same_limit() -> None:
     pytest.importorskip("eth")
     fast, slow = open_chain(), open_chain("pyevm")
-    data = render_call(scenes["empty"])
+    data = render_call(SMALL_SCENES["empty"])
     least = search(suffices(fast, "Renderer", data)).gas
     enough = suffices(slow, "Renderer", data)
     assert enough(least)
     assert not enough(least - 1)
 
 
-@needs_anvil
-def test_a_node_that_only_answers_calls_gives_the_same(scenes: dict[str, Scene]) -> None:
-    assert ANVIL is not None
-    scene = scenes["smooth"]
-    data = render_call(scene)
-    (out_of_gas,) = (selector for selector, (name, _) in artifact("Renderer").errors.items() if name == "OutOfGas")
-    refusals: list[ChainError] = []
-    with AnvilChain(ANVIL) as node:
-
-        def enough(limit: int) -> bool:
-            try:
-                node.read("Renderer", data, limit)
-            except ChainError as error:
-                refusals.append(error)
-                return False
-            return True
-
-        on_node = search(enough)
-    # of the Renderer's own gas, or, as it says itself, of the Engine's
-    assert refusals
-    for refused in refusals:
-        assert isinstance(refused, OutOfGasError) or (isinstance(refused, RevertError) and refused.data == out_of_gas)
+def test_a_refusal_is_not_taken_for_too_little_gas() -> None:
     chain = open_chain()
-    assert on_node == search(suffices(chain, "Renderer", data))
-    assert on_node.gas > measure(scene, chain).gas
-
-
-def test_a_refusal_is_not_taken_for_too_little_gas(scenes: dict[str, Scene]) -> None:
-    chain = open_chain()
-    data = render_call(evolve(scenes["empty"], width=5))
+    data = render_call(evolve(SMALL_SCENES["empty"], width=5))
     zero_width = bytearray(data)
     zero_width[zero_width.index((5).to_bytes(32, "big")) + 31] = 0
     with pytest.raises(RenderError, match="refused") as caught:
