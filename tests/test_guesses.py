@@ -154,7 +154,6 @@ NAMED: dict[str, tuple[Callable[[], Any], str]] = {
     "Mesh.load": (lambda: s.Mesh.load("x.obj"), "shackled.load(path) returns a scene"),
     "Scene().add": (lambda: s.Scene().add(MESH), "objects"),
     "scene.add": (lambda: s.load("cube").add(MESH), "give all objects to Scene([...])"),
-    "gas()": (lambda: s.gas("cube"), "shackled.gas is a package: call one of its functions, "),
     "to_trimesh": (
         lambda: s.Mesh(BOX.vertices, BOX.faces).to_trimesh(),
         "trimesh.Trimesh(mesh.positions, mesh.faces, ",

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable, Sequence
 from difflib import get_close_matches
 from functools import wraps
 from inspect import Parameter, signature
-from types import ModuleType
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from attrs.exceptions import FrozenInstanceError
@@ -193,14 +192,6 @@ def _check(owner: str, given: Given, names: Sequence[str]) -> None:
     for name in given:
         if name not in names:
             raise TypeError(f"{owner} has no keyword {name!r}; {instead_of(name, names)}")
-
-
-class Package(ModuleType):
-    """A package whose name is that of what it does: called as a function, it names its functions."""
-
-    def __call__(self, *_: object, **__: object) -> None:
-        """Raise a TypeError."""
-        raise TypeError(f"{self.__name__} is a package: call one of its functions, {', '.join(self.__all__)}")
 
 
 class Worded(type):

@@ -97,11 +97,6 @@ class Fit:
     fits: bool
     reason: str
 
-    @property
-    def share(self) -> float:
-        """Needed gas over the limit."""
-        return self.needed / self.limit.gas
-
     def to_json(self) -> dict[str, Any]:
         """Return the object that `--json` prints."""
         limit = self.limit
@@ -124,23 +119,17 @@ def fits_of(
     where the bounds do not decide, since a call must be given a little more gas than it uses; without it such a limit
     counts as too small.
     """
-    return tuple(fit_of(limit, gas, intrinsic_gas, calldata, suffices) for limit in limits())
-
-
-def fit_of(
-    limit: Limit, gas: int, intrinsic_gas: int, calldata: bytes, suffices: Callable[[int], bool] | None = None
-) -> Fit:
-    """Return how a picture fits into one limit, as `fits_of`."""
-    floor, size = floor_gas(calldata), len(calldata)
-    needed = max(intrinsic_gas + needed_for(gas), floor)
-    fits = needed <= limit.gas
-    if not fits and max(intrinsic_gas + gas, floor) <= limit.gas and suffices is not None:
-        fits = suffices(limit.gas - intrinsic_gas)
-        needed = limit.gas if fits else needed
-    reason = ""
-    if limit.kind == "transaction" and size + ENVELOPE > MAX_TRANSACTION:
-        fits, reason = False, f"its data of {size:,} bytes is more than the {MAX_TRANSACTION:,} that nodes relay"
-    return Fit(limit, needed, fits, reason)
+    floor, size, found = floor_gas(calldata), len(calldata), []
+    for limit in limits():
+        needed, reason = max(intrinsic_gas + needed_for(gas), floor), ""
+        fits = needed <= limit.gas
+        if not fits and max(intrinsic_gas + gas, floor) <= limit.gas and suffices is not None:
+            fits = suffices(limit.gas - intrinsic_gas)
+            needed = limit.gas if fits else needed
+        if limit.kind == "transaction" and size + ENVELOPE > MAX_TRANSACTION:
+            fits, reason = False, f"its data of {size:,} bytes is more than the {MAX_TRANSACTION:,} that nodes relay"
+        found.append(Fit(limit, needed, fits, reason))
+    return tuple(found)
 
 
 def headline(fits: Sequence[Fit]) -> str:

@@ -64,7 +64,6 @@ class SourceLocation:
 class SourceMap:
     """The locations of a contract's instructions, and the functions that begin at them, by position in the code."""
 
-    contract: str
     places: dict[int, SourceLocation]
     entries: dict[int, str]
     entry_lines: dict[int, int]
@@ -85,7 +84,7 @@ def source_map(contract: str) -> SourceMap:
             places[at] = SourceLocation(source.name, source.function(begin, end), source.line(begin), jump, block)
         if at in entries:
             names[at], lines[at] = (entries[at], 0) if source is None else _entry(entries[at], source, begin, end)
-    return SourceMap(contract, places, names, lines)
+    return SourceMap(places, names, lines)
 
 
 def instruction_sources(code: bytes, entries: str) -> Iterator[tuple[int, int, int, int, str]]:

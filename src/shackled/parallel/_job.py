@@ -12,7 +12,7 @@ import numpy as np
 from .._on import Bounds, Nodes, On, Place, place_of
 from ..chain import Drawing
 from ..errors import caller
-from ..image import Image, decode_bmp, most, total
+from ..image import Image, decode_bmp, total
 from ..scene import Rectangle, Scene
 from ._backends import SAMPLE, Backend, Part, Verifier
 from ._estimate import Estimate, estimate
@@ -136,7 +136,7 @@ def _assemble(
         seconds=seconds,
         scene=scene,
         calls=len(own),
-        call_gas=most(piece.gas for piece in own.values()),
+        call_gas=total((piece.gas for piece in own.values()), max),
         evm=evm,
     )
 
