@@ -111,27 +111,3 @@ def test_a_node_makes_the_same_picture_for_the_same_gas(node: AnvilChain, name: 
 def test_a_node_draws_tiles(node: AnvilChain) -> None:
     part = contract(node, "Renderer").functions.renderTile(struct(SCENES["smooth"]), (7, 3, 20, 11)).call()
     assert part == open_chain().draw(SCENES["smooth"], Rectangle(7, 3, 20, 11)).bmp
-
-
-@pytest.mark.parametrize("lit", [False, True])
-def test_the_interface_of_the_original(node: AnvilChain, lit: bool) -> None:
-    lighting = (lit, 0, 2000, 3000, 10, [0, 0, 50], [255, 255, 255], [255, 255, 255], [0, 0, 0])
-    parameters = (
-        [[0, 1, 2]],
-        [[-60, -60, 0], [60, -60, 0], [0, 60, 0]],
-        [[255, 0, 0], [0, 255, 0], [0, 0, 255]],
-        [0, 0, -250],
-        1,
-        [[0, 0, 40], [0, 0, 160]],
-        lighting,
-        True,
-        True,
-        False,
-        False,
-    )
-    web3 = contract(node, "Original")
-    uri = web3.functions.render(parameters, 32, False).call()
-    bmp = base64.b64decode(uri.removeprefix("data:image/bmp;base64,"), validate=True)
-    assert len(bmp) == 54 + 32 * 32 * 3
-    data = bytes.fromhex(web3.encode_abi("render", [parameters, 32, False]).removeprefix("0x"))
-    assert node.call("Original", data) == open_chain().call("Original", data)

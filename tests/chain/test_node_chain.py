@@ -5,7 +5,6 @@ from __future__ import annotations
 import zlib
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import AbstractContextManager
 from dataclasses import replace
 from random import Random
 from typing import Any
@@ -14,7 +13,7 @@ import pytest
 from tools.anvil import Anvil
 
 from made_scenes import POT, SMALL_SCENES
-from nodes import Reply, anvil, failure, forward, needs_anvil, replying, result, without_overrides
+from nodes import Reply, anvil, failure, forward, geth, needs_anvil, replying, result, without_overrides
 from shackled import Camera, Material, Mesh, Nodes, Object, Scene, render
 from shackled.artifacts import RENDERER, artifact
 from shackled.chain import AddressBook, Drawing, EmbeddedChain, NodeChain, open_chain, open_node
@@ -281,17 +280,6 @@ def test_limits_are_those_of_the_node(bare: Anvil, embedded: EmbeddedChain) -> N
                 break
     else:
         pytest.fail("the limit that is told is too low by a tenth")
-
-
-def geth(url: str, cap: int) -> AbstractContextManager[str]:
-    """A node in front of another that gives calls no more gas than `cap`, and says nothing of it."""
-
-    def call(request: dict[str, Any]) -> Reply:
-        fields = request["params"][0]
-        fields["gas"] = hex(min(int(fields.get("gas", hex(cap)), 16), cap))
-        return forward(url, request)
-
-    return replying(url, eth_call=call)
 
 
 def test_too_little_gas_on_a_node(bare: Anvil) -> None:
