@@ -135,7 +135,6 @@ def test_a_node_is_asked(on: Any) -> None:
 
 #: Guesses, and words of the error that name what is right.
 NAMED: dict[str, tuple[Callable[[], Any], str]] = {
-    "Mesh.load": (lambda: s.Mesh.load("x.obj"), "shackled.load(path) returns a scene"),
     "Scene().add": (lambda: s.Scene().add(MESH), "objects"),
     "scene.add": (lambda: s.load("cube").add(MESH), "give all objects to Scene([...])"),
     "to_trimesh": (

@@ -82,7 +82,6 @@ INSTEAD = {
     "images": "`frames` has them",
     "intensity": "a light has a colour, of which darker ones are weaker; `exposure` multiplies all light",
     "list_models": "shackled.datasets.pieces() yields all pieces",
-    "load": "shackled.load(path) returns a scene, shackled.scene.read_mesh(path) a mesh, Texture.open(path) a texture",
     "material": _SURFACE,
     "projection": "did you mean orthographic?",
     "texture": f"{_SURFACE} that has a texture",
@@ -194,21 +193,7 @@ def _check(owner: str, given: Given, names: Sequence[str]) -> None:
             raise TypeError(f"{owner} has no keyword {name!r}; {instead_of(name, names)}")
 
 
-class Worded(type):
-    """A metaclass of values, which say what there is in place of an attribute that is not there."""
-
-    if not TYPE_CHECKING:
-
-        def __getattr__(cls, name: str) -> Any:
-            raise _missing(cls, name)
-
-
-def _missing(kind: type, name: str) -> AttributeError:
-    hint = f"; {INSTEAD[name]}" if name in INSTEAD else ""
-    return AttributeError(f"{kind.__name__} has no attribute {name!r}{hint}", name=name)
-
-
-class Words(metaclass=Worded):
+class Words:
     """A base of values, which say what there is in place of an attribute that is not there."""
 
     __slots__ = ()
@@ -216,4 +201,5 @@ class Words(metaclass=Worded):
     if not TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Any:
-            raise _missing(type(self), name)
+            hint = f"; {INSTEAD[name]}" if name in INSTEAD else ""
+            raise AttributeError(f"{type(self).__name__} has no attribute {name!r}{hint}", name=name)
