@@ -41,8 +41,7 @@ def test_one_json_object_says_it_all(report: Any, shackled: Shackled) -> None:
     steps = found["search_steps"]
     assert found["search_calls"] == len(steps)
     assert steps[-1]["upper"] == found["searched_gas"] == steps[-1]["lower"] + 1
-    margin = found["margin"]
-    assert found["searched_gas"] - found["gas"] == margin["gas"] == margin["kept"] - margin["after"] > 0
+    assert found["searched_gas"] > found["gas"]
     assert found["gas_per_triangle"] == pytest.approx(image["gas"] / image["triangles"])
     assert found["gas_per_lit_pixel"] == pytest.approx(image["gas"] / image["lit_pixels"])
     transaction = found["transaction"]
