@@ -10,15 +10,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 from PIL import Image as PillowImage
 
 import shackled
 from shackled.cli.app import run
 from shackled.datasets import DATASETS, Piece, PieceCost, cost, draw_all, find, page, pieces, require, sheet
 from shackled.datasets._drawing import draw, table
-from shackled.datasets.common import models, shapes
+from shackled.datasets.common import models
 from shackled.errors import InputError
-from shackled.scene import write_obj
 
 
 @pytest.fixture(autouse=True)
@@ -188,7 +188,7 @@ def test_the_page_stands_alone() -> None:
 
 
 def test_the_command_gallery(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    write_obj(shapes.tetrahedron(), "own.obj")
+    trimesh.creation.icosahedron().export("own.obj")
     assert run(["datasets", "fetch", "cow", "--from", "own.obj"]) == 0
     assert run(["datasets", "gallery", "common", "-o", "g.html", "-o", "g.png", "--jobs", "1"]) == 0
     output = capsys.readouterr().out

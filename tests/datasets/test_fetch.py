@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 
 import shackled
 from shackled.cli.app import run
@@ -23,9 +24,7 @@ from shackled.datasets import PieceCost, cost, require
 from shackled.datasets.common import fetch, take
 from shackled.datasets.common._fetch import checksum
 from shackled.datasets.common._models import Model
-from shackled.datasets.common.shapes import icosphere
 from shackled.errors import FetchError, InputError
-from shackled.scene import write_obj
 
 
 class Server(ThreadingHTTPServer):
@@ -64,8 +63,7 @@ class Handler(BaseHTTPRequestHandler):
 def obj(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     """A ball, in another place and of another size than it will have."""
     path = tmp_path_factory.mktemp("ball") / "ball.obj"
-    ball = icosphere(3)
-    write_obj(shackled.Mesh(40 * ball.positions + 7, ball.faces), path)
+    trimesh.creation.icosphere(3, 40).apply_translation((7, 7, 7)).export(path)
     return path.read_bytes()
 
 
@@ -198,7 +196,7 @@ def test_a_file_of_ones_own(ball: Model, server: Server, tmp_path: Path, obj: by
 
 def packed(kind: str, obj: bytes) -> bytes:
     stream = io.BytesIO()
-    rows = [line.split() for line in obj.decode().splitlines()]
+    rows = [line.split() for line in obj.decode().splitlines() if line]
     vertices = "".join('<vertex x="{}" y="{}" z="{}"/>'.format(*row[1:]) for row in rows if row[0] == "v")
     faces = [[int(number) - 1 for number in row[1:]] for row in rows if row[0] == "f"]
     triangles = "".join('<triangle v1="{}" v2="{}" v3="{}"/>'.format(*face) for face in faces)

@@ -187,8 +187,9 @@ CASES = {
         notes=("1 colour of vertices left out, not finite numbers",),
     ),
     # other statements
-    "polypaint": Case(CORNERS + "#MRGB ffff0000ffff0000\n#MRGB 00ff0000ff0000ff\nf 1 2 3\nf 4 1 3\n"),
-    "comments like polypaint": grey(CORNERS + "#MRGB is what others write\nf 1 2 3 4\n"),
+    "colours of ZBrush": grey(
+        CORNERS + "#MRGB ffff0000ffff0000\nf 1 2 3 4\n", "1 statement '#MRGB' left out; only faces are drawn"
+    ),
     "points, lines and the rest": grey(
         CORNERS + "p 1 2\nf 1 2 3\nl 1 2 3\nl 1 3\nf 1 3\ncurv 0 1 1 2\ncurv 0 1 2 3\nf 1 3 4\nvp 0.5\n",
         "2 points, 2 lines, 1 face of fewer than 3 corners, 2 curves left out; only faces are drawn",

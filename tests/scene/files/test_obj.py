@@ -6,7 +6,7 @@ from PIL import Image
 
 from mesh_files import corner_colors, corner_positions, read_with_notes, refusal
 from mesh_files import read as read_file
-from shackled.scene import Mesh, read_mesh, write_obj
+from shackled.scene import Mesh
 from shackled.scene._files.model import TEXTURED
 from shackled.scene._mesh import DEFAULT_COLOR
 
@@ -107,18 +107,6 @@ def test_textures_of_a_single_mesh(tmp_path: Path, image: object, colors: list[l
     mesh, notes = read_with_notes(tmp_path / "model.obj", text)
     assert corner_colors(mesh) == [colors]
     assert notes == ([note.format(folder=tmp_path)] if note else [])
-
-
-def test_written_files_read_back(tmp_path: Path) -> None:
-    colors = [[0, 1, 2], [127, 128, 129], [253, 254, 255]]
-    mesh = Mesh(
-        np.array([[0, 0.25, 1e-3], [1 / 3, 0, 0], [0, 1, 7]]), [[0, 1, 2]], colors, [[0, 0, 1], [0, 1, 0], [1, 0, 0]]
-    )
-    write_obj(mesh, tmp_path / "out.obj")
-    back = read_mesh(tmp_path / "out.obj")
-    np.testing.assert_allclose(back.positions, mesh.positions, rtol=1e-8)
-    assert (back.colors.tolist(), back.faces.tolist()) == (colors, [[0, 1, 2]])
-    assert np.asarray(back.normals).tolist() == np.asarray(mesh.normals).tolist()
 
 
 NO_FACES = (
