@@ -123,7 +123,7 @@ class Mesh(Value):
     opacities: (n,) float, or None: what each vertex hides of what is behind it, from 0, nothing, to 1; rounded to
         multiples of 1/255, and None where all are 1. They are multiplied with the opacity of the object.
 
-    A Mesh may exceed the limits of the contracts; `render` then raises an InputError.
+    A Mesh may exceed the limits of the contracts; `render` divides it.
     """
 
     positions: Floats = field(converter=_table, metadata=checked("the positions of a mesh"))

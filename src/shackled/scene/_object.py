@@ -35,6 +35,10 @@ def _texture(value: Texture | None) -> Texture | None:
     return value
 
 
+def _coefficient(name: str) -> dict[str, Any]:
+    return checked(f"the {name} coefficient of a material", *COEFFICIENTS)
+
+
 @words_of()
 @frozen(field_transformer=with_names)
 class Material:
@@ -48,15 +52,9 @@ class Material:
     """
 
     shading: Shading = field(default="flat", converter=choice, metadata=checked("the shading of a material", SHADINGS))
-    ambient: float = field(
-        default=0.3, converter=number, metadata=checked("the ambient coefficient of a material", *COEFFICIENTS)
-    )
-    diffuse: float = field(
-        default=0.75, converter=number, metadata=checked("the diffuse coefficient of a material", *COEFFICIENTS)
-    )
-    specular: float = field(
-        default=0.3, converter=number, metadata=checked("the specular coefficient of a material", *COEFFICIENTS)
-    )
+    ambient: float = field(default=0.3, converter=number, metadata=_coefficient("ambient"))
+    diffuse: float = field(default=0.75, converter=number, metadata=_coefficient("diffuse"))
+    specular: float = field(default=0.3, converter=number, metadata=_coefficient("specular"))
     shininess: int = field(default=24, converter=whole, metadata=checked("the shininess of a material", *EXPONENTS))
     texture: Texture | None = field(default=None, converter=_texture)
     emission: Color = field(default=(0, 0, 0), converter=color, metadata=checked("the emission of a material"))

@@ -131,7 +131,7 @@ def staged(points: NDArray[np.float64], width: int, height: int) -> tuple[Camera
         raise InputError("the coordinates of the objects are too large for a camera to be placed")
     camera = frame(points / largest, view)
     camera = evolve(camera, eye=largest * camera.eye, target=largest * camera.target)
-    return camera, (key_light(view),), BACKGROUND
+    return camera, (toward_viewer(view),), BACKGROUND
 
 
 def painted(mesh: Mesh, color: ArrayLike | str) -> Mesh:
@@ -185,13 +185,8 @@ def contrasting(objects: Sequence[Object]) -> Background:
     return DARK_BACKGROUND if 2 * light > total else LIGHT_BACKGROUND
 
 
-def key_light(view: Viewpoint) -> Light:
-    """Return a light that stays where it is for the viewer, wherever the viewer stands."""
-    return toward_viewer(KEY_LIGHT, WHITE, view)
-
-
-def toward_viewer(direction: tuple[float, float, float], color: Color, view: Viewpoint) -> Light:
-    """Return a light at infinity. direction: to it, in the directions right, up and toward the viewer."""
+def toward_viewer(view: Viewpoint, direction: tuple[float, float, float] = KEY_LIGHT, color: Color = WHITE) -> Light:
+    """Return a light at infinity that stays where it is for the viewer. direction: to it, right, up and toward them."""
     axes = np.stack(view_axes(view.azimuth, view.elevation), axis=1)
     return Light("directional", dot(np.array(direction), axes), color)
 

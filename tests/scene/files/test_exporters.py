@@ -188,12 +188,12 @@ CASES = {
     ),
     # other statements
     "colours of ZBrush": grey(
-        CORNERS + "#MRGB ffff0000ffff0000\nf 1 2 3 4\n", "1 statement '#MRGB' left out; only faces are drawn"
+        CORNERS + "#MRGB ffff0000ffff0000\nf 1 2 3 4\n", "statement '#MRGB' (1) left out; only faces are drawn"
     ),
     "points, lines and the rest": grey(
         CORNERS + "p 1 2\nf 1 2 3\nl 1 2 3\nl 1 3\nf 1 3\ncurv 0 1 1 2\ncurv 0 1 2 3\nf 1 3 4\nvp 0.5\n",
-        "2 points, 2 lines, 1 face of fewer than 3 corners, 2 curves left out; only faces are drawn",
-        "1 statement 'vp' left out; only faces are drawn",
+        "2 points, 2 lines, 1 incomplete face, 2 curves left out; only faces are drawn",
+        "statement 'vp' (1) left out; only faces are drawn",
     ),
     "some faces without an area": grey(CORNERS + "v 0.5 0 0\nf 1 2 3\nf 1 5 2\nf 1 5 2 1\nf 1 3 4\n"),
     "a corner along an edge": grey(CORNERS + "v 0.5 0 0\nf 1 5 2 3 4\n"),

@@ -126,7 +126,7 @@ NO_VERTEX = "the face in line 4 names a vertex that does not exist; there are v 
         (TRIANGLE + "f -4 1 2\n", NO_VERTEX),
         (
             TRIANGLE + "f 1 2\np 1 2\np 3\nl 1 2 3\ncurv 0 1 1 2\nend\n",
-            NO_FACES.format("3 points, 1 line, 1 face of fewer than 3 corners, 1 curve"),
+            NO_FACES.format("3 points, 1 line, 1 incomplete face, 1 curve"),
         ),
         (TRIANGLE + "f 1 two 3\n", "line 4 is not one of an OBJ file: 'f 1 two 3'"),
         ("v 0 0\n" + TRIANGLE + "f 1 2 3\n", "line 1 is not one of an OBJ file: 'v 0 0'"),

@@ -101,8 +101,7 @@ def test_binary_with_triangles_and_quads(tmp_path: Path, encoding: str, order: s
         (RGB, "1 2 3", RGB, ["255 255 255"] * 2, [(1, 2, 3)] * 2),
         # other names, of which the first counts, if it is whole
         (properties("uchar", "diffuse_red", "diffuse_green", "diffuse_blue"), "10 20 30", "", [""], [(10, 20, 30)]),
-        (properties("uchar", "r", "g", "b") + RGB, "1 2 3 4 5 6", "", [""], [(4, 5, 6)]),
-        (properties("uchar", "r", "g", "red"), "10 20 30", "", [""], [DEFAULT_COLOR]),
+        (properties("uchar", "diffuse_red", "green", "blue"), "10 20 30", "", [""], [DEFAULT_COLOR]),
         (RGB + properties("float", "s", "t"), "1 2 3 0.5 0.5", "", [""], [(1, 2, 3)]),
     ],
 )
@@ -114,7 +113,7 @@ def test_colors(
     mesh, notes = read_with_notes(tmp_path, text)
     assert corner_colors(mesh) == [[list(each)] * 3 for each in expected]
     names = [line.split()[-1] for line in vertex.splitlines()]
-    left = [name for name in names if len(name) == 1 or names == ["r", "g", "red"]]
+    left = [name for name in names if len(name) == 1 or {"diffuse_red", "green"} <= set(names)]
     lost = [LEFT + ", ".join(f"{name} of vertex" for name in left)] if left else []
     assert notes == [*lost, *([OF_FACES] if vertex and len(set(faces)) > 1 else [])]
 

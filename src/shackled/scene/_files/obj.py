@@ -39,13 +39,7 @@ _POLYPAINT = "#MRGB"
 #: Statements with nothing to draw.
 _SILENT = frozenset(("g", "o", "mg", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj"))
 #: What of the shape is left out, by its statement.
-_SHAPES = {
-    "p": ("point", "points"),
-    "l": ("line", "lines"),
-    "f": ("face of fewer than 3 corners", "faces of fewer than 3 corners"),
-    "curv": ("curve", "curves"),
-    "surf": ("curved surface", "curved surfaces"),
-}
+_SHAPES = {"p": "point", "l": "line", "f": "incomplete face", "curv": "curve", "surf": "curved surface"}
 #: So many kinds of other statements are named.
 _MOST_STATEMENTS = 8
 
@@ -181,17 +175,14 @@ def _drawn_faces(obj: _Lines) -> tuple[Floats, Floats, Floats, Ints, Ints]:
 
 def _tell_of_statements(obj: _Lines) -> None:
     """Warn of statements that are left out. InputError if there are no faces."""
-    shapes = [plural(obj.left_out[keyword], *names) for keyword, names in _SHAPES.items() if obj.left_out[keyword]]
+    shapes = [plural(obj.left_out[keyword], name) for keyword, name in _SHAPES.items() if obj.left_out[keyword]]
     if not obj.faces:
         raise InputError(
             f"it has no faces, only {', '.join(shapes) or plural(len(obj.positions) // 3, 'vertex', 'vertices')}; only"
             " faces are drawn, such as those of thin tubes in place of lines and of small balls in place of points"
         )
-    others = [
-        plural(count, f"statement {keyword[:20]!r}", f"statements {keyword[:20]!r}")
-        for keyword, count in obj.left_out.most_common(_MOST_STATEMENTS)
-        if keyword not in _SHAPES
-    ]
+    common = obj.left_out.most_common(_MOST_STATEMENTS)
+    others = [f"statement {keyword[:20]!r} ({count:,})" for keyword, count in common if keyword not in _SHAPES]
     for left_out in (shapes, others):
         if left_out:
             warn(f"{obj.path}: {', '.join(left_out)} left out; only faces are drawn")

@@ -40,7 +40,6 @@ _LARGEST = {"u1": 255, "i1": 255, "u2": 65535, "i2": 255, "u4": 255, "i4": 255}
 _COLORS = (
     ("red", "green", "blue", "alpha"),
     ("diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"),
-    ("r", "g", "b", "a"),
 )
 
 

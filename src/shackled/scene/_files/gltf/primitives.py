@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....errors import InputError
+from ..._arithmetic import units
 from ..model import Picture, tinted
 from ..table import about
 from .document import Document, Vertices, numbers
 from .draco import decompress
 from .materials import Surface, colors_of, picture_on, surface_of
-from .nodes import Node, morphed, skinned, weights_of
+from .nodes import Node, morphed, skinned
 
 Array = NDArray[np.float64]
 
@@ -49,7 +50,7 @@ class Piece:
 def pieces_of(gltf: Document, node: Node, nodes: Mapping[int, Node]) -> Iterator[Piece]:
     """Return the primitives of the mesh of a node that have triangles, in its coordinates."""
     mesh = gltf.item(node.keys, "mesh", "meshes")
-    weights = weights_of(node.keys, mesh)
+    weights = (node.keys if "weights" in node.keys else mesh).series("weights")
     for keys in mesh.tables("primitives"):
         where, attributes = keys.where, keys.table("attributes")
         mode = keys.whole("mode", _TRIANGLES)
@@ -118,10 +119,8 @@ def in_place(piece: Piece, matrix: Array) -> Piece:
     mirrored = np.broadcast_to(signs, len(piece.positions))[piece.faces].sum(axis=1) < 0
     faces = np.where(mirrored[:, None], piece.faces[:, ::-1], piece.faces)
     normals = _times(cofactors * signs[..., None, None], piece.normals)
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    normals = np.asarray(np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0))
     positions = _times(linear, piece.positions) + matrix[..., :3, 3]
-    return replace(piece, positions=positions, faces=faces, normals=normals)
+    return replace(piece, positions=positions, faces=faces, normals=units(normals))
 
 
 def _times(matrix: Array, vectors: Array) -> Array:
