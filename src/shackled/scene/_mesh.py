@@ -144,15 +144,12 @@ class Mesh(Value):
             raise InputError(f"a mesh needs vertices and faces; this one has {count} and {len(self.faces)}")
         bad = np.flatnonzero(~np.isfinite(self.positions).all(axis=1))
         if len(bad):
-            raise InputError(
-                f"vertex {bad[0]} has a coordinate that is not a finite number: {self.positions[bad[0]].tolist()}"
-            )
+            found = self.positions[bad[0]].tolist()
+            raise InputError(f"vertex {bad[0]} has a coordinate that is not a finite number: {found}")
         bad = np.flatnonzero(((self.faces < 0) | (self.faces >= count)).any(axis=1))
         if len(bad):
-            raise InputError(
-                f"face {bad[0]} names the vertices {self.faces[bad[0]].tolist()}, "
-                f"but they are numbered 0 to {count - 1}"
-            )
+            named = self.faces[bad[0]].tolist()
+            raise InputError(f"face {bad[0]} names the vertices {named}, but they are numbered 0 to {count - 1}")
         if self.colors.ndim == 1:
             object.__setattr__(self, "colors", fixed(np.tile(self.colors, (count, 1)), np.uint8))
         if self.colors.shape[1] == 4:

@@ -30,9 +30,7 @@ OPACITIES = (0, 1)
 def _texture(value: Texture | None) -> Texture | None:
     if isinstance(value, str | os.PathLike):
         return Texture.open(value)
-    if value is not None:
-        instance(value, "the texture of a material", Texture)
-    return value
+    return None if value is None else instance(value, "the texture of a material", Texture)
 
 
 def _coefficient(name: str) -> dict[str, Any]:
@@ -65,13 +63,11 @@ def _mesh(value: Mesh) -> Mesh:
         return mesh_of(value)
     if isinstance(value, str | os.PathLike):
         raise InputError(f"the mesh of an object must be a shackled.Mesh: shackled.load({value!r:.60}) has objects")
-    instance(value, "the mesh of an object", Mesh)
-    return value
+    return instance(value, "the mesh of an object", Mesh)
 
 
 def _material(value: Material) -> Material:
-    instance(value, "the material of an object", Material)
-    return value
+    return instance(value, "the material of an object", Material)
 
 
 def _fade(value: ArrayLike | None) -> tuple[float, float] | None:

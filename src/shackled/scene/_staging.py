@@ -69,13 +69,11 @@ class Viewpoint:
 
 @frozen
 class Staging:
-    """How a mesh without a scene is shown.
+    """How a mesh without a scene is shown. side: of the picture in pixels. fields: of the Scene, by their names.
 
-    side: of the picture in pixels, where none is given.
     view: of meshes at least half as high as wide; the flatter a mesh, the higher the viewer, up to `flat_elevation`.
-    light: its direction, right, up and toward the viewer, and its colour.
+    light: as `toward_viewer` has it.
     material: of the mesh. Its shading is replaced if `by_normals`: by that of the mesh's normals, or of computed ones.
-    fields: of the Scene, by their names.
     """
 
     side: int

@@ -113,14 +113,14 @@ NO_FACES = (
     "it has no faces, only {}; only faces are drawn, such as those of thin tubes in place of lines and of small "
     "balls in place of points"
 )
-NO_VERTEX = "the face in line 4 names a vertex that does not exist; there are v lines 1 to 3"
+NO_VERTEX = "the face in line 4 names a vertex that is not among the 3 of the file"
 
 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
         ("hello\nworld\n", NO_FACES.format("0 vertices")),
-        ("f 1 2 3\n", "the face in line 1 names a vertex that does not exist; there are no v lines"),
+        ("f 1 2 3\n", "the face in line 1 names a vertex that is not among the 0 of the file"),
         (TRIANGLE + "f 1 2 4\n", NO_VERTEX),
         (TRIANGLE + "f 0 1 2\n", NO_VERTEX),
         (TRIANGLE + "f -4 1 2\n", NO_VERTEX),

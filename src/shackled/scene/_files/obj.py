@@ -47,9 +47,8 @@ _MOST_STATEMENTS = 8
 class _Lines:
     """What the lines of a file say, in flat arrays, for there may be millions.
 
-    corners: the numbers of the position, texture coordinates and normal of each corner of all faces. faces: of each
-    face, how many corners it has, its line, and the numbers of its material and smoothing group. left_out: how many
-    statements of a kind are not read.
+    corners: numbers of position, texture coordinates and normal. faces: how many corners each has, its line, and the
+    numbers of its material and smoothing group. left_out: how many statements of a kind are not read.
     """
 
     def __init__(self, path: Path) -> None:
@@ -145,10 +144,8 @@ def _drawn_faces(obj: _Lines) -> tuple[Floats, Floats, Floats, Ints, Ints]:
     owner = np.repeat(np.arange(len(faces)), faces[:, 0])
     bad = np.flatnonzero(corners[:, 0] >= len(positions))
     if len(bad):
-        raise InputError(
-            f"the face in line {faces[owner[bad[0]], 1]} names a vertex that does not exist; "
-            + (f"there are v lines 1 to {len(positions)}" if len(positions) else "there are no v lines")
-        )
+        line = faces[owner[bad[0]], 1]
+        raise InputError(f"the face in line {line} names a vertex that is not among the {len(positions)} of the file")
     for column, values, what, instead in (
         (1, texcoords, "texture coordinates (vt)", "has no texture"),
         (2, normals, "normals (vn)", "has computed ones"),

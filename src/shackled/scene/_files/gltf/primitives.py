@@ -64,17 +64,16 @@ def pieces_of(gltf: Document, node: Node, nodes: Mapping[int, Node]) -> Iterator
             mode = _TRIANGLES
         positions = numbers(gltf, attributes, "POSITION", "VEC3")
         order = np.arange(len(positions))
+        place, last = keys.place("indices"), len(positions) - 1
         if "indices" in keys:
             order = numbers(gltf, keys, "indices", "SCALAR")[:, 0]
             if order.dtype.kind != "u":
-                raise InputError(f"{keys.place('indices')} must be of whole numbers without a sign")
+                raise InputError(f"{place} must be of whole numbers without a sign")
         used, corners = np.unique(order[_corners(mode, len(order), keys.place("mode"))], return_inverse=True)
         if not len(used):
             continue
-        if used[-1] >= len(positions):
-            raise InputError(
-                f"{keys.place('indices')} name vertex {used[-1]}, but they are numbered 0 to {len(positions) - 1}"
-            )
+        if used[-1] > last:
+            raise InputError(f"{place} name vertex {used[-1]}, but they are numbered 0 to {last}")
         vertices = Vertices(gltf, attributes, used, len(positions))
         with about(where):
             surface = surface_of(gltf, keys)
