@@ -16,15 +16,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 
 import shackled
 from shackled.cli.app import run
 from shackled.datasets import PieceCost, cost, require
 from shackled.datasets.common import fetch
 from shackled.datasets.common._models import Model
-from shackled.datasets.common.shapes import icosphere
 from shackled.errors import FetchError, InputError
-from shackled.scene import write_obj
 
 
 class Server(ThreadingHTTPServer):
@@ -63,8 +62,7 @@ class Handler(BaseHTTPRequestHandler):
 def obj(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     """A ball, in another place and of another size than it will have."""
     path = tmp_path_factory.mktemp("ball") / "ball.obj"
-    ball = icosphere(3)
-    write_obj(shackled.Mesh(40 * ball.positions + 7, ball.faces), path)
+    trimesh.creation.icosphere(3, 40).apply_translation((7, 7, 7)).export(path)
     return path.read_bytes()
 
 

@@ -10,10 +10,8 @@ import io
 import re
 from array import array
 from collections import Counter
-from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +19,7 @@ from numpy.typing import NDArray
 from ...errors import InputError, warn
 from ...values import plural
 from .._crease import corner_normals, filled
-from .._mesh import DEFAULT_COLOR, Mesh
+from .._mesh import DEFAULT_COLOR
 from .._texture import to_bytes
 from .beside import picture_beside
 from .content import read_text
@@ -36,18 +34,12 @@ ABSENT = -1
 
 #: Lines whose backslash at the end belongs to a comment or a name.
 _OF_NAMES = re.compile(r"\s*(?:#|(?:usemtl|mtllib|g|o)\s.*\S\\\s*$)")
-#: ZBrush's colours of vertices, in comments: mask, red, green and blue, two hexadecimal digits each.
+#: What ZBrush's comments begin with that colour vertices.
 _POLYPAINT = "#MRGB"
 #: Statements with nothing to draw.
 _SILENT = frozenset(("g", "o", "mg", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj"))
 #: What of the shape is left out, by its statement.
-_SHAPES = {
-    "p": ("point", "points"),
-    "l": ("line", "lines"),
-    "f": ("face of fewer than 3 corners", "faces of fewer than 3 corners"),
-    "curv": ("curve", "curves"),
-    "surf": ("curved surface", "curved surfaces"),
-}
+_SHAPES = {"p": "point", "l": "line", "f": "incomplete face", "curv": "curve", "surf": "curved surface"}
 #: So many kinds of other statements are named.
 _MOST_STATEMENTS = 8
 
@@ -55,31 +47,19 @@ _MOST_STATEMENTS = 8
 class _Lines:
     """What the lines of a file say, in flat arrays, for there may be millions.
 
-    corners: the numbers of the position, texture coordinates and normal of each corner of all faces. faces: of each
-    face, how many corners it has, its line, and the numbers of its material and smoothing group. left_out: how many
-    statements of a kind are not read.
+    corners: numbers of position, texture coordinates and normal. faces: how many corners each has, its line, and the
+    numbers of its material and smoothing group. left_out: how many statements of a kind are not read.
     """
 
     def __init__(self, path: Path) -> None:
         self.path = path
         self.positions, self.texcoords, self.normals = array("d"), array("d"), array("d")
         self.vertex_colors = dict[int, list[float]]()
-        self.polypaint = bytearray()
         self.corners, self.faces = array("q"), array("q")
         self.material_numbers = {"": 0}
         self.materials = dict[str, ObjMaterial]()
         self.has_library = False
         self.left_out = Counter[str]()
-
-
-class _Drawn(NamedTuple):
-    """The faces of a file that can be drawn, (m, 4), and their corners, (n, 3), with ABSENT for what they have not."""
-
-    positions: Floats
-    texcoords: Floats
-    normals: Floats
-    corners: Ints
-    faces: Ints
 
 
 def _read_lines(path: Path) -> _Lines:
@@ -93,9 +73,7 @@ def _read_lines(path: Path) -> _Lines:
         words = line.partition("#")[0].split()
         if not words:
             if line.startswith(_POLYPAINT):
-                with suppress(ValueError):  # else a comment after all
-                    levels = bytes.fromhex(line[len(_POLYPAINT) :])
-                    obj.polypaint += levels[: len(levels) // 4 * 4]
+                obj.left_out[_POLYPAINT] += 1
             continue
         keyword = words[0]
         try:
@@ -152,10 +130,9 @@ def _number(word: str, count: int) -> int:
     return count + number if -count <= number < 0 else 1 << 40
 
 
-def _drawn_faces(obj: _Lines) -> _Drawn:
-    """Return the faces with finite coordinates. InputError if there are none, or one names a vertex that is not there.
-
-    InputWarnings tell of what is left out.
+def _drawn_faces(obj: _Lines) -> tuple[Floats, Floats, Floats, Ints, Ints]:
+    """Return positions, texture coordinates and normals; the corners, (n, 3), with ABSENT for what they have not, and
+    (m, 4) of the faces with finite coordinates. InputError if one names a vertex that is not there.
     """
     _tell_of_statements(obj)
     positions, texcoords, normals = (
@@ -167,10 +144,8 @@ def _drawn_faces(obj: _Lines) -> _Drawn:
     owner = np.repeat(np.arange(len(faces)), faces[:, 0])
     bad = np.flatnonzero(corners[:, 0] >= len(positions))
     if len(bad):
-        raise InputError(
-            f"the face in line {faces[owner[bad[0]], 1]} names a vertex that does not exist; "
-            + (f"there are v lines 1 to {len(positions)}" if len(positions) else "there are no v lines")
-        )
+        line = faces[owner[bad[0]], 1]
+        raise InputError(f"the face in line {line} names a vertex that is not among the {len(positions)} of the file")
     for column, values, what, instead in (
         (1, texcoords, "texture coordinates (vt)", "has no texture"),
         (2, normals, "normals (vn)", "has computed ones"),
@@ -192,22 +167,19 @@ def _drawn_faces(obj: _Lines) -> _Drawn:
         corners, faces = corners[kept[owner]], faces[kept]
         if lost := int((~kept).sum()):
             warn(f"{obj.path}: {plural(lost, 'face')} left out, with coordinates that are not finite numbers")
-    return _Drawn(positions, texcoords, normals, corners, faces)
+    return positions, texcoords, normals, corners, faces
 
 
 def _tell_of_statements(obj: _Lines) -> None:
     """Warn of statements that are left out. InputError if there are no faces."""
-    shapes = [plural(obj.left_out[keyword], *names) for keyword, names in _SHAPES.items() if obj.left_out[keyword]]
+    shapes = [plural(obj.left_out[keyword], name) for keyword, name in _SHAPES.items() if obj.left_out[keyword]]
     if not obj.faces:
         raise InputError(
             f"it has no faces, only {', '.join(shapes) or plural(len(obj.positions) // 3, 'vertex', 'vertices')}; only"
             " faces are drawn, such as those of thin tubes in place of lines and of small balls in place of points"
         )
-    others = [
-        plural(count, f"statement {keyword[:20]!r}", f"statements {keyword[:20]!r}")
-        for keyword, count in obj.left_out.most_common(_MOST_STATEMENTS)
-        if keyword not in _SHAPES
-    ]
+    common = obj.left_out.most_common(_MOST_STATEMENTS)
+    others = [f"statement {keyword[:20]!r} ({count:,})" for keyword, count in common if keyword not in _SHAPES]
     for left_out in (shapes, others):
         if left_out:
             warn(f"{obj.path}: {', '.join(left_out)} left out; only faces are drawn")
@@ -223,37 +195,22 @@ def read_obj(path: Path) -> list[MeshPart]:
     """Return the meshes of an OBJ file, all its groups and objects: one for each texture, opacity and emission.
 
     The colour of a corner is white where it has a texture (`map_Kd`, or else `map_Ka`), else that of its vertex
-    (`v x y z r g b`, or ZBrush's `#MRGB`), else the diffuse colour (`Kd`) of its material, else light grey. Its normal
+    (`v x y z r g b`), else the diffuse colour (`Kd`) of its material, else light grey. Its normal
     is that of the file (`vn`), else that of its smoothing group (`s`), if the file has any. InputWarnings tell what is
     left out, such as materials and textures that cannot be read.
     """
     obj = _read_lines(path)
-    drawn = _drawn_faces(obj)
-    triangles = cut(drawn.positions, drawn.faces[:, 0], drawn.corners[:, 0])
-    corners, faces = drawn.corners[triangles[:, :3]], drawn.faces[triangles[:, 3]]
+    positions, texcoords, given, corners, faces = _drawn_faces(obj)
+    triangles = cut(positions, faces[:, 0], corners[:, 0])
+    corners, faces = corners[triangles[:, :3]], faces[triangles[:, 3]]
     vertex, normal, group = corners[..., 0], corners[..., 2], faces[:, 3]
-    surfaces = _Surfaces(obj, drawn, corners, faces[:, 2])
+    surfaces = _Surfaces(obj, texcoords, len(positions), corners, faces[:, 2])
     normals = None
     if (normal != ABSENT).any():
-        normals = filled(drawn.positions, vertex, np.where((normal == ABSENT)[..., None], 0, drawn.normals[normal]))
+        normals = filled(positions, vertex, np.where((normal == ABSENT)[..., None], 0, given[normal]))
     elif group.any():
-        normals = corner_normals(drawn.positions, vertex, groups=group)
-    return split(drawn.positions, vertex, surfaces.colors, normals, surfaces.uvs, surfaces.look, list(surfaces.looks))
-
-
-def write_obj(mesh: Mesh, path: str | Path) -> None:
-    """Write positions, colours and, if there are any, normals."""
-    lines = ["# Shackled"]
-    fractions = mesh.colors / 255
-    for (x, y, z), (r, g, b) in zip(mesh.positions.tolist(), fractions.tolist(), strict=True):
-        lines.append(f"v {x:.9g} {y:.9g} {z:.9g} {r:.4g} {g:.4g} {b:.4g}")
-    corner = "{0}"
-    if mesh.normals is not None:
-        corner = "{0}//{0}"
-        lines += [f"vn {x:.6g} {y:.6g} {z:.6g}" for x, y, z in mesh.normals.tolist()]
-    for face in (mesh.faces + 1).tolist():
-        lines.append("f " + " ".join(corner.format(number) for number in face))
-    Path(path).write_text("\n".join(lines) + "\n", encoding="ascii")
+        normals = corner_normals(positions, vertex, groups=group)
+    return split(positions, vertex, surfaces.colors, normals, surfaces.uvs, surfaces.look, list(surfaces.looks))
 
 
 class _Surfaces:
@@ -262,12 +219,12 @@ class _Surfaces:
     looks: with their numbers. look: that of each triangle, (m,).
     """
 
-    def __init__(self, obj: _Lines, drawn: _Drawn, corners: Ints, material: Ints) -> None:
+    def __init__(self, obj: _Lines, texcoords: Floats, vertices: int, corners: Ints, material: Ints) -> None:
         """Take what the corners of triangles name, (m, 3, 3), and the numbers of the materials of triangles, (m,)."""
         self.obj = obj
         # the last row is that of ABSENT
-        self.texcoords = np.append(drawn.texcoords, [[np.nan, np.nan]], axis=0)[corners[..., 1]]
-        painted, colors = _vertex_colors(obj, len(drawn.positions))
+        self.texcoords = np.append(texcoords, [[np.nan, np.nan]], axis=0)[corners[..., 1]]
+        painted, colors = _vertex_colors(obj, vertices)
         self.has_own, self.colors = painted[corners[..., 0], None], colors[corners[..., 0]]
         self.uvs = np.zeros((len(corners), 3, 2))
         self.pictures: dict[Map, Picture | None] = {}
@@ -324,8 +281,6 @@ class _Surfaces:
 def _vertex_colors(obj: _Lines, count: int) -> tuple[NDArray[np.bool_], Floats]:
     """Return which of so many vertices have a colour, (n,), and the colours, (n, 3), 0..255; light grey for others."""
     painted, colors = np.zeros(count, dtype=bool), np.full((count, 3), DEFAULT_COLOR, dtype=np.float64)
-    levels = np.frombuffer(bytes(obj.polypaint), dtype=np.uint8).reshape(-1, 4)[:count]
-    painted[: len(levels)], colors[: len(levels)] = True, levels[:, 1:]
     if obj.vertex_colors:
         numbers = np.array(list(obj.vertex_colors))
         values = np.array(list(obj.vertex_colors.values()))
