@@ -23,7 +23,6 @@ MISTAKES = {
     "render shape.xyz": "shape.xyz",
     "render more/none": "the folder more/none has no mesh files in it, .obj .ply .stl .glb .gltf .off",
     "render - -": "-, standard input, is one file: give it once",
-    "render shape.obj --format obj": "--format is for -, standard input",
     "gas missing.obj": "missing.obj does not exist",
     # outputs
     "render shape.obj -o a.tiff": "must end in one of .png .bmp .svg .gif",
