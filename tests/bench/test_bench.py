@@ -14,7 +14,6 @@ import shackled
 from shackled import InputError, Scene
 from shackled.artifacts import artifact
 from shackled.bench import EXPERIMENTS, Runner, call_renderer, fits, original, original_gas, scenes
-from shackled.bench._culling import culling
 from shackled.bench._measure import cost
 from shackled.bench._original import CODE_SIZES
 from shackled.bench._report import ExperimentReport, wrapped
@@ -197,19 +196,6 @@ def test_without_matplotlib_there_are_no_plots(
     assert run(["bench", "deploy", "--quick", "-o", str(tmp_path)]) == 0
     assert "no plots: they need matplotlib (pip install 'shackled[bench]')" in capsys.readouterr().err
     assert {path.name for path in tmp_path.iterdir()} == {"deploy.csv", "deploy.md"}
-
-
-def test_the_legend_of_the_bars_is_above_them() -> None:
-    from matplotlib.figure import Figure
-
-    report = culling(Runner(quick=True, processes=1))
-    figure = Figure(figsize=report.shape, layout="constrained")
-    report.draw(figure)
-    figure.draw_without_rendering()
-    (axes,) = figure.axes
-    legend = axes.get_legend()
-    assert legend is not None
-    assert legend.get_window_extent().y0 >= axes.get_window_extent().y1 - 1
 
 
 def test_reports(tmp_path: Path) -> None:
