@@ -23,8 +23,7 @@ from tools.anvil import Anvil, find_anvil
 
 from shackled import Scene, load
 from shackled.artifacts import artifact
-from shackled.bench._engines import open_engines
-from shackled.chain import ContractChain, NodeChain
+from shackled.chain import CHAINS, ContractChain, NodeChain, open_chain, open_node
 from shackled.scene import LookOptions, encode
 
 PAGE = Path(__file__).resolve().parent / "evms.md"
@@ -59,8 +58,9 @@ def speeds() -> str:
     """Return a table of millions of gas a second."""
     scenes = {name: load(piece, SIZE, **look) for name, (piece, look) in SCENES.items()}
     with ExitStack() as stack:
-        anvil = find_anvil()
-        evms = open_engines(None if anvil is None else stack.enter_context(Anvil(anvil)).url)
+        evms: dict[str, Caller] = {name: open_chain(name) for name, module in CHAINS.items() if find_spec(module)}
+        if (anvil := find_anvil()) is not None:
+            evms["anvil"] = open_node(stack.enter_context(Anvil(anvil)).url)
         rows = {name: row(scene, evms) for name, scene in scenes.items()}
     lines = [f"| scene | gas, millions | {' | '.join(NAMES[name] for name in evms)} | revm by pyrevm |"]
     lines.append(f"|---|---:|{'---:|' * len(evms)}---:|")

@@ -8,13 +8,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import click
-from click.shell_completion import get_completion_class
 
 from ..errors import InputError, InputWarning, ShackledError
 from ..untrusted import plain
 from ..words import INSTEAD, SAME
 from .command import CommandGroup
-from .option import MEANT, option_names, with_options
+from .option import option_names, with_options
 from .output import noting
 
 datasets = CommandGroup(
@@ -66,7 +65,7 @@ GROUPS = (datasets, library, token)
 
 
 class Root(CommandGroup):
-    """The command itself, which lists its commands without loading them, and knows other words for them."""
+    """The command itself, which lists its commands without loading them."""
 
     strict = frozenset({"render", "export", "info", "gas", "stages", "store", "preview"})
 
@@ -74,26 +73,10 @@ class Root(CommandGroup):
         """Read the arguments; none is a request for help."""
         return super().parse_args(ctx, args or ["--help"])
 
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Find the command. UsageError, which names the right one, for another word."""
-        if args[0] in MEANT and not ctx.resilient_parsing:
-            ctx.fail(f"no such command {args[0]}: it is {MEANT[args[0]]}")
-        return super().resolve_command(ctx, args)
-
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the first lines of the help of all commands."""
         with formatter.section("Commands"):
             formatter.write_dl([*LINES.items(), *((each.name or "", each.help or "") for each in GROUPS)])
-
-
-def _completion(context: click.Context, _: click.Parameter, value: str | None) -> None:
-    if value is not None:
-        kind = get_completion_class(value)
-        assert kind is not None
-        print(kind(app, {}, "shackled", "_SHACKLED_COMPLETE").source())
-        context.exit()
 
 
 app = Root(
@@ -104,16 +87,6 @@ app = Root(
         **{str(each.name): each for each in GROUPS},
     },
     "Render 3D scenes with Ethereum smart contracts.",
-    params=[
-        click.Option(
-            ["--completion"],
-            type=click.Choice(["bash", "zsh", "fish"]),
-            is_eager=True,
-            expose_value=False,
-            callback=_completion,
-            help='Print what lets a shell complete commands and options, as in: eval "$(shackled --completion bash)".',
-        ),
-    ],
 )
 
 
@@ -164,7 +137,7 @@ def _meant(error: click.ClickException) -> str | None:
         return None
     given, known = error.option_name, {name for each in error.ctx.command.params for name in each.opts}
     keyword = given.lstrip("-").replace("-", "_")
-    right = MEANT.get(given) or option_names().get((SAME["look"] | SAME["render"]).get(keyword, ""))
+    right = option_names().get((SAME["look"] | SAME["render"]).get(keyword, ""))
     if right in known:
         return f"no such option {given}: it is {right}"
     return f"no such option {given}: {INSTEAD[keyword]}" if keyword in INSTEAD and "--fov" in known else None
