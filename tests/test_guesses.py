@@ -48,13 +48,22 @@ def sun(toward: Any) -> Any:
 SAME: list[tuple[Callable[[], Any], Callable[[], Any]]] = [
     # what is rendered
     (lambda: s.render(trimesh.Scene([BOX]), size=SIDE), lambda: s.render(shackled.Object(MESH), size=SIDE)),
+    (lambda: s.render((np.array(BOX.vertices), np.array(BOX.faces)), SIDE), lambda: s.render(MESH, SIDE)),
     (lambda: s.render(vertices=BOX.vertices, faces=BOX.faces), lambda: s.render(MESH)),
     (lambda: s.render(BOX.vertices, BOX.faces), lambda: s.render(MESH)),
+    (lambda: s.load([BOX, BALL], SIDE).triangles, lambda: len(BOX.faces) + len(BALL.faces)),
+    (lambda: s.load(["cube", "teapot"]).triangles, lambda: sum(s.load(each).triangles for each in ("cube", "teapot"))),
+    (
+        lambda: len(s.load([s.load("cube").objects[0], s.replace(THING, position=(3, 0, 0))]).objects),
+        lambda: 2,
+    ),
+    (lambda: next(s.datasets.pieces()).make().triangles > 0, lambda: True),
     # meshes and objects
     (lambda: s.Mesh(vertices=BOX.vertices, faces=BOX.faces), lambda: MESH),
     (lambda: s.Mesh(vertices=BOX.vertices, faces=BOX.faces).vertices.tolist(), lambda: MESH.positions.tolist()),
     (lambda: s.Mesh(positions=BOX.vertices, faces=BOX.faces, colors="red"), lambda: RED),
     (lambda: s.Mesh(BOX.vertices, BOX.faces, color="red"), lambda: RED),
+    (lambda: s.Mesh.from_trimesh(BOX).faces.tolist(), lambda: MESH.faces.tolist()),
     (
         lambda: s.Mesh([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)]).faces.tolist(),
         lambda: [[0, 1, 2], [0, 2, 3]],
@@ -64,6 +73,7 @@ SAME: list[tuple[Callable[[], Any], Callable[[], Any]]] = [
     (lambda: s.Object(MESH, translation=(1, 0, 0)), lambda: s.Object(MESH, (1, 0, 0))),
     (lambda: s.Object(MESH, color="red"), lambda: s.Object(RED)),
     (lambda: s.Object(MESH, transform=MATRIX), lambda: s.Object(MESH, scale=2)),
+    (lambda: s.replace(s.load("cube"), width=64).width, lambda: 64),
     # the camera
     (lambda: s.Camera(position=(3, 3, 3), target=(0, 0, 0), fov=45), lambda: CAMERA),
     (lambda: s.Camera(eye=(3, 3, 3), target=(0, 0, 0), fov=45), lambda: CAMERA),
@@ -71,15 +81,18 @@ SAME: list[tuple[Callable[[], Any], Callable[[], Any]]] = [
     (lambda: s.load("cube", SIDE, camera=CAMERA).camera, lambda: CAMERA),
     (lambda: s.load("cube", eye=(3, 3, 3), target=(0, 0, 0), fov=45).camera, lambda: CAMERA),
     (lambda: s.load("cube", camera=CAMERA, fov=30).camera, lambda: s.replace(CAMERA, half_height=np.tan(np.pi / 12))),
+    (lambda: cube(azimuth=90, elevation=20).width, lambda: SIDE),
     # size and background
     (lambda: s.render("cube", width=24, height=12), lambda: s.render("cube", (24, 12))),
     (lambda: s.render("cube", resolution=(24, 12)), lambda: s.render("cube", (24, 12))),
     (lambda: cube(bg="white"), lambda: cube(background="white")),
     (lambda: cube(background="transparent"), lambda: cube(transparent=True)),
     (lambda: cube(alpha=True), lambda: cube(transparent=True)),
+    (lambda: np.asarray(cube(transparent=True)).shape, lambda: (SIDE, SIDE, 4)),
     (lambda: cube(background=None), cube),
     (lambda: cube(background=(0.2, 0.4, 0.6)), lambda: cube(background="#336699")),
     (lambda: cube(aa=True), lambda: cube(antialias=True)),
+    (lambda: cube(antialias=4), lambda: cube(antialias=True)),
     # lights
     (lambda: s.Light(type="point", position=(2, 3, 4), color="orange"), lambda: point((2, 3, 4), color="orange")),
     (lambda: s.Light(type="directional", direction=(0, -1, 0)), lambda: sun((0, 1, 0))),
@@ -101,8 +114,13 @@ SAME: list[tuple[Callable[[], Any], Callable[[], Any]]] = [
     (lambda: len(s.Animation(turns(3))), lambda: 3),
     (lambda: list(s.Animation(turns())), turns),
     (lambda: s.Animation(turns())[1], lambda: turns()[1]),
+    # pictures
+    (lambda: cube().to_pil().size, lambda: (SIDE, SIDE)),
+    (lambda: np.asarray(cube()).shape, lambda: (SIDE, SIDE, 3)),
+    (lambda: cube().gas > 100_000, lambda: True),
     # packages
     (lambda: s.gas.measure("teapot").gas, lambda: s.render("teapot", 256).gas),
+    (lambda: s.tokens.__name__, lambda: "shackled.tokens"),
 ]
 
 
@@ -133,13 +151,16 @@ def test_a_node_is_asked(on: Any) -> None:
 
 #: Guesses, and words of the error that name what is right.
 NAMED: dict[str, tuple[Callable[[], Any], str]] = {
+    "Mesh.load": (lambda: s.Mesh.load("x.obj"), "shackled.load(path) returns a scene"),
     "Scene().add": (lambda: s.Scene().add(MESH), "objects"),
     "scene.add": (lambda: s.load("cube").add(MESH), "give all objects to Scene([...])"),
+    "gas()": (lambda: s.gas("cube"), "shackled.gas is a package: call one of its functions, "),
     "to_trimesh": (
         lambda: s.Mesh(BOX.vertices, BOX.faces).to_trimesh(),
         "trimesh.Trimesh(mesh.positions, mesh.faces, ",
     ),
     "Object of a name": (lambda: s.Object("cube"), "shackled.load('cube') has objects"),
+    "scenes that differ": (lambda: s.render([s.load("cube"), s.load("teapot")]), "[*one.objects, *other.objects]"),
     "depth": (lambda: cube().depth, "depths are not returned"),
     "intensity": (lambda: s.Light(position=(1, 2, 3), color="white", intensity=2), "`exposure` multiplies all light"),
     "intensity of a point": (lambda: point(intensity=2), "`exposure` multiplies all light"),
@@ -151,6 +172,7 @@ NAMED: dict[str, tuple[Callable[[], Any], str]] = {
     "background": (lambda: s.load("cube", background="transparent"), "give `transparent` for a picture without"),
     "scene.width =": (lambda: setattr(s.load("cube"), "width", 64), "shackled.replace(it, width=...)"),
     "list_models": (lambda: s.list_models(), "shackled.datasets.pieces()"),
+    "no file": (lambda: s.render("nothere.obj"), "nothere.obj does not exist"),
     "rotate=45": (lambda: cube(rotate=45), "`rotate` must be x, y, z in degrees"),
     "a stream": (lambda: s.load(io.BytesIO(b"v 0 0 0")), "a path, the name of a piece, a Mesh, (vertices, faces), "),
     "scale": (lambda: s.Object(MESH, scale=(1, 2, 1)), "the scale of an object must be a number"),

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from difflib import get_close_matches
 from functools import wraps
 from inspect import Parameter, signature
+from types import ModuleType
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from attrs.exceptions import FrozenInstanceError
@@ -82,6 +83,7 @@ INSTEAD = {
     "images": "`frames` has them",
     "intensity": "a light has a colour, of which darker ones are weaker; `exposure` multiplies all light",
     "list_models": "shackled.datasets.pieces() yields all pieces",
+    "load": "shackled.load(path) returns a scene, shackled.scene.read_mesh(path) a mesh, Texture.open(path) a texture",
     "material": _SURFACE,
     "projection": "did you mean orthographic?",
     "texture": f"{_SURFACE} that has a texture",
@@ -193,7 +195,29 @@ def _check(owner: str, given: Given, names: Sequence[str]) -> None:
             raise TypeError(f"{owner} has no keyword {name!r}; {instead_of(name, names)}")
 
 
-class Words:
+class Package(ModuleType):
+    """A package whose name is that of what it does: called as a function, it names its functions."""
+
+    def __call__(self, *_: object, **__: object) -> None:
+        """Raise a TypeError."""
+        raise TypeError(f"{self.__name__} is a package: call one of its functions, {', '.join(self.__all__)}")
+
+
+class Worded(type):
+    """A metaclass of values, which say what there is in place of an attribute that is not there."""
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(cls, name: str) -> Any:
+            raise _missing(cls, name)
+
+
+def _missing(kind: type, name: str) -> AttributeError:
+    hint = f"; {INSTEAD[name]}" if name in INSTEAD else ""
+    return AttributeError(f"{kind.__name__} has no attribute {name!r}{hint}", name=name)
+
+
+class Words(metaclass=Worded):
     """A base of values, which say what there is in place of an attribute that is not there."""
 
     __slots__ = ()
@@ -201,5 +225,4 @@ class Words:
     if not TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Any:
-            hint = f"; {INSTEAD[name]}" if name in INSTEAD else ""
-            raise AttributeError(f"{type(self).__name__} has no attribute {name!r}{hint}", name=name)
+            raise _missing(type(self), name)

@@ -152,7 +152,7 @@ OTHER = "the call is not the one that Shackled makes of its scene: from byte "
         ([changed(OBJECT + 7, 0)], "objects.0.: the rotation of an object must not be the zero quaternion"),
         ([changed(OBJECT + 10, 2**35)], "objects.0.: the ambient coefficient of a material must be"),
         ([changed(OBJECT + 13, 0)], "objects.0.: the shininess of a material must be a whole number from 1 to 128"),
-        ([changed(OBJECT + 16, 0)], "objects.0.: a packed mesh, 0 vertices"),
+        ([changed(OBJECT + 16, 0)], "objects.0.: a packed mesh of 0 vertices"),
         # of bytes, offsets, flags, the kind of a light with a cone, a large scale, normals that are not there
         ([CALL + bytes(32), CALL[:-1] + b"\1"], OTHER),
         ([changed(place, 64) for place in (0, HEAD + 18, HEAD + 19, HEAD + 20, OBJECT - 1, OBJECT)], OTHER),

@@ -200,7 +200,7 @@ def test_an_old_block_is_proven_by_the_headers_after_it(
             assert f"returned a wrong header of block {number}: its hash is" in capsys.readouterr().err
         assert not Path("calls.json").exists()
         assert run(["token", "reveal", "--rpc", node.url, "--calldata", "calls.json"]) == 0
-        assert "send them in order, each after the previous one is mined" in capsys.readouterr().out
+        assert "any account can send them, in this order" in capsys.readouterr().err
         # one transaction does not take all headers, and the older round begins where the younger one ended
         assert [call["name"].partition(" ")[0] for call in written()["calls"]] == ["prove"] * 3 + ["reveal"]
         assert len({call["name"] for call in written()["calls"]}) == 4

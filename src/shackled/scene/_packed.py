@@ -50,7 +50,9 @@ def unpack(packed: bytes) -> Mesh:
     stride = 3 * size + (7 if kind & NORMALS else 3)
     expected = HEADER + vertices * stride + faces * 6
     if len(packed) != expected:
-        raise InputError(f"a packed mesh, {vertices} vertices, {faces} faces, has {expected} bytes, not {len(packed)}")
+        raise InputError(
+            f"a packed mesh of {vertices} vertices and {faces} faces has {expected} bytes, not {len(packed)}"
+        )
     rows = np.frombuffer(packed, np.uint8, vertices * stride, HEADER).reshape(vertices, stride)
     octets = np.zeros((vertices, 3, 4), np.uint8)
     octets[:, :, :size] = rows[:, : 3 * size].reshape(vertices, 3, size)
@@ -171,7 +173,7 @@ def _unpack_image(packed: bytes, more: int, before: int = 0) -> tuple[Texture, i
     expected = begin + texels + more
     expected += -(expected + before) % 32
     if len(packed) != expected:
-        raise InputError(f"a packed texture, {width} x {height} x {bits} bits, has {expected} bytes, not {len(packed)}")
+        raise InputError(f"a packed texture of {width} x {height} texels has {expected} bytes, not {len(packed)}")
     data = np.frombuffer(packed, np.uint8)
     if palette:
         digits = np.unpackbits(data[begin : begin + texels])[: width * height * bits].reshape(-1, bits)

@@ -119,6 +119,11 @@ def _unless_none(made: Callable[[Any, str], Any]) -> Callable[[Any, Setting, str
     )
 
 
+def _flag(value: object, setting: Setting, name: str) -> bool:
+    # an antialiased picture has four samples per pixel
+    return (setting.name == "antialias" and integer(value) == 4) or flag(value, name)
+
+
 def size_of(value: int | tuple[int, int], name: str = "`size`") -> tuple[int, int]:
     """Return width and height, of one number or two. InputError for anything else."""
     side = integer(value)
@@ -140,7 +145,7 @@ _KINDS: dict[Kind, tuple[str, Callable[[Any, Setting, str], Any]]] = {
     "number": ("a number", lambda value, setting, name: number(value, name, *setting.limits)),
     "vector": ("x, y, z", lambda value, setting, name: vector(value, name)),
     "rotation": ("x, y, z", lambda value, setting, name: rotation_of(value, name)),
-    "flag": ("true or false", lambda value, setting, name: flag(value, name)),
+    "flag": ("true or false", _flag),
     "color": ("a colour", lambda value, setting, name: color(value, name)),
     "background": ("one colour or two", _background),
     "choice": ("a word", lambda value, setting, name: choice(value, name, setting.choices)),

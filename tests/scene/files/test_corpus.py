@@ -60,6 +60,7 @@ def off(header: str = "OFF", behind: str = "", of_face: str = "", more: str = ""
 
 
 BYTES = "".join(f"property uchar {name}\n" for name in ("red", "green", "blue", "alpha"))
+STRIP = ply().replace(b"element face", b"element tristrips").replace(b"4 0 1 2 3", b"5 0 1 3 2 -1")
 TEXTURE = "comment TextureFile blue.png\n"
 BEHIND = "what is behind its facets is left out: {}"
 SAYS = "its header says {}; there are 2, which are read"
@@ -85,6 +86,7 @@ FILES: dict[str, tuple[bytes, tuple[tuple[int, ...], ...], list[str]]] = {
     "plain.ply": (ply(), (GREY, GREY), []),
     "alpha.ply": (ply(BYTES, "255 0 0 128"), (PALE, PALE), []),
     "of-face.ply": (ply(face=BYTES, of_face="0 0 255 255"), (BLUE, BLUE), []),
+    "strip.ply": (STRIP, (GREY, GREY), []),
     "nan-normals.ply": (
         ply(floats("nx", "ny", "nz"), "nan nan nan"),
         (GREY, GREY),

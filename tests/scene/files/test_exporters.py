@@ -187,9 +187,8 @@ CASES = {
         notes=("1 colour of vertices left out, not finite numbers",),
     ),
     # other statements
-    "colours of ZBrush": grey(
-        CORNERS + "#MRGB ffff0000ffff0000\nf 1 2 3 4\n", "statement '#MRGB' (1) left out; only faces are drawn"
-    ),
+    "polypaint": Case(CORNERS + "#MRGB ffff0000ffff0000\n#MRGB 00ff0000ff0000ff\nf 1 2 3\nf 4 1 3\n"),
+    "comments like polypaint": grey(CORNERS + "#MRGB is what others write\nf 1 2 3 4\n"),
     "points, lines and the rest": grey(
         CORNERS + "p 1 2\nf 1 2 3\nl 1 2 3\nl 1 3\nf 1 3\ncurv 0 1 1 2\ncurv 0 1 2 3\nf 1 3 4\nvp 0.5\n",
         "2 points, 2 lines, 1 incomplete face, 2 curves left out; only faces are drawn",

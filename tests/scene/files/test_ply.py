@@ -210,7 +210,6 @@ def of_header(number: int, line: str) -> str:
             )
         ),
         (changed("float z", "float w"), f"{NEEDS} vertex, face"),
-        (changed("element face", "element tristrips"), f"{NEEDS} vertex, tristrips"),
         (changed("vertex_indices", "corners"), f"{NEEDS} vertex, face"),
         (PLAIN.replace("list uchar int", "int") + POINTS + "0\n", f"{NEEDS} vertex, face"),
         (PLAIN.replace("float x", "list uchar float x") + re.sub("(?m)^", "1 ", POINTS.strip()) + "\n" + TRIANGLE,
@@ -283,6 +282,25 @@ def test_other_elements_are_passed_over(tmp_path: Path, encoding: str) -> None:
         content = head + struct.pack("<iBhiBhh", 7, 1, 5, 8, 2, 5, 6) + BINARY_POINTS + struct.pack("<Biii", 3, 0, 1, 2)
     mesh, notes = read_with_notes(tmp_path, content)
     assert (mesh.triangles, notes) == (1, [LEFT + "edge (2), empty (3)"])
+
+
+def strips(numbers: str, count: int = 1) -> str:
+    return header("ascii", "", count).replace("element face", "element tristrips") + POINTS + numbers
+
+
+def test_strips_of_triangles(tmp_path: Path) -> None:
+    """Every other triangle of a strip is wound the other way; -1 ends a strip, as the end of the list does."""
+    square = [[list(SQUARE[k]) for k in face] for face in ((0, 1, 3), (3, 1, 2))]
+    mesh = read(tmp_path, strips("4 0 1 3 2\n"))
+    assert [sorted(face) for face in mesh.positions[mesh.faces].tolist()] == [sorted(face) for face in square]
+    a, b, c = np.moveaxis(mesh.positions[mesh.faces], 1, 0)
+    assert (np.cross(b - a, c - a)[:, 2] > 0).all()
+    for same in ("5 0 1 3 2 -1\n", "9 0 1 3 -1 3 1 2 -1 0\n", "6 0 1 3 3 1 2\n"):
+        other = read(tmp_path, strips(same))
+        assert sorted(map(sorted, other.faces.tolist())) == sorted(map(sorted, mesh.faces.tolist()))
+    assert read(tmp_path, strips("3 0 1 3\n3 3 1 2\n", 2)).triangles == 2
+    with pytest.raises(InputError, match=r"face 1 names the vertices \[3, 1, 7\]"):
+        read(tmp_path, strips("4 0 1 3 7\n"))
 
 
 # ---- textures ----

@@ -110,6 +110,8 @@ def test_colors_of_magics(tmp_path: Path, alpha: int, opacity: int) -> None:
     assert told == []
     mesh, told = read_with_notes(tmp_path, binary(2, (OWN, OWN), header + b",MATERIAL=" + bytes(12)))
     assert (corner_colors(mesh), told) == ([[[1, 2, 3]] * 3] * 2, [])
+    _, told = read_with_notes(tmp_path, binary(2, (OWN, OWN), header + b",MATERIAL=" + bytes([9] * 12)))
+    assert told == ["the material of its header is left out; of STL files only colours are read"]
 
 
 @pytest.mark.parametrize("alpha", [b" ", bytes([255])])

@@ -22,6 +22,8 @@ _OPTION = re.compile(
     r"|(bm|boost|texres|imfchan|type)\s+(\S+))(?!\S)",
     re.IGNORECASE,
 )
+#: An option that is in no specification, before the name.
+_OTHER_OPTION = re.compile(rf"-[A-Za-z_]+(?:\s+(?:on|off|{_NUMBER}))*\s+", re.IGNORECASE)
 #: The values without effect of options that are not drawn. Of the others, any: there are neither mipmaps nor bumps.
 _DEFAULTS = {"t": (0.0, 0.0, 0.0), "mm": (0.0, 1.0)}
 
@@ -153,4 +155,7 @@ def _map(
         elif option in _DEFAULTS and values != _DEFAULTS[option][: len(values)]:
             material.left_out.add(f"-{option}")
     name = _OPTION.sub(" ", text).strip()
+    while other := _OTHER_OPTION.match(name):
+        material.left_out.add(other[0].split()[0])
+        name = name[other.end() :]
     return Map(unquoted(name), folders, wrap) if name else None, scale, offset

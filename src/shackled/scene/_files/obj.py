@@ -10,8 +10,10 @@ import io
 import re
 from array import array
 from collections import Counter
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +36,7 @@ ABSENT = -1
 
 #: Lines whose backslash at the end belongs to a comment or a name.
 _OF_NAMES = re.compile(r"\s*(?:#|(?:usemtl|mtllib|g|o)\s.*\S\\\s*$)")
-#: What ZBrush's comments begin with that colour vertices.
+#: ZBrush's colours of vertices, in comments: mask, red, green and blue, two hexadecimal digits each.
 _POLYPAINT = "#MRGB"
 #: Statements with nothing to draw.
 _SILENT = frozenset(("g", "o", "mg", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj"))
@@ -55,11 +57,22 @@ class _Lines:
         self.path = path
         self.positions, self.texcoords, self.normals = array("d"), array("d"), array("d")
         self.vertex_colors = dict[int, list[float]]()
+        self.polypaint = bytearray()
         self.corners, self.faces = array("q"), array("q")
         self.material_numbers = {"": 0}
         self.materials = dict[str, ObjMaterial]()
         self.has_library = False
         self.left_out = Counter[str]()
+
+
+class _Drawn(NamedTuple):
+    """The faces of a file that can be drawn, (m, 4), and their corners, (n, 3), with ABSENT for what they have not."""
+
+    positions: Floats
+    texcoords: Floats
+    normals: Floats
+    corners: Ints
+    faces: Ints
 
 
 def _read_lines(path: Path) -> _Lines:
@@ -73,7 +86,9 @@ def _read_lines(path: Path) -> _Lines:
         words = line.partition("#")[0].split()
         if not words:
             if line.startswith(_POLYPAINT):
-                obj.left_out[_POLYPAINT] += 1
+                with suppress(ValueError):  # else a comment after all
+                    levels = bytes.fromhex(line[len(_POLYPAINT) :])
+                    obj.polypaint += levels[: len(levels) // 4 * 4]
             continue
         keyword = words[0]
         try:
@@ -130,9 +145,10 @@ def _number(word: str, count: int) -> int:
     return count + number if -count <= number < 0 else 1 << 40
 
 
-def _drawn_faces(obj: _Lines) -> tuple[Floats, Floats, Floats, Ints, Ints]:
-    """Return positions, texture coordinates and normals; the corners, (n, 3), with ABSENT for what they have not, and
-    (m, 4) of the faces with finite coordinates. InputError if one names a vertex that is not there.
+def _drawn_faces(obj: _Lines) -> _Drawn:
+    """Return the faces with finite coordinates. InputError if there are none, or one names a vertex that is not there.
+
+    InputWarnings tell of what is left out.
     """
     _tell_of_statements(obj)
     positions, texcoords, normals = (
@@ -167,7 +183,7 @@ def _drawn_faces(obj: _Lines) -> tuple[Floats, Floats, Floats, Ints, Ints]:
         corners, faces = corners[kept[owner]], faces[kept]
         if lost := int((~kept).sum()):
             warn(f"{obj.path}: {plural(lost, 'face')} left out, with coordinates that are not finite numbers")
-    return positions, texcoords, normals, corners, faces
+    return _Drawn(positions, texcoords, normals, corners, faces)
 
 
 def _tell_of_statements(obj: _Lines) -> None:
@@ -195,22 +211,22 @@ def read_obj(path: Path) -> list[MeshPart]:
     """Return the meshes of an OBJ file, all its groups and objects: one for each texture, opacity and emission.
 
     The colour of a corner is white where it has a texture (`map_Kd`, or else `map_Ka`), else that of its vertex
-    (`v x y z r g b`), else the diffuse colour (`Kd`) of its material, else light grey. Its normal
+    (`v x y z r g b`, or ZBrush's `#MRGB`), else the diffuse colour (`Kd`) of its material, else light grey. Its normal
     is that of the file (`vn`), else that of its smoothing group (`s`), if the file has any. InputWarnings tell what is
     left out, such as materials and textures that cannot be read.
     """
     obj = _read_lines(path)
-    positions, texcoords, given, corners, faces = _drawn_faces(obj)
-    triangles = cut(positions, faces[:, 0], corners[:, 0])
-    corners, faces = corners[triangles[:, :3]], faces[triangles[:, 3]]
+    drawn = _drawn_faces(obj)
+    triangles = cut(drawn.positions, drawn.faces[:, 0], drawn.corners[:, 0])
+    corners, faces = drawn.corners[triangles[:, :3]], drawn.faces[triangles[:, 3]]
     vertex, normal, group = corners[..., 0], corners[..., 2], faces[:, 3]
-    surfaces = _Surfaces(obj, texcoords, len(positions), corners, faces[:, 2])
+    surfaces = _Surfaces(obj, drawn, corners, faces[:, 2])
     normals = None
     if (normal != ABSENT).any():
-        normals = filled(positions, vertex, np.where((normal == ABSENT)[..., None], 0, given[normal]))
+        normals = filled(drawn.positions, vertex, np.where((normal == ABSENT)[..., None], 0, drawn.normals[normal]))
     elif group.any():
-        normals = corner_normals(positions, vertex, groups=group)
-    return split(positions, vertex, surfaces.colors, normals, surfaces.uvs, surfaces.look, list(surfaces.looks))
+        normals = corner_normals(drawn.positions, vertex, groups=group)
+    return split(drawn.positions, vertex, surfaces.colors, normals, surfaces.uvs, surfaces.look, list(surfaces.looks))
 
 
 class _Surfaces:
@@ -219,12 +235,12 @@ class _Surfaces:
     looks: with their numbers. look: that of each triangle, (m,).
     """
 
-    def __init__(self, obj: _Lines, texcoords: Floats, vertices: int, corners: Ints, material: Ints) -> None:
+    def __init__(self, obj: _Lines, drawn: _Drawn, corners: Ints, material: Ints) -> None:
         """Take what the corners of triangles name, (m, 3, 3), and the numbers of the materials of triangles, (m,)."""
         self.obj = obj
         # the last row is that of ABSENT
-        self.texcoords = np.append(texcoords, [[np.nan, np.nan]], axis=0)[corners[..., 1]]
-        painted, colors = _vertex_colors(obj, vertices)
+        self.texcoords = np.append(drawn.texcoords, [[np.nan, np.nan]], axis=0)[corners[..., 1]]
+        painted, colors = _vertex_colors(obj, len(drawn.positions))
         self.has_own, self.colors = painted[corners[..., 0], None], colors[corners[..., 0]]
         self.uvs = np.zeros((len(corners), 3, 2))
         self.pictures: dict[Map, Picture | None] = {}
@@ -281,6 +297,8 @@ class _Surfaces:
 def _vertex_colors(obj: _Lines, count: int) -> tuple[NDArray[np.bool_], Floats]:
     """Return which of so many vertices have a colour, (n,), and the colours, (n, 3), 0..255; light grey for others."""
     painted, colors = np.zeros(count, dtype=bool), np.full((count, 3), DEFAULT_COLOR, dtype=np.float64)
+    levels = np.frombuffer(bytes(obj.polypaint), dtype=np.uint8).reshape(-1, 4)[:count]
+    painted[: len(levels)], colors[: len(levels)] = True, levels[:, 1:]
     if obj.vertex_colors:
         numbers = np.array(list(obj.vertex_colors))
         values = np.array(list(obj.vertex_colors.values()))

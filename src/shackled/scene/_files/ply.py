@@ -40,6 +40,7 @@ _LARGEST = {"u1": 255, "i1": 255, "u2": 65535, "i2": 255, "u4": 255, "i4": 255}
 _COLORS = (
     ("red", "green", "blue", "alpha"),
     ("diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"),
+    ("r", "g", "b", "a"),
 )
 
 
@@ -99,6 +100,17 @@ class Element:
 
 def read_elements(data: bytes) -> tuple[dict[str, Element], list[str]]:
     """Return the elements of a PLY file by their names, and the textures that its comments name."""
+    elements, textures, source = _open(data)
+    for element in elements:
+        if element.count and element.properties:
+            element.values = _values(element, source)
+    if isinstance(source, _Text):
+        source.finish()
+    return {element.name: element for element in elements}, textures
+
+
+def _open(data: bytes) -> tuple[list[Element], list[str], _Text | _Binary]:
+    """Return what the header says: elements that have no values yet, and textures; and where the values are."""
     elements, textures, encoding = list[Element](), list[str](), ""
     if not data.startswith((b"ply", b"PLY")):
         raise InputError("a PLY file begins with the line ply")
@@ -133,14 +145,9 @@ def read_elements(data: bytes) -> tuple[dict[str, Element], list[str]]:
             ) from None
     if not encoding:
         raise InputError("its header has no line format")
-    is_text, order = encoding == "ascii", "<" if "little" in encoding else ">"
-    source = _Text(data[start:], number) if is_text else _Binary(data[start:], order)
-    for element in elements:
-        if element.count and element.properties:
-            element.values = _values(element, source)
-    if isinstance(source, _Text):
-        source.finish()
-    return {element.name: element for element in elements}, textures
+    if encoding == "ascii":
+        return elements, textures, _Text(data[start:], number)
+    return elements, textures, _Binary(data[start:], "<" if "little" in encoding else ">")
 
 
 #: Name, type, and count of numbers.
@@ -268,6 +275,8 @@ def _values(element: Element, source: _Text | _Binary) -> dict[str, Any]:
 
 #: The names of texture coordinates, which go to the right and up.
 _COORDINATES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"))
+#: What ends a strip of triangles.
+_END = -1
 #: The number of a texture that there is not.
 _NONE = -1
 
@@ -280,15 +289,15 @@ def read_ply(path: Path) -> list[MeshPart]:
     """
     elements, textures = read_elements(read_bytes(path))
     vertex = elements.get("vertex", Element("vertex", 0))
-    face = elements.get("face", Element("face", 0))
+    face = next((elements[name] for name in ("face", "tristrips") if name in elements and elements[name].count), None)
     positions = vertex.table("x", "y", "z")
-    if positions is not None and not face.count and "tristrips" not in elements:
+    if face is None and positions is not None:
         raise InputError(
             f"it has {plural(vertex.count, 'point')} and no faces, so there is no surface to draw; a program such as"
             " MeshLab makes one of points"
         )
-    polygons = face.lists("vertex_indices", "vertex_index")
-    if positions is None or polygons is None:
+    polygons = None if face is None else face.lists("vertex_indices", "vertex_index")
+    if face is None or positions is None or polygons is None:
         raise InputError(
             "a mesh needs an element vertex with x, y and z, and an element face with a list vertex_indices; this file"
             f" has the elements {', '.join(elements) or 'none'}"
@@ -297,9 +306,13 @@ def read_ply(path: Path) -> list[MeshPart]:
     if len(bad):
         raise InputError(f"the numbers of vertices must be whole, not {polygons[1][bad[0]]}")
     sizes, numbers = polygons[0], polygons[1].astype(np.int64)
+    is_strips = face.name == "tristrips"
+    if is_strips:
+        numbers = _strips(sizes, numbers)
+        sizes = np.full(len(numbers) // 3, 3)
     triangles = cut(positions, sizes, numbers)
     corners, polygon = numbers[triangles[:, :3]], triangles[:, 3]
-    colors = _colors(path, vertex, face, corners, polygon)
+    colors = _colors(path, vertex, Element("face", 0) if is_strips else face, corners, polygon)
     normals = given_normals(vertex.table("nx", "ny", "nz"), positions, corners, str(path))
     opened = [picture_beside(path, [path.parent], name) for name in textures]
     pictures = {number: each for number, each in enumerate(opened) if each is not None}
@@ -310,6 +323,19 @@ def read_ply(path: Path) -> list[MeshPart]:
     _tell_what_is_left(path, elements)
     # the last one is that of _NONE
     return split(positions, corners, colors, normals, uvs, picture, [*map(Look, opened), Look()])
+
+
+def _strips(sizes: Ints, numbers: Ints) -> Ints:
+    """Return the corners of the triangles of strips, three for each, without those of no area that join strips."""
+    numbers = np.insert(numbers, np.cumsum(sizes), _END)
+    place = np.arange(len(numbers))
+    start = np.maximum.accumulate(np.where(numbers == _END, place, -1)) + 1
+    triangles = np.stack([numbers[:-2], numbers[1:-1], numbers[2:]], axis=1)
+    odd = (place - start)[:-2] % 2 == 1
+    triangles[odd] = triangles[odd][:, [1, 0, 2]]
+    a, b, c = triangles.T
+    kept: Ints = triangles[(triangles != _END).all(axis=1) & (a != b) & (b != c) & (c != a)]
+    return kept.reshape(-1)
 
 
 def _colors(path: Path, vertex: Element, face: Element, corners: Ints, polygon: Ints) -> Array:

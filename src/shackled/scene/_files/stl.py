@@ -17,8 +17,9 @@ from .model import MeshPart
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER, _COUNT = 80, 4
 
-#: What stands before red, green, blue and alpha of the whole model in a header of Magics.
-_COLOR = b"COLOR="
+#: What stands before red, green, blue and alpha of the whole model in a header of Magics, and of its material.
+_COLOR, _MATERIAL = b"COLOR=", b"MATERIAL="
+_MATERIAL_SIZE = 12
 
 #: Bytes at random make coordinates that are mostly beyond this, or no numbers.
 _PLAUSIBLE = 1e15
@@ -83,6 +84,8 @@ def _colors(path: Path, header: bytes, attributes: NDArray[np.int64]) -> Array |
         default = np.frombuffer(behind, np.uint8, 4).astype(np.int64)
         if default[3] in (0, ord(" ")):  # of writers without transparency
             default[3] = 255
+        if behind.partition(_MATERIAL)[2][:_MATERIAL_SIZE].strip(b"\0"):
+            warn(f"{path}: the material of its header is left out; of STL files only colours are read")
     elif unknown := int(np.count_nonzero(attributes[~own])):
         warn(f"{path}: attributes of facets that are no colours are left out: {unknown}")
     if not is_magics and not own.any():
