@@ -209,7 +209,13 @@ def test_completion(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.Monk
 # ---- other words ----
 
 MEANT = {
-    "render shape.obj --width 64": f"option --width: {with_options(INSTEAD['width'])}",
+    "mint icons/die": "command mint: it is store, which mints no token; `shackled token mint` does",
+    "turntable shape.obj": "command turntable: it is render INPUT --turntable FRAMES",
+    "render shape.obj --chain revm": "option --chain: it is --evm",
+    "gas shape.obj --chain=revm": "option --chain: it is --evm",
+    "stages shape.obj --chain revm -o out": "option --chain: it is --evm",
+    "render shape.obj --width 64": "option --width: it is --size",
+    "render shape.obj --fps 24": "option --fps: it is --duration",
     "render shape.obj --alpha": "option --alpha: it is --transparent",
     "gas shape.obj --bg red": "option --bg: it is --background",
     "render shape.obj --intensity 2": f"option --intensity: {with_options(INSTEAD['intensity'])}",

@@ -13,7 +13,7 @@ from ..errors import InputError, InputWarning, ShackledError
 from ..untrusted import plain
 from ..words import INSTEAD, SAME
 from .command import CommandGroup
-from .option import option_names, with_options
+from .option import MEANT, option_names, with_options
 from .output import noting
 
 datasets = CommandGroup(
@@ -65,13 +65,21 @@ GROUPS = (datasets, library, token)
 
 
 class Root(CommandGroup):
-    """The command itself, which lists its commands without loading them."""
+    """The command itself, which lists its commands without loading them, and knows other words for them."""
 
     strict = frozenset({"render", "export", "info", "gas", "stages", "store", "preview"})
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Read the arguments; none is a request for help."""
         return super().parse_args(ctx, args or ["--help"])
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command. UsageError, which names the right one, for another word."""
+        if args[0] in MEANT and not ctx.resilient_parsing:
+            ctx.fail(f"no such command {args[0]}: it is {MEANT[args[0]]}")
+        return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the first lines of the help of all commands."""
@@ -137,7 +145,7 @@ def _meant(error: click.ClickException) -> str | None:
         return None
     given, known = error.option_name, {name for each in error.ctx.command.params for name in each.opts}
     keyword = given.lstrip("-").replace("-", "_")
-    right = option_names().get((SAME["look"] | SAME["render"]).get(keyword, ""))
+    right = MEANT.get(given) or option_names().get((SAME["look"] | SAME["render"]).get(keyword, ""))
     if right in known:
         return f"no such option {given}: it is {right}"
     return f"no such option {given}: {INSTEAD[keyword]}" if keyword in INSTEAD and "--fov" in known else None

@@ -29,6 +29,27 @@ OPTIONS = {
     "urls": "--rpc",
 }
 
+#: Other words for commands and options than `shackled.words` has for keywords, and what is meant.
+MEANT = {
+    "mint": "store, which mints no token; `shackled token mint` does",
+    "turntable": "render INPUT --turntable FRAMES",
+    "animate": "render INPUT --frames N",
+    "convert": "export",
+    "serve": "creator",
+    "gui": "creator",
+    "--chain": "--evm",
+    "--fps": "--duration",
+    "--height": "--size",
+    "--license": "--licence",
+    "--network": "--rpc",
+    "--out": "--output",
+    "--processes": "--jobs",
+    "--res": "--size",
+    "--threads": "--jobs",
+    "--width": "--size",
+    "--workers": "--jobs",
+}
+
 
 class Option(click.Option):
     """An option of a command. panel: the title under which it is listed."""
