@@ -179,7 +179,7 @@ def test_a_copy_of_the_published_file(ball: Model, server: Server, cache: Path, 
 def test_a_3mf_file(ball: Model, tmp_path: Path, obj: bytes) -> None:
     fetch(ball)
     expected = shackled.load("ball")
-    rows = [line.split() for line in obj.decode().splitlines()]
+    rows = [line.split() for line in obj.decode().splitlines() if line]
     vertices = "".join('<vertex x="{}" y="{}" z="{}"/>'.format(*row[1:]) for row in rows if row[0] == "v")
     faces = [[int(number) - 1 for number in row[1:]] for row in rows if row[0] == "f"]
     triangles = "".join('<triangle v1="{}" v2="{}" v3="{}"/>'.format(*face) for face in faces)
