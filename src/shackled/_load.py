@@ -48,9 +48,6 @@ from .words import with_words
 #: Input of `load`. `Any`: arrays of vertices and faces, or a mesh or scene of trimesh, an optional package.
 Thing = str | os.PathLike[str] | Piece | Mesh | Object | Scene | Sequence[Any] | Any
 
-#: Between pieces that stand in a row: a part of the width of the widest.
-GAP = 0.2
-
 #: `shackled.replace`: a scene, or a part of one, with other values of some fields.
 replace = evolve
 
@@ -62,9 +59,9 @@ def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
     thing: the path of a mesh or scene file, or of a PNG file that carries a scene; the name of a piece, such as
     "teapot" or "genesis/12" (a file wins over a piece of the same name); a link of the Creator; a Mesh; an Object;
     (vertices, faces) or (vertices, faces, colors), (n, 3) and (m, 3); a trimesh.Trimesh or trimesh.Scene; a Scene; or a
-    list of any of these, which is one scene of all their objects. Meshes, objects and models stay where they are;
-    several pieces stand in a row along x. Of a piece only the objects are taken, of a Scene also camera, lights and all
-    else, in which several must agree. A list of mesh files or of trimesh.Trimesh is one model, staged like one mesh.
+    list of any of these, which is one scene of all their objects, in their places. Of a piece only the objects are
+    taken, of a Scene also camera, lights and all else, in which several must agree. A list of mesh files or of
+    trimesh.Trimesh is one model, staged like one mesh.
     A mesh is staged: it fills the picture, antialiased, in smooth shading except across creases. A piece is antialiased
     as well. A scene keeps its look except for the given settings.
     size: side of a square picture, or (width, height), in pixels; None for the scene's, or 256 for a mesh or a piece.
@@ -208,7 +205,6 @@ def _staged(objects: list[Object], look: Mapping[str, Any]) -> Scene:
 def _combined(things: Sequence[Any], look: Mapping[str, Any]) -> list[Object] | Scene:
     """Return one model, or one scene, of all members of a list."""
     objects: list[Object] = []
-    pieces: list[slice] = []
     scenes: list[Scene] = []
     model: list[Object] = []
     models = 0
@@ -223,14 +219,11 @@ def _combined(things: Sequence[Any], look: Mapping[str, Any]) -> list[Object] | 
                 made = _in_their_places(made, str(found) if isinstance(found, Path) else "the mesh")
             elif isinstance(made, Scene) and isinstance(found, Scene | Path | Link):
                 scenes.append(made)
-            parts = [made] if isinstance(made, Object) else [Object(made)] if isinstance(made, Mesh) else made.objects
-            if isinstance(found, Piece):
-                pieces.append(slice(len(objects), len(objects) + len(parts)))
-            objects += parts
+            objects += (
+                [made] if isinstance(made, Object) else [Object(made)] if isinstance(made, Mesh) else made.objects
+            )
     if models == len(things):
         return model
-    if len(pieces) > 1:
-        _stand_in_a_row(objects, pieces)
     if not scenes:
         return _staged(objects, look)
     names = [each.name for each in fields(Scene) if each.name != "objects"]
@@ -243,18 +236,6 @@ def _combined(things: Sequence[Any], look: Mapping[str, Any]) -> list[Object] | 
             "*other.objects]"
         )
     return evolve(scenes[0], objects=objects)
-
-
-def _stand_in_a_row(objects: list[Object], pieces: Sequence[slice]) -> None:
-    """Move pieces, given by the places of their objects in the list, apart along x, about the origin."""
-    points = [np.concatenate([each.world_positions() for each in objects[piece]])[:, 0] for piece in pieces]
-    widths = [float(np.ptp(x)) for x in points]
-    gap = GAP * max(widths)
-    left = -(sum(widths) + gap * (len(widths) - 1)) / 2
-    for piece, x, width in zip(pieces, points, widths, strict=True):
-        step = (left - float(x.min()), 0, 0)
-        objects[piece] = [evolve(each, position=np.add(each.position, step)) for each in objects[piece]]
-        left += width + gap
 
 
 def load_frames(
