@@ -213,15 +213,16 @@ def _combined(things: Sequence[Any], look: Mapping[str, Any]) -> list[Object] | 
             found = _located(thing)
             if isinstance(found, list | tuple) and found and _is_input(found[0]):
                 raise InputError("a list must not hold lists: give one list of all members")
-            made = found if isinstance(found, Object) else _made(found, look)
+            if isinstance(found, Object):
+                objects.append(found)
+                continue
+            made = _made(found, look)
             if isinstance(made, list):
                 model, models = [*model, *made], models + 1
                 made = _in_their_places(made, str(found) if isinstance(found, Path) else "the mesh")
             elif isinstance(made, Scene) and isinstance(found, Scene | Path | Link):
                 scenes.append(made)
-            objects += (
-                [made] if isinstance(made, Object) else [Object(made)] if isinstance(made, Mesh) else made.objects
-            )
+            objects += [Object(made)] if isinstance(made, Mesh) else made.objects
     if models == len(things):
         return model
     if not scenes:
