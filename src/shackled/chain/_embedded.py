@@ -118,7 +118,7 @@ class RevmChain(EmbeddedChain):
             answer = evm.call(address, data, gas_limit)
         if answer.status != Status.SUCCESS:
             raise _failed(answer, gas_limit)
-        return CallResult(answer.output, answer.gas, intrinsic_gas(data))
+        return CallResult(answer.output, answer.gas)
 
     def profile(
         self, contract: str, data: bytes, places: Callable[[str], bytes]
@@ -136,7 +136,7 @@ class RevmChain(EmbeddedChain):
         answer, table = evm.profile(address, data, self.gas_limit)
         if answer.status != Status.SUCCESS:
             raise _failed(answer, self.gas_limit)
-        return CallResult(answer.output, answer.gas, intrinsic_gas(data)), list(self._addresses), table
+        return CallResult(answer.output, answer.gas), list(self._addresses), table
 
     @contextmanager
     def _instance(self) -> Iterator[Instance]:
@@ -181,7 +181,7 @@ class PyrevmChain(RevmChain):
             output = bytes(evm.message_call(to_hex(SENDER), to_hex(address), data, None, gas_limit + intrinsic))
         except RuntimeError as error:
             raise pyrevm_error(str(error), gas_limit) from None
-        return CallResult(output, evm.result.gas_used - intrinsic, intrinsic)
+        return CallResult(output, evm.result.gas_used - intrinsic)
 
 
 def pyrevm_error(message: str, gas_limit: int) -> ChainError:
@@ -220,7 +220,7 @@ class PyEvmChain(EmbeddedChain):
             if isinstance(computation.error, OutOfGas):
                 raise out_of_gas(gas_limit)
             raise RenderError(f"the call failed: {computation.error!r}")
-        return CallResult(bytes(computation.output), computation.get_gas_used(), intrinsic_gas(data))
+        return CallResult(bytes(computation.output), computation.get_gas_used())
 
     def execute(self, address: bytes, data: bytes, gas_limit: int) -> Any:
         """Call the code at an address, and return the computation of py-evm."""

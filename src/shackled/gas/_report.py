@@ -39,8 +39,7 @@ class GasReport:
     @property
     def fits(self) -> tuple[Fit, ...]:
         """Return how the picture fits into each known limit, the smallest first."""
-        data = render_call(self.scene)
-        return fits_of(self.exact.gas, self.exact.intrinsic_gas, data, lambda gas: gas >= self.search.gas)
+        return fits_of(self.exact.gas, render_call(self.scene), lambda gas: gas >= self.search.gas)
 
     def per(self, count: int) -> float | None:
         """Return the gas for each of so many; None for none."""

@@ -185,8 +185,8 @@ def _transactions(
 def _transaction(
     what: str, data: bytes, content: bytes, studio: bytes, chain: ContractChain | None
 ) -> StoreTransaction:
-    result = (chain or open_chain()).call(STUDIO, data)
-    return StoreTransaction(what, data, _created(content, studio), content, result.gas + result.intrinsic_gas)
+    gas = (chain or open_chain()).call(STUDIO, data).gas + intrinsic_gas(data)
+    return StoreTransaction(what, data, _created(content, studio), content, gas)
 
 
 def _part_list(parts: Sequence[bytes], studio: bytes) -> bytes:
