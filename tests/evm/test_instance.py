@@ -17,6 +17,7 @@ import pytest
 
 from shackled import ChainError, InputError
 from shackled.chain import RevmChain
+from shackled.ethereum import word
 from shackled.evm import Instance, Status
 
 ADDRESS = bytes(18) + b"\xc0\xde"
@@ -67,10 +68,6 @@ def test_contracts_that_are_removed() -> None:
     assert int.from_bytes(made.call(ADDRESS, b"", 100_000).output, "big") == 43
 
 
-def push(value: int) -> bytes:
-    return b"\x7f" + value.to_bytes(32, "big")
-
-
 @pytest.mark.parametrize("instruction", [0x51, 0x52, 0x53])
 @pytest.mark.parametrize(
     "place", [1 << 30, (1 << 31) - 32, 1 << 31, (1 << 32) - 33, (1 << 32) - 32, (1 << 32) - 1, 1 << 32, 1 << 60]
@@ -78,7 +75,7 @@ def push(value: int) -> bytes:
 def test_memory_is_bounded(place: int, instruction: int) -> None:
     """Whatever the gas, a call cannot take more; and the chain serves others afterwards."""
     chain = RevmChain(1 << 63)
-    chain.put(ADDRESS, b"\x60\x01" + push(place) + bytes([instruction, 0x59, 0x5F, 0x52, 0x60, 0x20, 0x5F, 0xF3]))
+    chain.put(ADDRESS, b"\x60\x01\x7f" + word(place) + bytes([instruction, 0x59, 0x5F, 0x52, 0x60, 0x20, 0x5F, 0xF3]))
     with pytest.raises(ChainError, match=r"needs more than 1,024 MB of memory|is not enough"):
         chain.run(ADDRESS, b"")
     chain.put(bytes(20), b"")
