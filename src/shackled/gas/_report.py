@@ -90,7 +90,7 @@ def make_report(
     """
     exact = measure(scene, chain)
     data = render_call(scene)
-    found = search(suffices(searched or chain, "Renderer", data), report=on_step)
+    found = search(suffices(searched or chain, "Renderer", data), on_step)
     triangles, lit_pixels = chain.count(scene)
     costs = profile(scene) if stages else None
     return GasReport(scene, exact, found, triangles, lit_pixels, costs, chain.name)
