@@ -112,7 +112,7 @@ class AnvilChain(ContractChain):
 
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
         """Make a read call, which reports no gas, and the same call as a transaction, which does."""
-        return CallResult(self.read(contract, data, gas_limit), self.transact(contract, data), intrinsic_gas(data))
+        return CallResult(self.read(contract, data, gas_limit), self.transact(contract, data))
 
     def transact(self, contract: str, data: bytes) -> int:
         """Return the execution gas of the same call as a transaction."""

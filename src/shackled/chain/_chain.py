@@ -13,23 +13,18 @@ from ..scene import Rectangle, Scene, encode
 
 
 @dataclass(frozen=True)
-class CallResult:
-    """The result of a contract call.
-
-    gas: of the execution alone. intrinsic_gas: cost of the transaction before it, 21,000 and 4 or 16 per byte.
-    """
-
-    output: bytes
-    gas: int
-    intrinsic_gas: int
-
-
-@dataclass(frozen=True)
 class NodeResult:
-    """The result of a contract call on a node. gas: of the execution alone; None if it could not be measured."""
+    """The result of a contract call. gas: of the execution alone; None if it could not be measured."""
 
     output: bytes
     gas: int | None
+
+
+@dataclass(frozen=True)
+class CallResult(NodeResult):
+    """The result of a contract call on a chain that counts gas."""
+
+    gas: int
 
 
 @dataclass(frozen=True)
@@ -59,7 +54,7 @@ class ContractCaller(ABC):
     """A chain that calls the contracts; subclasses implement the call."""
 
     @abstractmethod
-    def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult | NodeResult:
+    def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> NodeResult:
         """Call a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
 
         Raises RenderError if the contract reverts, OutOfGasError if the gas does not suffice.

@@ -220,12 +220,12 @@ def fits_of_made(made: Image | Animation, scene: Scene) -> tuple[Fit, ...] | Non
         gas = made.call_gas
     else:
         gas = total((frame.call_gas for frame in made.frames), max) if made.file is None else made.gas
-    if gas is None or made.intrinsic_gas is None:
+    if gas is None:
         return None
     data = render_call(scene)
     # gas is the same everywhere
     enough = suffices(open_chain(), "Renderer", data) if made.calls == 1 and isinstance(made, Image) else None
-    return fits_of(gas, -(-made.intrinsic_gas // made.calls), data, enough)
+    return fits_of(gas, data, enough)
 
 
 def _report(

@@ -12,7 +12,7 @@ import numpy as np
 from ..artifacts import artifact
 from ..chain import CallResult, Chain, ContractChain, Drawing, open_chain
 from ..errors import InputError, RenderError
-from ..ethereum import keccak256
+from ..ethereum import intrinsic_gas, keccak256
 from ..image import Image
 from ..scene import Background, Light, Material, Mesh, Object, Scene
 from ._pieces import Piece
@@ -97,8 +97,8 @@ def picture_on_chain(piece: GenesisPiece, chain: Chain | None = None) -> Image:
     place = open_chain() if chain is None else chain
 
     def draw(_: Scene) -> Drawing:
-        result = call("render", piece.seed, place)
-        return Drawing(_decoded("render", result.output), result.gas, result.intrinsic_gas)
+        result, data = call("render", piece.seed, place), artifact(CONTRACT).interface.encode("render", piece.seed)
+        return Drawing(_decoded("render", result.output), result.gas, intrinsic_gas(data))
 
     return render_whole(piece.scene(), draw, place.name)
 

@@ -176,8 +176,8 @@ def _transactions(what: str, content: bytes, data: bytes, studio: bytes) -> list
 
 
 def _transaction(what: str, data: bytes, content: bytes, studio: bytes) -> StoreTransaction:
-    result = open_chain().call(STUDIO, data)
-    return StoreTransaction(what, data, _created(content, studio), content, result.gas + result.intrinsic_gas)
+    gas = open_chain().call(STUDIO, data).gas + intrinsic_gas(data)
+    return StoreTransaction(what, data, _created(content, studio), content, gas)
 
 
 def _part_list(parts: Sequence[bytes], studio: bytes) -> bytes:
