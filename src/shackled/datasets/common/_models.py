@@ -25,7 +25,7 @@ MATERIAL = Material("smooth", 0.3, 0.8, 0.35, 24)
 
 @dataclass(frozen=True)
 class Model:
-    """An entry of models.toml, which documents the fields; None for those that it has not."""
+    """An entry of models.toml, which documents the fields."""
 
     name: str
     title: str
@@ -34,7 +34,6 @@ class Model:
     commercial: bool
     address: str
     checksum: str
-    size: int | None = None
     rotation: Sequence[float] = (0, 0, 0)
     color: str | None = None
     azimuth: float = 30
