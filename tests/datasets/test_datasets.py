@@ -46,17 +46,18 @@ def test_every_piece_is_found_by_its_name(everything: list[Piece]) -> None:
     assert sum(piece.dataset == "genesis" for piece in everything) == 1024
 
 
-LIST = "`shackled datasets list` shows all"
-NUMBERS = "after genesis/ comes a number from 0 to 1023, or the 64 hexadecimal digits of a seed"
+LIST = "; `shackled datasets list` shows all"
+NUMBERS = "; after genesis/ comes a number from 0 to 1023, or the 64 hexadecimal digits of a seed"
 
 
 @pytest.mark.parametrize(
     ("names", "hint"),
     [
-        ("teapt Teapot common/teapot", f"did you mean teapot? {LIST}"),
-        ("cornelbox", f"did you mean cornell-box? {LIST}"),
-        ("diamond icons/diamnd", f"did you mean icons/diamond? {LIST}"),
+        ("teapt Teapot common/teapot", f"; did you mean teapot?{LIST[1:]}"),
+        ("cornelbox", f"; did you mean cornell-box?{LIST[1:]}"),
+        ("diamond icons/diamnd", f"; did you mean icons/diamond?{LIST[1:]}"),
         ("ico icons/x icons/ ../x", LIST),
+        ("showcase/glass", ": it is a scene of examples/showcase.py"),
         ("genesis/1024 genesis/-1 genesis/x genesis/", NUMBERS),
     ],
 )
@@ -65,7 +66,7 @@ def test_unknown_names(names: str, hint: str) -> None:
         assert find(name) is None
         with pytest.raises(InputError) as caught:
             require(name)
-        assert str(caught.value) == f"there is no piece {name!r}; {hint}"
+        assert str(caught.value) == f"there is no piece {name!r}{hint}"
 
 
 def test_a_file_wins(folder: Path) -> None:

@@ -53,7 +53,7 @@ LINES = {
     "info": "Tell what a file holds, what of it is left out, and what its pictures cost.",
     "gas": "Measure the gas of a picture: exactly, by binary search, by stage and by line, and compare it with limits.",
     "bench": "Run the experiments of the Shackled paper: gas against canvas, triangles, culling and more.",
-    "genesis": "Generate Genesis pieces from seeds in the contract, or render the whole collection.",
+    "genesis": "Generate Genesis pieces from seeds in the contract.",
     "stages": "Draw the result of each stage of the pipeline: six pictures, and a strip of all.",
     "deploy": "Deploy the contracts, at the same addresses on every chain.",
     "store": "Store an object on a chain; any contract can then draw it.",
