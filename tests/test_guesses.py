@@ -53,10 +53,6 @@ SAME: list[tuple[Callable[[], Any], Callable[[], Any]]] = [
     (lambda: s.render(BOX.vertices, BOX.faces), lambda: s.render(MESH)),
     (lambda: s.load([BOX, BALL], SIDE).triangles, lambda: len(BOX.faces) + len(BALL.faces)),
     (lambda: s.load(["cube", "teapot"]).triangles, lambda: sum(s.load(each).triangles for each in ("cube", "teapot"))),
-    (
-        lambda: len(s.load([s.load("cube").objects[0], s.replace(THING, position=(3, 0, 0))]).objects),
-        lambda: 2,
-    ),
     # meshes and objects
     (lambda: s.Mesh(vertices=BOX.vertices, faces=BOX.faces), lambda: MESH),
     (lambda: s.Mesh(vertices=BOX.vertices, faces=BOX.faces).vertices.tolist(), lambda: MESH.positions.tolist()),
@@ -169,7 +165,6 @@ NAMED: dict[str, tuple[Callable[[], Any], str]] = {
     "rotate=45": (lambda: cube(rotate=45), "`rotate` must be x, y, z in degrees"),
     "a stream": (lambda: s.load(io.BytesIO(b"v 0 0 0")), "a path, the name of a piece, a Mesh, (vertices, faces), "),
     "scale": (lambda: s.Object(MESH, scale=(1, 2, 1)), "the scale of an object must be a number"),
-    "nothing": (lambda: s.render([], size=SIDE), "vertices and faces are needed"),
     "nan": (lambda: s.render((np.full((3, 3), np.nan), [(0, 1, 2)])), "not a finite number: [nan, nan, nan]"),
     "ground=True": (lambda: cube(ground=True), "`ground` must be red, green and blue"),
     "scene.save": (lambda: s.load("teapot").save("teapot.glb"), "must end in .json; the command `shackled export`"),
@@ -178,10 +173,6 @@ NAMED: dict[str, tuple[Callable[[], Any], str]] = {
     "both words": (lambda: s.Mesh(MESH.positions, MESH.faces, colors="red", color="red"), "are the same: give one"),
     "fov and half_height": (lambda: s.Camera(fov=40, half_height=1), "exclude each other: give one of them"),
     "toward and direction": (lambda: s.Light(kind="directional", toward=(0, 1, 0), direction=(0, 1, 0)), "give one of"),
-    "a light that is replaced": (
-        lambda: s.replace(sun((1, 1, 1)), toward=(0, 1, 0)),
-        "`toward` and `vector` of a light",
-    ),
     "fps and duration": (lambda: s.Animation(turns(), 100, fps=10), "exclude each other: give one of them"),
     "faces of all sizes": (lambda: s.Mesh(BOX.vertices, [(0, 1, 2), (0, 1)]), "the faces of a mesh must be rows of 3"),
     "fps": (lambda: s.Animation(turns(), fps=0), "`fps` must be the number of frames in a second, not 0"),

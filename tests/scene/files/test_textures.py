@@ -187,18 +187,10 @@ def test_an_image_inside_of_the_document(tmp_path: Path) -> None:
     assert (texture_of(load(glb(tmp_path / "a.glb", [uri]))).pixels == pixels).all()
 
 
-def chunk(kind: bytes, content: bytes) -> bytes:
-    return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
-
-
 #: A PNG file that says it is huge.
-HUGE = b"\x89PNG\r\n\x1a\n" + b"".join(
-    (
-        chunk(b"IHDR", struct.pack(">IIBBBBB", 60_000, 60_000, 8, 2, 0, 0, 0)),
-        chunk(b"IDAT", zlib.compress(bytes(1000))),
-        chunk(b"IEND", b""),
-    )
-)
+SMALL = png(np.zeros((1, 1, 3), np.uint8))
+HEADER = b"IHDR" + struct.pack(">II", 60_000, 60_000) + SMALL[24:29]
+HUGE = SMALL[:12] + HEADER + struct.pack(">I", zlib.crc32(HEADER)) + SMALL[33:]
 
 
 @pytest.mark.parametrize(
@@ -207,7 +199,6 @@ HUGE = b"\x89PNG\r\n\x1a\n" + b"".join(
         ("lost.png", ".uri: {folder}/lost.png does not exist"),
         ("data:image/png;base64,####", " is not an image that can be read"),
         ("data:,no image", " is not an image that can be read"),
-        ("../a.png", ".uri is '../a.png'; only files in the folder of the glTF file are read"),
         ("http://x/a.png", ".uri is 'http://x/a.png'; only files in the folder of the glTF file are read"),
         (HUGE, " is not an image that can be read"),
     ],
