@@ -83,3 +83,9 @@ def test_letters_in_any_order(tmp_path: Path, letters: tuple[str, ...]) -> None:
         assert mesh.normals[mesh.faces].tolist() == [NORMALS]
     note = "its texture coordinates are left out, for an OFF file names no texture"
     assert notes == ([note] if "ST" in letters else [])
+
+
+def test_normals_that_are_no_numbers_are_computed(tmp_path: Path) -> None:
+    text = "NOFF\n3 1 0\n0 0 0 0 1 0\n1 0 0 -1.#IND 0 0\n0 1 0 0 1 0\n3 0 1 2\n"
+    _, notes = mesh_files.read_with_notes(tmp_path / "model.off", text)
+    assert notes == ["normals that are not finite numbers are computed: 1"]
