@@ -46,7 +46,7 @@ def test_colors_of_vertices_need_no_letter(tmp_path: Path) -> None:
     ("text", "message"),
     [
         ("OBJ\n3 1 0\n", BEGINS),
-        ("OFF\n", "the counts of vertices and faces are missing"),
+        ("OFF\n", "line 1 should hold the counts of vertices and faces, not ''"),
         ("OFF\nfour 1\n", "line 2 should hold the counts of vertices and faces, not 'four 1'"),
         ("OFF\n4 -1 0\n" + SQUARE, "line 2 should hold the counts of vertices and faces, not '4 -1 0'"),
         ("OFF\n4 2 0\n" + SQUARE + "3 0 1 2\n", "line 2 promises 6 vertices and faces, but 5 lines follow"),

@@ -135,9 +135,7 @@ class Document:
 
 def _chunks(data: bytes) -> tuple[bytes, bytes | None]:
     """Return the JSON and the binary chunk of a GLB file."""
-    if len(data) < 12:
-        raise InputError("it ends within its header")
-    version, length = struct.unpack("<II", data[4:12])
+    version, length = struct.unpack("<II", data[4:12].ljust(8, b"\0"))
     if version != 2:
         raise InputError(f"it is of version {version} of GLB; version 2 is read")
     if length > len(data):
