@@ -64,6 +64,14 @@ def corner_positions(mesh: Mesh) -> list[list[list[float]]]:
     return positions
 
 
+def sheet(columns: int, rows: int) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """Return x and y of the corners of a grid of squares, 0..columns and 0..rows, and its faces."""
+    x, y = (each.ravel() for each in np.meshgrid(np.arange(columns + 1), np.arange(rows + 1)))
+    corner = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
+    faces = corner[:, None] + np.array([0, 1, columns + 2, 0, columns + 2, columns + 1])
+    return x, y, faces.reshape(-1, 3)
+
+
 class Gltf:
     """A glTF document whose data are in one buffer."""
 
