@@ -48,7 +48,7 @@ def test_one_json_object_says_it_all(shackled: Shackled) -> None:
     said = shackled("render shape.obj -o a.bmp --size 30x20 --json")
     report, image = said.json, pixels("a.bmp")
     keys = "input width height triangles lit_pixels gas intrinsic_gas seconds chain output sha256 scene_bytes fits"
-    assert " ".join(report) == keys
+    assert " ".join(report) == f"{keys} frames calls"
     assert report["scene_bytes"] is None
     assert (report["input"], report["output"]) == ("shape.obj", "a.bmp")
     assert (report["width"], report["height"]) == (30, 20)

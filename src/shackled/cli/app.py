@@ -97,13 +97,9 @@ click.version_option(
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run the command and return its exit code. Errors and warnings are printed on stderr, one line each."""
-    with noting("always"):
-        return _run(arguments)
-
-
-def _run(arguments: Sequence[str] | None) -> int:
     try:
-        code = app.main(arguments, "shackled", standalone_mode=False)
+        with noting("always"):
+            code = app.main(arguments, "shackled", standalone_mode=False)
         # at the end of the interpreter, a failure to write could not be reported
         sys.stdout.flush()
         return int(code or 0)
