@@ -191,14 +191,6 @@ def test_a_gif_of_256_colours_is_exact(shackled: Shackled) -> None:
         assert (pixels("grey.gif") == pixels("grey.png")).all() != told
 
 
-def test_a_mesh_may_have_more_vertices_than_a_contract_takes(shackled: Shackled) -> None:
-    rng = np.random.default_rng(3)
-    vertices = "\n".join(f"v {x:.4f} {y:.4f} {z:.4f}" for x, y, z in rng.normal(size=(70000, 3)))
-    faces = "\n".join(f"f {a} {b} {c}" for a, b, c in rng.permutation(70000)[:69999].reshape(-1, 3) + 1)
-    Path("large.obj").write_text(f"{vertices}\n{faces}\n", "utf-8")
-    assert shackled("render large.obj --size 8 --json --max-triangles all").json["lit_pixels"] > 0
-
-
 # ---- scenes in pictures ----
 
 
