@@ -27,10 +27,7 @@ EXPERIMENTS = {
     "culling": "the common objects, with and without backface culling",
     "deploy": "gas and bytes of every contract",
     "linear": "how well straight lines fit gas against triangles and pixels",
-    "output": "size and gas of BMP, data URI and SVG",
 }
-#: The modules of experiments that do not have their names.
-MODULES = {"output": "canvas", "triangles": "linear"}
 
 
 def check_names(names: Iterable[str]) -> None:
@@ -56,8 +53,8 @@ class Runner:
 
     def run(self, name: str) -> ExperimentReport:
         """Run one of EXPERIMENTS."""
-        module = import_module(f"._{MODULES.get(name, name)}", __package__)
-        report: ExperimentReport = getattr(module, name)(self)
+        module = "linear" if name == "triangles" else name
+        report: ExperimentReport = getattr(import_module(f"._{module}", __package__), name)(self)
         return report
 
     def map(self, label: str, function: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
