@@ -64,8 +64,7 @@ class Runner:
         """
         items = list(items)
         results: dict[int, Result] = {}
-        alone = ((place, function(item)) for place, item in enumerate(items))
-        for place, result in alone if self.processes == 1 else each(function, items, self.processes):
+        for place, result in each(function, items, self.processes):
             results[place] = result
             if self._show is not None:
                 self._show(label, len(results), len(items))
