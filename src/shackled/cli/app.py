@@ -69,10 +69,6 @@ class Root(CommandGroup):
 
     strict = frozenset({"render", "export", "info", "gas", "stages", "store", "preview"})
 
-    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Read the arguments; none is a request for help."""
-        return super().parse_args(ctx, args or ["--help"])
-
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the first lines of the help of all commands."""
         with formatter.section("Commands"):
@@ -114,10 +110,6 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return _fail(error, 1)
     except (KeyboardInterrupt, click.Abort):
         return _fail("stopped", 1)
-    except click.exceptions.NoArgsIsHelpError as error:
-        # of a group
-        error.show()
-        return error.exit_code
     except click.ClickException as error:
         return _fail(_meant(error) or error.format_message(), error.exit_code)
     except OSError as error:
