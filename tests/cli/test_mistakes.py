@@ -104,7 +104,7 @@ MISTAKES = {
     "genesis 3 --count 4": "--count needs --sheet",
     "genesis 3 --sheet a.png": "--sheet and SEED exclude each other: give one of them",
     "genesis --sheet a.gif": "the sheet a.gif must end in .png",
-    "bench canvass -o x": "there is no experiment 'canvass'; the experiments are canvas, triangles,",
+    "bench canvass -o x": "an experiment must be one of canvas, triangles, genesis, culling, deploy, linear, not 'canvass'",
     "bench canvas": "the experiments need an output folder: -o DIR",
     "bench canvas -o file": "file is a file, not a folder to write to",
     "info gone.ply": "gone.ply does not exist",
