@@ -39,9 +39,13 @@ def each(
 ) -> Iterator[tuple[int, Result]]:
     """Call a function for each item in several processes; yield (index of the item, result) as they are done.
 
-    lost: returns the result of an item whose process ended; None raises the error.
+    processes: 1 calls it in this process. lost: returns the result of an item whose process ended; None raises the
+    error.
     """
     items = list(items)
+    if processes <= 1:
+        yield from ((place, function(item)) for place, item in enumerate(items))
+        return
     workers = [_Worker() for _ in range(min(processes, len(items)))]
     idle: queue.SimpleQueue[_Worker] = queue.SimpleQueue()
     for worker in workers:

@@ -164,17 +164,6 @@ def test_linear(made: Path) -> None:
     assert "0.988797" in (made / "linear.md").read_text("utf-8")
 
 
-def test_output(made: Path) -> None:
-    rows = rows_of(made, "output")
-    assert [row["format"] for row in rows] == ["BMP", "data URI", "SVG"] * 2
-    for side, bmp, uri, svg in zip((8, 16), rows[::3], rows[1::3], rows[2::3], strict=True):
-        assert int(bmp["bytes"]) == 54 + 3 * side * side
-        assert int(uri["bytes"]) == len("data:image/bmp;base64,") + 4 * (int(bmp["bytes"]) // 3)
-        assert int(svg["bytes"]) > int(uri["bytes"])
-        assert int(bmp["gas_beyond_bmp"]) == 0
-        assert int(svg["gas_beyond_bmp"]) > int(uri["gas_beyond_bmp"]) > 0
-
-
 # ---- parts, and mistakes ----
 
 

@@ -112,7 +112,7 @@ MISTAKES = {
     "datasets gallery -o missing/g.png": "the folder missing of the gallery g.png does not exist",
     "datasets fetch bal": "there is no model 'bal' to fetch; there are bunny, dragon,",
     "datasets fetch bunny cow --from x.obj": "--from needs exactly one NAME",
-    "bench canvass -o x": "there is no experiment 'canvass'; the experiments are canvas, triangles,",
+    "bench canvass -o x": "an experiment must be one of canvas, triangles, genesis, culling, deploy, linear, not",
     "bench canvas": "the experiments need an output folder: -o DIR",
     "bench canvas -o file": "file is a file, not a folder to write to",
     "info gone.ply": "gone.ply does not exist",
