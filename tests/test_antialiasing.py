@@ -39,7 +39,7 @@ def test_every_sample_obeys_the_fill_rule(kind: str) -> None:
     covering = 0
     for _ in range(120):
         width, height = (int(side) for side in rng.integers(1, 33, 2))
-        corners = random_triangle(rng, kind, width, height)
+        corners = random_triangle(rng, KINDS[kind], width, height)
         expected = expected_levels(corners, width, height)
         covering += bool(expected.any())
         assert (drawn(corners, width, height) == expected).all(), f"{corners.tolist()} on {width} x {height}"
