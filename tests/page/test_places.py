@@ -12,7 +12,7 @@ import pytest
 from tools.page_server import ONE, PAGE, Static
 
 from creator_page import OBJ, PHONE, Visit, drawn, link, scene
-from firefox import Tab, firefox, firefox_path
+from firefox import Tab, firefox
 
 TOWN = scene("cube", {"mesh": {"piece": "cone", "object": 0}, "position": [3, 0, 0]}, size=64)
 #: What a first picture may weigh, and all of the page; of a page that waits for what it does not need.
@@ -68,9 +68,6 @@ def test_from_disk(visit: Visit, tmp_path: Path) -> None:
 
 @pytest.fixture(scope="module")
 def tab() -> Iterator[Tab]:
-    pytest.importorskip("websockets", reason="Firefox is driven by a WebSocket")
-    if firefox_path() is None or not PAGE.exists():
-        pytest.skip("needs firefox: apt-get install firefox-esr, and make page")
     with firefox("#view") as found:
         yield found
 
