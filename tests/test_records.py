@@ -14,7 +14,7 @@ from tools.ledger import call_data as studio_call
 
 from judge.calldata import ALL_FACES, TURNED_AWAY, Surface, read
 from node_scripts import calls_made
-from pictures import call_data, chain, counts, draw, dynamic
+from pictures import call_data, chain, draw, dynamic
 from random_scenes import KINDS, random_case
 from shackled import Camera, InputError, Light, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
@@ -183,14 +183,6 @@ def test_objects_far_down_the_scene_cannot_have_records() -> None:
     scene = Scene([WIRE] * 65536 + [evolve(WIRE, opacity=0.5)])
     with pytest.raises(InputError, match="among the first 65,536 of a scene, not number 65,536"):
         extensions(scene)
-
-
-def test_what_has_an_opacity_of_0_is_not_there() -> None:
-    scene = random_case(1, "plain").scene
-    (first, *_) = scene.objects
-    other = evolve(scene, objects=[*scene.objects, evolve(first, position=scene.camera.target, opacity=0)])
-    assert np.array_equal(draw(other), draw(scene))
-    assert counts(other)[1] == counts(scene)[1]
 
 
 # ---- engines ----
