@@ -94,7 +94,6 @@ def test_firefox(tab: Tab, server: Static, tmp_path: Path, disk: bool) -> None:
     tab.wait(settled)
     tab.run(f"shackledApp.open([new File([{json.dumps(OBJ)}], 'mine.obj')]).then(() => null)")
     tab.wait("shackledApp.doc.value.title === 'mine'")
-    tab.run("(document.querySelector('[data-name=look-gold]').click(), null)")
     tab.wait(settled)
     assert tab.run("shackledApp.toasts.value.filter(each => each.kind === 'error').map(each => each.text)") == []
     tab.run("(shackledApp.dialog.value = 'download', null)")

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 import pytest
 from benchmarks.view import page as html
-from tools.anvil import AnvilChain, find_anvil
+from tools.anvil import AnvilChain
 from tools.page_server import static
 
 from creator_page import PATIENCE, Tab
-from nodes import Reply, anvil, needs_anvil, result, serving
+from nodes import ANVIL, Reply, anvil, needs_anvil, result, serving
 from shackled import Scene, load, render
 from shackled.ethereum import to_hex
 from shackled.gas import profile
@@ -257,6 +257,11 @@ def test_what_is_shown_and_what_is_told(show: Opener) -> None:
     assert view.after(view.dropped(render_call(scene())))["sha256"] == image.sha256
 
 
+def allowed(value: Any) -> Reply:
+    """A node's answer, which pages may read."""
+    return Reply(result(value).body, headers=CORS)
+
+
 def checked(view: View, url: str) -> Any:
     return view.run("view.check(argument)", url)
 
@@ -276,9 +281,7 @@ def test_check_by_a_node(show: Opener) -> None:
         view.after(view.press("ArrowLeft"))
         assert outcome.inner_text() == ""
         assert checked(view, node.url)["outcome"] == "equal"
-    binary = find_anvil()
-    assert binary
-    with AnvilChain(binary) as chain:
+    with AnvilChain(str(ANVIL)) as chain:
         chain.address("Renderer")
         found = checked(view, chain.node.url)
     assert found["outcome"] == "equal"
@@ -292,19 +295,17 @@ def test_nodes_that_answer_otherwise(show: Opener) -> None:
     answer = (32).to_bytes(32, "big") + len(bmp).to_bytes(32, "big") + bytes(bmp)
 
     def node(request: dict[str, Any]) -> Reply:
-        content = "0x" if request["method"] == "eth_getCode" else to_hex(answer)
-        return Reply(result(content).body, headers=CORS)
+        return allowed("0x" if request["method"] == "eth_getCode" else to_hex(answer))
 
     with serving(node) as url:
-        assert checked(view, url) == {
-            "outcome": "different",
-            "message": "Different: the contract's code, sent along, computed other bytes there.",
-        }
+        found = checked(view, url)
+    said = "Different: the contract's code, sent along, computed other bytes there."
+    assert found == {"outcome": "different", "message": said}
     replies = {
         "HTTP status 403": Reply(b"forbidden", 403, CORS),
         "CORS": result("0x"),
         "it says: no such thing": Reply(b'{"error": {"code": 1, "message": "no such\\nthing"}}', headers=CORS),
-        "its answer to eth_getCode is none": Reply(b'{"result": 7}', headers=CORS),
+        "its answer to eth_getCode is none": allowed(7),
     }
     for words, reply in replies.items():
         with serving(lambda _, reply=reply: reply) as url:  # type: ignore[misc]
@@ -322,7 +323,7 @@ def test_stored_scenes(show: Opener) -> None:
 
     def node(request: dict[str, Any]) -> Reply:
         assert request["method"] == "eth_getCode"
-        return Reply(result(to_hex(codes.get(request["params"][0], b""))).body, headers=CORS)
+        return allowed(to_hex(codes.get(request["params"][0], b"")))
 
     with serving(node) as url:
         view = show(attributes=f'studio="{to_hex(STUDIO)}" pointer="{pointer}"')
