@@ -94,10 +94,7 @@ def table(rows: dict[str, Verdict], rules: Iterable[str] = RARE) -> str:
 
 
 def report(results: Iterable[tuple[str, Verdict]], rules: Iterable[str] = RARE) -> tuple[Verdict, bool]:
-    """Print the faults of results, each when it is known, and the table of their rows.
-
-    Return their sum, and whether all is right. Wild scenes have no bounds for a run.
-    """
+    """Print faults, each when it is known, and the table of rows; return the sum, and whether all is right."""
     rows: dict[str, Verdict] = {}
     for row, verdict in results:
         rows[row] = rows.get(row, Verdict()) + verdict
@@ -105,6 +102,7 @@ def report(results: Iterable[tuple[str, Verdict]], rules: Iterable[str] = RARE) 
             print(fault, flush=True)
     whole = sum(rows.values(), Verdict())
     print(table(rows | {"all": whole}, rules))
+    # nothing is promised for numbers of wild scenes
     of_run = [] if "wild" in rows or whole.interior < LEAST_RUN else whole.faults_of_run()
     for fault in of_run:
         print(fault)

@@ -83,10 +83,7 @@ class Tab:
 
 @contextmanager
 def firefox(place: str) -> Iterator[Tab]:
-    """Run Firefox with a new profile, into which it writes the port at which it listens. place: as of a tab.
-
-    The test is skipped where there is none.
-    """
+    """Firefox with a new profile, into which it writes the port at which it listens; place: as of a tab."""
     path = shutil.which("firefox-esr") or shutil.which("firefox")
     if path is None:
         pytest.skip("needs Firefox: apt-get install firefox-esr")
