@@ -52,16 +52,14 @@ def refusal(path: Path, content: str | bytes | None = None, read: Any = read_mod
     return told.removeprefix(str(path)).removeprefix(": ")
 
 
-def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
+def corner_colors(mesh: Mesh) -> Any:
     """Return the colours of the corners of all faces."""
-    colors: list[list[list[int]]] = mesh.colors[mesh.faces].tolist()
-    return colors
+    return mesh.colors[mesh.faces].tolist()
 
 
-def corner_positions(mesh: Mesh) -> list[list[list[float]]]:
+def corner_positions(mesh: Mesh) -> Any:
     """Return the positions of the corners of all faces."""
-    positions: list[list[list[float]]] = mesh.positions[mesh.faces].tolist()
-    return positions
+    return mesh.positions[mesh.faces].tolist()
 
 
 def sheet(columns: int, rows: int) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
@@ -139,10 +137,9 @@ class GltfObject(Gltf):
         self.document["meshes"] = [{"primitives": [self.primitive]}]
 
     @property
-    def node(self) -> dict[str, Any]:
+    def node(self) -> Any:
         """The node of the mesh."""
-        node: dict[str, Any] = self.document["nodes"][0]
-        return node
+        return self.document["nodes"][0]
 
     def rows(self, values: Any, kind: str = "f4", **more: Any) -> int:
         """Add rows of numbers, or single ones, and return the number of their accessor."""

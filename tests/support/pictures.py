@@ -40,9 +40,7 @@ def words(*values: int) -> bytes:
 
 
 def call_data(function: str, scene: Scene, tile: Rectangle | None = None) -> bytes:
-    """A call of the Renderer with the numbers of the scene as they are: its meshes must have whole coordinates, and its
-    camera a near distance.
-    """
+    """A call of the Renderer with a scene as it is: with whole coordinates of meshes, and a near distance."""
     head = words(0x20) if tile is None else words(0xA0, tile.x, tile.y, tile.width, tile.height)
     return artifact("Renderer").selectors[function] + head + encode_scene(scene)
 
