@@ -6,7 +6,6 @@ import re
 import struct
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import eth_abi
@@ -16,13 +15,13 @@ from attrs import evolve
 
 from judge import judge_pixels, render
 from judge.calldata import scene_type
-from pictures import chain, dynamic, words
+from pictures import call_data, chain, dynamic, words
 from random_scenes import KINDS, broken_call, random_case
 from shackled import Background, Camera, ChainError, Light, Material, Mesh, Object, RenderError, Scene
 from shackled.artifacts import artifact
 from shackled.errors import OutOfGasError
 from shackled.image import decode_bmp
-from shackled.scene import encode_scene, render_call
+from shackled.scene import Rectangle, render_call
 
 ONE = 1 << 32
 TRIANGLE = [[-50, -50, 0], [50, -50, 0], [0, 50, 0]]
@@ -44,8 +43,7 @@ def small_scene(width: int = 32, height: int = 32) -> Scene:
     return Scene(things, Camera(near=1), lights, Background((9, 8, 7), (60, 70, 80)), width=width, height=height)
 
 
-def call_data(function: str = "render", scene: Scene | None = None) -> bytes:
-    return artifact("Renderer").selectors[function] + words(0x20) + encode_scene(scene or small_scene())
+CALL = call_data("render", small_scene())
 
 
 def refusal(data: bytes) -> str:
@@ -54,40 +52,11 @@ def refusal(data: bytes) -> str:
     return str(caught.value).removeprefix("the contract refused: ")
 
 
-def tile_call(x: int, y: int, width: int, height: int) -> bytes:
-    return artifact("Renderer").selectors["renderTile"] + words(0xA0, x, y, width, height) + encode_scene(small_scene())
-
-
 # ---- scenes of values out of range, through an outside encoder ----
 
 
-@dataclass
-class Values:
-    """A scene as nested lists in the order of the ABI, to be changed at will."""
-
-    scene: list[Any]
-
-    def data(self) -> bytes:
-        scene = eth_abi.encode([scene_type()], [self.scene])  # type: ignore[attr-defined]
-        return artifact("Renderer").selectors["render"] + scene
-
-    @property
-    def camera(self) -> list[Any]:
-        return list_at(self.scene, 1)
-
-    @property
-    def objects(self) -> list[Any]:
-        return list_at(self.scene, 6)
-
-    @property
-    def lights(self) -> list[Any]:
-        return list_at(self.scene, 5)
-
-
-def list_at(values: list[Any], index: int) -> list[Any]:
-    found = values[index]
-    assert isinstance(found, list)
-    return found
+#: A scene as nested lists in the order of the ABI, to be changed at will.
+Values = list[Any]
 
 
 def lists(value: Any) -> Any:
@@ -95,15 +64,18 @@ def lists(value: Any) -> Any:
 
 
 def values() -> Values:
-    (scene,) = eth_abi.decode([scene_type()], call_data()[4:])  # type: ignore[attr-defined]
-    return Values(lists(scene))
+    (scene,) = eth_abi.decode([scene_type()], CALL[4:])  # type: ignore[attr-defined]
+    return list(lists(scene))
+
+
+def encoded(scene: Values) -> bytes:
+    return CALL[:4] + eth_abi.encode([scene_type()], [scene])  # type: ignore[attr-defined]
 
 
 def put(*path: int, value: Any) -> Callable[[Values], None]:
     """Sets one value of a scene."""
 
-    def change(v: Values) -> None:
-        where = v.scene
+    def change(where: Values) -> None:
         for index in path[:-1]:
             where = where[index]
         where[path[-1]] = value
@@ -337,25 +309,15 @@ WRONG: list[tuple[Callable[[Values], None], str]] = [
 def test_values_out_of_range(change: Callable[[Values], None], error: str) -> None:
     wrong = values()
     change(wrong)
-    assert refusal(wrong.data()) == error
+    assert refusal(encoded(wrong)) == error
 
 
 def test_every_error_of_a_scene_is_provoked() -> None:
     """All that the contract declares for scenes; the others have tests of their own below."""
     declared = {name for name, _ in artifact("Renderer").errors.values()}
     provoked = {error.partition("(")[0] for _, error in WRONG}
-    assert (
-        declared - provoked
-        == {
-            "AngleOutOfRange",
-            "MalformedScene",
-            "NoEngine",
-            "OutOfGas",
-            "RectangleOutsideCanvas",
-            "RegistersOverlap",
-        }
-        & declared
-    )
+    others = {"AngleOutOfRange", "MalformedScene", "NoEngine", "OutOfGas", "RectangleOutsideCanvas", "RegistersOverlap"}
+    assert declared - provoked == others & declared
 
 
 #: Errors of records that models refuse, too: of cuts and order, and of the kinds 0 to 3.
@@ -367,8 +329,8 @@ def test_models_with_wrong_records(index: int) -> None:
     """Each reader of records comes to an end: without one, all gas is used up."""
     data, error = RECORDS[index]
     wrong = values()
-    wrong.scene[EXTENSIONS] = data
-    call = artifact("GlbEncoder").selectors["encode"] + wrong.data()[4:]
+    wrong[EXTENSIONS] = data
+    call = artifact("GlbEncoder").selectors["encode"] + encoded(wrong)[4:]
     if OF_MODELS.match(error):
         with pytest.raises(RenderError, match=re.escape(error)):
             chain().call("GlbEncoder", call, 400_000)
@@ -408,8 +370,9 @@ ALLOWED: list[Callable[[Values], None]] = [
 def test_values_at_the_ends_of_their_ranges(index: int) -> None:
     allowed = values()
     ALLOWED[index](allowed)
-    drawn = decode_bmp(dynamic(chain().call("Renderer", allowed.data(), GAS_BOUND).output), 32, 32)
-    assert judge_pixels("bounds", drawn, render(allowed.data())).faults == []
+    data = encoded(allowed)
+    drawn = decode_bmp(dynamic(chain().call("Renderer", data, GAS_BOUND).output), 32, 32)
+    assert judge_pixels("bounds", drawn, render(data)).faults == []
 
 
 @pytest.mark.parametrize(
@@ -422,7 +385,7 @@ def test_values_at_the_ends_of_their_ranges(index: int) -> None:
 )
 def test_tiles_outside_the_canvas(tile: tuple[int, int, int, int]) -> None:
     expected = "RectangleOutsideCanvas(x={}, y={}, width={}, height={})".format(*tile)
-    assert refusal(tile_call(*tile)) == expected
+    assert refusal(call_data("renderTile", small_scene(), Rectangle(*tile))) == expected
 
 
 @pytest.mark.parametrize("angle", [2**58 + 1, -(2**58) - 1, 3 * 2**57, 2**59 + 2, 2**255 - 1, -(2**255)])
@@ -437,11 +400,10 @@ def test_angles_out_of_range(angle: int) -> None:
 
 
 def test_too_little_gas() -> None:
-    data = call_data()
-    needed = chain().call("Renderer", data).gas
+    needed = chain().call("Renderer", CALL).gas
     for gas in (needed // 2, 100_000, 30_000, 5_000):
         with pytest.raises(OutOfGasError, match="ran out of gas"):
-            chain().call("Renderer", data, gas)
+            chain().call("Renderer", CALL, gas)
 
 
 # ---- offsets and lengths ----
@@ -479,61 +441,54 @@ def layout(data: bytes) -> dict[str, int]:
     return places
 
 
-@pytest.mark.parametrize("place", layout(call_data()))
+PLACES = layout(CALL)
+
+
+@pytest.mark.parametrize("place", PLACES)
 @pytest.mark.parametrize("value", [2**256 - 1, 2**256 - 32, 2**255, 2**64, 2**32, 1_000_000])
 def test_offsets_and_lengths_beyond_the_end(place: str, value: int) -> None:
-    data = call_data()
-    position = layout(data)[place]
-    assert refusal(with_word(data, position, value)) == f"MalformedScene(position={position})"
+    assert refusal(with_word(CALL, PLACES[place], value)) == f"MalformedScene(position={PLACES[place]})"
 
 
 def test_lengths_that_just_do_not_fit() -> None:
-    data = call_data()
-    places = layout(data)
     for place, size in (("number of lights", 5 * 32), ("number of objects", 32), ("length of the mesh of object 1", 1)):
-        most = (len(data) - places[place] - 32) // size
-        error = refusal(with_word(data, places[place], most + 1))
-        assert error == f"MalformedScene(position={places[place]})"
+        position = PLACES[place]
+        most = (len(CALL) - position - 32) // size
+        assert refusal(with_word(CALL, position, most + 1)) == f"MalformedScene(position={position})"
         # fits, but is wrong in another way
-        assert not refusal(with_word(data, places[place], most)).startswith(f"MalformedScene(position={places[place]})")
+        assert not refusal(with_word(CALL, position, most)).startswith(f"MalformedScene(position={position})")
 
 
 def test_an_offset_of_the_scene_beyond_the_end() -> None:
-    for value in (2**256 - 1, 2**64, len(call_data())):
+    for value in (2**256 - 1, 2**64, len(CALL)):
         # refused by the compiler's decoder, without words
-        assert "encoded" in refusal(with_word(call_data(), 4, value))
+        assert "encoded" in refusal(with_word(CALL, 4, value))
 
 
 def test_other_orders_and_shared_parts_are_the_same_scene() -> None:
     """The ABI lets parts stand anywhere, and lets two offsets lead to one part."""
-    scene = small_scene()
-    twice = evolve(scene, objects=[scene.objects[1], scene.objects[1]])
-    expected = chain().call("Renderer", call_data(scene=twice)).output
-    data = call_data(scene=twice)
+    twice = evolve(small_scene(), objects=2 * [small_scene().objects[1]])
+    data = call_data("render", twice)
     objects = layout(data)["number of objects"] + 32
     shared = with_word(data, objects + 32, word_at(data, objects))
-    assert chain().call("Renderer", shared).output == expected
-    # lights behind everything else
-    data = call_data()
-    lights = layout(data)["number of lights"]
-    size = 32 + 32 * 5 * word_at(data, lights)
-    moved = with_word(data, LIGHTS_OFFSET, len(data) - HEAD) + data[lights : lights + size]
-    assert chain().call("Renderer", moved).output == chain().call("Renderer", data).output
-    # not at a multiple of 32, with something between
-    crooked = with_word(data, LIGHTS_OFFSET, len(data) - HEAD + 7) + b"between" + data[lights : lights + size]
-    assert chain().call("Renderer", crooked).output == chain().call("Renderer", data).output
-
-
-def test_bytes_after_the_scene_do_not_matter() -> None:
-    data = call_data()
-    assert chain().call("Renderer", data + b"\xff" * 100).output == chain().call("Renderer", data).output
+    assert chain().call("Renderer", shared).output == chain().call("Renderer", data).output
+    lights = PLACES["number of lights"]
+    moved = CALL[lights : lights + 32 + 32 * 5 * word_at(CALL, lights)]
+    for same in (
+        # lights behind everything else
+        with_word(CALL, LIGHTS_OFFSET, len(CALL) - HEAD) + moved,
+        # not at a multiple of 32, with something between
+        with_word(CALL, LIGHTS_OFFSET, len(CALL) - HEAD + 7) + b"between" + moved,
+        # bytes after the scene do not matter
+        CALL + b"\xff" * 100,
+    ):
+        assert chain().call("Renderer", same).output == chain().call("Renderer", CALL).output
 
 
 @pytest.mark.parametrize("function", ["render", "renderCounted", "renderDataURI", "renderSVG"])
 def test_truncated_calls_are_refused(function: str) -> None:
-    data = call_data(function)
-    places = layout(call_data())
-    needed = places["length of the extensions"] + 32
+    data = call_data(function, small_scene())
+    needed = PLACES["length of the extensions"] + 32
     for size in {*range(0, needed, 32), needed - 1, needed - 31}:
         message = refusal(data[:size])
         if size >= HEAD + 32 * 21:
@@ -549,11 +504,6 @@ def test_unknown_functions_and_value() -> None:
 # ---- fuzz ----
 
 
-def assert_picture(output: bytes, width: int, height: int) -> None:
-    bmp = dynamic(output)
-    assert decode_bmp(bmp, width, height).shape == (height, width, 3)
-
-
 def outcome(data: bytes) -> str:
     """The error, or "" for a picture; which must be one."""
     try:
@@ -566,7 +516,8 @@ def outcome(data: bytes) -> str:
         assert "Panic" not in message, message
         return message
     start = 4 + word_at(data, 4)
-    assert_picture(result.output, word_at(data, start), word_at(data, start + 32))
+    width, height = word_at(data, start), word_at(data, start + 32)
+    assert decode_bmp(dynamic(result.output), width, height).shape == (height, width, 3)
     return ""
 
 
@@ -591,9 +542,9 @@ def test_changed_meshes() -> None:
         size = count * ((9 if kind & 2 else 6) + (7 if kind & 1 else 3))
         indices = rng.integers(0, count + (rng.random() < 0.2), (faces, 3)).astype(">u2").tobytes()
         mesh = bytes([kind]) + np.array([count, faces], ">u2").tobytes() + rng.bytes(size) + indices
-        which = int(rng.integers(2))
-        wrong.objects[which][MESH] = mesh
-        wrong.objects[which][MATERIAL][0] = int(rng.integers(3)) if kind & 1 else int(rng.integers(2))
-        wrong.objects[which][SCALE] = int(2 ** rng.uniform(18, 32))
-        pictures += outcome(wrong.data()) == ""
+        thing = wrong[OBJECTS][int(rng.integers(2))]
+        thing[MESH] = mesh
+        thing[MATERIAL][0] = int(rng.integers(3)) if kind & 1 else int(rng.integers(2))
+        thing[SCALE] = int(2 ** rng.uniform(18, 32))
+        pictures += outcome(encoded(wrong)) == ""
     assert pictures > 100

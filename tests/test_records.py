@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
@@ -14,21 +13,18 @@ from tools.ledger import World as Ledger
 from tools.ledger import call_data as studio_call
 
 from judge.calldata import ALL_FACES, TURNED_AWAY, Surface, read
-from node_scripts import answers
+from node_scripts import calls_made
 from pictures import call_data, chain, counts, draw, dynamic
 from random_scenes import KINDS, random_case
 from shackled import Camera, InputError, Light, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
-from shackled.chain import engine_calls
-from shackled.chain._runs import ANTIALIASED, EFFECTS, PLAIN, engines
+from shackled.chain._engines import ANTIALIASED, EFFECTS, PLAIN, engines
 from shackled.datasets.common import shapes
 from shackled.image import decode_bmp
 from shackled.scene import Rectangle, encode, encode_scene_file, fit, render_call
 from shackled.scene._codec import extensions
 from shackled.studio._storage import quantize
 from stored_scenes import stored
-
-SCRIPT, BUNDLE = Path(__file__).parent / "web" / "calls.mjs", files("shackled") / "web" / "shackled.js"
 
 
 def is_near(one: ArrayLike, other: ArrayLike, step: float = 2.0**-32) -> bool:
@@ -146,7 +142,7 @@ def test_a_fade_is_about_the_position_of_its_object(tmp_path: Path) -> None:
     covered = (x > step - 0.75) & (z > step - 1.2)
     calls = [render_call(scene), render_call(evolve(scene, objects=[quantize(ground, 9)]))]
     if shutil.which("node"):
-        calls += answers(SCRIPT, BUNDLE, [{"text": encode_scene_file(scene).decode()}], tmp_path)
+        calls += calls_made([{"text": encode_scene_file(scene).decode()}], tmp_path)
     for call in calls:
         pixels = decode_bmp(dynamic(chain().call("Renderer", call).output), size, size)[:, :, 0]
         assert (pixels[covered & (distance < inner - step)] > 250).all()
@@ -252,13 +248,3 @@ def test_engines_of_other_calls() -> None:
     assert found(tile) == FOUR_SAMPLES
     for data in (b"", bytes(4), bytes(100)):
         assert engines(data, chain()) == PLAIN
-
-
-@pytest.mark.parametrize("kind", ["plain", "antialiased", "glass", "effects"])
-def test_the_calls_of_engines(kind: str) -> None:
-    """The last of them returns the picture: after two words rows from the bottom, blue first."""
-    scene = random_case(1, kind).scene
-    output = engine_calls(scene, chain())[-1].result.output
-    pixels = np.frombuffer(output, np.uint8, 3 * scene.width * scene.height, 64)
-    pixels = pixels.reshape(scene.height, scene.width, 3)[::-1, :, ::-1]
-    assert np.array_equal(255 - pixels if scene.invert else pixels, draw(scene))

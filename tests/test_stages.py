@@ -133,9 +133,3 @@ def test_a_full_disk_leaves_no_part_of_a_picture(
     for path in left:
         with PillowImage.open(path) as picture:
             picture.load()
-
-
-def test_a_file_in_place_of_the_folder_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (tmp_path / "file").touch()
-    assert run(["stages", "teapot", "-o", str(tmp_path / "file")]) == 2
-    assert capsys.readouterr().err.endswith("file is a file, not a folder to write to\n")

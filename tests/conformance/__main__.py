@@ -16,6 +16,7 @@ import sys
 import time
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
+from importlib import import_module
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -25,7 +26,7 @@ if __package__ in (None, ""):
 
 from conformance import opengl
 from conformance.compare import ANOTHER, compare
-from judge.verdict import LEAST_RUN, Verdict, table
+from judge.verdict import Verdict, report
 from random_scenes import random_scene
 from shackled.datasets import pieces, require
 from shackled.scene import resize
@@ -72,22 +73,14 @@ def main() -> int:
         print(error, file=sys.stderr)
         return 2
     started = time.perf_counter()
-    rows: dict[str, Verdict] = {}
     # the threads of an OpenGL do not survive a fork
     with ProcessPoolExecutor(arguments.jobs, mp_context=get_context("spawn")) as pool:
         listed = tasks(arguments.count, arguments.seed, arguments.only)
-        for row, result in pool.map(compared, listed, chunksize=4):
-            rows[row] = rows.get(row, Verdict()) + result
-            for fault in result.faults:
-                print(fault, flush=True)
-    whole = sum(rows.values(), Verdict())
-    print(table(rows | {"all": whole}, (ANOTHER,)))
-    of_run = whole.faults_of_run() if whole.interior >= LEAST_RUN else []
-    for fault in of_run:
-        print(fault)
-    print(f"{len(whole.faults) + len(of_run)} out of bounds, in {time.perf_counter() - started:.0f} s")
-    return 1 if whole.faults or of_run else 0
+        _, is_right = report(pool.map(compared, listed, chunksize=4), (ANOTHER,))
+    print(f"{time.perf_counter() - started:.0f} s")
+    return 0 if is_right else 1
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    # processes find what they run by the name of its module
+    sys.exit(import_module("conformance.__main__").main())

@@ -150,8 +150,7 @@ def unit(v: Array) -> Array:
     largest = np.abs(v).max(axis=-1, keepdims=True)
     v = np.divide(v, largest, out=np.zeros_like(v), where=largest > 0)
     length = np.linalg.norm(v, axis=-1, keepdims=True)
-    out: Array = np.divide(v, length, out=np.zeros_like(v), where=length > 0)
-    return out
+    return np.asarray(np.divide(v, length, out=np.zeros_like(v), where=length > 0))
 
 
 def _axes(camera: Camera) -> Array:

@@ -21,7 +21,7 @@ from shackled.ethereum import to_hex
 from shackled.evm import Answer, Status
 from shackled.gas import search, suffices
 from shackled.scene import Rectangle, encode
-from test_bad_input_on_chain import WRONG, small_scene, tile_call, values
+from test_bad_input_on_chain import WRONG, encoded, small_scene, values
 
 GAS = 30_000_000_000
 SELECTORS = artifact("Renderer").selectors
@@ -78,12 +78,13 @@ def test_broken_calls(world: World) -> None:
 def refused() -> list[bytes]:
     """Calls that the Renderer refuses, with each of its errors."""
     calls = [b"", b"\1", b"\1\2\3\4", SELECTORS["render"], call_data("render", small_scene())[:-40]]
-    calls += [tile_call(0, 0, 33, 1), tile_call(2**256 - 1, 0, 2, 1)]
+    tiles = (Rectangle(0, 0, 33, 1), Rectangle(2**256 - 1, 0, 2, 1))
+    calls += [call_data("renderTile", small_scene(), tile) for tile in tiles]
     calls += [SELECTORS["eulerRotation"] + words(0, 2**58 + 1, 0)]
     for change, _ in WRONG:
         wrong = values()
         change(wrong)
-        calls.append(wrong.data())
+        calls.append(encoded(wrong))
     return calls
 
 

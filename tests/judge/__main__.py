@@ -25,7 +25,7 @@ if __package__ in (None, ""):
 from benchmarks.shared import FOLDER
 
 from judge import Verdict, draw_in_tiles, judge, judge_pixels, render
-from judge.verdict import LEAST_RUN, table
+from judge.verdict import report
 from pictures import call_data, draw
 from random_scenes import TAME, random_case, random_scene
 from shackled import load
@@ -73,24 +73,13 @@ def main() -> int:
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes")
     arguments = parser.parse_args()
     started = time.perf_counter()
-    rows: dict[str, Verdict] = {}
     if "meshes" in arguments.only and not MESHES.is_dir():
         print(f"there are no meshes in {MESHES}: they are left out")
     listed = tasks(arguments.count, arguments.seed, arguments.only, arguments.small)
     with ProcessPoolExecutor(arguments.jobs) as pool:
-        for row, verdict in pool.map(judged, listed, chunksize=2):
-            rows[row] = rows.get(row, Verdict()) + verdict
-            for fault in verdict.faults:
-                print(fault, flush=True)
-    whole = sum(rows.values(), Verdict())
-    if not whole.scenes:
-        return 0
-    print(table(rows | {"all": whole}))
-    of_run = [] if "wild" in rows or whole.interior < LEAST_RUN else whole.faults_of_run()
-    for fault in of_run:
-        print(fault)
+        whole, is_right = report(pool.map(judged, listed, chunksize=2))
     print(f"{whole.far + whole.outside} wrong pixels, in {time.perf_counter() - started:.0f} s")
-    return 1 if whole.faults or of_run else 0
+    return 0 if is_right else 1
 
 
 if __name__ == "__main__":

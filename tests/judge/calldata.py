@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
@@ -39,13 +40,15 @@ class Frame:
 
     def to_camera(self, points: Array) -> Array:
         """Convert points of the world to (right, up, distance)."""
-        out: Array = (points - self.eye) @ self.axes.T
-        return out
+        return np.asarray((points - self.eye) @ self.axes.T)
+
+    def to_eye(self, points: Array) -> Array:
+        """Return the ways (n, 3) from points of the world to the eye."""
+        return self.eye - points if self.perspective else np.broadcast_to(-self.axes[2], points.shape)
 
     def divisor(self, points: Array) -> Array:
         """Return by what a projection divides points in camera space."""
-        out: Array = points[..., 2] if self.perspective else np.ones(points.shape[:-1])
-        return out
+        return np.asarray(points[..., 2] if self.perspective else np.ones(points.shape[:-1]))
 
     def project(self, points: Array) -> Array:
         """Project points in camera space: columns and rows in pixels, from the top left corner of the canvas."""
@@ -56,13 +59,11 @@ class Frame:
         """Return the points of the world (n, 3) that are seen at places (n, 2) in pixels, at distances (n, 1)."""
         beside = (places - [self.width / 2, self.height / 2]) * [1, -1] / self.focal
         camera = np.concatenate([beside * (distance if self.perspective else 1), distance], axis=1)
-        out: Array = self.eye + camera @ self.axes
-        return out
+        return np.asarray(self.eye + camera @ self.axes)
 
     def nearness(self, points: Array) -> Array:
         """Return what is linear on the screen, and larger where a point in camera space is nearer."""
-        out: Array = 1 / points[..., 2] if self.perspective else -points[..., 2]
-        return out
+        return np.asarray(1 / points[..., 2] if self.perspective else -points[..., 2])
 
 
 @dataclass(frozen=True)
@@ -114,6 +115,10 @@ class Lamp:
     color: Array
     cone: Array | None
 
+    def toward(self, points: Array) -> Array:
+        """Return the ways (..., 3) from points to the light."""
+        return self.vector - points if self.is_point else np.broadcast_to(self.vector, points.shape)
+
 
 @dataclass(frozen=True)
 class Effects:
@@ -146,6 +151,14 @@ class World:
     antialias: bool
     exact: bool
     shadow: tuple[int, int] | None
+
+    def surface_of(self, face: Integers) -> Integers:
+        """Return the numbers of the surfaces of faces, which are counted through all objects."""
+        return np.searchsorted([s.first for s in self.surfaces], face, side="right") - 1
+
+    def are(self, holds: Callable[[Surface], bool]) -> Booleans:
+        """Return for which surfaces something holds."""
+        return np.array([holds(s) for s in self.surfaces], bool)
 
 
 @cache
@@ -311,15 +324,13 @@ def rotation_matrix(quaternion: Array) -> Array:
     """Return the matrix of a quaternion (x, y, z, w) of any length: the images of the axes are its columns."""
     x, y, z, w = quaternion / np.linalg.norm(quaternion)
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    out: Array = np.eye(3) + 2 * w * cross + 2 * cross @ cross
-    return out
+    return np.asarray(np.eye(3) + 2 * w * cross + 2 * cross @ cross)
 
 
 def unit(v: Array) -> Array:
     """Return unit vectors along the last axis; zero for zero."""
     length = np.linalg.norm(v, axis=-1, keepdims=True)
-    out: Array = np.divide(v, length, out=np.zeros_like(v), where=length > 0)
-    return out
+    return np.asarray(np.divide(v, length, out=np.zeros_like(v), where=length > 0))
 
 
 def _q32(value: Any) -> Array:

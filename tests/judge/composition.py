@@ -176,19 +176,17 @@ class Composition:
         return rows.chosen(kept), Fragments(colors, opacity, found.lit[kept], found.dark[kept]), floor
 
     def _has_alpha(self, face: Integers) -> Booleans:
-        surfaces = self.world.surfaces
-        has_alpha = np.array([s.texture is not None and s.texture.alpha is not None for s in surfaces], bool)
-        return np.asarray(has_alpha[np.searchsorted([s.first for s in surfaces], face, side="right") - 1])
+        has_alpha = self.world.are(lambda s: s.texture is not None and s.texture.alpha is not None)
+        return np.asarray(has_alpha[self.world.surface_of(face)])
 
     def _widen(self, pieces: Pieces, rows: Seen, sure: Booleans) -> None:
         """Let pixels that show one smooth surface, and only that, have the colour of any sample there or in the pixels
         around that show it, too: where a surface is steep, a part of it that is hidden a little further may be seen.
         If they show another one, too, any of their samples may show either: depths are those of one triangle.
         """
-        surfaces = self.world.surfaces
-        smooth = np.array([s.shading > FLAT and s.is_opaque and not s.is_wire for s in surfaces], bool)
-        surface = np.searchsorted([s.first for s in surfaces], pieces.face[rows.piece], side="right") - 1
-        least, most = np.full(len(sure), len(surfaces)), np.full(len(sure), -1)
+        smooth = self.world.are(lambda s: s.shading > FLAT and s.is_opaque and not s.is_wire)
+        surface = self.world.surface_of(pieces.face[rows.piece])
+        least, most = np.full(len(sure), len(smooth)), np.full(len(sure), -1)
         np.minimum.at(least, rows.pixel, np.where(smooth[surface], surface, -1))
         np.maximum.at(most, rows.pixel, surface)
         number = np.where((least == most) & sure.all(axis=1), most, -1)
@@ -214,8 +212,7 @@ class Composition:
             fill = np.flatnonzero(~pieces.is_wire)
             first, second = seen(pieces[fill], self.frame, self.places), seen_wires(pieces[wire], self.frame)
             first, second = replace(first, piece=fill[first.piece]), replace(second, piece=wire[second.piece])
-            names = ("piece", "pixel", "sample", "nearness", "most", "covers", "center")
-            both = [np.concatenate([getattr(first, name), getattr(second, name)]) for name in names]
+            both = (np.concatenate(each) for each in zip(first.rows, second.rows, strict=True))
             found = Seen(np.maximum(first.floor, second.floor), *both)
         else:
             found = seen(pieces, self.frame, self.places)

@@ -72,13 +72,13 @@ def fragments(
     at, to = np.concatenate(place), np.concatenate(owner)
     # only at the centre of the pixel, colours are computed outside of the triangle
     inside = np.arange(len(at)) >= count
-    surface = np.searchsorted([s.first for s in world.surfaces], pieces.face, side="right") - 1
-    textured = np.array([s.texture is not None for s in world.surfaces], bool)
+    surface = world.surface_of(pieces.face)
+    textured = world.are(lambda s: s.texture is not None)
     near = np.flatnonzero(textured[surface[piece[to]]])
     at = np.concatenate([at, (at[near, None] + AROUND[1:]).reshape(-1, 2)])
     to, inside = (np.concatenate([each, np.repeat(each[near], len(AROUND) - 1)]) for each in (to, inside))
     weights = pieces.weights_at(piece[to], at, inside)
-    faceted = np.array([s.shading <= FLAT for s in world.surfaces], bool) & (world.antialias and not world.exact)
+    faceted = world.are(lambda s: s.shading <= FLAT) & (world.antialias and not world.exact)
     thin = np.flatnonzero((pieces.height[piece] < SLIVER) & faceted[surface[piece]])
     weights = np.concatenate([weights, pieces.weights[piece[thin]].reshape(-1, 3)])
     parts = [places[list(part)].mean(axis=0) for size in (1, 2, 3) for part in combinations(range(len(places)), size)]
@@ -149,7 +149,7 @@ def _reached(
     lit, dark = np.ones(len(own), bool), np.zeros(len(own), bool)
     if shadows is None:
         return lit, dark
-    shaded = np.array([s.shading != UNLIT and not s.is_wire for s in world.surfaces], bool)
+    shaded = world.are(lambda s: s.shading != UNLIT and not s.is_wire)
     chosen = np.flatnonzero(shaded[surface[rows.piece]])
     # in blocks of the canvas, so that few faces shade those that are looked at together
     chosen = chosen[np.lexsort((*(own[chosen].T // 8), surface[rows.piece[chosen]]))]

@@ -78,10 +78,9 @@ def _radiance(
     across = np.cross(b - a, c - a)
     normal = unit(across if surface.shading == FLAT else mix(surface.normals[corners], weights))
     if surface.two_sided and not surface.is_wire:
-        toward_eye = frame.eye - a if frame.perspective else np.broadcast_to(-frame.axes[2], a.shape)
-        normal = np.where(_dot(across, toward_eye) < 0, -normal, normal)
+        normal = np.where(_dot(across, frame.to_eye(a)) < 0, -normal, normal)
     rise = _dot(normal, beside - point) * (surface.shading == FLAT)
-    view = unit(frame.eye - beside) if frame.perspective else np.broadcast_to(-frame.axes[2], point.shape)
+    view = unit(frame.to_eye(beside))
     seen = _dot(normal, view) + (rise / _length(frame.eye - beside) if frame.perspective else 0)
     sky, ground = _light(effects, effects.sky), _light(effects, effects.ground)
     hemisphere = ground + (sky - ground) * (1 + normal[:, 1:2]) / 2
@@ -90,7 +89,7 @@ def _radiance(
     dark = np.repeat((base * modulate + rim)[None], 3, axis=0)
     shaded = np.zeros_like(dark)
     for number, lamp in enumerate(world.lamps):
-        toward = unit(lamp.vector - beside if lamp.is_point else np.broadcast_to(lamp.vector, point.shape))
+        toward = unit(lamp.toward(beside))
         facing = _dot(normal, toward) + (rise / _length(lamp.vector - beside) if lamp.is_point else 0)
         hue = _light(effects, lamp.color) * (1.0 if lamp.cone is None else _through(lamp.cone, toward))
         gloss = np.clip((facing + seen) / _length(toward + view), 0, 1) ** surface.shininess
@@ -106,9 +105,10 @@ def _radiance(
 def _light(effects: Effects, color: Array) -> Array:
     """A colour 0..255 as light 0..1."""
     x = color / 255
-    if effects.gamma:
-        x = np.maximum(x, 0)
-    return np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055) ** 2.4) if effects.gamma else x
+    if not effects.gamma:
+        return x
+    x = np.maximum(x, 0)
+    return np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055) ** 2.4)
 
 
 def _toned(effects: Effects, radiance: Array) -> Array:
@@ -119,37 +119,31 @@ def _toned(effects: Effects, radiance: Array) -> Array:
     x = np.clip(x, 0, 1)
     if effects.gamma:
         x = np.where(x <= 0.0031308, x * 12.92, 1.055 * x ** (1 / 2.4) - 0.055)
-    out: Array = 255 * x
-    return out
+    return np.asarray(255 * x)
 
 
 def _fogged(effects: Effects, color: Array, distance: Array) -> Array:
     if effects.fog is None:
         return color
     hue, near, far = effects.fog
-    out: Array = color + (hue - color) * np.clip((distance - near) / max(far - near, 2.0**-32), 0, 1)
-    return out
+    return np.asarray(color + (hue - color) * np.clip((distance - near) / max(far - near, 2.0**-32), 0, 1))
 
 
 def _through(cone: Array, toward: Array) -> Array:
     """What a spot light lets through its cone, by glTF's KHR_lights_punctual; `toward` the light."""
     inner, outer = cone[3], cone[4]
     part = (_dot(-unit(cone[:3]), toward) - outer) / max(inner - outer, 2.0**-10)
-    out: Array = np.clip(part, 0, 1) ** 2
-    return out
+    return np.asarray(np.clip(part, 0, 1) ** 2)
 
 
 def mix(values: Array, weights: Array) -> Array:
     """Return (n, 3, k) values of corners as (n, k) values of points."""
-    out: Array = np.einsum("nij,ni->nj", values, weights)
-    return out
+    return np.asarray(np.einsum("nij,ni->nj", values, weights))
 
 
 def _length(vectors: Array) -> Array:
-    out: Array = np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-300)
-    return out
+    return np.asarray(np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-300))
 
 
 def _dot(a: Array, b: Array) -> Array:
-    out: Array = (a * b).sum(axis=-1, keepdims=True)
-    return out
+    return np.asarray((a * b).sum(axis=-1, keepdims=True))

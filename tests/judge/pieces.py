@@ -58,8 +58,7 @@ class Pieces:
         correct = edges / edges.sum(axis=1, keepdims=True) / self.divisor[numbers]
         # far outside of a sliver a place can be behind the eye
         total = np.maximum(correct.sum(axis=1), 1e-3 / self.divisor[numbers].max(axis=1))
-        out: Array = np.einsum("ni,nij->nj", correct / total[:, None], self.weights[numbers])
-        return out
+        return np.asarray(np.einsum("ni,nij->nj", correct / total[:, None], self.weights[numbers]))
 
     def area(self, numbers: Integers | slice = slice(None)) -> Array:
         """Twice the areas (n,) of some pieces, in square sub-pixels."""
@@ -69,8 +68,7 @@ class Pieces:
 def area(corners: Array) -> Array:
     """Twice the area, positive if corners are counter-clockwise as they are seen; rows run down."""
     x, y = (corners - corners[..., :1, :]).transpose(2, 0, 1)
-    out: Array = x[:, 2] * y[:, 1] - x[:, 1] * y[:, 2]
-    return out
+    return np.asarray(x[:, 2] * y[:, 1] - x[:, 1] * y[:, 2])
 
 
 def pieces_of(frame: Frame, surface: Surface, antialias: bool) -> Pieces:

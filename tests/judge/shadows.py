@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .calldata import ALL_FACES, TURNED_AWAY, Array, Booleans, Integers, Lamp, Surface, World
+from .calldata import ALL_FACES, TURNED_AWAY, Array, Booleans, Integers, World
 from .visibility import AROUND, TOLERANCE
 
 #: Points that are looked at together, in the order of the pixels.
@@ -32,23 +32,22 @@ class Shadows:
         lamp = world.lamps[number]
         planes, numbers, backs = [np.empty((0, 4, 4))], [np.empty(0, np.int64)], [np.empty(0, bool)]
         for surface in world.surfaces:
-            backs.append(_behind(world, surface, lamp))
+            corners = surface.positions[surface.faces]
+            begin = corners[:, 0]
+            normal = np.cross(corners[:, 1] - begin, corners[:, 2] - begin)
+            side = (normal * lamp.toward(begin)).sum(axis=1)
+            backs.append(side * (normal * world.frame.to_eye(begin)).sum(axis=1) <= 0)
             if surface.is_wire or not surface.is_opaque:
                 continue
-            corners = surface.positions[surface.faces]
-            normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-            toward = lamp.vector - corners[:, 0] if lamp.is_point else np.broadcast_to(lamp.vector, normal.shape)
-            side = (normal * toward).sum(axis=1)
             casts = side != 0
             if surface.cull and rule != ALL_FACES:
                 casts = side < 0 if rule == TURNED_AWAY else side > 0
             corners, normal, side = corners[casts], normal[casts], side[casts]
-            begin, way = corners, np.roll(corners, -1, 1) - corners
-            toward = lamp.vector - begin if lamp.is_point else np.broadcast_to(lamp.vector, begin.shape)
+            sides = np.cross(lamp.toward(corners), np.roll(corners, -1, 1) - corners)
             # inward, if the corners are counter-clockwise as the light sees them
-            normals = np.concatenate([np.cross(toward, way), -normal[:, None]], axis=1) * np.sign(side)[:, None, None]
+            normals = np.concatenate([sides, -normal[:, None]], axis=1) * np.sign(side)[:, None, None]
             normals /= np.maximum(np.linalg.norm(normals, axis=2, keepdims=True), 1e-300)
-            through = np.concatenate([begin, begin[:, :1]], axis=1)
+            through = np.concatenate([corners, corners[:, :1]], axis=1)
             planes.append(np.concatenate([normals, -(normals * through).sum(axis=2, keepdims=True)], axis=2))
             numbers.append(surface.first + np.flatnonzero(casts))
         self.planes, self.faces = np.concatenate(planes), np.concatenate(numbers)
@@ -98,14 +97,3 @@ class Shadows:
             value[..., 3] -= NEAR_PLANE * self.extent
             lit[unsure] = ~((value > 0).all(axis=3) & other[unsure, None]).any(axis=2).all(axis=1)
         return lit, dark
-
-
-def _behind(world: World, surface: Surface, lamp: Lamp) -> Booleans:
-    """Whether the eye is on one side of a face, and the light on the other."""
-    corners = surface.positions[surface.faces]
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    toward = lamp.vector - corners[:, 0] if lamp.is_point else np.broadcast_to(lamp.vector, normal.shape)
-    frame = world.frame
-    view = frame.eye - corners[:, 0] if frame.perspective else np.broadcast_to(-frame.axes[2], normal.shape)
-    out: Booleans = (normal * toward).sum(axis=1) * (normal * view).sum(axis=1) <= 0
-    return out

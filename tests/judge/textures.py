@@ -37,5 +37,4 @@ def _at(texture: Texture, texels: Array, uvs: Array) -> Array:
 def _texel(texture: Texture, texels: Array, at: Integers) -> Array:
     size = np.array(texture.texels.shape[1::-1])
     at = np.clip(at, 0, size - 1) if texture.clamps else at % size
-    out: Array = texels[at[:, 1], at[:, 0]]
-    return out
+    return np.asarray(texels[at[:, 1], at[:, 0]])

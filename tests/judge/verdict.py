@@ -92,6 +92,24 @@ def table(rows: dict[str, Verdict], rules: Iterable[str] = RARE) -> str:
     return "\n".join(f"| {line} |" if line[0] != "-" else f"|{line}|" for line in lines)
 
 
+def report(results: Iterable[tuple[str, Verdict]], rules: Iterable[str] = RARE) -> tuple[Verdict, bool]:
+    """Print the faults of results, each when it is known, and the table of their rows.
+
+    Return their sum, and whether all is right. Wild scenes have no bounds for a run.
+    """
+    rows: dict[str, Verdict] = {}
+    for row, verdict in results:
+        rows[row] = rows.get(row, Verdict()) + verdict
+        for fault in verdict.faults:
+            print(fault, flush=True)
+    whole = sum(rows.values(), Verdict())
+    print(table(rows | {"all": whole}, rules))
+    of_run = [] if "wild" in rows or whole.interior < LEAST_RUN else whole.faults_of_run()
+    for fault in of_run:
+        print(fault)
+    return whole, not whole.faults and not of_run
+
+
 def judge(name: str, scene: Scene, draw: Callable[[Scene], Pixels] = drawn_by_contracts) -> Verdict:
     """Draw a scene and judge its picture."""
     scene = fit(scene)
@@ -132,8 +150,7 @@ def judge_pixels(name: str, drawn: Pixels, right: Picture) -> Verdict:
 
 def outside(drawn: Pixels, low: Array, high: Array) -> Array:
     """Return how far pixels are outside of their ranges, (H, W), rounded."""
-    out: Array = np.maximum(0, np.maximum(drawn - high, low - drawn) - 0.5).max(axis=2)
-    return out
+    return np.asarray(np.maximum(0, np.maximum(drawn - high, low - drawn) - 0.5).max(axis=2))
 
 
 def draw_in_tiles(scene: Scene) -> Pixels:

@@ -6,7 +6,8 @@ Each sample is looked at in nine places: its own, and eight around it. Depths co
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 
@@ -44,10 +45,14 @@ class Seen:
     covers: Booleans
     center: Array
 
+    @property
+    def rows(self) -> list[Any]:
+        """All fields but the floor."""
+        return [getattr(self, each.name) for each in fields(self)[1:]]
+
     def chosen(self, rows: Booleans) -> Seen:
         """Return some of the rows."""
-        named = ("piece", "pixel", "sample", "nearness", "most", "covers", "center")
-        return Seen(self.floor, *(getattr(self, name)[rows] for name in named))
+        return Seen(self.floor, *(values[rows] for values in self.rows))
 
 
 def seen(pieces: Pieces, frame: Frame, places: Array) -> Seen:
@@ -137,8 +142,7 @@ def _owned(pieces: Pieces, number: Integers, edges: Array) -> Booleans:
     """Whether places are in pieces; those on an edge, if it is a left or a top one."""
     way = np.roll(pieces.corners[number], 1, 1) - np.roll(pieces.corners[number], -1, 1)
     owns = (way[..., 1] > 0) | ((way[..., 1] == 0) & (way[..., 0] < 0))
-    out: Booleans = ((edges > 0) | ((edges == 0) & owns[..., None])).all(axis=1)
-    return out
+    return np.asarray(((edges > 0) | ((edges == 0) & owns[..., None])).all(axis=1))
 
 
 def _pairs(pieces: Pieces, across: int, down: int) -> tuple[Integers, Integers]:

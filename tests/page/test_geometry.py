@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import subprocess
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
@@ -12,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from node_scripts import bundled, needs_web
+from node_scripts import asked, needs_web
 from shackled.datasets import pieces
 from shackled.errors import InputWarning
 from shackled.scene import Mesh, Object, is_closed, weld
@@ -20,52 +19,28 @@ from shackled.scene._crease import creased
 from shackled.scene._staging import signed_volume
 from shackled.scene._winding import wound
 
-FUNCTIONS = ("creased", "wound", "closed", "simplified")
+SCRIPT = Path(__file__).with_name("geometry.ts")
+#: The tables of a mesh, and the lengths of their rows.
+WIDTHS = {"positions": 3, "faces": 3, "colors": 4, "normals": 3, "uvs": 2}
 
 Array = NDArray[np.float64]
 
 pytestmark = needs_web
 
 
-@pytest.fixture(scope="session")
-def bundle(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The modules of the page that are tested here."""
-    names = (f"scene/{name}" for name in ("normals", "weld", "winding", "simplify", "checked"))
-    return bundled(tmp_path_factory.mktemp("geometry"), *names)
+def answers(folder: Path, does: str, questions: Iterable[tuple[Sequence[Mesh], Any]]) -> Any:
+    """What a function of the page makes of meshes and an option, for each question."""
+    given = [{"does": does, "meshes": [*map(rows, meshes)], "option": option} for meshes, option in questions]
+    return asked(SCRIPT, folder, given)
 
 
-class Answers:
-    """What the page answers for meshes, as numbers in the order of the questions: meshes begin with their sizes."""
+def rows(mesh: Mesh) -> dict[str, Any]:
+    tables: list[Any] = [mesh.positions, mesh.faces, mesh.rgba, mesh.normals, mesh.uvs]
+    return {name: table.tolist() for name, table in zip(WIDTHS, tables, strict=True) if table is not None}
 
-    def __init__(self) -> None:
-        self.asked: list[Any] = []
-        self.numbers: Array = np.zeros(0)
 
-    def ask(self, name: str, meshes: Sequence[Mesh], argument: float = 0) -> None:
-        self.asked.append([FUNCTIONS.index(name), argument, len(meshes)])
-        for mesh in meshes:
-            tables = [mesh.positions, mesh.faces, mesh.rgba, mesh.normals, mesh.uvs]
-            self.asked.append([len(mesh.positions), len(mesh.faces), *(each is not None for each in tables[3:])])
-            self.asked += [np.asarray(each).ravel() for each in tables if each is not None]
-
-    def run(self, bundle: Path, folder: Path) -> None:
-        np.concatenate(self.asked).astype("<f8").tofile(folder / "asked")
-        script = Path(__file__).with_name("geometry.mjs")
-        subprocess.run(["node", script, bundle, folder / "asked", folder / "answers"], check=True)
-        self.numbers = np.fromfile(folder / "answers", "<f8")
-
-    def take(self, rows: int, width: int = 1) -> Array:
-        found, self.numbers = np.split(self.numbers, [rows * width])
-        return found.reshape(rows, width)
-
-    def one(self) -> int:
-        return int(self.take(1)[0, 0])
-
-    def mesh(self) -> Mesh:
-        vertices, faces, has_normals, has_uvs = (self.one() for _ in range(4))
-        positions, corners, rgba = self.take(vertices, 3), self.take(faces, 3), self.take(vertices, 4)
-        normals = self.take(vertices, 3) if has_normals else None
-        return Mesh(positions, corners, rgba.astype(np.uint8), normals, self.take(vertices, 2) if has_uvs else None)
+def mesh_of(found: dict[str, Any]) -> Mesh:
+    return Mesh(**{name: np.reshape(found[name], (-1, width)) for name, width in WIDTHS.items() if name in found})
 
 
 def random_mesh(rng: np.random.Generator) -> Mesh:
@@ -108,29 +83,26 @@ def ball(rings: int, sides: int) -> tuple[Array, NDArray[np.int64]]:
 
 
 @pytest.mark.parametrize("kind", ["pieces", "random"])
-def test_creases(bundle: Path, tmp_path: Path, kind: str) -> None:
+def test_creases(tmp_path: Path, kind: str) -> None:
     """Meshes get the normals that Python gives them."""
-    rng, answers = np.random.default_rng(1), Answers()
-    asked: list[tuple[Mesh, float | None]]
+    rng = np.random.default_rng(1)
+    cases: list[tuple[Mesh, float | None]]
     if kind == "random":
-        asked = [(random_mesh(rng), None if number % 2 else float(rng.integers(181))) for number in range(400)]
+        cases = [(random_mesh(rng), None if number % 2 else float(rng.integers(181))) for number in range(400)]
     else:
         chosen = [piece for piece in pieces() if piece.ready() and piece.dataset != "genesis"]
         chosen += [piece for piece in pieces() if piece.dataset == "genesis"][::50]
         meshes = [each.mesh for piece in chosen for each in piece.make().objects]
-        asked = [(mesh, degrees) for mesh in meshes for degrees in (None, 30)]
-    for mesh, degrees in asked:
-        answers.ask("creased", [mesh], np.nan if degrees is None else degrees)
-        answers.ask("closed", [mesh])
-    answers.run(bundle, tmp_path)
-    for mesh, degrees in asked:
-        assert answers.mesh() == creased(mesh, degrees)
+        cases = [(mesh, degrees) for mesh in meshes for degrees in (None, 30)]
+    found = answers(tmp_path, "creased", (([mesh], degrees) for mesh, degrees in cases))
+    for (mesh, degrees), each in zip(cases, found, strict=True):
+        assert mesh_of(each["mesh"]) == creased(mesh, degrees)
         # not by rounding only, as Python takes slivers and doubled sheets
-        assert answers.one() == (is_closed(mesh) and signed_volume(mesh) > 1e-9 * np.ptp(mesh.positions) ** 3)
+        assert each["closed"] == (is_closed(mesh) and signed_volume(mesh) > 1e-9 * np.ptp(mesh.positions) ** 3)
 
 
-def test_winding(bundle: Path, tmp_path: Path) -> None:
-    rng, answers, models = np.random.default_rng(2), Answers(), []
+def test_winding(tmp_path: Path) -> None:
+    rng, models = np.random.default_rng(2), []
     for number in range(300):
         model = [random_mesh(rng) for _ in range(int(rng.integers(1, 4)))]
         if number % 10 == 0:
@@ -138,34 +110,28 @@ def test_winding(bundle: Path, tmp_path: Path) -> None:
             (positions, faces), far = ball(8, 8), np.array([9, 0, 0])
             wall, other = Mesh(positions / 2, faces[:, ::-1]), Mesh(positions + far, faces[:, ::-1])
             model += [Mesh(positions, faces), wall, other]
-        models.append(model)
-        answers.ask("wound", model, number % 2)
-    answers.run(bundle, tmp_path)
-    turned = 0
-    for number, model in enumerate(models):
-        turned += (count := answers.one())
+        models.append((model, bool(number % 2)))
+    found = answers(tmp_path, "wound", models)
+    for (model, split), each in zip(models, found, strict=True):
+        count = each["turned"]
         with pytest.warns(InputWarning, match=f"{count} closed part") if count else nullcontext():
-            expected = wound([Object(mesh) for mesh in model], "it", bool(number % 2))
-        assert answers.one() == len(expected)
-        for each in expected:
-            assert answers.one() == each.cull
-            assert answers.mesh() == each.mesh
-    assert turned > 50
+            expected = wound([Object(mesh) for mesh in model], "it", split)
+        parts = [(mesh_of(part["mesh"]), part["cull"]) for part in each["parts"]]
+        assert parts == [(part.mesh, part.cull) for part in expected]
+    assert sum(each["turned"] for each in found) > 50
 
 
-def test_fewer_triangles(bundle: Path, tmp_path: Path) -> None:
+def test_fewer_triangles(tmp_path: Path) -> None:
     """Meshes keep their shape and their colours, and stay closed."""
-    (positions, faces), answers = ball(30, 40), Answers()
+    positions, faces = ball(30, 40)
     halves = np.where(positions[faces[:, :1], 1:2] > 0.01, (255, 0, 0), (0, 0, 255))
     plain = Mesh(positions, faces, "tan")
     meshes = [plain, weld(positions, faces, np.repeat(halves, 3, axis=1)), creased(plain)]
     meshes.append(Mesh(positions, faces, "white", uvs=np.abs(positions[:, :2])))
-    asked = [(mesh, count) for mesh in meshes for count in (900, 200, 60, 10_000)]
-    for mesh, count in asked:
-        answers.ask("simplified", [mesh], count)
-    answers.run(bundle, tmp_path)
-    for mesh, count in asked:
-        found = answers.mesh()
+    cases = [(mesh, count) for mesh in meshes for count in (900, 200, 60, 10_000)]
+    answered = answers(tmp_path, "simplified", (([mesh], count) for mesh, count in cases))
+    for (mesh, count), each in zip(cases, answered, strict=True):
+        found = mesh_of(each)
         assert 0.8 * min(count, mesh.triangles) <= found.triangles <= count
         assert (found == mesh) == (count == 10_000)
         assert is_closed(found)

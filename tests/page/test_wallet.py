@@ -13,22 +13,21 @@ from tools.anvil import Anvil
 
 from creator_page import OBJ, Creator, Visit, scene
 from forged_blocks import forged
-from nodes import PUBLIC, anvil, needs_anvil
+from nodes import KEY, PUBLIC, anvil, needs_anvil
+from open_sales import open_sale
 from shackled.artifacts import artifact
 from shackled.chain import VARIABLE
 from shackled.cli.app import run
 from shackled.deploy import Transactor, local_chain
 from shackled.errors import NodeError
-from shackled.ethereum import checksum_address
-from shackled.tokens import KINDS, Collection, CollectionTerms, address_of, launch, plan_launch
+from shackled.tokens import Collection, address_of
 from shackled.tokens._contract import perform
-from shackled.tokens._demo import development_accounts
 from shackled.tokens._icons import ALLOWED_LICENCES
 from shackled.tokens._metadata import read_token_uri
 
 pytestmark = needs_anvil
 
-CHAIN, OWNER = 31337, 0
+CHAIN = 31337
 HASH = "0x" + "7a" * 32
 #: A wallet that announces itself as EIP-6963 has it, and has each request answered by the test. Its owner thinks before
 #: a transaction is sent while `thinking` is set. `changed` tells what wallets tell.
@@ -61,8 +60,8 @@ class Node:
     declined: methods that the owner of the wallet refuses.
     """
 
-    def __init__(self, node: Anvil, genesis: Collection) -> None:
-        self.node, self.genesis = node, genesis
+    def __init__(self, node: Anvil, owner: Transactor, genesis: Collection) -> None:
+        self.node, self.owner, self.genesis = node, owner, genesis
         self.book = {str(CHAIN): {"GenesisCollection": genesis.address}}
         self.reset()
 
@@ -83,34 +82,27 @@ class Node:
         self.asked.append(method)
         if method in self.declined:
             return {"error": "User denied transaction signature.", "code": 4001}
-        try:
-            result = self.own(method, parameters)
-        except NodeError as error:
-            return {"error": str(error), "code": -32603}
-        except PermissionError as error:
-            return {"error": str(error), "code": 4902}
-        return {"result": self.lies[method](result, parameters, self) if method in self.lies else result}
-
-    def own(self, method: str, parameters: list[Any]) -> Any:
+        result: Any = None
         match method:
             case "eth_accounts" | "eth_requestAccounts":
-                return [self.address]
+                result = [self.address]
             case "eth_chainId":
-                return hex(self.chain)
+                result = hex(self.chain)
+            case "wallet_switchEthereumChain" if int(parameters[0]["chainId"], 16) not in self.known:
+                return {"error": "Unrecognized chain ID. Try adding the chain first.", "code": 4902}
             case "wallet_switchEthereumChain":
-                chain = int(parameters[0]["chainId"], 16)
-                if chain not in self.known:
-                    raise PermissionError("Unrecognized chain ID. Try adding the chain first.")
-                self.chain = chain
-                return None
+                self.chain = int(parameters[0]["chainId"], 16)
             case "wallet_addEthereumChain":
                 self.known.add(int(parameters[0]["chainId"], 16))
-                return None
             case "eth_getCode" if self.chain != CHAIN:
-                return "0x"
-            case "eth_sendTransaction":
-                self.sent.append(parameters[0])
-        return self.node.rpc(method, *parameters)
+                result = "0x"
+            case _:
+                self.sent += parameters[:1] if method == "eth_sendTransaction" else []
+                try:
+                    result = self.node.rpc(method, *parameters)
+                except NodeError as error:
+                    return {"error": str(error), "code": -32603}
+        return {"result": self.lies[method](result, parameters, self) if method in self.lies else result}
 
     def read(self, function: str, *arguments: Any) -> Any:
         """What the collection of editions answers."""
@@ -127,12 +119,7 @@ def started() -> Iterator[Node]:
         local.address("Editions")
         for address, code in local.codes().items():
             node.rpc("anvil_setCode", "0x" + address.hex(), "0x" + code.hex())
-        owner = Transactor(node.connection, development_accounts()[OWNER])
-        account = checksum_address(owner.address)
-        genesis, _ = launch(plan_launch(owner.connection, KINDS["genesis"], CollectionTerms(account, account)), owner)
-        perform(owner, genesis.contract.prepare("setPhase", 2))
-        perform(owner, genesis.contract.prepare("mint", 1, value=genesis.contract.call("price")))
-        yield Node(node, genesis)
+        yield Node(node, *open_sale(node.connection))
 
 
 @pytest.fixture
@@ -186,9 +173,8 @@ def test_the_picture_becomes_an_edition(visitor: Visitor, node: Node) -> None:
     shown = page.pixels()
     dialog = connected(page, "edition")
     assert page.page.locator("dialog b", has_text="Toy").count() == 0  # the name of a wallet is text
-    dialog.locator("[name=name]").fill('A "bolt"')
-    dialog.locator("[name=supply]").fill("3")
-    dialog.locator("[name=royalty]").fill("2.5")
+    for name, value in (("name", 'A "bolt"'), ("supply", "3"), ("royalty", "2.5")):
+        dialog.locator(f"[name={name}]").fill(value)
     # what it costs is told first, and is a ceiling
     cost = dialog.locator("[data-name=cost]").inner_text()
     assert cost.startswith("3 signatures: the last adds the edition, those before store its scene.")
@@ -422,15 +408,11 @@ def test_without_a_wallet(visit: Visit) -> None:
 def test_a_token_of_an_edition_is_minted(visitor: Visitor, node: Node) -> None:
     added(visitor())
     node.account, node.sent = 2, []
-    page = visitor()
-    dialog = connected(page, "mint")
+    dialog = connected(visitor(), "mint")
     cost = dialog.locator("[data-name=cost]").inner_text()
     assert "Price: 0.01 ether. With gas, at most 0.01" in cost
     assert dialog.locator("img").get_attribute("src") == image(node, 0)
-    page.run("window.thinking = true")
-    dialog.locator("[data-name=mint]:enabled").dblclick()
-    dialog.get_by_text("The price is 0.01 ether. Confirm it in the wallet").wait_for()
-    page.run("window.thinking = false")
+    press(dialog, "mint")
     dialog.get_by_text("Minted: token 1 of Shackled Editions is yours").wait_for()
     assert dialog.locator("img").get_attribute("src") == image(node, 1)
     (sent,) = node.sent
@@ -452,7 +434,7 @@ def test_tokens_of_the_address_book(
     visitor: Visitor, node: Node, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.setenv(VARIABLE, str(tmp_path / "addresses.json"))
-    monkeypatch.setenv("OWNER", development_accounts()[OWNER].key.hex())
+    monkeypatch.setenv("OWNER", KEY)
     for words in ("deploy icons --icons heart,lightning --price 0.02", "seal", "phase public -c icons"):
         command = f"token {words} --rpc {node.node.url} --private-key-env OWNER --yes"
         assert run(command.split()) == 0
@@ -475,9 +457,7 @@ def test_tokens_of_the_address_book(
     node.chain = 1
     dialog = connected(visitor(book=book), "mint")
     dialog.get_by_text("No collection is known on Ethereum").wait_for()
-    perform(
-        Transactor(node.node.connection, development_accounts()[OWNER]), node.genesis.contract.prepare("setPhase", 0)
-    )
+    perform(node.owner, node.genesis.contract.prepare("setPhase", 0))
     press(dialog, f"switch-{CHAIN}")
     dialog.get_by_role("radio", name="Genesis").check(force=True)
     trouble(dialog, "The sale is closed")
@@ -495,24 +475,20 @@ def mine(node: Node, missing: int) -> int:
 
 def test_anybody_reveals(visitor: Visitor, node: Node) -> None:
     block = mine(node, missing=3)
-    page = visitor(book=node.book)
-    dialog = connected(page, "reveal")
-    dialog.locator("[name=collection]").fill("0x" + "11" * 20)
-    press(dialog, "find")
-    trouble(dialog, "There is no Shackled Genesis collection at 0x1111")
-    dialog.locator("[name=collection]").fill("0x12")
-    press(dialog, "find")
-    trouble(dialog, "An address is 0x and 40 hexadecimal digits")
-    dialog.locator("[name=collection]").fill(node.genesis.address)
-    press(dialog, "find")
+    dialog = connected(visitor(book=node.book), "reveal")
+    for address, words in (
+        ("0x" + "11" * 20, "There is no Shackled Genesis collection at 0x1111"),
+        ("0x12", "An address is 0x and 40 hexadecimal digits"),
+        (node.genesis.address, ""),
+    ):
+        dialog.locator("[name=collection]").fill(address)
+        press(dialog, "find")
+        if words:
+            trouble(dialog, words)
     dialog.get_by_text(f"The seeds come from block {block:,}. Waiting for 3 blocks").wait_for()
     mine(node, missing=0)
     dialog.get_by_text("This transaction reveals 1 round on a development chain").wait_for()
     data = dialog.locator("pre").inner_text()
-    node.declined = {"eth_sendTransaction"}
-    press(dialog, "send")
-    page.wait("document.querySelector('[data-name=said]')?.textContent === 'Cancelled'")
-    node.declined = set()
     press(dialog, "send")
     dialog.get_by_text("Revealed: 1 round.").wait_for()
     (sent,) = node.sent

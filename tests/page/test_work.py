@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 from attrs import evolve
+from examples import showcase
 from PIL import Image as PillowImage
 from PIL import ImageSequence
 
@@ -62,7 +63,7 @@ SCENES = {
     "teapot": evolve(shackled.load("teapot", (48, 40)), antialias=True),
     "edges": evolve(shackled.load("icons/crystals", 32), invert=True),
     "textured": textured(),
-    "large": shackled.load("showcase/plaster", 24),
+    "large": shackled.load(showcase.plaster(), 24),
 }
 #: Those of which pictures are made.
 DRAWN = ("teapot", "edges", "textured")
@@ -73,23 +74,18 @@ class Answers:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.cases: list[dict[str, Any]] = []
-        self.found: dict[str, Any] = {}
-
-    def ask(self, name: str, does: str, scene: str | None = None, /, **options: Any) -> None:
-        text = scene and encode_scene_file(SCENES[scene]).decode()
-        self.cases.append({"name": name, "does": does, "text": text, "options": options})
-
-    def answer(self) -> Answers:
         for name in ("evm.wasm", "contracts.json"):
-            (self.folder / name).write_bytes(asset(name))
+            (folder / name).write_bytes(asset(name))
         codes = {each: {"address": to_hex(local().address(each)), "code": to_hex(local().code(each))} for each in MORE}
         errors = {to_hex(key): error for each in (*MORE, STUDIO) for key, error in artifact(each).errors.items()}
-        (self.folder / "more.json").write_text(json.dumps({"contracts": codes, "errors": errors}))
-        content = {"data": str(self.folder), "template": page_template(), "cases": self.cases}
-        found = asked(SCRIPT, self.folder, content)
-        self.found = {case["name"]: each for case, each in zip(self.cases, found, strict=True)}
-        return self
+        (folder / "more.json").write_text(json.dumps({"contracts": codes, "errors": errors}))
+        texts = {name: encode_scene_file(scene).decode() for name, scene in SCENES.items()}
+        cases = [
+            {"name": name, "does": does, "text": texts.get(scene), "options": options}
+            for name, (does, scene, options) in CASES.items()
+        ]
+        content = {"data": str(folder), "template": page_template(), "cases": cases}
+        self.found: dict[str, Any] = dict(zip(CASES, asked(SCRIPT, folder, content), strict=True))
 
     def value(self, name: str) -> Any:
         found = self.found[name]
@@ -110,28 +106,30 @@ QUOTED: dict[str, dict[str, Any]] = {
 }
 
 
+FILM = {"frames": 5, "duration": 90, "scale": 2}
+#: What is asked, by name: what the script does, with which scene, and options.
+CASES: dict[str, tuple[str, str, dict[str, Any]]] = {
+    "selectors": ("selectors", "", {}),
+    **{f"{scene}-png": ("file", scene, {"format": "png", "scale": 2}) for scene in DRAWN},
+    **{f"{scene}-transparent": ("file", scene, {"format": "transparent", "scale": 1}) for scene in DRAWN},
+    **{f"{scene}-stages": ("stages", scene, {}) for scene in DRAWN},
+    "glb": ("file", "textured", {"format": "glb"}),
+    "apng": ("file", "edges", {"format": "apng", **FILM}),
+    "gif": ("gif", "edges", FILM),
+    "many": ("gif", "teapot", {"frames": 3, "duration": 50, "scale": 1}),
+    "page": ("page", "teapot", {"title": '<Tea> & "pot"', "notice": "By A & B"}),
+    "genesis": ("genesis", "", {"seed": "7"}),
+    **{f"{name}-quote": ("quote", name.partition(",")[0], TERMS | terms) for name, terms in QUOTED.items()},
+    "nameless": ("quote", "edges", TERMS | {"name": ""}),
+    **{f"fits-{limit}": ("fits", "edges", {"limit": limit}) for limit in ("transaction", "call", "edition")},
+    "fits-not": ("fits", "large", {"limit": "transaction"}),
+    "too-large": ("file", "large", {"format": "png", "scale": 1000}),
+}
+
+
 @pytest.fixture(scope="session")
 def answers(tmp_path_factory: pytest.TempPathFactory) -> Answers:
-    work = Answers(tmp_path_factory.mktemp("work"))
-    work.ask("selectors", "selectors")
-    for scene in DRAWN:
-        work.ask(f"{scene}-png", "file", scene, format="png", scale=2)
-        work.ask(f"{scene}-transparent", "file", scene, format="transparent", scale=1)
-        work.ask(f"{scene}-stages", "stages", scene)
-    work.ask("glb", "file", "textured", format="glb")
-    work.ask("apng", "file", "edges", format="apng", frames=5, duration=90, scale=2)
-    work.ask("gif", "gif", "edges", frames=5, duration=90, scale=2)
-    work.ask("many", "gif", "teapot", frames=3, duration=50, scale=1)
-    work.ask("page", "page", "teapot", title='<Tea> & "pot"', notice="By A & B")
-    work.ask("genesis", "genesis", seed="7")
-    for name in QUOTED:
-        work.ask(f"{name}-quote", "quote", name.partition(",")[0], **TERMS | QUOTED[name])
-    work.ask("nameless", "quote", "edges", **TERMS | {"name": ""})
-    for limit in ("transaction", "call", "edition"):
-        work.ask(f"fits-{limit}", "fits", "edges", limit=limit)
-    work.ask("fits-not", "fits", "large", limit="transaction")
-    work.ask("too-large", "file", "large", format="png", scale=1000)
-    return work.answer()
+    return Answers(tmp_path_factory.mktemp("work"))
 
 
 def test_selectors(answers: Answers) -> None:

@@ -1,4 +1,4 @@
-"""Scripts for Node that answer a file of JSON lines with a file of byte strings, and modules bundled for them."""
+"""Scripts for Node that answer a file of JSON with another, and modules of web/src bundled for them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import os
 import shutil
 import subprocess
 from collections.abc import Sequence
-from importlib.resources.abc import Traversable
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -15,34 +15,32 @@ import pytest
 
 WEB = Path(__file__).resolve().parents[2] / "web"
 ESBUILD = WEB / "node_modules" / ".bin" / "esbuild"
+#: The TypeScript package, as it comes with the Python package.
+BUNDLE = Path(str(files("shackled"))) / "web" / "shackled.js"
+needs_node = pytest.mark.skipif(not shutil.which("node"), reason="there is no Node")
 needs_web = pytest.mark.skipif(not ESBUILD.exists() or not shutil.which("node"), reason="needs Node, and `npm ci`")
 
 
-def answers(script: Path, bundle: Traversable, lines: Sequence[dict[str, Any]], folder: Path) -> list[bytes]:
-    """Run a script with a bundle; return what it writes, each with its length in four bytes before it."""
-    asked, written = folder / "lines", folder / "answers"
-    asked.write_text("".join(f"{json.dumps(line)}\n" for line in lines))
-    subprocess.run(["node", script, str(bundle), asked, written], check=True)
-    data, place, found = written.read_bytes(), 0, []
-    while place < len(data):
-        end = place + 4 + int.from_bytes(data[place : place + 4], "big")
-        found.append(data[place + 4 : end])
-        place = end
-    return found
+def asked(script: Path, folder: Path, content: Any) -> Any:
+    """Run a script; return what it writes for this, all in JSON. One in TypeScript may import modules of web/src."""
+    question, answer = folder / "asked.json", folder / "answers.json"
+    question.write_text(json.dumps(content), "utf-8")
+    program = _bundle(folder, script) if script.suffix == ".ts" else script
+    subprocess.run(["node", program, question, answer], check=True)
+    return json.loads(answer.read_text("utf-8"))
+
+
+def calls_made(lines: Sequence[dict[str, Any]], folder: Path, bundle: Path = BUNDLE) -> list[Any]:
+    """The calls that TypeScript makes, see tests/web/calls.mjs, or what it says instead."""
+    script = Path(__file__).parents[1] / "web" / "calls.mjs"
+    found = asked(script, folder, {"bundle": str(bundle), "lines": lines})
+    return [bytes.fromhex(each["call"]) if "call" in each else each["error"] for each in found]
 
 
 def bundled(folder: Path, *modules: str) -> Path:
     """Bundle all that modules of web/src export; return the path of the bundle."""
     source = "".join(f'export * from "./src/{name}.js";' for name in modules)
     return _bundle(folder, source=source)
-
-
-def asked(script: Path, folder: Path, content: Any) -> Any:
-    """Run a script in TypeScript, which may import modules of web/src; return what it writes for this, all in JSON."""
-    question, answer = folder / "asked.json", folder / "answers.json"
-    question.write_text(json.dumps(content), "utf-8")
-    subprocess.run(["node", _bundle(folder, script), question, answer], check=True)
-    return json.loads(answer.read_text("utf-8"))
 
 
 def _bundle(folder: Path, *scripts: Path, source: str | None = None) -> Path:

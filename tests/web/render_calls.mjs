@@ -1,27 +1,28 @@
-// Draws calls of the Renderer, one line of hexadecimal digits each, and prints what came of each as a line of JSON.
-//
-//   node render_calls.mjs BUNDLE EVM CONTRACTS STAGES CALLS [profile]
-//
-// With "profile", the gas of each stage in place of the picture.
+// Draws calls of the Renderer, or takes the gas of their stages: node render_calls.mjs ASKED ANSWERS, for test_web_render.py.
 
 import { createHash } from "node:crypto";
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
 
-const [bundle, evm, contracts, stages, calls, what] = process.argv.slice(2);
-const { profile, render } = await import(pathToFileURL(bundle));
-const assets = { evm: pathToFileURL(evm), contracts: readFileSync(contracts), stages: pathToFileURL(stages) };
-for (const line of readFileSync(calls, "utf8").trim().split("\n")) {
-    const call = Uint8Array.from(Buffer.from(line, "hex"));
-    try {
-        if (what === "profile") {
-            const found = await profile(call, { assets });
-            console.log(JSON.stringify({ stages: Object.fromEntries(found.map(({ stage, gas }) => [stage, gas])) }));
-            continue;
-        }
+const [asked, written] = process.argv.slice(2);
+const { does, package: folder, calls } = JSON.parse(readFileSync(asked, "utf8"));
+const path = (name) => pathToFileURL(`${folder}/${name}`);
+const { profile, render } = await import(path("web/shackled.js"));
+const [evm, contracts, stages] = ["evm/evm.wasm", "web/contracts.json", "web/stages.json"].map(path);
+const assets = { evm, contracts: readFileSync(contracts), stages };
+const doers = {
+    profile: async (call) => {
+        const found = await profile(call, { assets });
+        return { stages: Object.fromEntries(found.map(({ stage, gas }) => [stage, gas])) };
+    },
+    render: async (call) => {
         const { bmp, gas } = await render(call, { assets });
-        console.log(JSON.stringify({ gas, sha256: createHash("sha256").update(bmp).digest("hex") }));
-    } catch ({ name, message }) {
-        console.log(JSON.stringify({ name, message }));
-    }
+        return { gas, sha256: createHash("sha256").update(bmp).digest("hex") };
+    },
+};
+const answers = [];
+for (const call of calls) {
+    const found = doers[does](Uint8Array.from(Buffer.from(call, "hex")));
+    answers.push(await found.catch(({ name, message }) => ({ name, message })));
 }
+writeFileSync(written, JSON.stringify(answers));

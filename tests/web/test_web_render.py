@@ -3,36 +3,25 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import random
-import shutil
-import subprocess
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-import pytest
-
+from node_scripts import BUNDLE, asked, needs_node
 from pictures import chain, dynamic
 from shackled import load
 from shackled.errors import RenderError
 from shackled.gas import profile, render_call
 from shackled.scene import LookOptions
 
-SCRIPT = Path(__file__).with_name("render_calls.mjs")
-PACKAGE = files("shackled")
 NAMES = ("teapot", "icons/crown", "icons/diamond", "genesis/0", "genesis/7")
 
-pytestmark = pytest.mark.skipif(not shutil.which("node"), reason="there is no Node")
+pytestmark = needs_node
 
 
-def drawn_by_node(calls: list[bytes], folder: Path, *more: str) -> list[dict[str, Any]]:
-    path = folder / "calls"
-    path.write_text("".join(f"{call.hex()}\n" for call in calls))
-    web = PACKAGE / "web"
-    assets = (web / "shackled.js", PACKAGE / "evm" / "evm.wasm", web / "contracts.json", web / "stages.json")
-    said = subprocess.check_output(["node", *map(str, (SCRIPT, *assets, path)), *more], text=True)
-    return [json.loads(line) for line in said.splitlines()]
+def drawn_by_node(calls: list[bytes], folder: Path, does: str) -> Any:
+    content = {"does": does, "package": str(BUNDLE.parents[1]), "calls": [call.hex() for call in calls]}
+    return asked(Path(__file__).with_name("render_calls.mjs"), folder, content)
 
 
 def drawn_by_python(call: bytes) -> dict[str, Any]:
@@ -55,7 +44,7 @@ def test_pictures_and_errors(tmp_path: Path) -> None:
             broken[36 : 36 + 30], broken[68 : 68 + 30] = bytes(30), bytes(30)
             broken[36 + 30], broken[68 + 30] = broken[36 + 30] & 1, broken[68 + 30] & 1
             calls.append(bytes(broken))
-    found = drawn_by_node(calls, tmp_path)
+    found = drawn_by_node(calls, tmp_path, "render")
     assert found == [drawn_by_python(call) for call in calls]
     assert any("sha256" in each for each in found[len(NAMES) :])
     assert len({each.get("message") for each in found}) > 10
