@@ -42,24 +42,24 @@ FORKS = (
 README = """# A workload for EVM clients
 
 One read call that draws the {piece} at {side} x {side} pixels, antialiased: arithmetic, memory, and a call
-between contracts, by the rules of Cancun. It always returns the same bytes for the same gas. A client that returns
-others, or takes other gas, has a fault.
+between contracts, under the Cancun rules. It always returns the same bytes for the same gas. A client that
+returns different bytes, or uses a different amount of gas, is faulty.
 
-| file | what |
+| file | contents |
 | --- | --- |
 | [state.json](state.json) | the runtime code of {contracts} contracts by address, as the `alloc` of a genesis file |
 | [calldata.hex](calldata.hex) | the data of the call, {calldata:,} bytes |
 | [expected.json](expected.json) | address, execution gas, and size, Keccak-256 and SHA-256 of the output |
 
-Execution gas: {gas:,}, without the intrinsic gas of a transaction. By geth's `evm` tool:
+Execution gas: {gas:,}, without the intrinsic gas of a transaction. To run it with geth's `evm` tool:
 
 ```
 evm --prestate state.json --inputfile calldata.hex --gas {limit} \\
     --receiver {to} --bench run
 ```
 
-The chain configuration in `state.json` has all forks up to Cancun from the start. The command was not tried, as no geth
-is installed where this was written; a test runs the files in revm.
+The chain configuration in `state.json` has all forks up to Cancun from the start. The command has not been
+tried, because geth was not available; a test runs the files in revm.
 
 Written by `python -m benchmarks.client_workload`.
 """

@@ -116,8 +116,8 @@ def text(figures: dict[str, dict[str, list[float]]]) -> str:
         lines.append([name, f"{share:.0%}", f"{without:.4f}", f"{smaller:.4f}"])
     head = ["look: left out", "gas", "FLIP", "FLIP of the whole look, smaller, for this gas"]
     return wrapped(
-        f"Means of {', '.join(figures)}, {SIDE} x {SIDE} pixels. To spend less gas, one loses less by leaving a part"
-        f" out than by a smaller canvas for {' and '.join(dear) or 'no part'}.\n\n" + table(head, lines)
+        f"Means of {', '.join(figures)}, {SIDE} x {SIDE} pixels. To save gas, leaving out a part loses less than a"
+        f" smaller canvas for {' and '.join(dear) or 'no part'}.\n\n" + table(head, lines)
     )
 
 
