@@ -20,7 +20,7 @@ from .progress import LateBar
 #: The most pieces of a dataset in a gallery without --all; only Genesis has more.
 SHOWN = 48
 
-DATASET = argument(f"{', '.join(DATASETS)}; all by default.", "DATASET", parse=partial(choice, choices=tuple(DATASETS)))
+DATASET = argument(f"{', '.join(DATASETS)}; all by default.", "DATASET", parse=partial(choice, choices=DATASETS))
 
 
 def list_(
