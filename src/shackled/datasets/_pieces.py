@@ -11,8 +11,8 @@ from typing import Any
 from ..errors import InputError
 from ..scene import Scene
 
-#: The datasets, and the prefixes of the names of their pieces.
-DATASETS = {"common": "", "icons": "icons/", "genesis": "genesis/"}
+#: The datasets; the names of pieces begin with them and a slash, except those of the common ones.
+DATASETS = ("common", "icons", "genesis")
 #: How alike a name must be, from 0 to 1, to be what was meant.
 CLOSE = 0.7
 
