@@ -62,7 +62,7 @@ def measure(scene: Scene) -> Figures:
     try:
         for name, signature in COLUMNS.items():
             result = chain.run(studio, interface.encode(signature, *arguments[name]))
-            figures |= {f"{name}: gas": result.gas, f"{name}: bytes": len(returned_bytes(result.output, 0))}
+            figures |= {f"{name}: gas": result.gas, f"{name}: bytes": len(returned_bytes(result.output))}
     finally:
         for each in stored:
             chain._codes.pop(each.pointer, None)

@@ -146,7 +146,7 @@ def test_the_solidity_programs_make_the_picture(programs: dict[str, dict[str, An
             answer = evm._run(place, bytes.fromhex(selector) + arguments, 10**9).output
         finally:
             del evm._codes[place]
-        assert returned_bytes(answer, 0) == base64.b64decode(made["bmp"])
+        assert returned_bytes(answer) == base64.b64decode(made["bmp"])
 
 
 @pytest.mark.parametrize(("kind", "codes"), [("cast", 0), ("anywhere", len(RENDERER))])

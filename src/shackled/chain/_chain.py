@@ -69,7 +69,7 @@ class ContractCaller(ABC):
         """Render a scene, or a tile of its canvas."""
         data = encode(artifact("Renderer").selectors["render" if tile is None else "renderTile"], scene, tile)
         result = self.call("Renderer", data)
-        return Drawing(returned_bytes(result.output, 0), result.gas, intrinsic_gas(data))
+        return Drawing(returned_bytes(result.output), result.gas, intrinsic_gas(data))
 
     def count(self, scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
         """Count the triangles left after culling and clipping, and the pixels of the canvas or tile that they cover."""
@@ -91,9 +91,9 @@ class ContractChain(ContractCaller):
         """Call a contract, as `ContractCaller.call`."""
 
 
-def returned_bytes(output: bytes, field: int) -> bytes:
-    """Return the ABI field `field`, of type bytes; unlike `Interface.decode`, it copies the bytes once only."""
-    start = int.from_bytes(output[32 * field : 32 * field + 32], "big")
+def returned_bytes(output: bytes) -> bytes:
+    """Return the first ABI field, of type bytes; unlike `Interface.decode`, it copies the bytes once only."""
+    start = int.from_bytes(output[:32], "big")
     length = int.from_bytes(output[start : start + 32], "big") if start + 32 <= len(output) else len(output)
     if start + 32 + length > len(output):
         raise RenderError(f"the contract returned {len(output)} bytes that do not hold a picture")
