@@ -14,6 +14,7 @@ import shackled
 from shackled import InputError, Scene
 from shackled.artifacts import artifact
 from shackled.bench import EXPERIMENTS, Runner, call_renderer, fits, original, original_gas, scenes
+from shackled.bench import _culling as culling
 from shackled.bench._measure import cost
 from shackled.bench._original import CODE_SIZES
 from shackled.bench._report import ExperimentReport, wrapped
@@ -196,3 +197,16 @@ def test_reports(tmp_path: Path) -> None:
     # tables are not wrapped
     row = "| " + "x" * 200 + " |"
     assert len(wrapped("word " * 40 + "\n\n" + row).splitlines()) == 4
+
+
+def test_the_legend_of_the_bars_is_above_them() -> None:
+    from matplotlib.figure import Figure
+
+    report = culling.run(Runner(quick=True, processes=1))
+    figure = Figure(figsize=report.shape, layout="constrained")
+    report.draw(figure)
+    figure.draw_without_rendering()
+    (axes,) = figure.axes
+    legend = axes.get_legend()
+    assert legend is not None
+    assert legend.get_window_extent().y0 >= axes.get_window_extent().y1 - 1
