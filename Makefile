@@ -138,7 +138,7 @@ bench: $(DEV) opengl ## measure, and write the tables of benchmarks/, of the REA
 	$(BIN)/python -m tools.readme
 
 paper: $(DEV) $(NODE) ## repeat the experiments of the paper: benchmarks/results, benchmarks/README.md
-	$(BIN)/python -m tools.anvil $(BIN)/shackled bench -o benchmarks/results --rpc
+	$(BIN)/shackled bench -o benchmarks/results
 	$(BIN)/python -m benchmarks.story
 
 pictures: $(DEV) ## draw the pictures of the documentation, except those of tools/docs/draw_creator.py and draw_token_gallery.py

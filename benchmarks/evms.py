@@ -23,11 +23,11 @@ from tools.anvil import Anvil, find_anvil
 
 from shackled import Scene, load
 from shackled.artifacts import artifact
-from shackled.bench._engines import open_engines
-from shackled.chain import ContractChain, NodeChain
+from shackled.chain import CHAINS, ContractChain, NodeChain, open_chain, open_node
 from shackled.scene import LookOptions, encode
 
 PAGE = Path(__file__).resolve().parent / "evms.md"
+PROGRAM = str(Path(sys.executable).with_name("shackled"))
 
 NAMES = {
     "revm": "revm, as WebAssembly (the default)",
@@ -58,8 +58,9 @@ def speeds() -> str:
     """Return a table of millions of gas a second."""
     scenes = {name: load(piece, SIZE, **look) for name, (piece, look) in SCENES.items()}
     with ExitStack() as stack:
-        anvil = find_anvil()
-        evms = open_engines(None if anvil is None else stack.enter_context(Anvil(anvil)).url)
+        evms: dict[str, Caller] = {name: open_chain(name) for name, module in CHAINS.items() if find_spec(module)}
+        if (anvil := find_anvil()) is not None:
+            evms["anvil"] = open_node(stack.enter_context(Anvil(anvil)).url)
         rows = {name: row(scene, evms) for name, scene in scenes.items()}
     lines = [f"| scene | gas, millions | {' | '.join(NAMES[name] for name in evms)} | revm by pyrevm |"]
     lines.append(f"|---|---:|{'---:|' * len(evms)}---:|")
@@ -93,8 +94,11 @@ def row(scene: Scene, evms: dict[str, Caller]) -> tuple[int, dict[str, float]]:
 
 
 def starts() -> str:
-    """Return a table of the seconds of commands in new processes."""
+    """Return a table of the seconds of new processes: what the command needs to start, beside NumPy, and pictures."""
     lines = ["| command | EVM | seconds |", "|---|---|---:|"]
+    light = {"`import numpy`": [sys.executable, "-c", "import numpy"], "`shackled --help`": [PROGRAM, "--help"]}
+    rounds = [{name: timed(partial(run, command)) for name, command in light.items()} for _ in range(ROUNDS)]
+    lines += [f"| {name} | | {min(each[name] for each in rounds):.2f} |" for name in light]
     cases = {"revm, cached": "revm", FIRST: "revm", "pyrevm": "pyrevm"}
     if not find_spec("pyrevm"):
         del cases["pyrevm"]
@@ -114,11 +118,13 @@ def starts() -> str:
 
 def start(command: tuple[str, ...], chain: str, cache: Path) -> None:
     """Render in a new process, with this folder as the user's cache."""
-    program = [str(Path(sys.executable).with_name("shackled")), "render", *command, "--evm", chain]
-    output = ["-o", str(cache.with_suffix(".png"))]
-    subprocess.run(
-        [*program, *output], env=os.environ | {"XDG_CACHE_HOME": str(cache)}, check=True, capture_output=True
-    )
+    output = str(cache.with_suffix(".png"))
+    run([PROGRAM, "render", *command, "--evm", chain, "-o", output], XDG_CACHE_HOME=str(cache))
+
+
+def run(command: list[str], **variables: str) -> None:
+    """Run a program to its end, with these variables in its environment."""
+    subprocess.run(command, env=os.environ | variables, check=True, capture_output=True)
 
 
 def timed(work: Callable[[], object], clock: Callable[[], float] = time.perf_counter) -> float:

@@ -39,7 +39,7 @@ def make_project(folder: Path) -> None:
         path.write_text(content, "utf-8")
     modules = folder / "node_modules"
     modules.mkdir()
-    for name in ("erc721a", "solady", "solc"):
+    for name in ("erc721a", "solady", "solc", ".bin"):
         (modules / name).symlink_to(MODULES / name)
     build_package.build(modules / "shackled-contracts")
 

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from shackled import Mesh
 from shackled.datasets import teapot
-from shackled.scene import write_obj
 
 Points = NDArray[np.float64]
 
@@ -116,6 +115,19 @@ MESHES: dict[str, Callable[[], Mesh]] = {
     "ball": ball,
     "floor": floor,
 }
+
+
+def write_obj(mesh: Mesh, path: Path) -> None:
+    """Write positions, colours and, if there are any, normals."""
+    lines = []
+    for (x, y, z), (r, g, b) in zip(mesh.positions.tolist(), (mesh.colors / 255).tolist(), strict=True):
+        lines.append(f"v {x:.9g} {y:.9g} {z:.9g} {r:.4g} {g:.4g} {b:.4g}")
+    corner = "{0}"
+    if mesh.normals is not None:
+        corner = "{0}//{0}"
+        lines += [f"vn {x:.6g} {y:.6g} {z:.6g}" for x, y, z in mesh.normals.tolist()]
+    lines += ["f " + " ".join(corner.format(number) for number in face) for face in (mesh.faces + 1).tolist()]
+    path.write_text("\n".join(lines) + "\n", encoding="ascii")
 
 
 def main() -> None:

@@ -73,7 +73,6 @@ SLOW = (
     "test_tiles.py",
     "test_workers.py",
     "tokens/test_editions_invariants.py",
-    "tokens/test_icons_gas.py",
     "tokens/test_invariants.py",
     "tokens/test_reveal.py",
     "tokens/test_token_docs.py",

@@ -106,10 +106,11 @@ def sources() -> list[str]:
     return [path.as_posix() for path in files]
 
 
-def gallery() -> list[tuple[str, str]]:
-    """The pictures of docs/gallery.md, and the command below each."""
+def gallery() -> list[tuple[str, str, str]]:
+    """The pictures of docs/gallery.md, and the commands below each: of an example, if any, and of `shackled`."""
     page = (DOCS / "gallery.md").read_text("utf-8")
-    return re.findall(r"!\[[^]]*\]\((images/gallery/[^)]*)\)[^`]*```sh\n    shackled (.*)\n", page)
+    commands = r"```sh\n    (?:python (.*)\n    )?shackled (.*)\n    ```"
+    return re.findall(r"!\[[^]]*\]\((images/gallery/[^)]*)\)[^`]*" + commands, page)
 
 
 def frames(path: Path) -> list[NDArray[np.uint8]]:
@@ -117,8 +118,11 @@ def frames(path: Path) -> list[NDArray[np.uint8]]:
         return [np.asarray(frame.convert("RGB")) for frame in ImageSequence.Iterator(opened)]
 
 
-@pytest.mark.parametrize(("picture", "command"), gallery(), ids=[Path(name).stem for name, _ in gallery()])
-def test_a_command_of_the_gallery_draws_its_picture(picture: str, command: str, folder: Path) -> None:
+@pytest.mark.parametrize(("picture", "example", "command"), gallery(), ids=[Path(name).stem for name, *_ in gallery()])
+def test_a_command_of_the_gallery_draws_its_picture(picture: str, example: str, command: str, folder: Path) -> None:
+    if example:
+        script, *arguments = shlex.split(example)
+        subprocess.run([sys.executable, ROOT / script, *arguments], check=True)
     result = CliRunner().invoke(app, shlex.split(command), catch_exceptions=False)
     assert result.exit_code == 0, result.output
     shown, drawn = frames(DOCS / picture), frames(folder / Path(picture).name)
@@ -193,7 +197,8 @@ def test_a_program_says_in_a_line_what_it_lacks(name: str, words: str, monkeypat
 
 def test_the_gallery_is_complete() -> None:
     """Each of its pictures has a command, and each program is short and listed."""
-    assert {f"images/gallery/{path.name}" for path in (DOCS / "images" / "gallery").iterdir()} == set(dict(gallery()))
+    pictures = sorted(path.relative_to(DOCS).as_posix() for path in (DOCS / "images" / "gallery").iterdir())
+    assert pictures == sorted(name for name, *_ in gallery())
     page = (DOCS / "gallery.md").read_text("utf-8")
     assert len(PROGRAMS) >= 12
     for program in PROGRAMS:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import io
-import re
 import struct
 import xml.etree.ElementTree as ElementTree
 
@@ -15,7 +14,7 @@ from PIL import Image as PillowImage
 
 from made_scenes import flat, teapot_scene
 from pictures import Pixels, call, counts, draw, dynamic, soup, unlit_scene
-from shackled import Background, Camera, Image, Scene, render
+from shackled import Background, Camera, Scene
 from shackled.scene import fit
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -83,21 +82,6 @@ def test_all_entry_points_return_the_same_picture(width: int, height: int) -> No
     kind, _, data = (image.get("href") or "").partition(",")
     assert kind == "data:image/bmp;base64"
     assert (decode(base64.b64decode(data, validate=True)) == pixels).all()
-
-
-def test_the_svg_of_an_image_is_that_of_the_contract() -> None:
-    """But for the file in it, which is a PNG of the same pixels."""
-    scene = evolve(teapot_scene(), width=20, height=14)
-    image: Image = render(scene)
-    ours, theirs = (
-        re.fullmatch(rb'(.*href="data:image/)(\w+);base64,([^"]*)(".*)', svg)
-        for svg in (image.encode(".svg"), dynamic(call("renderSVG", fit(scene)).output))
-    )
-    assert ours is not None
-    assert theirs is not None
-    assert (ours[1], ours[2], ours[4]) == (theirs[1], b"png", theirs[4])
-    with PillowImage.open(io.BytesIO(base64.b64decode(ours[3], validate=True))) as picture:
-        assert np.array_equal(np.asarray(picture), image.pixels)
 
 
 @pytest.mark.parametrize(("width", "height"), [(5, 1), (1, 2), (5, 300), (3, 1024)])

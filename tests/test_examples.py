@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from examples import showcase
 from PIL import Image as PillowImage
 from tools.examples import compile_example, picture, token_uri
 from tools.ledger import World
@@ -30,6 +31,10 @@ from shackled.studio import store_scene
 
 ROOT = Path(__file__).resolve().parent.parent
 EXAMPLES = ROOT / "examples"
+
+
+#: The gas of the pictures of the documentation, among others.
+FIGURES = json.loads((ROOT / "docs" / "images" / "pictures.json").read_text("utf-8"))
 
 
 def run(*command: str | Path, cwd: Path) -> str:
@@ -51,7 +56,7 @@ def test_the_demo_costs_what_the_readme_says(tmp_path: Path) -> None:
     options = shlex.split(drawing)[1:]
     run(EXAMPLES / "meshes.py", "--into", "build", "teapot", cwd=tmp_path)
     report = json.loads(run("-m", "shackled", *options, "--json", cwd=tmp_path))
-    said = json.loads((ROOT / "docs" / "images" / "pictures.json").read_text("utf-8"))["teapot"]
+    said = FIGURES["teapot"]
     assert {key: report[key] for key in said} == said
     shown = PillowImage.open(ROOT / "docs" / "images" / "teapot.png").convert("RGB")
     assert hashlib.sha256(shown.tobytes()).hexdigest() == report["sha256"]
@@ -73,6 +78,27 @@ def test_scene_file(tmp_path: Path) -> None:
     image.save(tmp_path / "scene.png", scene=True)
     assert image.scene is not None
     assert render_call(load(tmp_path / "scene.png")) == render_call(image.scene)
+
+
+@pytest.mark.parametrize("name", showcase.SCENES)
+def test_a_scene_of_the_showcase_is_antialiased_and_seen(name: str) -> None:
+    image = render(showcase.SCENES[name](), size=(40, 30))
+    assert image.scene is not None
+    assert image.scene.antialias
+    assert len(np.unique(image.pixels.reshape(-1, 3), axis=0)) > 30
+
+
+def test_the_showcase(tmp_path: Path) -> None:
+    said = FIGURES["showcase"]
+    assert said.keys() == showcase.SCENES.keys()
+    words = run(EXAMPLES / "showcase.py", "--into", "deep/folder", "genesis", "wires", cwd=tmp_path)
+    lines = [f"{Path('deep', 'folder', name)}.png: {said[name] / 1e6:.1f} million gas" for name in ("genesis", "wires")]
+    assert words.splitlines() == lines
+    with PillowImage.open(tmp_path / "deep" / "folder" / "wires.png") as picture:
+        assert picture.size == showcase.SIZE
+    with pytest.raises(subprocess.CalledProcessError) as failed:
+        run(EXAMPLES / "showcase.py", "nothing", cwd=tmp_path)
+    assert failed.value.stderr.endswith(f"there is no scene nothing; the scenes are {', '.join(showcase.SCENES)}\n")
 
 
 @needs_compiler

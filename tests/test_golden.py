@@ -5,8 +5,8 @@ from __future__ import annotations
 import golden
 from pictures import chain
 from shackled.artifacts import artifact
-from shackled.chain import engine_calls
-from shackled.chain._runs import engines
+from shackled.chain._engines import engines
+from shackled.gas._trace import trace
 from shackled.scene import render_call
 
 
@@ -18,11 +18,12 @@ def test_pixels_and_gas() -> None:
 
 
 def test_every_engine_draws_some_of_them() -> None:
-    drawing = []
+    drawing: list[str] = []
     for scene in golden.scenes().values():
-        called = [call.engine for call in engine_calls(scene, chain())]
+        data = render_call(scene)
+        called = {each.contract for each in trace("Renderer", data)[0].frames()} - {"Renderer"}
         # those that a creation call brings are among them
-        assert {*called} <= {*engines(render_call(scene)[36:], chain())}
+        assert called <= {*engines(data[36:], chain())}
         drawing += called
     parts = [name for name in artifact("Renderer").parts if name.endswith("Engine")]
     assert len(parts) == 6

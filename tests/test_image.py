@@ -18,7 +18,7 @@ from PIL import Image as PillowImage
 from shackled import Animation, Camera, Image, InputError, Light, Mesh, Object, Processes, RenderError, Scene, render
 from shackled.animation import check_animation
 from shackled.artifacts import artifact
-from shackled.chain import RevmChain, open_chain
+from shackled.chain import ContractChain, RevmChain, open_chain
 from shackled.image import FORMATS, check_output, decode_bmp
 from shackled.scene import encode
 
@@ -168,11 +168,11 @@ def test_counts_are_calls_of_their_own(monkeypatch: pytest.MonkeyPatch) -> None:
     """Made at the first access, in the EVM that drew the picture; the gas is that of `render`."""
     asked: list[str | None] = []
 
-    def counted(scene: Scene, evm: str | None) -> tuple[int, int]:
+    def opened(evm: str | None) -> ContractChain:
         asked.append(evm)
-        return open_chain().count(scene)
+        return open_chain()
 
-    monkeypatch.setattr("shackled.parallel.count", counted)
+    monkeypatch.setattr("shackled.image.open_chain", opened)
     expected = RevmChain().count(SCENE)
     for on, evm in ((None, None), ("pyevm", "pyevm"), (RevmChain(), None), (Processes(2), None)):
         image = render(SCENE, on=on)

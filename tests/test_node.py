@@ -14,47 +14,24 @@ import pytest
 from tools.anvil import AnvilChain
 from web3 import HTTPProvider, Web3
 
+from made_scenes import POT, SMALL_SCENES
 from nodes import ANVIL, needs_anvil
-from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
+from shackled import Camera, Light, Object, Scene
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
-from shackled.datasets import teapot
 from shackled.scene import Rectangle, encode, fit, pack
 from shackled.scene._codec import LIGHTS, PROJECTIONS, SHADINGS, extensions
 
 pytestmark = needs_anvil
 
-POT = teapot(2)
-SQUARE = Mesh(
-    [[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]],
-    [[0, 1, 2], [0, 2, 3]],
-    [[255, 0, 0], [0, 255, 0], [0, 0, 255], [255, 255, 0]],
-)
-SCENES = {
-    "smooth": Scene(
-        [Object(POT, rotation=(0, 0.3, 0, 1), material=Material("smooth"), cull=False)],
-        Camera(eye=(2, 4, 8), target=(0, 1.5, 0)),
-        [Light("point", (3, 6, 5)), Light("directional", (-1, 0.5, 0), (90, 60, 30))],
-        Background("#102040", "#a0b0c0"),
-        width=40,
-        height=28,
-    ),
-    "flat, clipped, beside a wireframe": Scene(
-        [Object(SQUARE, (0, 0, 2), scale=1.5, cull=False), Object(POT, wireframe=True, material=Material("unlit"))],
-        Camera(eye=(1, 1, 2.5), target=(0, 1, 0), near=0.25),
-        [Light("directional", (1, 1, 1))],
-        invert=True,
-        width=33,
-        height=21,
-    ),
+SCENES = SMALL_SCENES | {
     "orthographic": Scene(
         [Object(POT)],
         Camera((5, 5, 5), (0, 1, 0), (0, 1, 0), "orthographic", 2.5),
         [Light("directional", (1, 2, 3))],
         width=24,
         height=24,
-    ),
-    "empty": Scene([], width=5, height=3),
+    )
 }
 
 
@@ -134,27 +111,3 @@ def test_a_node_makes_the_same_picture_for_the_same_gas(node: AnvilChain, name: 
 def test_a_node_draws_tiles(node: AnvilChain) -> None:
     part = contract(node, "Renderer").functions.renderTile(struct(SCENES["smooth"]), (7, 3, 20, 11)).call()
     assert part == open_chain().draw(SCENES["smooth"], Rectangle(7, 3, 20, 11)).bmp
-
-
-@pytest.mark.parametrize("lit", [False, True])
-def test_the_interface_of_the_original(node: AnvilChain, lit: bool) -> None:
-    lighting = (lit, 0, 2000, 3000, 10, [0, 0, 50], [255, 255, 255], [255, 255, 255], [0, 0, 0])
-    parameters = (
-        [[0, 1, 2]],
-        [[-60, -60, 0], [60, -60, 0], [0, 60, 0]],
-        [[255, 0, 0], [0, 255, 0], [0, 0, 255]],
-        [0, 0, -250],
-        1,
-        [[0, 0, 40], [0, 0, 160]],
-        lighting,
-        True,
-        True,
-        False,
-        False,
-    )
-    web3 = contract(node, "Original")
-    uri = web3.functions.render(parameters, 32, False).call()
-    bmp = base64.b64decode(uri.removeprefix("data:image/bmp;base64,"), validate=True)
-    assert len(bmp) == 54 + 32 * 32 * 3
-    data = bytes.fromhex(web3.encode_abi("render", [parameters, 32, False]).removeprefix("0x"))
-    assert node.call("Original", data) == open_chain().call("Original", data)

@@ -18,8 +18,7 @@ from pictures import call_data, chain, draw, dynamic
 from random_scenes import KINDS, random_case
 from shackled import Camera, InputError, Light, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
-from shackled.chain import engine_calls
-from shackled.chain._runs import ANTIALIASED, EFFECTS, PLAIN, engines
+from shackled.chain._engines import ANTIALIASED, EFFECTS, PLAIN, engines
 from shackled.datasets.common import shapes
 from shackled.image import decode_bmp
 from shackled.scene import Rectangle, encode, encode_scene_file, fit, render_call
@@ -230,13 +229,3 @@ def test_engines_of_other_calls() -> None:
     assert found(tile) == FOUR_SAMPLES
     for data in (b"", bytes(4), bytes(100)):
         assert engines(data, chain()) == PLAIN
-
-
-@pytest.mark.parametrize("kind", ["plain", "antialiased", "glass", "effects"])
-def test_the_calls_of_engines(kind: str) -> None:
-    """The last of them returns the picture: after two words rows from the bottom, blue first."""
-    scene = random_case(1, kind).scene
-    output = engine_calls(scene, chain())[-1].result.output
-    pixels = np.frombuffer(output, np.uint8, 3 * scene.width * scene.height, 64)
-    pixels = pixels.reshape(scene.height, scene.width, 3)[::-1, :, ::-1]
-    assert np.array_equal(255 - pixels if scene.invert else pixels, draw(scene))

@@ -23,12 +23,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from examples.showcase import SCENES
 from numpy.typing import ArrayLike
 from PIL import Image, ImageOps
 
-from shackled import load
+from shackled import Scene, load
 from shackled.artifacts import artifact
-from shackled.datasets import Piece, find, pieces
+from shackled.datasets import Piece, pieces
 from shackled.datasets._drawing import draw, table
 from shackled.ethereum import to_hex
 from shackled.scene import encode_scene_file, vertex_normals
@@ -42,8 +43,8 @@ DRACO = "three/examples/jsm/libs/draco/gltf/draco_decoder.wasm"
 
 #: The contracts that the page runs besides those that draw.
 MORE = ("PngEncoder", "Turntable", "GlbEncoder", "Genesis", "Editions", "Studio")
-#: Scenes of the showcase; the others have large meshes, or are those of icons.
-SHOWCASE = ("glass", "wires")
+#: Scenes of the showcase, and their titles; the others have large meshes, or are those of icons.
+SHOWCASE = {"glass": "Glass: opacity and a rim", "wires": "Wires, antialiased"}
 #: The side of a thumbnail.
 THUMBNAIL = 64
 #: The picture that other sites show for a link, and its size.
@@ -87,7 +88,10 @@ def main() -> int:
 def data_files(scripts: Path) -> dict[str, bytes]:
     """Return the content of the data files by name: see web/src/creator/assets.ts."""
     shown = [piece for name in ("icons", "common") for piece in pieces(name) if piece.ready()]
-    shown += [piece for name in SHOWCASE if (piece := find(f"showcase/{name}"))]
+    staged = {piece.file_stem: load(piece) for piece in shown}
+    for name, title in SHOWCASE.items():
+        shown.append(Piece(f"showcase/{name}", "showcase", title, "MIT", SCENES[name]))
+        staged[shown[-1].file_stem] = SCENES[name]()
     files = {name: asset(name) for name in ("evm.wasm", "contracts.json", "stages.json")}
     files |= {
         "more.json": dump(more_contracts()),
@@ -97,7 +101,7 @@ def data_files(scripts: Path) -> dict[str, bytes]:
         "draco.wasm": (WEB / "node_modules" / DRACO).read_bytes(),
         "LICENSES.txt": (scripts / "LICENSES.txt").read_bytes() + (ROOT / "THIRD-PARTY-NOTICES").read_bytes(),
     }
-    return files | {f"pieces/{piece.file_stem}": pack(piece) for piece in shown}
+    return files | {f"pieces/{name}": pack(scene) for name, scene in staged.items()}
 
 
 def more_contracts() -> dict[str, Any]:
@@ -145,9 +149,9 @@ def dump(value: Any) -> bytes:
 # ---- pieces, as web/src/creator/packed.ts reads them ----
 
 
-def pack(piece: Piece) -> bytes:
+def pack(staged: Scene) -> bytes:
     """Return the scene file of a piece, with its meshes as numbers of which equal bytes lie together."""
-    scene = json.loads(encode_scene_file(load(piece.name)))
+    scene = json.loads(encode_scene_file(staged))
     meshes: list[dict[str, Any]] = []
     numbers = []
     for place, each in enumerate(scene["objects"]):

@@ -321,8 +321,8 @@ def python(sections: Iterator[Section], used: set[str]) -> str:
 
 
 def used_names() -> set[str]:
-    """Return the names that chain/_runs.py uses of chain/_layout.py, as `layout.NAME`."""
-    return set(re.findall(r"\blayout\.([A-Z]\w+)", PACKAGE.with_name("_runs.py").read_text("utf-8")))
+    """Return the names that chain/_engines.py uses of chain/_layout.py, as `layout.NAME`."""
+    return set(re.findall(r"\blayout\.([A-Z]\w+)", PACKAGE.with_name("_engines.py").read_text("utf-8")))
 
 
 def wrapped(text: str, first: str, width: int, rest: str | None = None) -> list[str]:

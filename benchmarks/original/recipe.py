@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from shackled import InputError
 from shackled.bench.scenes import cube, equal_triangles
+from shackled.datasets import cache_folder, keep
 from shackled.datasets.common._fetch import checksum, download
 from shackled.datasets.common._models import Model
 from shackled.errors import FetchError
@@ -140,9 +141,9 @@ def documents(files: Path | None = None) -> Iterator[tuple[str, Document]]:
 
 def file_of(name: str, source: Source, files: Path | None) -> Path:
     """Return the file of a model, whose checksum is right; InputError otherwise."""
-    if files is None:
-        return download(Model(name, name, "", "", False, source.address, source.checksum))
-    path = files / source.address.rpartition("/")[2]
+    path = (files or cache_folder() / "originals") / source.address.rpartition("/")[2]
+    if files is None and not path.is_file():
+        keep(path, download(Model(name, name, "", "", False, source.address, source.checksum)))
     if not path.is_file():
         raise InputError(f"{path} does not exist; it is {source.address}")
     if (found := checksum(path.read_bytes(), source.checksum)) != source.checksum:

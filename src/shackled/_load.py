@@ -11,7 +11,7 @@ from typing import Any, Unpack
 import numpy as np
 from attrs import evolve, fields
 
-from .datasets import DATASETS, Piece, find, require
+from .datasets import Piece, find, require
 from .errors import InputError
 from .scene import (
     GLTF,
@@ -172,9 +172,7 @@ def _made(thing: Any, look: Mapping[str, Any]) -> Mesh | list[Object] | Scene:
     if isinstance(thing, Link):
         return thing.scene()
     if isinstance(thing, Piece):
-        scene, side = thing.make(), MESH_STAGING.side
-        # each scene of the showcase has its own look; other pieces have that of mesh files
-        return evolve(scene, width=side, height=side, antialias=True) if thing.dataset in DATASETS else scene
+        return evolve(thing.make(), width=MESH_STAGING.side, height=MESH_STAGING.side, antialias=True)
     if isinstance(thing, Object):
         return _staged([thing], look)
     if is_trimesh(thing):

@@ -6,6 +6,7 @@ import os
 from typing import TYPE_CHECKING
 
 from attrs import field, frozen
+from attrs.converters import optional
 
 from .chain import (
     CHAINS,
@@ -114,10 +115,6 @@ def _renderer(value: str | None) -> str | None:
     return value
 
 
-def _timeout(value: float | None) -> float | None:
-    return None if value is None else check_timeout(value)
-
-
 def _scheduler(value: str) -> str:
     if not isinstance(value, str) or ":" not in value:
         raise InputError(f"a cluster needs the address of its scheduler, such as tcp://host:8786, not {value!r:.60}")
@@ -138,7 +135,7 @@ class Nodes:
 
     urls: tuple[str, ...] = field(converter=_urls)
     address: str | None = field(default=None, converter=_renderer)
-    timeout: float | None = field(default=None, converter=_timeout)
+    timeout: float | None = field(default=None, converter=optional(check_timeout))
     jobs: int | None = field(default=1, converter=_jobs)
     verify: str | None = field(default=None, converter=_verify)
 

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from .errors import InputError
 
 Number = TypeVar("Number", bound=np.generic)
+Kind = TypeVar("Kind")
 #: Floats in an array that cannot be written to.
 Floats = NDArray[np.float64]
 #: What a colour is written as.
@@ -62,10 +63,11 @@ def flag(value: object, name: str = "a flag") -> bool:
     raise InputError(f"{name} must be True or False, not {value!r:.60}")
 
 
-def instance(value: object, name: str, kind: type) -> None:
-    """Raise an InputError unless `value` is an instance of a class of the package."""
+def instance(value: object, name: str, kind: type[Kind]) -> Kind:
+    """Return `value`, if it is an instance of a class of the package. InputError for anything else."""
     if not isinstance(value, kind):
         raise InputError(f"{name} must be a shackled.{kind.__name__}, not {value!r:.60}")
+    return value
 
 
 def fixed(value: ArrayLike, dtype: type[Number]) -> NDArray[Number]:

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from PIL import Image as PillowImage
 from PIL.PngImagePlugin import PngInfo
 
+from .chain import open_chain
 from .checks import fixed
 from .errors import InputError, RenderError
 from .scene import CHUNK, PICTURE, Scene, SceneChunk, scene_chunk
@@ -104,11 +105,7 @@ class Image(Value):
 
     @cached_property
     def _counts(self) -> tuple[int, int] | tuple[None, None]:
-        if self.scene is None:
-            return None, None
-        from .parallel import count
-
-        return count(self.scene, self.evm)
+        return (None, None) if self.scene is None else open_chain(self.evm).count(self.scene)
 
     @property
     def sha256(self) -> str:
@@ -283,26 +280,17 @@ def uncovered(black: Image, white: Image, scene: Scene | None = None) -> Image:
         seconds=black.seconds + white.seconds,
         scene=scene,
         calls=black.calls + white.calls,
-        call_gas=most(image.call_gas for image in both),
+        call_gas=total((image.call_gas for image in both), max),
         alpha=alpha,
         evm=black.evm,
     )
 
 
-def total(numbers: Iterable[int | None]) -> int | None:
-    """Return a sum of gas; None if it was not counted everywhere."""
-    return _of_all(sum, numbers)
-
-
-def most(numbers: Iterable[int | None]) -> int | None:
-    """Return the largest gas; None if it was not counted everywhere."""
-    return _of_all(max, numbers)
-
-
-def _of_all(function: Callable[[list[int]], int], numbers: Iterable[int | None]) -> int | None:
+def total(numbers: Iterable[int | None], of: Callable[[list[int]], int] = sum) -> int | None:
+    """Return the sum of gas, or `max` of it; None if it was not counted everywhere."""
     found = [*numbers]
     counted = [each for each in found if each is not None]
-    return function(counted) if len(counted) == len(found) else None
+    return of(counted) if len(counted) == len(found) else None
 
 
 def data_uri(media_type: str, data: bytes) -> str:

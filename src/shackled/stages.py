@@ -10,17 +10,15 @@ from dataclasses import dataclass
 
 import numpy as np
 from attrs import evolve
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from PIL import Image as PillowImage
 from PIL import ImageDraw, ImageFont
 
 from .chain import Chain, open_chain
-from .image import decode_bmp
+from .checks import Floats
+from .image import Pixels, decode_bmp
 from .scene import Background, Material, Mesh, Object, Scene, fit
 from .values import plural
-
-Pixels = NDArray[np.uint8]
-Floats = NDArray[np.float64]
 
 BLACK, WHITE = Background((0, 0, 0)), Background((255, 255, 255))
 #: The two greys of the checkerboard, and the side of its squares at 128 pixels.
@@ -108,7 +106,7 @@ def project(points: Floats, scene: Scene) -> tuple[Floats, Floats]:
     return flat + np.array([scene.width, scene.height]) / 2, distances
 
 
-def with_points(pixels: Pixels, places: NDArray[np.float64], colors: ArrayLike, order: NDArray[np.float64]) -> Pixels:
+def with_points(pixels: Pixels, places: Floats, colors: ArrayLike, order: Floats) -> Pixels:
     """Draw points as dots, the highest order last. places: (n, 2) pixels from the top left corner."""
     picture = PillowImage.fromarray(pixels)
     brush = ImageDraw.Draw(picture)

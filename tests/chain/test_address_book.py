@@ -9,7 +9,6 @@ import pytest
 
 from shackled.chain import VARIABLE, AddressBook, book_path
 from shackled.errors import InputError, OutputError
-from shackled.ethereum import checksum_address, parse_address
 
 ONE, TWO = b"\x01" * 20, bytes.fromhex("5aAeb6053F3E94C9b9A09f33669435E7Ef1BeAed")
 
@@ -84,12 +83,3 @@ def test_a_full_disk_is_no_wrong_input(monkeypatch: pytest.MonkeyPatch, tmp_path
     for use in (book.check, lambda: book.write(1, {"Engine": ONE})):
         with pytest.raises(OutputError, match=message):
             use()
-
-
-def test_capitals_are_the_checksum() -> None:
-    """The first example of EIP-55."""
-    assert checksum_address(TWO) == "0x5aAeb6053F3E94C9b9A09f33669435E7Ef1BeAed"
-    for text in (checksum_address(TWO), checksum_address(TWO).lower(), "0x" + TWO.hex().upper()):
-        assert parse_address(text, "it") == TWO
-    with pytest.raises(InputError, match="it has an invalid checksum"):
-        parse_address("0x5aaeb6053F3E94C9b9A09f33669435E7Ef1BeAed", "it")

@@ -112,10 +112,3 @@ def test_artifacts_are_whole() -> None:
             assert hashlib.sha256((source(path) or "").encode()).hexdigest() == digest, path
         assert len(artifact(name).runtime) <= 24576
         assert data["compiler"].startswith("0.8.37")
-
-
-def test_selectors_of_errors() -> None:
-    errors = [error for contract in contracts() for error in artifact(contract).errors.items()]
-    by_name = {name: selector for selector, (name, _) in errors}
-    eth_utils = pytest.importorskip("eth_utils")
-    assert by_name["CanvasSize"] == eth_utils.keccak(text="CanvasSize(uint256,uint256)")[:4]

@@ -62,11 +62,7 @@ def test_an_answer() -> None:
         (Reply(b'{"jsonrpc": "2.0", "id": null, "result": 5}' + b" " * 99, cut=20), NodeUnreachableError, "closed the"),
         (Reply(b"x" * 99, cut=0), NodeUnreachableError, "closed the"),
         (Reply(b"", 429, {"Retry-After": "7"}), NodeBusyError, "try again in 7 s"),
-        (
-            Reply(b"", 429),
-            NodeBusyError,
-            "limits the rate of requests (HTTP status 429); try again later, or",
-        ),
+        (Reply(b"", 429), NodeBusyError, "limits the rate of requests (HTTP status 429); try again later, or"),
         (Reply(b"", 503), NodeBusyError, "HTTP status 503: it is not available now"),
         (Reply(b"", 503, {"Retry-After": "2.5"}), NodeBusyError, "requests (HTTP status 503); try again in 3 s"),
         (Reply(b"<h1>no</h1>", 413), TooLargeError, "of this size (no): use a smaller `size`"),
@@ -277,11 +273,6 @@ def test_addresses_that_are_none(url: str) -> None:
     with pytest.raises(InputError, match=words) as error:
         Connection(url)
     assert "key0123456" not in str(error.value)
-
-
-def test_timeouts_that_are_none() -> None:
-    with pytest.raises(InputError, match="`timeout` must be more than 0 seconds and at most 86,400, not 0"):
-        Connection("http://127.0.0.1", 0)
 
 
 def test_nobody_there() -> None:

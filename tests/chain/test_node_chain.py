@@ -5,21 +5,19 @@ from __future__ import annotations
 import zlib
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import AbstractContextManager
 from dataclasses import replace
-from pathlib import Path
 from random import Random
 from typing import Any
 
 import pytest
 from tools.anvil import Anvil
 
-from nodes import Reply, anvil, failure, forward, needs_anvil, replying, result, without_overrides
-from shackled import Background, Camera, Light, Material, Mesh, Nodes, Object, Scene, render
+from made_scenes import POT, SMALL_SCENES
+from nodes import Reply, anvil, failure, forward, geth, needs_anvil, replying, result, without_overrides
+from shackled import Camera, Material, Mesh, Nodes, Object, Scene, render
 from shackled.artifacts import RENDERER, artifact
-from shackled.chain import VARIABLE, AddressBook, Drawing, EmbeddedChain, NodeChain, open_chain, open_node
+from shackled.chain import AddressBook, Drawing, EmbeddedChain, NodeChain, open_chain, open_node
 from shackled.chain._node import MAX_INIT_CODE
-from shackled.datasets import teapot
 from shackled.errors import (
     InputError,
     NodeError,
@@ -34,19 +32,11 @@ from shackled.scene import Rectangle
 
 pytestmark = needs_anvil
 
-POT = teapot(2)
 SHARD = Mesh([[-1, 0, 0], [2, 0, 1], [0, 2, 0]], [[0, 1, 2]], normals=[[0, 0, 1]] * 3)
 CAMERA = Camera(eye=(2, 4, 8), target=(0, 1.5, 0))
 SCENES = {
-    "smooth": Scene(
-        [Object(POT, material=Material("smooth"), cull=False)],
-        CAMERA,
-        [Light("point", (3, 6, 5)), Light("directional", (-1, 0.5, 0), (90, 60, 30))],
-        Background("#102040", "#a0b0c0"),
-        width=40,
-        height=28,
-    ),
-    "empty": Scene([], width=5, height=3),
+    "smooth": SMALL_SCENES["smooth"],
+    "empty": SMALL_SCENES["empty"],
     "antialiased": Scene([Object(POT, material=Material("smooth"))], CAMERA, width=20, height=14, antialias=True),
     "three antialiased engines": Scene(
         [Object(SHARD, material=Material("smooth")), Object(SHARD, (1, 1, 1)), Object(SHARD, wireframe=True)],
@@ -59,15 +49,6 @@ SCENES = {
 TILE = Rectangle(7, 3, 20, 11)
 #: What the first access to an account costs more than a later one.
 FIRST_ACCESS = 2500
-
-
-@pytest.fixture(scope="module", autouse=True)
-def book(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """No test reads or writes the book of whoever runs it."""
-    path = tmp_path_factory.mktemp("book") / "addresses.json"
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv(VARIABLE, str(path))
-        yield path
 
 
 @pytest.fixture(scope="module")
@@ -201,7 +182,7 @@ def test_another_contract(bare: Anvil, embedded: EmbeddedChain) -> None:
             assert node.gas - here.gas in ((0, FIRST_ACCESS) if place == url else (0,))
 
 
-def test_addresses_of_other_deployments(bare: Anvil, embedded: EmbeddedChain, book: Path) -> None:
+def test_addresses_of_other_deployments(bare: Anvil, embedded: EmbeddedChain) -> None:
     """A renderer may stand anywhere, with its engines anywhere."""
     places = {name: bytes([number]) * 20 for number, name in enumerate(RENDERER, 0x11)}
     fragments, renderer = places["FragmentEngine"], places["Renderer"]
@@ -212,7 +193,7 @@ def test_addresses_of_other_deployments(bare: Anvil, embedded: EmbeddedChain, bo
             code = code.replace(embedded.address(name).rjust(32, b"\0"), place.rjust(32, b"\0"))
         put(bare, renderer, code)
         check(open_node(bare.url, checksum_address(renderer)), embedded, "deployed")
-        AddressBook(book).write(bare.connection.chain_id, places)
+        AddressBook().write(bare.connection.chain_id, places)
         check(open_node(bare.url), embedded, "deployed")
         # a book that is out of date is passed over
         put(bare, fragments, b"")
@@ -220,7 +201,7 @@ def test_addresses_of_other_deployments(bare: Anvil, embedded: EmbeddedChain, bo
         with pytest.raises(RenderError, match="is not the renderer of this version of shackled"):
             open_node(bare.url, checksum_address(renderer)).draw(SCENES["empty"])
     finally:
-        book.unlink(missing_ok=True)
+        AddressBook().path.unlink(missing_ok=True)
         for address in places.values():
             put(bare, address, b"")
 
@@ -299,17 +280,6 @@ def test_limits_are_those_of_the_node(bare: Anvil, embedded: EmbeddedChain) -> N
                 break
     else:
         pytest.fail("the limit that is told is too low by a tenth")
-
-
-def geth(url: str, cap: int) -> AbstractContextManager[str]:
-    """A node in front of another that gives calls no more gas than `cap`, and says nothing of it."""
-
-    def call(request: dict[str, Any]) -> Reply:
-        fields = request["params"][0]
-        fields["gas"] = hex(min(int(fields.get("gas", hex(cap)), 16), cap))
-        return forward(url, request)
-
-    return replying(url, eth_call=call)
 
 
 def test_too_little_gas_on_a_node(bare: Anvil) -> None:

@@ -16,7 +16,7 @@ import pytest
 from commands import Shackled
 from shackled import __version__, cli
 from shackled.chain import EmbeddedChain, RevmChain
-from shackled.cli.app import LINES, app
+from shackled.cli.app import LINES, app, run
 from shackled.cli.option import with_options
 from shackled.words import INSTEAD
 
@@ -147,7 +147,7 @@ sys.exit(code)
 """
 
 
-@pytest.mark.parametrize("words", ["--help", "", "--version", "--completion bash"])
+@pytest.mark.parametrize("words", ["--help", "", "--version"])
 def test_help_loads_no_command(words: str) -> None:
     told = python(LOADED, *words.split())
     assert (told.returncode, told.stderr, told.stdout.splitlines()[-1]) == (0, "", "[]")
@@ -196,8 +196,6 @@ def test_what_works_without_the_extra_chain(folder: Path) -> None:
 
 def test_completion(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     """As a shell asks for it."""
-    from shackled.cli.app import run
-
     for words, expected in (("shackled inf", ["info"]), ("shackled render --turnt", ["--turntable"])):
         monkeypatch.setenv("_SHACKLED_COMPLETE", "bash_complete")
         monkeypatch.setenv("COMP_WORDS", words)

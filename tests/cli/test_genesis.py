@@ -44,12 +44,6 @@ def test_pictures(shackled: Shackled) -> None:
     assert Path("seven.bmp").read_bytes() == render(scene, 32).bmp
 
 
-def test_sheet(shackled: Shackled) -> None:
-    assert shackled("genesis --sheet all.png --count 3 --size 16 --jobs 1").out == "all.png: 3 pieces\n"
-    with PillowImage.open("all.png") as picture:
-        assert picture.size == (32, 32)
-
-
 def test_seeds_without_a_piece_are_told(shackled: Shackled) -> None:
     said = shackled(f"genesis {keccak256(b'seed-308884').hex()}", expect=1)
     assert said.err == "shackled: the contract refused: NoTriangle()\n"

@@ -70,15 +70,11 @@ def wait_for(screen: io.StringIO, words: str) -> None:
     assert words in screen.getvalue()
 
 
-def test_what_is_quick_has_no_bar(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_only_what_is_slow_has_a_bar(monkeypatch: pytest.MonkeyPatch) -> None:
     screen = terminal(monkeypatch)
-    with LateBar("rendering", 30):
+    with LateBar("what is quick", 30):
         pass
     assert screen.getvalue() == ""
-
-
-def test_what_is_slow_has_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    screen = terminal(monkeypatch)
     with LateBar("rendering", 0.01) as bar:
         wait_for(screen, "rendering")
         assert "%" not in screen.getvalue()

@@ -43,7 +43,7 @@ def test_where_pictures_fit(gas: int, intrinsic_gas: int, size: int, words: str)
     assert [fit.limit for fit in found] == list(limits())
     for fit in found:
         is_long = size > 128 * 1024 and fit.limit.kind == "transaction"
-        assert fit.fits == (fit.share <= 1 and not is_long)
+        assert fit.fits == (fit.needed <= fit.limit.gas and not is_long)
         assert ("140,000 bytes" in fit.reason) == is_long
 
 

@@ -9,9 +9,8 @@ from shackled import InputError, Scene, load, render
 from shackled.chain import CallResult, open_chain
 from shackled.datasets import teapot
 from shackled.errors import InputWarning
-from shackled.gas import fit_scene, limits, render_call, suffices
+from shackled.gas import fit_scene, fits_of, limits, render_call, suffices
 from shackled.gas._fitting import FITS, Fitted
-from shackled.gas._limits import fit_of
 from shackled.scene import resize
 
 LIMITS = {limit.kind: limit for limit in limits() if limit.node in ("", "geth")}
@@ -40,7 +39,8 @@ def tries(monkeypatch: pytest.MonkeyPatch) -> list[bytes]:
 def fits(scene: Scene, what: str) -> bool:
     chain, data = open_chain(), render_call(scene)
     made = chain.call("Renderer", data)
-    return fit_of(LIMITS[what], made.gas, made.intrinsic_gas, data, suffices(chain, "Renderer", data)).fits
+    found = fits_of(made.gas, made.intrinsic_gas, data, suffices(chain, "Renderer", data))
+    return next(each.fits for each in found if each.limit == LIMITS[what])
 
 
 def gas(scene: Scene) -> int:

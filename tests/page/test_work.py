@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 from attrs import evolve
+from examples import showcase
 from PIL import Image as PillowImage
 from PIL import ImageSequence
 
@@ -62,7 +63,7 @@ SCENES = {
     "teapot": evolve(shackled.load("teapot", (48, 40)), antialias=True),
     "edges": evolve(shackled.load("icons/crystals", 32), invert=True),
     "textured": textured(),
-    "large": shackled.load("showcase/plaster", 24),
+    "large": shackled.load(showcase.plaster(), 24),
 }
 #: Those of which pictures are made.
 DRAWN = ("teapot", "edges", "textured")

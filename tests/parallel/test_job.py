@@ -7,9 +7,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
-import numpy as np
 import pytest
 from attrs import evolve
 
@@ -60,8 +58,9 @@ def test_parts_fit_their_gas() -> None:
     assert 1 < len(tiles) <= image.calls
     fitting = [chain.draw(SCENE, tile).gas for tile in tiles]
     assert sum(gas is not None and gas <= limit for gas in fitting) > len(tiles) // 2
-    with pytest.raises(ChainError, match=r"even for a tile of .*; raise `gas_limit` or use `max_triangles`$"):
-        render_frames([SCENE], None, Bounds(gas_limit=500_000))
+    for on in (None, Processes(2)):
+        with pytest.raises(ChainError, match=r"even for a tile of .*; raise `gas_limit` or use `max_triangles`$"):
+            render_frames([SCENE], on, Bounds(gas_limit=500_000))
 
 
 def test_a_ground_covers_pixels() -> None:
@@ -134,23 +133,6 @@ def test_what_holds_the_lock_says_so(evm: str) -> None:
     with pytest.warns(RuntimeWarning, match=rf"^{evm} holds the lock of the Python interpreter: its calls run one"):
         (place,) = Processes(2, evm).open(Listener())
     assert (place.slots, place.name) == (1, open_chain(evm).name)
-
-
-def test_errors_of_threads_are_told() -> None:
-    with pytest.raises(ChainError, match="gas is not enough even for a tile"):
-        render_frames([SCENE], Processes(2), Bounds(gas_limit=100_000))
-
-
-def test_the_interface_of_python(tmp_path: Path) -> None:
-    picture = shackled.render("cube", 40)
-    assert (shackled.render("cube", 40, tile=(40, 9)).pixels == picture.pixels).all()
-    assert (shackled.render("cube", 40, tile=16, on=Processes(2)).pixels == picture.pixels).all()
-    spin = shackled.turntable("cube", 4, size=24, duration=50)
-    assert spin.pixels.shape == (4, 24, 24, 3)
-    assert spin.gas == sum(frame.gas or 0 for frame in spin.frames)
-    assert len(np.unique(spin.pixels.reshape(4, -1), axis=0)) >= 1
-    spin.save(tmp_path / "spin.gif")
-    assert (tmp_path / "spin.gif").stat().st_size > 100
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ import pytest
 from attrs import evolve
 
 import shackled
-from nodes import Reply, anvil, failure, forward, free_port, needs_anvil, serving
+from nodes import Reply, anvil, failure, forward, free_port, geth, needs_anvil, serving
 from proxies import always, at, each_third, proxy
 from shackled import ChainError, Image, Nodes, load
 from shackled._on import Bounds
@@ -191,16 +191,8 @@ def test_answers_that_are_too_long(node: str, right: Image) -> None:
 
 
 def test_a_node_that_caps_the_gas_of_a_call(node: str) -> None:
-    """As geth does, whatever gas is asked for; nobody says so."""
     scene = evolve(load("cube"), width=128, height=128)
-
-    def answer(request: dict[str, Any]) -> Reply:
-        if request["method"] == "eth_call":
-            call = request["params"][0]
-            call["gas"] = hex(min(1_500_000, int(call.get("gas", "0xffffffff"), 16)))
-        return forward(node, request)
-
-    with serving(answer) as url:
+    with geth(node, 1_500_000) as url:
         (image,) = render_frames([scene], Nodes(url))
     assert image.calls > 1
     assert image.bmp == open_chain().draw(scene).bmp

@@ -72,11 +72,9 @@ def test_files_of_one_name(tool: Tool) -> None:
 
 def test_contracts_that_were_renamed(tool: Tool) -> None:
     folder = tool("forge", FORGE)
-    content = "// was OldName\ncontract Token {}"
-    for name in ("OldName", "Token"):
-        forge_writes(folder, f"T.sol/{name}.json", "src/T.sol", name, content)
-    project = source(folder, "src/T.sol", content)
-    assert [each.name for each in project.compile()] == ["Token"]
+    forge_writes(folder, "T.sol/OldName.json", "src/T.sol", "OldName")
+    forge_writes(folder, "T.sol/Token.json", "src/T.sol", "Token")
+    assert [each.name for each in source(folder, "src/T.sol", "contract Token {}").compile()] == ["Token"]
 
 
 def test_the_newest_of_several_artifacts(tool: Tool) -> None:
@@ -89,13 +87,6 @@ def test_the_newest_of_several_artifacts(tool: Tool) -> None:
     assert found.abi == [{"type": "receive"}]
 
 
-def test_what_the_tools_say(tool: Tool) -> None:
-    said = "Failed to install solc 0.8.35: error sending request for url (https://example.org)"
-    folder = tool("forge", f'{FORGE.removesuffix("; exit 0")} && exit 0; echo "{said}"; exit 1')
-    with pytest.raises(InputError, match=r"forge has no compiler: Failed to install solc 0\.8\.35: error sending"):
-        source(folder, "src/T.sol", "contract T {}").compile()
-
-
 @pytest.mark.parametrize(
     "said",
     [
@@ -104,6 +95,7 @@ def test_what_the_tools_say(tool: Tool) -> None:
         "Error: solc exited with exit status: 1",
         "TypeError: Wrong argument count.\n --> contracts/T.sol:1:2:",
         "Error HH600: Compilation failed",
+        "Error: Failed to install solc 0.8.35: error sending request for url (https://example.org)",
     ],
 )
 @pytest.mark.parametrize("name", ["forge", "hardhat"])
@@ -126,17 +118,14 @@ def test_warnings_are_no_failures(tool: Tool, said: str) -> None:
 
 
 def test_artifacts_of_other_sources(tool: Tool) -> None:
-    """The hashes decide, also those of imports, and the times where there is none."""
+    """The hashes decide, also those of imports."""
     folder = tool("forge", FORGE)
     forge_writes(folder, "T.sol/T.json", "src/T.sol", "T", "contract T {}\n")
     project = source(folder, "src/T.sol", "contract T {}\r\n")
     assert project.compile()
     built = folder / "out" / "T.sol" / "T.json"
-    os.utime(built, (1, 1))
-    assert project.compile()
     message = r"T\.json was not made of src/{} as it is now: run `forge build --force`"
     source(folder, "src/T.sol", "contract T { }\n")
-    os.utime(built)
     with pytest.raises(InputError, match=message.format("T.sol")):
         project.compile()
     document = json.loads(built.read_text())
@@ -148,9 +137,6 @@ def test_artifacts_of_other_sources(tool: Tool) -> None:
         project.compile()
     write(built, document | {"metadata": None})
     assert project.compile()
-    os.utime(built, (1, 1))
-    with pytest.raises(InputError, match=message.format("T.sol")):
-        project.compile()
 
 
 def test_a_solc_that_fails_without_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -164,44 +150,28 @@ def test_a_solc_that_fails_without_an_error(tmp_path: Path, monkeypatch: pytest.
 HARDHAT = "contracts/T.sol"
 
 
-def hardhat_writes(folder: Path, content: str) -> None:
-    artifact = {"sourceName": HARDHAT, "contractName": "T", "abi": [], "bytecode": CREATION}
+def hardhat_writes(folder: Path, content: str, version: int = 2) -> None:
+    name = HARDHAT if version == 2 else f"project/{HARDHAT}"
+    artifact = {"sourceName": HARDHAT, "abi": [], "bytecode": CREATION}
+    artifact |= {"inputSourceName": name, "buildInfoId": "1"} if version == 3 else {}
     write(folder / "artifacts" / HARDHAT / "T.json", artifact)
-    write(folder / "artifacts" / HARDHAT / "T.dbg.json", {"buildInfo": "../../build-info/1.json"})
-    build = {"input": {"sources": {HARDHAT: {"content": content}}}}
+    if version == 2:
+        write(folder / "artifacts" / HARDHAT / "T.dbg.json", {"buildInfo": "../../build-info/1.json"})
+    build = {"input": {"sources": {name: {"content": content}}}}
     write(folder / "artifacts" / "build-info" / "1.json", build)
 
 
-def hardhat_3_writes(folder: Path, sources: dict[str, Any]) -> None:
-    name = f"project/{HARDHAT}"
-    artifact = {"sourceName": HARDHAT, "inputSourceName": name, "buildInfoId": "1", "abi": [], "bytecode": CREATION}
-    write(folder / "artifacts" / HARDHAT / "T.json", artifact)
-    metadata = json.dumps({"sources": {f"project/{each}": kept for each, kept in sources.items()}})
-    build = {"output": {"contracts": {name: {"T": {"metadata": metadata}}}}}
-    write(folder / "artifacts" / "build-info" / "1.output.json", build)
-
-
-def test_hardhat_must_write_where_artifacts_are_looked_for(tool: Tool) -> None:
+@pytest.mark.parametrize("version", [2, 3])
+def test_hardhat_must_write_where_artifacts_are_looked_for(tool: Tool, version: int) -> None:
     folder = tool("hardhat", "exit 0")
-    hardhat_writes(folder, "contract T {}")
+    hardhat_writes(folder, "contract T {}", version)
     assert [each.name for each in source(folder, HARDHAT, "contract T {}").compile()] == ["T"]
     changed = source(folder, HARDHAT, "contract T { uint256 x; }")
-    message = r"T\.json was not made of contracts/{}\.sol as it is now: leave `paths\.artifacts` at its default"
-    with pytest.raises(InputError, match=message.format("T")):
+    message = r"T\.json was not made of contracts/T\.sol as it is now: leave `paths\.artifacts` at its default"
+    with pytest.raises(InputError, match=message):
         changed.compile()
     (folder / "artifacts" / HARDHAT / "T.json").unlink()
     with pytest.raises(InputError, match=r"hardhat wrote no contract of contracts/T\.sol to .*: leave `paths"):
-        changed.compile()
-    (folder / "artifacts" / HARDHAT / "T.dbg.json").unlink()
-    contents = {
-        HARDHAT: "contract T { uint256 x; }",
-        "contracts/B.sol": "contract B {}",
-        "npm/c/C.sol": "contract C {}",
-    }
-    hardhat_3_writes(folder, hashes(**contents))
-    assert changed.compile()
-    source(folder, "contracts/B.sol", "contract B { }")
-    with pytest.raises(InputError, match=message.format("B")):
         changed.compile()
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 from attrs import evolve
 from numpy.typing import NDArray
 
@@ -16,7 +17,7 @@ from shackled import Camera, Mesh, Scene, load, render, turntable
 from shackled.cli.app import run
 from shackled.datasets.common import shapes
 from shackled.errors import InputWarning
-from shackled.scene import as_shown, look_at, write_obj
+from shackled.scene import as_shown, look_at
 
 #: 16,000 triangles.
 BALL = shapes.sphere(100, 81)
@@ -28,8 +29,8 @@ NOTE = (
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    write_obj(BALL, "ball.obj")
-    write_obj(shapes.sphere(40, 41), "small.obj")
+    for name, mesh in (("ball", BALL), ("small", shapes.sphere(40, 41))):
+        trimesh.Trimesh(mesh.positions, mesh.faces, process=False).export(f"{name}.obj")
 
 
 def shown(scene: Scene) -> Scene:

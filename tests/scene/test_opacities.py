@@ -129,11 +129,9 @@ def test_a_scene_file(tmp_path: Path) -> None:
     rows = [[200, 200, 200, level] for level in (0, 51, 255, 102)]
     assert read(f"colors = {rows}") == SQUARE
     for keys, message in (
-        ("opacities = 1", "objects[0].mesh.opacities must be a list, not 1"),
         ("opacities = [0, 1, 1, true]", "objects[0].mesh.opacities[3] must be a number, not True"),
         ("opacities = [0, 1, 1]", "objects[0].mesh: a mesh of 4 vertices needs as many opacities, not 3"),
         (f"colors = {[*rows[:3], [1, 2, 3]]}", "colors[3] must be four whole numbers, not [1, 2, 3]"),
-        (f"opacities = [0, 1, 1, 1], colors = {rows}", "not both"),
     ):
         with pytest.raises(InputError) as caught:
             read(keys)

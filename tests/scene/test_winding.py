@@ -32,11 +32,8 @@ def only(mesh: Mesh) -> Object:
 
 
 def test_a_closed_mesh_that_is_inside_out_is_turned_with_a_note(tmp_path: Path) -> None:
-    inverted = ball(inverted=True)
     path = tmp_path / "ball.off"
-    rows = [" ".join(map(str, row)) for row in inverted.positions.tolist()]
-    rows += [" ".join(map(str, (3, *row))) for row in inverted.faces.tolist()]
-    path.write_text(f"OFF\n{len(BALL.vertices)} {len(BALL.faces)} 0\n" + "\n".join(rows))
+    trimesh.Trimesh(BALL.vertices, BALL.faces[:, ::-1], process=False).export(path)
     with pytest.warns(InputWarning) as notes:
         (thing,) = load(path).objects
     assert [str(note.message) for note in notes] == [f"{path}: 1 closed part wound inside out, now turned"]

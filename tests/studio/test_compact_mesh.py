@@ -59,8 +59,7 @@ def meshes(draw: st.DrawFn) -> bytes:
 @settings(max_examples=60)
 @given(packed=meshes())
 def test_nothing_is_lost(packed: bytes) -> None:
-    stored = compact(packed)
-    assert content(opened(stored)) == content(packed)
+    assert content(opened(compact(packed))) == content(packed)
 
 
 @pytest.mark.parametrize("normal_bits", range(4, 11))
@@ -108,6 +107,8 @@ CUBE = compact(pack(Mesh(np.array(np.meshgrid([0, 9], [0, 9], [0, 9])).reshape(3
         (CUBE[:23] + b"\1" + CUBE[24:], "CompactMeshHeader"),
         (CUBE[:27] + b"\xff\xff" + CUBE[29:], "CompactMeshFaces"),
         (b"\x21" + CUBE[1:], "UnknownMesh"),
+        # a face of three new vertices, where there are none
+        (bytes([COMPACT]) + bytes(4) + b"\1" + bytes(18) + b"\xf0", "CompactMeshFaces"),
     ],
 )
 def test_what_is_broken_is_refused(broken: bytes, error: str) -> None:
@@ -124,8 +125,7 @@ def head(kind: int = 0, x: int = 0, y: int = 0, z: int = 0, colors: int = 0, col
 @pytest.mark.parametrize("known", [{"x": 16, "y": 16, "z": 16}, {"kind": 2, "z": 24}])
 @pytest.mark.parametrize("more", [{"color": 24}, {"colors": 1}, {"colors": 3, "color": 2}, {"kind": 3, "normal": 10}])
 def test_heads_that_the_format_knows(known: dict[str, int], more: dict[str, int]) -> None:
-    made = head(**known | more)
-    assert opened(made)[1:] == bytes(4)
+    assert opened(head(**known | more))[1:] == bytes(4)
 
 
 @pytest.mark.parametrize(
@@ -140,13 +140,6 @@ def test_heads_beyond_what_the_format_knows(beyond: dict[str, int]) -> None:
         opened(head(**beyond))
 
 
-def test_faces_of_more_vertices_than_there_are() -> None:
-    """A face of three new ones, where there are none."""
-    made = head()
-    with pytest.raises(RenderError, match="CompactMeshFaces"):
-        opened(made[:4] + b"\0\1" + made[6:] + b"\xf0")
-
-
 @settings(max_examples=40)
 @given(data=st.data())
 def test_no_bytes_break_the_decoder(data: st.DataObject) -> None:
@@ -157,9 +150,8 @@ def test_no_bytes_break_the_decoder(data: st.DataObject) -> None:
     try:
         mesh = opened(bytes(broken))
     except ChainError as error:
-        mesh, said = b"", str(error)
-        assert "CompactMesh" in said
-    if mesh:
+        assert "CompactMesh" in str(error)  # noqa: PT017
+    else:
         size = 5 + int.from_bytes(mesh[1:3], "big") * (9, 13, 12, 16)[mesh[0]] + 6 * int.from_bytes(mesh[3:5], "big")
         assert len(mesh) == size
 

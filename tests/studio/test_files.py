@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,12 +12,16 @@ from PIL import Image as PillowImage
 from PIL import ImageSequence
 
 import shackled
+from evms import Ours, pyevm_call, pyrevm_call
 from nodes import anvil, needs_anvil
 from shackled import InputError, Nodes, Processes, load
+from shackled.artifacts import artifact
 from shackled.cli.app import run
+from shackled.deploy import local_chain
+from shackled.scene import encode
 from shackled.studio import make_apng, make_glb
 
-SCENE = load("icons/lightning", 16)
+SCENE, TINY = load("icons/lightning", 16), load("icons/lightning", 6)
 
 
 def test_a_turntable_of_one_call(tmp_path: Path) -> None:
@@ -65,6 +70,19 @@ def test_a_model(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["export", "cube", "--shadow", "--ground", "white", "-o", str(tmp_path / "b.glb")]) == 0
     assert "the model leaves out shadows, the fading of the ground\n" in capsys.readouterr().err
     assert run(["export", "icons/lightning", "-o", str(tmp_path / "b.glb"), "--title", "A"]) == 2
+
+
+@pytest.mark.parametrize(
+    ("contract", "function", "words"),
+    [("Turntable", "animate", (None, 2, 80, 1, 0, 1 << 32, 0, 1)), ("GlbEncoder", "encode", ())],
+)
+def test_every_evm_agrees(contract: str, function: str, words: tuple[Any, ...]) -> None:
+    chain = local_chain()
+    address, data = chain.address(contract), encode(artifact(contract).selectors[function], TINY, *words)
+    ours = Ours().call(chain.codes(), address, data, 10**8)
+    assert ours.output == chain.call(contract, data).output
+    assert pyrevm_call(chain.codes(), address, data, 10**8) == ours
+    assert pyevm_call(chain.codes(), address, data, 10**8) == ours
 
 
 @needs_anvil

@@ -62,15 +62,15 @@ def test_a_scene_is_drawn_as_it_was(world: World) -> None:
 def test_a_data_uri_of_whole_words(world: World) -> None:
     """The PNG file ends where a word ends, and what is behind it in memory is free."""
     pointer = stored(world, SCENE)
-    for width in range(8, 200):
+
+    def made(kind: str, width: int) -> Any:
         narrow = changes(fields=16, canvas=(width, 8))
-        png = world.call("Studio", f"renderPNG(address,uint256,{CHANGES})", pointer, 2, narrow)
-        if len(png) % 32 == 0:
-            break
-    assert len(png) % 32 == 0
-    uri = world.call("Studio", f"renderDataURI(address,uint256,{CHANGES})", pointer, 2, narrow)
-    assert uri == "data:image/png;base64," + base64.b64encode(png).decode()
-    assert f'href="{uri}"' in world.call("Studio", f"renderSVG(address,uint256,{CHANGES})", pointer, 2, narrow)
+        return world.call("Studio", f"render{kind}(address,uint256,{CHANGES})", pointer, 2, narrow)
+
+    width, png = next((width, png) for width in range(8, 200) if len(png := made("PNG", width)) % 32 == 0)
+    uri = "data:image/png;base64," + base64.b64encode(png).decode()
+    assert made("DataURI", width) == uri
+    assert f'href="{uri}"' in made("SVG", width)
 
 
 def test_what_is_kept_is_the_scene(world: World) -> None:

@@ -1,4 +1,4 @@
-"""Animated PNG files: the contract against a model, byte for byte, and both against Pillow and chromium."""
+"""Animated PNG files: the contract against a model, byte for byte, and both against Pillow."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import base64
 import io
 import struct
 import zlib
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,8 +16,7 @@ from PIL import Image as PillowImage
 from tools.ledger import World, call_data
 from tools.png_code import SIGNATURE, encode_png
 
-from evms import Ours, pyevm_call, pyrevm_call
-from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene, load, render
+from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene, render
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
 from shackled.ethereum import word
@@ -213,48 +211,3 @@ def test_a_scene_that_cannot_be_drawn_is_refused(change: Any, error: str, hold: 
     with pytest.raises(RenderError) as caught:
         open_chain().call("Turntable", data)
     assert error in str(caught.value)
-
-
-def test_every_evm_agrees() -> None:
-    chain = open_chain()
-    chain.address("Turntable")
-    codes, address = chain.codes(), chain.address("Turntable")
-    data = data_of(evolve(SCENE, width=6, height=5), frames=2, hold=True)
-    ours = Ours().call(codes, address, data, 10**8)
-    assert len(decode(["bytes"], ours.output)[0]) > 200
-    assert pyrevm_call(codes, address, data, 10**8) == ours
-    assert pyevm_call(codes, address, data, 10**8) == ours
-
-
-def test_chromium_plays_it(browser: Any, tmp_path: Path) -> None:
-    png = animate(load("icons/diamond", size=32), frames=5, delay=40, hold=True)
-    page = browser.new_page()
-    script = """async uri => {
-        const data = await (await fetch(uri)).arrayBuffer()
-        const decoder = new ImageDecoder({ data, type: "image/png" })
-        await decoder.tracks.ready
-        await decoder.completed
-        const found = []
-        for (let k = 0; k < decoder.tracks.selectedTrack.frameCount; ++k) {
-            const { image } = await decoder.decode({ frameIndex: k })
-            const canvas = new OffscreenCanvas(image.displayWidth, image.displayHeight)
-            const context = canvas.getContext("2d")
-            context.drawImage(image, 0, 0)
-            const pixels = context.getImageData(0, 0, canvas.width, canvas.height).data
-            found.push([image.duration, Array.from(pixels)])
-        }
-        return [decoder.tracks.selectedTrack.repetitionCount, found]
-    }"""
-    try:
-        # a page that may use ImageDecoder
-        (tmp_path / "page.html").write_text("<!doctype html>", "utf-8")
-        page.goto((tmp_path / "page.html").as_uri())
-        repetitions, found = page.evaluate(script, "data:image/png;base64," + base64.b64encode(png).decode())
-    finally:
-        page.close()
-    assert repetitions is None or repetitions > 10**6
-    assert len(found) == 5
-    for (duration, values), expected in zip(found, frames_of(png), strict=True):
-        assert duration == 40_000
-        pixels = np.array(values, np.uint8).reshape(32, 32, 4)[:, :, :3]
-        assert np.array_equal(pixels, expected)

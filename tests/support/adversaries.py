@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
-from unittest.mock import patch
 
 import pytest
 from tools import build_contracts as tool
@@ -30,11 +29,8 @@ def _compiled() -> dict[str, Built]:
         return {}
     sources = {path.name: path.read_text("utf-8") for path in sorted(FOLDER.glob("*.sol"))}
     request = tool.request(sources, tool.settings(200, True), {"*": {"*": ["abi", "evm.bytecode.object"]}})
-    # selfdestruct is outdated, and just what is needed here
-    with patch.object(tool, "HARMLESS", tool.HARMLESS | {"5159"}):
-        answer = compile_once(request)
     return {
         name: Built(output["abi"], bytes.fromhex(output["evm"]["bytecode"]["object"]))
-        for contracts in answer.values()
+        for contracts in compile_once(request).values()
         for name, output in contracts.items()
     }

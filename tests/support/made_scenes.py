@@ -8,6 +8,33 @@ from attrs import evolve
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
 from shackled.datasets import teapot
 
+POT = teapot(2)
+SQUARE = Mesh(
+    [[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]],
+    [[0, 1, 2], [0, 2, 3]],
+    [[255, 0, 0], [0, 255, 0], [0, 0, 255], [255, 255, 0]],
+)
+#: Small scenes that go through every stage, by name.
+SMALL_SCENES = {
+    "smooth": Scene(
+        [Object(POT, rotation=(0, 0.3, 0, 1), material=Material("smooth"), cull=False)],
+        Camera(eye=(2, 4, 8), target=(0, 1.5, 0)),
+        [Light("point", (3, 6, 5)), Light("directional", (-1, 0.5, 0), (90, 60, 30))],
+        Background("#102040", "#a0b0c0"),
+        width=40,
+        height=28,
+    ),
+    "clipped, wires, inverted": Scene(
+        [Object(SQUARE, (0, 0, 2), scale=1.5, cull=False), Object(POT, wireframe=True, material=Material("unlit"))],
+        Camera(eye=(1, 1, 2.5), target=(0, 1, 0), near=0.25),
+        [Light("directional", (1, 1, 1))],
+        invert=True,
+        width=33,
+        height=21,
+    ),
+    "empty": Scene([], width=5, height=3),
+}
+
 WHITE, RED, GREEN, BLUE = (255, 255, 255), (255, 60, 40), (60, 255, 90), (70, 110, 255)
 
 LIGHTS = (

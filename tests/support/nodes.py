@@ -161,6 +161,17 @@ def replying(target: str, **replies: Reply | Callable[[dict[str, Any]], Reply | 
     return serving(answer)
 
 
+def geth(url: str, cap: int) -> AbstractContextManager[str]:
+    """A node in front of another that gives calls no more gas than `cap`, and says nothing of it."""
+
+    def call(request: dict[str, Any]) -> Reply:
+        fields = request["params"][0]
+        fields["gas"] = hex(min(int(fields.get("gas", hex(cap)), 16), cap))
+        return forward(url, request)
+
+    return replying(url, eth_call=call)
+
+
 @contextmanager
 def without_overrides(url: str, refuse: bool = True) -> Iterator[str]:
     """A node in front of another that refuses state overrides, or takes no notice of them, as old ones do."""

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
-from tools.tokens.world import Contract, Refused
+from tools.tokens.world import GAS, Contract, Receipt, Refused
 
 #: How descriptions end.
 INDEPENDENT = "Not by the authors of the Shackled contracts of 2021, nor endorsed by them."
@@ -52,6 +52,12 @@ def refused(name: str, *values: Any) -> Iterator[None]:
     assert caught.value.name == name, caught.value
     if values:
         assert caught.value.values == values
+
+
+def execute(by: Contract, to: Contract, function: str, *arguments: Any, sender: str, value: int = 0) -> Receipt:
+    """Have a contract call another one, whose errors it passes on."""
+    data = by.encode("execute", (to, to.encode(function, arguments)[1]))[1]
+    return by.world.run(sender, by.address, data, value, GAS, True, to.abi)
 
 
 def succeeds(possible: bool, contract: Contract, function: str, *arguments: Any, sender: str, value: int = 0) -> bool:

@@ -1,14 +1,18 @@
+"""Who may mint before the public sale, as files say it: allow lists, and permissions."""
+
 from __future__ import annotations
 
+import json
 from functools import reduce
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shackled.errors import InputError
-from shackled.tokens import read_allow_list
+from shackled.tokens import read_allow_list, read_allowance
 from shackled.tokens._allow_list import hash_pair, leaf_of, make_allow_list
 
 ALICE = "0x70997970C51812dc3A010C7d01b50e0d17dc79C8"
@@ -71,3 +75,36 @@ def test_a_wrong_line_is_named(tmp_path: Path, text: str, said: str) -> None:
     with pytest.raises(InputError, match=r"^[^\n]*$") as caught:
         read_allow_list(path)
     assert said in str(caught.value)
+
+
+PERMISSION = {
+    "account": "0x3C44CdDdB6a900fa2b585dd299e03d12FA4293BC",
+    "quantity": "2",
+    "deadline": str(2**256 - 1),
+    "signature": "0x" + "12" * 65,
+}
+
+
+def test_a_permission_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "bob.json"
+    for change in ({}, {"account": PERMISSION["account"].lower(), "quantity": 2}):
+        path.write_text(json.dumps(PERMISSION | change))
+        found = read_allowance(path)
+        assert (found.struct, found.signature) == ((PERMISSION["account"], 2, 2**256 - 1), b"\x12" * 65)
+        assert found.document() == PERMISSION
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        *({"quantity": value} for value in (str(2**256), "-1", "1.5", "9" * 5000, None)),
+        *({"signature": value} for value in ("0x123", "zz", 7)),
+        *({"account": value} for value in ("0x12", 7)),
+    ],
+)
+def test_what_is_none_is_reported_in_one_line(tmp_path: Path, change: dict[str, Any]) -> None:
+    path = tmp_path / "bob.json"
+    for text in ("", "[]", "{}", "[" * 100_000, json.dumps(PERMISSION | change)):
+        path.write_text(text)
+        with pytest.raises(InputError, match=r"^[^\n]*bob\.json is not a permission[^\n]*$"):
+            read_allowance(path)

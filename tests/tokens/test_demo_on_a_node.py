@@ -32,26 +32,18 @@ def test_the_demo_plays_both_collections_through(node: Node, tmp_path: Path, sha
         assert {trait["trait_type"]: trait["value"] for trait in document["attributes"]} == each["traits"]
         assert contract.functions.ownerOf(each["token"]).call() == each["owner"]
         assert f'src="data:image/png;base64,{picture}"' in page
-    rows = {line.split("  ")[0]: line.split() for line in said.out.splitlines()}
-    assert rows["Genesis: mint 1"][-2:] == ["k", "1.6"]
-    assert rows["Genesis: mint 5"][-3:] == ["712", "k", "8.2"]
+    assert len(re.findall(r"^  mint 5: \d{2},\d{3} gas$", said.err, re.M)) == 2
     # nothing is fetched from elsewhere; a picture in base64 may have any four letters
     text = re.sub("data:image/png;base64,[A-Za-z0-9+/=]+", "", page)
     assert "http" not in text.replace("http-equiv", "")
 
 
 @needs_anvil
-@pytest.mark.parametrize(
-    ("options", "said"),
-    [(("--chain-id", "1"), "of chain 1"), (("--balance", "5"), "has 5 ether"), (("--mnemonic-random",), "has 0 ether")],
-)
-def test_the_demo_refuses_other_chains(
-    options: tuple[str, ...], said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    with anvil(*options) as started:
+def test_the_demo_refuses_other_chains(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with anvil("--chain-id", "1") as started:
         assert run(["token", "demo", "--rpc", started.url, "-o", str(tmp_path / "out")]) == 2
         (error,) = capsys.readouterr().err.strip().splitlines()
-        assert said in error
+        assert "of chain 1" in error
         assert started.rpc("eth_blockNumber") == "0x0"
     assert not (tmp_path / "out").exists()
 

@@ -7,9 +7,8 @@ from html.parser import HTMLParser
 import numpy as np
 from PIL import Image as PillowImage
 
-from shackled.tokens import comparison
 from shackled.tokens._metadata import Metadata, Trait
-from shackled.tokens._view import ActionCost, TokenView, page, tokens_json
+from shackled.tokens._view import TokenView, page, tokens_json
 
 
 def shown(number: int, **changes: str) -> TokenView:
@@ -39,7 +38,7 @@ class Page(HTMLParser):
 
 
 def test_each_token_has_a_card_in_its_collection() -> None:
-    parsed = Page(page("Title", "Words", [shown(1), shown(2), shown(3, collection="Others")], [("a", "b")], []))
+    parsed = Page(page([shown(1), shown(2), shown(3, collection="Others")]))
     assert len(parsed.of("article")) == 3
     assert [link["href"] for link in parsed.of("a")] == ["#c0", "#c1"]
     assert [image["alt"] for image in parsed.of("img")] == ["Token #1", "Token #2", "Token #3", ""]
@@ -50,18 +49,7 @@ def test_each_token_has_a_card_in_its_collection() -> None:
 
 def test_nothing_that_a_token_says_becomes_part_of_the_page() -> None:
     evil = '"><script>alert(1)</script><img src=x onerror="'
-    parsed = Page(
-        page(evil, evil, [shown(1, name=evil, kind=evil, collection=evil)], [(evil, evil)], [ActionCost(evil, 1)])
-    )
+    parsed = Page(page([shown(1, name=evil, kind=evil, collection=evil)]))
     assert len(parsed.of("script")) == 1
     assert all("onerror" not in image for image in parsed.of("img"))
     assert all("onerror" not in article for article in parsed.of("article"))
-
-
-def test_costs_stand_beside_those_of_the_original() -> None:
-    costs = [ActionCost("own", 12_345), ActionCost("mint 5", 89_000, 712_000), ActionCost("uri", 5_000_000, 57 * 10**8)]
-    assert comparison(costs)[1:] == [
-        ("own", "12,345", "-", "-"),
-        ("mint 5", "89,000", "712 k", "8.0"),
-        ("uri", "5,000,000", "5,700 M", "1,140"),
-    ]

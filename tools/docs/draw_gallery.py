@@ -2,7 +2,7 @@
 
     python -m tools.docs.draw_gallery
 
-A picture is in docs/images/gallery under its name; tests run each command of the page, and compare the pixels.
+A picture is in docs/images/gallery under its name; tests run the commands of the page, and compare the pixels.
 """
 
 from __future__ import annotations
@@ -10,15 +10,17 @@ from __future__ import annotations
 import json
 import shlex
 import sys
+from pathlib import Path
 
 from click.testing import CliRunner
+from examples import showcase
 
 from shackled.cli.app import app
 from tools.pages import DOCS, IMAGES, update
 
 PAGE = DOCS / "gallery.md"
 FOLDER = IMAGES / "gallery"
-#: Names of pictures, what they show, and the arguments of `shackled render`.
+#: Names of pictures, what they show, and the arguments of `shackled render`. What is in build/, an example draws.
 PICTURES: dict[str, tuple[str, str]] = {
     "teapot": ("A teapot in the default look", "teapot"),
     "gold": ("Gold", "icons/crown --preset gold"),
@@ -43,8 +45,8 @@ PICTURES: dict[str, tuple[str, str]] = {
     "invert": ("Inverted", "icons/planet --invert"),
     "cornell-box": ("A scene with its own camera and lights", "cornell-box"),
     "genesis": ("A piece of Genesis, made from a seed", "genesis/12"),
-    "texture": ("A texture", "showcase/vase --size 256"),
-    "glass": ("Glass", "showcase/glass --size 256"),
+    "texture": ("A texture", "build/showcase/vase.png --size 256"),
+    "glass": ("Glass", "build/showcase/glass.png --size 256"),
     "turntable": ("A turntable", "icons/rocket --turntable 24"),
 }
 
@@ -59,6 +61,11 @@ def drawn(name: str) -> str:
     title, arguments = PICTURES[name]
     file = file_name(name)
     words = ["render", *shlex.split(arguments), "-o", str(FOLDER / file), "--json"]
+    made, scene = "", Path(words[1])
+    if scene.parent == showcase.FOLDER:
+        made = f"python examples/showcase.py {scene.stem}\n    "
+        scene.parent.mkdir(parents=True, exist_ok=True)
+        showcase.draw(scene.stem, scene.parent)
     result = CliRunner().invoke(app, words, catch_exceptions=False)
     if result.exit_code:
         raise SystemExit(f"{name}: {result.output}")
@@ -66,7 +73,7 @@ def drawn(name: str) -> str:
     print(f"{file}: {gas:.1f} million gas", file=sys.stderr)
     return (
         f"-   ![{title}](images/gallery/{file}){{ loading=lazy }}\n\n    **{title}**, {gas:,.1f} million gas\n\n"
-        f"    ```sh\n    shackled render {arguments} -o {file}\n    ```\n"
+        f"    ```sh\n    {made}shackled render {arguments} -o {file}\n    ```\n"
     )
 
 

@@ -16,6 +16,7 @@ from typing import Any, Unpack
 
 import numpy as np
 from attrs import evolve
+from examples import showcase
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
 from PIL import ImageDraw, ImageFont
@@ -25,7 +26,6 @@ from shackled.datasets import teapot
 from shackled.datasets.common import builtin, shapes
 from shackled.datasets.genesis import generate, picture_on_chain, seed_of
 from shackled.datasets.icons import pieces as icons
-from shackled.datasets.showcase import draw_showcase
 from shackled.scene import PRESETS, LookOptions, painted, stage
 from shackled.stages import draw_stages
 from shackled.stages import strip as stages_strip
@@ -54,11 +54,6 @@ def smooth() -> Image:
         command = [sys.executable, str(EXAMPLES / "meshes.py"), "--into", folder, "teapot"]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
         return render(Path(folder, "teapot.obj"), rotate=(0, 12, 0), color=CLAY)
-
-
-def wireframe() -> Image:
-    """Draw the edges of the teapot."""
-    return render(pot(4, 256, UNLIT, color="#ffb35c", background=NIGHT, wireframe=True, cull=True))
 
 
 def still_life() -> Image:
@@ -202,14 +197,14 @@ def effects() -> dict[str, list[Image]]:
 
 
 def contact_sheet(pictures: Sequence[NDArray[np.uint8]], names: Iterable[str], columns: int) -> PillowImage.Image:
-    """Return pictures of 128 x 128 pixels in rows, with their names below."""
-    side, label = 128, 22
-    sheet = PillowImage.new("RGB", (columns * side, -(-len(pictures) // columns) * (side + label)), "#14161c")
+    """Return pictures of the same size in rows, with their names below."""
+    (height, width), label = pictures[0].shape[:2], 22
+    sheet = PillowImage.new("RGB", (columns * width, -(-len(pictures) // columns) * (height + label)), "#14161c")
     pen, font = ImageDraw.Draw(sheet), ImageFont.load_default(13)
     for number, (pixels, name) in enumerate(zip(pictures, names, strict=True)):
-        x, y = number % columns * side, number // columns * (side + label)
+        x, y = number % columns * width, number // columns * (height + label)
         sheet.paste(PillowImage.fromarray(pixels), (x, y))
-        pen.text((x + side // 2, y + side + label // 2), name.split("/")[-1], "#c8ccd4", font, anchor="mm")
+        pen.text((x + width // 2, y + height + label // 2), name.split("/")[-1], "#c8ccd4", font, anchor="mm")
     return sheet
 
 
@@ -224,7 +219,7 @@ def main() -> None:
     """Draw all pictures, and write pictures.json."""
     IMAGES.mkdir(exist_ok=True)
     figures: dict[str, Any] = {}
-    for name, draw in {"teapot": smooth, "wireframe": wireframe, "scene": still_life}.items():
+    for name, draw in {"teapot": smooth, "scene": still_life}.items():
         image = draw()
         # in the site, pictures with a scene can be turned
         image.save(IMAGES / f"{name}.png", scene=True)
@@ -244,9 +239,10 @@ def main() -> None:
         PillowImage.fromarray(np.hstack([each.pixels for each in row])).save(IMAGES / f"{name}.png", optimize=True)
         figures[name] = {"gas": [each.gas for each in row]}
     with tempfile.TemporaryDirectory() as folder:
-        drawn = list(draw_showcase(Path(folder)))
-        (IMAGES / "showcase.png").write_bytes(Path(folder, "sheet.png").read_bytes())
-    figures["showcase"] = {each.name: each.gas for each in drawn}
+        figures["showcase"] = {name: showcase.draw(name, Path(folder)) for name in showcase.SCENES}
+        drawn = [PillowImage.open(Path(folder, f"{name}.png")).convert("RGB") for name in showcase.SCENES]
+    sheet = contact_sheet([np.asarray(each) for each in drawn], showcase.SCENES, 4)
+    sheet.save(IMAGES / "showcase.png", optimize=True)
     for name, images in {"strip": strip(), "glass": glass()}.items():
         PillowImage.fromarray(np.hstack([image.pixels for image in images])).save(IMAGES / f"{name}.png", optimize=True)
         figures[name] = {"gas": [image.gas for image in images]}

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import numpy as np
 from attrs import evolve
+from examples.showcase import vase
 from PIL import Image
 
-from shackled import Camera, Object, Scene, Texture, load, render
+from shackled import Camera, Object, Scene, Texture, render
 from tools.pages import IMAGES
 
 IMAGE = IMAGES / "textures.png"
@@ -28,7 +29,7 @@ def with_texture(scene: Scene, texture: Texture | None) -> Scene:
 
 def main() -> None:
     """Draw the picture."""
-    scene = evolve(load("showcase/vase"), width=SIDE, height=SIDE)
+    scene = evolve(vase(), width=SIDE, height=SIDE)
     texture = scene.objects[JAR].material.texture
     assert texture is not None
     small = texture.pixels[::4, ::4]

@@ -46,7 +46,7 @@ class Pair:
         return self.different * 1000 <= SIDE * SIDE
 
 
-def run(runner: Runner) -> ExperimentReport:
+def culling(runner: Runner) -> ExperimentReport:
     """Measure the common objects of the package with and without culling."""
     names = [piece.name for piece in builtin.pieces()]
     pairs = runner.map("culling", measure, names[:QUICK] if runner.quick else names)

@@ -22,7 +22,7 @@ CREATION = 32000
 INITCODE_WORD = 2
 
 
-def run(runner: Runner) -> ExperimentReport:
+def deploy(runner: Runner) -> ExperimentReport:
     """Measure every contract that `shackled deploy` deploys."""
     names = sorted(STANDARD, key=lambda name: (name not in RENDERER, name))
     gas = dict(zip(names, runner.map("deploy", deployment_gas, names), strict=True))

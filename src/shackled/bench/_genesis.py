@@ -13,7 +13,7 @@ from ._measure import cost
 from ._original import Measured, original
 from ._report import INK, ORIGINAL, OURS, THIRD, ExperimentReport, millions, table
 from ._runner import Runner
-from .fits import Column, r2_of
+from .fits import Column, fit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,7 +38,7 @@ class GenesisCost:
 Pieces = Sequence[GenesisCost | Measured]
 
 
-def run(runner: Runner) -> ExperimentReport:
+def genesis(runner: Runner) -> ExperimentReport:
     """Measure every piece."""
     found = runner.map("genesis", measure, QUICK_PIECES if runner.quick else PIECES)
     theirs = [figures for name, figures in original().items() if name.startswith("genesis_")]
@@ -72,12 +72,6 @@ def measure(number: int) -> GenesisCost:
     return GenesisCost(number, scene.triangles, found.triangles, found.lit_pixels, wireframe, found.gas)
 
 
-def line(x: Column, y: Column) -> tuple[float, float, float]:
-    """Return slope and constant by numpy.polyfit, as the paper does, and R2."""
-    slope, constant = np.polyfit(x, y, 1)
-    return float(slope), float(constant), r2_of(y, slope * x + constant)
-
-
 def _column(pieces: Pieces, name: str) -> Column:
     return np.array([getattr(piece, name) for piece in pieces], float)
 
@@ -85,10 +79,11 @@ def _column(pieces: Pieces, name: str) -> Column:
 def _panel(axes: Axes, pieces: Pieces, name: str, unit: float, color: str) -> None:
     x, y = _column(pieces, name), _column(pieces, "gas") / unit
     axes.plot(x, y, "o", color=color, ms=3, alpha=0.5, mew=0)
-    slope, constant, r2 = line(x, y)
+    found = fit([x], y)
+    constant, slope = found.coefficients
     ends = np.array([x.min(), x.max()])
     axes.plot(ends, slope * ends + constant, "-", color=INK, lw=1.2)
-    axes.text(0.97, 0.03, f"R2 {r2:.3f}", transform=axes.transAxes, ha="right")
+    axes.text(0.97, 0.03, f"R2 {found.r2:.3f}", transform=axes.transAxes, ha="right")
     axes.set(xlim=(0, None), ylim=(0, None))
 
 
@@ -101,9 +96,10 @@ def _text(found: list[GenesisCost], theirs: list[Measured]) -> str:
     lines = []
     for group, pieces in groups.items():
         for name in ("triangles", "lit_pixels"):
-            slope, constant, r2 = line(_column(pieces, name), _column(pieces, "gas"))
-            fit = [f"{constant:,.0f} {slope:+,.1f} x", f"{r2:.4f}"]
-            lines.append([group, str(len(pieces)), name.replace("_", " "), *fit])
+            line = fit([_column(pieces, name)], _column(pieces, "gas"))
+            constant, slope = line.coefficients
+            words = [f"{constant:,.0f} {slope:+,.1f} x", f"{line.r2:.4f}"]
+            lines.append([group, str(len(pieces)), name.replace("_", " "), *words])
     before, gas, faces = _column(theirs, "gas"), _column(found, "gas"), [piece.triangles for piece in found]
     over = int((gas + 21000 > 1 << 24).sum())
     return (
@@ -115,7 +111,7 @@ def _text(found: list[GenesisCost], theirs: list[Measured]) -> str:
         + table(
             ["gas", "least", "median", "mean", "most"], [["original", *_spread(before, 0)], ["ours", *_spread(gas, 2)]]
         )
-        + "\n\nLines by `numpy.polyfit`:\n\n"
+        + "\n\nLines of least squares:\n\n"
         + table(["pieces", "number", "against", "line", "R2"], lines)
     )
 

@@ -1,4 +1,4 @@
-"""Whether gas grows linearly: with triangles, with pixels, with both."""
+"""Whether gas grows linearly: with equal triangles, and with triangles and pixels of other scenes."""
 
 from __future__ import annotations
 
@@ -6,17 +6,89 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from PIL import Image as PillowImage
 
 from ..scene import Light, Material, Scene
-from ._measure import cost
-from ._original import original
-from ._report import FOURTH, OURS, THIRD, ExperimentReport, table
+from ._measure import cost, picture
+from ._original import original, original_gas
+from ._report import FOURTH, ORIGINAL, OURS, THIRD, ExperimentReport, millions, ratio, table
 from ._runner import Runner
-from .fits import Column, fit, quadratic_share
+from .fits import Column, LinearFit, fit, quadratic_share
 from .scenes import GLOSSY, MATTE, SUN, UNLIT, cube, equal_triangles, square, turned_cube
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+COUNTS = tuple(range(1, 17))
+QUICK_COUNTS = (1, 2, 3, 4)
+
+
+def triangles(runner: Runner) -> ExperimentReport:
+    """Measure pictures of 1 to 16 triangles."""
+    counts = QUICK_COUNTS if runner.quick else COUNTS
+    costs = runner.map("triangles", cost, [equal_triangles(count) for count in counts])
+    gas = np.array([found.gas for found in costs], float)
+    theirs = np.array([original_gas(f"tris_{count:02}") for count in counts], float)
+    x = np.array(counts, float)
+
+    def draw(figure: Figure) -> None:
+        left, right = figure.subplots(1, 2)
+        _panel(left, x, theirs / 1e9, ORIGINAL, "original", "gas, billions")
+        _panel(right, x, gas / 1e6, OURS, "Shackled now", "gas, millions")
+
+    ours, before = fit([x], gas), fit([x], theirs)
+    rows = zip(counts, costs, theirs, strict=True)
+    text = (
+        f"A line through the gas is {_line(ours)}; through that of the original {_line(before)}. A term with the"
+        f" square of the triangles takes {_share(x, gas)} of the gas of the last picture; in the original"
+        f" {_share(x, theirs)}.\n\n"
+    )
+    lines = [
+        [str(count), f"{found.lit_pixels:,}", millions(b, 0), millions(found.gas, 3), ratio(b, found.gas)]
+        for count, found, b in zip(counts, costs, theirs, strict=True)
+    ]
+    return ExperimentReport(
+        "Gas against equal triangles",
+        ["triangles", "lit_pixels", "gas", "original_gas"],
+        [[count, found.lit_pixels, found.gas, int(b)] for count, found, b in rows],
+        text + table(["triangles", "pixels", "original", "ours", "ratio"], lines),
+        draw,
+        (7.2, 3.2),
+        {"pictures": _gallery(counts)},
+    )
+
+
+def _line(by: LinearFit) -> str:
+    constant, slope = by.coefficients
+    return f"{constant:,.0f} + {slope:,.0f} a triangle (R2 {by.r2:.6f})"
+
+
+def _share(x: Column, gas: Column) -> str:
+    return f"{quadratic_share([x], gas) + 0.0:.2%}"
+
+
+def _plot_line(axes: Axes, x: Column, y: Column, mark: str, color: str, label: str | None = None) -> None:
+    """Draw points, and the best line through them."""
+    constant, slope = fit([x], y).coefficients
+    axes.plot(x, y, mark, color=color, ms=4, label=label)
+    axes.plot(x, constant + slope * x, ":", color=color, lw=1.2)
+
+
+def _panel(axes: Axes, x: Column, y: Column, color: str, title: str, label: str) -> None:
+    _plot_line(axes, x, y, "o", color)
+    axes.set(title=title, xlabel="triangles", ylabel=label, xlim=(0, x.max() + 1), ylim=(0, None))
+    axes.locator_params(axis="x", integer=True)
+
+
+def _gallery(counts: tuple[int, ...]) -> PillowImage.Image:
+    """Return the pictures, four in a row."""
+    pictures = [picture(equal_triangles(count)) for count in counts]
+    rows = [np.hstack(pictures[at : at + 4]) for at in range(0, len(pictures), 4)]
+    return PillowImage.fromarray(np.vstack(rows))
+
+
+# ---- other scenes ----
 
 #: Divisions of each side of a square: 2 to 1152 triangles.
 DIVISIONS = tuple(range(1, 25))
@@ -36,14 +108,14 @@ MARKS = dict(zip(LOOKS, "os^", strict=True))
 Row = tuple[str, int, int, int]
 
 
-def run(runner: Runner) -> ExperimentReport:
+def linear(runner: Runner) -> ExperimentReport:
     """Measure squares of more and more triangles, cubes on larger and larger canvases, and the original's scenes."""
     divisions, sides = (DIVISIONS[::8], SIDES[:3]) if runner.quick else (DIVISIONS, SIDES)
     tasks: list[tuple[str, Scene]] = []
     for look in LOOKS:
         tasks += [(f"{look} squares", scene) for scene in squares(look, divisions)]
         tasks += [(f"{look} cubes", scene) for scene in cubes(look, sides)]
-    tasks += [("equal triangles", equal_triangles(n)) for n in (range(1, 4) if runner.quick else range(1, 17))]
+    tasks += [("equal triangles", equal_triangles(n)) for n in (QUICK_COUNTS if runner.quick else COUNTS)]
     tasks += [("cubes of the original", cube(side)) for side in sides]
     costs = runner.map("linear", cost, [scene for _, scene in tasks])
     rows = [
@@ -56,10 +128,7 @@ def run(runner: Runner) -> ExperimentReport:
         for look in LOOKS:
             for axes, kind, place in ((left, "squares", 0), (right, "cubes", 1)):
                 columns = columns_of(rows, f"{look} {kind}")
-                x, gas = columns[place], columns[2] / 1e6
-                constant, slope = fit([x], gas).coefficients
-                axes.plot(x, gas, MARKS[look], color=COLORS[look], ms=3.5, label=look)
-                axes.plot(x, constant + slope * x, ":", color=COLORS[look], lw=1)
+                _plot_line(axes, columns[place], columns[2] / 1e6, MARKS[look], COLORS[look], look)
         left.set(xlabel="triangles of a square of fixed size", ylabel="gas, millions", xlim=(0, None), ylim=(0, None))
         right.set(xlabel="pixels of the canvas of a cube", xlim=(0, None), ylim=(0, None))
         left.legend()

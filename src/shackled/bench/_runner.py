@@ -1,12 +1,12 @@
 """Run experiments by name, in several processes.
 
-An experiment is a module with `run(runner) -> ExperimentReport`.
+An experiment is a function of a module of this package.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from importlib import import_module
 from typing import TypeVar
 
@@ -26,10 +26,11 @@ EXPERIMENTS = {
     "genesis": "the 1024 pieces of Genesis: gas against triangles",
     "culling": "the common objects, with and without backface culling",
     "deploy": "gas and bytes of every contract",
-    "engines": "time and gas in every installed EVM",
     "linear": "how well straight lines fit gas against triangles and pixels",
     "output": "size and gas of BMP, data URI and SVG",
 }
+#: The modules of experiments that do not have their names.
+MODULES = {"output": "canvas", "triangles": "linear"}
 
 
 def check_names(names: Iterable[str]) -> None:
@@ -42,40 +43,32 @@ def check_names(names: Iterable[str]) -> None:
 class Runner:
     """What experiments run in."""
 
-    def __init__(
-        self, quick: bool = False, processes: int | None = None, rpc: str | None = None, show: Show | None = None
-    ) -> None:
+    def __init__(self, quick: bool = False, processes: int | None = None, show: Show | None = None) -> None:
         """Start nothing yet.
 
         quick: whether to use a few small scenes, as a check that everything works. processes: how many; None is one
-        for each core, since embedded EVMs hold the interpreter's lock. rpc: a node that `engines` measures too.
-        show: called with a label, and how many calls of it are done, of how many.
+        for each core, since embedded EVMs hold the interpreter's lock. show: called with a label, and how many calls
+        of it are done, of how many.
         """
-        self.rpc = rpc
         self.quick = quick
         self.processes = processes or os.cpu_count() or 1
         self._show = show
 
     def run(self, name: str) -> ExperimentReport:
         """Run one of EXPERIMENTS."""
-        report: ExperimentReport = import_module(f"._{name}", __package__).run(self)
+        module = import_module(f"._{MODULES.get(name, name)}", __package__)
+        report: ExperimentReport = getattr(module, name)(self)
         return report
 
-    def map(
-        self, label: str, function: Callable[[Item], Result], items: Iterable[Item], alone: bool = False
-    ) -> list[Result]:
+    def map(self, label: str, function: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
         """Return the results of a function for each item, in their order.
 
-        Function and items are pickled and sent to worker processes, unless there is only one process, or `alone`: then
-        all run one after the other in this process, for measurements of time.
+        Function and items are pickled and sent to worker processes, unless there is only one process.
         """
         items = list(items)
         results: dict[int, Result] = {}
-        if alone or self.processes == 1:
-            found: Iterator[tuple[int, Result]] = ((place, function(item)) for place, item in enumerate(items))
-        else:
-            found = each(function, items, self.processes)
-        for place, result in found:
+        alone = ((place, function(item)) for place, item in enumerate(items))
+        for place, result in alone if self.processes == 1 else each(function, items, self.processes):
             results[place] = result
             if self._show is not None:
                 self._show(label, len(results), len(items))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,9 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 Column = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class LinearFit:
-    """Least squares: gas = sum of coefficients times columns; the first coefficient is the constant."""
+class LinearFit(NamedTuple):
+    """Least squares: gas = sum of coefficients times columns; the first coefficient is the constant.
+
+    r2: the share of the variance that the fit explains.
+    """
 
     coefficients: list[float]
     r2: float
@@ -25,13 +27,8 @@ def fit(columns: Sequence[ArrayLike], gas: ArrayLike) -> LinearFit:
     matrix = np.stack([np.ones_like(values), *(np.asarray(column, np.float64) for column in columns)], axis=1)
     scale = np.abs(matrix).max(axis=0)
     solution = np.linalg.lstsq(matrix / scale, values, rcond=None)[0]
-    return LinearFit((solution / scale).tolist(), r2_of(values, matrix / scale @ solution))
-
-
-def r2_of(values: Column, fitted: Column) -> float:
-    """Return the share of the variance that a fit explains."""
-    rest, around = values - fitted, values - values.mean()
-    return float(1 - (rest @ rest) / (around @ around))
+    rest, around = values - matrix / scale @ solution, values - values.mean()
+    return LinearFit((solution / scale).tolist(), float(1 - (rest @ rest) / (around @ around)))
 
 
 def quadratic_share(columns: list[Column], gas: Column) -> float:

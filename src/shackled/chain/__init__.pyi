@@ -5,10 +5,8 @@ from ._embedded import CHAIN_ID, DEFAULT_GAS_LIMIT, EmbeddedChain, RevmChain
 from ._failures import describe_revert, out_of_gas, revert_error
 from ._node import NodeChain, metered
 from ._opening import CHAINS, check_chain, open_chain, open_node
-from ._runs import BAND_PIXELS, engine_calls
 
 __all__ = [
-    "BAND_PIXELS",
     "CHAINS",
     "CHAIN_ID",
     "DEFAULT_GAS_LIMIT",
@@ -29,7 +27,6 @@ __all__ = [
     "check_timeout",
     "check_url",
     "describe_revert",
-    "engine_calls",
     "metered",
     "open_chain",
     "open_node",

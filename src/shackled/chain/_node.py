@@ -24,8 +24,8 @@ from ._address_book import AddressBook
 from ._chain import ContractCaller, NodeResult
 from ._connection import Connection
 from ._embedded import DEFAULT_GAS_LIMIT, EmbeddedChain
+from ._engines import ANTIALIASED, engines
 from ._failures import SAID, TOO_LITTLE_GAS, out_of_gas, revert_error
-from ._runs import ANTIALIASED, engines
 
 #: Maximum size of the data of a call that creates a contract (EIP-3860).
 MAX_INIT_CODE = 49152

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import click
-from click.shell_completion import get_completion_class
 
 from ..errors import InputError, InputWarning, ShackledError
 from ..untrusted import plain
@@ -19,7 +18,7 @@ from .output import noting
 
 datasets = CommandGroup(
     "datasets",
-    {name: f"datasets:{name}" for name in ("list", "fetch", "showcase", "gallery")},
+    {name: f"datasets:{name}" for name in ("list", "fetch", "gallery")},
     "List, fetch and show the pieces of the datasets.",
 )
 library = CommandGroup(
@@ -88,14 +87,6 @@ class Root(CommandGroup):
             formatter.write_dl([*LINES.items(), *((each.name or "", each.help or "") for each in GROUPS)])
 
 
-def _completion(context: click.Context, _: click.Parameter, value: str | None) -> None:
-    if value is not None:
-        kind = get_completion_class(value)
-        assert kind is not None
-        print(kind(app, {}, "shackled", "_SHACKLED_COMPLETE").source())
-        context.exit()
-
-
 app = Root(
     "shackled",
     {
@@ -104,16 +95,6 @@ app = Root(
         **{str(each.name): each for each in GROUPS},
     },
     "Render 3D scenes with Ethereum smart contracts.",
-    params=[
-        click.Option(
-            ["--completion"],
-            type=click.Choice(["bash", "zsh", "fish"]),
-            is_eager=True,
-            expose_value=False,
-            callback=_completion,
-            help='Print what lets a shell complete commands and options, as in: eval "$(shackled --completion bash)".',
-        ),
-    ],
 )
 
 

@@ -16,7 +16,6 @@ def bench(
     output: str | None = option("-o --output", "Folder for CSV files, plots and tables.", "DIR"),
     quick: bool = option("--quick", "Use a few small scenes, as a smoke test."),
     processes: int | None = option("--processes", "Number of processes; one per core by default.", "N", min=1),
-    rpc: str | None = option("--rpc", "Node that `engines` measures, too.", "URL"),
 ) -> None:
     """Run the experiments of the Shackled paper: gas against canvas, triangles, culling and more."""
     from ..bench import EXPERIMENTS, Runner, can_plot, check_names
@@ -33,6 +32,6 @@ def bench(
     if not can_plot():
         print("no plots: they need matplotlib (pip install 'shackled[bench]')", file=sys.stderr)
     with LateBar("measuring") as bar:
-        runner = Runner(quick, processes, rpc, lambda label, done, total: bar.set(done, total, label))
+        runner = Runner(quick, processes, lambda label, done, total: bar.set(done, total, label))
         written = [path for name in chosen for path in runner.run(name).save(name, folder)]
     print("\n".join(str(path) for path in written))

@@ -21,7 +21,7 @@ from ..untrusted import plain
 from ..values import plural
 from ..whole_file import check_output_file, write_output
 from .option import exclude, option
-from .output import print_json, print_line, print_note
+from .output import print_json, print_note
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
@@ -197,15 +197,14 @@ def print_price(quotes: Sequence[Quote]) -> None:
     print_rollup_fee(quotes)
 
 
-def print_rollup_fee(quotes: Sequence[Quote], to_stderr: bool = True) -> None:
+def print_rollup_fee(quotes: Sequence[Quote]) -> None:
     """Print what a rollup takes besides gas, if these transactions are for one."""
     if any(each.rollup_fee is None for each in quotes):
-        text = "the chain takes a fee for data on L1 as well, and tells no bound of it: the maximum does not include it"
+        print_note(
+            "the chain takes a fee for data on L1 as well, and tells no bound of it: the maximum does not include it"
+        )
     elif fee := sum(each.rollup_fee or 0 for each in quotes):
-        text = f"the maximum includes {at_most(fee)} ether for data on L1, twice what the chain tells now"
-    else:
-        return
-    (print_note if to_stderr else print_line)(text)
+        print_note(f"the maximum includes {at_most(fee)} ether for data on L1, twice what the chain tells now")
 
 
 def write_calls(path: Path, chain_id: int, quotes: Mapping[str, Quote], as_json: bool, **more: str) -> None:
@@ -235,7 +234,6 @@ def wallet_calls(plan: Plan) -> dict[str, Quote]:
     return {f"deploy {step.name}": step.quote for step in plan.steps if step.quote is not None}
 
 
-def print_step(name: str, address: bytes, receipt: Receipt, to_stdout: bool = False) -> None:
+def print_step(name: str, address: bytes, receipt: Receipt) -> None:
     """Print what was deployed or stored, and the gas that it used."""
-    text = f"{name}: at {checksum_address(address)}, {receipt.gas:,} gas, transaction {receipt.hash}"
-    (print_line if to_stdout else print_note)(text)
+    print_note(f"{name}: at {checksum_address(address)}, {receipt.gas:,} gas, transaction {receipt.hash}")

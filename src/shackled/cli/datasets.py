@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
 from collections.abc import Iterable, Sequence
 from functools import partial
-from itertools import groupby
+from itertools import groupby, islice
 from pathlib import Path
 from typing import Any
 
 from ..checks import choice
-from ..datasets import DATASETS, Piece, PieceCost, cost, figures, pieces
+from ..datasets import DATASETS, Piece, PieceCost, cost, pieces
 from ..errors import InputError
-from ..values import plural
-from ..whole_file import check_output_file, make_output_folder, write_output
+from ..whole_file import check_output_file, write_output
 from .option import argument, option
 from .progress import LateBar
 
-#: Number of Genesis pieces in a gallery without --all.
-GENESIS_SHOWN = 48
+#: The most pieces of a dataset in a gallery without --all; only Genesis has more.
+SHOWN = 48
 
 DATASET = argument(f"{', '.join(DATASETS)}; all by default.", "DATASET", parse=partial(choice, choices=tuple(DATASETS)))
 
@@ -77,84 +75,41 @@ def _summary(rows: Sequence[tuple[Piece, PieceCost]]) -> tuple[str, str, str, st
 
 def fetch(
     names: tuple[str, ...] = argument("Names of models, as in `shackled datasets list`.", "NAME", required=True),
-    own: Path | None = option("--from", "Local mesh file or archive to use instead of a download.", "FILE"),
-    cache: Path | None = option("--cache", "Cache folder; $SHACKLED_CACHE or that of the system by default.", "DIR"),
-    again: bool = option("--again", "Prepare models again even if they are in the cache."),
+    source: Path | None = option("--from", "A copy of the published file, to use instead of a download.", "FILE"),
 ) -> None:
     """Download third-party models, clean and simplify them, and keep the result."""
-    from ..datasets import VARIABLE
-    from ..datasets.common import model
+    from ..datasets.common import fetch, model
 
-    if own is not None and len(names) != 1:
+    if source is not None and len(names) != 1:
         raise InputError("--from needs exactly one NAME")
-    if cache is not None:
-        os.environ[VARIABLE] = str(cache)
     for each in [model(name) for name in names]:
-        _fetch(each, own, again)
-
-
-def _fetch(model: Any, own: Path | None, again: bool) -> None:
-    from ..datasets.common import fetch, take
-
-    terms = "" if model.commercial else "; not for commercial use"
-    print(f"{model.name}: {model.title} by {model.author}; licence: {model.licence}{terms}", file=sys.stderr)
-    if own is None:
-        with LateBar(model.name, 0) as bar:
-            done = fetch(model, again, bar.set)
-        if not done:
-            source = "from a local file; --again downloads the published one" if model.is_own() else "already"
-            print(f"{model.name}: it is in the cache {source}", file=sys.stderr)
-    elif not take(model, own):
-        note = "is not the published file, so its checksum was not compared; check its licence yourself"
-        print(f"{model.name}: {own} {note}", file=sys.stderr)
-    name, triangles, gas, *_ = _line(model.piece(), cost(model.piece()))
-    print(f"{name}: {triangles} triangles, {gas} gas; shackled render {name}")
-
-
-def showcase(
-    names: tuple[str, ...] = argument("Scenes, such as glass; all by default.", "NAME"),
-    output: Path = option("-o --output", "Output folder.", "DIR", default=Path("showcase")),
-) -> None:
-    """Render the scenes of the showcase into a folder, with a contact sheet (sheet.png)."""
-    from ..datasets.showcase import draw_showcase
-    from ..datasets.showcase import pieces as scenes
-
-    known = {piece.name.removeprefix("showcase/"): piece for piece in scenes()}
-    chosen = [
-        known[choice(name.removeprefix("showcase/"), "a scene of the showcase", known)] for name in names or known
-    ]
-    make_output_folder(output)
-    width = max(len(piece.name) for piece in chosen)
-    for drawing in draw_showcase(output, chosen):
-        print(f"{drawing.name:{width}}  {figures(drawing)}", flush=True)
-    print(f"{output / 'sheet.png'}: {plural(len(chosen), 'scene')}")
+        piece = each.piece()
+        print(piece.notice, file=sys.stderr)
+        fetch(each, source)
+        name, triangles, gas, *_ = _line(piece, cost(piece))
+        print(f"{name}: {triangles} triangles, {gas} gas; shackled render {name}")
 
 
 def gallery(
-    outputs: tuple[Path, ...] = option("-o --output", "Output file, .html or .png; can be repeated.", "FILE"),
+    output: Path = option("-o --output", "Output file, .html or .png.", "FILE", default=Path("gallery.html")),
     dataset: str | None = DATASET,
-    every: bool = option("--all", f"Show all Genesis pieces instead of {GENESIS_SHOWN}."),
+    every: bool = option("--all", f"Show all Genesis pieces instead of {SHOWN}."),
     jobs: int | None = option("--jobs", "Number of worker processes; one per core by default.", min=1),
 ) -> None:
     """Render all pieces into a self-contained HTML page or a contact sheet. Finished drawings are cached."""
     from ..datasets import draw_all, page, sheet
 
-    paths = outputs or [Path("gallery.html")]
-    for path in paths:
-        if path.suffix.lower() not in (".html", ".png"):
-            raise InputError(f"the gallery {path} must end in .html or .png")
-        check_output_file(path, "gallery")
-    found = list(pieces(dataset))
-    genesis = [piece for piece in found if piece.dataset == "genesis"]
-    left_out = set() if every else {piece.name for piece in genesis[GENESIS_SHOWN:]}
-    shown = [piece for piece in found if piece.name not in left_out]
+    is_page = output.suffix.lower() == ".html"
+    if not is_page and output.suffix.lower() != ".png":
+        raise InputError(f"the gallery {output} must end in .html or .png")
+    check_output_file(output, "gallery")
+    names = DATASETS if dataset is None else (dataset,)
+    shown = [piece for name in names for piece in islice(pieces(name), None if every else SHOWN)]
     ready = [piece for piece in shown if piece.ready()]
     drawings = {}
     with LateBar("drawing") as bar:
         for drawing in draw_all(ready, processes=jobs):
             drawings[drawing.name] = drawing
             bar.set(len(drawings), len(ready))
-    for path in paths:
-        html = path.suffix.lower() == ".html"
-        write_output(path, page(shown, drawings).encode() if html else sheet(shown, drawings))
-        print(f"{path}: {len(drawings if not html else shown):,} pieces")
+    write_output(output, page(shown, drawings).encode() if is_page else sheet(shown, drawings))
+    print(f"{output}: {len(shown if is_page else ready):,} pieces")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -60,7 +59,7 @@ def deploy(
     folder = standard_json or Path(f"deployed-{connection.chain_id}")
     receipts: list[Receipt] = []
     if plan.missing:
-        _print_plan(plan, connection, as_json)
+        _print_plan(plan, connection)
         if calldata is not None:
             write_calls(calldata, connection.chain_id, wallet_calls(plan), as_json)
             return
@@ -74,8 +73,7 @@ def deploy(
         # while nothing is paid yet
         deployer.book.check()
         _write_verification(folder, connection.chain_id, wanted)
-        report = None if as_json else partial(print_step, to_stdout=True)
-        receipts = deployer.execute(plan, transactor, report)
+        receipts = deployer.execute(plan, transactor, print_step)
     else:
         deployer.record(wanted)
         _write_verification(folder, connection.chain_id, wanted)
@@ -101,10 +99,9 @@ def _write_verification(folder: Path, chain_id: int, wanted: Sequence[Deployment
         )
 
 
-def _print_plan(plan: Plan, connection: Connection, to_stderr: bool) -> None:
+def _print_plan(plan: Plan, connection: Connection) -> None:
     price = f"{plan.fees.likely / GWEI:.6g} gwei per unit of gas"
-    title = f"on chain {connection.chain_id}, through the {connection.name}, at {price}:"
-    (print_note if to_stderr else print_line)(title)
+    print_note(f"on chain {connection.chain_id}, through the {connection.name}, at {price}:")
     rows = []
     for step in plan.steps:
         row = [step.name, checksum_address(step.address)]
@@ -115,8 +112,8 @@ def _print_plan(plan: Plan, connection: Connection, to_stderr: bool) -> None:
         estimated = "unknown" if quote.estimate is None else f"{quote.estimate:,}"
         rows.append([*row, f"{quote.call.gas:,}", estimated, rounded(quote.likely), at_most(quote.ceiling)])
     rows.append(["total", "", f"{plan.gas:,}", "", rounded(plan.cost), at_most(plan.ceiling)])
-    print_table(("contract", "address", "gas", "estimate", "ether", "at most"), rows, to_stderr=to_stderr)
-    print_rollup_fee(plan.quotes, to_stderr)
+    print_table(("contract", "address", "gas", "estimate", "ether", "at most"), rows, to_stderr=True)
+    print_rollup_fee(plan.quotes)
 
 
 def _document(plan: Plan, receipts: list[Receipt], connection: Connection, book: str, folder: str) -> dict[str, Any]:

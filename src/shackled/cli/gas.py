@@ -182,7 +182,8 @@ def print_profile(profile: Profile, opcodes: bool) -> None:
 
 
 def _figures(report: GasReport, gas_price: float, eth_price: float | None) -> dict[str, str]:
-    exact, found, margin = report.exact, report.search, report.margin
+    exact, found = report.exact, report.search
+    margin = found.gas - exact.gas
     bracket = next(step for step in found.steps if step.upper is not None)
     last = found.steps[-1]
     ether = report.ether(gas_price)
@@ -194,9 +195,7 @@ def _figures(report: GasReport, gas_price: float, eth_price: float | None) -> di
         "gas": f"{exact.gas:,} of the execution, exact ({report.chain})",
         "searched": f"{found.gas:,} by {found.calls} calls, which narrowed the limits from "
         f"{bracket.lower:,} .. {bracket.upper:,} to {last.lower:,} .. {last.upper:,}",
-        "margin": f"{margin.gas:,}, {_share(margin.gas, exact.gas)}: a 64th of the gas is not passed on to an engine, "
-        f"which needs {exact.dearest_call:,}, so {margin.kept:,} must be left; "
-        f"the Renderer uses {margin.after:,} of it after the call",
+        "margin": f"{margin:,}, {_share(margin, exact.gas)}: a 64th of the gas is not passed on to an engine",
         "intrinsic": f"{exact.intrinsic_gas:,} to send the scene, not included in the figures above",
         "each": ", ".join(
             f"{gas:,.0f} per {what}"

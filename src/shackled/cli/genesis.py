@@ -3,45 +3,21 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 
 from ..errors import InputError
 from ..image import FORMATS, check_output, one_of
 from ..scene import PICTURE
-from .option import argument, exclude, need, option
-from .progress import LateBar
+from .option import argument, option
 
 
 def genesis(
-    seeds: tuple[str, ...] = argument("Seeds of 64 hexadecimal digits, or numbers from 0 to 1023.", "SEED"),
+    seeds: tuple[str, ...] = argument(
+        "Seeds of 64 hexadecimal digits, or numbers from 0 to 1023.", "SEED", required=True
+    ),
     as_json: bool = option("--json", "Print a JSON object per line: seed, traits, mesh, colours."),
     output: str | None = option("-o --output", f"Output file for the picture of one SEED: {one_of(FORMATS)}.", "FILE"),
-    sheet: str | None = option("--sheet", "Output file for all 1024 pieces in one picture, .png.", "FILE"),
-    count: int | None = option("--count", "Number of pieces.", "N", "Sheet"),
-    size: int | None = option("--size", "Pixels per piece, 128 by default.", "N", "Sheet"),
-    workers: int | None = option("--jobs", "Number of worker processes; one per core by default.", "N", "Sheet", min=1),
 ) -> None:
-    """Generate Genesis pieces from seeds in the contract, or render the whole collection.
-
-    An interrupted sheet continues where it stopped.
-    """
-    from ..datasets import SIZE
-    from ..datasets.genesis import COUNT, render_sheet
-
-    need("--sheet", sheet, {"--count": count, "--size": size, "--jobs": workers})
-    exclude("--sheet", sheet, {"SEED": seeds, "--json": as_json, "--output": output})
-    if sheet is not None:
-        with LateBar("drawing", 0) as bar:
-            pieces = COUNT if count is None else count
-            render_sheet(sheet, pieces, SIZE if size is None else size, workers, bar.set)
-        print(f"{sheet}: {pieces:,} pieces")
-    elif seeds:
-        _pieces(seeds, as_json, output)
-    else:
-        raise InputError("a SEED is missing: 64 hexadecimal digits or a number from 0 to 1023; or give --sheet FILE")
-
-
-def _pieces(seeds: Sequence[str], as_json: bool, output: str | None) -> None:
+    """Generate Genesis pieces from seeds in the contract."""
     from ..datasets.genesis import generate_on_chain, parse_seed, picture_on_chain
 
     if output is not None and len(seeds) > 1:

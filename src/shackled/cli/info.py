@@ -22,7 +22,7 @@ from .output import print_json, print_line
 from .picture import Source, fits_of_made
 from .progress import LateBar
 from .several import INPUTS, inputs_of
-from .streams import FORMATS, STREAM, as_stdin
+from .streams import STREAM, as_stdin
 
 #: The sides of the pictures whose gas is told, in pixels.
 SIDES = (128, 256, 512)
@@ -31,16 +31,13 @@ SIDES = (128, 256, 512)
 def info(
     inputs: tuple[str, ...] = INPUTS,
     gas: bool = option("--gas/--no-gas", "Draw it, to count the gas of pictures and where they fit.", default=True),
-    kind: str | None = option(
-        "--format", f"Format of standard input: {', '.join(FORMATS)}; default: by its content.", "FORMAT"
-    ),
     as_json: bool = option("--json", "Print a JSON object instead of text, for each input."),
 ) -> None:
     """Tell what a file holds, what of it is left out, and what its pictures cost."""
     failed: list[Exception] = []
     is_first = True
     with ExitStack() as stack:
-        sources = inputs_of(inputs, kind, stack)
+        sources = inputs_of(inputs, stack)
         for source in sources:
             try:
                 told = _told(source, gas)

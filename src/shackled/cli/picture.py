@@ -21,7 +21,7 @@ from ..animation import DURATION, Animation, check_duration
 from ..chain import open_chain
 from ..errors import ChainError
 from ..gas import Fit, fits_of, headline, render_call, suffices
-from ..image import MOST_COLORS, Image, Pixels, colors, most
+from ..image import MOST_COLORS, Image, Pixels, colors, total
 from ..parallel import Listener, folder_of, remove_parts
 from ..scene import PICTURE, Scene, scene_chunk
 from ..values import plural
@@ -219,7 +219,7 @@ def fits_of_made(made: Image | Animation, scene: Scene) -> tuple[Fit, ...] | Non
     if isinstance(made, Image):
         gas = made.call_gas
     else:
-        gas = most(frame.call_gas for frame in made.frames) if made.file is None else made.gas
+        gas = total((frame.call_gas for frame in made.frames), max) if made.file is None else made.gas
     if gas is None or made.intrinsic_gas is None:
         return None
     data = render_call(scene)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -50,47 +49,31 @@ def preview(
     allow_empty: bool = option("--allow-empty", "Accept pictures that show only the background."),
     check: bool = option("--check", "No page: check all tokens; the exit code is 1 if one has a problem."),
     as_json: bool = option("--json", "With --check: print one JSON object instead of text."),
-    output: Path | None = option("-o --output", "With --check: write the pictures into one PNG.", "FILE"),
     port: int | None = option("--port", f"Port of the page (default: {PORT}, or a free one).", "PORT", min=0),
     browser: bool = option("--browser/--no-browser", "Open the page in the browser.", default=True),
 ) -> None:
     """Show the tokens of a Solidity contract on a page that follows its sources, with the gas of each."""
-    from ..preview import Project, Request
+    from ..preview import Project, Request, serve, stored_scene
 
-    need("--check", check, {"--json": as_json, "--output": output})
+    need("--check", check, {"--json": as_json})
     project = Project(source)
-    stored = _stored(store or ())
+    stored: dict[bytes, bytes] = {}
+    for each in store or ():
+        stored |= (codes := stored_scene(each))
+        print_note(f"{each} is stored at {checksum_address(list(codes)[-1])}")
     request = Request(
         contract, tuple(arg or ()), tuple(setup or ()), function, first, tokens, max_gas, stored, allow_empty
     )
     if check:
-        _check(project, request, as_json, output)
-        return
-    from ..preview import serve
-
-    serve(project, request, port, PORT, browser)
+        _check(project, request, as_json)
+    else:
+        serve(project, request, port, PORT, browser)
 
 
-def _stored(scenes: Sequence[str]) -> dict[bytes, bytes]:
-    """Return the code of the contracts in which the Studio stores scenes, by address. Print the pointer of each."""
-    if not scenes:
-        return {}
-    from ..preview import stored_scene
-
-    found: dict[bytes, bytes] = {}
-    for each in scenes:
-        codes = stored_scene(each)
-        print_note(f"{each} is stored at {checksum_address(list(codes)[-1])}")
-        found |= codes
-    return found
-
-
-def _check(project: Project, request: Request, as_json: bool, output: Path | None) -> None:
+def _check(project: Project, request: Request, as_json: bool) -> None:
     """Check all tokens. VerificationError if one of them has a problem."""
-    from ..preview import CompilerError, Preview, check_sheet, folded, summary, write_sheet
+    from ..preview import CompilerError, Preview, folded, summary
 
-    if output is not None:
-        check_sheet(output)
     found: list[Token] = []
     with LateBar("reading tokens") as bar:
         try:
@@ -102,15 +85,15 @@ def _check(project: Project, request: Request, as_json: bool, output: Path | Non
         for token in made.tokens():
             found.append(token)
             bar.set(len(found), made.count)
-    drawn = write_sheet(output, found) if output is not None else 0
     wrong = [token for token in found if token.problems]
     gas = [token.gas for token in found if token.gas is not None]
     if as_json:
+        gases = {"least": min(gas, default=None), "most": max(gas, default=None), "sum": sum(gas)}
         document = {
             "contract": made.contract.name,
             "function": made.function["name"],
             "max_gas": request.max_gas,
-            "gas": {"least": min(gas, default=None), "most": max(gas, default=None), "sum": sum(gas)},
+            "gas": gases,
             "problems": made.problems,
             "tokens": [summary(token) for token in found],
         }
@@ -126,11 +109,6 @@ def _check(project: Project, request: Request, as_json: bool, output: Path | Non
                 f"{made.contract.name}.{made.function['name']}: {len(found)} tokens, {sum(gas) // len(gas):,} gas on "
                 f"average, {most.gas or 0:,} at most (token {most.number}), {request.max_gas:,} allowed"
             )
-        if output is not None:
-            left_out = (
-                f"; {len(found) - drawn} tokens have none or an SVG, and are left out" if drawn < len(found) else ""
-            )
-            print_line(f"pictures: {output}{left_out}")
     if wrong:
         hint = made.hint(found)
         raise VerificationError(f"{len(wrong)} of {len(found)} tokens have problems{f'; {hint}' if hint else ''}")

@@ -24,7 +24,6 @@ from .option import exclude, is_from_environment, need, option
 from .picture import FilmOptions, Task, render_to
 from .progress import JobProgress
 from .several import INPUTS, inputs_of, outputs_of, render_all
-from .streams import FORMATS as KINDS
 
 EVM = option("--evm", f"EVM to draw in: {', '.join(CHAINS)}; default: revm.", "NAME", "Where")
 
@@ -94,9 +93,6 @@ def render(
         "Of several inputs a folder, as out/, or a pattern, as 'out/{stem}.webp'; - is standard output.",
         "FILE",
     ),
-    kind: str | None = option(
-        "--format", f"Format of standard input: {', '.join(KINDS)}; default: by its content.", "FORMAT", "Files"
-    ),
     scene: bool | None = option(
         "--scene/--no-scene",
         "Write the scene into PNG files, which are then scene files too (default: if it takes at most 64 KB).",
@@ -115,7 +111,7 @@ def render(
     with ExitStack() as stack:
         if quiet:
             stack.enter_context(redirect_stderr(io.StringIO()))
-        sources = inputs_of(inputs, kind, stack)
+        sources = inputs_of(inputs, stack)
         film.check()
         paths = outputs_of(sources, output, film.is_film)
         extensions = {PICTURE if path is None else path.suffix.lower() for path in paths} - {""}

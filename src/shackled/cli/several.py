@@ -46,19 +46,17 @@ Work = tuple[Source, Path | None, Task, Action]
 Outcome = tuple[Done | ShackledError, str]
 
 
-def inputs_of(names: Sequence[str], kind: str | None, stack: ExitStack) -> list[Source]:
+def inputs_of(names: Sequence[str], stack: ExitStack) -> list[Source]:
     """Return the inputs with these names; of a folder, all mesh files in it.
 
-    kind: the format of standard input. stack: removes the file in which that is stored.
+    stack: removes the file in which standard input is stored.
     """
-    if STREAM not in names and kind is not None:
-        raise InputError(f"--format is for {STREAM}, standard input: other inputs have an extension")
     if names.count(STREAM) > 1:
         raise InputError(f"{STREAM}, standard input, is one file: give it once")
     sources: list[Source] = []
     for name in names:
         if name == STREAM:
-            sources.append(Source(name, str(stack.enter_context(stdin_file(kind))), UNNAMED))
+            sources.append(Source(name, str(stack.enter_context(stdin_file())), UNNAMED))
             continue
         try:
             found = locate(name)

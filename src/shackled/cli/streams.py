@@ -12,9 +12,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from ..checks import choice
 from ..errors import InputError, InputWarning
-from ..scene import MAX_BYTES, PICTURE, READERS, SCENES
+from ..scene import MAX_BYTES
 from ..untrusted import read_json
 
 #: What stands for standard input, and for standard output.
@@ -22,8 +21,6 @@ STREAM = "-"
 OUTPUTS = (STREAM, "/dev/stdout")
 #: The names of both in messages.
 INPUT, OUTPUT = "standard input", "standard output"
-#: The formats of --format.
-FORMATS = tuple(extension[1:] for extension in (*READERS, *SCENES, PICTURE))
 
 #: How files of these formats begin. The other formats are told by what follows.
 _BEGINNINGS = {
@@ -52,12 +49,8 @@ def write_stdout(data: bytes) -> None:
 
 
 @contextmanager
-def stdin_file(kind: str | None) -> Iterator[Path]:
-    """Store standard input in a temporary file, whose extension is that of its format, and yield its path.
-
-    kind: the format, as "ply"; None tells it by the content.
-    """
-    extension = None if kind is None else f".{choice(kind.lower().removeprefix('.'), '--format', FORMATS)}"
+def stdin_file() -> Iterator[Path]:
+    """Store standard input in a temporary file, whose extension is that of its format, and yield its path."""
     if sys.stdin is None or sys.stdin.isatty():
         raise InputError(f"{STREAM} reads {INPUT}: pipe a mesh or scene file into the command")
     data = sys.stdin.buffer.read(MAX_BYTES + 1)
@@ -66,7 +59,7 @@ def stdin_file(kind: str | None) -> Iterator[Path]:
     if not data.strip():
         raise InputError(f"{INPUT} is empty")
     with TemporaryDirectory(prefix="shackled-") as folder:
-        path = Path(folder) / f"stdin{extension or _extension(data)}"
+        path = Path(folder) / f"stdin{_extension(data)}"
         path.write_bytes(data)
         yield path
 
@@ -105,4 +98,4 @@ def _extension(data: bytes) -> str:
         except ValueError:
             document = None
         return ".gltf" if isinstance(document, dict) and "asset" in document else ".json"
-    raise InputError(f"the format of {INPUT} is not told by its content: give --format {'|'.join(FORMATS)}")
+    raise InputError(f"the format of {INPUT} is not told by its content: give a file with its extension")

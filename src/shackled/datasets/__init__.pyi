@@ -1,17 +1,14 @@
-from ._drawing import SIZE, VARIABLE, PieceCost, cache_folder, cost, draw_all, figures, keep, page, sheet
+from ._drawing import PieceCost, cache_folder, cost, draw_all, keep, page, sheet
 from ._pieces import DATASETS, Piece, find, pieces, require
 from ._teapot import teapot
 
 __all__ = [
     "DATASETS",
-    "SIZE",
-    "VARIABLE",
     "Piece",
     "PieceCost",
     "cache_folder",
     "cost",
     "draw_all",
-    "figures",
     "find",
     "keep",
     "page",

@@ -38,7 +38,7 @@ VARIABLE = "SHACKLED_CACHE"
 #: The side of a drawing, in pixels.
 SIZE = 128
 #: Sizes in the contact sheet, in pixels.
-CELL, LABEL, GAP = 128, 32, 8
+LABEL, GAP = 32, 8
 PAPER, INK, FAINT = (250, 250, 248), (20, 22, 28), (110, 114, 122)
 
 
@@ -146,25 +146,20 @@ def page(pieces: Sequence[Piece], drawings: Mapping[str, Thumbnail]) -> str:
     )
 
 
-def sheet(
-    pieces: Sequence[Piece], drawings: Mapping[str, Thumbnail], cell: tuple[int, int] = (CELL, CELL), columns: int = 0
-) -> bytes:
-    """Return a PNG of the drawings in rows, a label under each; pieces without one are left out.
-
-    cell: width and height of a drawing. columns: in a row; 0 for about as many as rows.
-    """
-    drawn = [(piece, drawings[piece.name]) for piece in pieces if piece.name in drawings]
-    columns = columns or max(1, min(len(drawn), round((len(drawn) * (cell[1] + LABEL) / cell[0]) ** 0.5) + 1))
+def sheet(pieces: Sequence[Piece], drawings: Mapping[str, Thumbnail]) -> bytes:
+    """Return a PNG of the drawings in rows, a label under each; pieces without one are left out."""
+    drawn = [drawings[piece.name] for piece in pieces if piece.name in drawings]
+    columns = max(1, min(len(drawn), round((len(drawn) * (SIZE + LABEL) / SIZE) ** 0.5) + 1))
     rows = max(1, -(-len(drawn) // columns))
-    width, height = cell[0] + GAP, cell[1] + LABEL + GAP
+    width, height = SIZE + GAP, SIZE + LABEL + GAP
     picture = PillowImage.new("RGB", (columns * width + GAP, rows * height + GAP), PAPER)
     pen, font = ImageDraw.Draw(picture), ImageFont.load_default(11)
-    for number, (piece, drawing) in enumerate(drawn):
+    for number, drawing in enumerate(drawn):
         x, y = GAP + number % columns * width, GAP + number // columns * height
         with PillowImage.open(io.BytesIO(drawing.png)) as small:
-            picture.paste(small.convert("RGB").resize(cell, PillowImage.Resampling.NEAREST), (x, y))
-        pen.text((x, y + cell[1] + 2), piece.name, INK, font)
-        pen.text((x, y + cell[1] + 15), figures(drawing, "tri."), FAINT, font)
+            picture.paste(small, (x, y))
+        pen.text((x, y + SIZE + 2), drawing.name, INK, font)
+        pen.text((x, y + SIZE + 15), _figures(drawing, "tri."), FAINT, font)
     return pillow_bytes(picture, "png")
 
 
@@ -174,7 +169,7 @@ def _card(piece: Piece, drawing: Thumbnail | None) -> str:
         image, caption = f'<div class="absent"><code>{escape(command)}</code></div>', "not fetched"
     else:
         image = f'<img src="{data_uri("image/png", drawing.png)}" alt="{escape(piece.title)}" loading="lazy">'
-        caption = figures(drawing)
+        caption = _figures(drawing)
     credit = f'<p class="credit">{escape(piece.credit)}</p>' if piece.credit else ""
     words = escape(" ".join((piece.name, piece.title, piece.licence, piece.credit)).lower())
     return (
@@ -184,7 +179,7 @@ def _card(piece: Piece, drawing: Thumbnail | None) -> str:
     )
 
 
-def figures(drawing: Thumbnail, triangles: str = "triangles") -> str:
+def _figures(drawing: Thumbnail, triangles: str = "triangles") -> str:
     """Return the triangles and the gas of a drawing in words."""
     gas = "" if drawing.gas is None else f", {drawing.gas / 1e6:.1f} M gas"
     return f"{drawing.triangles:,} {triangles}{gas}"

@@ -22,7 +22,7 @@ class Piece:
     """A scene of a dataset, with a name and a licence.
 
     name: for instance "teapot", "icons/diamond" or "genesis/12".
-    dataset: "common", "icons", "genesis" or "showcase".
+    dataset: "common", "icons" or "genesis".
     title: for display. licence: of the model, as its source states it.
     commercial: whether the licence is known to allow commercial use; otherwise a piece cannot be stored on a chain.
     make: makes the scene as it is measured, in general 128 x 128 pixels without antialiasing, which `load` changes. It
@@ -72,9 +72,7 @@ def find(name: str) -> Piece | None:
     if dataset == "genesis" and rest:
         found: Piece | None = _module("genesis").find(rest)
         return found
-    # the showcase, scenes that show the renderer's options, is found by name only
-    listed = pieces(dataset if dataset in ("icons", "showcase") else "common")
-    return next((piece for piece in listed if piece.name == name), None)
+    return next((piece for piece in pieces("icons" if dataset == "icons" else "common") if piece.name == name), None)
 
 
 def require(name: str) -> Piece:

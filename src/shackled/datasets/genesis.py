@@ -2,27 +2,19 @@
 
 from __future__ import annotations
 
-import io
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
-from itertools import islice
-from math import isqrt
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-from PIL import Image as PillowImage
 
 from ..artifacts import artifact
 from ..chain import CallResult, Chain, ContractChain, Drawing, open_chain
-from ..checks import whole
 from ..errors import InputError, RenderError
 from ..ethereum import keccak256
-from ..image import Image, pillow_bytes
+from ..image import Image
 from ..scene import Background, Light, Material, Mesh, Object, Scene
-from ..whole_file import check_output_file, write_output
-from ._drawing import SIZE, draw_all
 from ._pieces import Piece
 
 COUNT = 1024
@@ -30,9 +22,6 @@ CONTRACT = "Genesis"
 
 #: A packed mesh: its header, then vertices and colours, then faces (contracts/src/scene/Mesh.sol).
 HEADER, VERTEX, FACE = 5, np.dtype([("position", ">i2", 3), ("color", "u1", 3)]), np.dtype((">u2", 3))
-
-#: Called with the number of finished pieces, and of all.
-Progress = Callable[[int, int], object]
 
 #: Colours, vertices, or corners of faces: three numbers each.
 Rows = list[list[int]]
@@ -173,34 +162,3 @@ def find(name: str) -> Piece | None:
 def _piece(label: str, seed: bytes) -> Piece:
     title = f"Genesis {label if len(label) < 64 else label[:8]}"
     return Piece(f"genesis/{label}", "genesis", title, "MIT", lambda: generate(seed).scene())
-
-
-def render_sheet(
-    path: str | Path,
-    count: int = COUNT,
-    size: int = SIZE,
-    workers: int | None = None,
-    progress: Progress = lambda done, total: None,
-) -> None:
-    """Render the first `count` pieces, size x size pixels each, in rows, into one PNG.
-
-    workers: number of worker processes; None for one per core. Finished drawings are kept in the cache folder, so that
-    an interrupted run continues. InputError or OutputError if the file cannot be written.
-    """
-    path = Path(path)
-    if path.suffix.lower() != ".png":
-        raise InputError(f"the sheet {path} must end in .png")
-    check_output_file(path, "sheet")
-    whole(count, "the number of pieces of a sheet", 1, COUNT)
-    whole(size, "the size of a piece in pixels", 1, 1024)
-    shown = list(islice(pieces(), count))
-    places = {piece.name: place for place, piece in enumerate(shown)}
-    columns = isqrt(count - 1) + 1
-    sheet = PillowImage.new("RGB", (columns * size, -(-count // columns) * size))
-    progress(0, count)
-    for done, drawing in enumerate(draw_all(shown, size, workers), 1):
-        row, column = divmod(places[drawing.name], columns)
-        with PillowImage.open(io.BytesIO(drawing.png)) as picture:
-            sheet.paste(picture, (column * size, row * size))
-        progress(done, count)
-    write_output(path, pillow_bytes(sheet, "png"))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 
-from ..artifacts import artifact, standard_input
+from ..artifacts import RENDERER, artifact, standard_input
 from ..chain import EmbeddedChain, open_chain
 from ..errors import ChainError, InputError
 from ..ethereum import PROXY, SALT, checksum_address, create2_address, intrinsic_gas
@@ -16,23 +16,8 @@ from ..whole_file import make_output_folder, write_output
 
 #: The contracts that `shackled deploy` deploys by default; each follows those that it calls.
 STANDARD = (
-    "Engine",
-    "FragmentEngine",
-    "AntialiasedEngine",
-    "AntialiasedFragmentEngine",
-    "AntialiasedSmoothEngine",
-    "EffectsEngine",
-    "Effects",
-    "Renderer",
-    "Original",
-    "Genesis",
-    "PngEncoder",
-    "Turntable",
-    "GlbEncoder",
-    "Studio",
-    "Library",
-    "Web",
-    "Editions",
+    *RENDERER,
+    *("Original", "Genesis", "PngEncoder", "Turntable", "GlbEncoder", "Studio", "Library", "Web", "Editions"),
 )
 #: All contracts that `shackled deploy` can deploy.
 CONTRACTS = (*STANDARD, "GenesisMetadata")

@@ -1,6 +1,6 @@
 from ._fitting import fit_scene
 from ._flame_graph import flame_graph
-from ._limits import Fit, fits_of, headline, limits, margin, measure, render_call
+from ._limits import Fit, fits_of, headline, limits, measure, render_call
 from ._profile import KINDS, STACK, Profile, profile
 from ._report import GasReport, make_report
 from ._search import SearchStep, search, suffices
@@ -20,7 +20,6 @@ __all__ = [
     "headline",
     "limits",
     "make_report",
-    "margin",
     "measure",
     "profile",
     "render_call",

@@ -140,16 +140,14 @@ class _Fitting:
     def _sendable(self) -> _Settings:
         """Return the settings that were asked for, with no more triangles than a request can hold."""
         now = self._asked
-        while (excess := self._excess(now)) > 1:
-            now = replace(now, triangles=int(0.98 * now.triangles / excess))
+        while self._limit.kind == "transaction":
+            size = len(render_call(self._scene_of(now))) + ENVELOPE
+            if size <= MAX_TRANSACTION:
+                break
+            now = replace(now, triangles=int(0.98 * now.triangles * MAX_TRANSACTION / size))
             if now.triangles < FEWEST:
                 raise InputError(f"the scene is larger than what {self._place} can hold, whatever its triangles")
         return now
-
-    def _excess(self, settings: _Settings) -> float:
-        """Return by what factor a request has too many bytes; or 1."""
-        size = len(render_call(self._scene_of(settings)))
-        return (size + ENVELOPE) / MAX_TRANSACTION if self._limit.kind == "transaction" else 1
 
     def _gas(self, settings: _Settings) -> int | None:
         """Return the gas of a request with intrinsic gas; None if it does not fit."""

@@ -45,16 +45,34 @@ def flame_graph(profile: Profile, name: str) -> str:
             box = box.inside.setdefault(key, _Box())
             box.gas += cost.gas
     parts: list[str] = []
-    head = MARGIN + ROW + 6
-    scale = (WIDTH - 2 * MARGIN) / max(root.gas, 1)
+    head, scale = MARGIN + ROW + 6, (WIDTH - 2 * MARGIN) / max(root.gas, 1)
+
+    def draw(name: str, box: _Box, left: float, hue: int, depth: int = 0) -> int:
+        """Append a box and those inside it; return the number of rows."""
+        width = box.gas * scale
+        if width < NARROWEST:
+            return depth
+        fits = int((width - PADDING) / CHARACTER)
+        label = name if len(name) <= fits else name[: fits - 1] + "…" if fits >= 4 else ""
+        y = head + depth * ROW
+        text = f'<text x="{left + PADDING / 2:.1f}" y="{y + 12.5:.1f}">{escape(label)}</text>' if label else ""
+        parts.append(
+            f"<g><title>{escape(name)}: {box.gas:,} gas, {100 * box.gas / root.gas:.2f} %</title>"
+            f'<rect x="{left:.2f}" y="{y:.1f}" width="{width:.2f}" height="{ROW - 1}" '
+            f'fill="hsl({hue},{62 - 3 * (depth % 4)}%,{70 + 3 * (depth % 4)}%)"/>{text}</g>'
+        )
+        rows = depth + 1
+        for key, inner in sorted(box.inside.items(), key=lambda item: -item[1].gas):
+            rows = max(rows, draw(key, inner, left, hue, depth + 1))
+            left += inner.gas * scale
+        return rows
+
     depth, left = 0, float(MARGIN)
     for index, stage in enumerate(STAGES):
         if stage in root.inside:
-            box = root.inside[stage]
             # distinct hues, pale enough for dark text in light and dark mode
-            hue = (18 + 137 * index) % 360
-            depth = max(depth, _draw(parts, stage, box, left, head, scale, root.gas, hue, 0))
-            left += box.gas * scale
+            depth = max(depth, draw(stage, root.inside[stage], left, (18 + 137 * index) % 360))
+            left += root.inside[stage].gas * scale
     height = head + depth * ROW + MARGIN
     title = escape(f"{name}: {root.gas:,} gas, by stage, function and line")
     return (
@@ -63,27 +81,3 @@ def flame_graph(profile: Profile, name: str) -> str:
         + "\n".join(parts)
         + "\n</svg>\n"
     )
-
-
-def _draw(
-    parts: list[str], name: str, box: _Box, left: float, top: float, scale: float, total: int, hue: int, depth: int
-) -> int:
-    """Append a box and those inside it; return the number of rows."""
-    width = box.gas * scale
-    if width < NARROWEST:
-        return depth
-    fits = int((width - PADDING) / CHARACTER)
-    label = name if len(name) <= fits else name[: fits - 1] + "…" if fits >= 4 else ""
-    y = top + depth * ROW
-    text = f'<text x="{left + PADDING / 2:.1f}" y="{y + 12.5:.1f}">{escape(label)}</text>' if label else ""
-    share = 100 * box.gas / max(total, 1)
-    parts.append(
-        f"<g><title>{escape(name)}: {box.gas:,} gas, {share:.2f} %</title>"
-        f'<rect x="{left:.2f}" y="{y:.1f}" width="{width:.2f}" height="{ROW - 1}" '
-        f'fill="hsl({hue},{62 - 3 * (depth % 4)}%,{70 + 3 * (depth % 4)}%)"/>{text}</g>'
-    )
-    rows = depth + 1
-    for key, inner in sorted(box.inside.items(), key=lambda item: -item[1].gas):
-        rows = max(rows, _draw(parts, key, inner, left, top, scale, total, hue, depth + 1))
-        left += inner.gas * scale
-    return rows

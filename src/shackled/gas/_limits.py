@@ -10,7 +10,7 @@ from importlib.resources import files
 from typing import Any
 
 from .._load import Thing, load_picture
-from ..chain import ContractChain, engine_calls, open_chain
+from ..chain import ContractChain, open_chain
 from ..scene import render_call as render_call
 from ..values import listed
 
@@ -26,15 +26,12 @@ ENVELOPE = 512
 class ExactGas:
     """The gas of a render.
 
-    gas: of the execution. intrinsic_gas: of the transaction before it. engine_gas: the part of `gas` that calls of
-    engines use; dearest_call: that of the most expensive call. floor_gas: the least that a transaction with this data
-    costs, by EIP-7623.
+    gas: of the execution. intrinsic_gas: of the transaction before it. floor_gas: the least that a transaction with
+    this data costs, by EIP-7623.
     """
 
     gas: int
     intrinsic_gas: int
-    engine_gas: int
-    dearest_call: int
     floor_gas: int
 
     @property
@@ -48,12 +45,10 @@ class ExactGas:
 
 
 def measure(thing: Thing, chain: ContractChain | None = None) -> ExactGas:
-    """Measure the gas of a render, and of its calls of the engines. thing: as in `load`. chain: None for revm."""
-    scene, where = load_picture(thing), chain or open_chain()
-    data = render_call(scene)
-    result = where.call("Renderer", data)
-    gas = [call.result.gas for call in engine_calls(scene, where)]
-    return ExactGas(result.gas, result.intrinsic_gas, sum(gas), max(gas), floor_gas(data))
+    """Measure the gas of a render. thing: as in `load`. chain: None for revm."""
+    data = render_call(load_picture(thing))
+    result = (chain or open_chain()).call("Renderer", data)
+    return ExactGas(result.gas, result.intrinsic_gas, floor_gas(data))
 
 
 def floor_gas(data: bytes) -> int:
@@ -64,29 +59,6 @@ def floor_gas(data: bytes) -> int:
 def needed_for(gas: int) -> int:
     """Return the least gas of which all but a 64th is at least `gas`."""
     return gas + (gas - 1) // (KEPT - 1) if gas else 0
-
-
-@dataclass(frozen=True)
-class Margin:
-    """Why a limit of exactly the gas that is used does not suffice.
-
-    kept: gas that must be left when an engine is called for the most expensive run, because a 64th is not passed on.
-    after: gas that the Renderer uses after that call, which comes out of what was kept.
-    """
-
-    kept: int
-    after: int
-
-    @property
-    def gas(self) -> int:
-        """Return the difference between the limit that is needed and the gas that is used."""
-        return self.kept - self.after
-
-
-def margin(exact: ExactGas, searched: int) -> Margin:
-    """Return the account of the difference between what a call uses and the least limit that it needs."""
-    kept = needed_for(exact.dearest_call) - exact.dearest_call
-    return Margin(kept, kept - (searched - exact.gas))
 
 
 @dataclass(frozen=True)
@@ -125,11 +97,6 @@ class Fit:
     fits: bool
     reason: str
 
-    @property
-    def share(self) -> float:
-        """Needed gas over the limit."""
-        return self.needed / self.limit.gas
-
     def to_json(self) -> dict[str, Any]:
         """Return the object that `--json` prints."""
         limit = self.limit
@@ -152,23 +119,17 @@ def fits_of(
     where the bounds do not decide, since a call must be given a little more gas than it uses; without it such a limit
     counts as too small.
     """
-    return tuple(fit_of(limit, gas, intrinsic_gas, calldata, suffices) for limit in limits())
-
-
-def fit_of(
-    limit: Limit, gas: int, intrinsic_gas: int, calldata: bytes, suffices: Callable[[int], bool] | None = None
-) -> Fit:
-    """Return how a picture fits into one limit, as `fits_of`."""
-    floor, size = floor_gas(calldata), len(calldata)
-    needed = max(intrinsic_gas + needed_for(gas), floor)
-    fits = needed <= limit.gas
-    if not fits and max(intrinsic_gas + gas, floor) <= limit.gas and suffices is not None:
-        fits = suffices(limit.gas - intrinsic_gas)
-        needed = limit.gas if fits else needed
-    reason = ""
-    if limit.kind == "transaction" and size + ENVELOPE > MAX_TRANSACTION:
-        fits, reason = False, f"its data of {size:,} bytes is more than the {MAX_TRANSACTION:,} that nodes relay"
-    return Fit(limit, needed, fits, reason)
+    floor, size, found = floor_gas(calldata), len(calldata), []
+    for limit in limits():
+        needed, reason = max(intrinsic_gas + needed_for(gas), floor), ""
+        fits = needed <= limit.gas
+        if not fits and max(intrinsic_gas + gas, floor) <= limit.gas and suffices is not None:
+            fits = suffices(limit.gas - intrinsic_gas)
+            needed = limit.gas if fits else needed
+        if limit.kind == "transaction" and size + ENVELOPE > MAX_TRANSACTION:
+            fits, reason = False, f"its data of {size:,} bytes is more than the {MAX_TRANSACTION:,} that nodes relay"
+        found.append(Fit(limit, needed, fits, reason))
+    return tuple(found)
 
 
 def headline(fits: Sequence[Fit]) -> str:

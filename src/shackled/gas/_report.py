@@ -8,7 +8,7 @@ from typing import Any
 
 from ..chain import ContractChain, NodeChain
 from ..scene import Scene
-from ._limits import ExactGas, Fit, Margin, fits_of, margin, measure, render_call
+from ._limits import ExactGas, Fit, fits_of, measure, render_call
 from ._profile import Profile, profile
 from ._search import Search, SearchStep, search, suffices
 
@@ -30,11 +30,6 @@ class GasReport:
     lit_pixels: int
     profile: Profile | None
     chain: str
-
-    @property
-    def margin(self) -> Margin:
-        """Return why a call needs a higher limit than it uses gas."""
-        return margin(self.exact, self.search.gas)
 
     @property
     def request_limit(self) -> int:
@@ -64,11 +59,9 @@ class GasReport:
             "triangles": self.triangles,
             "lit_pixels": self.lit_pixels,
             "gas": self.exact.gas,
-            "engine_gas": self.exact.engine_gas,
             "searched_gas": self.search.gas,
             "search_calls": self.search.calls,
             "search_steps": [asdict(step) for step in self.search.steps],
-            "margin": {"gas": self.margin.gas, "kept": self.margin.kept, "after": self.margin.after},
             "intrinsic_gas": self.exact.intrinsic_gas,
             "stages": None if self.profile is None else self.profile.stages(),
             "gas_per_triangle": self.per(self.triangles),

@@ -44,15 +44,14 @@ def search(
     lower: int = 0,
     upper: int | None = None,
     report: Callable[[SearchStep], None] | None = None,
-    most: int = DEFAULT_GAS_LIMIT,
 ) -> Search:
     """Return the least limit above `lower` that is enough.
 
     enough: makes the call with this limit. lower: taken not to suffice. upper: a limit that should; None doubles until
-    one does, up to `most`. report: called after every step. Raises InputError if the bounds are in the wrong order,
-    OutOfGasError if the upper one does not suffice.
+    one does, up to `DEFAULT_GAS_LIMIT`. report: called after every step. Raises InputError if the bounds are in the
+    wrong order, OutOfGasError if the upper one does not suffice.
     """
-    last = most if upper is None else upper
+    last = DEFAULT_GAS_LIMIT if upper is None else upper
     if not 0 <= lower < last:
         raise InputError(f"the search needs limits 0 <= lower < upper, not {lower:,} and {last:,}")
     steps: list[SearchStep] = []

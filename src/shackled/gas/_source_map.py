@@ -18,21 +18,12 @@ _PUSH1, _PUSH32 = 0x60, 0x7F
 
 
 @dataclass(frozen=True)
-class Function:
-    """A function of the sources: its name with that of its contract or file, and its range of bytes."""
-
-    name: str
-    begin: int
-    end: int
-
-
-@dataclass(frozen=True)
 class SourceFile:
-    """A file of the sources."""
+    """A file of the sources. functions: names, with that of contract or file, and ranges of bytes."""
 
     name: str
     text: bytes
-    functions: tuple[Function, ...]
+    functions: tuple[tuple[str, int, int], ...]
     line_begins: tuple[int, ...]
 
     def line(self, place: int) -> int:
@@ -41,7 +32,7 @@ class SourceFile:
 
     def function(self, begin: int, end: int) -> str | None:
         """Return the function that contains these bytes."""
-        return next((f.name for f in self.functions if f.begin <= begin and end <= f.end), None)
+        return next((name for name, first, last in self.functions if first <= begin and end <= last), None)
 
 
 @dataclass(frozen=True)
@@ -64,7 +55,6 @@ class SourceLocation:
 class SourceMap:
     """The locations of a contract's instructions, and the functions that begin at them, by position in the code."""
 
-    contract: str
     places: dict[int, SourceLocation]
     entries: dict[int, str]
     entry_lines: dict[int, int]
@@ -85,7 +75,7 @@ def source_map(contract: str) -> SourceMap:
             places[at] = SourceLocation(source.name, source.function(begin, end), source.line(begin), jump, block)
         if at in entries:
             names[at], lines[at] = (entries[at], 0) if source is None else _entry(entries[at], source, begin, end)
-    return SourceMap(contract, places, names, lines)
+    return SourceMap(places, names, lines)
 
 
 def instruction_sources(code: bytes, entries: str) -> Iterator[tuple[int, int, int, int, str]]:
@@ -101,7 +91,7 @@ def instruction_sources(code: bytes, entries: str) -> Iterator[tuple[int, int, i
 
 def _entry(name: str, source: SourceFile, begin: int, end: int) -> tuple[str, int]:
     """Name and line of a function of the compiler's intermediate language."""
-    exact = next((f.name for f in source.functions if (f.begin, f.end) == (begin, end)), None)
+    exact = next((each for each, *place in source.functions if place == [begin, end]), None)
     # copies of functions are numbered
     own = re.sub(r"_\d+$", "", name.removeprefix("usr$"))
     if exact is not None or not name.startswith("usr$"):
@@ -134,7 +124,7 @@ def _sources() -> dict[int, SourceFile]:
     for number, source in _data()["sources"].items():
         # libraries may not be installed
         text = (text_of(source["name"]) or "").encode()
-        functions = tuple(Function(name, begin, begin + length) for name, begin, length in source["functions"])
+        functions = tuple((name, begin, begin + length) for name, begin, length in source["functions"])
         begins = (0, *(match.end() for match in re.finditer(rb"\n", text)))
         found[int(number)] = SourceFile(source["name"], text, functions, begins)
     return found

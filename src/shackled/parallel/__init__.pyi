@@ -1,6 +1,5 @@
 from ._backends import Backend, ChainBackend, limited
 from ._cluster import ClusterBackend
-from ._counter import count
 from ._job import render_frames
 from ._scheduler import Listener, Outline
 from ._store import folder_of, remove_parts
@@ -12,7 +11,6 @@ __all__ = [
     "ClusterBackend",
     "Listener",
     "Outline",
-    "count",
     "folder_of",
     "is_large",
     "limited",

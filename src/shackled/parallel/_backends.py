@@ -28,13 +28,6 @@ def draw_part(chain: Chain, scene: Scene, tile: Rectangle) -> Drawing:
     return chain.draw(scene, None if is_whole else tile)
 
 
-def check_part(piece: Drawing, tile: Rectangle) -> None:
-    """Raise RenderError if an answer is no picture of the size of the tile."""
-    from ..image import decode_bmp
-
-    decode_bmp(piece.bmp, tile.width, tile.height)
-
-
 @cache
 def limited(chain: str | None, gas: int | None) -> Chain:
     """Open a chain by name, with a gas limit for each call; None keeps the limit of the chain."""

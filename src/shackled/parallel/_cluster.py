@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
-import threading
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
@@ -132,27 +132,19 @@ def _greet(address: str) -> None:
     from distributed.comm.core import connect
     from distributed.security import Security
 
-    async def hands() -> None:
+    async def greet() -> None:
         arguments = Security().get_connection_args("client")  # type: ignore[no-untyped-call]
-        made = connect(address, timeout=PATIENCE, **arguments)  # type: ignore[no-untyped-call]
-        comm = await asyncio.wait_for(made, PATIENCE)
+        comm = await connect(address, timeout=PATIENCE, **arguments)  # type: ignore[no-untyped-call]
         await comm.close()
 
-    def run() -> None:
-        try:
-            asyncio.run(hands())
-            ended.append(None)
-        except Exception as error:
-            ended.append(error)
-
-    ended: list[Exception | None] = []
     # in a thread, since a notebook already runs an event loop in its own
-    thread = threading.Thread(target=run, daemon=True)
-    thread.start()
-    thread.join(2 * PATIENCE)
-    error = ended[0] if ended else TimeoutError()
-    if error is not None:
-        raise OSError("it does not answer") if isinstance(error, TimeoutError) else error
+    pool = ThreadPoolExecutor(1)
+    try:
+        pool.submit(asyncio.run, asyncio.wait_for(greet(), PATIENCE)).result()
+    except TimeoutError:
+        raise OSError("it does not answer") from None
+    finally:
+        pool.shutdown(wait=False)
 
 
 def _line(error: BaseException) -> str:

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from .._on import Bounds, Nodes, On, Place, place_of
-from ..chain import BAND_PIXELS, Drawing
+from ..chain import Drawing
 from ..errors import caller
-from ..image import Image, decode_bmp, most, total
+from ..image import Image, decode_bmp, total
 from ..scene import Rectangle, Scene
 from ._backends import SAMPLE, Backend, Part, Verifier
 from ._estimate import Estimate, estimate
@@ -27,6 +27,8 @@ MOST_EXTRA = 0.3
 LEAST_PIXELS = 1024
 #: The most pixels of a part: about 50 MB for its pixels and buffers.
 MOST_PIXELS = 1 << 22
+#: Pixels of the bands in which a contract draws, as in Pipeline.sol.
+BAND_PIXELS = 16384
 #: Pictures that take less gas are compared whole, which takes a second or two.
 COMPARED_GAS = 500_000_000
 #: The bounds of calls where none were given.
@@ -134,7 +136,7 @@ def _assemble(
         seconds=seconds,
         scene=scene,
         calls=len(own),
-        call_gas=most(piece.gas for piece in own.values()),
+        call_gas=total((piece.gas for piece in own.values()), max),
         evm=evm,
     )
 

@@ -15,9 +15,10 @@ from pathlib import Path
 from ..artifacts import RENDERER, artifact
 from ..chain import Drawing
 from ..errors import ChainError
+from ..image import decode_bmp
 from ..scene import Scene, encode_scene, fit
 from ..whole_file import make_output_folder, write_output
-from ._backends import Part, check_part
+from ._backends import Part
 
 SUFFIX = ".part"
 
@@ -63,7 +64,7 @@ class PartStore:
             if hashlib.sha256(data[32:]).digest() != data[:32]:
                 return None
             piece = Drawing(bmp, *json.loads(head))
-            check_part(piece, part.tile)
+            decode_bmp(piece.bmp, part.tile.width, part.tile.height)
         except (OSError, ValueError, ChainError):
             return None
         return piece

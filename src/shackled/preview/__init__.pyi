@@ -1,6 +1,6 @@
 from ._preview import Preview, Request, Token
 from ._project import CompilerError, Project
-from ._report import check_sheet, folded, summary, write_sheet
+from ._report import folded, summary
 from ._server import serve
 from ._world import stored_scene
 
@@ -10,10 +10,8 @@ __all__ = [
     "Project",
     "Request",
     "Token",
-    "check_sheet",
     "folded",
     "serve",
     "stored_scene",
     "summary",
-    "write_sheet",
 ]

@@ -8,7 +8,7 @@ import re
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -25,7 +25,6 @@ HIDDEN = {"node_modules", ".git"}
 PATIENCE = 600
 #: Of the compiler of a file without a project.
 SETTINGS = {"evmVersion": "cancun", "optimizer": {"enabled": True, "runs": 200}}
-COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 #: A line that begins as those in which compilers say that they failed. The forge of npm ends with 0 all the same.
 FAILED = re.compile(r"^(?:\w*Error(?: [^:\n]{1,20})?:|Compiler run failed)", re.MULTILINE)
 INSTALL = (
@@ -73,18 +72,9 @@ class Project:
     def compile(self) -> list[Compiled]:
         """Return the contracts of the file, without abstract ones. CompilerError if it does not compile."""
         if (self.root / "foundry.toml").is_file():
-            forge = self._command("forge")
-            if forge is None:
-                raise InputError(f"{self.root} is a project of Foundry, but there is no forge: install Foundry")
-            output = self._forge_output(forge)
-            self._run_compiler([str(forge), "build", self._name, "--color", "never"])
-            return self._made_by_forge(output)
+            return self._by_forge()
         if any((self.root / mark).is_file() for mark in MARKS[1:4]):
-            hardhat = self._command("hardhat")
-            if hardhat is None:
-                raise InputError(f"{self.root} is a project of Hardhat, but it is not installed: run npm install there")
-            self._run_compiler([str(hardhat), "compile"])
-            return self._made_by_hardhat(self.root / "artifacts")
+            return self._by_hardhat()
         return self._by_solc()
 
     def stamps(self) -> dict[Path, int]:
@@ -102,95 +92,88 @@ class Project:
         """The file as the project names it."""
         return self.source.relative_to(self.root).as_posix()
 
-    def _command(self, name: str) -> Path | None:
-        """Return a command of the project or of the machine."""
+    def _command(self, otherwise: str, *names: str) -> str:
+        """Return the first of some commands that the project or the machine has. InputError, `otherwise`, if none."""
         folders = [folder / "node_modules" / ".bin" for folder in (self.root, *self.root.parents)]
-        found = shutil.which(name, path=os.pathsep.join(map(str, folders))) or shutil.which(name)
-        return Path(found) if found else None
-
-    def _forge_output(self, forge: Path) -> Path:
-        """Return the folder where forge writes what it makes."""
-        said = self._run([str(forge), "config", "--json"])
-        try:
-            return self.root / str(json.loads(said.stdout)["out"])
-        except (ValueError, KeyError):
-            raise InputError(f"foundry.toml cannot be read: {_shown(said)}") from None
+        for name in names:
+            found = shutil.which(name, path=os.pathsep.join(map(str, folders))) or shutil.which(name)
+            if found:
+                return found
+        raise InputError(otherwise)
 
     def _run_compiler(self, command: list[str]) -> None:
         """Run a compiler that writes files. CompilerError with what it says if it fails, or says that it failed."""
         said = self._run(command)
-        if not said.returncode and not FAILED.search(said.stdout):
-            return
-        absent = re.search("Failed to install solc.*", said.stdout)
-        if absent:
-            raise InputError(f"forge has no compiler: {absent[0]}")
-        raise CompilerError(self.source, _shown(said))
+        if said.returncode or FAILED.search(said.stdout):
+            raise CompilerError(self.source, _shown(said))
 
-    def _made_by_forge(self, output: Path) -> list[Compiled]:
-        """Return the contracts of the file. Of files of one name, forge puts those of one into a further folder."""
+    def _by_forge(self) -> list[Compiled]:
+        """Compile with Foundry. Of files of one name, it puts those of one into a further folder."""
+        forge = self._command(f"{self.root} is a project of Foundry, but there is no forge: install Foundry", "forge")
+        said = self._run([forge, "config", "--json"])
+        try:
+            output = self.root / str(json.loads(said.stdout)["out"])
+        except (ValueError, KeyError):
+            raise InputError(f"foundry.toml cannot be read: {_shown(said)}") from None
+        self._run_compiler([forge, "build", self._name, "--color", "never"])
+        found: list[Artifact] = []
+        # the newest last: what other versions of the compiler left is older
+        for path in sorted(output.glob(f"**/{self.source.name}/*.json"), key=lambda each: each.stat().st_mtime_ns):
+            built = _json(path)
+            metadata = built.get("metadata") or {}
+            target = metadata.get("settings", {}).get("compilationTarget", {self._name: path.stem})
+            if self._name in target:
+                hashes = {name: each["keccak256"] for name, each in metadata.get("sources", {}).items()}
+                found.append((path, target[self._name], built, hashes))
+        return self._current(found, "forge", output, "run `forge build --force`, and mend what it reports")
 
-        def found() -> Iterator[Artifact]:
-            # what an earlier name of a contract left, and other versions of the compiler, are older
-            for path in sorted(output.glob(f"**/{self.source.name}/*.json"), key=lambda each: each.stat().st_mtime_ns):
-                built = _json(path)
-                metadata = built.get("metadata") or {}
-                target = metadata.get("settings", {}).get("compilationTarget", {self._name: path.stem})
-                if self._name in target:
-                    yield path, target[self._name], built, _hashes(metadata)
+    def _by_hardhat(self) -> list[Compiled]:
+        """Compile with Hardhat."""
+        absent = f"{self.root} is a project of Hardhat, but it is not installed: run npm install there"
+        self._run_compiler([self._command(absent, "hardhat"), "compile"])
+        output = self.root / "artifacts"
+        found: list[Artifact] = []
+        for path in sorted((output / self._name).glob("*.json")):
+            if not path.name.endswith(".dbg.json"):
+                built, debug = _json(path), path.with_suffix(".dbg.json")
+                # Hardhat 2 names what it gave to the compiler in a further file
+                build = output / "build-info" / f"{built.get('buildInfoId')}.json"
+                build = path.parent / str(_json(debug).get("buildInfo")) if debug.is_file() else build
+                sources = _json(build).get("input", {}).get("sources", {}) if build.is_file() else {}
+                source = sources.get(built.get("inputSourceName", built.get("sourceName")))
+                found.append(
+                    (path, path.stem, built, {self._name: _hash(source["content"].encode())} if source else {})
+                )
+        return self._current(found, "hardhat", output, "leave `paths.artifacts` at its default")
 
-        nothing = f"forge wrote no contract of {self._name} to {output}"
-        return self._deployable(found(), nothing, "run `forge build --force`, and mend what it reports")
-
-    def _made_by_hardhat(self, output: Path) -> list[Compiled]:
-        """Return the contracts of the file."""
-        paths = [each for each in sorted((output / self._name).glob("*.json")) if not each.name.endswith(".dbg.json")]
-        builds = [(path, _json(path)) for path in paths]
-        found = [(path, path.stem, built, self._hashes_of_hardhat(path, built)) for path, built in builds]
-        remedy = "leave `paths.artifacts` at its default"
-        return self._deployable(found, f"hardhat wrote no contract of {self._name} to {output}: {remedy}", remedy)
-
-    def _hashes_of_hardhat(self, path: Path, built: dict[str, Any]) -> dict[str, str]:
-        """Return the hashes of the sources of an artifact, by the files of the compiler that Hardhat keeps."""
-        debug = path.with_suffix(".dbg.json")
-        if debug.is_file():
-            kept = path.parent / str(_json(debug).get("buildInfo"))
-        else:
-            kept = self.root / "artifacts" / "build-info" / f"{built.get('buildInfoId')}.json"
-        name = built.get("inputSourceName", built.get("sourceName"))
-        # Hardhat 3 writes the output into a file of its own
-        build: dict[str, Any] = {}
-        for each in (kept, kept.with_suffix(".output.json")):
-            build |= _json(each) if each.is_file() else {}
-        metadata = build.get("output", {}).get("contracts", {}).get(name, {}).get(path.stem, {}).get("metadata")
-        if metadata:
-            return _hashes(json.loads(metadata), "project/")
-        content = build.get("input", {}).get("sources", {}).get(name, {}).get("content")
-        return {} if content is None else {self._name: "0x" + keccak256(content.encode()).hex()}
-
-    def _deployable(self, artifacts: Iterable[Artifact], otherwise: str, remedy: str) -> list[Compiled]:
-        """Return the contracts that are in the source and have code.
-
-        InputError if none is in it, `otherwise`, or if what is there was made of other sources, with the remedy.
-        """
-        built: dict[str, dict[str, Any]] = {}
+    def _current(self, artifacts: list[Artifact], tool: str, output: Path, remedy: str) -> list[Compiled]:
+        """Return the contracts with code. InputError, with the remedy, if none was made of the sources as they are."""
+        built = {}
+        otherwise = f"{tool} wrote no contract of {self._name} to {output}"
         for path, name, each, hashes in artifacts:
-            changed = changed_source(self.root, hashes, path, self._name)
+            changed = self._changed(hashes)
             if changed is None:
-                built[name] = each
+                built[name] = each.get("abi", []), each.get("bytecode", "")
             else:
-                otherwise = f"{path} was not made of {changed} as it is now: {remedy}"
-        code = COMMENT.sub(" ", _text(self.source))
-        known = {name: each for name, each in built.items() if re.search(rf"\b{re.escape(name)}\b", code)}
-        if not known and re.search(r"\bcontract\b", code):
-            raise InputError(otherwise)
-        return _compiled(
-            {name: (each["abi"], each.get("bytecode", "")) for name, each in known.items() if "abi" in each}
-        )
+                otherwise = f"{path} was not made of {changed} as it is now"
+        if not built:
+            raise InputError(f"{otherwise}: {remedy}")
+        return _compiled(built)
+
+    def _changed(self, hashes: Mapping[str, str]) -> str | None:
+        """Return a source below the project that has not this hash, by its name; None if there is none."""
+        for name, expected in hashes.items():
+            path = self.root / name
+            if path.is_file():
+                content = path.read_bytes()
+                # forge compiles with the ends of lines of Unix
+                if expected not in (_hash(content), _hash(content.replace(b"\r\n", b"\n"))):
+                    return name
+        return None
 
     def _by_solc(self) -> list[Compiled]:
         """Compile with solc, the program or the package of npm."""
-        compiler = shutil.which("solc")
-        command = [compiler] if compiler else self._solc_of_npm()
+        compiler = self._command(INSTALL, "solc", "solcjs")
         remappings = self.root / "remappings.txt"
         settings: dict[str, Any] = SETTINGS | {
             "remappings": _text(remappings).split() if remappings.is_file() else [],
@@ -200,7 +183,7 @@ class Project:
         request = {"language": "Solidity", "sources": sources, "settings": settings}
         modules = self.root / "node_modules"
         places = ["--base-path", str(self.root), *(("--include-path", str(modules)) if modules.is_dir() else ())]
-        said = self._run([*command, "--standard-json", *places], json.dumps(request))
+        said = self._run([compiler, "--standard-json", *places], json.dumps(request))
         try:
             result = json.loads(said.stdout[said.stdout.index("{") :])
         except ValueError:
@@ -210,14 +193,6 @@ class Project:
             raise CompilerError(self.source, "\n".join(faults).strip() or _shown(said))
         made = result.get("contracts", {}).get(self._name, {}).items()
         return _compiled({name: (each["abi"], each["evm"]["bytecode"]) for name, each in made})
-
-    def _solc_of_npm(self) -> list[str]:
-        node = shutil.which("node")
-        for folder in (self.root, *self.root.parents):
-            script = folder / "node_modules" / "solc" / "solc.js"
-            if node and script.is_file():
-                return [node, str(script)]
-        raise InputError(INSTALL)
 
     def _run(self, command: list[str], given: str = "") -> subprocess.CompletedProcess[str]:
         """Run a command. Input and output are files, since solc of npm cuts off what it writes to a pipe."""
@@ -276,9 +251,8 @@ def _json(path: Path) -> dict[str, Any]:
     return found
 
 
-def _hashes(metadata: dict[str, Any], folder: str = "") -> dict[str, str]:
-    """Return the hashes of the sources in the metadata of a compiler. folder: what it calls that of the project."""
-    return {name.removeprefix(folder): each["keccak256"] for name, each in metadata.get("sources", {}).items()}
+def _hash(content: bytes) -> str:
+    return f"0x{keccak256(content).hex()}"
 
 
 def _compiled(built: Mapping[str, tuple[list[dict[str, Any]], Any]]) -> list[Compiled]:
@@ -297,21 +271,3 @@ def _shown(said: subprocess.CompletedProcess[str]) -> str:
     """Return what a compiler says, without the places in its own program, or that it says nothing."""
     text = "\n".join(line for line in said.stdout.splitlines() if not line.startswith("    at ")).strip()
     return text or f"{Path(said.args[0]).name} failed, and says nothing (exit code {said.returncode})"
-
-
-def changed_source(root: Path, hashes: Mapping[str, str], artifact: Path, source: str) -> str | None:
-    """Return the name of a source that an artifact was not made of as it is now; None if there is none.
-
-    root: folder of the project, below which sources are named. hashes: Keccak-256 of each source as it was compiled, by
-    its name; they decide. Where that of `source`, the file of the contract, is missing, the times of the files decide.
-    Sources that are not below the project are not compared.
-    """
-    for name, expected in hashes.items():
-        path = root / name
-        if path.is_file():
-            content = path.read_bytes()
-            # forge compiles with the ends of lines of Unix
-            if expected not in {f"0x{keccak256(each).hex()}" for each in (content, content.replace(b"\r\n", b"\n"))}:
-                return name
-    is_older = source not in hashes and artifact.stat().st_mtime_ns < (root / source).stat().st_mtime_ns
-    return source if is_older else None

@@ -1,20 +1,12 @@
-"""What is reported of many tokens: problems in few lines, a summary for programs, and their pictures in one."""
+"""What is reported of many tokens: problems in few lines, and a summary for programs."""
 
 from __future__ import annotations
 
-import io
 import re
 from collections import Counter
-from collections.abc import Iterable, Sequence
-from math import isqrt
-from pathlib import Path
+from collections.abc import Iterable
 from typing import Any
 
-from PIL import Image as PillowImage
-
-from ..errors import InputError
-from ..whole_file import check_output_file, write_output
-from ._document import PICTURES
 from ._preview import Token
 
 #: Ranges of numbers that one line shows.
@@ -33,13 +25,11 @@ def folded(tokens: Iterable[Token]) -> list[tuple[str, str]]:
     for number, problem in found:
         alike = problem if times[problem] > 1 else re.sub(rf"[\d,]+ gas\b|\b{number}\b", "#", problem)
         groups.setdefault(alike, []).append((number, problem))
-    return [(_ranges([number for number, _ in group]), _words(group)) for group in groups.values()]
-
-
-def _words(group: Sequence[tuple[int, str]]) -> str:
-    """Return the problem of the first token, and whether others have it with other numbers."""
-    words = group[0][1]
-    return words if all(problem == words for _, problem in group) else f"{words}; the others alike"
+    lines = []
+    for group in groups.values():
+        numbers, words = zip(*group, strict=True)
+        lines.append((_ranges(numbers), words[0] + "; the others alike" * (len(set(words)) > 1)))
+    return lines
 
 
 def _ranges(numbers: Iterable[int]) -> str:
@@ -68,39 +58,3 @@ def summary(token: Token) -> dict[str, Any]:
         "animation": document.animation.media_type if document.animation else None,
         "frames": max((file.frames for file in (document.image, document.animation) if file), default=0),
     }
-
-
-#: The side of a picture, in pixels.
-SIDE = 128
-
-
-def check_sheet(path: Path) -> None:
-    """Raise InputError if the sheet cannot be written there."""
-    if path.suffix.lower() != ".png":
-        raise InputError(f"the sheet {path} must end in .png")
-    check_output_file(path, "sheet")
-
-
-def write_sheet(path: Path, tokens: Sequence[Token]) -> int:
-    """Write the pictures in rows into one PNG, and return how many there are.
-
-    Tokens without a picture, and those with an SVG, leave their places empty.
-    """
-    drawn = 0
-    columns = isqrt(max(0, len(tokens) - 1)) + 1
-    rows = -(-len(tokens) // columns)
-    sheet = PillowImage.new("RGBA", (columns * SIDE, rows * SIDE))
-    for number, token in enumerate(tokens):
-        image = token.document.image
-        if image is None or image.media_type not in PICTURES:
-            continue
-        drawn += 1
-        row, column = divmod(number, columns)
-        with PillowImage.open(io.BytesIO(image.content)) as picture:
-            small = picture.convert("RGBA")
-            small.thumbnail((SIDE, SIDE), PillowImage.Resampling.BOX)
-        sheet.paste(small, (column * SIDE + (SIDE - small.width) // 2, row * SIDE + (SIDE - small.height) // 2))
-    stream = io.BytesIO()
-    sheet.save(stream, "png")
-    write_output(path, stream.getvalue())
-    return drawn

@@ -30,11 +30,6 @@ MAX_GAS = 1 << 24
 #: The block of the deployment; each transaction has a block of its own.
 FIRST_BLOCK = 20_000_000
 SECONDS_PER_BLOCK = 12
-#: The precompiled contracts of Cancun from address 1 on, most of which the embedded EVM does not have.
-PRECOMPILED = (
-    *("ecrecover", "sha256", "ripemd160", "identity", "modexp"),
-    *("ecadd", "ecmul", "ecpairing", "blake2f", "kzg"),
-)
 
 
 class World:
@@ -84,12 +79,7 @@ class World:
             return in_units(said)
         if answer.status == Status.OUT_OF_GAS:
             return f"out of gas: {MOST_GAS:,} do not suffice; is there an endless loop?"
-        said = answer.output.decode(errors="replace")
-        precompiled = re.search("precompiled contract 0x([0-9a-fA-F]+)", said)
-        if precompiled:
-            number = int(precompiled[1], 16)
-            name = PRECOMPILED[number - 1] if 0 < number <= len(PRECOMPILED) else precompiled[0]
-            return f"it calls {name}, a precompiled contract that the embedded EVM does not have"
+        said = answer.output.decode(errors="replace").removeprefix('Custom("').removesuffix('")')
         if said in ("OpcodeNotFound", "NotActivated"):
             return "the embedded EVM has the rules of Cancun, and does not know an instruction: compile for cancun"
         return f"failed: {said}"

@@ -10,7 +10,6 @@ from ._files.gltf.view import read_view
 from ._files.link import Link, link_of
 from ._files.mesh_file import GLTF, READERS, read_mesh, read_model
 from ._files.model import MeshPart
-from ._files.obj import write_obj
 from ._files.picture import CHUNK, PICTURE, SceneChunk, scene_chunk
 from ._files.scene_file import SCENES, read_scene
 from ._files.table import about
@@ -119,5 +118,4 @@ __all__ = [
     "view_axes",
     "weld",
     "without_slivers",
-    "write_obj",
 ]

@@ -60,9 +60,7 @@ def creased(mesh: Mesh, degrees: float | None = None) -> Mesh:
 
 
 def shaded(o: Object, shading: Shading, degrees: float | None = None, anew: bool = False) -> Object:
-    """Return the object in another shading. One that becomes smooth gets the normals of `smoothed` if it has none, or
-    `anew`.
-    """
+    """Return the object in another shading: `smoothed`, if it becomes smooth and has no normals, or gets them anew."""
     is_given = o.mesh.normals is not None or o.material.shading == "smooth"
     if shading == "smooth" and (anew or not is_given):
         return smoothed(o, degrees)
@@ -145,7 +143,7 @@ def _by_shape(
     """Return which of `_ANGLES` decide at each edge, (k,), and the directions of faces, (m, 3), given unit normals."""
     part = np.unique(components(corners, len(points))[corners[:, 0]], return_inverse=True)[1].reshape(-1)
     places = (points - points[0]) / (np.abs(points - points[0]).max() or 1.0)
-    lengths = _lengths(places[corners.ravel()[links[:, 0].reshape(-1, 2)]])
+    lengths = length(np.diff(places[corners.ravel()[links[:, 0].reshape(-1, 2)]], axis=1)[:, 0])
     a, b = normals[here], normals[there]
     turns = np.degrees(np.arctan2(length(np.cross(a, b)), dot(a, b)))
     each = part[here]
@@ -168,7 +166,7 @@ def _by_shape(
     is_solid = is_flat_faced | ((sharp >= _GAP_TIMES * middling) & (sharp >= _GAP_SHARE))
     is_figure = ~is_solid & ~is_all_corners
     shape = np.where(is_all_corners & ~is_figure.any(), 2, np.where(is_solid, 0, 1))
-    longest = _lengths(places[corners[:, [[0, 1], [1, 2], [2, 0]]]]).max(axis=1)
+    longest = length(np.diff(places[corners[:, [0, 1, 2, 0]]], axis=1)).max(axis=1)
     areas = length(_areas_and_angles(points, corners)[0])
     is_needle = (shape == 1)[part] & (areas < _NEEDLE * longest**2)
     directions = normals.copy()
@@ -176,11 +174,6 @@ def _by_shape(
         found = is_needle[one] & (lengths >= (1 - 1e-9) * longest[one]) & (2 * areas[one] < areas[other])
         directions[one[found]] = normals[other[found]]
     return shape[each], directions
-
-
-def _lengths(ends: Floats) -> Floats:
-    """Return the lengths of edges, whose ends are (..., 2, 3)."""
-    return length(ends[..., 1, :] - ends[..., 0, :])
 
 
 def _without_dead_ends(hard: Flags, weak: Flags, corners: Ints, proper: Ints, links: Ints) -> Flags:

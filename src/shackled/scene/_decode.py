@@ -62,10 +62,8 @@ def decode(data: bytes) -> Scene:
 
 
 def read_call(data: bytes) -> Scene:
-    """Return the scene of a call as `decode` does, also where `render_call` would make another call of it.
-
-    Each part is read where the one before it ends, whatever the offsets say, so that no byte is read twice.
-    """
+    """Return the scene of a call as `decode` does, also where `render_call` would make another call of it."""
+    # each part is read where the one before it ends, whatever the offsets say, so that no byte is read twice
     if data[:4] != artifact("Renderer").selectors["render"]:
         raise InputError("it is no call of render(Scene): its first four bytes are those of another function")
     words = _Words(data[4:])

@@ -138,11 +138,9 @@ def lights_of(value: Light | Iterable[Light] | None) -> tuple[Light, ...]:
     if value is None:
         return value  # type: ignore[return-value]
     lights = parts_of([value] if isinstance(value, Light) else value, "lights", "a Light")
-    for index, part in enumerate(lights):
-        instance(part, f"lights[{index}] of a scene", Light)
     if len(lights) > MAX_LIGHTS:
         raise InputError(f"a scene has up to {MAX_LIGHTS} lights, not {len(lights)}")
-    return tuple(lights)
+    return tuple(instance(part, f"lights[{index}] of a scene", Light) for index, part in enumerate(lights))
 
 
 def parts_of(parts: Iterable[Part], name: str, kind: str) -> list[Part]:

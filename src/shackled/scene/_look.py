@@ -138,7 +138,7 @@ def _placed(
     return Scene(
         [evolve(each, position=position, rotation=multiply(rotation, each.rotation), scale=scale) for each in objects],
         frame(turned, view),
-        toward_viewer(*staging.light, view),
+        toward_viewer(view, *staging.light),
         width=size[0],
         height=size[1],
         **staging.fields,

@@ -123,7 +123,7 @@ class Mesh(Value):
     opacities: (n,) float, or None: what each vertex hides of what is behind it, from 0, nothing, to 1; rounded to
         multiples of 1/255, and None where all are 1. They are multiplied with the opacity of the object.
 
-    A Mesh may exceed the limits of the contracts; `render` then raises an InputError.
+    A Mesh may exceed the limits of the contracts; `render` divides it.
     """
 
     positions: Floats = field(converter=_table, metadata=checked("the positions of a mesh"))
@@ -144,15 +144,12 @@ class Mesh(Value):
             raise InputError(f"a mesh needs vertices and faces; this one has {count} and {len(self.faces)}")
         bad = np.flatnonzero(~np.isfinite(self.positions).all(axis=1))
         if len(bad):
-            raise InputError(
-                f"vertex {bad[0]} has a coordinate that is not a finite number: {self.positions[bad[0]].tolist()}"
-            )
+            found = self.positions[bad[0]].tolist()
+            raise InputError(f"vertex {bad[0]} has a coordinate that is not a finite number: {found}")
         bad = np.flatnonzero(((self.faces < 0) | (self.faces >= count)).any(axis=1))
         if len(bad):
-            raise InputError(
-                f"face {bad[0]} names the vertices {self.faces[bad[0]].tolist()}, "
-                f"but they are numbered 0 to {count - 1}"
-            )
+            named = self.faces[bad[0]].tolist()
+            raise InputError(f"face {bad[0]} names the vertices {named}, but they are numbered 0 to {count - 1}")
         if self.colors.ndim == 1:
             object.__setattr__(self, "colors", fixed(np.tile(self.colors, (count, 1)), np.uint8))
         if self.colors.shape[1] == 4:

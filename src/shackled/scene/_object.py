@@ -30,9 +30,11 @@ OPACITIES = (0, 1)
 def _texture(value: Texture | None) -> Texture | None:
     if isinstance(value, str | os.PathLike):
         return Texture.open(value)
-    if value is not None:
-        instance(value, "the texture of a material", Texture)
-    return value
+    return None if value is None else instance(value, "the texture of a material", Texture)
+
+
+def _coefficient(name: str) -> dict[str, Any]:
+    return checked(f"the {name} coefficient of a material", *COEFFICIENTS)
 
 
 @words_of()
@@ -48,15 +50,9 @@ class Material:
     """
 
     shading: Shading = field(default="flat", converter=choice, metadata=checked("the shading of a material", SHADINGS))
-    ambient: float = field(
-        default=0.3, converter=number, metadata=checked("the ambient coefficient of a material", *COEFFICIENTS)
-    )
-    diffuse: float = field(
-        default=0.75, converter=number, metadata=checked("the diffuse coefficient of a material", *COEFFICIENTS)
-    )
-    specular: float = field(
-        default=0.3, converter=number, metadata=checked("the specular coefficient of a material", *COEFFICIENTS)
-    )
+    ambient: float = field(default=0.3, converter=number, metadata=_coefficient("ambient"))
+    diffuse: float = field(default=0.75, converter=number, metadata=_coefficient("diffuse"))
+    specular: float = field(default=0.3, converter=number, metadata=_coefficient("specular"))
     shininess: int = field(default=24, converter=whole, metadata=checked("the shininess of a material", *EXPONENTS))
     texture: Texture | None = field(default=None, converter=_texture)
     emission: Color = field(default=(0, 0, 0), converter=color, metadata=checked("the emission of a material"))
@@ -67,13 +63,11 @@ def _mesh(value: Mesh) -> Mesh:
         return mesh_of(value)
     if isinstance(value, str | os.PathLike):
         raise InputError(f"the mesh of an object must be a shackled.Mesh: shackled.load({value!r:.60}) has objects")
-    instance(value, "the mesh of an object", Mesh)
-    return value
+    return instance(value, "the mesh of an object", Mesh)
 
 
 def _material(value: Material) -> Material:
-    instance(value, "the material of an object", Material)
-    return value
+    return instance(value, "the material of an object", Material)
 
 
 def _fade(value: ArrayLike | None) -> tuple[float, float] | None:

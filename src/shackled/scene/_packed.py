@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..checks import Floats
 from ..errors import InputError
 from ._arithmetic import units
-from ._mesh import MAX_FACES, MAX_VERTICES, Mesh, vertex_normals
+from ._mesh import Mesh, vertex_normals
 from ._records import TEXTURE_BILINEAR, TEXTURE_CLAMP
 from ._texture import Texture
 
@@ -29,16 +29,8 @@ NORMAL_UNIT = 511
 
 
 def pack(mesh: Mesh, smooth: bool = False) -> bytes:
-    """Return the bytes of a mesh whose coordinates are whole numbers, -2^23..2^23-1; with normals if `smooth`.
-
-    Coordinates take 16 bits where all fit, else 24.
-    """
+    """Return the bytes of a mesh with whole coordinates, of 16 bits if all fit, else 24; with normals if `smooth`."""
     positions, faces = mesh.positions, mesh.faces
-    if len(positions) > MAX_VERTICES or len(faces) > MAX_FACES:
-        raise InputError(
-            f"a mesh has {len(positions):,} vertices and {len(faces):,} triangles; a contract takes {MAX_VERTICES:,}"
-            f" and {MAX_FACES:,}: simplify it with `max_triangles`"
-        )
     if (bits := bits_of(positions)) is None:
         raise InputError(f"a packed mesh needs whole coordinates from {-MAX_WIDE - 1:,} to {MAX_WIDE:,}")
     coordinates = np.ascontiguousarray(positions, dtype=">i4")
@@ -59,8 +51,7 @@ def unpack(packed: bytes) -> Mesh:
     expected = HEADER + vertices * stride + faces * 6
     if len(packed) != expected:
         raise InputError(
-            f"a packed mesh of {vertices:,} vertices and {faces:,} triangles has {expected:,} bytes,"
-            f" not {len(packed):,}"
+            f"a packed mesh of {vertices} vertices and {faces} faces has {expected} bytes, not {len(packed)}"
         )
     rows = np.frombuffer(packed, np.uint8, vertices * stride, HEADER).reshape(vertices, stride)
     octets = np.zeros((vertices, 3, 4), np.uint8)
@@ -118,10 +109,7 @@ LARGEST_UV = 128
 
 
 def pack_texture(texture: Texture, uvs: Floats) -> bytes:
-    """Return the bytes of a texture with the coordinates of vertices, (n, 2), in whole words of 32 bytes.
-
-    An image of up to 256 colours has a palette. InputError for coordinates out of range.
-    """
+    """Return the words of a texture with the coordinates of vertices, (n, 2). InputError for those out of range."""
     return _in_words(_pack_image(texture, texture.pixels) + _pack_uvs(uvs))
 
 
@@ -185,10 +173,7 @@ def _unpack_image(packed: bytes, more: int, before: int = 0) -> tuple[Texture, i
     expected = begin + texels + more
     expected += -(expected + before) % 32
     if len(packed) != expected:
-        raise InputError(
-            f"a packed texture of {width} x {height} texels of {bits} bits with {more // (2 * UV_SIZE):,} coordinates"
-            f" has {expected:,} bytes, not {len(packed):,}"
-        )
+        raise InputError(f"a packed texture of {width} x {height} texels has {expected} bytes, not {len(packed)}")
     data = np.frombuffer(packed, np.uint8)
     if palette:
         digits = np.unpackbits(data[begin : begin + texels])[: width * height * bits].reshape(-1, bits)

@@ -22,10 +22,7 @@ from ._staging import view_axes
 
 @frozen
 class Lamp:
-    """A directional light that stands relative to the camera, so that a preset does not depend on the view.
-
-    azimuth, elevation: where it stands, in degrees to the right of the camera, and above the horizon.
-    """
+    """A directional light that stands so many degrees to the right of the camera, and above the horizon."""
 
     azimuth: float
     elevation: float
@@ -34,10 +31,7 @@ class Lamp:
 
 @frozen
 class Preset:
-    """A look.
-
-    material: without texture and emission, which stay. color: of all meshes; None for their own.
-    """
+    """A look. material: without texture and emission, which stay. color: of all meshes; None for their own."""
 
     name: str
     help: str

@@ -27,15 +27,11 @@ def _objects(value: Object | Mesh | Iterable[Object | Mesh]) -> tuple[Object, ..
     given: Any = [value] if isinstance(value, Object | Mesh) or is_trimesh(value) else value
     parts: list[Any] = parts_of(given, "objects", "an Object, a Mesh")
     objects = [Object(part) if isinstance(part, Mesh) or is_trimesh(part) else part for part in parts]
-    for number, part in enumerate(objects):
-        instance(part, f"objects[{number}] of a scene", Object)
-    return tuple(objects)
+    return tuple(instance(part, f"objects[{number}] of a scene", Object) for number, part in enumerate(objects))
 
 
 def _camera(value: Camera | None) -> Camera:
-    if value is not None:
-        instance(value, "the camera of a scene", Camera)
-    return value  # type: ignore[return-value]
+    return value if value is None else instance(value, "the camera of a scene", Camera)  # type: ignore[return-value]
 
 
 def _side(value: int, name: str = "side") -> int:

@@ -33,12 +33,11 @@ def is_possible() -> bool:
 
 
 def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] = FORCEFUL) -> Mesh:
-    """Return a mesh of at most `max_triangles` triangles, by edge collapse.
+    """Return a mesh of at most `max_triangles` triangles, by edge collapse; itself if it is small enough.
 
-    Each vertex has the colour and the opacity of the nearest vertex that was collapsed into it; so have corners of
-    faces their texture coordinates, on their side of a seam. Normals are dropped. A mesh that is small enough is
-    returned unchanged. tries: pairs of aggressiveness and target, as `FORCEFUL`. InputError if the target cannot be
-    reached (it names a number that can), or fast-simplification is not installed.
+    A vertex has the colour and the opacity of the nearest one that was collapsed into it, corners likewise their
+    texture coordinates. Normals are dropped. tries: pairs of aggressiveness and target, as `FORCEFUL`. InputError if
+    the target cannot be reached, or fast-simplification is not installed.
     """
     most = whole(max_triangles, "the number of triangles to simplify to", 1)
     if mesh.triangles <= most:
@@ -49,8 +48,6 @@ def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] 
     count = len(surface.faces)
     if not 0 < count <= most:
         found = f"{count} remain" if count else "nothing would remain"
-        if count and len(_simplified(mesh, count, tries).faces) <= count:
-            found += f"; {count} would do"
         raise InputError(f"a mesh of {mesh.triangles} triangles cannot be simplified to {most}: {found}")
     if mesh.uvs is None:
         return Mesh(surface.positions, surface.faces, surface.colors)
@@ -73,10 +70,9 @@ def simplify_scene(scene: Scene, max_triangles: int, crease: float | None = None
 
 @dataclass(frozen=True)
 class _Surface:
-    """A mesh with one vertex for each position.
+    """A mesh with one vertex for each position. colors: (n, 4). uvs: (m, 3, 2).
 
-    colors: (n, 4), with alpha. uvs: (m, 3, 2), texture coordinates of corners. places: (m, 3), numbers that corners
-    have in common which are one point of the texture.
+    places: (m, 3), numbers that corners have in common which are one point of the texture.
     """
 
     positions: NDArray[np.float64]
@@ -153,10 +149,10 @@ def collapsed(
 
 
 def _on_texture(surface: _Surface, moved: NDArray[np.int64], distance: NDArray[np.float64]) -> _Surface:
-    """Return the surface with the texture coordinates that corners have after a collapse.
+    """Return the surface with the texture coordinates after a collapse to vertices, (m, 3), at distances, (n,).
 
     Points of the texture between which an edge was collapsed are one: that nearest to the new vertex. So both sides of
-    a seam keep their own. moved: (m, 3), new vertices. distance: (n,), of old vertices from the new ones.
+    a seam keep their own.
     """
     ends = np.array([[0, 1], [1, 2], [2, 0]])
     collapsed = moved[:, ends[:, 0]] == moved[:, ends[:, 1]]

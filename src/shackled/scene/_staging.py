@@ -69,13 +69,11 @@ class Viewpoint:
 
 @frozen
 class Staging:
-    """How a mesh without a scene is shown.
+    """How a mesh without a scene is shown. side: of the picture in pixels. fields: of the Scene, by their names.
 
-    side: of the picture in pixels, where none is given.
     view: of meshes at least half as high as wide; the flatter a mesh, the higher the viewer, up to `flat_elevation`.
-    light: its direction, right, up and toward the viewer, and its colour.
+    light: as `toward_viewer` has it.
     material: of the mesh. Its shading is replaced if `by_normals`: by that of the mesh's normals, or of computed ones.
-    fields: of the Scene, by their names.
     """
 
     side: int
@@ -131,7 +129,7 @@ def staged(points: NDArray[np.float64], width: int, height: int) -> tuple[Camera
         raise InputError("the coordinates of the objects are too large for a camera to be placed")
     camera = frame(points / largest, view)
     camera = evolve(camera, eye=largest * camera.eye, target=largest * camera.target)
-    return camera, (key_light(view),), BACKGROUND
+    return camera, (toward_viewer(view),), BACKGROUND
 
 
 def painted(mesh: Mesh, color: ArrayLike | str) -> Mesh:
@@ -185,13 +183,8 @@ def contrasting(objects: Sequence[Object]) -> Background:
     return DARK_BACKGROUND if 2 * light > total else LIGHT_BACKGROUND
 
 
-def key_light(view: Viewpoint) -> Light:
-    """Return a light that stays where it is for the viewer, wherever the viewer stands."""
-    return toward_viewer(KEY_LIGHT, WHITE, view)
-
-
-def toward_viewer(direction: tuple[float, float, float], color: Color, view: Viewpoint) -> Light:
-    """Return a light at infinity. direction: to it, in the directions right, up and toward the viewer."""
+def toward_viewer(view: Viewpoint, direction: tuple[float, float, float] = KEY_LIGHT, color: Color = WHITE) -> Light:
+    """Return a light at infinity that stays where it is for the viewer. direction: to it, right, up and toward them."""
     axes = np.stack(view_axes(view.azimuth, view.elevation), axis=1)
     return Light("directional", dot(np.array(direction), axes), color)
 

@@ -91,11 +91,10 @@ class Texture(Value):
         image: str | os.PathLike[str] | Image.Image,
         filter: Filter = "bilinear",
         wrap: Wrap = "repeat",
-        side: int = MAX_TEXTURE_SIDE,
         alpha: bool = False,
         cutoff: int = 0,
     ) -> Texture:
-        """Return the texture of an image, or of the file of one, reduced to at most `side` texels along each side.
+        """Return the texture of an image, or of the file of one, reduced to 256 texels along each side.
 
         alpha: whether it has the alpha of the image, if that is transparent anywhere; hidden texels get the colours of
         the nearest visible ones. cutoff: see `Texture`. InputError if the file does not exist or is not an image.
@@ -105,7 +104,7 @@ class Texture(Value):
             opened = open_image(Path(image), str(image), convert)
         else:
             opened = convert(image)
-        return cls.of_image(reduced(opened, side), filter, wrap, cutoff)
+        return cls.of_image(reduced(opened), filter, wrap, cutoff)
 
     @classmethod
     def of_image(cls, image: Image.Image, filter: Filter, wrap: Wrap, cutoff: int = 0) -> Texture:

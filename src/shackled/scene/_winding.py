@@ -30,9 +30,8 @@ _MOST_OUTER = 1000
 def wound(objects: Sequence[Object], name: str, split: bool) -> list[Object]:
     """Return the objects of a model with closed parts wound outward, and with `cull` for those of closed parts only.
 
-    A connected part is closed if each edge is as often in one direction as in the other. All others may be seen from
-    behind. split: whether objects that are partly closed may become two. An InputWarning, which begins with the name,
-    counts the parts that are turned.
+    A connected part is closed if each edge is as often in one direction as in the other. split: whether objects that
+    are partly closed may become two. An InputWarning, which begins with the name, counts the parts that are turned.
     """
     meshes = [each.mesh for each in objects]
     positions = np.concatenate([mesh.positions for mesh in meshes])
@@ -55,10 +54,7 @@ def wound(objects: Sequence[Object], name: str, split: bool) -> list[Object]:
 
 
 def _parts(points: Floats, corners: Ints) -> tuple[Ints, Flags, Flags]:
-    """Return the number of the part of each face, (m,), which parts are closed, and which are wound inside out.
-
-    points: (m, 3, 3). corners: (m, 3), numbers of points. Parts are connected by edges.
-    """
+    """Return the part of each face, (m,), of those that edges connect, and which are closed, and which inside out."""
     face, edge, direction = _edges(corners)
     along = np.flatnonzero(edge[1:] == edge[:-1])
     labels = components(np.stack([face[along], face[along + 1]], axis=1), len(corners))

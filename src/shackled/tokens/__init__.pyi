@@ -19,7 +19,7 @@ from ._minting import mint_call, read_allowance, sign_allowance
 from ._reveal import Round, check_randomness, hidden_rounds, price_calls, reveal_calls
 from ._storage import SceneToStore, StoragePlan, plan_storage, read_back, store
 from ._verify import check_code, check_collection_code, check_token
-from ._view import comparison, read_view, read_views
+from ._view import read_view, read_views
 
 __all__ = [
     "EDITIONS",
@@ -48,7 +48,6 @@ __all__ = [
     "check_sale",
     "check_token",
     "chosen_pieces",
-    "comparison",
     "edition_at",
     "editions_of",
     "find_icon",

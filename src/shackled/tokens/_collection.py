@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 from ..artifacts import artifact
@@ -44,17 +43,12 @@ EDITIONS = CollectionKind("editions", "Shackled Editions", "Editions", hidden=Fa
 
 
 class Collection:
-    """A collection at an address."""
+    """A collection at an address. name: of the contract's tokens."""
 
     def __init__(self, connection: Connection, kind: CollectionKind, address: str) -> None:
         """Create a collection of a known kind; `open_collection` determines the kind."""
-        self.connection, self.kind, self.address = connection, kind, address
+        self.connection, self.kind, self.name, self.address = connection, kind, kind.title, address
         self.contract = Contract(connection, kind.contract, address)
-
-    @cached_property
-    def name(self) -> str:
-        """Name of the collection, from the contract."""
-        return str(self.contract.call("name"))
 
     def minted(self) -> int:
         """Return the number of tokens, which are numbered from 0."""

@@ -138,7 +138,7 @@ class Edition:
 def open_editions(connection: Connection, address: str | None = None) -> Collection:
     """Return the collection of editions on a chain. address: None is the usual one. Raises InputError without it."""
     collection = Collection(connection, EDITIONS, address or address_of(EDITIONS.contract))
-    if not connection.code(collection.contract.place) or collection.name != EDITIONS.title:
+    if not connection.code(collection.contract.place) or collection.contract.call("name") != EDITIONS.title:
         raise InputError(
             f"there is no collection of editions at {collection.address} on chain {connection.chain_id}: "
             "run shackled deploy `contracts` Editions"

@@ -34,12 +34,11 @@ RENDER = "render(address)"
 
 @dataclass(frozen=True)
 class SceneToStore:
-    """A scene to store. position_bits: None is exact; 4 to 16 are cheaper. normal_bits: 4 to 10, which is lossless."""
+    """A scene to store. position_bits: None is exact; 4 to 16 are cheaper."""
 
     name: str
     scene: Scene
     position_bits: int | None = None
-    normal_bits: int = 10
 
 
 @dataclass(frozen=True)
@@ -88,7 +87,7 @@ def plan_storage(connection: Connection, wanted: Iterable[SceneToStore], fees: F
     pointers = []
     for each in wanted:
         render(each.scene)
-        transactions = store_scene(each.scene, place, each.position_bits, each.normal_bits)
+        transactions = store_scene(each.scene, place, each.position_bits)
         pointers.append(checksum_address(transactions[-1].pointer))
         for transaction in transactions:
             stored.setdefault(transaction.pointer, (each.name, transaction))
@@ -135,7 +134,7 @@ def read_back(connection: Connection, studio: str, pointer: str, wanted: SceneTo
     contract = Contract(connection, STUDIO, studio)
     bmp: bytes = contract.call(RENDER, pointer)
     pixels = decode_bmp(bmp, wanted.scene.width, wanted.scene.height)
-    if wanted.position_bits is None and wanted.normal_bits == 10 and bmp != render(wanted.scene).bmp:
+    if wanted.position_bits is None and bmp != render(wanted.scene).bmp:
         raise VerificationError(
             f"the picture of {wanted.name} on chain {connection.chain_id} differs from the one computed here"
         )

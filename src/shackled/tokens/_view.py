@@ -1,4 +1,4 @@
-"""Views of tokens, read from their `tokenURI`, and a page and a JSON file that show them with a table of gas costs."""
+"""Views of tokens, read from their `tokenURI`, and a page and a JSON file that show them."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from string import Template
 from typing import Any
 
 from ..chain import Report, read_all
+from ..values import plural
 from ._collection import Collection
 from ._metadata import Metadata
 
@@ -87,74 +88,26 @@ def shorten(address: str) -> str:
     return f"{address[:6]}…{address[-4:]}"
 
 
-@dataclass(frozen=True)
-class ActionCost:
-    """The gas of an action: of a transaction all of it, of a read the execution alone.
-
-    original: gas of the same action in the Shackled contracts of 2021; None if it is unknown.
-    """
-
-    name: str
-    gas: int
-    original: int | None = None
-
-
-#: Gas of actions in the contracts of 2021; that of `tokenURI` from the lowest to the highest.
-ORIGINAL_MINT_1, ORIGINAL_MINT_5 = 124_000, 712_000
-ORIGINAL_TOKEN_URI = (5_700_000_000, 14_400_000_000)
-
-
-def comparison(costs: Sequence[ActionCost]) -> list[tuple[str, str, str, str]]:
-    """Return the rows of a table, heading first: action, gas, gas of the original, ratio."""
-    rows = [("action", "gas", "original", "times less")]
-    for cost in costs:
-        original, times = "-", "-"
-        if cost.original is not None:
-            ratio = cost.original / cost.gas
-            original, times = _rounded_gas(cost.original), f"{ratio:,.{1 if ratio < 20 else 0}f}"
-        rows.append((cost.name, f"{cost.gas:,}", original, times))
-    return rows
-
-
-def _rounded_gas(gas: int) -> str:
-    """Write gas in thousands or millions."""
-    return f"{gas / 1e6:,.0f} M" if gas >= 10_000_000 else f"{gas / 1e3:,.0f} k"
-
-
 def tokens_json(tokens: Sequence[TokenView]) -> str:
     """Return a JSON list of the tokens, one per line."""
     return "[\n" + ",\n".join(json.dumps(token.document(), ensure_ascii=False) for token in tokens) + "\n]\n"
 
 
-def page(
-    title: str,
-    introduction: str,
-    tokens: Sequence[TokenView],
-    facts: Sequence[tuple[str, str]],
-    costs: Sequence[ActionCost],
-) -> str:
-    """Return an HTML page with the tokens of each collection and a table of costs."""
-    collections = list(dict.fromkeys(token.collection for token in tokens))
-    links = [(f"c{number}", name) for number, name in enumerate(collections)]
-    sections = [_section(place, name, [token for token in tokens if token.collection == name]) for place, name in links]
-    if costs:
-        links.append(("gas", "Gas"))
-        sections.append(_table(costs))
-    return Template(files(__package__).joinpath("gallery.html").read_text("utf-8")).substitute(
-        title=escape(title),
-        introduction=escape(introduction),
-        facts="\n".join(f"<div><dt>{escape(name)}</dt><dd>{escape(value)}</dd></div>" for name, value in facts),
-        links="\n".join(f'<a href="#{place}">{escape(name)}</a>' for place, name in links),
-        sections="\n".join(sections),
-    )
+def page(tokens: Sequence[TokenView]) -> str:
+    """Return an HTML page with the tokens of each collection."""
+    links, sections = [], []
+    for number, name in enumerate(dict.fromkeys(token.collection for token in tokens)):
+        links.append(f'<a href="#c{number}">{escape(name)}</a>')
+        sections.append(_section(f"c{number}", [token for token in tokens if token.collection == name]))
+    template = Template(files(__package__).joinpath("gallery.html").read_text("utf-8"))
+    return template.substitute(links="\n".join(links), sections="\n".join(sections))
 
 
-def _section(place: str, name: str, tokens: Sequence[TokenView]) -> str:
-    address = escape(tokens[0].address)
-    cards = "\n".join(_card(token) for token in tokens)
-    count = f"{len(tokens)} token" + "s" * (len(tokens) != 1)
+def _section(place: str, tokens: Sequence[TokenView]) -> str:
+    name, address = escape(tokens[0].collection), escape(tokens[0].address)
+    cards = "\n".join(map(_card, tokens))
     return (
-        f'<section id="{place}"><h2>{escape(name)}</h2><p>{count} of <code>{address}</code></p>'
+        f'<section id="{place}"><h2>{name}</h2><p>{plural(len(tokens), "token")} of <code>{address}</code></p>'
         f'<div class="wall">\n{cards}\n</div></section>'
     )
 
@@ -164,7 +117,7 @@ def _card(token: TokenView) -> str:
     data = base64.b64encode(metadata.picture).decode()
     traits = "".join(f"<dt>{escape(key)}</dt><dd>{escape(str(value))}</dd>" for key, value in metadata.traits.items())
     words = " ".join([metadata.name, token.owner, *(f"{key} {value}" for key, value in metadata.traits.items())])
-    gas = "" if token.gas is None else f'<span class="gas number">{token.gas / 1e6:.2f} M gas</span>'
+    gas = f'<span class="gas number">{token.gas / 1e6:.2f} M gas</span>' if token.gas else ""
     return (
         f'<article data-words="{escape(words.lower())}">'
         f'<button class="picture" type="button" aria-label="Enlarge {escape(metadata.name)}"'
@@ -174,17 +127,4 @@ def _card(token: TokenView) -> str:
         f'<dl class="traits">{traits}</dl>'
         f'<div class="owner"><code title="{escape(token.owner)}">{escape(shorten(token.owner))}</code>'
         f'<span class="number">{metadata.length:,} bytes</span></div></div></article>'
-    )
-
-
-def _table(costs: Sequence[ActionCost]) -> str:
-    head, *rows = comparison(costs)
-    titles = "".join(f"<th>{escape(cell)}</th>" for cell in head)
-    lines = "\n".join(
-        "<tr>" + "".join(f"<td>{escape(cell.removeprefix('-'))}</td>" for cell in row) + "</tr>" for row in rows
-    )
-    return (
-        '<section id="gas"><h2>Gas</h2><p>Of transactions all that was paid, of reads the execution alone. '
-        "Original: the Shackled contracts of 2021.</p>"
-        f'<div class="scroll"><table><thead><tr>{titles}</tr></thead><tbody>\n{lines}\n</tbody></table></div></section>'
     )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import struct
-import warnings
 from pathlib import Path
 
 import numpy as np
@@ -65,7 +64,6 @@ STRIP = ply().replace(b"element face", b"element tristrips").replace(b"4 0 1 2 3
 TEXTURE = "comment TextureFile blue.png\n"
 BEHIND = "what is behind its facets is left out: {}"
 SAYS = "its header says {}; there are 2, which are read"
-LINE = "0 0 0\n1 0 0\n2 0 0\n"
 
 #: By the name of the file: its content, the colours of its two triangles, and the notes.
 FILES: dict[str, tuple[bytes, tuple[tuple[int, ...], ...], list[str]]] = {
@@ -135,28 +133,6 @@ def test_files_as_people_have_them(tmp_path: Path, name: str) -> None:
     assert (np.cross(b - a, c - a) / 2).tolist() == [[0, 0, 0.5]] * 2
     assert sorted(map(tuple, np.unique(mesh.positions, axis=0).tolist())) == sorted(SQUARE)
     assert mesh.rgba[mesh.faces].tolist() == [[list(color)] * 3 for color in colors]
-
-
-#: Triangles whose corners are on a line or in a point, by the extension of a file; `{}` is for another face.
-FLAT = {
-    "obj": f"v {LINE.strip().replace(chr(10), chr(10) + 'v ')}\nv 0 1 0\nf 1 2 3\nf 1 1 2\n{{}}",
-    "ply": "ply\nformat ascii 1.0\nelement vertex 4\n" + floats("x", "y", "z") + "element face {count}\n"
-    f"property list uchar int vertex_indices\nend_header\n{LINE}0 1 0\n3 0 1 2\n3 0 0 1\n{{}}",
-    "off": f"OFF\n4 {{count}} 0\n{LINE}0 1 0\n3 0 1 2\n3 0 0 1\n{{}}",
-}  # fmt: skip
-OTHER = {"obj": "f 1 2 4\n", "ply": "3 0 1 3\n", "off": "3 0 1 3\n"}
-
-
-@pytest.mark.parametrize("extension", FLAT)
-def test_triangles_without_area(tmp_path: Path, extension: str) -> None:
-    """A file of nothing else is an error, in the same words for all formats; single ones are no loss."""
-    path = tmp_path / f"flat.{extension}"
-    told = refusal(path, FLAT[extension].format("", count=2))
-    assert told == "there is nothing to see: its 2 triangles have no area"
-    path.write_text(FLAT[extension].format(OTHER[extension], count=3))
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        assert read_mesh(path).triangles == 3
 
 
 #: An arrow head, from a corner that does not see all of it.

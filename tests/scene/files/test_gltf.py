@@ -156,7 +156,6 @@ def primitive(**keys: Any) -> list[dict[str, Any]]:
     [
         ({"asset": {"version": "1.0"}}, "asset.version is '1.0'; glTF 2.0 is read"),
         ({"asset": {}}, "asset.version is None; glTF 2.0 is read"),
-        ({"asset": {"version": "2.1", "minVersion": "2.1"}}, "asset.minVersion is '2.1'; glTF 2.0 is read"),
         ({"extensionsRequired": ["KHR_texture_basisu"]},
          "it requires the extension KHR_texture_basisu, which is not read; export it without"),
         ({"extensionsRequired": ["EXT_meshopt_compression"]}, "it is compressed with EXT_meshopt_compression, which"),

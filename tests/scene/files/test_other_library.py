@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from shackled.scene import Mesh, read_mesh, write_obj
+from shackled.scene import read_mesh
 from shackled.scene._mesh import DEFAULT_COLOR
 
 Array = NDArray[np.float64]
@@ -132,16 +132,3 @@ def test_what_the_other_writes_is_read(kind: str, tmp_path_factory: pytest.TempP
         np.testing.assert_allclose(here, wanted, atol=1e-6)
 
     compare()
-
-
-@settings(max_examples=25, deadline=None)
-@given(SEEDS)
-def test_what_is_written_is_read_by_the_other(tmp_path_factory: pytest.TempPathFactory, seed: int) -> None:
-    points, polygons, colors = made(seed)
-    faces = [polygon[:3] for polygon in polygons]
-    path = tmp_path_factory.mktemp("written") / "model.obj"
-    write_obj(Mesh(points, faces, colors), path)
-    wanted = in_order(points[np.array(faces)], colors[np.array(faces)].astype(float))
-    error = np.abs(seen_by_trimesh(path, True) - wanted).reshape(-1, 6)
-    assert error[:, :3].max() < 1e-6
-    assert error[:, 3:].max() <= 1

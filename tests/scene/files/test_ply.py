@@ -101,8 +101,7 @@ def test_binary_with_triangles_and_quads(tmp_path: Path, encoding: str, order: s
         (RGB, "1 2 3", RGB, ["255 255 255"] * 2, [(1, 2, 3)] * 2),
         # other names, of which the first counts, if it is whole
         (properties("uchar", "diffuse_red", "diffuse_green", "diffuse_blue"), "10 20 30", "", [""], [(10, 20, 30)]),
-        (properties("uchar", "r", "g", "b") + RGB, "1 2 3 4 5 6", "", [""], [(4, 5, 6)]),
-        (properties("uchar", "r", "g", "red"), "10 20 30", "", [""], [DEFAULT_COLOR]),
+        (properties("uchar", "diffuse_red", "green", "blue"), "10 20 30", "", [""], [DEFAULT_COLOR]),
         (RGB + properties("float", "s", "t"), "1 2 3 0.5 0.5", "", [""], [(1, 2, 3)]),
     ],
 )
@@ -114,7 +113,7 @@ def test_colors(
     mesh, notes = read_with_notes(tmp_path, text)
     assert corner_colors(mesh) == [[list(each)] * 3 for each in expected]
     names = [line.split()[-1] for line in vertex.splitlines()]
-    left = [name for name in names if len(name) == 1 or names == ["r", "g", "red"]]
+    left = [name for name in names if len(name) == 1 or {"diffuse_red", "green"} <= set(names)]
     lost = [LEFT + ", ".join(f"{name} of vertex" for name in left)] if left else []
     assert notes == [*lost, *([OF_FACES] if vertex and len(set(faces)) > 1 else [])]
 
@@ -177,15 +176,12 @@ def of_header(number: int, line: str) -> str:
         (changed("comment made", "made"), of_header(3, "made by hand")),
         (changed("comment made by hand", "x" * 90), of_header(3, "x" * 60)),
         (changed("format ascii 1.0", "format ascii"), of_header(2, "format ascii")),
-        (changed("format ascii 1.0", "format utf8 1.0"), of_header(2, "format utf8 1.0")),
         (changed("vertex 4", "vertex -1"), of_header(4, "element vertex -1")),
         (changed("vertex 4", "vertex many"), of_header(4, "element vertex many")),
-        (changed("vertex 4", "vertex 4 4"), of_header(4, "element vertex 4 4")),
         (changed("float x", "half x"), of_header(5, "property half x")),
         (changed("uchar int", "half int"), of_header(9, "property list half int vertex_indices")),
         (changed("uchar int", "uchar half"), of_header(9, "property list uchar half vertex_indices")),
         (changed("float y", "float"), of_header(6, "property float")),
-        (changed("property float y", "properties float y"), of_header(6, "properties float y")),
         *(
             (PLAIN.replace("face 1", "face 2") + POINTS + faces, LINE_OF_FACE.format(line, wrong))
             for faces, line, wrong in (
@@ -204,9 +200,6 @@ def of_header(number: int, line: str) -> str:
         (header("ascii", "", 2) + POINTS + TRIANGLE, "it ends before its 2 elements face are complete"),
         (BINARY.decode().replace("vertex 4", "vertex 4000000000") + " " * 200,
          "it ends before its 4000000000 elements vertex are complete"),
-        (PLAIN + POINTS.replace("1 1", "1 nan") + TRIANGLE,
-         "vertex 2 has a coordinate that is not a finite number: [1.0, nan, 0.0]"),
-        (PLAIN + POINTS + "3 0 1 4\n", "face 0 names the vertices [0, 1, 4], but they are numbered 0 to 3"),
         (header("ascii", "", 0) + POINTS, NO_FACES),
         (PLAIN.partition("element face")[0] + "end_header\n" + POINTS, NO_FACES),
         # what a mesh needs

@@ -113,6 +113,6 @@ def test_many_polygons_keep_their_order() -> None:
 
 def test_a_polygon_of_too_many_corners_is_refused_unless_it_is_convex(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("shackled.scene._files.polygons.MAX_CORNERS", 60)
-    with pytest.raises(InputError, match=r"^face 0 is no convex polygon and has 66 corners; up to 60 are cut$"):
+    with pytest.raises(InputError, match=r"^face 0 is not convex and has 66 corners; up to 60 are cut$"):
         cut(ring(66), [66], np.arange(66))
     assert len(cut(star([1.0] * 66), [66], np.arange(66))) == 64

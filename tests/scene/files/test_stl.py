@@ -63,11 +63,8 @@ TWO = (0, 0)
     ("content", "notes"),
     [
         (binary(2, TWO, b"solid made by a program"), []),
-        (binary(2**32 - 1, TWO), [SAYS.format("4,294,967,295 facets")]),
-        (binary(1, TWO), [SAYS.format("1 facet")]),
         (binary(2, TWO)[:-1], []),
         (binary(3, (0, 0, 0))[:-3], [SAYS.format("3 facets"), "what is behind its facets is left out: 47 bytes"]),
-        (binary(2, TWO) + b"x", ["what is behind its facets is left out: 1 byte"]),
         (binary(2, TWO) + b"a thumbnail" * 9, ["what is behind its facets is left out: 99 bytes"]),
     ],
 )
@@ -78,17 +75,8 @@ def test_wrong_lengths_of_binary_files(tmp_path: Path, content: bytes, notes: li
     assert told == notes
 
 
-@pytest.mark.parametrize("end", ["\0" * 500, "\r\n", "\n\0\0"])
-def test_what_may_be_behind_a_text(tmp_path: Path, end: str) -> None:
-    mesh, told = read_with_notes(tmp_path, (ONE.replace("\n", "\r\n") + end).encode())
-    assert (corner_positions(mesh), told) == ([[list(p) for p in POINTS]], [])
-
-
-@pytest.mark.parametrize("number", ["nan", "-inf", "-1.#IND", "1.#QNAN0", "-nan(ind)"])
-def test_facets_that_are_not_finite_are_left_out(tmp_path: Path, number: str) -> None:
+def test_facets_that_are_not_finite_are_left_out(tmp_path: Path) -> None:
     note = "facets with coordinates that are not finite numbers are left out: 1"
-    mesh, told = read_with_notes(tmp_path, (ONE.replace("vertex 1 0 0", f"vertex 1 {number} 0") + ONE).encode())
-    assert (corner_positions(mesh), told) == ([[list(p) for p in POINTS]], [note])
     content = bytearray(binary(2, (31 | 1 << 15, 31 << 10 | 1 << 15)))
     content[84 + 12 : 84 + 16] = struct.pack("<f", np.nan)
     mesh, told = read_with_notes(tmp_path, bytes(content))

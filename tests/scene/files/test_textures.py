@@ -371,8 +371,3 @@ def checker() -> Image.Image:
 )
 def test_samples(coordinates: list[list[float]], expected: list[tuple[int, ...]]) -> None:
     assert sample(checker(), coordinates).tolist() == [list(color) for color in expected]
-
-
-def test_palettes_and_greys_are_read() -> None:
-    assert sample(Image.new("L", (1, 1), 77), [[0.3, 0.3]]).tolist() == [[77, 77, 77]]
-    assert sample(checker().convert("P"), [[0, 1]]).tolist() == [list(RED)]

@@ -140,13 +140,6 @@ contract Bomb {
     }
 }
 
-/// @notice Sends ether to who does not take any.
-contract Forcer {
-    constructor(address payable to) payable {
-        selfdestruct(to);
-    }
-}
-
 /// @notice Signs for whoever deployed it (ERC-1271).
 contract Signer {
     bytes32 public signed;

@@ -15,7 +15,7 @@ from ...tokens import ICON_PRICE, KINDS, SCALE
 from ...whole_file import check_output_folder
 from ..chain_options import JSON, MAX_FEE, NodeOptions, PayerOptions, address, print_step
 from ..option import argument, option
-from ..output import print_json, print_line, print_note, print_table
+from ..output import print_json, print_line, print_note
 from .options import ROYALTY
 
 if TYPE_CHECKING:
@@ -181,11 +181,9 @@ def demo(
 
     It uses the keys that anvil publishes, and refuses any other chain.
     """
-    from ...tokens import comparison, run_demo
+    from ...tokens import run_demo
 
     check_output_folder(output)
-    result = run_demo(NodeOptions(rpc).connect(), output, print_note, max_fee)
-    head, *rows = comparison(result.costs)
-    print_table(head, rows)
-    print_line(f"{output / 'gallery.html'}: {len(result.tokens)} tokens, read through tokenURI")
+    tokens = run_demo(NodeOptions(rpc).connect(), output, print_note, max_fee)
+    print_line(f"{output / 'gallery.html'}: {len(tokens)} tokens, read through tokenURI")
     print_line(f"{output / 'tokens.json'}")

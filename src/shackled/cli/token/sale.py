@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...errors import InputError
-from ...ethereum import checksum_address, to_hex
 from ...values import plural
 from ..chain_options import CALLDATA, JSON, PayerOptions, address, parse_checksum_address, print_price, write_calls
 from ..option import argument, exclude, option
@@ -15,7 +14,6 @@ from ..output import print_json, print_line, print_note
 from .options import MAX_NUMBER, TOKEN, CollectionOptions
 
 if TYPE_CHECKING:
-    from ...deploy import Quote
     from ...tokens import Collection, Round
 
 #: Seconds between two requests while waiting for a block.
@@ -102,8 +100,6 @@ def reveal(
     if calldata is not None:
         print_price(quotes)
         write_calls(calldata, collection.connection.chain_id, named, as_json)
-        if not as_json:
-            _print_pasting(quotes, calldata)
     elif transactor is not None:
         payer.confirm(transactor, quotes)
         receipts = []
@@ -132,19 +128,6 @@ def _ready_rounds(collection: Collection, rounds: list[Round], wait: bool) -> li
             f"wait for {plural(rounds[0].missing_blocks(latest), 'more block')}, or add --wait"
         )
     return ready
-
-
-def _print_pasting(quotes: list[Quote], path: Path) -> None:
-    """Print how to send the transactions with a wallet that reads no file."""
-    if len(quotes) > 1:
-        print_line(f"send them in order, each after the previous one is mined: {path} has `to` and `data`")
-        return
-    call = quotes[0].call
-    assert call.to is not None
-    print_line("to send it with any wallet that accepts data, paste:")
-    print_line(f"to     {checksum_address(call.to)}")
-    print_line("value  0")
-    print_line(f"data   {to_hex(call.data)}")
 
 
 def transfer(

@@ -1,4 +1,4 @@
-from ._fetch import fetch, take
+from ._fetch import fetch
 from ._models import model, models, pieces
 
 __all__ = [
@@ -6,5 +6,4 @@ __all__ = [
     "model",
     "models",
     "pieces",
-    "take",
 ]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -12,9 +10,8 @@ from ...scene import GENTLE, Mesh, from_euler, rotate, simplify, without_slivers
 
 #: The number of triangles of the largest object of the Shackled paper.
 MAX_TRIANGLES = 1198
-#: Along the longest side of a mesh, and where simplification stops on its way then.
-CELLS = (512, 384, 256, 192, 128, 96, 64)
-STEPPING_STONE = 4000
+#: Cells along the longest side of a mesh in which vertices are merged, and where simplification stops on its way then.
+CELLS, STEPPING_STONE = 256, 4000
 
 Faces = NDArray[np.int64]
 
@@ -23,18 +20,18 @@ def prepare(
     mesh: Mesh,
     rotation: ArrayLike = (0, 0, 0),
     cap: bool = False,
-    turn_inside_out: bool = False,
+    inside_out: bool = False,
     max_triangles: int = MAX_TRIANGLES,
 ) -> Mesh:
     """Return the mesh cleaned, turned, centred, scaled to a radius of 1, and simplified to `max_triangles`.
 
-    rotation: degrees about x, then y, then z. cap: whether to close holes. turn_inside_out: whether its faces are seen
-    from inside. Colours are kept, normals are not.
+    rotation: degrees about x, then y, then z. cap: whether to close holes. inside_out: whether its faces are seen from
+    inside. Colours are kept, normals are not.
     """
     mesh = clean(mesh)
     if cap:
         mesh = capped(mesh)
-    if turn_inside_out:
+    if inside_out:
         mesh = Mesh(mesh.positions, mesh.faces[:, ::-1], mesh.colors)
     # simplified in a space of its own, so that the units of the file do not matter
     return placed(reduce(placed(mesh, rotation), max_triangles))
@@ -50,10 +47,8 @@ def clean(mesh: Mesh) -> Mesh:
     # by their indices too, because the area of a sliver may be rounded to more than zero
     faces = without_slivers(_without_doubles(faces))
     a, b, c = positions[faces].transpose(1, 0, 2)
-    faces = faces[np.cross(b - a, c - a).any(axis=1)]
-    if not len(faces):
-        raise InputError("the mesh has no triangle with an area")
-    return _compact(positions, faces, mesh.colors[first])
+    used, faces = np.unique(faces[np.cross(b - a, c - a).any(axis=1)], return_inverse=True)
+    return Mesh(positions[used], faces.reshape(-1, 3), mesh.colors[first][used])
 
 
 def _without_doubles(faces: Faces) -> Faces:
@@ -98,15 +93,12 @@ def capped(mesh: Mesh) -> Mesh:
 
 
 def reduce(mesh: Mesh, max_triangles: int) -> Mesh:
-    """Simplify a mesh. Where edge collapse fails, near vertices are merged first, on grids that grow coarser."""
+    """Simplify a mesh. Where edge collapse fails, near vertices are merged first."""
     try:
         return clean(simplify(mesh, max_triangles))
     except InputError:
-        for cells in CELLS:
-            with suppress(InputError):
-                fine = simplify(clean(_clustered(mesh, cells)), max(STEPPING_STONE, max_triangles), GENTLE)
-                return clean(simplify(fine, max_triangles, GENTLE))
-        raise
+        fine = simplify(clean(_clustered(mesh)), max(STEPPING_STONE, max_triangles), GENTLE)
+        return clean(simplify(fine, max_triangles, GENTLE))
 
 
 def placed(mesh: Mesh, rotation: ArrayLike = (0, 0, 0)) -> Mesh:
@@ -116,18 +108,13 @@ def placed(mesh: Mesh, rotation: ArrayLike = (0, 0, 0)) -> Mesh:
     return Mesh(positions / np.linalg.norm(positions, axis=1).max(), mesh.faces, mesh.colors)
 
 
-def _clustered(mesh: Mesh, cells: int) -> Mesh:
-    """Merge the vertices in each cell of a grid, `cells` along the longest side, at their mean."""
+def _clustered(mesh: Mesh) -> Mesh:
+    """Merge the vertices in each cell of a grid at their mean."""
     positions = mesh.positions
-    cell = np.floor((positions - positions.min(axis=0)) / (np.ptp(positions, axis=0).max() / cells))
+    cell = np.floor((positions - positions.min(axis=0)) / (np.ptp(positions, axis=0).max() / CELLS))
     _, first, number = np.unique(cell, axis=0, return_index=True, return_inverse=True)
     number = number.reshape(-1)
     sums = np.zeros((len(first), 3))
     np.add.at(sums, number, positions)
     means = sums / np.bincount(number)[:, None]
     return Mesh(means, number[mesh.faces], mesh.colors[first])
-
-
-def _compact(positions: NDArray[np.float64], faces: Faces, colors: NDArray[np.uint8]) -> Mesh:
-    used, faces = np.unique(faces, return_inverse=True)
-    return Mesh(positions[used], faces.reshape(-1, 3), colors[used])

@@ -20,7 +20,6 @@ from . import builtin
 VERSION = 2
 
 MATERIAL = Material("smooth", 0.3, 0.8, 0.35, 24)
-OWN_LICENCE = "that of your own file"
 
 
 @dataclass(frozen=True)
@@ -45,47 +44,20 @@ class Model:
     crease: float | None = None
 
     @property
-    def original(self) -> Path:
-        """The path of the downloaded file."""
-        suffix = Path(self.address).suffix
-        return cache_folder() / "originals" / f"{self.name}-{self.checksum.partition(':')[2][:12]}{suffix}"
-
-    def prepared(self, own: bool = False) -> Path:
-        """Return the path of the cleaned and simplified mesh. own: of the one from the user's own file."""
-        return cache_folder() / "models" / f"{self.name}{'.own' if own else ''}.v{VERSION}.npz"
-
-    def kept(self) -> Path | None:
-        """Return the path of the prepared mesh, the user's own before the downloaded one; None if there is none."""
-        return next((path for path in (self.prepared(own=True), self.prepared()) if path.is_file()), None)
-
-    def is_own(self) -> bool:
-        """Return whether a file of the user replaces the download."""
-        return self.prepared(own=True).is_file()
+    def kept(self) -> Path:
+        """The path of the cleaned and simplified mesh, which may not be there."""
+        return cache_folder() / "models" / f"{self.name}.v{VERSION}.npz"
 
     def piece(self) -> Piece:
         """Return the piece, whether it has been fetched or not."""
-        own = self.is_own()
-        return Piece(
-            self.name,
-            "common",
-            self.title,
-            OWN_LICENCE if own else self.licence,
-            self.scene,
-            # the terms of a file of the user are not known
-            commercial=self.commercial and not own,
-            credit="" if own else self.author,
-            ready=lambda: self.kept() is not None,
-        )
+        terms = self.licence, self.scene, self.commercial, self.author
+        return Piece(self.name, "common", self.title, *terms, ready=lambda: self.kept.is_file())
 
     def scene(self) -> Scene:
-        """Return the scene; InputError if the model has not been fetched."""
-        path = self.kept()
-        if path is None:
+        """Return the scene, in the colours of its file if there are any; InputError if it has not been fetched."""
+        if not self.kept.is_file():
             raise InputError(f"{self.name} has not been fetched; run: shackled datasets fetch {self.name}")
-        return self.staged(load_mesh(path, self.name))
-
-    def staged(self, mesh: Mesh) -> Scene:
-        """Return the scene of a prepared mesh, in the colours of its file if there are any."""
+        mesh = load_mesh(self.kept, self.name)
         if self.color is not None and len(np.unique(mesh.colors, axis=0)) == 1:
             mesh = painted(mesh, self.color)
         look = LookOptions(
@@ -134,5 +106,5 @@ def load_mesh(path: Path, name: str) -> Mesh:
             return Mesh(data["positions"], data["faces"], data["colors"])
     except Exception as error:  # broken files raise errors of any class
         raise InputError(
-            f"{path} cannot be read ({type(error).__name__}); run: shackled datasets fetch --again {name}"
+            f"{path} cannot be read ({type(error).__name__}); delete it and run: shackled datasets fetch {name}"
         ) from None

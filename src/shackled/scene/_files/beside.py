@@ -58,10 +58,8 @@ def _with_alpha(path: Path, shown: Found | None, hidden: Found, wrap: FileWrap) 
 
 
 def read_beside(folders: Sequence[Path], name: str, read: Callable[[Path], T]) -> T:
-    """Read a file by the name that another file in the first of the folders gives it.
-
-    It may be that of the machine of the author: then the file is in one of the folders, in any letter case. InputError
-    of the first attempt if none of them succeeds.
+    """Read a file by the name that another file gives it, maybe of the machine of the author: then the file is in one
+    of the folders, in any letter case. InputError of the first attempt if none of them succeeds.
     """
     first = None
     for place in dict.fromkeys(_places(folders, name)):

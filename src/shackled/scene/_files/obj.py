@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from ...errors import InputError, warn
 from ...values import plural
 from .._crease import corner_normals, filled
-from .._mesh import DEFAULT_COLOR, Mesh
+from .._mesh import DEFAULT_COLOR
 from .._texture import to_bytes
 from .beside import picture_beside
 from .content import read_text
@@ -41,13 +41,7 @@ _POLYPAINT = "#MRGB"
 #: Statements with nothing to draw.
 _SILENT = frozenset(("g", "o", "mg", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj"))
 #: What of the shape is left out, by its statement.
-_SHAPES = {
-    "p": ("point", "points"),
-    "l": ("line", "lines"),
-    "f": ("face of fewer than 3 corners", "faces of fewer than 3 corners"),
-    "curv": ("curve", "curves"),
-    "surf": ("curved surface", "curved surfaces"),
-}
+_SHAPES = {"p": "point", "l": "line", "f": "incomplete face", "curv": "curve", "surf": "curved surface"}
 #: So many kinds of other statements are named.
 _MOST_STATEMENTS = 8
 
@@ -55,9 +49,8 @@ _MOST_STATEMENTS = 8
 class _Lines:
     """What the lines of a file say, in flat arrays, for there may be millions.
 
-    corners: the numbers of the position, texture coordinates and normal of each corner of all faces. faces: of each
-    face, how many corners it has, its line, and the numbers of its material and smoothing group. left_out: how many
-    statements of a kind are not read.
+    corners: numbers of position, texture coordinates and normal. faces: how many corners each has, its line, and the
+    numbers of its material and smoothing group. left_out: how many statements of a kind are not read.
     """
 
     def __init__(self, path: Path) -> None:
@@ -167,10 +160,8 @@ def _drawn_faces(obj: _Lines) -> _Drawn:
     owner = np.repeat(np.arange(len(faces)), faces[:, 0])
     bad = np.flatnonzero(corners[:, 0] >= len(positions))
     if len(bad):
-        raise InputError(
-            f"the face in line {faces[owner[bad[0]], 1]} names a vertex that does not exist; "
-            + (f"there are v lines 1 to {len(positions)}" if len(positions) else "there are no v lines")
-        )
+        line = faces[owner[bad[0]], 1]
+        raise InputError(f"the face in line {line} names a vertex that is not among the {len(positions)} of the file")
     for column, values, what, instead in (
         (1, texcoords, "texture coordinates (vt)", "has no texture"),
         (2, normals, "normals (vn)", "has computed ones"),
@@ -197,17 +188,14 @@ def _drawn_faces(obj: _Lines) -> _Drawn:
 
 def _tell_of_statements(obj: _Lines) -> None:
     """Warn of statements that are left out. InputError if there are no faces."""
-    shapes = [plural(obj.left_out[keyword], *names) for keyword, names in _SHAPES.items() if obj.left_out[keyword]]
+    shapes = [plural(obj.left_out[keyword], name) for keyword, name in _SHAPES.items() if obj.left_out[keyword]]
     if not obj.faces:
         raise InputError(
             f"it has no faces, only {', '.join(shapes) or plural(len(obj.positions) // 3, 'vertex', 'vertices')}; only"
             " faces are drawn, such as those of thin tubes in place of lines and of small balls in place of points"
         )
-    others = [
-        plural(count, f"statement {keyword[:20]!r}", f"statements {keyword[:20]!r}")
-        for keyword, count in obj.left_out.most_common(_MOST_STATEMENTS)
-        if keyword not in _SHAPES
-    ]
+    common = obj.left_out.most_common(_MOST_STATEMENTS)
+    others = [f"statement {keyword[:20]!r} ({count:,})" for keyword, count in common if keyword not in _SHAPES]
     for left_out in (shapes, others):
         if left_out:
             warn(f"{obj.path}: {', '.join(left_out)} left out; only faces are drawn")
@@ -239,21 +227,6 @@ def read_obj(path: Path) -> list[MeshPart]:
     elif group.any():
         normals = corner_normals(drawn.positions, vertex, groups=group)
     return split(drawn.positions, vertex, surfaces.colors, normals, surfaces.uvs, surfaces.look, list(surfaces.looks))
-
-
-def write_obj(mesh: Mesh, path: str | Path) -> None:
-    """Write positions, colours and, if there are any, normals."""
-    lines = ["# Shackled"]
-    fractions = mesh.colors / 255
-    for (x, y, z), (r, g, b) in zip(mesh.positions.tolist(), fractions.tolist(), strict=True):
-        lines.append(f"v {x:.9g} {y:.9g} {z:.9g} {r:.4g} {g:.4g} {b:.4g}")
-    corner = "{0}"
-    if mesh.normals is not None:
-        corner = "{0}//{0}"
-        lines += [f"vn {x:.6g} {y:.6g} {z:.6g}" for x, y, z in mesh.normals.tolist()]
-    for face in (mesh.faces + 1).tolist():
-        lines.append("f " + " ".join(corner.format(number) for number in face))
-    Path(path).write_text("\n".join(lines) + "\n", encoding="ascii")
 
 
 class _Surfaces:

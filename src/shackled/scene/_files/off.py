@@ -26,9 +26,8 @@ _Rows = list[list[float]]
 def read_off(path: Path) -> list[MeshPart]:
     """Return the mesh of an OFF file, whose header may have the letters ST, C and N in any order.
 
-    Colours are integers 0..255 or fractions 0..1, with or without alpha. A face with a colour of its own has that one,
-    else those of its vertices, else light grey. An InputWarning tells what is left out, such as numbers into a table of
-    colours, which the format leaves to the program.
+    Colours, of a face, else of its vertices, else light grey, are integers 0..255 or fractions 0..1. An InputWarning
+    tells what is left out, such as numbers into a table of colours, which the format leaves to the program.
     """
     lines = [(number, line.partition("#")[0].split()) for number, line in enumerate(read_text(path).splitlines(), 1)]
     lines = [(number, words) for number, words in lines if words]
@@ -44,10 +43,7 @@ def read_off(path: Path) -> list[MeshPart]:
     vertex_count, face_count = _counts(lines[0])
     end = 1 + vertex_count + face_count
     if len(lines) < end:
-        raise InputError(
-            f"line {lines[0][0]} promises {vertex_count} vertices and {face_count} faces, "
-            f"but only {len(lines) - 1} lines follow"
-        )
+        raise InputError(f"line {lines[0][0]} promises {end - 1} vertices and faces, but {len(lines) - 1} lines follow")
     if len(lines) > end:
         warn(f"{path}: the lines behind its faces are left out: {len(lines) - end:,}")
     vertices = _numbers(lines[1 : 1 + vertex_count], 3 + 3 * ("N" in letters) + 2 * ("ST" in letters))

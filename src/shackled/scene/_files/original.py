@@ -31,11 +31,9 @@ ORTHOGRAPHIC_UNITS = 500
 
 
 def original_scene(document: Mapping[str, Any]) -> Scene:
-    """Return the scene of the original's JSON.
+    """Return the scene of the original's JSON, whose keys stand at the top level or under `renderParams`.
 
-    Its parameters stand at the top level or under `renderParams`; `verts`, `faces` and `canvasDim` are needed.
-    `rotation`, if there, is in degrees about x, then y, then z. Without faces it is one of background only. InputError
-    names the key that is wrong.
+    Without faces it is one of background only. InputError names the key that is wrong.
     """
     keys = Table({**Table(document, "").table("renderParams").values, **document}, "")
     for key in ("canvasDim", "verts", "faces"):

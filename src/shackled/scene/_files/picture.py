@@ -64,13 +64,11 @@ def read_picture(path: Path) -> Scene:
         found = [each for each in _chunks(data) if each[0] in TEXTS and each[1].startswith(KEYWORD + b"\0")]
         kinds = [kind for kind, _ in found]
         if kinds != [CHUNK]:
-            needed = f"one chunk {CHUNK.decode()} with the keyword {KEYWORD.decode()}"
-            if not kinds:
-                raise InputError(f"the picture carries no scene: it needs {needed}")
-            raise InputError(f"the scene of a picture is {needed}; this one has {b', '.join(kinds).decode()}")
+            has = b", ".join(kinds).decode() or "none"
+            raise InputError(f"the picture carries no scene: it needs one chunk zTXt with it, and has {has}")
         content = found[0][1]
         call = _call(content[len(KEYWORD) + 1 :])
-        with about(f"the chunk {KEYWORD.decode()}"):
+        with about("the chunk shackled"):
             return decode(call)
 
 
@@ -101,6 +99,4 @@ def _call(content: bytes) -> bytes:
             return unhexlify(text[2:])
     except (zlib.error, Error):
         pass
-    raise InputError(
-        f"its chunk {KEYWORD.decode()} holds no scene: it must be 0x and the call in hexadecimal, compressed by deflate"
-    )
+    raise InputError("its chunk shackled holds no scene: it must be 0x and the call in hexadecimal, deflated")

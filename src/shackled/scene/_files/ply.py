@@ -55,10 +55,7 @@ class _Property:
 
 @dataclass
 class Element:
-    """A table of a file. used: the names of its properties that were asked for and found.
-
-    values: by property, the rows, each of one number or of those of a list.
-    """
+    """A table of a file. values: its rows by property, of a number or a list. used: properties that were read."""
 
     name: str
     count: int
@@ -287,9 +284,8 @@ _NONE = -1
 def read_ply(path: Path) -> list[MeshPart]:
     """Return the meshes of a PLY file: one for each texture, and one for what has none.
 
-    A corner has the colour of its texture, else that of its face if faces have colours, else that of its vertex, else
-    light grey. Where all faces have the same colour, those of vertices come first. An InputWarning tells what is left
-    out.
+    A corner has the colour of its texture, else of its face, else of its vertex, else light grey. Where all faces have
+    the same colour, those of vertices come first. An InputWarning tells what is left out.
     """
     elements, textures = read_elements(read_bytes(path))
     vertex = elements.get("vertex", Element("vertex", 0))
@@ -357,10 +353,7 @@ def _colors(path: Path, vertex: Element, face: Element, corners: Ints, polygon: 
 def _textured(
     path: Path, vertex: Element, face: Element, sizes: Ints, triangles: Ints, corners: Ints
 ) -> tuple[Ints, Array]:
-    """Return the number of the texture of each triangle, (m,), and the coordinates of its corners, (m, 3, 2).
-
-    The coordinates of corners, a list texcoord of faces, come before those of vertices.
-    """
+    """Return the texture of each triangle, (m,), and its place there, (m, 3, 2): of its corners, else its vertices."""
     polygon = triangles[:, 3]
     numbers = face.table("texnumber")
     picture = np.zeros(len(triangles), np.int64) if numbers is None else numbers[polygon, 0].astype(np.int64)

@@ -20,9 +20,8 @@ def cut(positions: ArrayLike, sizes: ArrayLike, vertices: ArrayLike) -> NDArray[
     """Cut polygons into triangles, (k, 4) int: the numbers of three corners, and of the polygon.
 
     positions: (n, 3) float. sizes: (m,) the number of corners of each polygon. vertices: (sum of sizes,) the number of
-    the position of each corner; the corners of all polygons are numbered in sequence. A polygon is cut as a fan about
-    its first corner where that fills it, as it does for a convex one, and otherwise by ear clipping. InputError as in
-    `Mesh`.
+    the position of each corner. A polygon is cut as a fan about its first corner where that fills it, as it does for a
+    convex one, and otherwise by ear clipping. InputError as in `Mesh`.
     """
     triangles, vertices = fans(sizes), np.asarray(vertices)
     points = Mesh(positions, vertices[triangles[:, :3]]).positions
@@ -44,9 +43,7 @@ def cut(positions: ArrayLike, sizes: ArrayLike, vertices: ArrayLike) -> NDArray[
         return triangles
     if sizes[wrong].max() > MAX_CORNERS:
         number = wrong[sizes[wrong].argmax()]
-        raise InputError(
-            f"face {number} is no convex polygon and has {sizes[number]} corners; up to {MAX_CORNERS} are cut"
-        )
+        raise InputError(f"face {number} is not convex and has {sizes[number]} corners; up to {MAX_CORNERS} are cut")
     starts = np.cumsum(sizes) - sizes
     owner = np.repeat(wrong, sizes[wrong])
     corners = np.flatnonzero(np.isin(np.repeat(np.arange(len(sizes)), sizes), wrong))

@@ -30,7 +30,7 @@ from .._mesh import Mesh
 from .._object import Material, Object
 from .._scene import Scene
 from .._settings import Kind, Part, exclude, settings_of
-from .._staging import BACKGROUND, DEFAULT_SIDE, Viewpoint, frame, key_light, painted_object
+from .._staging import BACKGROUND, DEFAULT_SIDE, Viewpoint, frame, painted_object, toward_viewer
 from .._texture import FILTERS, WRAPS, Texture
 from .._upright import AXES, axis_of_file, upright
 from .content import parse, read_text
@@ -89,7 +89,7 @@ def scene_of(document: Mapping[str, Any], folder: Path | None) -> Scene:
     width, height = _size(table)
     objects = [each for where, part in table.rows("objects") for each in _objects(part, where, folder)]
     view, camera = _camera(table.table("camera", _CAMERA), width, height, objects)
-    given = {"lights": [key_light(view)], "background": BACKGROUND, **_settings(table, "scene")}
+    given = {"lights": [toward_viewer(view)], "background": BACKGROUND, **_settings(table, "scene")}
     if "tone" in table:
         given["tone"] = Tone(**_settings(table.table("tone", keys_of("tone")), "tone"))
     return Scene(objects, camera, width=width, height=height, **given)

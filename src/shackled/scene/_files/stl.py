@@ -30,8 +30,7 @@ Array = NDArray[np.float64]
 def read_stl(path: Path) -> list[MeshPart]:
     """Return the mesh of an STL file, in light grey unless its facets have colours.
 
-    The normals of its faces follow from their vertices. An InputWarning tells of facets that are left out because they
-    are not complete or not finite, of a wrong count, and of what is not a facet.
+    An InputWarning tells of facets that are not finite, of a wrong count, and of what is not a facet.
     """
     data = read_bytes(path)
     text = data.rstrip(b"\0")

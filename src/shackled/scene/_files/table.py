@@ -17,11 +17,9 @@ Word = TypeVar("Word", bound=str)
 
 
 class Table:
-    """A table of a document.
+    """A table of a document. where: its place for messages, such as `objects[1].material`, "" for the document itself.
 
-    where: its place in the document for messages, such as `objects[1].material`, empty for the document itself. Each
-    reading method returns the default where the key is absent, and raises InputError where its value is of another
-    kind, or absent without a default.
+    Each method returns the default of an absent key. InputError for a value of another kind, or without a default.
     """
 
     def __init__(self, value: object, where: str, known: tuple[str, ...] | None = None) -> None:

@@ -31,10 +31,7 @@ def keys_of(part: Part, *before: str) -> tuple[str, ...]:
 
 
 def write_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
-    """Write a scene as JSON, including its meshes, such that loading it gives the same scene.
-
-    InputError where the path is wrong, OutputError where the disk is full or fails.
-    """
+    """Write a scene file in JSON, as `Scene.save`."""
     path = Path(path)
     if path.suffix.lower() != ".json":
         hint = "; the command `shackled export` writes models" if path.suffix.lower() == ".glb" else ""

@@ -5,6 +5,7 @@ import { CallError, type Contracts } from "../../evm/contracts.js";
 import type { StageGas, Stages } from "../../evm/stages.js";
 import type { Camera, Scene } from "../../scene/types.js";
 import type { Document, MeshRef, SceneOptions, StoredMesh } from "../document.js";
+import { LIMITS } from "../settings.js";
 
 export type { StageGas };
 
@@ -85,12 +86,15 @@ export interface Quote {
     reason: string;
 }
 
+/** The smallest limit of a kind, in gas. */
+const leastGas = (kind: string): number =>
+    Math.min(...LIMITS.filter((each) => each.kind === kind).map(({ gas }) => gas));
 /** The largest transaction on Ethereum (EIP-7825), in gas. */
-export const TRANSACTION_GAS = 1 << 24;
+export const TRANSACTION_GAS = leastGas("transaction");
 /** The supply of an edition without a limit. */
 export const OPEN_SUPPLY = 2 ** 32 - 1;
-/** The read call of most nodes, in gas: src/shackled/gas/limits.toml. */
-export const CALL_GAS = 50_000_000;
+/** The read call of most nodes, in gas. */
+export const CALL_GAS = leastGas("call");
 /** The largest number of pixels a side of a file. */
 export const MAX_FILE_SIDE = 4096;
 

@@ -59,11 +59,9 @@ class Document:
     def _check(self) -> None:
         if "asset" not in self.keys:
             raise InputError("it is no glTF file: asset, with the version of glTF, is missing")
-        asset = self.keys.table("asset")
-        for key, most in (("version", "2."), ("minVersion", "2.0")):
-            version = asset.get(key)
-            if (key == "version" or version is not None) and not f"{version}".startswith(most):
-                raise InputError(f"asset.{key} is {version!r:.20}; glTF 2.0 is read")
+        version = self.keys.table("asset").get("version")
+        if not str(version).startswith("2."):
+            raise InputError(f"asset.version is {version!r:.20}; glTF 2.0 is read")
         for name in (str(name) for _, name in self.keys.rows("extensionsRequired")):
             if name in _MESHOPT:
                 raise _compressed("it", name)

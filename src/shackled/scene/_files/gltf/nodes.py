@@ -102,11 +102,6 @@ def instances(gltf: Document, node: Node) -> list[Array]:
 _MORPHED = {"POSITION", "NORMAL", "TANGENT"}
 
 
-def weights_of(node: Table, mesh: Table) -> Array:
-    """Return the weights of morph targets: those of the node, or else of the mesh."""
-    return node.series("weights") if "weights" in node else mesh.series("weights")
-
-
 def morphed(vertices: Vertices, primitive: Table, weights: Array, name: str, values: Array) -> Array:
     """Return values of vertices, (n, 3), of the attribute POSITION or NORMAL, moved by the morph targets."""
     for keys, weight in zip(primitive.tables("targets"), weights, strict=False):

@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....errors import InputError
+from ..._arithmetic import units
 from ..model import Picture, tinted
 from ..table import about
 from .document import Document, Vertices, numbers
 from .draco import decompress
 from .materials import Surface, colors_of, picture_on, surface_of
-from .nodes import Node, morphed, skinned, weights_of
+from .nodes import Node, morphed, skinned
 
 Array = NDArray[np.float64]
 
@@ -49,7 +50,7 @@ class Piece:
 def pieces_of(gltf: Document, node: Node, nodes: Mapping[int, Node]) -> Iterator[Piece]:
     """Return the primitives of the mesh of a node that have triangles, in its coordinates."""
     mesh = gltf.item(node.keys, "mesh", "meshes")
-    weights = weights_of(node.keys, mesh)
+    weights = (node.keys if "weights" in node.keys else mesh).series("weights")
     for keys in mesh.tables("primitives"):
         where, attributes = keys.where, keys.table("attributes")
         mode = keys.whole("mode", _TRIANGLES)
@@ -63,17 +64,16 @@ def pieces_of(gltf: Document, node: Node, nodes: Mapping[int, Node]) -> Iterator
             mode = _TRIANGLES
         positions = numbers(gltf, attributes, "POSITION", "VEC3")
         order = np.arange(len(positions))
+        place, last = keys.place("indices"), len(positions) - 1
         if "indices" in keys:
             order = numbers(gltf, keys, "indices", "SCALAR")[:, 0]
             if order.dtype.kind != "u":
-                raise InputError(f"{keys.place('indices')} must be of whole numbers without a sign")
+                raise InputError(f"{place} must be of whole numbers without a sign")
         used, corners = np.unique(order[_corners(mode, len(order), keys.place("mode"))], return_inverse=True)
         if not len(used):
             continue
-        if used[-1] >= len(positions):
-            raise InputError(
-                f"{keys.place('indices')} name vertex {used[-1]}, but they are numbered 0 to {len(positions) - 1}"
-            )
+        if used[-1] > last:
+            raise InputError(f"{place} name vertex {used[-1]}, but they are numbered 0 to {last}")
         vertices = Vertices(gltf, attributes, used, len(positions))
         with about(where):
             surface = surface_of(gltf, keys)
@@ -118,10 +118,8 @@ def in_place(piece: Piece, matrix: Array) -> Piece:
     mirrored = np.broadcast_to(signs, len(piece.positions))[piece.faces].sum(axis=1) < 0
     faces = np.where(mirrored[:, None], piece.faces[:, ::-1], piece.faces)
     normals = _times(cofactors * signs[..., None, None], piece.normals)
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    normals = np.asarray(np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0))
     positions = _times(linear, piece.positions) + matrix[..., :3, 3]
-    return replace(piece, positions=positions, faces=faces, normals=normals)
+    return replace(piece, positions=positions, faces=faces, normals=units(normals))
 
 
 def _times(matrix: Array, vectors: Array) -> Array:

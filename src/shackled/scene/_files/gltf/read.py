@@ -30,15 +30,11 @@ _WIDEST = 10
 def read_gltf(
     path: Path, animation: str | int | None = None, time: float | None = None, use_camera: str | int | None = None
 ) -> list[MeshPart]:
-    """Return the meshes of a glTF or GLB file: its scene, or else its first one, with all nodes in their places.
+    """Return the meshes of a glTF or GLB file, one for each `Piece.group`: its scene, or else its first one.
 
-    There is one for each base colour texture, and one for all that has none. What is not opaque, of materials that are
-    blended, is apart from what is; so is what emits light, is unlit, or has two sides. The colour of a vertex is the
-    product of the base colour of its material and the colour of the vertex, as far as they are given; light grey if
-    none is. Both are linear in the file, and encoded as sRGB here. What materials say of roughness becomes the mean of
-    the triangles of a mesh. Meshes are in the pose of their skins and morph targets: at rest, or as an animation, by
-    its name or number, the first one by default, puts them at a time in seconds. use_camera: whether cameras and
-    lights are not left out, which `read_view` reads. An InputWarning tells each kind of what is left out.
+    The colour of a vertex is its own times the base colour of its material, both linear in the file, and sRGB here;
+    light grey if it has neither. Meshes are at rest, or as an animation, by its name or number, the first one by
+    default, puts them at a time in seconds. use_camera: of `read_view`; without it a note tells of cameras and lights.
     """
     gltf = Document(path)
     nodes = nodes_of(gltf, animation, time)

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ....errors import InputError, warn
 from ....values import plural
+from ..._arithmetic import units
 from ..._camera import Camera
 from ..._light import LIGHT_KINDS, MAX_LIGHTS, Light
 from ..._texture import to_srgb
@@ -28,11 +29,7 @@ _LIGHTS = "KHR_lights_punctual"
 def read_view(
     path: Path, middle: ArrayLike, use_camera: str | int, animation: str | int | None = None, time: float | None = None
 ) -> tuple[Camera, list[Light]]:
-    """Return a camera of a file, by its name or number, and the lights.
-
-    Only how bright the lights are beside one another at the middle of the scene is taken: the brightest one is as
-    bright as a light can be.
-    """
+    """Return a camera of a file, by its name or number, and the lights, the brightest of which is white."""
     with about(str(path)):
         gltf = Document(path)
         nodes = nodes_of(gltf, animation, time)
@@ -51,7 +48,7 @@ def _camera(gltf: Document, nodes: Mapping[int, Node], name: str | int) -> Camer
     kind = keys.choice("type", ("perspective", "orthographic"))
     lens = keys.table(kind)
     half_height = math.tan(lens.number("yfov") / 2) if kind == "perspective" else lens.number("ymag")
-    eye, back = node.matrix[:3, 3], _unit(node.matrix[:3, 2])
+    eye, back = node.matrix[:3, 3], units(node.matrix[:3, 2])
     with about(keys.where):
         return Camera(eye, eye - back, node.matrix[:3, 1], kind, half_height, lens.number("znear"))
 
@@ -66,7 +63,7 @@ def _lights(gltf: Document, nodes: Mapping[int, Node], middle: NDArray[np.float6
             continue
         light = declared[keys.index("light", len(declared), "lights")]
         kind = light.choice("type", LIGHT_KINDS)
-        place, back = node.matrix[:3, 3], _unit(node.matrix[:3, 2])
+        place, back = node.matrix[:3, 3], units(node.matrix[:3, 2])
         strength = light.number("intensity", 1)
         if kind != "directional":
             strength /= max(float(np.sum((place - middle) ** 2)), 1e-12)
@@ -81,8 +78,3 @@ def _lights(gltf: Document, nodes: Mapping[int, Node], middle: NDArray[np.float6
     most = max((strength * color.max() for strength, color, _ in found), default=0)
     found = sorted((each for each in found if most > 0), key=lambda each: -each[0])
     return [evolve(light, color=to_srgb(strength * color / most).astype(int)) for strength, color, light in found]
-
-
-def _unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:
-    length = float(np.linalg.norm(vector))
-    return vector / length if length else np.array([0.0, 0.0, 1.0])

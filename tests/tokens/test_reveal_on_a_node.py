@@ -1,4 +1,4 @@
-"""Tokens revealed by an account that the command never sees: --calldata writes the transaction, a wallet sends it."""
+"""Tokens revealed on real nodes: by headers as nodes make them, early and late, and by a wallet, with --calldata."""
 
 from __future__ import annotations
 
@@ -7,18 +7,24 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from eth_abi.abi import encode
+from web3 import Web3
 
 from commands import Shackled
 from forged_blocks import forged
-from nodes import Node
+from nodes import Node, anvil, needs_anvil
 from open_sales import open_sale
 from proxies import Liar
+from shackled.chain import VARIABLE
 from shackled.cli.app import run
 from shackled.errors import RevertError
 from shackled.ethereum import encode_header
-from shackled.tokens import Collection
+from shackled.tokens import Collection, hidden_rounds
+from shackled.tokens._contract import perform
+from shackled.tokens._reveal import HEADERS_AT_ONCE, KNOWN_BLOCKS_BEFORE
+from token_checks import document, traits
 
-OWNER, WALLET = 0, 5
+WALLET = 5
 
 
 @pytest.fixture(scope="module")
@@ -52,6 +58,26 @@ def send(node: Node, call: dict[str, str]) -> int:
     return receipt["gasUsed"]
 
 
+@pytest.mark.parametrize("delay", [1, 2, 255, 256, 257, 400])
+def test_soon_and_late(node: Node, collection: Collection, delay: int) -> None:
+    """Headers as a node makes them, and hashes of blocks that are less than 256 blocks old."""
+    genesis = node.contract("GenesisCollection", collection.address)
+    call = genesis.functions
+    block = call.blockOf(call.roundOf(0).call()).call()
+    assert traits(document(call.tokenURI(0).call())) == {"Revealed": "No"}
+    # the transaction is in the next block; nodes estimate its gas as if it were in the last one
+    node.mine(block + delay - 1 - node.web3.eth.block_number)
+    header = encode_header(node.connection.block(block))
+    sent = call.reveal([0], [header]).transact({"from": node.accounts[2], "gas": 500_000})
+    assert node.web3.eth.wait_for_transaction_receipt(sent)["blockNumber"] == block + delay
+    randomness = bytes(node.web3.eth.get_block(block)["mixHash"])
+    assert call.randomnessOf(0).call() == randomness
+    drawn = bytes(Web3.keccak(randomness + encode(["address", "uint256"], [genesis.address, 0])))
+    assert call.seedOf(0).call() == drawn
+    # at the node's own limit on gas
+    assert f"Seed 0x{drawn.hex()}." in document(call.tokenURI(0).call())["description"]
+
+
 def test_a_wallet_reveals(node: Node, collection: Collection, shackled: Shackled) -> None:
     block = mine_until(node, collection, 0)
     said = shackled("token", "reveal", "--calldata", "calls.json")
@@ -60,9 +86,6 @@ def test_a_wallet_reveals(node: Node, collection: Collection, shackled: Shackled
     (call,) = document["calls"]
     assert int(document["chainId"], 16) == 31337
     assert (call["name"], call["value"]) == ("reveal 1 round, 0", "0x0")
-    # what is to be pasted is the same
-    lines = said.out.splitlines()
-    assert lines[1:] == [f"to     {call['to']}", "value  0", f"data   {call['data']}"]
     assert call["to"] == collection.address
     # web3.py reads the same call in it
     genesis = node.contract("GenesisCollection", collection.address)
@@ -148,3 +171,42 @@ def test_nodes_that_lie_get_nothing_written(
     asked = "0x" + collection.contract.interface.encode("hashOf", block).hex()
     lies["eth_call"] = lambda answer, parameters: other if parameters[0]["data"] == asked else answer
     assert "WrongHeader" in reported(lies)
+
+
+@needs_anvil
+def test_an_old_block_is_proven_by_the_headers_after_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Tokens that nobody revealed until the chain had forgotten their block."""
+    monkeypatch.setenv(VARIABLE, str(tmp_path / "addresses.json"))
+    # these rules forget hashes after 256 blocks; later ones, by EIP-2935, after 8,191
+    with anvil("--hardfork", "cancun") as node:
+        user, collection = open_sale(node.connection)
+        contract = collection.contract
+        node.mine(40)
+        perform(user, contract.prepare("mint", 1, value=contract.call("price")))
+        node.mine(40 + KNOWN_BLOCKS_BEFORE + 128 + HEADERS_AT_ONCE)
+        rounds = hidden_rounds(collection)
+        assert len(rounds) == 2
+        assert not any(any(contract.call("hashOf", each.block)) for each in rounds)
+        # a node that tells other headers of the old blocks
+        for number in (rounds[0].block, rounds[1].block + 3, rounds[1].block):
+            parent = node.rpc("eth_getBlockByNumber", hex(number - 1), False)
+            lies: dict[str, Any] = {
+                "eth_getBlockByNumber": lambda block, asked, n=number, p=parent: p if asked[0] == hex(n) else block
+            }
+            with Liar(lies).before(node.url) as url:
+                assert run(["token", "reveal", "--rpc", url, "--calldata", "calls.json"]) == 1
+            assert f"returned a wrong header of block {number}: its hash is" in capsys.readouterr().err
+        assert not Path("calls.json").exists()
+        assert run(["token", "reveal", "--rpc", node.url, "--calldata", "calls.json"]) == 0
+        assert "any account can send them, in this order" in capsys.readouterr().err
+        # one transaction does not take all headers, and the older round begins where the younger one ended
+        assert [call["name"].partition(" ")[0] for call in written()["calls"]] == ["prove"] * 3 + ["reveal"]
+        assert len({call["name"] for call in written()["calls"]}) == 4
+        for call in written()["calls"]:
+            send(node, call)
+        assert hidden_rounds(collection) == []
+        for each in rounds:
+            block = node.rpc("eth_getBlockByNumber", hex(each.block), False)
+            assert contract.call("randomnessOf", each.number).hex() == block["mixHash"][2:]
