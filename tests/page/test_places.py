@@ -96,8 +96,6 @@ def test_firefox(tab: Tab, server: Static, tmp_path: Path, disk: bool) -> None:
     tab.wait("shackledApp.doc.value.title === 'mine'")
     tab.wait(settled)
     assert tab.run("shackledApp.toasts.value.filter(each => each.kind === 'error').map(each => each.text)") == []
-    tab.run("(shackledApp.dialog.value = 'download', null)")
-    tab.wait("document.querySelector('[data-name=take-png]:enabled') !== null")
     assert tab.run("await shackledApp.work.png(shackledApp.doc.value, { scale: 1 }).then(blob => blob.size)") > 100
     shown = tab.run(pixels)
     tab.wait("shackledApp.link.value")
