@@ -76,15 +76,15 @@ ROWS = (
         tuple(f"{name}, x" for name in RATIOS),
         (2.07, 2.31, 2.15),
     ),
-    Row("teapot in wires, antialiased, 128 px", ("wires",), (90.1,)),
+    Row("teapot as a wireframe, antialiased, 128 px", ("wires",), (90.1,)),
     Row("spot with a second directional light, 256 px, times one", ("lights, x",), (2.57,)),
     Row("plain: 15 objects smooth, lit", ("smooth objects", "lit objects"), (7.31, 4.15)),
     Row(
-        "cube, cube 512, dearest transaction, dearest Genesis `render`",
+        "cube, cube 512, most expensive transaction, most expensive Genesis `render`",
         ("cube", "cube 512", "dearest transaction", "dearest piece"),
         (2.19, 27.4, 12.8, 8.2),
     ),
-    Row("Genesis `tokenURI`: mean, dearest of 1,024", ("tokenURI, mean", "tokenURI, dearest"), (4.4, 12.0)),
+    Row("Genesis `tokenURI`: mean, most expensive of 1,024", ("tokenURI, mean", "tokenURI, dearest"), (4.4, 12.0)),
     Row("spot, flat, plain, 2048 x 2048, one `shackled.render`", ("strips, 2048",), (1061,)),
 )
 

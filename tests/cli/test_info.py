@@ -69,7 +69,7 @@ def test_what_looks_up(shackled: Shackled) -> None:
     trimesh.load_mesh("z.obj").export("z.stl")
     output = shackled("info z.stl --no-gas").out
     assert "up        z: it stands on a flat base" in output
-    assert "note      z.stl is taken as z up; --up-axis y keeps it as it is" in output
+    assert "note      z.stl is read as z up; --up-axis y keeps it as it is" in output
 
 
 def test_materials(shackled: Shackled) -> None:

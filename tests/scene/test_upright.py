@@ -42,7 +42,7 @@ def _in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_stl_files_have_z_up_unless_told_otherwise() -> None:
     notes, scene = told("z.stl")
-    assert notes == ["z.stl is taken as z up; `up_axis` y keeps it as it is"]
+    assert notes == ["z.stl is read as z up; `up_axis` y keeps it as it is"]
     np.testing.assert_allclose(scene.world_positions(), load("z.stl", up_axis="z").world_positions(), atol=1e-12)
     highest = scene.world_positions()[:, 1].argmax()
     assert scene.objects[0].mesh.positions[highest].tolist() == [0, 0, 3]
@@ -51,7 +51,7 @@ def test_stl_files_have_z_up_unless_told_otherwise() -> None:
         assert notes == []
         assert kept.objects[0].rotation.tolist() == [0, 0, 0, 1]
     # in a list, the others are as they are
-    with pytest.warns(match=r"^z\.stl is taken as z up"):
+    with pytest.warns(match=r"^z\.stl is read as z up"):
         one, other = load(["z.stl", "y.obj"]).objects
     np.testing.assert_allclose(Scene([one]).bounds, Scene([other]).bounds, atol=1e-9)
 
@@ -59,7 +59,7 @@ def test_stl_files_have_z_up_unless_told_otherwise() -> None:
 @pytest.mark.parametrize("kind", ["obj", "ply"])
 def test_a_flat_base_along_z_is_told(kind: str) -> None:
     notes, scene = told(f"z.{kind}")
-    assert notes == [f"z.{kind} is taken as y up, but stands on a flat base along z; `up_axis` z turns it upright"]
+    assert notes == [f"z.{kind} is read as y up, but stands on a flat base along z; `up_axis` z turns it upright"]
     assert scene.objects[0].rotation.tolist() == [0, 0, 0, 1]
     assert told(f"z.{kind}", up_axis="z")[0] == []
     assert told(f"y.{kind}")[0] == []
@@ -110,7 +110,7 @@ def test_scene_files() -> None:
         points = found.world_positions()
         return [*(np.median(points, axis=0) - points[found.mesh.positions.max(axis=1).argmax()]).round(6).tolist()]
 
-    with pytest.warns(match=r"z\.stl is taken as z up; `up_axis` y keeps it as it is$"):
+    with pytest.warns(match=r"z\.stl is read as z up; `up_axis` y keeps it as it is$"):
         assert place('"z.stl"') == [0, -3, 0]
     assert place('"z.stl"\nup_axis = "y"') == [0, 0, -3]
     assert place('"z.stl"\nrotation = [0, 0, 0]') == [0, 0, -3]

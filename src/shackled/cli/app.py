@@ -29,7 +29,7 @@ library = CommandGroup(
 edition = CommandGroup(
     "edition",
     {name: f"token.edition:{name}" for name in ("add", "mint", "list", "close", "withdraw")},
-    "Add scenes of your own to the collection Editions, and mint them.",
+    "Add your own scenes to the collection Editions, and mint them.",
 )
 token = CommandGroup(
     "token",
@@ -48,16 +48,16 @@ token = CommandGroup(
 #: How the help of each command begins, which is that of its function, so that none is loaded to list them.
 LINES = {
     "render": "Render mesh files, scene files or pieces of datasets.",
-    "export": "Write a scene as an interactive HTML page of one file, which needs no network, or as a .glb model.",
-    "info": "Tell what a file holds, what of it is left out, and what its pictures cost.",
+    "export": "Write a scene as an interactive HTML page in one file, which needs no network, or as a .glb model.",
+    "info": "Show what a file contains, what is left out, and what its pictures cost.",
     "gas": "Measure the gas of a picture: exactly, by binary search, by stage and by line, and compare it with limits.",
     "bench": "Run the experiments of the Shackled paper: gas against canvas, triangles, culling and more.",
     "genesis": "Generate Genesis pieces from seeds in the contract.",
-    "stages": "Draw the result of each stage of the pipeline: six pictures, and a strip of all.",
+    "stages": "Draw the result of each stage of the pipeline: six pictures, and a strip with all of them.",
     "deploy": "Deploy the contracts, at the same addresses on every chain.",
     "store": "Store an object on a chain; any contract can then draw it.",
-    "creator": "Make pictures on a page in the browser, without code; what it shows stays on this machine.",
-    "preview": "Show the tokens of a Solidity contract on a page that follows its sources, with the gas of each.",
+    "creator": "Make pictures on a page in the browser, without code; all data stays on this machine.",
+    "preview": "Show the tokens of a Solidity contract, and their gas, on a page that updates when a source changes.",
 }
 
 

@@ -28,12 +28,12 @@ NAMING, MOST_BESIDE = (".obj", ".mtl", ".gltf", ".ply", *SCENES), 2000
 
 
 def creator(
-    input: str | None = argument("Mesh or scene file, piece of a dataset, or link, to open.", "INPUT"),
+    input: str | None = argument("Mesh file, scene file, piece of a dataset, or link to open.", "INPUT"),
     port: int | None = option("--port", f"Port of the page (default: {PORT}, or a free one).", min=0, max=65535),
     browser: bool = option("--browser/--no-browser", "Open the page in the browser.", default=True),
-    out: str | None = option("--out", "Only write the page, to a folder, for any web server.", "DIR"),
+    out: str | None = option("--out", "Write the page to a folder, for any web server, instead of opening it.", "DIR"),
 ) -> None:
-    """Make pictures on a page in the browser, without code; what it shows stays on this machine."""
+    """Make pictures on a page in the browser, without code; all data stays on this machine."""
     page, one_file = built_page()
     if out is not None:
         if input is not None or port is not None:

@@ -77,7 +77,7 @@ def fetch(
     names: tuple[str, ...] = argument("Names of models, as in `shackled datasets list`.", "NAME", required=True),
     source: Path | None = option("--from", "A copy of the published file, to use instead of a download.", "FILE"),
 ) -> None:
-    """Download third-party models, clean and simplify them, and keep the result."""
+    """Download third-party models, clean and simplify them, and store the result."""
     from ..datasets.common import fetch, model
 
     if source is not None and len(names) != 1:
@@ -97,7 +97,7 @@ def gallery(
     every: bool = option("--all", f"Show all Genesis pieces instead of {SHOWN}."),
     jobs: int | None = option("--jobs", "Number of worker processes; one per core by default.", min=1),
 ) -> None:
-    """Render all pieces into a self-contained HTML page or a contact sheet. Finished drawings are cached."""
+    """Render all pieces into a self-contained HTML page or a contact sheet. Finished pictures are cached."""
     from ..datasets import draw_all, page, sheet
 
     is_page = output.suffix.lower() == ".html"

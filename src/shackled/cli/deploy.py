@@ -39,7 +39,7 @@ def deploy(
     calldata: Path | None = CALLDATA,
     as_json: bool = option("--json", "Print one JSON object instead of text."),
     standard_json: Path | None = option(
-        "--standard-json", "Folder for the input of source verification; default: deployed-CHAIN.", "DIR"
+        "--standard-json", "Folder for the source verification files; default: deployed-CHAIN.", "DIR"
     ),
     rpc_timeout: float = option("--rpc-timeout", "Timeout of a call to the node.", "SECONDS", default=PATIENCE),
 ) -> None:

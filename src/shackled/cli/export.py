@@ -27,12 +27,12 @@ def export(
         "-o --output", "File to write: a page, .html, or a model, .glb. Named after INPUT by default.", "FILE"
     ),
     title: str | None = option(
-        "--title", "Title of the page (default: that of the piece, or the name of FILE).", "TEXT"
+        "--title", "Title of the page (default: the title of the piece, or the name of FILE).", "TEXT"
     ),
     as_json: bool = option("--json", "Print a JSON object instead of text."),
     **look: Any,
 ) -> None:
-    """Write a scene as an interactive HTML page of one file, which needs no network, or as a .glb model.
+    """Write a scene as an interactive HTML page in one file, which needs no network, or as a .glb model.
 
     The model is for other viewers; one call of a contract makes it, as for a token.
     """

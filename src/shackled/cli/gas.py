@@ -49,10 +49,10 @@ def gas(
     fit: str | None = FIT,
     as_json: bool = option("--json", "Print a JSON object instead of tables."),
     profile: str | None = option(
-        "--profile", "Also show gas by function and line, and write a flame graph, an .svg file.", "FILE"
+        "--profile", "Also show gas by function and line, and write a flame graph as an .svg file.", "FILE"
     ),
     opcodes: bool = option(
-        "--opcodes", "Also show gas by kind of opcode, by stage, and with --profile by function: stack, jumps, memory."
+        "--opcodes", "Also show gas by kind of opcode (stack, jumps, memory), by stage, and with --profile by function."
     ),
     stages: bool = option("--stages/--no-stages", "Show gas by stage.", default=True),
     gas_price: float = option("--gas-price", "Gas price in gwei.", "GWEI", type=float, parse=parse_price, default=1.0),

@@ -52,7 +52,7 @@ def info(
     gas: bool = option("--gas/--no-gas", "Draw it, to count the gas of pictures and where they fit.", default=True),
     as_json: bool = option("--json", "Print a JSON object instead of text, for each input."),
 ) -> None:
-    """Tell what a file holds, what of it is left out, and what its pictures cost."""
+    """Show what a file contains, what is left out, and what its pictures cost."""
     failed: list[Exception] = []
     is_first = True
     with ExitStack() as stack:

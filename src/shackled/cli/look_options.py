@@ -165,7 +165,7 @@ INPUT = argument("Mesh file, scene file, or name of a piece.", "INPUT")
 #: The option of commands that can make a picture fit.
 FIT = option(
     "--fit",
-    "Lower antialiasing, size and triangles until the picture fits: transaction, or call, a node's read call.",
+    "Reduce antialiasing, size and triangles until the picture fits a transaction, or a node's read call (call).",
     "LIMIT",
     "Canvas",
 )

@@ -90,5 +90,5 @@ STRICT = Option(
     is_flag=True,
     expose_value=False,
     callback=_stop,
-    help="Stop with an error where a part of a file would be left out or changed.",
+    help="Stop with an error if part of a file would be left out or changed.",
 )

@@ -23,10 +23,10 @@ MAX_GAS = 1 << 24
 
 def preview(
     source: Path = argument("Solidity file of the contract.", "FILE"),
-    contract: str | None = option("--contract", "Contract of the file; default: the only one with tokenURI.", "NAME"),
+    contract: str | None = option("--contract", "Contract in the file; default: the only one with tokenURI.", "NAME"),
     arg: tuple[str, ...] = option(
         "--arg",
-        "Value for the constructor; may be repeated. Parameters that are contracts of Shackled are filled in.",
+        "Value for the constructor; may be repeated. Parameters that are Shackled contracts are filled in.",
         "VALUE",
     ),
     setup: tuple[str, ...] = option(
@@ -34,7 +34,7 @@ def preview(
     ),
     store: tuple[str, ...] = option(
         "--store",
-        "Scene that the Studio has stored before the deployment: a piece of a dataset, a mesh or a scene file; "
+        "Scene to store in the Studio before the deployment: a piece of a dataset, a mesh or a scene file; "
         "may be repeated. Its pointer is printed.",
         "SCENE",
     ),
@@ -47,12 +47,14 @@ def preview(
     ),
     max_gas: int = option("--max-gas", "Gas that a read may take (default: 2^24).", "GAS", min=1, default=MAX_GAS),
     allow_empty: bool = option("--allow-empty", "Accept pictures that show only the background."),
-    check: bool = option("--check", "No page: check all tokens; the exit code is 1 if one has a problem."),
+    check: bool = option(
+        "--check", "Check all tokens instead of opening a page; the exit code is 1 if one has a problem."
+    ),
     as_json: bool = option("--json", "With --check: print one JSON object instead of text."),
     port: int | None = option("--port", f"Port of the page (default: {PORT}, or a free one).", "PORT", min=0),
     browser: bool = option("--browser/--no-browser", "Open the page in the browser.", default=True),
 ) -> None:
-    """Show the tokens of a Solidity contract on a page that follows its sources, with the gas of each."""
+    """Show the tokens of a Solidity contract, and their gas, on a page that updates when a source changes."""
     from ..preview import Project, Request, serve, stored_scene
 
     need("--check", check, {"--json": as_json})

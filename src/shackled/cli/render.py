@@ -35,8 +35,7 @@ class WhereOptions:
     evm: str | None = EVM
     jobs: int | None = option(
         "--jobs",
-        "Number of concurrent calls on this machine, of processes if there are several inputs, or of concurrent "
-        "calls per node.",
+        "Number of concurrent calls, on this machine or per node; number of processes if there are several inputs.",
         "N",
         "Where",
     )
@@ -58,7 +57,7 @@ class WhereOptions:
     )
     verify: str | None = option(
         "--verify",
-        f"Pixels from nodes to verify locally: {', '.join(VERIFY)}; all by default, some of large pictures.",
+        f"Pixels from nodes to verify locally: {', '.join(VERIFY)}; default: all, or some for large pictures.",
         "PART",
         "Where",
     )
@@ -89,8 +88,8 @@ def render(
     inputs: tuple[str, ...] = INPUTS,
     output: str | None = option(
         "-o --output",
-        f"Output file: {one_of(FORMATS)}; of animations {one_of(FILMS)} or a folder. Named after INPUT by default. "
-        "Of several inputs a folder, as out/, or a pattern, as 'out/{stem}.webp'; - is standard output.",
+        f"Output file: {one_of(FORMATS)}; for animations {one_of(FILMS)} or a folder. Named after INPUT by default. "
+        "For several inputs, a folder such as out/ or a pattern such as 'out/{stem}.webp'; - is standard output.",
         "FILE",
     ),
     scene: bool | None = option(
@@ -104,7 +103,7 @@ def render(
     ),
     fit: str | None = FIT,
     as_json: bool = option("--json", "Print a JSON object instead of text, for each input.", None, "Files"),
-    quiet: bool = option("-q --quiet", "Print errors only, and what --json prints.", None, "Files"),
+    quiet: bool = option("-q --quiet", "Print only errors, and the output of --json.", None, "Files"),
     **look: Any,
 ) -> None:
     """Render mesh files, scene files or pieces of datasets."""
@@ -146,7 +145,7 @@ def stages(
     evm: str | None = EVM,
     **look: Any,
 ) -> None:
-    """Draw the result of each stage of the pipeline: six pictures, and a strip of all."""
+    """Draw the result of each stage of the pipeline: six pictures, and a strip with all of them."""
     from ..stages import draw_stages, strip
 
     folder = check_output_folder(Path(output))

@@ -40,8 +40,10 @@ def store(
     output: str | None = option(
         "-o --output", f"Write the picture as rendered on the chain: {one_of(FORMATS)}.", "FILE"
     ),
-    size: tuple[int, int] | None = option("--size", "Pixels, as 128 or 320x200.", "SIZE", parse=parse_size),
-    max_triangles: int | None = option("--max-triangles", "Simplify meshes of more triangles than this.", "N"),
+    size: tuple[int, int] | None = option(
+        "--size", "Width and height in pixels, as 128 or 320x200.", "SIZE", parse=parse_size
+    ),
+    max_triangles: int | None = option("--max-triangles", "Simplify meshes with more triangles than this.", "N"),
     position_bits: int | None = option(
         "--position-bits", "Round positions to a grid of 2^N steps, 4 to 16, to save gas. Default: exact.", "N"
     ),

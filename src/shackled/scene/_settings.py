@@ -151,8 +151,8 @@ _KINDS: dict[Kind, tuple[str, Callable[[Any, Setting, str], Any]]] = {
     "choice": ("a word", lambda value, setting, name: choice(value, name, setting.choices)),
     "lights": ("lights", lambda value, setting, name: lights_of(value)),
     "hemisphere": ("one colour or two, or none", _unless_none(hemisphere_of)),
-    "rim": ("a colour, with an exponent from 1 to 16 or without, or none", _unless_none(rim_of)),
-    "fog": ("a colour, with two distances or without, or none", _unless_none(fog_or_color)),
+    "rim": ("a colour, optionally with an exponent from 1 to 16, or none", _unless_none(rim_of)),
+    "fog": ("a colour, optionally with two distances, or none", _unless_none(fog_or_color)),
     "ground": ("a colour, or none", _unless_none(ground_of)),
     "entry": ("a name, or a number from 0", _entry),
 }
@@ -162,8 +162,8 @@ _VIEW, _SURFACE = MESH_STAGING.view, MESH_STAGING.material
 #: What is taken where a setting is not given, in words, where nothing else says it.
 _DEFAULTS = {
     "size": f"the scene's, or {MESH_STAGING.side} for mesh files and pieces of datasets",
-    "max_triangles": "as many as the canvas shows for mesh files, else all",
-    "background": "light for mesh files, or dark where they are light",
+    "max_triangles": "as many as the canvas can show for mesh files, else all",
+    "background": "light for mesh files, dark if the surface is very light",
     "up_axis": "z for STL files, else y",
     "azimuth": f"{_VIEW.azimuth:g} for mesh files",
     "elevation": f"{_VIEW.elevation:g} for mesh files, up to {MESH_STAGING.flat_elevation:g} for flat ones",
@@ -172,8 +172,8 @@ _DEFAULTS = {
     "ambient_light": "bluish white for mesh files, else white",
     "fog": "distances of the nearest and the farthest point",
     "exposure": "1",
-    "shading": "by `crease` for mesh files",
-    "crease": "the normals of the mesh, or by the shape where there are none",
+    "shading": "depends on `crease` for mesh files",
+    "crease": "the normals of the mesh, or an angle that depends on its shape",
     "ambient": f"{_SURFACE.ambient:g} for mesh files",
     "diffuse": f"{_SURFACE.diffuse:g} for mesh files",
     "specular": f"{_SURFACE.specular:g} for mesh files",
@@ -181,8 +181,8 @@ _DEFAULTS = {
     "emission": "black",
     "color": "their own",
     "cull": "true for closed parts of mesh files",
-    "two_sided": "true for what is not culled of mesh files, up to 16,384 vertices or if the file says so",
-    "animation": "the first if `time` is given, else the pose at rest",
+    "two_sided": "true for parts of mesh files that are not culled, up to 16,384 vertices or if the file requests it",
+    "animation": "the first if `time` is given, else the rest pose",
     "time": "0",
 }
 #: By groups, in the order in which they are shown.
@@ -196,7 +196,7 @@ _GROUPS: dict[str, list[Setting]] = {
             "Number of triangles to which larger meshes are simplified, or all.",
             (1, math.inf),
         ),
-        Setting("background", "background", "scene", "Colour of the background, or those of its top and bottom."),
+        Setting("background", "background", "scene", "Background colour, or the colours of its top and bottom."),
         Setting("invert", "flag", "scene", "Invert all colours, including the background."),
         Setting("antialias", "flag", "scene", "Smooth the edges with four samples per pixel."),
     ],
@@ -204,20 +204,16 @@ _GROUPS: dict[str, list[Setting]] = {
         Setting(
             "rotate", "rotation", None, "Rotate the scene about x, then y, then z, through its middle.", unit="degrees"
         ),
-        Setting(
-            "up_axis", "choice", None, "Axis of the file that points up in the scene, before `rotate`.", choices=AXES
-        ),
+        Setting("up_axis", "choice", None, "Up axis of the file, turned upright before `rotate`.", choices=AXES),
         Setting("eye", "vector", "camera", "Position of the camera."),
         Setting("target", "vector", "camera", "Point at which the camera looks."),
         Setting("up", "vector", "camera", "Direction that points up in the picture."),
-        Setting(
-            "azimuth", "number", "camera", "Angle at which the camera stands to the right of the front.", unit="degrees"
-        ),
+        Setting("azimuth", "number", "camera", "Angle of the camera to the right of the front.", unit="degrees"),
         Setting(
             "elevation",
             "number",
             "camera",
-            "Angle at which the camera stands above the horizon.",
+            "Angle of the camera above the horizon.",
             ELEVATIONS,
             "degrees",
         ),
@@ -237,7 +233,7 @@ _GROUPS: dict[str, list[Setting]] = {
             "orthographic",
             "flag",
             None,
-            "Use the orthographic projection, or the perspective one.",
+            "Use an orthographic or a perspective projection.",
             option="--orthographic/--perspective",
         ),
     ],
@@ -246,7 +242,7 @@ _GROUPS: dict[str, list[Setting]] = {
             "preset",
             "choice",
             None,
-            "Material, colour, lights and background by the name of a look; other settings change it.",
+            "Named look: material, colour, lights and background. Other settings modify it.",
             choices=tuple(each.name for each in PRESETS),
         ),
         Setting("lights", "lights", "scene", "Up to four lights, which replace those of the scene.", option="--light"),
@@ -255,7 +251,7 @@ _GROUPS: dict[str, list[Setting]] = {
             "hemisphere",
             "hemisphere",
             "scene",
-            "Light from the sky above and from the ground below, added to the ambient light.",
+            "Light from the sky above and the ground below, added to the ambient light.",
         ),
         Setting("rim", "rim", "scene", "Light along the outlines of objects; its exponent sets its width."),
         Setting("fog", "fog", "scene", "Fog that begins at one distance from the eye and hides everything at another."),
@@ -269,17 +265,21 @@ _GROUPS: dict[str, list[Setting]] = {
             "crease",
             "number",
             None,
-            "Compute normals for smooth shading, except across edges of more than this angle.",
+            "Compute normals for smooth shading, with hard edges above this angle.",
             CREASES,
             "degrees",
         ),
         Setting("smooth", "flag", None, "Same as --shading smooth.", option="--smooth"),
         Setting("unlit", "flag", None, "Same as --shading unlit.", option="--unlit"),
-        Setting("ambient", "number", "material", "Share of ambient light.", COEFFICIENTS),
-        Setting("diffuse", "number", "material", "Share of diffuse light.", COEFFICIENTS),
+        Setting("ambient", "number", "material", "Strength of ambient light.", COEFFICIENTS),
+        Setting("diffuse", "number", "material", "Strength of diffuse light.", COEFFICIENTS),
         Setting("specular", "number", "material", "Strength of highlights.", COEFFICIENTS),
         Setting(
-            "shininess", "whole", "material", "Exponent of highlights: the larger, the smaller they are.", EXPONENTS
+            "shininess",
+            "whole",
+            "material",
+            "Exponent of highlights; larger values make smaller highlights.",
+            EXPONENTS,
         ),
     ],
     "Surface": [
@@ -290,7 +290,7 @@ _GROUPS: dict[str, list[Setting]] = {
             "two_sided",
             "flag",
             "object",
-            "Light what is seen from behind as from the front.",
+            "Light the backs of faces like their fronts.",
             option="--two-sided/--one-sided",
         ),
         Setting("wireframe", "flag", "object", "Draw edges only.", option="--wireframe/--filled"),
@@ -299,7 +299,7 @@ _GROUPS: dict[str, list[Setting]] = {
     "glTF files": [
         Setting("animation", "entry", "file", "Animation that poses the model."),
         Setting("time", "number", "file", "Time in the animation.", (0, math.inf), "seconds"),
-        Setting("use_camera", "entry", "file", "Camera of the file that is taken, with the lights there."),
+        Setting("use_camera", "entry", "file", "Camera in the file to use, together with the file's lights."),
     ],
 }
 #: All settings.

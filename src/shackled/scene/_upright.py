@@ -55,11 +55,11 @@ def axis_of_file(path: Path, parts: Sequence[MeshPart]) -> Axis:
     """Return the axis of a mesh file that points up; an InputWarning tells if it is not y, or seems wrong."""
     axis = axis_of_format(path)
     if axis != "y":
-        warn(f"{path} is taken as {axis} up; `up_axis` y keeps it as it is")
+        warn(f"{path} is read as {axis} up; `up_axis` y keeps it as it is")
     elif path.suffix.lower() in _EITHER:
         meshes = [part.mesh for part in parts]
         if base_axis(np.concatenate([mesh.positions for mesh in meshes]), faces_of_all(meshes)) == "z":
-            warn(f"{path} is taken as y up, but stands on a flat base along z; `up_axis` z turns it upright")
+            warn(f"{path} is read as y up, but stands on a flat base along z; `up_axis` z turns it upright")
     return axis
 
 

@@ -360,7 +360,7 @@ def test_textures_by_number(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("vertex", "row", "note"),
     [
-        (ST, "nan {y}", "has texture coordinates that are not finite numbers; they are taken as 0"),
+        (ST, "nan {y}", "has texture coordinates that are not finite numbers; they are replaced by 0"),
         ("", "", "its texture is left out, for it has no texture coordinates"),
         (RGB + "property uchar alpha\n" + ST, "1 2 3 51 {x} {y}",
          "2 triangles drawn in the colours of a texture, not in their own"),

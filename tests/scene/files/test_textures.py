@@ -177,7 +177,7 @@ def test_coordinates_that_are_no_numbers(tmp_path: Path, value: float) -> None:
     with pytest.warns(InputWarning) as told:
         render_call(load(path))
     assert messages(told) == [
-        f"{path}: textures[0] has texture coordinates that are not finite numbers; they are taken as 0"
+        f"{path}: textures[0] has texture coordinates that are not finite numbers; they are replaced by 0"
     ]
 
 

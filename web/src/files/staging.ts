@@ -78,7 +78,7 @@ export async function staged(
 
 /** Return the objects of a model, with as many triangles as the canvas shows, or as are asked for. */
 async function objectsOf({ parts, isZUp, tell }: Model, size: number, asked?: number | "all"): Promise<SceneObject[]> {
-    if (isZUp) tell("it is taken as z up, and turned upright");
+    if (isZUp) tell("it is read as z up, and turned upright");
     const countOf = (some: readonly { mesh: Mesh }[]): number =>
         some.reduce((sum, { mesh }) => sum + mesh.faces.length / 3, 0);
     const [total, pixels] = [countOf(parts), size * size];

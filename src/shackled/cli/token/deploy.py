@@ -91,7 +91,7 @@ def deploy(
     options: TermsOptions,
     collection: str = argument("genesis or icons.", "COLLECTION", parse=partial(choice, choices=tuple(KINDS))),
     any_chain: bool = option(
-        "--any-chain", "Deploy Genesis on a chain other than Ethereum, its test networks and anvil's."
+        "--any-chain", "Deploy Genesis on a chain other than Ethereum, its test networks and anvil."
     ),
     as_json: bool = JSON,
 ) -> None:

@@ -61,7 +61,7 @@ def add(
     model: bool = option("--model", "Add the scene as a GLB model to the metadata (animation_url)."),
     as_json: bool = JSON,
 ) -> None:
-    """Add a scene as an edition, of which anyone can mint tokens. It cannot be changed later."""
+    """Add a scene as an edition whose tokens anyone can mint. It cannot be changed later."""
     from ...deploy import local_chain
     from ...studio import STUDIO, stored_codes
     from ...tokens import EditionTerms, add_gas, added_number, edition_at, minted_tokens

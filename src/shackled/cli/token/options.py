@@ -40,7 +40,7 @@ class CollectionOptions(NodeOptions):
 
     collection: str = option(
         "-c --collection",
-        "genesis or icons, from the address book, or an ADDRESS; show, verify and transfer also take editions.",
+        "genesis or icons, from the address book, or an ADDRESS; show, verify and transfer also accept editions.",
         "COLLECTION",
         default="genesis",
     )

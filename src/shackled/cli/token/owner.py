@@ -23,7 +23,7 @@ def phase(
     payer: PayerOptions,
     to: str = argument(f"{', '.join(PHASES)}.", "PHASE", parse=partial(choice, choices=PHASES)),
 ) -> None:
-    """Set the phase of the sale, which says who may mint. For the owner."""
+    """Set the phase of the sale, which determines who may mint. For the owner."""
     collection = which.open()
     call = collection.contract.prepare("setPhase", list(PHASES).index(to))
     receipt = payer.send(collection, f"set the sale to {to}", call)
@@ -148,7 +148,7 @@ def add(
     supply: int = option("--supply", "Number of tokens.", "N", default=100),
     reserve: int = option("--reserve", "Number of these tokens reserved for the team.", "N", default=1),
 ) -> None:
-    """Add an icon, whose scene is stored already, to a collection that is not sealed. For the owner."""
+    """Add an icon, whose scene is already stored, to a collection that is not sealed. For the owner."""
     from ...deploy import local_chain
     from ...studio import STUDIO, stored_codes
     from ...tokens import SCALE, SceneToStore, add_call, check_sale, chosen_pieces, plan_storage, token_scene

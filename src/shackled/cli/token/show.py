@@ -24,7 +24,7 @@ def show(
     which: CollectionOptions,
     token_id: int = TOKEN,
     output: Path | None = option(
-        "-o --output", "File for the picture; unchanged if it has the token's format.", "FILE"
+        "-o --output", "File for the picture; written unchanged if it has the token's format.", "FILE"
     ),
     as_json: bool = JSON,
 ) -> None:
@@ -132,7 +132,7 @@ def picture(
 
 
 def verify(which: CollectionOptions, numbers: tuple[int, ...] = argument("Tokens; default: all.", "ID")) -> None:
-    """Compare the code, the seeds and the pictures of a collection with those computed here."""
+    """Compare the code, the seeds and the pictures of a collection with those computed locally."""
     from ...deploy import local_chain
     from ...tokens import check_code, check_token
 

@@ -184,7 +184,7 @@ def finite_uvs(uvs: ArrayLike, name: str) -> Array:
     found = np.asarray(uvs, dtype=np.float64)
     if np.isfinite(found).all():
         return found
-    warn(f"{name} has texture coordinates that are not finite numbers; they are taken as 0")
+    warn(f"{name} has texture coordinates that are not finite numbers; they are replaced by 0")
     return np.nan_to_num(found, nan=0.0, posinf=0.0, neginf=0.0)
 
 
