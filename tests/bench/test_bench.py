@@ -14,7 +14,7 @@ import shackled
 from shackled import InputError, Scene
 from shackled.artifacts import artifact
 from shackled.bench import EXPERIMENTS, Runner, call_renderer, fits, original, original_gas, scenes
-from shackled.bench import _culling as culling
+from shackled.bench._culling import culling
 from shackled.bench._measure import cost
 from shackled.bench._original import CODE_SIZES
 from shackled.bench._report import ExperimentReport, wrapped
@@ -202,7 +202,7 @@ def test_reports(tmp_path: Path) -> None:
 def test_the_legend_of_the_bars_is_above_them() -> None:
     from matplotlib.figure import Figure
 
-    report = culling.run(Runner(quick=True, processes=1))
+    report = culling(Runner(quick=True, processes=1))
     figure = Figure(figsize=report.shape, layout="constrained")
     report.draw(figure)
     figure.draw_without_rendering()
