@@ -80,10 +80,10 @@ def _text(sides: tuple[int, ...], gas: Series, theirs: dict[tuple[Projection, in
         lines.append(line)
     head = ["canvas", "perspective: original", "ours", "ratio", "orthographic: original", "ours", "ratio"]
     return (
-        f"From {first} x {first} to {last} x {last} pixels gas grows as side^{ours:.2f} here (linear in pixels would be"
-        f" 2) and as side^{log2(after / before):.2f} in the original, where memory is priced quadratically. The"
-        " orthographic cube is cheaper here: the eye is infinitely far away, so that each face has one highlight for"
-        " all its pixels.\n\n" + table(head, lines)
+        f"From {first} x {first} to {last} x {last} pixels, gas grows as side^{ours:.2f} here (2 would be linear in"
+        f" pixels) and as side^{log2(after / before):.2f} in the original, where the price of memory is quadratic. The"
+        " orthographic cube is cheaper here: the eye is infinitely far away, so each face has one highlight for all"
+        " its pixels.\n\n" + table(head, lines)
     )
 
 
@@ -139,10 +139,12 @@ def output(runner: Runner) -> ExperimentReport:
     uri, svg = found[side, "data URI"], found[side, "SVG"]
     bmp = found[side, "BMP"][0]
     text = (
-        "A cube. The pixels are 3 bytes each, and base64 makes 4 characters of them. At"
-        f" {side} x {side} the data URI costs {millions(uri[0] - bmp, 3)} beyond the BMP and has {uri[1]:,} characters,"
+        "The scene is a cube. Each pixel takes 3 bytes, which base64 turns into 4 characters. At"
+        f" {side} x {side}, the data URI costs {millions(uri[0] - bmp, 3)} beyond the BMP and has {uri[1]:,}"
+        f" characters,"
         f" the SVG {millions(svg[0] - bmp, 3)} and {svg[1]:,}. In the original, at {KNOWN} x {KNOWN}, the data URI has"
-        f" {DATA_URI_SIZE:,}, and the SVG, whose base64 holds base64 again, {SVG_URI_SIZE:,}; the frame alone costs"
+        f" {DATA_URI_SIZE:,}, and the SVG, whose base64 contains base64 again, {SVG_URI_SIZE:,}; the SVG frame"
+        f" alone costs"
         f" {millions(SVG_GAS[0], 1)} to {millions(SVG_GAS[1], 1)}.\n\n"
     )
     return ExperimentReport(
