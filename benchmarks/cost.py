@@ -15,6 +15,8 @@ from shackled.artifacts import artifact
 from shackled.bench import call, call_renderer, gas, millions, original, table
 from shackled.datasets import icons, require
 from shackled.datasets.genesis import seed_of
+from shackled.ethereum import intrinsic_gas
+from shackled.gas import render_call
 
 from . import Section, shared
 from .original.recipe import digests
@@ -165,7 +167,7 @@ def largest_row() -> Row:
             except ChainError:
                 refused += 1
             else:
-                costs[name] = result.gas + result.intrinsic_gas
+                costs[name] = result.gas + intrinsic_gas(render_call(scene))
     worst = max(costs, key=costs.__getitem__)
     more = f"{worst}; of {len(costs)}" + (f", {refused} refused" if refused else "")
     return Row(

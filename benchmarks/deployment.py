@@ -147,15 +147,14 @@ def storing_table(costs: dict[str, Cost]) -> str:
 
 def mesh_costs() -> dict[str, Cost]:
     """Return the costs of storing a mesh of about a thousand triangles, as it is and rounded."""
-    chain = open_chain()
-    studio = chain.address(STUDIO)
+    studio = open_chain().address(STUDIO)
     (exact,) = fit(load("teapot")).objects
     costs = {}
     for name, o, normal_bits in (
         ("a smooth mesh of {} triangles, exact", exact, 10),
         ("the same on a grid of 2^11, normals of 6 bits", quantize(exact, 11), 6),
     ):
-        transactions = store_mesh("mesh", compact(pack(o.mesh, smooth=True), normal_bits), studio, chain)
+        transactions = store_mesh("mesh", compact(pack(o.mesh, smooth=True), normal_bits), studio)
         costs[name.format(len(o.mesh.faces))] = storing_cost(transactions)
     return costs
 

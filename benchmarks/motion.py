@@ -47,7 +47,7 @@ def measure(scene: Scene) -> Figures:
     """Store a scene in the embedded chain; return gas and bytes of each file that the Studio makes of it."""
     chain = open_chain()
     studio, interface = chain.address("Studio"), artifact("Studio").interface
-    stored = store_scene(scene, studio, chain=chain)
+    stored = store_scene(scene, studio)
     pointer = "0x" + stored[-1].pointer.hex()
     changes = (16, (0, 0, 0, 0), 0, (0, 0), 0, (SIDE, SIDE))
     arguments = {
@@ -62,7 +62,7 @@ def measure(scene: Scene) -> Figures:
     try:
         for name, signature in COLUMNS.items():
             result = chain.run(studio, interface.encode(signature, *arguments[name]))
-            figures |= {f"{name}: gas": result.gas, f"{name}: bytes": len(returned_bytes(result.output, 0))}
+            figures |= {f"{name}: gas": result.gas, f"{name}: bytes": len(returned_bytes(result.output))}
     finally:
         for each in stored:
             chain._codes.pop(each.pointer, None)

@@ -58,7 +58,7 @@ class Keeper:
     def kept_mesh(self, o: Object, normal_bits: int) -> tuple[int, int, int]:
         """Return the bytes of a mesh, the gas of the transaction that stores it, and that of reading it."""
         packed = pack(o.mesh, o.material.shading == "smooth")
-        (storing,) = store_mesh("mesh", compact(packed, normal_bits), self.studio, self.chain)
+        (storing,) = store_mesh("mesh", compact(packed, normal_bits), self.studio)
         self.chain._codes[storing.pointer] = b"\0" + compact(packed, normal_bits)
         try:
             reading = self.gas("Studio", "mesh", storing.pointer.rjust(32, b"\0"))

@@ -150,7 +150,7 @@ def tetrahedron_scene(degrees: float) -> Scene:
 def test_a_token_with_a_picture_of_the_studio() -> None:
     world = World()
     studio = world.address("Studio")
-    for storing in store_scene(require("icons/diamond").make(), studio, chain=world.chain):
+    for storing in store_scene(require("icons/diamond").make(), studio):
         world.run(studio, storing.data, created=True)
     source = "examples/tokens/PictureToken.sol"
     assert len((ROOT / source).read_text("utf-8").splitlines()) <= 40

@@ -52,8 +52,8 @@ def expected_pixels(corners: Integers, width: int, height: int) -> Mask:
     return inside
 
 
-def random_triangle(rng: np.random.Generator, kind: str, width: int, height: int) -> Integers:
-    low, high, step = KINDS[kind]
+def random_triangle(rng: np.random.Generator, kind: tuple[float, float, float], width: int, height: int) -> Integers:
+    low, high, step = kind
     corners = rng.uniform(low, high, (3, 2)) * [width, height]
     return np.asarray((np.rint(corners / step) * (256 * step)).astype(np.int64))
 
@@ -69,7 +69,7 @@ def test_random_triangles(kind: str) -> None:
     covering = 0
     for _ in range(150):
         width, height = (int(side) for side in rng.integers(1, 33, 2))
-        corners = random_triangle(rng, kind, width, height)
+        corners = random_triangle(rng, KINDS[kind], width, height)
         expected = expected_pixels(corners, width, height)
         covering += bool(expected.any())
         assert (drawn(corners, width, height) == expected).all(), f"{corners.tolist()} on {width} x {height}"
@@ -107,7 +107,7 @@ def test_culling_goes_by_the_sense_of_rotation() -> None:
     rng = np.random.default_rng(3)
     sides = set()
     for _ in range(60):
-        corners = random_triangle(rng, "within", 24, 24)
+        corners = random_triangle(rng, KINDS["within"], 24, 24)
         (x0, y0), (x1, y1), (x2, y2) = corners.tolist()
         # rows run down
         is_front = (x2 - x0) * (y1 - y0) - (x1 - x0) * (y2 - y0) > 0
@@ -120,7 +120,7 @@ def test_culling_goes_by_the_sense_of_rotation() -> None:
 def test_the_same_pixels_in_any_order_of_corners() -> None:
     rng = np.random.default_rng(4)
     for _ in range(20):
-        corners = random_triangle(rng, "on quarters of pixels", 16, 16)
+        corners = random_triangle(rng, KINDS["on quarters of pixels"], 16, 16)
         pictures = [drawn(corners[order], 16, 16) for order in ([0, 1, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0])]
         assert all((picture == pictures[0]).all() for picture in pictures)
 

@@ -102,23 +102,6 @@ def test_the_command(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert Path("other.mp4").is_file()
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ("--frames=3 --turntable=3", "--turntable and --frames exclude each other: give one of them"),
-        ("--frames=3 --time=1", "--time is for one picture: frames take all times of an animation"),
-        ("--frames=3 --fit=call", "--fit and --frames exclude each other: give one of them"),
-        ("--duration=30", "--duration needs --turntable or --frames"),
-        ("--frames=3 --one-call", "--one-call needs --turntable"),
-        ("--frames=3 -o a.bmp", "the animation a.bmp must end in .gif .png .webp or .mp4, or be a folder"),
-    ],
-)
-@pytest.mark.usefixtures("file")
-def test_options_that_do_not_go_together(options: str, message: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["render", "walk.gltf", *options.split()]) == 2
-    assert capsys.readouterr().err == f"shackled: {message}\n"
-
-
 def test_info_names_the_animations(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["info", "walk.gltf", "--no-gas"]) == 0
     assert "animated  0 Slide (2 s), 1 Spin (4 s)\n" in capsys.readouterr().out

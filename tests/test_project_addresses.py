@@ -30,7 +30,7 @@ def test_without_addresses_nothing_names_one(monkeypatch: pytest.MonkeyPatch) ->
     assert vars(addresses.on_config(SimpleNamespace())) == {}
     text = addresses.for_an_index(README)
     assert re.findall(r"\]\((?!#)[^)]*\)", text) == []
-    assert "- In a web page, and in Jupyter: `<shackled-view>`, npm." in text
+    assert "- In a web page and in Jupyter: `<shackled-view>`, npm." in text
     assert addresses.for_an_index("[costs](#what-it-costs)") == "[costs](#what-it-costs)"
 
 
@@ -41,7 +41,7 @@ def test_with_addresses(monkeypatch: pytest.MonkeyPatch) -> None:
     assert found["Documentation"] == SITE
     version = f"v{addresses.project()['project']['version']}"
     text = addresses.for_an_index(README)
-    assert f"![A rocket that turns]({REPOSITORY}/raw/{version}/docs/images/gallery/turntable.gif)" in text
+    assert f"![A rotating rocket]({REPOSITORY}/raw/{version}/docs/images/gallery/turntable.gif)" in text
     assert f"[security]({REPOSITORY}/blob/{version}/contracts/SECURITY.md)" in text
     assert [link for link in re.findall(r"\]\(([^)#]+)", text) if not link.startswith("https://")] == []
     assert len(re.findall(r"\]\(", text)) == len(re.findall(r"\]\(", README))

@@ -166,9 +166,7 @@ def worst(exact_middles: bool, by_nodes: bool, generations: int = 14, seed: int 
     ids=["vertices", "midpoints", "light at nodes"],
 )
 def test_accepted_triangles_have_the_light_of_their_points(exact_middles: bool, by_nodes: bool) -> None:
-    """Within the bounds that SmoothTriangle.sol documents, for products of vertices and of midpoints too; and within
-    those of SmoothLight.sol.
-    """
+    """Within the bounds of SmoothTriangle.sol, for products of vertices and of midpoints, and of SmoothLight.sol."""
     assert 4 < worst(exact_middles, by_nodes) < FOUND
 
 

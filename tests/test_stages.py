@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import numpy as np
@@ -113,23 +112,3 @@ def test_the_command_writes_pictures(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert run(["render", "teapot", "-o", str(tmp_path / "whole.png"), *look]) == 0
     with PillowImage.open(tmp_path / "whole.png") as whole:
         assert (np.array(whole.convert("RGB")) == pictures["6-picture"]).all()
-
-
-def test_a_full_disk_leaves_no_part_of_a_picture(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    replace = os.replace
-
-    def full(source: str, target: Path) -> None:
-        if target.stem == "3-triangles":
-            raise OSError(28, "No space left on device")
-        replace(source, target)
-
-    monkeypatch.setattr(os, "replace", full)
-    assert run(["stages", "cube", "-o", str(tmp_path / "s"), "--size", "16"]) == 1
-    assert capsys.readouterr().err.endswith("3-triangles.png cannot be written: No space left on device\n")
-    left = sorted((tmp_path / "s").iterdir())
-    assert [path.name for path in left] == ["1-vertices.png", "2-projected.png"]
-    for path in left:
-        with PillowImage.open(path) as picture:
-            picture.load()

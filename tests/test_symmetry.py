@@ -26,8 +26,7 @@ Array = NDArray[np.float64]
 
 def levels(a: Pixels, b: Pixels) -> NDArray[np.int64]:
     """(H, W): by how many levels two pictures differ."""
-    difference: NDArray[np.int64] = np.abs(a.astype(np.int64) - b).max(axis=2)
-    return difference
+    return np.asarray(np.abs(a.astype(np.int64) - b).max(axis=2))
 
 
 @pytest.mark.parametrize("shading", ["unlit", "flat", "smooth"])

@@ -9,6 +9,7 @@ from attrs import evolve
 from pictures import call, covered
 from random_scenes import random_case
 from shackled import Camera, Light, Material, Mesh, Object, Scene, load
+from shackled.parallel._tiles import grid
 from shackled.scene import Rectangle, fit
 
 SIZE = 64
@@ -68,14 +69,6 @@ def test_tiles_of_walls_cost_their_share(look: str) -> None:
 SET_UP = 100_000
 
 
-def parts(width: int, height: int) -> list[Rectangle]:
-    """The four quarters."""
-    x, y = max(width // 2, 1), max(height // 2, 1)
-    columns = [(0, x), (x, width - x)] if width > 1 else [(0, 1)]
-    rows = [(0, y), (y, height - y)] if height > 1 else [(0, 1)]
-    return [Rectangle(left, top, w, h) for left, w in columns for top, h in rows]
-
-
 #: The colours of a patch or two, where the whole has each fragment shaded for itself; the search for the faces of a
 #: small mesh that a tile shows.
 PATCHES = 48_000
@@ -87,7 +80,7 @@ def test_a_tile_costs_no_more_than_the_whole(kind: str) -> None:
         scene = random_case(seed, kind).scene
         # of a mesh of 48 faces or more, a tile first finds out which of them it shows
         most = (1.02 if scene.triangles < 48 else 1.35) * gas(scene) + PATCHES
-        for tile in parts(scene.width, scene.height):
+        for tile in grid(scene.width, scene.height, (scene.width + 1) // 2, (scene.height + 1) // 2):
             assert gas(scene, tile) <= most, f"seed {seed}, {tile}"
 
 

@@ -161,19 +161,6 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     assert (render(path).pixels == render("cube", 24).pixels).all()
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (["-o", "a.bmp"], "a transparent picture needs a .png .svg or .webp file: .bmp has no alpha channel"),
-        (["--turntable", "3"], "a transparent picture needs a .png or .webp file: .gif has no alpha channel"),
-        (["--turntable", "3", "--one-call", "-o", "a.png"], "--transparent and --one-call exclude each other"),
-    ],
-)
-def test_what_is_refused(options: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["render", "cube", "--transparent", *options]) == 2
-    assert message in capsys.readouterr().err
-
-
 @pytest.mark.parametrize("invert", [[], ["--invert"]])
 def test_a_turntable(
     invert: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch

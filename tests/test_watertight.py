@@ -196,3 +196,18 @@ def test_each_sample_of_a_smooth_surface_is_covered_once(mesh: Mesh) -> None:
         expected = render(call_data("render", scene))
         # samples that are covered twice or never, or beyond the silhouette, are a quarter of white off
         assert outside(draw(scene), expected.low, expected.high).max() <= 1
+
+
+@pytest.mark.parametrize("count", [12, 18, 40])
+def test_the_edges_of_a_fan_with_gaps_are_open(count: int) -> None:
+    """Around a vertex with few faces and with many, of which every third is left out."""
+    turns = np.arange(count) * 2 * np.pi / count
+    around = 900 * np.stack([np.cos(turns), np.sin(turns), 0 * turns], axis=1)
+    points = np.rint(np.concatenate([[(0, 0, 0)], around]))
+    faces = [(0, 1 + i, 1 + (i + 1) % count) for i in range(count) if i % 3]
+    mesh = recolored(Mesh(points, faces, normals=[(0, 0, 1)] * len(points)), WHITE)
+    sun = Light("directional", (1, 2, 3))
+    thing = Object(mesh, (0, 0, -2500), material=PLAIN)
+    scene = fit(Scene([thing], Camera(), [sun], "black", width=64, height=64, antialias=True))
+    expected = render(call_data("render", scene))
+    assert outside(draw(scene), expected.low, expected.high).max() <= 1

@@ -12,22 +12,15 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from attrs import evolve
-from numpy.typing import NDArray
 
 from pictures import covered, on_pixel_grid, pixel_grid_camera, soup, unlit_scene
+from test_fill_rule import KINDS as FILLED
+from test_fill_rule import Integers, random_triangle
 
-Integers = NDArray[np.int64]
 Places = set[tuple[int, int]]
 Point = tuple[Fraction, Fraction]
 
-#: How corners are chosen on a canvas of some pixels: low, high, and the step that they are multiples of, in pixels.
-KINDS = {
-    "within": (0.0, 1.0, 1 / 256),
-    "across the borders": (-0.5, 1.5, 1 / 256),
-    "on centres and corners of pixels": (-0.2, 1.2, 1 / 2),
-    "on quarters of pixels": (0.0, 1.0, 1 / 4),
-    "reaching far": (-3.0, 4.0, 1 / 256),
-}
+KINDS = FILLED | {"reaching far": (-3.0, 4.0, 1 / 256)}
 
 
 def nearest(value: Fraction) -> set[int]:
@@ -88,12 +81,10 @@ def is_flat(corners: Integers) -> bool:
 @pytest.mark.parametrize("kind", KINDS)
 def test_random_triangles(kind: str) -> None:
     rng = np.random.default_rng(1)
-    low, high, step = KINDS[kind]
     pixels = 0
     for _ in range(60):
         width, height = (int(side) for side in rng.integers(1, 33, 2))
-        places = rng.uniform(low, high, (3, 2)) * [width, height]
-        corners = (np.rint(places / step) * (256 * step)).astype(np.int64)
+        corners = random_triangle(rng, KINDS[kind], width, height)
         if is_flat(corners):
             # nothing of it is drawn
             assert not wires(corners, width, height)

@@ -54,7 +54,7 @@ def print_aloud(_: int) -> int:
 
 def only(function: Callable[[int], object], item: int = 3) -> object:
     """What one call returns."""
-    ((index, result),) = each(function, [item], 1)
+    ((index, result),) = each(function, [item], 2)
     assert index == 0
     return result
 
@@ -62,6 +62,7 @@ def only(function: Callable[[int], object], item: int = 3) -> object:
 def test_many_are_shared_out() -> None:
     assert dict(each(double, range(20), 2)) == {number: 2 * number for number in range(20)}
     assert list(each(double, [], 2)) == []
+    assert list(each(pid, [5], 1)) == [(0, os.getpid())]
     pids = {found for _, found in each(pid, range(20), 2)}
     assert len(pids) <= 2
     assert os.getpid() not in pids
@@ -83,8 +84,7 @@ def test_what_is_printed_is_no_answer() -> None:
 
 def test_a_process_that_ends_is_the_failure_of_one_item() -> None:
     """Another takes its place."""
-    for processes in (1, 2):
-        assert dict(each(vanish_at_1, range(4), processes, lambda _: -1)) == {0: 0, 1: -1, 2: 2, 3: 3}
+    assert dict(each(vanish_at_1, range(8), 2, lambda _: -1)) == {0: 0, 1: -1} | {n: n for n in range(2, 8)}
     with pytest.raises(WorkerEndedError, match="a worker process ended; is there enough memory"):
         list(each(vanish_at_1, range(4), 2))
 

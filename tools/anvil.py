@@ -1,10 +1,4 @@
-"""Run the contracts on anvil, Foundry's development node.
-
-    python -m tools.anvil COMMAND ...
-
-starts an anvil with the contracts of the renderer, runs a command with the URL of the node as its last argument, and
-stops the anvil.
-"""
+"""Run the contracts on anvil, Foundry's development node."""
 
 from __future__ import annotations
 
@@ -12,7 +6,6 @@ import os
 import shutil
 import socket
 import subprocess
-import sys
 import time
 from pathlib import Path
 from types import TracebackType
@@ -112,7 +105,7 @@ class AnvilChain(ContractChain):
 
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
         """Make a read call, which reports no gas, and the same call as a transaction, which does."""
-        return CallResult(self.read(contract, data, gas_limit), self.transact(contract, data), intrinsic_gas(data))
+        return CallResult(self.read(contract, data, gas_limit), self.transact(contract, data))
 
     def transact(self, contract: str, data: bytes) -> int:
         """Return the execution gas of the same call as a transaction."""
@@ -149,18 +142,3 @@ class AnvilChain(ContractChain):
                 return receipt
             time.sleep(0.02)
         raise RenderError(f"anvil: no receipt after {PATIENCE} s")
-
-
-def main() -> int:
-    """Run the command in the arguments, and return its exit code."""
-    binary = find_anvil()
-    if binary is None:
-        print("anvil is not installed: npm ci in contracts/", file=sys.stderr)
-        return 1
-    with AnvilChain(binary) as chain:
-        chain.address("Renderer")
-        return subprocess.call([*sys.argv[1:], chain.node.url])
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -176,6 +176,7 @@ def words(table: dict[str, Any]) -> Iterator[Section]:
     for part in table["words"]:
         constants = []
         fields = []
+        top = max(at for _, at, *_ in part["rows"] + part.get("drawn", []))
         for name, at, width, text in part["rows"]:
             fields.append((name if width == 1 else name.lower().replace("_", " "), at, width))
             full = f"{part['name']}_{name}"
@@ -184,7 +185,7 @@ def words(table: dict[str, Any]) -> Iterator[Section]:
             else:
                 # the lowest field needs no shift, the highest no mask
                 found = [Constant(f"{full}_AT", at, text)] if at else []
-                if at + width < 256:
+                if at < top:
                     found.append(Constant(f"{full}_MASK", (1 << width) - 1, "" if at else text))
                 constants += found
         yield section_of(part, constants, drawing(part, fields))

@@ -27,7 +27,7 @@ from typing import Any
 
 from PIL import Image, ImageDraw
 
-from shackled.cli.facts import facts_of
+from shackled.cli.info import facts_of
 from shackled.cli.option import with_options
 from shackled.cli.picture import FilmOptions, Source, Task, render_to
 from shackled.cli.progress import Notes

@@ -235,7 +235,7 @@ def main() -> int:
             if known[name] != digest(scene):
                 other.append(name)
     except FetchError as error:
-        raise SystemExit(f"{str(error).partition(' A file')[0]}; files that you have: --from FOLDER") from None
+        raise SystemExit(f"{str(error).partition(' A copy')[0]}; files that you have: --from FOLDER") from None
     except InputError as error:
         raise SystemExit(str(error)) from None
     print(f"{len(known)} scenes in {scenes}, {len(known) - len(other)} of them as they were measured")

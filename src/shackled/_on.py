@@ -59,16 +59,15 @@ class Embedded:
         """Return the name of the EVM; None for a chain that the caller made."""
         return self.chain if isinstance(self.chain, str) else None
 
-    def opened(self) -> Chain:
-        """Return the chain."""
-        return open_chain(self.chain) if self.chain is None or isinstance(self.chain, str) else self.chain
+    def opened(self, gas_limit: int | None = None) -> Chain:
+        """Return the chain; one with a name has this limit for each call."""
+        return open_chain(self.chain, gas_limit) if self.chain is None or isinstance(self.chain, str) else self.chain
 
     def open(self, listener: Listener, gas_limit: int | None = None) -> list[Backend]:
         """Return the backends of a job."""
-        from .parallel import ChainBackend, limited
+        from .parallel import ChainBackend
 
-        is_named = self.chain is None or isinstance(self.chain, str)
-        return [ChainBackend(limited(self.evm, gas_limit) if is_named else self.opened(), gas=gas_limit)]
+        return [ChainBackend(self.opened(gas_limit), gas=gas_limit)]
 
 
 @frozen

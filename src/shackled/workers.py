@@ -25,16 +25,6 @@ Result = TypeVar("Result")
 
 #: Errors of streams to and from a process that has ended.
 _BROKEN = (EOFError, OSError, ValueError, pickle.UnpicklingError)
-#: The program of a worker. It imports the modules of functions by the same path as this process.
-_PROGRAM = """
-import pickle, sys
-try:
-    sys.path[:] = pickle.load(sys.stdin.buffer)
-except (EOFError, pickle.UnpicklingError):  # the parent has ended meanwhile
-    sys.exit()
-from shackled.workers import _serve
-_serve()
-"""
 
 
 class WorkerEndedError(RenderError):
@@ -49,9 +39,13 @@ def each(
 ) -> Iterator[tuple[int, Result]]:
     """Call a function for each item in several processes; yield (index of the item, result) as they are done.
 
-    lost: returns the result of an item whose process ended; None raises the error.
+    processes: 1 calls it in this process. lost: returns the result of an item whose process ended; None raises the
+    error.
     """
     items = list(items)
+    if processes <= 1:
+        yield from ((place, function(item)) for place, item in enumerate(items))
+        return
     workers = [_Worker() for _ in range(min(processes, len(items)))]
     idle: queue.SimpleQueue[_Worker] = queue.SimpleQueue()
     for worker in workers:
@@ -114,15 +108,14 @@ class _Worker:
                 raise WorkerEndedError("the worker has been closed")
             if self._process is None or self._process.poll() is not None:
                 self._end()
-                # in a new session, so that Ctrl-C reaches only this process
+                # it imports the modules of functions by the same path, and in a new session Ctrl-C does not reach it
                 self._process = subprocess.Popen(
-                    [sys.executable, "-c", _PROGRAM],
+                    [sys.executable, "-P", "-c", "from shackled.workers import _serve; _serve()"],
                     stdin=subprocess.PIPE,
                     stdout=subprocess.PIPE,
+                    env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
                     start_new_session=True,
                 )
-                with suppress(OSError):
-                    _send(self._process.stdin, sys.path)
             return self._process
 
     def _end(self) -> None:

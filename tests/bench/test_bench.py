@@ -14,6 +14,7 @@ import shackled
 from shackled import InputError, Scene
 from shackled.artifacts import artifact
 from shackled.bench import EXPERIMENTS, Runner, call_renderer, fits, original, original_gas, scenes
+from shackled.bench._culling import culling
 from shackled.bench._measure import cost
 from shackled.bench._original import CODE_SIZES
 from shackled.bench._report import ExperimentReport, wrapped
@@ -164,17 +165,6 @@ def test_linear(made: Path) -> None:
     assert "0.988797" in (made / "linear.md").read_text("utf-8")
 
 
-def test_output(made: Path) -> None:
-    rows = rows_of(made, "output")
-    assert [row["format"] for row in rows] == ["BMP", "data URI", "SVG"] * 2
-    for side, bmp, uri, svg in zip((8, 16), rows[::3], rows[1::3], rows[2::3], strict=True):
-        assert int(bmp["bytes"]) == 54 + 3 * side * side
-        assert int(uri["bytes"]) == len("data:image/bmp;base64,") + 4 * (int(bmp["bytes"]) // 3)
-        assert int(svg["bytes"]) > int(uri["bytes"])
-        assert int(bmp["gas_beyond_bmp"]) == 0
-        assert int(svg["gas_beyond_bmp"]) > int(uri["gas_beyond_bmp"]) > 0
-
-
 # ---- parts, and mistakes ----
 
 
@@ -207,3 +197,16 @@ def test_reports(tmp_path: Path) -> None:
     # tables are not wrapped
     row = "| " + "x" * 200 + " |"
     assert len(wrapped("word " * 40 + "\n\n" + row).splitlines()) == 4
+
+
+def test_the_legend_of_the_bars_is_above_them() -> None:
+    from matplotlib.figure import Figure
+
+    report = culling(Runner(quick=True, processes=1))
+    figure = Figure(figsize=report.shape, layout="constrained")
+    report.draw(figure)
+    figure.draw_without_rendering()
+    (axes,) = figure.axes
+    legend = axes.get_legend()
+    assert legend is not None
+    assert legend.get_window_extent().y0 >= axes.get_window_extent().y1 - 1

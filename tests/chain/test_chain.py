@@ -85,7 +85,7 @@ def test_the_picture_and_the_counts() -> None:
 
 def test_chains_by_name() -> None:
     assert isinstance(open_chain(), ContractChain)
-    assert open_chain() is open_chain()
+    assert open_chain() is open_chain() is open_chain("revm")
     assert open_chain("pyevm").name == "embedded EVM (py-evm)"
     assert set(CHAINS) == {"revm", "pyrevm", "pyevm"}
     with pytest.raises(InputError, match=r"^the chain must be one of revm, pyrevm, pyevm, not 'hardhat'$"):
@@ -94,14 +94,10 @@ def test_chains_by_name() -> None:
 
 def test_a_chain_that_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("shackled.chain._opening.find_spec", lambda name: name != "pyrevm" or None)
-    open_chain.cache_clear()
-    try:
-        assert open_chain().name == "embedded EVM (revm)"
-        words = r"'pyrevm' needs a package .* installed: pyrevm, which has wheels for Python 3\.11 and 3\.12$"
-        with pytest.raises(InputError, match=words):
-            open_chain("pyrevm")
-    finally:
-        open_chain.cache_clear()
+    assert open_chain().name == "embedded EVM (revm)"
+    words = r"'pyrevm' needs a package .* installed: pyrevm, which has wheels for Python 3\.11 and 3\.12$"
+    with pytest.raises(InputError, match=words):
+        open_chain("pyrevm")
 
 
 def test_artifacts_are_whole() -> None:

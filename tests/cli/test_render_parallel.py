@@ -37,8 +37,7 @@ def test_one_picture_in_parts(report: Any) -> None:
         parts = report(options)
         for key in ("sha256", "triangles", "lit_pixels", "width", "height"):
             assert parts[key] == whole[key]
-        assert list(parts) == [*whole, "frames", "calls"]
-        assert parts["calls"] > 1
+        assert parts["calls"] > whole["calls"] == 1
         assert Path("shape.png").is_file()
         assert not Path("shape.png.parts").exists()
 

@@ -44,12 +44,8 @@ def parts(node: Node, book: AddressBook) -> tuple[Deployer, Transactor]:
     return Deployer(node.connection, book), Transactor(node.connection, Account.from_key(KEY))
 
 
-def code(node: Node, address: bytes) -> bytes:
-    return node.connection.data("eth_getCode", "0x" + address.hex(), "latest")
-
-
 def assert_deployed(node: Node, wanted: list[Deployment]) -> None:
-    assert [code(node, each.address) for each in wanted] == [each.code for each in wanted]
+    assert [node.connection.code(each.address) for each in wanted] == [each.code for each in wanted]
 
 
 def missing(plan: Plan) -> list[str]:
@@ -86,7 +82,7 @@ def test_deploying(node: Node, book: AddressBook, wanted: list[Deployment]) -> N
     plan = deployer.plan(wanted)
     assert missing(plan) == list(STANDARD)
     before = transactor.balance()
-    assert all(code(node, each.address) == b"" for each in wanted)
+    assert all(node.connection.code(each.address) == b"" for each in wanted)
     reported: list[tuple[str, int]] = []
     receipts = deployer.execute(plan, transactor, lambda name, _, receipt: reported.append((name, receipt.gas)))
     assert_deployed(node, wanted)

@@ -6,7 +6,7 @@ import pytest
 
 from evms import ADDRESS, Ours, pyrevm_call
 from shackled import InputError
-from shackled.ethereum import keccak256
+from shackled.ethereum import keccak256, word
 from shackled.evm import Answer, Instance, Status
 
 Block = tuple[int, int, bytes]
@@ -31,10 +31,6 @@ BLOCK = bytes.fromhex("42 5f52 43 602052 44 604052 60605ff3")
 HASH = bytes.fromhex("5f35 40 5f52 60205ff3")
 #: Returns COINBASE, GASLIMIT, CHAINID, BASEFEE, BLOBBASEFEE.
 OTHERS = bytes.fromhex("41 5f52 45 602052 46 604052 48 606052 4a 608052 60a05ff3")
-
-
-def word(number: int) -> bytes:
-    return number.to_bytes(32, "big")
 
 
 def expected(block: Block) -> bytes:

@@ -17,6 +17,7 @@ import pytest
 
 from shackled import ChainError, InputError
 from shackled.chain import RevmChain
+from shackled.ethereum import word
 from shackled.evm import Instance, Status
 
 ADDRESS = bytes(18) + b"\xc0\xde"
@@ -67,10 +68,6 @@ def test_contracts_that_are_removed() -> None:
     assert int.from_bytes(made.call(ADDRESS, b"", 100_000).output, "big") == 43
 
 
-def push(value: int) -> bytes:
-    return b"\x7f" + value.to_bytes(32, "big")
-
-
 @pytest.mark.parametrize("instruction", [0x51, 0x52, 0x53])
 @pytest.mark.parametrize(
     "place", [1 << 30, (1 << 31) - 32, 1 << 31, (1 << 32) - 33, (1 << 32) - 32, (1 << 32) - 1, 1 << 32, 1 << 60]
@@ -78,7 +75,7 @@ def push(value: int) -> bytes:
 def test_memory_is_bounded(place: int, instruction: int) -> None:
     """Whatever the gas, a call cannot take more; and the chain serves others afterwards."""
     chain = RevmChain(1 << 63)
-    chain.put(ADDRESS, b"\x60\x01" + push(place) + bytes([instruction, 0x59, 0x5F, 0x52, 0x60, 0x20, 0x5F, 0xF3]))
+    chain.put(ADDRESS, b"\x60\x01\x7f" + word(place) + bytes([instruction, 0x59, 0x5F, 0x52, 0x60, 0x20, 0x5F, 0xF3]))
     with pytest.raises(ChainError, match=r"needs more than 1,024 MB of memory|is not enough"):
         chain.run(ADDRESS, b"")
     chain.put(bytes(20), b"")
@@ -135,29 +132,41 @@ def test_addresses_have_20_bytes(size: int) -> None:
 
 # ---- limits of the process ----
 
-LIMITED = """
-import resource, sys
-limit = getattr(resource, sys.argv[1])
-resource.setrlimit(limit, (int(sys.argv[2]), int(sys.argv[2])))
+#: A call that uses so many bytes of memory, with a limit of the process, if any.
+PROGRAM = """
+import sys
+limit, value, memory = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
+if limit:
+    import resource
+    resource.setrlimit(getattr(resource, limit), (value, value))
 from shackled import ChainError
 from shackled.evm import Instance
 try:
     made = Instance()
-    made.put(bytes(20), bytes.fromhex("6001 63%08x 52 602a 5f 52 6020 5f f3" % int(sys.argv[3])))
+    made.put(bytes(20), bytes.fromhex("6001 63%08x 52 602a 5f 52 6020 5f f3" % memory))
     print(made.call(bytes(20), b"", 1 << 44).output.hex())
 except ChainError as error:
     print(error)
 """
+ANSWER = bytes(31).hex() + "2a"
 
 
-def limited(cache: Path, limit: str, value: int, memory: int) -> str:
-    """What a process says in which a call uses so many bytes of memory, with a limit of the process and a new cache."""
-    command = [sys.executable, "-c", LIMITED, limit, str(value), str(memory)]
-    ran = subprocess.run(
-        command, env=os.environ | {"XDG_CACHE_HOME": str(cache)}, capture_output=True, text=True, timeout=120
-    )
-    assert (ran.returncode, ran.stderr, ran.stdout.count("\n")) == (0, "", 1)
-    return ran.stdout.strip()
+def start(cache: Path, limit: str = "", value: int = 0, memory: int = 0) -> subprocess.Popen[str]:
+    """Start a process whose cache is in a folder."""
+    command = [sys.executable, "-c", PROGRAM, limit, str(value), str(memory)]
+    environment = os.environ | {"XDG_CACHE_HOME": str(cache)}
+    return subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def said(process: subprocess.Popen[str]) -> str:
+    with process:
+        output, errors = process.communicate(timeout=120)
+    assert (process.returncode, errors, output.count("\n")) == (0, "", 1)
+    return output.strip()
+
+
+def check(process: subprocess.Popen[str]) -> None:
+    assert said(process) == ANSWER
 
 
 @needs_linux
@@ -165,16 +174,16 @@ def limited(cache: Path, limit: str, value: int, memory: int) -> str:
 def test_it_starts_with_little_address_space(tmp_path: Path, megabytes: int) -> None:
     """Its memory can grow, too, beyond the 64 MB that are reserved."""
     memory = 80 << 20 if megabytes > 1000 else 32
-    assert limited(tmp_path, "RLIMIT_AS", megabytes << 20, memory) == bytes(31).hex() + "2a"
+    check(start(tmp_path, "RLIMIT_AS", megabytes << 20, memory))
 
 
 @needs_linux
 def test_too_little_address_space(tmp_path: Path) -> None:
-    assert limited(tmp_path, "RLIMIT_AS", 400 << 20, 0) == (
+    assert said(start(tmp_path, "RLIMIT_AS", 400 << 20)) == (
         "the embedded EVM cannot start: this process may use 400 MB of address space, and needs at least 512: raise "
         "the limit (`ulimit -v`)"
     )
-    assert limited(tmp_path, "RLIMIT_AS", 1 << 30, 600 << 20) == (
+    assert said(start(tmp_path, "RLIMIT_AS", 1 << 30, 600 << 20)) == (
         "the embedded EVM stopped: the call needs more than 1,024 MB of memory, or than this process has left of 1,024 "
         "MB of address space (`ulimit -v`)"
     )
@@ -183,33 +192,11 @@ def test_too_little_address_space(tmp_path: Path) -> None:
 @needs_linux
 def test_a_limit_of_the_size_of_files(tmp_path: Path) -> None:
     """Nothing is cached then."""
-    assert limited(tmp_path, "RLIMIT_FSIZE", 1000, 32) == bytes(31).hex() + "2a"
+    check(start(tmp_path, "RLIMIT_FSIZE", 1000, 32))
     assert cached(tmp_path) == []
 
 
 # ---- the cache ----
-
-PROGRAM = """
-from shackled.evm import Instance
-made = Instance()
-made.put(bytes(20), bytes.fromhex("602a5f5260205ff3"))
-print(made.call(bytes(20), b"", 99))
-"""
-ANSWER = f"Answer(status=<Status.SUCCESS: 0>, output={bytes(31) + b'*'!r}, gas=16)"
-
-
-def start(cache: Path) -> subprocess.Popen[str]:
-    """Start a process whose cache is in a folder."""
-    environment = os.environ | {"XDG_CACHE_HOME": str(cache)}
-    return subprocess.Popen(
-        [sys.executable, "-c", PROGRAM], env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
-
-
-def check(process: subprocess.Popen[str]) -> None:
-    with process:
-        output, errors = process.communicate(timeout=120)
-    assert (output.strip(), errors) == (ANSWER, "")
 
 
 def cached(cache: Path) -> list[Path]:

@@ -100,7 +100,7 @@ def test_limits_of_gas(world: World) -> None:
     """The least gas that suffices, and limits below and above it."""
     data = call_data("render", small_scene())
     used = world.agree(data).gas
-    needed = search(suffices(world.chain, "Renderer", data), used - 1).gas
+    needed = search(suffices(world.chain, "Renderer", data)).gas
     limits = {0, 1, 100, 2_000, used - 1, used, used + 1, needed - 1, needed, needed + 1}
     limits |= {used * part // 40 for part in range(1, 45)}
     for limit in sorted(limits):

@@ -27,18 +27,18 @@ def test_every_limit_has_a_source_and_a_date() -> None:
 
 
 @pytest.mark.parametrize(
-    ("gas", "intrinsic_gas", "size", "words"),
+    ("gas", "size", "words"),
     [
-        (5_000_000, 100_000, 10_000, "fits one transaction, and any node's read call"),
-        (60_000_000, 100_000, 10_000, "fits calls of Nethermind, Besu and Alchemy; no transaction"),
-        (200_000_000, 0, 0, "fits calls of Alchemy; no transaction"),
-        (10**10, 100_000, 0, "fits no usual node: take fewer pixels or triangles"),
+        (5_000_000, 10_000, "fits one transaction, and any node's read call"),
+        (60_000_000, 10_000, "fits calls of Nethermind, Besu and Alchemy; no transaction"),
+        (200_000_000, 0, "fits calls of Alchemy; no transaction"),
+        (10**10, 0, "fits no usual node: take fewer pixels or triangles"),
         # too many bytes for a transaction
-        (1_000_000, 2_000_000, 140_000, "fits any node's read call; no transaction"),
+        (1_000_000, 140_000, "fits any node's read call; no transaction"),
     ],
 )
-def test_where_pictures_fit(gas: int, intrinsic_gas: int, size: int, words: str) -> None:
-    found = fits_of(gas, intrinsic_gas, bytes(size))
+def test_where_pictures_fit(gas: int, size: int, words: str) -> None:
+    found = fits_of(gas, bytes(size))
     assert headline(found) == words
     assert [fit.limit for fit in found] == list(limits())
     for fit in found:
@@ -56,10 +56,10 @@ def test_between_the_bounds_the_call_is_tried() -> None:
         asked.append(given)
         return True
 
-    assert not fits_of(gas, 50_000, b"")[0].fits
-    assert fits_of(gas, 50_000, b"", enough)[0].fits
-    assert asked == [limit.gas - 50_000]
-    assert not fits_of(gas, 50_000, b"", lambda given: False)[0].fits
+    assert not fits_of(gas, b"")[0].fits
+    assert fits_of(gas, b"", enough)[0].fits
+    assert asked == [limit.gas - 21_000]
+    assert not fits_of(gas, b"", lambda given: False)[0].fits
 
 
 def test_the_bound_is_enough_and_close() -> None:
@@ -67,5 +67,5 @@ def test_the_bound_is_enough_and_close() -> None:
     scene = resize(load("icosahedron"), 32)
     exact, data = measure(scene, chain), render_call(scene)
     needed = search(suffices(chain, "Renderer", data)).gas
-    (fit, *_) = fits_of(exact.gas, exact.intrinsic_gas, data)
+    (fit, *_) = fits_of(exact.gas, data)
     assert exact.limit(needed) <= fit.needed <= exact.limit(needed) * 1.02

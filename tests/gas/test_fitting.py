@@ -9,7 +9,7 @@ from shackled import InputError, Scene, load, render
 from shackled.chain import CallResult, open_chain
 from shackled.datasets import teapot
 from shackled.errors import InputWarning
-from shackled.gas import fit_scene, fits_of, limits, render_call, suffices
+from shackled.gas import fit_scene, fits_of, limits, measure, render_call, suffices
 from shackled.gas._fitting import FITS, Fitted
 from shackled.scene import resize
 
@@ -39,13 +39,13 @@ def tries(monkeypatch: pytest.MonkeyPatch) -> list[bytes]:
 def fits(scene: Scene, what: str) -> bool:
     chain, data = open_chain(), render_call(scene)
     made = chain.call("Renderer", data)
-    found = fits_of(made.gas, made.intrinsic_gas, data, suffices(chain, "Renderer", data))
+    found = fits_of(made.gas, data, suffices(chain, "Renderer", data))
     return next(each.fits for each in found if each.limit == LIMITS[what])
 
 
 def gas(scene: Scene) -> int:
-    made = open_chain().call("Renderer", render_call(scene))
-    return made.gas + made.intrinsic_gas
+    exact = measure(scene)
+    return exact.gas + exact.intrinsic_gas
 
 
 def dear(scene: Scene, gas_of_all: float) -> Scene:

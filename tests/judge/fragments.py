@@ -120,7 +120,7 @@ def _shaded(
         each, chosen = world.surfaces[number], np.flatnonzero(surface == number)
         spots = None if places is None else places[chosen]
         found = colors(world, each, face[chosen] - each.first, weights[chosen], spots)
-        lit[:, chosen], dark[:, chosen], opacity[:, chosen, 0] = found.lit, found.dark, found.opacity
+        lit[:, chosen], dark[:, chosen], opacity[:, chosen, 0] = found
     return lit, dark, opacity
 
 

@@ -12,8 +12,6 @@ colour. Fog covers it by the distance along the line of sight.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from .calldata import FLAT, UNLIT, Array, Effects, Integers, Surface, World, unit
@@ -21,25 +19,16 @@ from .textures import alpha_at, color_at
 
 #: A highlight ends where N.L is zero: it may or may not be there where N.L is this near to zero.
 GRAZING = 0.004
-#: The least, the likely and the most light of a point.
-LEAST, LIKELY, MOST = range(3)
 
 
-@dataclass(frozen=True)
-class Colors:
-    """Colours (3, n, 3) of points, 0..255: the least, the likely and the most; lit by all lights, and where the light
-    with shadows does not reach. opacity: (n,).
-    """
+def colors(
+    world: World, surface: Surface, face: Integers, weights: Array, places: Array | None = None
+) -> tuple[Array, Array, Array]:
+    """Return the colours (3, n, 3), 0..255, of points of a surface: the least, the likely and the most; lit by all
+    lights, and where the light with shadows does not reach. And their opacities (n,).
 
-    lit: Array
-    dark: Array
-    opacity: Array
-
-
-def colors(world: World, surface: Surface, face: Integers, weights: Array, places: Array | None = None) -> Colors:
-    """Return the colours of points of a surface; `face` (n,) and `weights` (n, 3) say which.
-
-    places: (n, 2) of the canvas, in pixels, where lines of sight and to lights begin, at the depths of the points.
+    face, weights: (n,) and (n, 3) say which points. places: (n, 2) of the canvas, in pixels, where lines of sight and
+    to lights begin, at the depths of the points.
     """
     frame, effects = world.frame, world.effects
     corners = surface.faces[face]
@@ -59,7 +48,7 @@ def colors(world: World, surface: Surface, face: Integers, weights: Array, place
         inner, outer = surface.fade
         away = ((point - surface.center) ** 2).sum(axis=1)
         opacity = opacity * np.clip((outer**2 - away) / (outer**2 - inner**2), 0, 1)
-    return Colors(lit, dark, opacity)
+    return lit, dark, opacity
 
 
 def _radiance(

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from pictures import Pixels, call_data
 from pictures import draw as drawn_by_contracts
 from shackled import Scene
+from shackled.parallel._tiles import grid
 from shackled.scene import Rectangle, fit
 
 from .composition import Picture, render
@@ -93,10 +94,7 @@ def table(rows: dict[str, Verdict], rules: Iterable[str] = RARE) -> str:
 
 
 def report(results: Iterable[tuple[str, Verdict]], rules: Iterable[str] = RARE) -> tuple[Verdict, bool]:
-    """Print the faults of results, each when it is known, and the table of their rows.
-
-    Return their sum, and whether all is right. Wild scenes have no bounds for a run.
-    """
+    """Print faults, each when it is known, and the table of rows; return the sum, and whether all is right."""
     rows: dict[str, Verdict] = {}
     for row, verdict in results:
         rows[row] = rows.get(row, Verdict()) + verdict
@@ -104,6 +102,7 @@ def report(results: Iterable[tuple[str, Verdict]], rules: Iterable[str] = RARE) 
             print(fault, flush=True)
     whole = sum(rows.values(), Verdict())
     print(table(rows | {"all": whole}, rules))
+    # nothing is promised for numbers of wild scenes
     of_run = [] if "wild" in rows or whole.interior < LEAST_RUN else whole.faults_of_run()
     for fault in of_run:
         print(fault)
@@ -154,16 +153,11 @@ def outside(drawn: Pixels, low: Array, high: Array) -> Array:
 
 
 def draw_in_tiles(scene: Scene) -> Pixels:
-    """Draw a scene in four tiles."""
-    x, y = (scene.width + 1) // 2, (scene.height + 1) // 3 + 1
-    columns = [(0, x), (x, scene.width - x)]
-    rows = [(0, y), (y, scene.height - y)]
-    parts = [
-        [drawn_by_contracts(scene, Rectangle(left, top, width, height)) for left, width in columns if width]
-        for top, height in rows
-        if height > 0
-    ]
-    return np.concatenate([np.concatenate(row, axis=1) for row in parts])
+    """Draw a scene in four to six tiles."""
+    picture = np.empty((scene.height, scene.width, 3), np.uint8)
+    for x, y, width, height in grid(scene.width, scene.height, (scene.width + 1) // 2, (scene.height + 1) // 3 + 1):
+        picture[y : y + height, x : x + width] = drawn_by_contracts(scene, Rectangle(x, y, width, height))
+    return picture
 
 
 def _fault(name: str, count: int, drawn: Pixels, right: Picture, row: int, column: int) -> str:

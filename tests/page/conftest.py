@@ -47,7 +47,6 @@ def visit(browser: Any, server: Static, tmp_path: Path) -> Iterator[Visit]:
         book: Any = None,
         width: int = 1280,
         height: int = 800,
-        wait: bool = True,
         context: Any = None,
         **options: Any,
     ) -> Creator:
@@ -72,8 +71,7 @@ def visit(browser: Any, server: Static, tmp_path: Path) -> Iterator[Visit]:
                 context.route("**/addresses.json", lambda route: route.fulfill(json={"chains": book}))
         page = Creator(context.new_page())
         page.open((ONE.as_uri() if disk else server.address) + (place if isinstance(place, str) else link(place)))
-        if wait:
-            page.settle()
+        page.settle()
         return page
 
     yield open_page

@@ -15,6 +15,7 @@ from PIL import Image as PillowImage
 
 import shackled
 from creator_page import OBJ, Creator, Visit, drawn, link, scene
+from shackled.datasets.common import shapes
 from shackled.scene import encode_scene_file
 
 SEED = hashlib.sha256(b"any").hexdigest()
@@ -56,7 +57,7 @@ def test_the_shelf(visit: Visit) -> None:
 
 
 def test_search_and_genesis_seeds(visit: Visit) -> None:
-    page = visit(scene("cube"))
+    page = visit(scene("cube"), permissions=["clipboard-read", "clipboard-write"])
     field = page.page.locator("[data-name=search]")
     known = {name.lower() for each in page.run("app.pieces.value") for name in (each["name"], each["title"])}
     for text in ("bunny", "Heart", "no such thing"):
@@ -69,14 +70,8 @@ def test_search_and_genesis_seeds(visit: Visit) -> None:
         field.fill(text)
         field.press("Enter")
         assert ("64 hexadecimal digits" in page.page.inner_text(".shelf")) == (text != "heart")
-    page.run(
-        """(() => {
-            const clipboardData = new DataTransfer();
-            clipboardData.setData('text', argument);
-            document.dispatchEvent(new ClipboardEvent('paste', { clipboardData, bubbles: true }));
-        })()""",
-        f"0x{SEED.upper()}",
-    )
+    page.run("navigator.clipboard.writeText(argument)", f"0x{SEED.upper()}")
+    page.press("Control+v")()
     genesis(page, SEED, SEED[:8])
     field.fill("3")
     field.press("Enter")
@@ -188,14 +183,13 @@ def test_what_is_told_of_files(visit: Visit) -> None:
     )
     assert "100 MB" in page.said("error")
     # large meshes are simplified
-    rows = 130
-    points = "".join(f"v {x} {y} {(x * x + y * y) % 7 / 9}\n" for x in range(rows) for y in range(rows))
-    corners = [(x * rows + y + 1) for x in range(rows - 1) for y in range(rows - 1)]
-    faces = "".join(f"f {a} {a + rows} {a + rows + 1}\nf {a} {a + rows + 1} {a + 1}\n" for a in corners)
-    page.after(lambda: page.drop(**{"grid.obj": (points + faces).encode()}))
+    ball = shapes.icosphere(5)
+    points = "".join(f"v {x} {y} {z}\n" for x, y, z in ball.positions.tolist())
+    faces = "".join(f"f {a} {b} {c}\n" for a, b, c in (ball.faces + 1).tolist())
+    page.after(lambda: page.drop(**{"ball.obj": (points + faces).encode()}))
     assert "simplified" in page.said()
     triangles = page.run("app.meshes.get(app.doc.value.objects[0].mesh).triangles")
-    assert triangles < 2 * len(corners) or page.doc()["objects"][0]["maxTriangles"] < 2 * len(corners)
+    assert triangles < ball.triangles or page.doc()["objects"][0]["maxTriangles"] < ball.triangles
 
 
 # ---- links ----

@@ -118,10 +118,7 @@ def test_meshes_keep_their_licence(programs: dict[str, dict[str, Any]], name: st
 
 @needs_compiler
 def test_the_solidity_programs_make_the_picture(programs: dict[str, dict[str, Any]], tmp_path: Path) -> None:
-    """Of scenes that a contract holds, and of one of which the caller brings the meshes and the extensions.
-
-    They are compiled as a user would, from the npm package.
-    """
+    """Compiled as from the npm package; of the last scene the caller brings the meshes and the extensions."""
     names = ("plain", "everything", "opened", "given meshes")
     interfaces = tool.follow_imports(["interfaces/IRenderer.sol"])
     sources = {f"shackled-contracts/{name}": text for name, text in interfaces.items()}
@@ -149,7 +146,7 @@ def test_the_solidity_programs_make_the_picture(programs: dict[str, dict[str, An
             answer = evm._run(place, bytes.fromhex(selector) + arguments, 10**9).output
         finally:
             del evm._codes[place]
-        assert returned_bytes(answer, 0) == base64.b64decode(made["bmp"])
+        assert returned_bytes(answer) == base64.b64decode(made["bmp"])
 
 
 @pytest.mark.parametrize(("kind", "codes"), [("cast", 0), ("anywhere", len(RENDERER))])

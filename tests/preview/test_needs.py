@@ -82,27 +82,18 @@ def test_files_that_have_all_they_need() -> None:
 @pytest.mark.parametrize(
     ("inner", "message"),
     [
-        ("<script>alert(1)</script>", "image has a script, which pictures do not run"),
-        ("<rect onclick='a()'/>", "image has a script, which pictures do not run"),
-        ("<a href='javascript:a()'/>", "image has a script, which pictures do not run"),
-        (
-            "<foreignObject><p xmlns='http://www.w3.org/1999/xhtml'>a</p></foreignObject>",
-            "image has <foreignObject>, which",
-        ),
-        ("<video xmlns='http://www.w3.org/1999/xhtml'/>", "image has <video>, which marketplaces remove"),
-        (
-            "<image href='data:image/png;base64,AA'/>",
-            "image is an SVG with a picture in it, which marketplaces do not show",
-        ),
-        (
-            "<filter><feImage href='#a'/></filter>",
-            "image is an SVG with a picture in it, which marketplaces do not show",
-        ),
+        ("<script>alert(1)</script>", "has a script, which pictures do not run"),
+        ("<rect onclick='a()'/>", "has a script, which pictures do not run"),
+        ("<a href='javascript:a()'/>", "has a script, which pictures do not run"),
+        ("<foreignObject><p xmlns='http://www.w3.org/1999/xhtml'>a</p></foreignObject>", "has <foreignObject>, which"),
+        ("<video xmlns='http://www.w3.org/1999/xhtml'/>", "has <video>, which marketplaces remove"),
+        ("<image href='data:image/png;base64,AA'/>", "is an SVG with a picture in it, which marketplaces do not show"),
+        ("<filter><feImage href='#a'/></filter>", "is an SVG with a picture in it, which marketplaces do not show"),
     ],
 )
 def test_what_marketplaces_leave_out(inner: str, message: str) -> None:
     (problem,) = of_picture(svg(inner))
-    assert message in problem
+    assert problem.startswith(f"image {message}")
     # a page shows them all
     assert problems(animation_url="data:image/svg+xml," + quote(svg(inner))) == []
 

@@ -13,6 +13,7 @@ import trimesh
 from attrs import evolve
 from numpy.typing import NDArray
 
+from mesh_files import sheet
 from shackled import Camera, Mesh, Scene, load, render, turntable
 from shackled.cli.app import run
 from shackled.datasets.common import shapes
@@ -125,17 +126,10 @@ def striped(mesh: Mesh) -> Mesh:
     return Mesh(mesh.positions[corner], np.arange(len(corner)).reshape(-1, 3), colors)
 
 
-def sheet(count: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]:
-    """x and y of a grid of squares, each -1..1, and its faces."""
-    x, y = (each.ravel() for each in np.meshgrid(*[np.linspace(-1, 1, count + 1)] * 2))
-    corner = (np.arange(count)[:, None] * (count + 1) + np.arange(count)).ravel()
-    ends = ([0, 1, count + 2], [0, count + 2, count + 1])
-    return x, y, np.concatenate([corner[:, None] + np.array(each) for each in ends])
-
-
 def test_planes_are_merged_in_flat_shading() -> None:
-    x, y, faces = sheet(60)
-    walls = [Mesh(np.roll(np.stack([x, y, 0 * x - 1], axis=1), turn, axis=1), faces) for turn in range(3)]
+    x, y, faces = sheet(60, 60)
+    wall = np.stack([x / 30 - 1, y / 30 - 1, 0 * x - 1], axis=1)
+    walls = [Mesh(np.roll(wall, turn, axis=1), faces) for turn in range(3)]
     scene = look_at(shapes.joined(*walls), {"shading": "flat", "size": (64, 64)})
     assert scene.triangles == 21_600
     left = shown(scene)
@@ -150,7 +144,8 @@ def test_painted_vertices_are_as_fine_as_pixels() -> None:
 
 
 def test_textures_stay_in_place() -> None:
-    x, y, faces = sheet(100)
+    columns, rows, faces = sheet(100, 100)
+    x, y = columns / 50 - 1, rows / 50 - 1
     mesh = Mesh(np.stack([x, y, 0.2 * np.sin(3 * x)], axis=1), faces, uvs=np.stack([(x + 1) / 2, (1 - y) / 2], axis=1))
     scene = look_at(mesh, {"size": (128, 128)})
     (left,) = shown(scene).objects

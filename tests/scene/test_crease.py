@@ -11,6 +11,7 @@ import pytest
 import trimesh
 from numpy.typing import NDArray
 
+from mesh_files import sheet
 from shackled import Material, Mesh, Object, Scene, load, replace
 from shackled.datasets.common import shapes
 from shackled.scene import simplify_scene, stage
@@ -87,12 +88,8 @@ def test_colors_do_not_break_the_surface() -> None:
 def test_a_crease_that_ends_within_a_surface_is_smoothed_unless_it_is_sharp() -> None:
     def tent(height: float) -> Mesh:
         """A sheet with a short ridge that begins at its border."""
-        x, y = np.meshgrid(np.arange(5), np.arange(5), indexing="ij")
-        z = np.where((x == 2) & (y <= 1), height, 0)
-        grid = np.arange(25).reshape(5, 5)
-        a, b, c, d = (part.ravel() for part in (grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]))
-        faces = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
-        return Mesh(np.stack([x, y, z], axis=2).reshape(-1, 3), faces)
+        x, y, faces = sheet(4, 4)
+        return Mesh(np.stack([x, y, np.where((x == 2) & (y <= 1), height, 0)], axis=1), faces)
 
     smooth = creased(tent(0.45))
     assert smooth.normals is not None

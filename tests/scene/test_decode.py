@@ -214,9 +214,3 @@ def test_vertices_that_no_face_may_name() -> None:
         unpack(packed[:-1] + b"\7")
     with pytest.raises(InputError, match="has 38 bytes, not 37"):
         unpack(packed[:-1])
-
-
-@pytest.mark.parametrize("most", [2**15, 2**23])
-def test_coordinates_have_signs(most: int) -> None:
-    mesh = Mesh([[-most, most - 1, 0], [-1, 1, 2], [3, -4, 5]], [[0, 1, 2]])
-    assert unpack(pack(mesh)) == mesh

@@ -7,6 +7,7 @@ import pytest
 from attrs import evolve
 from numpy.typing import NDArray
 
+from mesh_files import sheet
 from shackled import Image, Material, Mesh, Object, Scene, Texture, load, render
 from shackled.datasets.common import shapes
 from shackled.scene import decode, fit, look_at, render_call
@@ -16,10 +17,7 @@ MOST = 65_535
 
 def grid(columns: int, rows: int, shift: int = 0) -> Mesh:
     """A sheet of squares, with whole coordinates, a colour and a place on a texture for each vertex."""
-    x, y = (each.ravel() for each in np.meshgrid(np.arange(columns + 1), np.arange(rows + 1)))
-    corner = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
-    a, b, c, d = corner, corner + 1, corner + columns + 2, corner + columns + 1
-    faces = np.stack([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)], axis=1).reshape(-1, 3)
+    x, y, faces = sheet(columns, rows)
     colors = np.stack([x % 256, y % 256, (x + y) % 256], axis=1)
     uvs = np.stack([x / columns, y / rows], axis=1)
     return Mesh(np.stack([x, y, shift + x % 3], axis=1), faces, colors, uvs=uvs)

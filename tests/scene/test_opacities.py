@@ -70,7 +70,6 @@ def test_the_alpha_of_colours(kind: Any) -> None:
         ({"opacities": "glass"}, "the opacities of a mesh must be numbers, one for each vertex"),
         ({"opacities": [[0.5]] * 4}, r"the opacities of a mesh must be numbers, .* not of shape \(4, 1\)"),
         ({"opacities": [0.5] * 4, "colors": [(1, 2, 3, 4)] * 4}, "a mesh has opacities, or colours with .* not both"),
-        ({"colors": [(1, 2, 3, 256)] * 4}, "the colour of vertex 0 must be from 0 to 255"),
     ],
 )
 def test_opacities_that_are_none(values: dict[str, Any], message: str) -> None:

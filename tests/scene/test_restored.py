@@ -32,7 +32,6 @@ from shackled import (
 )
 from shackled.errors import InputError
 from shackled.scene import Hemisphere, Projection, decode, read_scene, render_call
-from shackled.scene._files.written import write_scene
 from shackled.scene._fit import MAX_COORDINATE, _factor, _is_exact, _prepared
 from shackled.scene._object import SHADINGS, Shading
 from shackled.scene._texture import FILTERS, WRAPS
@@ -289,11 +288,12 @@ def test_from_scene_files(tmp_path: Path) -> None:
     path = tmp_path / "scene.json"
     for seed in range(150):
         for scene in (whole(seed), random_case(seed).scene):
-            write_scene(scene, path)
+            scene.save(path)
             found = read_scene(path)
             assert found == scene
             # also with what only a decoded scene has
-            write_scene(decoded := decode(render_call(scene)), path)
+            decoded = decode(render_call(scene))
+            decoded.save(path)
             assert read_scene(path) == decoded
 
 

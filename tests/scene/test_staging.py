@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from pictures import projected
 from shackled import load
 from shackled.datasets.common import shapes
 from shackled.errors import InputError
@@ -11,20 +11,6 @@ from shackled.scene._staging import signed_volume
 CORNERS = np.sign(shapes.cube().positions)
 FACES = shapes.cube().faces.tolist()
 BOX = Mesh(CORNERS * (1, 2, 3) * 100 + (1000, -50, 7), FACES)
-
-
-def picture(scene: Scene) -> NDArray[np.float64]:
-    """(n, 2): where the vertices are in the picture, -1..1 to the right and upward; all must be before the eye."""
-    camera = scene.camera
-    eye, back = camera.eye, camera.eye - camera.target
-    back = back / np.linalg.norm(back)
-    right = np.cross(camera.up, back)
-    right /= np.linalg.norm(right)
-    seen = scene.world_positions() - eye
-    depth = -seen @ back
-    assert (depth > 0).all()
-    size = camera.half_height * (depth if camera.projection == "perspective" else 1)
-    return np.stack([seen @ right / size * scene.height / scene.width, seen @ np.cross(back, right) / size], axis=1)
 
 
 def test_the_mesh_comes_into_the_unit_sphere() -> None:
@@ -44,7 +30,7 @@ def test_the_mesh_fills_the_picture(
     azimuth, elevation = view
     level = projection == "orthographic"
     scene = stage(BOX, size, rotate=turn, azimuth=azimuth, elevation=elevation, orthographic=level, margin=0.1)
-    places = picture(scene)
+    places = projected(scene)
     assert np.abs(places).max() == pytest.approx(0.9)
     # the side that decides is filled on both ends
     axis = np.abs(places).max(axis=0).argmax()
@@ -77,7 +63,7 @@ def test_a_mesh_is_photographed() -> None:
     assert key.vector @ right < 0 < key.vector @ back
     # warm
     assert key.color[0] > key.color[2]
-    assert np.abs(picture(scene)).max() == pytest.approx(0.85)
+    assert np.abs(projected(scene)).max() == pytest.approx(0.85)
     assert load(BOX, lights=Light("directional", (0, 0, 1))).lights == (Light("directional", (0, 0, 1)),)
 
 
@@ -118,7 +104,7 @@ def test_closed_whatever_the_colors() -> None:
 def test_flat_thin_and_pointlike_meshes(projection: str) -> None:
     for points in ([[0, 0, 0]] * 3, [[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 0, 0], [0, 0, 1], [1, 0, 0]]):
         scene = stage(Mesh(points, [[0, 1, 2]]), orthographic=projection == "orthographic")
-        assert np.abs(picture(scene)).max() <= 0.92 + 1e-9
+        assert np.abs(projected(scene)).max() <= 0.92 + 1e-9
 
 
 def test_what_cannot_be() -> None:
@@ -152,9 +138,9 @@ def test_the_shadow_on_a_ground_is_in_the_picture() -> None:
     light = Light("directional", (-3, 1, 0))
     alone = load(BOX, lights=light, ground="grey", azimuth=0)
     scene = load(BOX, lights=light, ground="grey", shadow=True, azimuth=0)
-    assert np.abs(picture(alone)).max() == pytest.approx(0.85)
+    assert np.abs(projected(alone)).max() == pytest.approx(0.85)
     # the shadow falls to the right
-    assert picture(scene)[:, 0].max() < picture(alone)[:, 0].max() - 0.1
+    assert projected(scene)[:, 0].max() < projected(alone)[:, 0].max() - 0.1
     assert load(BOX, lights=light, shadow=True, azimuth=0).camera == load(BOX, lights=light, azimuth=0).camera
     # the part of it that is on what is left of the ground, however low the light is, also from a lamp
     for lamp in (Light("directional", (-1, 1e-9, 0)), Light("point", (-3, 0, 0))):

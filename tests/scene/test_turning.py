@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from attrs import evolve
 
+from pictures import projected
 from shackled import Camera, InputError, Light, Object, Scene
 from shackled.datasets.common import shapes
 from shackled.scene import from_euler, full_turn, rotate
@@ -36,17 +37,10 @@ def test_a_margin_stays_around_what_turns(projection: str) -> None:
     """The widest of all frames fills as much of the picture as may be filled, or as the first one did."""
     start = scene(projection=projection)
     start = evolve(start, camera=evolve(start.camera, half_height=0.1 if projection == "perspective" else 1.0))
-    tight = evolve(start, camera=evolve(start.camera, half_height=start.camera.half_height * reach(start) / 0.97))
+    filled = np.abs(projected(start)).max()
+    tight = evolve(start, camera=evolve(start.camera, half_height=start.camera.half_height * filled / 0.97))
     for each, share in ((start, FILLED), (tight, 0.97)):
-        assert max(reach(turned) for turned in full_turn(each, 16)) == pytest.approx(share, abs=1e-9)
-
-
-def reach(each: Scene) -> float:
-    """The part of the half width or half height of the picture that is filled, of a camera that looks along -z."""
-    o, camera = each.objects[0], each.camera
-    points = o.position + rotate(o.rotation, o.mesh.positions) - camera.eye
-    distance = -points[:, 2] if camera.projection == "perspective" else np.ones(len(points))
-    return float((np.abs(points[:, :2]).max(axis=1) / distance).max() / camera.half_height)
+        assert max(np.abs(projected(turned)).max() for turned in full_turn(each, 16)) == pytest.approx(share, abs=1e-9)
 
 
 def test_a_camera_that_sees_enough_stays() -> None:

@@ -199,7 +199,7 @@ def test_every_icon_is_valid(tmp_path: Path) -> None:
 def test_the_studio_models_what_it_keeps(tmp_path: Path) -> None:
     world = World()
     studio = world.address("Studio")
-    for storing in store_scene(SCENE, studio, chain=world.chain):
+    for storing in store_scene(SCENE, studio):
         world.run(studio, storing.data, created=True)
     glb = world.call("Studio", "glb(address)", "0x" + storing.pointer.hex())
     # vertices and faces are in another order when they are kept
@@ -208,7 +208,7 @@ def test_the_studio_models_what_it_keeps(tmp_path: Path) -> None:
     assert uri == "data:model/gltf-binary;base64," + base64.b64encode(glb).decode()
     files = [glb]
     for packed in (pack(POT, True), pack(TENT, False)):
-        (storing,) = store_mesh("mesh", compact(packed), studio, world.chain)
+        (storing,) = store_mesh("mesh", compact(packed), studio)
         world.run(studio, storing.data, created=True)
         plain = world.store("storeMesh(bytes)", packed)
         assert storing.content == compact(packed)

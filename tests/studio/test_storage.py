@@ -60,7 +60,7 @@ def happens(world: World, storings: list[StoreTransaction]) -> None:
 
 def test_pointers_and_gas_of_a_scene(world: World) -> None:
     scene = load("icons/skull")
-    storings = store_scene(scene, world.address("Studio"), chain=world.chain)
+    storings = store_scene(scene, world.address("Studio"))
     assert [storing.what for storing in storings] == ["mesh 1", "mesh 2", "scene"]
     happens(world, storings)
     world.chain._codes.update(world.codes)
@@ -81,7 +81,7 @@ def test_a_large_mesh(world: World) -> None:
     n = 5000
     faces = random.integers(0, n, (2000, 3))
     packed = pack(Mesh(random.integers(-32768, 32768, (n, 3)), faces, random.integers(0, 256, (n, 3))))
-    storings = store_mesh("mesh", compact(packed), world.address("Studio"), world.chain)
+    storings = store_mesh("mesh", compact(packed), world.address("Studio"))
     assert [s.what for s in storings] == ["mesh, part 1 of 3", "mesh, part 2 of 3", "mesh, part 3 of 3", "mesh, joined"]
     happens(world, storings)
     world.chain._codes.update(world.codes)

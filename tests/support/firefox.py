@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import pytest
 from websockets.sync.client import ClientConnection, connect
 
 #: Seconds in which it must start, and answer.
@@ -26,11 +27,6 @@ user_pref("network.captive-portal-service.enabled", false);
 user_pref("network.connectivity-service.enabled", false);
 user_pref("services.settings.server", "data:,");
 """
-
-
-def firefox_path() -> str | None:
-    """Return the path of Firefox, or None."""
-    return next((path for path in map(shutil.which, ("firefox-esr", "firefox")) if path), None)
 
 
 class Tab:
@@ -87,9 +83,10 @@ class Tab:
 
 @contextmanager
 def firefox(place: str) -> Iterator[Tab]:
-    """Run Firefox with a new profile, into which it writes the port at which it listens. place: as of a tab."""
-    path = firefox_path()
-    assert path
+    """Firefox with a new profile, into which it writes the port at which it listens; place: as of a tab."""
+    path = shutil.which("firefox-esr") or shutil.which("firefox")
+    if path is None:
+        pytest.skip("needs Firefox: apt-get install firefox-esr")
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         (Path(folder) / "user.js").write_text(PREFERENCES)
         process = subprocess.Popen(

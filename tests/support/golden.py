@@ -148,7 +148,7 @@ def stored() -> Iterator[tuple[str, Call]]:
     }
     for kind, (signature, given) in product(("plain", "antialiased"), functions.items()):
         name = f"stored {kind} {signature.partition('(')[0]}"
-        transactions = store_scene(random_case(3, kind).scene, STUDIO, chain=chain())
+        transactions = store_scene(random_case(3, kind).scene, STUDIO)
         pointer = "0x" + transactions[-1].pointer.hex()
         codes = {STUDIO: evm().code("Studio")} | {each.pointer: each.code for each in transactions}
         yield name, Call(STUDIO, interface.encode(signature, pointer, *given), codes)

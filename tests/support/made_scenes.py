@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from attrs import evolve
 
@@ -47,12 +45,11 @@ LIGHTS = (
 )
 
 
-def teapot_scene(lights: int = 1, first: int = 0, *, distance: float = 9.0, **material: Any) -> Scene:
+def teapot_scene(lights: int = 1, first: int = 0) -> Scene:
     """The teapot with some of the four lights."""
-    look = Material("smooth", **{"ambient": 0.25, "diffuse": 0.6, "specular": 0.5, "shininess": 30} | material)
     return Scene(
-        [Object(painted(teapot(5)), position=(0, -1.4, 0), material=look)],
-        Camera(eye=(0.2 * distance, 0.35 * distance, 0.92 * distance), target=(0, 0, 0)),
+        [Object(painted(teapot(5)), position=(0, -1.4, 0), material=Material("smooth", 0.25, 0.6, 0.5, 30))],
+        Camera(eye=(1.8, 3.15, 8.28), target=(0, 0, 0)),
         lights=[LIGHTS[(first + i) % 4] for i in range(lights)],
         background=Background((20, 30, 60), (200, 210, 220)),
     )

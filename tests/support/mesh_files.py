@@ -52,16 +52,22 @@ def refusal(path: Path, content: str | bytes | None = None, read: Any = read_mod
     return told.removeprefix(str(path)).removeprefix(": ")
 
 
-def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
+def corner_colors(mesh: Mesh) -> Any:
     """Return the colours of the corners of all faces."""
-    colors: list[list[list[int]]] = mesh.colors[mesh.faces].tolist()
-    return colors
+    return mesh.colors[mesh.faces].tolist()
 
 
-def corner_positions(mesh: Mesh) -> list[list[list[float]]]:
+def corner_positions(mesh: Mesh) -> Any:
     """Return the positions of the corners of all faces."""
-    positions: list[list[list[float]]] = mesh.positions[mesh.faces].tolist()
-    return positions
+    return mesh.positions[mesh.faces].tolist()
+
+
+def sheet(columns: int, rows: int) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """Return x and y of the corners of a grid of squares, 0..columns and 0..rows, and its faces."""
+    x, y = (each.ravel() for each in np.meshgrid(np.arange(columns + 1), np.arange(rows + 1)))
+    corner = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
+    faces = corner[:, None] + np.array([0, 1, columns + 2, 0, columns + 2, columns + 1])
+    return x, y, faces.reshape(-1, 3)
 
 
 class Gltf:
@@ -131,10 +137,9 @@ class GltfObject(Gltf):
         self.document["meshes"] = [{"primitives": [self.primitive]}]
 
     @property
-    def node(self) -> dict[str, Any]:
+    def node(self) -> Any:
         """The node of the mesh."""
-        node: dict[str, Any] = self.document["nodes"][0]
-        return node
+        return self.document["nodes"][0]
 
     def rows(self, values: Any, kind: str = "f4", **more: Any) -> int:
         """Add rows of numbers, or single ones, and return the number of their accessor."""

@@ -81,9 +81,9 @@ class Reply:
     drip: float = 0.0
 
 
-def result(value: Any, number: Any = None) -> Reply:
-    """A node's answer to the request of that number; `serving` puts in the number."""
-    return Reply(json.dumps({"jsonrpc": "2.0", "id": number, "result": value}).encode())
+def result(value: Any) -> Reply:
+    """A node's answer; `serving` puts in the number of the request."""
+    return Reply(json.dumps({"jsonrpc": "2.0", "id": None, "result": value}).encode())
 
 
 def failure(message: str, code: int = -32000, data: Any = None, status: int = 200) -> Reply:

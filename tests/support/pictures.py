@@ -40,9 +40,7 @@ def words(*values: int) -> bytes:
 
 
 def call_data(function: str, scene: Scene, tile: Rectangle | None = None) -> bytes:
-    """A call of the Renderer with the numbers of the scene as they are: its meshes must have whole coordinates, and its
-    camera a near distance.
-    """
+    """A call of the Renderer with a scene as it is: with whole coordinates of meshes, and a near distance."""
     head = words(0x20) if tile is None else words(0xA0, tile.x, tile.y, tile.width, tile.height)
     return artifact("Renderer").selectors[function] + head + encode_scene(scene)
 
@@ -112,3 +110,17 @@ def unlit_scene(objects: Any, camera: Camera, width: int, height: int | None = N
     if isinstance(objects, Mesh):
         objects = [Object(objects, material=UNLIT, cull=False)]
     return Scene(objects, camera, width=width, height=height or width, **more)
+
+
+def projected(scene: Scene) -> NDArray[np.float64]:
+    """(n, 2): where the vertices are in the picture, -1..1 to the right and upward; all must be before the eye."""
+    camera = scene.camera
+    eye, back = camera.eye, camera.eye - camera.target
+    back = back / np.linalg.norm(back)
+    right = np.cross(camera.up, back)
+    right /= np.linalg.norm(right)
+    seen = scene.world_positions() - eye
+    depth = -seen @ back
+    assert (depth > 0).all()
+    size = camera.half_height * (depth if camera.projection == "perspective" else 1)
+    return np.stack([seen @ right / size * scene.height / scene.width, seen @ np.cross(back, right) / size], axis=1)

@@ -28,7 +28,7 @@ NO_CHANGES = {"fields": 0, "turn": (0, 0, 0, 1 << 32), "color": 0, "background":
 
 def stored(world: World, scene: Scene) -> str:
     """The pointer of a scene that is stored as the commands do it."""
-    for storing in store_scene(scene, world.address("Studio"), chain=world.chain):
+    for storing in store_scene(scene, world.address("Studio")):
         assert world.run(world.address("Studio"), storing.data, created=True)[12:32] == storing.pointer
     return "0x" + storing.pointer.hex()
 

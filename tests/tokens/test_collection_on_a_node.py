@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image as PillowImage
 from web3 import Web3
 
 from commands import Shackled
@@ -20,8 +19,9 @@ from shackled.deploy import local_chain
 from shackled.errors import ChainError, NodeError
 from shackled.tokens import Contract, check_collection_code, check_token, open_collection, read_allow_list
 from shackled.tokens._launch import immutable_places
+from stored_scenes import frames_of
 
-OWNER, ALICE, BOB, CAROL = range(4)
+OWNER, ALICE, BOB = range(3)
 PRICE = 2 * 10**17
 
 
@@ -67,23 +67,15 @@ def test_the_same_collection_is_not_deployed_twice(node: Node, address: str, sha
         (("transfer", 999, "0x" + "12" * 20, "--yes"), 2, "there is no token 999"),
         (("show", 0, "--chain-id", 1), 1, "belongs to chain 31337, not to chain 1"),
         (("show", 0, "--collection", "0x" + "12" * 20), 2, "there is no Shackled collection at 0x1212"),
-        (("show", 0, "--collection", "0x12"), 2, "--collection must be an address"),
         (("show", 0, "--collection", "punks"), 2, "--collection must be genesis, icons or an address, not 'punks'"),
         (("show", 0, "-o", "picture.tif"), 2, "must end in one of .png .bmp"),
         (("mint", "--yes"), 2, "nothing was sent: name an account"),
-        (("mint", "--private-key-env", "NO_SUCH", "--yes"), 2, "NO_SUCH"),
         (("phase", "open"), 2, "the phase must be one of closed, allow-list, public"),
         (("deploy", "punks"), 2, "the collection must be one of genesis, icons"),
         (("deploy", "icons", "--icons", "heart", "--supply", "0"), 2, "the supply of an icon must be"),
         (("deploy", "genesis", "--price", "much"), 2, "--price must be an amount of ether"),
         (("deploy", "genesis", "--royalty", "11"), 2, "--royalty must be a finite number from 0 to 10, not 11"),
-        (("deploy", "genesis", "--royalty", "nan"), 2, "--royalty must be a finite number from 0 to 10, not nan"),
-        (("mint", "1" + 40 * "0"), 2, "is not in the range"),
-        (
-            ("deploy", "genesis", "--reserve", "1025", "--private-key-env", "KEY_0"),
-            2,
-            "the reserve must be a whole number from 0 to 1024",
-        ),
+        (("deploy", "genesis", "--reserve", "1025", "--private-key-env", "KEY_0"), 2, "whole number from 0 to 1024"),
         (("deploy", "genesis", "--allow-list", "none.csv"), 2, "the allow list none.csv cannot be read"),
     ],
 )
@@ -218,7 +210,8 @@ def test_another_randomness_than_that_of_the_block_is_found(
 
 
 def test_a_picture_file_may_be_of_another_kind(address: str, tmp_path: Path, shackled: Shackled) -> None:
-    for name in ("a.png", "a.bmp"):
-        shackled("token", "show", 0, "-o", tmp_path / name)
-    one, other = (np.asarray(PillowImage.open(tmp_path / name).convert("RGB")) for name in ("a.png", "a.bmp"))
+    files = tmp_path / "a.png", tmp_path / "a.bmp"
+    for each in files:
+        shackled("token", "show", 0, "-o", each)
+    one, other = (frames_of(each.read_bytes())[0] for each in files)
     np.testing.assert_array_equal(one, other)

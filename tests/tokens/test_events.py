@@ -53,11 +53,7 @@ def test_a_new_edition_is_named_once() -> None:
 @pytest.mark.parametrize(
     "logs",
     [
-        7,
-        [7],
-        ["zz"],
-        [{}],
-        [{"address": HERE}],
+        *(7, [7], ["zz"], [{}], [{"address": HERE}]),
         [transfer(3) | {"data": "0xzz"}],
         [transfer(3) | {"topics": transfer(3)["topics"][:3]}],
         [transfer(3) | {"topics": [*transfer(3)["topics"][:3], "-0x1"]}],

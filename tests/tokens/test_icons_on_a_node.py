@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import base64
-import io
 import json
 from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image as PillowImage
 
 from commands import Shackled
 from nodes import Node
@@ -18,13 +15,13 @@ from shackled.chain import AddressBook
 from shackled.cli.app import run
 from shackled.datasets import require
 from shackled.ethereum import checksum_address
-from shackled.tokens import token_scene
+from shackled.tokens import read_data_uri, token_scene
 from shackled.tokens._launch import parts_of
+from stored_scenes import frames_of
+from token_checks import document
 
 OWNER, ALICE, BOB = range(3)
 PRICE = 10**16
-
-TRIANGLE = "v 0 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\n"
 
 
 @pytest.fixture(scope="module")
@@ -36,10 +33,6 @@ def address(running_node: Node, users: list[str]) -> str:
     found = AddressBook().find(31337, "IconsCollection")
     assert found is not None
     return checksum_address(found)
-
-
-def pixels(picture: bytes) -> np.ndarray:
-    return np.asarray(PillowImage.open(io.BytesIO(picture)).convert("RGB"))
 
 
 def test_the_whole_way_of_icons(node: Node, address: str, tmp_path: Path, shackled: Shackled) -> None:
@@ -89,9 +82,9 @@ def test_the_whole_way_of_icons(node: Node, address: str, tmp_path: Path, shackl
     shown = json.loads(shackled("token", "show", 2, "-c", "icons", "-o", heart, "--json").out)
     assert shown["traits"] == {"Icon": "Heart", "Supply": 3}
     drawn = render(token_scene(require("icons/heart")))
-    np.testing.assert_array_equal(pixels(heart.read_bytes())[::4, ::4], drawn.pixels)
-    document = json.loads(base64.b64decode(contract.functions.tokenURI(2).call().partition(",")[2]))
-    assert base64.b64decode(document["image"].partition(",")[2]) == heart.read_bytes()
+    np.testing.assert_array_equal(frames_of(heart.read_bytes())[0][::4, ::4], drawn.pixels)
+    found = document(contract.functions.tokenURI(2).call())
+    assert read_data_uri(found["image"], "it") == ("image/png", heart.read_bytes())
     listed = json.loads(shackled("token", "list", "-c", "icons", "--json").out)
     assert [each["traits"]["Icon"] for each in listed["tokens"]] == ["Diamond", "Diamond", "Heart", "Diamond"]
     assert [each["left"] for each in listed["icons"]] == [0, 2, 1]

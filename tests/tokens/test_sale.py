@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import nullcontext, suppress
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -16,6 +17,7 @@ from tools.tokens.stage import ALLOW_LIST, CLOSED, LIMIT, PRICE, PUBLIC, RESERVE
 from tools.tokens.world import ETHER, ZERO, Contract, Refused, account, keccak
 
 from adversaries import adversary
+from shackled.tokens import KINDS, sign_allowance
 from token_checks import execute, refused
 
 KEY = keccak(b"who signs")
@@ -161,6 +163,10 @@ def test_a_signature_lets_mint_as_many_as_it_says(signing: Stage) -> None:
     s = signing
     permission = (s.alice, 3, s.world.time)
     signature = sign(s.genesis, permission)
+    # the package signs the same
+    connection = SimpleNamespace(chain_id=s.world.chain_id)
+    collection: Any = SimpleNamespace(kind=KINDS["genesis"], connection=connection, address=s.genesis.address)
+    assert sign_allowance(collection, Account.from_key(KEY), *permission).signature == signature
     mint_signed(s, permission, signature, 2)
     with refused("AllowanceExceeded", 2, 2, 3):
         mint_signed(s, permission, signature, 2)

@@ -246,9 +246,7 @@ COLORS = {"background", "top", "bottom", "ambient_light", "sky", "ground", "colo
 
 
 def in_other_words(value: Any, rng: np.random.Generator, key: str = "") -> Any:
-    """What a scene file has at a key of a table, as people write it: some keys left out, others as `Scene.save` writes
-    none.
-    """
+    """What a scene file has at a key of a table, as people write it: some keys left out, others in another form."""
     if key in COLORS and (key != "background" or rng.random() < 0.5):
         return color(rng)
     if key == "size" and rng.random() < 0.5:

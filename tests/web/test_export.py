@@ -13,7 +13,7 @@ import pytest
 
 import shackled
 from creator_page import Tab
-from firefox import firefox, firefox_path
+from firefox import firefox
 from shackled import InputError, load, render
 from shackled.cli.app import run
 from shackled.scene import render_call
@@ -29,9 +29,6 @@ REMOTE = re.compile(r"""(?:src|href)\s*=\s*["']?(?:https?:)?//""")
 def tab(request: pytest.FixtureRequest) -> Iterator[Any]:
     """A tab of each browser. In chromium nothing must go wrong, and nothing be asked of others."""
     if request.param == "firefox":
-        pytest.importorskip("websockets", reason="Firefox is driven by a WebSocket")
-        if firefox_path() is None:
-            pytest.skip("needs Firefox: apt-get install firefox-esr")
         with firefox("shackled-view") as found:
             yield found
         return

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 import pytest
 from benchmarks.view import page as html
-from tools.anvil import AnvilChain, find_anvil
+from tools.anvil import AnvilChain
 from tools.page_server import static
 
 from creator_page import PATIENCE, Tab
-from nodes import Reply, anvil, needs_anvil, result, serving
+from nodes import ANVIL, Reply, anvil, needs_anvil, result, serving
 from shackled import Scene, load, render
 from shackled.ethereum import to_hex
 from shackled.gas import profile
@@ -48,14 +48,13 @@ class View(Tab):
     def __init__(self, page: Any) -> None:
         super().__init__(page, page.get_by_role("application"), "view.shadowRoot.querySelector('.error').textContent")
 
-    def after(self, act: Callable[[], object]) -> dict[str, Any]:
+    def after(self, act: Callable[[], object]) -> Any:
         """The details of the picture at rest that follows what was done."""
         before, errors = self.run("[this.pictures.length, this.errors.length]")
         act()
         self.wait(f"this.pictures.length > {before} || this.errors.length > {errors}")
         assert not self.error()
-        found: dict[str, Any] = self.run("this.pictures.at(-1)")
-        return found
+        return self.run("this.pictures.at(-1)")
 
     def set(self, script: str, argument: Any = None) -> Callable[[], object]:
         return lambda: self.run(f"void ({script})", argument)
@@ -73,9 +72,8 @@ class View(Tab):
         self.wait(f"this.errors.length > {before}")
         return self.error()
 
-    def turn(self) -> dict[str, float]:
-        found: dict[str, float] = self.run("view.turn")
-        return found
+    def turn(self) -> Any:
+        return self.run("view.turn")
 
     def button(self, name: str) -> Callable[[], object]:
         return lambda: self.page.get_by_role("button", name=name).click()
@@ -259,9 +257,13 @@ def test_what_is_shown_and_what_is_told(show: Opener) -> None:
     assert view.after(view.dropped(render_call(scene())))["sha256"] == image.sha256
 
 
-def checked(view: View, url: str) -> dict[str, str]:
-    found: dict[str, str] = view.run("view.check(argument)", url)
-    return found
+def allowed(value: Any) -> Reply:
+    """A node's answer, which pages may read."""
+    return Reply(result(value).body, headers=CORS)
+
+
+def checked(view: View, url: str) -> Any:
+    return view.run("view.check(argument)", url)
 
 
 @needs_anvil
@@ -279,9 +281,7 @@ def test_check_by_a_node(show: Opener) -> None:
         view.after(view.press("ArrowLeft"))
         assert outcome.inner_text() == ""
         assert checked(view, node.url)["outcome"] == "equal"
-    binary = find_anvil()
-    assert binary
-    with AnvilChain(binary) as chain:
+    with AnvilChain(str(ANVIL)) as chain:
         chain.address("Renderer")
         found = checked(view, chain.node.url)
     assert found["outcome"] == "equal"
@@ -295,19 +295,17 @@ def test_nodes_that_answer_otherwise(show: Opener) -> None:
     answer = (32).to_bytes(32, "big") + len(bmp).to_bytes(32, "big") + bytes(bmp)
 
     def node(request: dict[str, Any]) -> Reply:
-        content = "0x" if request["method"] == "eth_getCode" else to_hex(answer)
-        return Reply(result(content).body, headers=CORS)
+        return allowed("0x" if request["method"] == "eth_getCode" else to_hex(answer))
 
     with serving(node) as url:
-        assert checked(view, url) == {
-            "outcome": "different",
-            "message": "Different: the contract's code, sent along, computed other bytes there.",
-        }
+        found = checked(view, url)
+    said = "Different: the contract's code, sent along, computed other bytes there."
+    assert found == {"outcome": "different", "message": said}
     replies = {
         "HTTP status 403": Reply(b"forbidden", 403, CORS),
         "CORS": result("0x"),
         "it says: no such thing": Reply(b'{"error": {"code": 1, "message": "no such\\nthing"}}', headers=CORS),
-        "its answer to eth_getCode is none": Reply(b'{"result": 7}', headers=CORS),
+        "its answer to eth_getCode is none": allowed(7),
     }
     for words, reply in replies.items():
         with serving(lambda _, reply=reply: reply) as url:  # type: ignore[misc]
@@ -325,7 +323,7 @@ def test_stored_scenes(show: Opener) -> None:
 
     def node(request: dict[str, Any]) -> Reply:
         assert request["method"] == "eth_getCode"
-        return Reply(result(to_hex(codes.get(request["params"][0], b""))).body, headers=CORS)
+        return allowed(to_hex(codes.get(request["params"][0], b"")))
 
     with serving(node) as url:
         view = show(attributes=f'studio="{to_hex(STUDIO)}" pointer="{pointer}"')

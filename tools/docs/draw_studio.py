@@ -21,7 +21,7 @@ def main() -> None:
     """Draw the picture."""
     world = World()
     studio = world.address("Studio")
-    for storing in store_scene(require("icons/diamond").make(), studio, chain=world.chain):
+    for storing in store_scene(require("icons/diamond").make(), studio):
         world.run(studio, storing.data, created=True)
     arguments = [address.rjust(32, b"\0") for address in (studio, storing.pointer)]
     kept = world.deploy(compile_example("examples/tokens/PictureToken.sol")[0], b"".join(arguments))

@@ -68,10 +68,13 @@ contract AntialiasedSmoothEngine is SampleBuffer, ExactSamples, SmoothSamples {
     {
         unchecked {
             uint256 edge = load(p) & IS_EDGE;
-            if (edge == 0 && covered & TOP_64 == 0) return;
-            uint256 z = (attribute >> ACCUMULATOR_DEPTH_AT) * load(SAMPLE_SCALE);
-            z = (z + (edge == 0 ? load(WHOLE_OFFSETS) : load(DEPTH_OFFSETS))) & SAMPLE_DEPTHS;
-            uint256 seen = (edge == 0 ? TOPS_64 : covered) & (z + BELOW_TOPS_64 - load(p));
+            (uint256 z, uint256 seen) = (load(DEPTH_OFFSETS), covered);
+            if (edge == 0) {
+                if (covered & TOP_64 == 0) return;
+                (z, seen) = (load(WHOLE_OFFSETS), TOPS_64);
+            }
+            z = (z + (attribute >> ACCUMULATOR_DEPTH_AT) * load(SAMPLE_SCALE)) & SAMPLE_DEPTHS;
+            seen &= z + BELOW_TOPS_64 - load(p);
             if (seen == 0) return;
             // within the triangle, although all samples may get the colour
             z |= edge | colorAt(attribute, covered, column, row) * ONES_64;

@@ -173,7 +173,7 @@ library Outlines {
             let x := sub(and(shr(UPPER_END_AT, key), POINT_COLUMN_MASK), POINT_BIAS) // the upper end
             let y := sub(shr(UPPER_ROW_AT, key), POINT_BIAS) // its row
             let dx := sub(sub(and(key, POINT_COLUMN_MASK), POINT_BIAS), x) // to the lower end
-            let dy := sub(sub(and(shr(POINT_ROW_AT, key), POINT_ROW_MASK), POINT_BIAS), y) // rows to the lower end, positive
+            let dy := sub(sub(and(shr(POINT_ROW_AT, key), LANE_64), POINT_BIAS), y) // rows to the lower end, positive
             let value := sub(mul(y, dx), mul(x, dy)) // of dy X - dx Y + value at X = Y = 0, which is 0 at both ends
             y := shl(EIGHTH, sub(0, dx)) // from here on, the change downward
             x := shl(EIGHTH, dy) // from here on, the change to the right, which is positive

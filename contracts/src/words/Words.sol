@@ -204,7 +204,6 @@ uint256 constant SCREEN_COLUMN_AT = 64;
 uint256 constant SCREEN_COLUMN_MASK = 0xfffff;
 /// @dev Sub-pixel row.
 uint256 constant SCREEN_ROW_AT = 128;
-uint256 constant SCREEN_ROW_MASK = 0xfffff;
 
 // ------------------------------------------------------------------------------------------------------------------ parts of screen words
 
@@ -227,7 +226,6 @@ uint256 constant NEEDS_CARE = 0x1f00000000;
 
 /// @dev Depth: see DEPTH_SCALE.
 uint256 constant ATTRIBUTE_DEPTH_AT = 168;
-uint256 constant ATTRIBUTE_DEPTH_MASK = 0xffffffffffffff;
 
 // ---------------------------------------------------------------------------------------------------------------------------- accumulator
 // An attribute word with 32 more bits, incremented from pixel to pixel. It may contain barycentric coordinates in place of colours: s in
@@ -294,8 +292,6 @@ uint256 constant TRIANGLE_EDGES_AT = 144;
 uint256 constant TRIANGLE_EDGES_MASK = 7;
 /// @dev Whether it reaches beyond the left or right border of the tile.
 uint256 constant CROSSING_BIT = 0x8000000000000000000000000000000000000;
-/// @dev Whether it is turned away from the eye.
-uint256 constant TURNED_AWAY_BIT = 0x002000000000000000000000000000000000000000;
 
 // --------------------------------------------------------------------------------------------------------------------- parts of triangles
 
@@ -328,7 +324,6 @@ uint256 constant CLIP_HALF = 0x800000000000000000000000;
 uint256 constant EDGES_LEFT_COLUMN_AT = 48;
 uint256 constant EDGES_LEFT_COLUMN_MASK = 0xffff;
 uint256 constant EDGES_RIGHT_COLUMN_AT = 176;
-uint256 constant EDGES_RIGHT_COLUMN_MASK = 0xffff;
 
 // ------------------------------------------------------------------------------------------------------------------------- parts of edges
 
@@ -376,11 +371,6 @@ uint256 constant FACE_BOX_MASK = 0xffffffffffffffff;
 // upper one. Of a vertex only lower bytes. See LightSpace.
 // | 255 BESIDE | 63 HAS_BOX | 48..50 side | 32..47 z | 16..31 y | 0..15 x
 
-uint256 constant BOX_X_MASK = 0xffff;
-uint256 constant BOX_Y_AT = 16;
-uint256 constant BOX_Y_MASK = 0xffff;
-uint256 constant BOX_Z_AT = 32;
-uint256 constant BOX_Z_MASK = 0xffff;
 /// @dev The side of the cube around a point light.
 uint256 constant BOX_SIDE_AT = 48;
 uint256 constant BOX_SIDE_MASK = 7;
@@ -390,13 +380,18 @@ uint256 constant HAS_BOX = 0x8000000000000000;
 /// several sides of the cube; in its first word, too.
 uint256 constant BESIDE = 0x8000000000000000000000000000000000000000000000000000000000000000;
 
+// --------------------------------------------------------------------------------------------------------- parts of ranges of coordinates
+
+/// @dev The positions of y and z.
+uint256 constant BOX_Y_AT = 16;
+uint256 constant BOX_Z_AT = 32;
+
 // ----------------------------------------------------------------------------------------------------------------- position on the canvas
 // Integers with POINT_BITS bits below the pixel, plus POINT_BIAS: see Clipping.
 // | 64..127 row | 0..63 column
 
 uint256 constant POINT_COLUMN_MASK = 0xffffffffffffffff;
 uint256 constant POINT_ROW_AT = 64;
-uint256 constant POINT_ROW_MASK = 0xffffffffffffffff;
 
 // ----------------------------------------------------------------------------------------------------------------------- edge of a shadow
 // A position on the canvas, in eighths of a pixel, is to the right of the edge if its function is at least 0: VALUE + x * DX + y * DY,

@@ -2,7 +2,7 @@ from ._deploy import deployment_gas
 from ._measure import call, call_renderer, gas
 from ._original import DEPLOYMENT_GAS, original, original_gas
 from ._report import can_plot, millions, table
-from ._runner import EXPERIMENTS, Runner, check_names
+from ._runner import EXPERIMENTS, Runner
 
 __all__ = [
     "DEPLOYMENT_GAS",
@@ -11,7 +11,6 @@ __all__ = [
     "call",
     "call_renderer",
     "can_plot",
-    "check_names",
     "deployment_gas",
     "gas",
     "millions",

@@ -1,4 +1,4 @@
-"""A cube on canvases of growing size: the gas for both projections, and the size and gas of BMP, data URI and SVG."""
+"""Gas against the size of the canvas, for both projections."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
 from ..scene import Projection
-from ._measure import call_renderer, cost, picture
-from ._original import DATA_URI_SIZE, SVG_GAS, SVG_URI_SIZE, original_gas
-from ._report import FOURTH, ORIGINAL, OURS, THIRD, Cell, ExperimentReport, millions, powers_of_two, ratio, table
+from ._measure import cost, picture
+from ._original import original_gas
+from ._report import ORIGINAL, OURS, ExperimentReport, millions, ratio, table
 from ._runner import Runner
 from .scenes import cube
 
@@ -48,7 +48,9 @@ def canvas(runner: Runner) -> ExperimentReport:
                 axes.plot(
                     *zip(*points, strict=True), mark + style, color=color, ms=4, lw=1.2, label=f"{name}, {projection}"
                 )
-        powers_of_two(axes, list(sides))
+        axes.set_xscale("log", base=2)
+        axes.set_xticks(sides, [str(side) for side in sides])
+        axes.minorticks_off()
         axes.set(yscale="log", xlabel="side of the canvas, pixels", ylabel="gas")
         axes.legend()
 
@@ -96,69 +98,3 @@ def _gallery(sides: tuple[int, ...]) -> PillowImage.Image:
 
 def _picture(projection: Projection, side: int) -> NDArray[np.uint8]:
     return np.kron(picture(cube(side, projection)), np.ones((SHOWN // side, SHOWN // side, 1), np.uint8))
-
-
-# ---- formats ----
-
-FORMATS = {"BMP": "render", "data URI": "renderDataURI", "SVG": "renderSVG"}
-COLORS = {"BMP": OURS, "data URI": THIRD, "SVG": FOURTH}
-#: The canvas for which the formats of the original are known.
-KNOWN = 128
-
-
-def output(runner: Runner) -> ExperimentReport:
-    """Measure the cube on each canvas in each format."""
-    sides = QUICK_SIDES[:2] if runner.quick else SIDES
-    tasks = [(side, name) for side in sides for name in FORMATS]
-    found = dict(zip(tasks, runner.map("output", measure, tasks), strict=True))
-    rows: list[list[Cell]] = [
-        [side, name, size, gas, gas - found[side, "BMP"][0]] for (side, name), (gas, size) in found.items()
-    ]
-
-    def draw(figure: Figure) -> None:
-        left, right = figure.subplots(1, 2)
-        for name, color in COLORS.items():
-            left.plot(sides, [found[side, name][1] for side in sides], "o-", color=color, ms=4, lw=1.2, label=name)
-            if name != "BMP":
-                more = [(found[side, name][0] - found[side, "BMP"][0]) / side**2 for side in sides]
-                right.plot(sides, more, "o-", color=color, ms=4, lw=1.2, label=name)
-        for axes in (left, right):
-            powers_of_two(axes, list(sides))
-            axes.set(xlabel="side of the canvas, pixels")
-            axes.legend()
-        left.set(yscale="log", ylabel="bytes")
-        right.set(ylabel="gas beyond that of the BMP, per pixel", ylim=(0, None))
-
-    lines = []
-    for side in sides:
-        for name in FORMATS:
-            gas, size = found[side, name]
-            more = gas - found[side, "BMP"][0]
-            lines.append([f"{side} x {side}, {name}", f"{size:,}", millions(gas), millions(more, 3) if more else ""])
-    side = sides[-1] if KNOWN not in sides else KNOWN
-    uri, svg = found[side, "data URI"], found[side, "SVG"]
-    bmp = found[side, "BMP"][0]
-    text = (
-        "The scene is a cube. Each pixel takes 3 bytes, which base64 turns into 4 characters. At"
-        f" {side} x {side}, the data URI costs {millions(uri[0] - bmp, 3)} beyond the BMP and has {uri[1]:,}"
-        f" characters,"
-        f" the SVG {millions(svg[0] - bmp, 3)} and {svg[1]:,}. In the original, at {KNOWN} x {KNOWN}, the data URI has"
-        f" {DATA_URI_SIZE:,}, and the SVG, whose base64 contains base64 again, {SVG_URI_SIZE:,}; the SVG frame"
-        f" alone costs"
-        f" {millions(SVG_GAS[0], 1)} to {millions(SVG_GAS[1], 1)}.\n\n"
-    )
-    return ExperimentReport(
-        "Output",
-        ["side", "format", "bytes", "gas", "gas_beyond_bmp"],
-        rows,
-        text + table(["picture", "bytes", "gas", "beyond the BMP"], lines),
-        draw,
-        (7.2, 3.2),
-    )
-
-
-def measure(task: tuple[int, str]) -> tuple[int, int]:
-    """Return gas and size of a picture."""
-    side, name = task
-    result = call_renderer(cube(side), FORMATS[name])
-    return result.gas, int.from_bytes(result.output[32:64], "big")

@@ -11,7 +11,7 @@ import numpy as np
 from ..datasets import require
 from ._measure import cost
 from ._original import Measured, original
-from ._report import INK, ORIGINAL, OURS, THIRD, ExperimentReport, millions, table
+from ._report import ORIGINAL, OURS, THIRD, ExperimentReport, millions, table
 from ._runner import Runner
 from .fits import Column, fit
 
@@ -82,7 +82,7 @@ def _panel(axes: Axes, pieces: Pieces, name: str, unit: float, color: str) -> No
     found = fit([x], y)
     constant, slope = found.coefficients
     ends = np.array([x.min(), x.max()])
-    axes.plot(ends, slope * ends + constant, "-", color=INK, lw=1.2)
+    axes.plot(ends, slope * ends + constant, "-", color="black", lw=1.2)
     axes.text(0.97, 0.03, f"R2 {found.r2:.3f}", transform=axes.transAxes, ha="right")
     axes.set(xlim=(0, None), ylim=(0, None))
 

@@ -50,10 +50,6 @@ CODE_SIZES = {
 }
 #: Gas of the transactions that deploy all seven.
 DEPLOYMENT_GAS = 20_600_000
-#: Characters of the answer of a call, at 128 x 128 pixels.
-DATA_URI_SIZE, SVG_URI_SIZE = 65630, 87906
-#: Gas of the SVG beyond that of the data URI, from the cheapest to the most expensive picture.
-SVG_GAS = (12_600_000, 25_600_000)
 
 # ---- the paper ----
 # I. Smith, C. Clifton: Shackled: a 3D Rendering Engine Programmed Entirely in Ethereum Smart Contracts

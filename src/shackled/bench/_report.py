@@ -19,12 +19,10 @@ from PIL import Image as PillowImage
 from ..whole_file import make_output_folder, write_output
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 Cell = str | int | float | None
 
-INK = "#1f2328"
 OURS, ORIGINAL, THIRD, FOURTH = "#e8743b", "#1c5aa0", "#5fb98a", "#6d3fb0"
 #: Dots an inch, as journals ask for.
 RESOLUTION = 300
@@ -33,21 +31,14 @@ COLORS = 64
 
 STYLE: dict[Any, Any] = {
     "axes.axisbelow": True,
-    "axes.edgecolor": INK,
     "axes.grid": True,
-    "axes.labelcolor": INK,
     "axes.spines.right": False,
     "axes.spines.top": False,
-    "axes.titlecolor": INK,
     "axes.titlesize": 10,
     "font.size": 9,
     "grid.alpha": 0.25,
-    "grid.color": INK,
+    "grid.color": "black",
     "legend.frameon": False,
-    "legend.labelcolor": INK,
-    "text.color": INK,
-    "xtick.color": INK,
-    "ytick.color": INK,
 }
 
 
@@ -143,13 +134,6 @@ def plot(draw: Callable[[Figure], None], shape: tuple[float, float]) -> bytes:
         few = picture.convert("RGB").quantize(COLORS, PillowImage.Quantize.MEDIANCUT, dither=PillowImage.Dither.NONE)
     few.save(small, "png", optimize=True, dpi=(RESOLUTION, RESOLUTION))
     return small.getvalue()
-
-
-def powers_of_two(axes: Axes, values: list[int]) -> None:
-    """Label the values on a logarithmic axis of sides or counts."""
-    axes.set_xscale("log", base=2)
-    axes.set_xticks(values, [str(value) for value in values])
-    axes.minorticks_off()
 
 
 def can_plot() -> bool:

@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterable
 from importlib import import_module
 from typing import TypeVar
 
-from ..errors import InputError
 from ..workers import each
 from ._report import ExperimentReport
 
@@ -27,17 +26,7 @@ EXPERIMENTS = {
     "culling": "the common objects, with and without backface culling",
     "deploy": "gas and bytes of every contract",
     "linear": "how well straight lines fit gas against triangles and pixels",
-    "output": "size and gas of BMP, data URI and SVG",
 }
-#: The modules of experiments that do not have their names.
-MODULES = {"output": "canvas", "triangles": "linear"}
-
-
-def check_names(names: Iterable[str]) -> None:
-    """Raise InputError unless all names are of EXPERIMENTS."""
-    for name in names:
-        if name not in EXPERIMENTS:
-            raise InputError(f"there is no experiment {name!r}; the experiments are {', '.join(EXPERIMENTS)}")
 
 
 class Runner:
@@ -56,8 +45,8 @@ class Runner:
 
     def run(self, name: str) -> ExperimentReport:
         """Run one of EXPERIMENTS."""
-        module = import_module(f"._{MODULES.get(name, name)}", __package__)
-        report: ExperimentReport = getattr(module, name)(self)
+        module = "linear" if name == "triangles" else name
+        report: ExperimentReport = getattr(import_module(f"._{module}", __package__), name)(self)
         return report
 
     def map(self, label: str, function: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
@@ -67,8 +56,7 @@ class Runner:
         """
         items = list(items)
         results: dict[int, Result] = {}
-        alone = ((place, function(item)) for place, item in enumerate(items))
-        for place, result in alone if self.processes == 1 else each(function, items, self.processes):
+        for place, result in each(function, items, self.processes):
             results[place] = result
             if self._show is not None:
                 self._show(label, len(results), len(items))

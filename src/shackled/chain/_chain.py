@@ -13,23 +13,18 @@ from ..scene import Rectangle, Scene, encode
 
 
 @dataclass(frozen=True)
-class CallResult:
-    """The result of a contract call.
-
-    gas: of the execution alone. intrinsic_gas: cost of the transaction before it, 21,000 and 4 or 16 per byte.
-    """
-
-    output: bytes
-    gas: int
-    intrinsic_gas: int
-
-
-@dataclass(frozen=True)
 class NodeResult:
-    """The result of a contract call on a node. gas: of the execution alone; None if it could not be measured."""
+    """The result of a contract call. gas: of the execution alone; None if it could not be measured."""
 
     output: bytes
     gas: int | None
+
+
+@dataclass(frozen=True)
+class CallResult(NodeResult):
+    """The result of a contract call on a chain that counts gas."""
+
+    gas: int
 
 
 @dataclass(frozen=True)
@@ -59,7 +54,7 @@ class ContractCaller(ABC):
     """A chain that calls the contracts; subclasses implement the call."""
 
     @abstractmethod
-    def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult | NodeResult:
+    def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> NodeResult:
         """Call a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
 
         Raises RenderError if the contract reverts, OutOfGasError if the gas does not suffice.
@@ -74,7 +69,7 @@ class ContractCaller(ABC):
         """Render a scene, or a tile of its canvas."""
         data = encode(artifact("Renderer").selectors["render" if tile is None else "renderTile"], scene, tile)
         result = self.call("Renderer", data)
-        return Drawing(returned_bytes(result.output, 0), result.gas, intrinsic_gas(data))
+        return Drawing(returned_bytes(result.output), result.gas, intrinsic_gas(data))
 
     def count(self, scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
         """Count the triangles left after culling and clipping, and the pixels of the canvas or tile that they cover."""
@@ -96,9 +91,9 @@ class ContractChain(ContractCaller):
         """Call a contract, as `ContractCaller.call`."""
 
 
-def returned_bytes(output: bytes, field: int) -> bytes:
-    """Return the ABI field `field`, of type bytes; unlike `Interface.decode`, it copies the bytes once only."""
-    start = int.from_bytes(output[32 * field : 32 * field + 32], "big")
+def returned_bytes(output: bytes) -> bytes:
+    """Return the first ABI field, of type bytes; unlike `Interface.decode`, it copies the bytes once only."""
+    start = int.from_bytes(output[:32], "big")
     length = int.from_bytes(output[start : start + 32], "big") if start + 32 <= len(output) else len(output)
     if start + 32 + length > len(output):
         raise RenderError(f"the contract returned {len(output)} bytes that do not hold a picture")

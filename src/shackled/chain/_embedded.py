@@ -31,9 +31,6 @@ CHAIN_ID = 1
 
 SENDER = bytes.fromhex("5ac61ed000000000000000000000000000000001")
 
-#: Zeros that pyrevm appends to the code of a contract that it creates.
-PADDING = 33
-
 
 class EmbeddedChain(ContractChain):
     """A chain in this process. Contracts are created at their first call, after those that their constructors need."""
@@ -121,7 +118,7 @@ class RevmChain(EmbeddedChain):
             answer = evm.call(address, data, gas_limit)
         if answer.status != Status.SUCCESS:
             raise _failed(answer, gas_limit)
-        return CallResult(answer.output, answer.gas, intrinsic_gas(data))
+        return CallResult(answer.output, answer.gas)
 
     def profile(
         self, contract: str, data: bytes, places: Callable[[str], bytes]
@@ -139,7 +136,7 @@ class RevmChain(EmbeddedChain):
         answer, table = evm.profile(address, data, self.gas_limit)
         if answer.status != Status.SUCCESS:
             raise _failed(answer, self.gas_limit)
-        return CallResult(answer.output, answer.gas, intrinsic_gas(data)), list(self._addresses), table
+        return CallResult(answer.output, answer.gas), list(self._addresses), table
 
     @contextmanager
     def _instance(self) -> Iterator[Instance]:
@@ -167,36 +164,24 @@ def _failed(answer: Answer, gas_limit: int) -> ChainError:
     return RenderError(f"the call failed: {answer.output.decode()}")
 
 
-class PyrevmChain(EmbeddedChain):
-    """The EVM of the package pyrevm, an optional accelerator."""
+class PyrevmChain(RevmChain):
+    """The EVM of the package pyrevm, with the contracts that `RevmChain` creates."""
 
     name = "embedded EVM (pyrevm)"
 
-    def _evm(self) -> Any:
+    def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
         import pyrevm
 
         # a new one for each call: it keeps addresses warm between calls, and fails all calls after one that failed
-        evm = pyrevm.EVM(spec_id="Cancun")
-        for address, code in self._codes.items():
-            evm.insert_account_info(to_hex(address), pyrevm.AccountInfo(code=code))
-        return evm
-
-    def create(self, name: str, creation: bytes) -> bytes:
-        """Run creation code, with its arguments, and return the runtime code."""
-        evm = self._evm()
-        try:
-            address = evm.deploy(to_hex(SENDER), creation, None, DEFAULT_GAS_LIMIT)
-        except RuntimeError as error:
-            raise ChainError(f"the contract {name} could not be deployed: {error}") from None
-        return bytes(evm.get_code(address))[:-PADDING]
-
-    def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
-        evm, intrinsic = self._evm(), intrinsic_gas(data)
+        evm: Any = pyrevm.EVM(spec_id="Cancun")
+        for each, code in self._codes.items():
+            evm.insert_account_info(to_hex(each), pyrevm.AccountInfo(code=code))
+        intrinsic = intrinsic_gas(data)
         try:
             output = bytes(evm.message_call(to_hex(SENDER), to_hex(address), data, None, gas_limit + intrinsic))
         except RuntimeError as error:
             raise pyrevm_error(str(error), gas_limit) from None
-        return CallResult(output, evm.result.gas_used - intrinsic, intrinsic)
+        return CallResult(output, evm.result.gas_used - intrinsic)
 
 
 def pyrevm_error(message: str, gas_limit: int) -> ChainError:
@@ -235,7 +220,7 @@ class PyEvmChain(EmbeddedChain):
             if isinstance(computation.error, OutOfGas):
                 raise out_of_gas(gas_limit)
             raise RenderError(f"the call failed: {computation.error!r}")
-        return CallResult(bytes(computation.output), computation.get_gas_used(), intrinsic_gas(data))
+        return CallResult(bytes(computation.output), computation.get_gas_used())
 
     def execute(self, address: bytes, data: bytes, gas_limit: int) -> Any:
         """Call the code at an address, and return the computation of py-evm."""

@@ -24,7 +24,7 @@ def engines(scene: bytes, chain: ContractChain) -> tuple[str, ...]:
     """
     call = artifact("Renderer").selectors["engineCall"] + word(0xA0) + bytes(64) + scene[:64] + scene
     try:
-        uniforms = returned_bytes(chain.call("Renderer", call).output, 0)
+        uniforms = returned_bytes(chain.call("Renderer", call).output)
     except ChainError:
         return PLAIN
     if _register(uniforms, layout.EFFECTS_OFFSET):

@@ -9,7 +9,7 @@ from ..checks import choice
 from ..errors import InputError
 from ..ethereum import parse_address
 from ._connection import PATIENCE, Connection
-from ._embedded import EmbeddedChain, PyEvmChain, PyrevmChain, RevmChain
+from ._embedded import DEFAULT_GAS_LIMIT, EmbeddedChain, PyEvmChain, PyrevmChain, RevmChain
 from ._node import NodeChain
 
 #: Names of chains, and the module that each needs.
@@ -32,11 +32,18 @@ def check_chain(name: str, parameter: str) -> str:
     return choice(name, parameter, CHAINS)
 
 
-@cache
-def open_chain(name: str | None = None) -> EmbeddedChain:
-    """Return the chain of a name; None selects the embedded EVM. Raises InputError if it is unknown."""
+def open_chain(name: str | None = None, gas_limit: int | None = None) -> EmbeddedChain:
+    """Return the chain of a name; None selects the embedded EVM. Raises InputError if it is unknown.
+
+    gas_limit: of each call; None keeps the limit of the chain.
+    """
     name = "revm" if name is None else check_chain(name, "the chain")
     if not find_spec(CHAINS[name]):
         package = {"pyevm": "py-evm", "pyrevm": "pyrevm, which has wheels for Python 3.11 and 3.12"}.get(name, name)
         raise InputError(f"the chain {name!r} needs a package that is not installed: {package}")
-    return _KINDS[name]()
+    return _opened(name, DEFAULT_GAS_LIMIT if gas_limit is None else gas_limit)
+
+
+@cache
+def _opened(name: str, gas_limit: int) -> EmbeddedChain:
+    return _KINDS[name](gas_limit)

@@ -69,10 +69,6 @@ class Root(CommandGroup):
 
     strict = frozenset({"render", "export", "info", "gas", "stages", "store", "preview"})
 
-    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Read the arguments; none is a request for help."""
-        return super().parse_args(ctx, args or ["--help"])
-
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
@@ -105,13 +101,9 @@ click.version_option(
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run the command and return its exit code. Errors and warnings are printed on stderr, one line each."""
-    with noting("always"):
-        return _run(arguments)
-
-
-def _run(arguments: Sequence[str] | None) -> int:
     try:
-        code = app.main(arguments, "shackled", standalone_mode=False)
+        with noting("always"):
+            code = app.main(arguments, "shackled", standalone_mode=False)
         # at the end of the interpreter, a failure to write could not be reported
         sys.stdout.flush()
         return int(code or 0)
@@ -126,10 +118,6 @@ def _run(arguments: Sequence[str] | None) -> int:
         return _fail(error, 1)
     except (KeyboardInterrupt, click.Abort):
         return _fail("stopped", 1)
-    except click.exceptions.NoArgsIsHelpError as error:
-        # of a group
-        error.show()
-        return error.exit_code
     except click.ClickException as error:
         return _fail(_meant(error) or error.format_message(), error.exit_code)
     except OSError as error:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from ..checks import choice
 from ..errors import InputError
 from ..whole_file import check_output_folder
 from .option import argument, option
@@ -18,14 +19,13 @@ def bench(
     processes: int | None = option("--processes", "Number of processes; one per core by default.", "N", min=1),
 ) -> None:
     """Run the experiments of the Shackled paper: gas against canvas, triangles, culling and more."""
-    from ..bench import EXPERIMENTS, Runner, can_plot, check_names
+    from ..bench import EXPERIMENTS, Runner, can_plot
 
     if not names and output is None:
         print("\n".join(f"{name:10} {text}" for name, text in EXPERIMENTS.items()))
         print("\nshackled bench NAME ... -o DIR runs them, shackled bench -o DIR runs all.")
         return
-    chosen = list(dict.fromkeys(names or EXPERIMENTS))
-    check_names(chosen)
+    chosen = [choice(name, "an experiment", EXPERIMENTS) for name in dict.fromkeys(names or EXPERIMENTS)]
     if output is None:
         raise InputError("the experiments need an output folder: -o DIR")
     folder = check_output_folder(Path(output))

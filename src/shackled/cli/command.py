@@ -77,6 +77,10 @@ class CommandGroup(click.Group):
         super().__init__(name, help=text, context_settings=CONTEXT, **more)
         self.places = places
 
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read the arguments; none is a request for help."""
+        return super().parse_args(ctx, args or ["--help"])
+
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of the commands."""
         return list(self.places)

@@ -20,7 +20,7 @@ from .progress import LateBar
 #: The most pieces of a dataset in a gallery without --all; only Genesis has more.
 SHOWN = 48
 
-DATASET = argument(f"{', '.join(DATASETS)}; all by default.", "DATASET", parse=partial(choice, choices=tuple(DATASETS)))
+DATASET = argument(f"{', '.join(DATASETS)}; all by default.", "DATASET", parse=partial(choice, choices=DATASETS))
 
 
 def list_(
@@ -85,7 +85,8 @@ def fetch(
     for each in [model(name) for name in names]:
         piece = each.piece()
         print(piece.notice, file=sys.stderr)
-        fetch(each, source)
+        with LateBar(f"fetching {each.name}"):
+            fetch(each, source)
         name, triangles, gas, *_ = _line(piece, cost(piece))
         print(f"{name}: {triangles} triangles, {gas} gas; shackled render {name}")
 

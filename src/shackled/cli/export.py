@@ -20,10 +20,6 @@ from .look_options import INPUT, load_with
 from .option import option
 from .progress import LateBar
 
-#: Bytes of a page, and gas of its picture, above which a note is printed.
-LARGE = 1_500_000
-SLOW = 2_000_000_000
-
 
 def export(
     input: str = INPUT,
@@ -47,38 +43,32 @@ def export(
     path = check_output_file(path, "model") if is_model else check_page(path)
     if is_model and title is not None:
         raise InputError("--title is for pages: a model has no title")
-    if isinstance(source, Piece) and source.notice:
-        print(source.notice, file=sys.stderr)
     started = time.perf_counter()
-    report: dict[str, Any] = {"input": input}
-    with LateBar("writing" if is_model else "rendering"):
-        if is_model:
+    if is_model:
+        with LateBar("writing"):
             scene = load_with(input, look, is_picture=False)
             made = make_glb(scene)
             made.save(path)
-            report["gas"] = made.gas
-        else:
-            image = write_page(source, path, title=title, **look)
-            report |= {"width": image.width, "height": image.height, "triangles": image.triangles, "gas": image.gas}
-    report |= {"seconds": round(time.perf_counter() - started, 6), "output": str(path), "bytes": path.stat().st_size}
-    gas, size = f"{report['gas']:,}", report["bytes"]
-    if is_model:
         if missing := _left_out(scene):
             print(f"the model leaves out {missing}", file=sys.stderr)
-        rows = {"model": f"{path}, {size:,} bytes", "gas": gas}
+        facts, more, rows = {"gas": made.gas}, {}, {"gas": f"{made.gas:,}"}
     else:
-        report["sha256"] = image.sha256
+        if isinstance(source, Piece) and source.notice:
+            print(source.notice, file=sys.stderr)
+        with LateBar("rendering"):
+            image = write_page(source, path, title=title, **look)
         if not image.covered_pixels:
             print("nothing is visible; the picture shows only the background", file=sys.stderr)
-        if size > LARGE:
-            print(f"the page is large, {size / 1e6:.1f} MB: --max-triangles makes it smaller", file=sys.stderr)
-        if (image.gas or 0) > SLOW:
-            seconds = report["gas"] / 1e8
-            print(f"the picture takes {gas} gas: a browser takes about {seconds:.0f} s; see --size", file=sys.stderr)
-        picture = f"{image.width} x {image.height} pixels, {gas} gas"
-        rows = {"page": f"{path}, {size / 1e6:.2f} MB", "picture": picture, "sha256": image.sha256}
-    rows["time"] = f"{report['seconds']:.3f} s"
-    print(json.dumps(report) if as_json else "\n".join(f"{name:8} {value}" for name, value in rows.items()))
+        facts = {"width": image.width, "height": image.height, "triangles": image.triangles, "gas": image.gas}
+        more = {"sha256": image.sha256}
+        rows = {"picture": f"{image.width} x {image.height} pixels, {image.gas:,} gas", **more}
+    seconds, size = time.perf_counter() - started, path.stat().st_size
+    if as_json:
+        where = {"seconds": round(seconds, 6), "output": str(path), "bytes": size}
+        print(json.dumps({"input": input, **facts, **where, **more}))
+        return
+    rows = {"model" if is_model else "page": f"{path}, {size:,} bytes", **rows, "time": f"{seconds:.3f} s"}
+    print("\n".join(f"{name:8} {value}" for name, value in rows.items()))
 
 
 def _left_out(scene: Scene) -> str:

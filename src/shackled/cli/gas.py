@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
+from functools import partial
 from itertools import count
 from pathlib import Path
 from typing import Any
 
 from ..chain import CHAINS, PATIENCE, NodeChain, open_chain, open_node
+from ..checks import number
 from ..errors import InputError
 from ..gas import (
     KINDS,
@@ -31,6 +32,8 @@ from .progress import LateBar
 #: Characters of the bar of a stage; functions and lines shown.
 BAR = 24
 ROWS = 20
+#: The value of an option that is a price.
+parse_price = partial(number, low=0)
 
 
 def gas(
@@ -52,15 +55,14 @@ def gas(
         "--opcodes", "Also show gas by kind of opcode (stack, jumps, memory), by stage, and with --profile by function."
     ),
     stages: bool = option("--stages/--no-stages", "Show gas by stage.", default=True),
-    gas_price: float = option("--gas-price", "Gas price in gwei.", "GWEI", default=1.0),
-    eth_price: float | None = option("--eth-price", "Price of one ether in US dollars.", "USD"),
+    gas_price: float = option("--gas-price", "Gas price in gwei.", "GWEI", type=float, parse=parse_price, default=1.0),
+    eth_price: float | None = option(
+        "--eth-price", "Price of one ether in US dollars.", "USD", type=float, parse=parse_price
+    ),
     **look: Any,
 ) -> None:
     """Measure the gas of a picture: exactly, by binary search, by stage and by line, and compare it with limits."""
     path = None if profile is None else _check_profile(profile)
-    _check_price(gas_price, "--gas-price", "gwei per gas")
-    if eth_price is not None:
-        _check_price(eth_price, "--eth-price", "US dollars per ether")
     exclude("--no-stages", not stages, {"--profile": path, "--opcodes": opcodes})
     place = open_chain(evm)
     node = _open_node(rpc, address, rpc_timeout)
@@ -102,11 +104,6 @@ def _check_profile(name: str) -> Path:
     if path.suffix.lower() != ".svg":
         raise InputError(f"--profile writes an .svg file, not {name!r}")
     return check_output_file(path, "profile")
-
-
-def _check_price(value: float, name: str, unit: str) -> None:
-    if not (math.isfinite(value) and value >= 0):
-        raise InputError(f"{name} must be 0 or more {unit}, not {value}")
 
 
 def show_steps(quiet: bool, bar: LateBar) -> Callable[[SearchStep], None]:

@@ -101,36 +101,24 @@ def parse_light(text: str) -> Light:
     return Light(kind, vector, color, parse_vector(rest[1], "--light"), inner, outer)
 
 
-#: The metavar of a setting, and the type of its value.
-_KINDS: dict[Kind, tuple[str | None, Any]] = {
-    "size": ("SIZE", str),
-    "whole": ("N", int),
-    "count": (f"N|{ALL}", str),
-    "number": ("NUMBER", float),
-    "vector": ("X,Y,Z", str),
-    "rotation": ("X,Y,Z", str),
-    "flag": (None, bool | None),
-    "color": ("COLOR", str),
-    "background": ("COLOR[,COLOR]", str),
-    "choice": ("KIND", str),
-    "hemisphere": ("SKY[,GROUND]", str),
-    "rim": ("COLOR[,EXPONENT]", str),
-    "ground": ("COLOR", str),
-    "fog": ("COLOR[,NEAR,FAR]", str),
-    "lights": ("KIND:X,Y,Z[:COLOR]", tuple[str, ...]),
-    "entry": ("NAME|N", str),
-}
-#: The converters of values that are written differently than in Python.
-_PARSERS: dict[Kind, Callable[[Any, str], Any]] = {
-    "size": parse_size,
-    "count": lambda text, _: int(text) if text.isdecimal() else text,
-    "vector": parse_vector,
-    "rotation": parse_vector,
-    "background": parse_colors,
-    "hemisphere": parse_colors,
-    "rim": partial(parse_color_and, ("exponent",)),
-    "fog": partial(parse_color_and, ("near", "far")),
-    "lights": lambda texts, _: [parse_light(text) for text in texts],
+#: The metavar of a setting, the type of its value, and the converter of one that is written differently than in Python.
+_KINDS: dict[Kind, tuple[str | None, Any, Callable[[Any, str], Any] | None]] = {
+    "size": ("SIZE", str, parse_size),
+    "whole": ("N", int, None),
+    "count": (f"N|{ALL}", str, lambda text, _: int(text) if text.isdecimal() else text),
+    "number": ("NUMBER", float, None),
+    "vector": ("X,Y,Z", str, parse_vector),
+    "rotation": ("X,Y,Z", str, parse_vector),
+    "flag": (None, bool | None, None),
+    "color": ("COLOR", str, None),
+    "background": ("COLOR[,COLOR]", str, parse_colors),
+    "choice": ("KIND", str, None),
+    "hemisphere": ("SKY[,GROUND]", str, parse_colors),
+    "rim": ("COLOR[,EXPONENT]", str, partial(parse_color_and, ("exponent",))),
+    "ground": ("COLOR", str, None),
+    "fog": ("COLOR[,NEAR,FAR]", str, partial(parse_color_and, ("near", "far"))),
+    "lights": ("KIND:X,Y,Z[:COLOR]", tuple[str, ...], lambda texts, _: [parse_light(text) for text in texts]),
+    "entry": ("NAME|N", str, None),
 }
 
 #: Additions to the help, where values are written differently than in Python.
@@ -204,10 +192,10 @@ def load_with(input: str, look: dict[str, Any], fit: str | None = None, is_pictu
 
 
 def _option(setting: Setting) -> click.Parameter:
-    metavar, kind = _KINDS[setting.kind]
+    metavar, kind, parse = _KINDS[setting.kind]
     if setting.kind == "number" and setting.unit:
         metavar = setting.unit.upper()
     panel = None if setting.name in COMMON else setting.group
     text = f"{setting.help}{_MORE.get(setting.name, '')}"
-    declared = option(setting.option, text, metavar, panel, required=False, parse=_PARSERS.get(setting.kind))
+    declared = option(setting.option, text, metavar, panel, required=False, parse=parse)
     return parameter(setting.name, kind, declared)

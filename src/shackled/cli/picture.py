@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import sys
 import time
-from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,7 +20,7 @@ from ..animation import DURATION, Animation, check_duration
 from ..chain import open_chain
 from ..errors import ChainError
 from ..gas import Fit, fits_of, headline, render_call, suffices
-from ..image import MOST_COLORS, Image, Pixels, colors, total
+from ..image import MOST_COLORS, Image, colors, total
 from ..parallel import Listener, folder_of, remove_parts
 from ..scene import PICTURE, Scene, scene_chunk
 from ..values import plural
@@ -110,7 +109,7 @@ class Done:
     def words(self) -> str:
         """The report in several lines."""
         report, scene, fits = self.report, self.scene, self.fits
-        frames, calls = report.get("frames", 1), report.get("calls", 1)
+        frames, calls = report["frames"], report["calls"]
         several = f"{frames} frames of " if frames > 1 else ""
         output = OUTPUT if report["output"] == STREAM else report["output"]
         rows = {"picture": f"{output}, {several}{report['width']} x {report['height']} pixels"}
@@ -137,7 +136,7 @@ class Done:
         gas = "" if report["gas"] is None else f", {report['gas']:,} gas"
         fits = "" if self.fits is None else f"; {headline(self.fits)}"
         size = f"{report['width']} x {report['height']} pixels"
-        frames = f", {report['frames']} frames" if report.get("frames", 1) > 1 else ""
+        frames = f", {report['frames']} frames" if report["frames"] > 1 else ""
         return f"{report['input']} -> {report['output']}: {size}{frames}{gas}{fits}"
 
 
@@ -188,30 +187,49 @@ def render_to(source: Source, path: Path | None, task: Task, listener: Listener)
     chunk = frames[0].scene_chunk if extension in (PICTURE, "") and task.scene is not False else None
     written = len(chunk.data) if chunk is not None and (task.scene or chunk.is_small) else None
     with LateBar("counting"):
-        counts, shows_something = _counted(made)
+        triangles, lit_pixels, shows_something = _counted(made)
         fits = fits_of_made(made, loaded)
-    several = in_parts or task.transparent or film.is_film
-    seconds = time.perf_counter() - started
-    report = _report(made, source.name, path, seconds, counts, written, fits, several)
+    digest = hashlib.sha256()
+    for frame in frames:
+        digest.update(frame.channels.tobytes())
+    report = {
+        "input": source.name,
+        "width": loaded.width,
+        "height": loaded.height,
+        "triangles": triangles,
+        "lit_pixels": lit_pixels,
+        "gas": made.gas,
+        "intrinsic_gas": made.intrinsic_gas,
+        "seconds": round(time.perf_counter() - started, 6),
+        "chain": frames[0].made_by,
+        "output": STREAM if path is None else str(path),
+        "sha256": digest.hexdigest(),
+        "scene_bytes": written,
+        "fits": None if fits is None else [fit.to_json() for fit in fits],
+        "frames": len(frames),
+        "calls": made.calls,
+    }
     if not shows_something:
         print("nothing is visible; the picture shows only the background", file=sys.stderr)
-    if extension == ".gif":
-        _warn_of_palette([frame.pixels for frame in frames])
+    if extension == ".gif" and (found := colors([frame.pixels for frame in frames])) > MOST_COLORS:
+        whose = "picture" if len(frames) == 1 else "frames"
+        text = f"a GIF has at most {MOST_COLORS} colours; the {found:,} of the {whose} were mapped to the nearest"
+        print(text, file=sys.stderr)
     return Done(report, None if chunk is None else len(chunk.data), fits)
 
 
-def _counted(made: Image | Animation) -> tuple[tuple[int | None, int | None], bool]:
+def _counted(made: Image | Animation) -> tuple[int | None, int | None, bool]:
     """Return the triangles and covered pixels of a picture, None where they are not known, and whether anything shows.
 
     The picture is already written: what fails here is only told.
     """
     try:
         if isinstance(made, Image):
-            return (made.triangles, made.covered_pixels), made.covered_pixels != 0
-        return (None, None), any(frame.covered_pixels != 0 for frame in made.frames)
+            return made.triangles, made.covered_pixels, made.covered_pixels != 0
+        return None, None, any(frame.covered_pixels != 0 for frame in made.frames)
     except ChainError as error:
         print(f"shackled: triangles and lit pixels were not counted: {error}", file=sys.stderr)
-        return (None, None), True
+        return None, None, True
 
 
 def fits_of_made(made: Image | Animation, scene: Scene) -> tuple[Fit, ...] | None:
@@ -220,50 +238,9 @@ def fits_of_made(made: Image | Animation, scene: Scene) -> tuple[Fit, ...] | Non
         gas = made.call_gas
     else:
         gas = total((frame.call_gas for frame in made.frames), max) if made.file is None else made.gas
-    if gas is None or made.intrinsic_gas is None:
+    if gas is None:
         return None
     data = render_call(scene)
     # gas is the same everywhere
     enough = suffices(open_chain(), "Renderer", data) if made.calls == 1 and isinstance(made, Image) else None
-    return fits_of(gas, -(-made.intrinsic_gas // made.calls), data, enough)
-
-
-def _report(
-    made: Image | Animation,
-    input: str,
-    path: Path | None,
-    seconds: float,
-    counts: tuple[int | None, int | None],
-    scene_bytes: int | None,
-    fits: tuple[Fit, ...] | None,
-    several: bool,
-) -> dict[str, Any]:
-    """Return the object of --json; with the number of frames and calls for pictures in parts and animations."""
-    frames = [made] if isinstance(made, Image) else made.frames
-    digest = hashlib.sha256()
-    for frame in frames:
-        digest.update(frame.channels.tobytes())
-    report = {
-        "input": input,
-        "width": frames[0].width,
-        "height": frames[0].height,
-        "triangles": counts[0],
-        "lit_pixels": counts[1],
-        "gas": made.gas,
-        "intrinsic_gas": made.intrinsic_gas,
-        "seconds": round(seconds, 6),
-        "chain": frames[0].made_by,
-        "output": STREAM if path is None else str(path),
-        "sha256": digest.hexdigest(),
-        "scene_bytes": scene_bytes,
-        "fits": None if fits is None else [fit.to_json() for fit in fits],
-    }
-    return report | {"frames": len(frames), "calls": made.calls} if several else report
-
-
-def _warn_of_palette(frames: Sequence[Pixels]) -> None:
-    found = colors(frames)
-    if found > MOST_COLORS:
-        whose = "picture" if len(frames) == 1 else "frames"
-        text = f"a GIF has at most {MOST_COLORS} colours; the {found:,} of the {whose} were mapped to the nearest"
-        print(text, file=sys.stderr)
+    return fits_of(gas, data, enough)

@@ -101,30 +101,28 @@ class Notes(Listener):
         print(f"shackled: {with_options(text)}", file=sys.stderr, flush=True)
 
 
-class JobProgress(Listener):
-    """A listener that prints the estimated cost of a job of several parts, and shows a bar while it runs."""
+class JobProgress(LateBar, Listener):
+    """A bar that shows the progress of a job; it also prints the estimated cost of a job of several parts."""
 
     def __init__(self) -> None:
         """Start the timer of the bar."""
-        self._bar = LateBar("rendering")
-        self._done, self._total = 0, 0
+        super().__init__("rendering")
 
     def planned(self, outline: Outline) -> None:
         """Print the number of calls and their estimated gas."""
         self._total = outline.pixels
         if outline.parts > 1:
             frames = f"{outline.frames} frames, " if outline.frames > 1 else ""
-            self._bar.print(f"{frames}{outline.parts} calls, about {int(float(f'{outline.gas:.2g}')):,} gas")
+            self.print(f"{frames}{outline.parts} calls, about {int(float(f'{outline.gas:.2g}')):,} gas")
 
     def advanced(self, pixels: int) -> None:
         """Count finished pixels."""
-        self._done += pixels
-        self._bar.set(self._done, self._total)
+        self.set(self._done + pixels, self._total)
 
     def warned(self, text: str) -> None:
         """Print a warning above the bar."""
-        self._bar.print(f"shackled: {with_options(text)}")
+        self.print(f"shackled: {with_options(text)}")
 
     def ended(self) -> None:
         """Remove the bar."""
-        self._bar.end()
+        self.end()

@@ -6,7 +6,7 @@ import io
 import json
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import ExitStack, redirect_stderr
 from dataclasses import replace
 from pathlib import Path
@@ -131,8 +131,9 @@ def render_all(sources: Sequence[Source], paths: Sequence[Path | None], task: Ta
         jobs, task = task.on.count, replace(task, on=task.on.evm)
     failed: list[ShackledError] = []
     work = [(source, path, task, action()) for source, path in zip(sources, paths, strict=True)]
+    found = each(_render, work, jobs, lambda error: (error, ""))
     with LateBar("rendering") as bar:
-        for number, (place, (result, said)) in enumerate(_outcomes(work, jobs), 1):
+        for number, (place, (result, said)) in enumerate(found, 1):
             name = sources[place].name
             for line in said.splitlines():
                 bar.print(line)
@@ -149,14 +150,6 @@ def render_all(sources: Sequence[Source], paths: Sequence[Path | None], task: Ta
     if failed:
         raise ExceptionGroup(summary, failed)
     print(summary, file=sys.stderr)
-
-
-def _outcomes(work: Sequence[Work], jobs: int) -> Iterator[tuple[int, Outcome]]:
-    if jobs > 1:
-        yield from each(_render, work, jobs, lambda error: (error, ""))
-    else:
-        for place, item in enumerate(work):
-            yield place, _render(item)
 
 
 def _render(work: Work) -> Outcome:

@@ -23,7 +23,7 @@ from .chain_options import (
     write_calls,
 )
 from .look_options import parse_size
-from .option import argument, option
+from .option import argument, exclude, option
 from .output import print_json, print_line, print_note, print_table
 from .progress import LateBar
 
@@ -57,10 +57,7 @@ def store(
     from ..deploy import current_fees
     from ..tokens import SceneToStore, licence_of, plan_storage, read_back, token_scene
 
-    if calldata is not None and output is not None:
-        raise InputError(
-            "--calldata sends nothing, so no chain can draw the picture that --output writes: leave one out"
-        )
+    exclude("--calldata", calldata, {"--output": output})
     path = None if output is None else check_output(output)
     source = locate(input)
     terms = licence_of(source, licence)

@@ -125,10 +125,7 @@ def draw_all(pieces: Iterable[Piece], size: int = SIZE, processes: int | None = 
     """
     names = [piece.name for piece in pieces if piece.ready()]
     processes = min(len(names), processes or os.cpu_count() or 1)
-    if processes <= 1:
-        yield from (_draw_named(size, name) for name in names)
-    else:
-        yield from (drawing for _, drawing in each(partial(_draw_named, size), names, processes))
+    yield from (drawing for _, drawing in each(partial(_draw_named, size), names, processes))
 
 
 def _draw_named(size: int, name: str) -> Thumbnail:

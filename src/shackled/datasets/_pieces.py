@@ -11,8 +11,8 @@ from typing import Any
 from ..errors import InputError
 from ..scene import Scene
 
-#: The datasets, and the prefixes of the names of their pieces.
-DATASETS = {"common": "", "icons": "icons/", "genesis": "genesis/"}
+#: The datasets; the names of pieces begin with them and a slash, except those of the common ones.
+DATASETS = ("common", "icons", "genesis")
 #: How alike a name must be, from 0 to 1, to be what was meant.
 CLOSE = 0.7
 
@@ -83,6 +83,8 @@ def require(name: str) -> Piece:
     if name.startswith("genesis/"):
         known = "0 to 1023, or the 64 hexadecimal digits of a seed"
         raise InputError(f"there is no piece {name!r}; after genesis/ comes a number from {known}")
+    if name.startswith("showcase/"):
+        raise InputError(f"there is no piece {name!r}: it is a scene of examples/showcase.py")
     # without prefixes, which are alike; a name without one may be of any dataset
     chosen = ["icons"] if name.startswith("icons/") else ["common", "icons"]
     names = {each.name.rpartition("/")[2]: each.name for dataset in chosen for each in pieces(dataset)}

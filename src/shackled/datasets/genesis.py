@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from ..artifacts import artifact
-from ..chain import CallResult, Chain, ContractChain, Drawing, open_chain
+from ..chain import CallResult, Drawing, open_chain
 from ..errors import InputError, RenderError
-from ..ethereum import keccak256
+from ..ethereum import intrinsic_gas, keccak256
 from ..image import Image
 from ..scene import Background, Light, Material, Mesh, Object, Scene
 from ._pieces import Piece
@@ -69,14 +69,11 @@ class GenesisPiece:
         )
 
 
-def call(function: str, seed: bytes, chain: Chain | None = None) -> CallResult:
+def call(function: str, seed: bytes) -> CallResult:
     """Call a function of the contract that takes a seed. RenderError where the seed has no piece."""
-    place = open_chain() if chain is None else chain
-    if not isinstance(place, ContractChain):
-        raise InputError(f"{place.name} runs no contracts")
     if len(seed) != 32:
         raise InputError(f"a seed has 32 bytes, not {len(seed)}")
-    return place.call(CONTRACT, artifact(CONTRACT).interface.encode(function, seed))
+    return open_chain().call(CONTRACT, artifact(CONTRACT).interface.encode(function, seed))
 
 
 def generate(seed: bytes) -> GenesisPiece:
@@ -84,23 +81,21 @@ def generate(seed: bytes) -> GenesisPiece:
     return generate_on_chain(seed)[0]
 
 
-def generate_on_chain(seed: bytes, chain: Chain | None = None) -> tuple[GenesisPiece, int]:
+def generate_on_chain(seed: bytes) -> tuple[GenesisPiece, int]:
     """Return the piece of a seed, and the gas that making it took."""
-    result = call("generate", seed, chain)
+    result = call("generate", seed)
     return decode_piece(seed, result.output), result.gas
 
 
-def picture_on_chain(piece: GenesisPiece, chain: Chain | None = None) -> Image:
+def picture_on_chain(piece: GenesisPiece) -> Image:
     """Return the picture of a piece, 128 x 128 pixels, made by one call from its seed alone."""
     from .._render import render_whole
 
-    place = open_chain() if chain is None else chain
-
     def draw(_: Scene) -> Drawing:
-        result = call("render", piece.seed, place)
-        return Drawing(_decoded("render", result.output), result.gas, result.intrinsic_gas)
+        result, data = call("render", piece.seed), artifact(CONTRACT).interface.encode("render", piece.seed)
+        return Drawing(_decoded("render", result.output), result.gas, intrinsic_gas(data))
 
-    return render_whole(piece.scene(), draw, place.name)
+    return render_whole(piece.scene(), draw, open_chain().name)
 
 
 def decode_piece(seed: bytes, output: bytes) -> GenesisPiece:

@@ -11,6 +11,7 @@ from typing import Any
 
 from .._load import Thing, load_picture
 from ..chain import ContractChain, open_chain
+from ..ethereum import intrinsic_gas
 from ..scene import render_call as render_call
 from ..values import listed
 
@@ -47,8 +48,8 @@ class ExactGas:
 def measure(thing: Thing, chain: ContractChain | None = None) -> ExactGas:
     """Measure the gas of a render. thing: as in `load`. chain: None for revm."""
     data = render_call(load_picture(thing))
-    result = (chain or open_chain()).call("Renderer", data)
-    return ExactGas(result.gas, result.intrinsic_gas, floor_gas(data))
+    gas = (chain or open_chain()).call("Renderer", data).gas
+    return ExactGas(gas, intrinsic_gas(data), floor_gas(data))
 
 
 def floor_gas(data: bytes) -> int:
@@ -110,21 +111,19 @@ class Fit:
         }
 
 
-def fits_of(
-    gas: int, intrinsic_gas: int, calldata: bytes, suffices: Callable[[int], bool] | None = None
-) -> tuple[Fit, ...]:
+def fits_of(gas: int, calldata: bytes, suffices: Callable[[int], bool] | None = None) -> tuple[Fit, ...]:
     """Return how a picture fits into each known limit, the smallest first.
 
     gas: of the execution. suffices: whether the call succeeds with a given gas for the execution. It is called only
     where the bounds do not decide, since a call must be given a little more gas than it uses; without it such a limit
     counts as too small.
     """
-    floor, size, found = floor_gas(calldata), len(calldata), []
+    intrinsic, floor, size, found = intrinsic_gas(calldata), floor_gas(calldata), len(calldata), []
     for limit in limits():
-        needed, reason = max(intrinsic_gas + needed_for(gas), floor), ""
+        needed, reason = max(intrinsic + needed_for(gas), floor), ""
         fits = needed <= limit.gas
-        if not fits and max(intrinsic_gas + gas, floor) <= limit.gas and suffices is not None:
-            fits = suffices(limit.gas - intrinsic_gas)
+        if not fits and max(intrinsic + gas, floor) <= limit.gas and suffices is not None:
+            fits = suffices(limit.gas - intrinsic)
             needed = limit.gas if fits else needed
         if limit.kind == "transaction" and size + ENVELOPE > MAX_TRANSACTION:
             fits, reason = False, f"its data of {size:,} bytes is more than the {MAX_TRANSACTION:,} that nodes relay"

@@ -39,8 +39,7 @@ class GasReport:
     @property
     def fits(self) -> tuple[Fit, ...]:
         """Return how the picture fits into each known limit, the smallest first."""
-        data = render_call(self.scene)
-        return fits_of(self.exact.gas, self.exact.intrinsic_gas, data, lambda gas: gas >= self.search.gas)
+        return fits_of(self.exact.gas, render_call(self.scene), lambda gas: gas >= self.search.gas)
 
     def per(self, count: int) -> float | None:
         """Return the gas for each of so many; None for none."""
@@ -91,7 +90,7 @@ def make_report(
     """
     exact = measure(scene, chain)
     data = render_call(scene)
-    found = search(suffices(searched or chain, "Renderer", data), report=on_step)
+    found = search(suffices(searched or chain, "Renderer", data), on_step)
     triangles, lit_pixels = chain.count(scene)
     costs = profile(scene) if stages else None
     return GasReport(scene, exact, found, triangles, lit_pixels, costs, chain.name)

@@ -1,4 +1,4 @@
-from ._backends import Backend, ChainBackend, limited
+from ._backends import Backend, ChainBackend
 from ._cluster import ClusterBackend
 from ._job import render_frames
 from ._scheduler import Listener, Outline
@@ -13,7 +13,6 @@ __all__ = [
     "Outline",
     "folder_of",
     "is_large",
-    "limited",
     "remove_parts",
     "render_frames",
 ]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import random
 from dataclasses import dataclass
-from functools import cache
 from typing import Protocol
 
 from ..chain import Chain, Drawing, RevmChain, open_chain, out_of_gas
@@ -26,13 +25,6 @@ def draw_part(chain: Chain, scene: Scene, tile: Rectangle) -> Drawing:
     """Render a tile of a frame."""
     is_whole = (tile.width, tile.height) == (scene.width, scene.height)
     return chain.draw(scene, None if is_whole else tile)
-
-
-@cache
-def limited(chain: str | None, gas: int | None) -> Chain:
-    """Open a chain by name, with a gas limit for each call; None keeps the limit of the chain."""
-    opened = open_chain(chain)
-    return opened if gas is None else type(opened)(gas)
 
 
 class Backend(Protocol):

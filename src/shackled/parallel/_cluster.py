@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from ..chain import Drawing, open_chain
 from ..errors import InputError, RenderError, ShackledError, not_installed
 from ..scene import Rectangle, Scene
-from ._backends import ChainBackend, limited
+from ._backends import ChainBackend
 from ._store import contracts_digest
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ class ClusterBackend:
                 """Do not wait for a client that could not be opened."""
 
         self.gas, self._chain, self.untrusted = gas, chain, untrusted
-        limited(chain, gas)
+        open_chain(chain, gas)
         # a lost connection is raised as an error here: do not log its traceback as well
         self._logger = logging.getLogger("distributed.client")
         self._level = self._logger.level
@@ -110,7 +110,7 @@ class ClusterBackend:
 
 def _answer(chain: str | None, gas: int | None, scene: Scene, tile: Rectangle) -> Drawing:
     """Render a part in the process of a worker."""
-    return ChainBackend(limited(chain, gas), gas=gas).render(scene, tile)
+    return ChainBackend(open_chain(chain, gas), gas=gas).render(scene, tile)
 
 
 def _facts_function() -> Any:

@@ -347,8 +347,6 @@ class Scheduler:
             self._listener.advanced(-area(part.tile))
         if all(each.left for each in self._states):
             several = len(self._states) > 1
-            if wrong and not several:
-                error = RenderError(f"{error}; there is no other backend")
             self._error = RenderError(f"no backend is left to render: {error}") if several else error
             return
         parts = f"{1 + len(revoked)} parts are" if revoked else "1 part is"

@@ -131,12 +131,10 @@ def parse_value(text: str, parameter: Mapping[str, Any], what: str) -> Any:
     kind = str(parameter["type"])
     if kind.endswith("]") or kind.startswith("tuple"):
         try:
-            listed = read_json(text)
+            value = read_json(text)
         except ValueError:
-            listed = None
-        if not isinstance(listed, list):
-            raise InputError(f"{what} must be a JSON list, for {kind}, not {text!r:.60}")
-        return _nested(listed, parameter, what)
+            value = text
+        return _nested(value, parameter, what)
     return _single(text, kind, what)
 
 
@@ -148,10 +146,10 @@ def _nested(value: Any, parameter: Mapping[str, Any], what: str) -> Any:
         return [_nested(each, {**parameter, "type": array[1]}, what) for each in value]
     if kind == "tuple" and isinstance(value, list) and len(value) == len(parameter["components"]):
         return tuple(_nested(each, part, what) for each, part in zip(value, parameter["components"], strict=True))
-    if array or kind == "tuple" or value is None or isinstance(value, list | dict):
-        count = array[2] if array else len(parameter["components"]) if kind == "tuple" else ""
-        wanted = f"a list of {count} values" if count else "a list" if array else "a value"
-        raise InputError(f"{what} must have {wanted} for {kind}, not {json.dumps(value):.60}")
+    is_list = array is not None or kind == "tuple"
+    if is_list or value is None or isinstance(value, list | dict):
+        wanted = "a JSON list" if is_list else "a value"
+        raise InputError(f"{what} must be {wanted} of the type {kind}, not {json.dumps(value):.60}")
     return _single(value if isinstance(value, str) else json.dumps(value), kind, what)
 
 
@@ -180,24 +178,8 @@ def _single(text: str, kind: str, what: str) -> Any:
             shown = text
     except (ValueError, KeyError):
         pass
-    raise InputError(f"{what} must be {_described(kind)}, not {shown:.80}")
-
-
-def _described(kind: str) -> str:
-    """Return what a value of a type must be, for messages."""
-    if kind == "bool":
-        return "true or false"
-    if kind == "string":
-        return "a string"
-    if kind.startswith("bytes"):
-        count = f", {kind[5:]} bytes" if kind[5:] else ""
-        return f"a {kind}{count} in hexadecimal"
-    if not (allowed := whole_numbers(kind)):
-        return f"of another type: values of {kind} are not supported"
-    low, high = allowed.start, allowed.stop - 1
-    bits = high.bit_length()
-    limits = f"{low} to {high}" if bits < 64 else f"{f'-2^{bits}' if low else 0} to 2^{bits} - 1"
-    return f"{'an' if low else 'a'} {kind}, {limits}"
+    how = ", in hexadecimal" if kind.startswith("bytes") else ""
+    raise InputError(f"{what} must be of the type {kind}{how}, not {shown:.80}")
 
 
 def _split(text: str) -> list[str]:

@@ -80,6 +80,8 @@ class Preview:
         self._interface = Interface([self.function])
         setup = [parse_call(text, self.contract) for text in request.setup]
         self.world = World(self.contract, request.arguments, setup, request.stored)
+        #: What is wrong with the deployment and the calls, each in one line.
+        self.problems = self.world.problems
         #: Whether the tokens have numbers.
         self.is_numbered = bool(self.function["inputs"])
         #: Whether a token took so much gas that the others get only what they may take.
@@ -89,11 +91,6 @@ class Preview:
             raise InputError(f"the first token must be from 0 to 2^256 - 1, not {self.first}")
         wanted = self._supply() if request.count is None else request.count
         self.count = min(wanted, END - self.first) if self.is_numbered else 1
-
-    @property
-    def problems(self) -> list[str]:
-        """What is wrong with the deployment and the calls, each in one line."""
-        return self.world.problems
 
     def hint(self, tokens: Sequence[Token]) -> str | None:
         """Return what the author may have forgotten, if no token could be read."""

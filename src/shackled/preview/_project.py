@@ -132,19 +132,20 @@ class Project:
         absent = f"{self.root} is a project of Hardhat, but it is not installed: run npm install there"
         self._run_compiler([self._command(absent, "hardhat"), "compile"])
         output = self.root / "artifacts"
-        found: list[Artifact] = []
-        for path in sorted((output / self._name).glob("*.json")):
-            if not path.name.endswith(".dbg.json"):
-                built, debug = _json(path), path.with_suffix(".dbg.json")
-                # Hardhat 2 names what it gave to the compiler in a further file
-                build = output / "build-info" / f"{built.get('buildInfoId')}.json"
-                build = path.parent / str(_json(debug).get("buildInfo")) if debug.is_file() else build
-                sources = _json(build).get("input", {}).get("sources", {}) if build.is_file() else {}
-                source = sources.get(built.get("inputSourceName", built.get("sourceName")))
-                found.append(
-                    (path, path.stem, built, {self._name: _hash(source["content"].encode())} if source else {})
-                )
+        paths = [each for each in sorted((output / self._name).glob("*.json")) if not each.name.endswith(".dbg.json")]
+        builds = [(path, _json(path)) for path in paths]
+        found = [(path, path.stem, built, self._given_by_hardhat(path, built)) for path, built in builds]
         return self._current(found, "hardhat", output, "leave `paths.artifacts` at its default")
+
+    def _given_by_hardhat(self, path: Path, built: dict[str, Any]) -> dict[str, str]:
+        """Return the hash of the source that Hardhat gave to the compiler for an artifact; none if it kept nothing."""
+        build = self.root / "artifacts" / "build-info" / f"{built.get('buildInfoId')}.json"
+        # Hardhat 2 names it in a further file
+        debug = path.with_suffix(".dbg.json")
+        build = path.parent / str(_json(debug).get("buildInfo")) if debug.is_file() else build
+        sources = _json(build).get("input", {}).get("sources", {}) if build.is_file() else {}
+        source = sources.get(built.get("inputSourceName", built.get("sourceName")))
+        return {self._name: _hash(source["content"].encode())} if source else {}
 
     def _current(self, artifacts: list[Artifact], tool: str, output: Path, remedy: str) -> list[Compiled]:
         """Return the contracts with code. InputError, with the remedy, if none was made of the sources as they are."""

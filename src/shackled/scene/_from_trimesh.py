@@ -9,17 +9,17 @@ from attrs import evolve
 
 from ..errors import InputError, warn
 from ._files.model import MeshPart, Picture, finite_uvs, is_transparent
-from ._mesh import is_trimesh, mesh_of, weld
+from ._mesh import Mesh, is_trimesh, weld
 from ._object import Material, Object
 from ._texture import as_rgb, as_rgba, cutoff_of, to_srgb
 
 
 def part_of(value: Any) -> MeshPart:
-    """Return the mesh of a trimesh.Trimesh with what its material says. Errors as in `mesh_of`."""
+    """Return the mesh of a trimesh.Trimesh with what its material says. Errors as in `Mesh.from_trimesh`."""
     visual: Any = getattr(value, "visual", None)
     uvs = getattr(visual, "uv", None)
     if not is_trimesh(value) or getattr(visual, "kind", None) != "texture":
-        return MeshPart(mesh_of(value))
+        return MeshPart(Mesh.from_trimesh(value))
 
     def of_material(name: str) -> Any:
         return getattr(visual.material, name, None)
@@ -38,7 +38,7 @@ def part_of(value: Any) -> MeshPart:
         image, color = of_material("image"), [1.0, 1.0, 1.0]
     faces = np.asarray(value.faces)
     if image is None or uvs is None or len(uvs) != len(value.vertices):
-        return MeshPart(mesh_of(value), fields, opacity, two_sided)
+        return MeshPart(Mesh.from_trimesh(value), fields, opacity, two_sided)
     cutoff = of_material("alphaCutoff")
     cutoff = 0.5 if cutoff is None else float(cutoff)
     has_alpha = mode == "BLEND" or (mode == "MASK" and cutoff > 0)

@@ -171,7 +171,19 @@ class Mesh(Value):
 
         InputError if it is something else, or empty.
         """
-        return mesh_of(mesh)
+        if not is_trimesh(mesh) or not hasattr(mesh, "faces") or not hasattr(mesh, "vertices"):
+            raise InputError(f"a trimesh.Trimesh is needed, not {mesh!r:.60}")
+        visual: Any = getattr(mesh, "visual", None)
+        kind, channels = getattr(visual, "kind", None), 4
+        if kind == "texture":
+            # of a texture, or of a material, whose alpha may have no meaning
+            visual, channels = visual.to_color(), 3
+            kind = visual.kind
+        if kind == "face":
+            colors = np.asarray(visual.face_colors, dtype=np.uint8)[..., :channels]
+            return weld(mesh.vertices, mesh.faces, np.repeat(colors[:, None], 3, axis=1))
+        own = np.asarray(visual.vertex_colors, dtype=np.uint8)[..., :channels] if kind == "vertex" else None
+        return cls(mesh.vertices, mesh.faces, own)
 
     @property
     def rgba(self) -> NDArray[np.uint8]:
@@ -293,21 +305,3 @@ def is_trimesh(value: object) -> bool:
     """Return whether a value is an object of trimesh."""
     # its arrays are its own, too
     return type(value).__module__.partition(".")[0] == "trimesh" and not isinstance(value, np.ndarray)
-
-
-def mesh_of(value: Any) -> Mesh:
-    """Return the mesh of a trimesh.Trimesh, as `Mesh.from_trimesh`."""
-    if not is_trimesh(value) or not hasattr(value, "faces") or not hasattr(value, "vertices"):
-        raise InputError(f"a trimesh.Trimesh is needed, not {value!r:.60}")
-    visual: Any = getattr(value, "visual", None)
-    kind = getattr(visual, "kind", None)
-    channels = 4
-    if kind == "texture":
-        # of a texture, or of a material, whose alpha may have no meaning
-        visual, channels = visual.to_color(), 3
-        kind = visual.kind
-    if kind == "face":
-        colors = np.asarray(visual.face_colors, dtype=np.uint8)[..., :channels]
-        return weld(value.vertices, value.faces, np.repeat(colors[:, None], 3, axis=1))
-    own = np.asarray(visual.vertex_colors, dtype=np.uint8)[..., :channels] if kind == "vertex" else None
-    return Mesh(value.vertices, value.faces, own)

@@ -14,7 +14,7 @@ from ..errors import InputError
 from ..values import Value, checked, with_names
 from ..words import Given, words_of
 from ._arithmetic import ORTHOGONAL, matrix_of, quaternion_of, rotate, rotation_of
-from ._mesh import Mesh, is_trimesh, mesh_of
+from ._mesh import Mesh, is_trimesh
 from ._texture import Texture
 
 Shading = Literal["unlit", "flat", "smooth"]
@@ -60,7 +60,7 @@ class Material:
 
 def _mesh(value: Mesh) -> Mesh:
     if is_trimesh(value):
-        return mesh_of(value)
+        return Mesh.from_trimesh(value)
     if isinstance(value, str | os.PathLike):
         raise InputError(f"the mesh of an object must be a shackled.Mesh: shackled.load({value!r:.60}) has objects")
     return instance(value, "the mesh of an object", Mesh)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,10 +13,11 @@ from attrs import field, frozen
 from ..checks import Color, Floats, color, flag, instance, integer
 from ..errors import InputError
 from ..values import checked, plural, with_names
+from ..whole_file import check_output_file, write_output
 from ..words import Words, words_of
 from ._camera import Camera
 from ._effects import Background, Fog, Hemisphere, Rim, Tone, background_of, fog_of, hemisphere_of, rim_of, tone_of
-from ._files.written import write_scene
+from ._files.written import encode_scene_file
 from ._ground import Ground, ground_of
 from ._light import WHITE, Light, lights_of, parts_of
 from ._mesh import Mesh, is_trimesh
@@ -112,7 +114,11 @@ class Scene(Words):
 
         InputError where the path is wrong, OutputError where the disk is full or fails.
         """
-        write_scene(self, path)
+        path = Path(path)
+        if path.suffix.lower() != ".json":
+            hint = "; the command `shackled export` writes models" if path.suffix.lower() == ".glb" else ""
+            raise InputError(f"the scene {path} must end in .json{hint}")
+        write_output(check_output_file(path, "scene"), encode_scene_file(self))
 
     def __repr__(self) -> str:
         """Count in one line."""

@@ -95,7 +95,7 @@ def _made(contract: str, data: bytes, media_type: str, on: On | None, gas_limit:
     is_checked = isinstance(on, Nodes) and on.verify != "none"
     if is_checked and result.output != _chain(None).call(contract, data).output:
         raise VerificationError(f"the {chain.name} returned another file than the embedded EVM: use another node")
-    content = returned_bytes(result.output, 0)
+    content = returned_bytes(result.output)
     return ContractFile(content, media_type, result.gas, intrinsic_gas(data), chain.name)
 
 

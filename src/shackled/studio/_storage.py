@@ -9,7 +9,7 @@ import numpy as np
 from attrs import evolve
 
 from ..artifacts import artifact
-from ..chain import Connection, ContractChain, open_chain
+from ..chain import Connection, open_chain
 from ..errors import InputError, VerificationError
 from ..ethereum import checksum_address, create2_address, decode_values, encode_values, intrinsic_gas, word
 from ..scene import Object, Scene, encode_scene, fit, pack, rotate
@@ -61,17 +61,12 @@ class StoreTransaction:
 
 
 def store_scene(
-    scene: Scene,
-    studio: bytes,
-    position_bits: int | None = None,
-    normal_bits: int = 10,
-    chain: ContractChain | None = None,
+    scene: Scene, studio: bytes, position_bits: int | None = None, normal_bits: int = 10
 ) -> list[StoreTransaction]:
     """Return the transactions that store a scene: each of its meshes once, then the scene, whose pointer is the last.
 
     studio: address of the Studio, 20 bytes. position_bits: round vertices to a grid of 2^position_bits steps across
-    the longest side of each mesh, 4 to 16; None is exact. normal_bits: see `compact`. chain: where gas is counted;
-    None uses the embedded EVM.
+    the longest side of each mesh, 4 to 16; None is exact. normal_bits: see `compact`.
     """
     if len(studio) != 20:
         raise InputError(f"an address has 20 bytes, not {len(studio)}")
@@ -81,13 +76,13 @@ def store_scene(
     meshes = [compact(pack(o.mesh, o.material.shading == "smooth"), normal_bits) for o in fitted.objects]
     result: list[StoreTransaction] = []
     for number, mesh in enumerate(dict.fromkeys(meshes), 1):
-        result += store_mesh(f"mesh {number}", mesh, studio, chain)
+        result += store_mesh(f"mesh {number}", mesh, studio)
     ordered = evolve(fitted, objects=[_as_stored(o) for o in fitted.objects])
     struct = encode_with_pointers(ordered, [storage_address(mesh, studio) for mesh in meshes])
     data = artifact(STUDIO).selectors["storeScene"] + word(32) + struct
     # the ABI encodes a struct after its own offset
     content = bytes([SCENE]) + compress_zeros(word(32) + struct)
-    return result + _transactions("scene", content, data, studio, chain)
+    return result + _transactions("scene", content, data, studio)
 
 
 def _as_stored(o: Object) -> Object:
@@ -100,9 +95,9 @@ def _as_stored(o: Object) -> Object:
     return evolve(o, mesh=evolve(o.mesh, uvs=uvs, opacities=opacities))
 
 
-def store_mesh(what: str, mesh: bytes, studio: bytes, chain: ContractChain | None = None) -> list[StoreTransaction]:
+def store_mesh(what: str, mesh: bytes, studio: bytes) -> list[StoreTransaction]:
     """Return the transactions that store a compact mesh, usually one; `what` describes it. The last has its pointer."""
-    return _transactions(what, mesh, artifact(STUDIO).interface.encode("storeMesh", mesh), studio, chain)
+    return _transactions(what, mesh, artifact(STUDIO).interface.encode("storeMesh", mesh), studio)
 
 
 def storage_address(data: bytes, studio: bytes) -> bytes:
@@ -163,14 +158,12 @@ def _parts(data: bytes) -> list[bytes]:
     return [data[at : at + MAX_PART] for at in range(0, len(data), MAX_PART)]
 
 
-def _transactions(
-    what: str, content: bytes, data: bytes, studio: bytes, chain: ContractChain | None
-) -> list[StoreTransaction]:
+def _transactions(what: str, content: bytes, data: bytes, studio: bytes) -> list[StoreTransaction]:
     if len(content) <= MAX_PART:
-        return [_transaction(what, data, content, studio, chain)]
+        return [_transaction(what, data, content, studio)]
     parts, interface = _parts(content), artifact(STUDIO).interface
     result = [
-        _transaction(f"{what}, part {number} of {len(parts)}", interface.encode("storePart", part), part, studio, chain)
+        _transaction(f"{what}, part {number} of {len(parts)}", interface.encode("storePart", part), part, studio)
         for number, part in enumerate(parts, 1)
     ]
     content = _part_list(parts, studio)
@@ -182,11 +175,9 @@ def _transactions(
     return [*result, StoreTransaction(f"{what}, joined", joining, _created(content, studio), content, gas)]
 
 
-def _transaction(
-    what: str, data: bytes, content: bytes, studio: bytes, chain: ContractChain | None
-) -> StoreTransaction:
-    result = (chain or open_chain()).call(STUDIO, data)
-    return StoreTransaction(what, data, _created(content, studio), content, result.gas + result.intrinsic_gas)
+def _transaction(what: str, data: bytes, content: bytes, studio: bytes) -> StoreTransaction:
+    gas = open_chain().call(STUDIO, data).gas + intrinsic_gas(data)
+    return StoreTransaction(what, data, _created(content, studio), content, gas)
 
 
 def _part_list(parts: Sequence[bytes], studio: bytes) -> bytes:

@@ -17,10 +17,6 @@ from typing import Any
 from ..errors import InputError
 from ..ethereum import checksum_address, keccak256, parse_address, to_hex, word
 
-FORMAT = "standard-v1"
-ENCODING = ["address", "uint256"]
-MAX_QUANTITY = 2**256 - 1
-
 
 @dataclass(frozen=True)
 class AllowList:
@@ -58,7 +54,7 @@ class AllowList:
             for account, quantity in self.allowances.items()
         ]
         tree = [to_hex(node) for node in self._tree]
-        return {"format": FORMAT, "leafEncoding": ENCODING, "tree": tree, "values": values}
+        return {"format": "standard-v1", "leafEncoding": ["address", "uint256"], "tree": tree, "values": values}
 
     @cached_property
     def _leaves(self) -> list[bytes]:
@@ -95,7 +91,7 @@ def make_allow_list(entries: Iterable[Sequence[object]], where: str = "the allow
         if len(texts) != 2:
             raise InputError(f"{at}: it must be account,quantity, not {','.join(texts)!r:.80}")
         address, quantity = checksum_address(parse_address(texts[0], f"{at}: the account")), texts[1]
-        if not re.fullmatch("[0-9]{1,78}", quantity) or not 0 < int(quantity) <= MAX_QUANTITY:
+        if not re.fullmatch("[0-9]{1,78}", quantity) or not 0 < int(quantity) < 2**256:
             raise InputError(f"{at}: the quantity must be a whole number from 1, not {quantity!r:.60}")
         if address in allowances:
             raise InputError(f"{at}: the account {address} occurs twice")

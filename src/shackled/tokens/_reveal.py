@@ -140,8 +140,6 @@ def _hash_of(collection: Collection, block: int) -> bytes:
 CHAINS = (1, 11155111, 560048, 31337, 1337)
 #: Number of blocks to check.
 CHECKED_BLOCKS = 16
-#: A program that returns the hash of a block: PUSH8 number BLOCKHASH PUSH0 MSTORE PUSH1 32 PUSH0 RETURN.
-HASH_PROGRAM = ("67", "405f5260205ff3")
 
 
 def check_randomness(connection: Connection, any_chain: bool = False) -> None:
@@ -176,7 +174,9 @@ def _check_header(connection: Connection, block: dict[str, Any]) -> None:
     never = f"tokens could never be revealed on chain {connection.chain_id}"
     try:
         number = quantity(block.get("number"))
-        place, found = number.to_bytes(8, "big").hex(), to_hex(keccak256(encode_header(block)))
+        # PUSH8 number BLOCKHASH PUSH0 MSTORE PUSH1 32 PUSH0 RETURN: a program that returns the hash of the block
+        program = b"\x67" + number.to_bytes(8, "big") + bytes.fromhex("405f5260205ff3")
+        found = to_hex(keccak256(encode_header(block)))
     except (OverflowError, ValueError) as error:
         raise TransactionError(f"{never}, whose headers are not Ethereum's: {error}") from None
     if found != str(block.get("hash")).lower():
@@ -184,9 +184,8 @@ def _check_header(connection: Connection, block: dict[str, Any]) -> None:
             f"{never}, whose headers have other fields than Ethereum's: that of block {number:,} has the hash {found}, "
             f"not {block.get('hash')!s:.66}"
         )
-    program = HASH_PROGRAM[0] + place + HASH_PROGRAM[1]
     try:
-        seen = to_hex(connection.data("eth_call", {"data": "0x" + program}, "latest"))
+        seen = to_hex(connection.data("eth_call", {"data": to_hex(program)}, "latest"))
     except NoAnswerError:
         raise
     except (NodeError, RevertError):

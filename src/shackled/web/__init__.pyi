@@ -1,5 +1,4 @@
-from ._bundle import ASSETS, asset
-from ._page import check_page, export
+from ._page import ASSETS, asset, check_page, export
 from ._widget import view
 
 __all__ = [

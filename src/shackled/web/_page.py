@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import base64
+import gzip
 import hashlib
 import os
 import re
 from functools import cache
 from html import escape
+from importlib.resources import files
 from pathlib import Path
 from typing import Unpack
 
@@ -15,12 +17,14 @@ from .._load import Thing, load_picture, locate
 from .._render import render
 from ..datasets import Piece
 from ..errors import InputError
+from ..evm import module_bytes
 from ..image import Image
 from ..scene import LookOptions, render_call
 from ..values import plural
 from ..whole_file import check_output_file, write_output
-from ._bundle import asset, packed
 
+#: The files that the element needs, by name; tools/build_web.py and tools/build_evm.py write them.
+ASSETS = ("view.js", "evm.wasm", "contracts.json")
 #: The extensions of pages.
 EXTENSIONS = (".html", ".htm")
 #: The most gas that the element uses for a picture, and the most bytes of a call: web/src/evm and web/src/view.
@@ -97,7 +101,7 @@ def make_page(image: Image, title: str, notice: str = "") -> bytes:
         "gas": "" if image.gas is None else f", {image.gas:,} gas",
         "sha256": image.sha256,
         "notice": f"<p>{escape(notice)}</p>" if notice else "",
-        "scene": packed(call),
+        "scene": _packed(call),
         "evm": _packed_asset("evm.wasm"),
         "contracts": _packed_asset("contracts.json"),
     }
@@ -118,8 +122,19 @@ def page_template() -> str:
 
 
 @cache
+def asset(name: str) -> bytes:
+    """Return a file that browsers need to draw: view.js, evm.wasm, contracts.json, stages.json or template.html."""
+    return module_bytes() if name == "evm.wasm" else files(__package__).joinpath(name).read_bytes()
+
+
+@cache
 def _packed_asset(name: str) -> str:
-    return packed(asset(name))
+    return _packed(asset(name))
+
+
+def _packed(content: bytes) -> str:
+    """Return bytes in gzip and base64, as the element reads them from a page."""
+    return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode()
 
 
 def _hash(text: str) -> str:

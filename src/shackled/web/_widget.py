@@ -12,7 +12,7 @@ from .._render import render
 from ..errors import InputError
 from ..image import Image
 from ..scene import LookOptions, Scene, render_call
-from ._bundle import asset
+from ._page import asset
 
 if TYPE_CHECKING:
     from anywidget import AnyWidget

@@ -126,12 +126,10 @@ def test_nodes_deep_in_one_another(tmp_path: Path) -> None:
     ("change", "message"),
     [
         (lambda glb: glb[:-30], "it ends after {} of its {} bytes"),
-        (lambda glb: glb[:9], "it ends within its header"),
         (lambda glb: glb[:12] + b"\xff" + glb[13:], "its chunk at byte 12 reaches beyond the end of the file"),
         (lambda glb: glb[:4] + b"\x03" + glb[5:], "it is of version 3 of GLB; version 2 is read"),
         (lambda glb: b"glTF" + struct.pack("<II", 2, 12), "it has no JSON chunk"),
         (lambda glb: b"\x93garbage" * 40, " is not valid JSON: "),
-        (lambda glb: b"[" * 100_000, " is not valid JSON: its brackets are nested more than 200 deep"),
         (lambda glb: b'{"size": 3}', "it is no glTF file: asset, with the version of glTF, is missing"),
     ],
 )
@@ -158,7 +156,6 @@ def primitive(**keys: Any) -> list[dict[str, Any]]:
         ({"asset": {}}, "asset.version is None; glTF 2.0 is read"),
         ({"extensionsRequired": ["KHR_texture_basisu"]},
          "it requires the extension KHR_texture_basisu, which is not read; export it without"),
-        ({"extensionsRequired": ["EXT_meshopt_compression"]}, "it is compressed with EXT_meshopt_compression, which"),
         ({"accessors": [ACCESSOR | {"type": "VEC9"}]}, "accessors[0].type must be one of VEC3, not 'VEC9'"),
         ({"accessors": [ACCESSOR | {"componentType": 5124}]},
          "accessors[0].componentType must be one of 5120, 5121, 5122, 5123, 5125, 5126, not 5124"),

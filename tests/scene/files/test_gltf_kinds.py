@@ -452,13 +452,6 @@ def test_compression_that_is_not_needed(file: File, tmp_path: Path, name: str) -
     np.testing.assert_allclose(corners(file, tmp_path), [POINTS])
 
 
-def test_compression_by_meshopt_is_refused(file: File, tmp_path: Path) -> None:
-    file.document["bufferViews"][0]["extensions"] = {"EXT_meshopt_compression": {"buffer": 1}}
-    path = file.write(tmp_path)
-    path.write_text(re.sub(r', "uri": "data:[^"]*"', "", path.read_text()))
-    assert refusal(path).startswith("bufferViews[0] is compressed with EXT_meshopt_compression, which")
-
-
 def draco_file(data: bytes) -> File:
     file = File()
     file.document["accessors"] = [

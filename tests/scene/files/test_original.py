@@ -52,6 +52,9 @@ def test_what_is_missing_has_defaults() -> None:
     assert (thing.scale, thing.cull, thing.wireframe, thing.material.shading) == (1, True, False, "unlit")
     assert scene.background.top == (0, 0, 0)
     assert original_scene(document(faces=[])).objects == ()
+    for missing in ("canvasDim", "verts", "faces"):
+        with pytest.raises(InputError, match=f"^{missing} is missing$"):
+            original_scene({key: value for key, value in TRIANGLE.items() if key != missing})
 
 
 def test_orthographic_camera_spans_500_units_a_pixel() -> None:
@@ -135,14 +138,6 @@ def test_what_is_wrong_names_its_key(changes: dict[str, Any], message: str) -> N
     with pytest.raises(InputError) as error:
         original_scene(document(**changes))
     assert str(error.value) == message
-
-
-@pytest.mark.parametrize("key", ["verts", "faces"])
-def test_what_is_needed(key: str) -> None:
-    keys = document()
-    del keys[key]
-    with pytest.raises(InputError, match=f"^{key} is missing$"):
-        original_scene(keys)
 
 
 def test_scenes_of_the_kinds_that_were_measured() -> None:

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from mesh_files import refusal
+from pictures import projected
 from shackled import Background, Fog, Light, Material, Rim, Scene, Tone, load
 from shackled.scene import Hemisphere, rotate
-from shackled.scene._camera import DEFAULT_HALF_HEIGHT
 from shackled.scene._staging import BACKGROUND
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -127,16 +127,7 @@ def test_defaults_show_all_that_is_there(folder: Path) -> None:
     scene = scene_of(folder, objects=[thing(), thing(position=[40, 0, 0], scale=3)])
     assert (scene.width, scene.height, scene.background) == (128, 128, BACKGROUND)
     assert len(scene.lights) == 1
-    points = np.concatenate([o.position + o.scale * o.mesh.positions for o in scene.objects])
-    back = scene.camera.eye - scene.camera.target
-    back /= np.linalg.norm(back)
-    right = np.cross(scene.camera.up, back)
-    right /= np.linalg.norm(right)
-    seen = points - scene.camera.eye
-    depth = -seen @ back
-    assert (depth > 0).all()
-    assert (np.abs(seen @ right) < DEFAULT_HALF_HEIGHT * depth).all()
-    assert (np.abs(seen @ np.cross(back, right)) < DEFAULT_HALF_HEIGHT * depth).all()
+    assert 0.9 < np.abs(projected(scene)).max() < 1
 
 
 def test_no_lights_and_one_background_color(folder: Path) -> None:
@@ -163,7 +154,6 @@ SPOT = {"kind": "spot", "position": [0, 0, 0]}
     [
         # kinds of values
         ({"antialias": 4}, "antialias must be true or false, not 4"),
-        ({"tone": {"gamma": 2.2}}, "tone.gamma must be true or false, not 2.2"),
         ({"tone": {"exposure": 65}}, "tone.exposure must be a finite number from 0 to 64, not 65.0"),
         ({"fog": {"color": "white", "near": 2}}, "fog.far must be a number, not None"),
         ({"objects": {}}, "objects must be a list, not {}"),
@@ -177,8 +167,6 @@ SPOT = {"kind": "spot", "position": [0, 0, 0]}
          "objects[0].material.shading must be one of unlit, flat, smooth, not 'gouraud'"),
         ({"hemisphere": {"ground": "white"}}, f"hemisphere.sky must be {COLORS}, not None"),
         ({"objects": [thing(color="#fffff")]}, f"objects[0].color must be {COLORS}, not '#fffff'"),
-        ({"objects": [thing(color=[1, 2, 256])]},
-         "objects[0].color must be red, green and blue from 0 to 255, not [1, 2, 256]"),
         ({"objects": [thing(color="#fff8")]},
          "objects[0].color must be opaque, not '#fff8'; an Object has an opacity"),
         # keys
@@ -189,7 +177,6 @@ SPOT = {"kind": "spot", "position": [0, 0, 0]}
          "unknown key 'shine' in objects[1].material; known are texture, shading, ambient, diffuse, specular, "
          "shininess, emission"),
         ({"hemisphere": "white"}, "hemisphere must be a table with keys of sky, ground, not 'white'"),
-        ({"background": {"middle": 3}}, "unknown key 'middle' in background; known are top, bottom"),
         # what values are refused together, or by what they become
         ({"rim": {"color": "white", "power": 17}},
          "rim: the power of a rim must be a whole number from 1 to 16, not 17"),

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 import shackled
-from mesh_files import Gltf, png
+from mesh_files import Gltf, png, sheet
 from shackled import InputError, Material, Mesh, Object, Scene, Texture, load
 from shackled.errors import InputWarning
 from shackled.scene import read_mesh, read_model, render_call, simplify
@@ -187,18 +187,10 @@ def test_an_image_inside_of_the_document(tmp_path: Path) -> None:
     assert (texture_of(load(glb(tmp_path / "a.glb", [uri]))).pixels == pixels).all()
 
 
-def chunk(kind: bytes, content: bytes) -> bytes:
-    return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
-
-
 #: A PNG file that says it is huge.
-HUGE = b"\x89PNG\r\n\x1a\n" + b"".join(
-    (
-        chunk(b"IHDR", struct.pack(">IIBBBBB", 60_000, 60_000, 8, 2, 0, 0, 0)),
-        chunk(b"IDAT", zlib.compress(bytes(1000))),
-        chunk(b"IEND", b""),
-    )
-)
+SMALL = png(np.zeros((1, 1, 3), np.uint8))
+HEADER = b"IHDR" + struct.pack(">II", 60_000, 60_000) + SMALL[24:29]
+HUGE = SMALL[:12] + HEADER + struct.pack(">I", zlib.crc32(HEADER)) + SMALL[33:]
 
 
 @pytest.mark.parametrize(
@@ -207,7 +199,6 @@ HUGE = b"\x89PNG\r\n\x1a\n" + b"".join(
         ("lost.png", ".uri: {folder}/lost.png does not exist"),
         ("data:image/png;base64,####", " is not an image that can be read"),
         ("data:,no image", " is not an image that can be read"),
-        ("../a.png", ".uri is '../a.png'; only files in the folder of the glTF file are read"),
         ("http://x/a.png", ".uri is 'http://x/a.png'; only files in the folder of the glTF file are read"),
         (HUGE, " is not an image that can be read"),
     ],
@@ -290,14 +281,10 @@ def test_one_color_for_all_is_without_texture() -> None:
 
 def test_simplified_meshes_keep_seams() -> None:
     """A tube of which the texture goes around: no triangle may span the image from its end back to its beginning."""
-    angles, rows = np.meshgrid(np.linspace(0, 1, 33), np.linspace(0, 1, 17))
-    turns = 2 * np.pi * np.round(angles % 1, 9)
-    positions = np.stack([np.cos(turns), 2 * rows, np.sin(turns)], axis=2).reshape(-1, 3)
-    uvs = np.stack([angles, rows], axis=2).reshape(-1, 2)
-    numbers = np.arange(33 * 17).reshape(17, 33)
-    a, b, c, d = numbers[:-1, :-1], numbers[:-1, 1:], numbers[1:, 1:], numbers[1:, :-1]
-    faces = np.concatenate([np.stack([a, b, c], 2).reshape(-1, 3), np.stack([a, c, d], 2).reshape(-1, 3)])
-    mesh = simplify(Mesh(positions, faces, uvs=uvs), 200)
+    column, row, faces = sheet(32, 16)
+    turns = 2 * np.pi * (column % 32) / 32
+    positions = np.stack([np.cos(turns), row / 8, np.sin(turns)], axis=1)
+    mesh = simplify(Mesh(positions, faces, uvs=np.stack([column / 32, row / 16], axis=1)), 200)
     assert mesh.triangles <= 200
     assert mesh.uvs is not None
     corners = mesh.uvs[mesh.faces]

@@ -9,8 +9,9 @@ import "../../words/SampleRegisters.sol";
 // surface neither overlap nor leave gaps.
 //
 // An edge from u to v is closed if another triangle has the edge from v to u. Vertex records keep the numbers of the next vertices of the
-// triangles around, 16 bits each, above VERTEX_STATE. There is room for 12; edges to vertices of more triangles count as closed. Edges that
-// clipping made are open, and those of triangles with such a vertex.
+// triangles around, 16 bits each, above VERTEX_STATE. There is room for 13; of a vertex with more triangles, its other next vertices keep
+// its number, in VERTEX_REVERSED, which is written later. An edge must not count as closed because of triangles elsewhere: in a tile these
+// are not listed. Edges that clipping made are open, and those of triangles with such a vertex.
 
 /// @dev A row of pixels in the format of screen words.
 uint256 constant ONE_ROW = 1 << 136;
@@ -24,22 +25,29 @@ library OpenEdges {
     function find(uint256 list, uint256 end, uint256 records, uint256 shift, uint256 edges) internal pure returns (uint256) {
         uint256 made = list;
         assembly ("memory-safe") {
-            function enter(vertex, next) {
-                vertex := add(vertex, VERTEX_STATE)
-                let numbers := mload(vertex)
+            // adds the number of v to those of u or, if there is no room, that of u to those at v
+            function enter(u, v, first, bits) {
+                let numbers := mload(add(u, VERTEX_STATE))
                 switch shr(LAST_NUMBER_AT, numbers)
-                case 0 { mstore(vertex, or(shl(NUMBER_BITS, numbers), shl(FIRST_NUMBER_AT, next))) }
-                default { mstore(vertex, or(numbers, shl(LAST_NUMBER_AT, VERTEX_NUMBER_MASK))) }
+                case 0 { mstore(add(u, VERTEX_STATE), or(shl(NUMBER_BITS, numbers), shl(FIRST_NUMBER_AT, shr(bits, sub(v, first))))) }
+                default {
+                    v := add(v, VERTEX_REVERSED)
+                    mstore(v, or(shl(NUMBER_BITS, mload(v)), shr(bits, sub(u, first))))
+                }
             }
 
-            // writes the edge from u to v if it is open: if no number of v is that of u
+            // writes the edge from u to v if it is open: if the one from v to u is neither among the numbers of v nor among those at u
             function check(place, u, v, first, bits) -> next {
-                let numbers := mload(add(v, VERTEX_STATE))
-                next := xor(numbers, mul(shr(bits, sub(u, first)), NUMBER_ONES)) // a lane is 0 if it is
-                next := and(and(sub(next, NUMBER_ONES), not(next)), NUMBER_TOPS)
-                if iszero(or(next, eq(shr(LAST_NUMBER_AT, numbers), VERTEX_NUMBER_MASK))) {
-                    mstore(place, or(shl(TRIANGLE_A_AT, u), v))
-                    place := add(place, 32)
+                next := xor(mload(add(v, VERTEX_STATE)), mul(shr(bits, sub(u, first)), NUMBER_ONES)) // a lane is 0 if it is that of u
+                if iszero(and(and(sub(next, NUMBER_ONES), not(next)), NUMBER_TOPS)) {
+                    let other := shr(bits, sub(v, first))
+                    for { next := mload(add(u, VERTEX_REVERSED)) } next { next := shr(NUMBER_BITS, next) } {
+                        if eq(and(next, VERTEX_NUMBER_MASK), other) { break }
+                    }
+                    if iszero(next) {
+                        mstore(place, or(shl(TRIANGLE_A_AT, u), v))
+                        place := add(place, 32)
+                    }
                 }
                 next := place
             }
@@ -51,9 +59,9 @@ library OpenEdges {
                 let b := and(shr(TRIANGLE_B_AT, c), TRIANGLE_B_MASK)
                 c := and(c, TRIANGLE_C_MASK)
                 if and(and(lt(a, made), lt(b, made)), lt(c, made)) {
-                    enter(a, shr(shift, sub(b, records)))
-                    enter(b, shr(shift, sub(c, records)))
-                    enter(c, shr(shift, sub(a, records)))
+                    enter(a, b, records, shift)
+                    enter(b, c, records, shift)
+                    enter(c, a, records, shift)
                 }
             }
             edges := add(edges, 32)

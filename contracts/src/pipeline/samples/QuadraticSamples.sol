@@ -40,11 +40,12 @@ library QuadraticSamples {
                 color := add(shl(Q16, color), mul(sub(mload(add(table, 32)), color), t))
             }
 
-            // a colour, Q10, times light, Q16, both in lanes of 56 bits: in lanes of 85 bits, Q26
+            // A colour, Q10 in 24 bits with a sign, times light, Q16, both in lanes of 56 bits: in lanes of 85 bits, Q26. Pixels that a
+            // triangle covers in part may have their centres outside of it, where colours may lie below 0.
             function times(color, light) -> lanes {
-                lanes := mul(and(color, LANE_24), and(light, LANE_32))
-                lanes := add(lanes, shl(MIDDLE_85_AT, mul(and(shr(MIDDLE_AT, color), LANE_24), and(shr(MIDDLE_AT, light), LANE_32))))
-                lanes := add(lanes, shl(UPPER_85_AT, mul(and(shr(UPPER_AT, color), LANE_24), shr(UPPER_AT, light))))
+                lanes := mul(signextend(2, color), and(light, LANE_32))
+                lanes := add(lanes, shl(MIDDLE_85_AT, mul(signextend(2, shr(MIDDLE_AT, color)), and(shr(MIDDLE_AT, light), LANE_32))))
+                lanes := add(lanes, shl(UPPER_85_AT, mul(signextend(2, shr(UPPER_AT, color)), shr(UPPER_AT, light))))
             }
 
             // the colour of a fragment, Q58, with an accumulator and the function of the light
@@ -74,7 +75,7 @@ library QuadraticSamples {
                 }
                 if and(mload(MODE), IS_VARIED) {
                     // light, lanes of Q16, times the colour of the accumulator, Q10
-                    color := times(and(shr(ACCUMULATOR_FRACTION, attribute), LANES_24), shr(Q40_TO_Q16, color))
+                    color := times(shr(ACCUMULATOR_FRACTION, attribute), shr(Q40_TO_Q16, color))
                     color := add(HALF_85, shl(Q26_TO_Q58, color))
                 }
                 color := add(color, gleam)

@@ -21,7 +21,7 @@ from ._models import Model, save_mesh
 #: Timeouts in seconds: of a connection, and between parts of the file.
 TIMEOUT = (10, 30)
 #: Bytes that are read at a time.
-CHUNK = 1 << 13
+CHUNK = 1 << 16
 
 
 def fetch(model: Model, source: Path | None = None) -> None:
@@ -52,7 +52,7 @@ def fetch(model: Model, source: Path | None = None) -> None:
         ) from None
 
 
-def checksum(data: bytes, like: str) -> str:
+def checksum(data: bytes | bytearray, like: str) -> str:
     """Return the checksum of a file, of the kind of another: "sha256:..." or "git-blob:..."."""
     kind = like.partition(":")[0]
     digest = hashlib.sha256(data)
@@ -65,33 +65,26 @@ def download(model: Model) -> bytes:
     """Return the published file of a model. FetchError if it cannot be had."""
     import requests
 
-    name, address, size = model.name, model.address, model.size
-    host, most = address.split("/")[2], MAX_BYTES if size is None else size
-    data = b""
+    name, address, data = model.name, model.address, bytearray()
     try:
         with requests.get(address, stream=True, timeout=TIMEOUT) as response:
-            if response.status_code != 200:
-                raise FetchError(f"{name}: {address} answers {response.status_code} {response.reason}")
+            response.raise_for_status()
             for part in response.iter_content(CHUNK):
                 data += part
-                if len(data) > most:
-                    raise FetchError(f"{name}: {address} sends more than the {most:,} bytes expected")
-        is_cut = size is not None and len(data) < size
+                if len(data) > MAX_BYTES:
+                    raise FetchError(f"{name}: {address} sends more than {MAX_BYTES >> 20} MB")
     except requests.exceptions.RequestException as error:
-        if not data:
-            raise FetchError(
-                f"{name}: {host} cannot be reached ({type(error).__name__}); is there a network?"
-                f" A copy of the file goes in with: shackled datasets fetch {name} --from FILE"
-            ) from None
-        is_cut = True
-    if is_cut:
-        raise FetchError(f"{name}: the connection was cut after {len(data):,} bytes; run it again")
+        reason = str(error) if isinstance(error, requests.exceptions.HTTPError) else type(error).__name__
+        raise FetchError(
+            f"{name}: {address} cannot be downloaded ({reason}); is there a network? A copy of the file goes in with:"
+            f" shackled datasets fetch {name} --from FILE"
+        ) from None
     if (found := checksum(data, model.checksum)) != model.checksum:
         raise FetchError(
             f"{name}: what {address} sends is not the file that was expected: its checksum is {found}"
             f" instead of {model.checksum}"
         )
-    return data
+    return bytes(data)
 
 
 def _read(model: Model, data: bytes) -> Mesh:

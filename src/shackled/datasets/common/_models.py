@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import io
 import tomllib
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -12,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import InputError
-from ...scene import LookOptions, Material, Mesh, Object, Scene, contrasting, painted, stage
+from ...scene import Material, Mesh, Object, Scene, contrasting, painted, stage
 from .. import Piece, cache_folder, keep
 from . import builtin
 
@@ -24,7 +25,7 @@ MATERIAL = Material("smooth", 0.3, 0.8, 0.35, 24)
 
 @dataclass(frozen=True)
 class Model:
-    """An entry of models.toml, which documents the fields; `size` is its `bytes`, None if it is not known."""
+    """An entry of models.toml, which documents the fields."""
 
     name: str
     title: str
@@ -33,8 +34,7 @@ class Model:
     commercial: bool
     address: str
     checksum: str
-    size: int | None = None
-    rotation: list[float] = field(default_factory=lambda: [0, 0, 0])
+    rotation: Sequence[float] = (0, 0, 0)
     color: str | None = None
     azimuth: float = 30
     elevation: float = 20
@@ -60,23 +60,23 @@ class Model:
         mesh = load_mesh(self.kept, self.name)
         if self.color is not None and len(np.unique(mesh.colors, axis=0)) == 1:
             mesh = painted(mesh, self.color)
-        look = LookOptions(
+        return stage(
+            mesh,
+            material=MATERIAL,
             background=contrasting([Object(mesh)]),
             azimuth=self.azimuth,
             elevation=self.elevation,
             half_height=0.3,
             cull=self.cull,
+            crease=self.crease,
         )
-        if self.crease is not None:
-            look["crease"] = self.crease
-        return stage(mesh, material=MATERIAL, **look)
 
 
 @cache
 def models() -> dict[str, Model]:
     """Return all models by name."""
     entries = tomllib.loads(files(__package__).joinpath("models.toml").read_text("utf-8"))
-    return {name: Model(name=name, size=entry.pop("bytes", None), **entry) for name, entry in entries.items()}
+    return {name: Model(name=name, **entry) for name, entry in entries.items()}
 
 
 def model(name: str) -> Model:

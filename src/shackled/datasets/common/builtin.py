@@ -24,6 +24,10 @@ PAPER = Background((243, 236, 222), (203, 190, 170))
 MIST = Background((222, 229, 236), (162, 176, 192))
 BLACK = Background((0, 0, 0))
 
+#: Gradients, and the axis of one that does not go upward.
+FLAME, SUNSET = ("#e0457b", "#f6c244", (1, 1, 0)), ("#2ec4b6", "#ff9f1c", (1, 0, 0))
+SEA, SHELL, WOOD = ("#2f6690", "#8fd3c8"), ("#d9735b", "#f7e3c9"), ("#a86b32", "#f0b860")
+
 WIRES: dict[str, Any] = {"wireframe": True, "cull": False}
 
 
@@ -46,34 +50,14 @@ def pieces() -> list[Piece]:
         _piece("cylinder", "Cylinder", shapes.cylinder, SMOOTH, PAPER, "#2f9c95", view=(30, 28)),
         _piece("cone", "Cone", shapes.cone, SMOOTH, PAPER, "#e8842c", view=(30, 24)),
         _piece("torus", "Torus", shapes.torus, SMOOTH, MIST, "#d1495b", view=(30, 38)),
-        _piece("torus-knot", "Torus knot", _knot, SMOOTH, NIGHT, view=(0, 0)),
+        _piece("torus-knot", "Torus knot", shapes.torus_knot, SMOOTH, NIGHT, FLAME, view=(0, 0)),
         _piece("spring", "Spring", shapes.spring, SMOOTH, MIST, "#8a94a6", view=(-50, 18)),
-        _piece("moebius-strip", "Möbius strip", _moebius, SMOOTH, NIGHT, view=(-60, 42), cull=True),
-        _piece("klein-bottle", "Klein bottle", _klein, SMOOTH, PAPER, view=(25, 12), cull=True),
+        _piece("moebius-strip", "Möbius strip", shapes.moebius_strip, SMOOTH, NIGHT, SUNSET, view=(-60, 42), cull=True),
+        _piece("klein-bottle", "Klein bottle", shapes.klein_bottle, SMOOTH, PAPER, SEA, view=(25, 12), cull=True),
         _piece("superellipsoid", "Superellipsoid", shapes.superellipsoid, SMOOTH, MIST, "#7b5ea7", view=(32, 26)),
-        _piece("seashell", "Seashell", _seashell, SMOOTH, NIGHT, view=(20, 14), cull=False),
-        _piece("menger-sponge", "Menger sponge", _menger, FLAT, NIGHT, view=(28, 26)),
+        _piece("seashell", "Seashell", shapes.seashell, SMOOTH, NIGHT, SHELL, view=(20, 14), cull=False),
+        _piece("menger-sponge", "Menger sponge", shapes.menger_sponge, FLAT, NIGHT, WOOD, view=(28, 26)),
     ]
-
-
-def _knot() -> Mesh:
-    return shapes.shaded(shapes.torus_knot(), "#e0457b", "#f6c244", axis=(1, 1, 0))
-
-
-def _moebius() -> Mesh:
-    return shapes.shaded(shapes.moebius_strip(), "#2ec4b6", "#ff9f1c", axis=(1, 0, 0))
-
-
-def _klein() -> Mesh:
-    return shapes.shaded(shapes.klein_bottle(), "#2f6690", "#8fd3c8")
-
-
-def _seashell() -> Mesh:
-    return shapes.shaded(shapes.seashell(), "#d9735b", "#f7e3c9")
-
-
-def _menger() -> Mesh:
-    return shapes.shaded(shapes.menger_sponge(2), "#a86b32", "#f0b860")
 
 
 def first_render() -> Scene:
@@ -93,15 +77,19 @@ def _piece(
     mesh: Callable[[], Mesh],
     material: Material,
     background: Background,
-    color: str | None = None,
+    color: str | tuple[Any, ...] | None = None,
     view: tuple[float, float] = (30, 20),
     **look: Any,
 ) -> Piece:
-    """Return the piece of a mesh. color: None for those of the mesh. view: azimuth and elevation. look: of `stage`."""
+    """Return the piece of a mesh. color: also what `shapes.shaded` takes; None for those of the mesh. view: azimuth and
+    elevation. look: of `stage`.
+    """
     chosen = {"margin": 0.12, "half_height": 0.3, "azimuth": view[0], "elevation": view[1], **look}
 
     def make() -> Scene:
-        shown = mesh() if color is None else painted(mesh(), color)
+        shown = mesh()
+        if color is not None:
+            shown = painted(shown, color) if isinstance(color, str) else shapes.shaded(shown, *color)
         return stage(shown, material=material, background=background, **chosen)
 
     return Piece(name, "common", title, LICENCE, make)

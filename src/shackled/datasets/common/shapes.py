@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from itertools import product
+from itertools import combinations, product
 
 import numpy as np
+from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
 from ...checks import color as checked_color
@@ -295,8 +296,7 @@ def menger_sponge(depth: int = 2) -> Mesh:
 
 def shaded(mesh: Mesh, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1, 0)) -> Mesh:
     """Return the mesh in colours from `low` to `high` along an axis."""
-    colors = gradient(mesh.positions @ np.asarray(axis, dtype=np.float64), low, high)
-    return Mesh(mesh.positions, mesh.faces, colors, mesh.normals)
+    return evolve(mesh, colors=gradient(mesh.positions @ np.asarray(axis, dtype=np.float64), low, high))
 
 
 def gradient(heights: Array, low: ArrayLike, high: ArrayLike) -> NDArray[np.uint8]:
@@ -334,11 +334,8 @@ def _faces_of(points: ArrayLike) -> NDArray[np.int64]:
     """Return the faces of the convex polyhedron with these corners, (m, 3), seen from outside."""
     corners = np.asarray(points, dtype=np.float64)
     corners = corners - corners.mean(axis=0)
-    count = len(corners)
     planes: dict[tuple[int, ...], Array] = {}
-    for a, b, c in product(range(count), repeat=3):
-        if not a < b < c:
-            continue
+    for a, b, c in combinations(range(len(corners)), 3):
         normal = np.cross(corners[b] - corners[a], corners[c] - corners[a])
         distance = normal @ corners[a]
         if abs(distance) < 1e-9:  # through the middle

@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 from attrs import evolve
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from ...scene import NORMAL_UNIT, Background, Camera, Light, Material, Mesh, Object, Scene, stage, view_axes
+from ...scene import NORMAL_UNIT, Background, Camera, Light, Material, Object, Scene, stage, view_axes
 from .. import Piece
 from .modelling import (
     Array,
@@ -29,6 +29,7 @@ from .modelling import (
     pixels,
     prism,
     revolve,
+    shared,
     sphere,
     sweep,
     torus,
@@ -110,26 +111,16 @@ def _cheaper(o: Object, camera: Camera) -> list[Object]:
     order = np.argsort(distance, kind="stable")
     if o.mesh.normals is None:
         return [evolve(o, mesh=evolve(o.mesh, faces=faces[order]))]
-    normals = o.mesh.normals[faces[order]]
+    positions, colors, normals = (each[faces[order]] for each in (o.mesh.positions, o.mesh.colors, o.mesh.normals))
     flat = np.abs(normals - normals[:, :1]).max(axis=(1, 2)) < 1 / NORMAL_UNIT
     parts = []
     if flat.any():
         material = evolve(o.material, shading="flat")
-        parts.append(evolve(o, mesh=_part(o.mesh, faces[order[flat]], None), material=material))
+        parts.append(evolve(o, mesh=shared(positions[flat], colors[flat]), material=material))
     if not flat.all():
-        parts.append(evolve(o, mesh=_part(o.mesh, faces[order[~flat]], o.mesh.normals)))
+        parts.append(evolve(o, mesh=shared(positions[~flat], colors[~flat], normals[~flat])))
     flat_is_nearer = flat.any() and distance[order[flat]].mean() < distance.mean()
     return parts if flat_is_nearer else parts[::-1]
-
-
-def _part(mesh: Mesh, faces: NDArray[np.int64], normals: Array | None) -> Mesh:
-    """Return some of the faces, in that order, with the vertices that they need."""
-    table = np.hstack([mesh.positions, mesh.colors, *([] if normals is None else [normals])])
-    rows, numbers = np.unique(table[faces.reshape(-1)], axis=0, return_inverse=True)
-    has_normals = normals is not None
-    return Mesh(
-        rows[:, :3], numbers.reshape(-1, 3), rows[:, 3:6].astype(np.uint8), rows[:, 6:] if has_normals else None
-    )
 
 
 def ring(outline: Array, y: float, scale: float = 1) -> Array:

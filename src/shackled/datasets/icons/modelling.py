@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -83,12 +84,15 @@ class Solid:
         corners = np.rint(self.corners * STEPS)
         kept = _distinct(corners)
         corners, colors = corners[kept], self.colors[kept]
-        columns = [corners.reshape(-1, 3), colors.reshape(-1, 3).astype(np.float64)]
-        if crease is not None:
-            columns.append(np.rint(_normals(corners, crease).reshape(-1, 3) * 2**20))
-        vertices, numbers = np.unique(np.hstack(columns), axis=0, return_inverse=True)
-        normals = None if crease is None else vertices[:, 6:] / 2**20
-        return Mesh(vertices[:, :3], numbers.reshape(-1, 3), vertices[:, 3:6].astype(np.uint8), normals)
+        return shared(corners, colors, *([] if crease is None else [_normals(corners, crease)]))
+
+
+def shared(*parts: NDArray[Any]) -> Mesh:
+    """Return the mesh of the positions, colours and perhaps normals of corners, (m, 3, 3), equal ones as one vertex."""
+    table = np.concatenate(parts, axis=2).reshape(-1, 3 * len(parts))
+    vertices, numbers = np.unique(table, axis=0, return_inverse=True)
+    positions, colors, *normals = np.split(vertices, len(parts), axis=1)
+    return Mesh(positions, numbers.reshape(-1, 3), colors.astype(np.uint8), *normals)
 
 
 def union(*solids: Solid) -> Solid:
@@ -323,7 +327,7 @@ def _cap(ring: Array) -> Array:
 
 
 def _normals(corners: Array, crease: float) -> Array:
-    """Return unit normals of the corners, (m, 3, 3).
+    """Return unit normals of the corners, (m, 3, 3), rounded.
 
     Each is the mean, weighted by angle, of the faces that meet there and differ by less than `crease` degrees.
     """
@@ -341,4 +345,4 @@ def _normals(corners: Array, crease: float) -> Array:
         near = faces[here // 3] @ faces[here // 3].T > np.cos(np.radians(crease))
         normals[here] = (near | np.eye(len(here), dtype=bool)) @ weighted[here]
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-    return normals.reshape(-1, 3, 3)
+    return np.rint(normals * 2**20).reshape(-1, 3, 3) / 2**20

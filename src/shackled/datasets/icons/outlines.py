@@ -92,17 +92,13 @@ def triangulate(outline: ArrayLike) -> list[tuple[int, int, int]]:
     left = list(range(len(points)))
     triangles = []
     while len(left) > 2:
-        ears = [(_sharpest(points[list(ear)]), ear) for ear in _corners(left) if _is_ear(points, left, ear, turn)]
+        corners = zip(left[-1:] + left[:-1], left, left[1:] + left[:1], strict=True)
+        ears = [ear for ear in corners if _is_ear(points, left, ear, turn)]
         if not ears:
             raise InputError("the polygon crosses itself, or has corners in one line or twice")
-        _, ear = max(ears)
-        triangles.append(ear)
-        left.remove(ear[1])
+        triangles.append(max(ears, key=lambda ear: (_sharpest(points[list(ear)]), ear)))
+        left.remove(triangles[-1][1])
     return triangles
-
-
-def _corners(left: Sequence[int]) -> list[tuple[int, int, int]]:
-    return [(left[i - 1], left[i], left[(i + 1) % len(left)]) for i in range(len(left))]
 
 
 def _is_ear(points: Outline, left: Sequence[int], ear: tuple[int, int, int], turn: float) -> bool:

@@ -34,20 +34,21 @@ def read_off(path: Path) -> list[MeshPart]:
     header = _HEADER.fullmatch(lines[0][1][0]) if lines else None
     if header is None:
         raise InputError("an OFF file begins with OFF, or with letters before it, as in COFF, NOFF, NCOFF or STOFF")
-    letters, first = header["letters"], lines[0]
-    # the counts may follow at once
-    counts = [*filter(None, [header["count"]]), *first[1][1:]]
-    lines = [*([(first[0], counts)] if counts else []), *lines[1:]]
-    if not lines:
-        raise InputError("the counts of vertices and faces are missing")
-    vertex_count, face_count = _counts(lines[0])
-    end = 1 + vertex_count + face_count
+    letters = header["letters"]
+    (number, words), *lines = lines
+    counts = [*filter(None, [header["count"]]), *words[1:]]
+    if not counts and lines:
+        (number, counts), *lines = lines
+    if len(counts) < 2 or not all(map(str.isdecimal, counts[:2])):
+        raise _wrong((number, counts), "the counts of vertices and faces")
+    vertex_count, face_count = map(int, counts[:2])
+    end = vertex_count + face_count
     if len(lines) < end:
-        raise InputError(f"line {lines[0][0]} promises {end - 1} vertices and faces, but {len(lines) - 1} lines follow")
+        raise InputError(f"line {number} promises {end} vertices and faces, but {len(lines)} lines follow")
     if len(lines) > end:
         warn(f"{path}: the lines behind its faces are left out: {len(lines) - end:,}")
-    vertices = _numbers(lines[1 : 1 + vertex_count], 3 + 3 * ("N" in letters) + 2 * ("ST" in letters))
-    polygons, face_colors = _faces(lines[1 + vertex_count : end])
+    vertices = _numbers(lines[:vertex_count], 3 + 3 * ("N" in letters) + 2 * ("ST" in letters))
+    polygons, face_colors = _faces(lines[vertex_count:end])
     positions, behind = np.array([vertex[:3] for vertex in vertices]).reshape(-1, 3), [row[3:] for row in vertices]
     if "ST" in letters:
         warn(f"{path}: its texture coordinates are left out, for an OFF file names no texture")
@@ -69,16 +70,6 @@ def read_off(path: Path) -> list[MeshPart]:
 
 def _wrong(line: _Line, what: str) -> InputError:
     return InputError(f"line {line[0]} should hold {what}, not {' '.join(line[1])[:60]!r}")
-
-
-def _counts(line: _Line) -> tuple[int, int]:
-    try:
-        vertices, faces = (int(word) for word in line[1][:2])
-        if vertices < 0 or faces < 0:
-            raise ValueError
-    except ValueError:
-        raise _wrong(line, "the counts of vertices and faces") from None
-    return vertices, faces
 
 
 def _numbers(lines: list[_Line], least: int) -> _Rows:

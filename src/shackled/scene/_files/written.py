@@ -4,14 +4,10 @@ from __future__ import annotations
 
 import base64
 import json
-import os
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from attrs import asdict
 
-from ...errors import InputError
-from ...whole_file import check_output_file, write_output
 from .._effects import Background, Fog, Hemisphere, Rim
 from .._ground import Ground
 from .._light import Light
@@ -28,15 +24,6 @@ MESH = ("positions", "faces", "colors", "normals", "uvs", "opacities")
 def keys_of(part: Part, *before: str) -> tuple[str, ...]:
     """Return the keys of a part of a scene, with some before them."""
     return (*before, *(setting.name for setting in settings_of(part)))
-
-
-def write_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
-    """Write a scene file in JSON, as `Scene.save`."""
-    path = Path(path)
-    if path.suffix.lower() != ".json":
-        hint = "; the command `shackled export` writes models" if path.suffix.lower() == ".glb" else ""
-        raise InputError(f"the scene {path} must end in .json{hint}")
-    write_output(check_output_file(path, "scene"), encode_scene_file(scene))
 
 
 def encode_scene_file(scene: Scene) -> bytes:

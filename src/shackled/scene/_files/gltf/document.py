@@ -20,6 +20,7 @@ from ..content import parse, read_bytes
 from ..table import Table, about
 
 _JSON, _BIN = b"JSON", b"BIN\0"
+#: What is not read, and without effect where a file does not require it.
 _MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
 #: What is read, has notes of its own, or is without effect on what is drawn.
 _KNOWN = {
@@ -63,8 +64,6 @@ class Document:
         if not str(version).startswith("2."):
             raise InputError(f"asset.version is {version!r:.20}; glTF 2.0 is read")
         for name in (str(name) for _, name in self.keys.rows("extensionsRequired")):
-            if name in _MESHOPT:
-                raise _compressed("it", name)
             if name not in _KNOWN and not name.startswith(_SURFACES):
                 raise InputError(f"it requires the extension {name:.60}, which is not read; export it without")
         self.uses(str(name) for _, name in self.keys.rows("extensionsUsed") if str(name) not in _MESHOPT)
@@ -106,9 +105,6 @@ class Document:
         buffer = self.item(view, "buffer", "buffers")
         if buffer.where not in self._buffers:
             inside = self.binary if buffer.where == "buffers[0]" and "uri" not in buffer else None
-            packed = [name for name in _MESHOPT if name in view.table("extensions")]
-            if inside is None and "uri" not in buffer and packed:
-                raise _compressed(view.where, packed[0])
             self._buffers[buffer.where] = self.resource(buffer) if inside is None else inside
         data = self._buffers[buffer.where]
         start, length = view.whole("byteOffset", 0), view.whole("byteLength")
@@ -137,15 +133,9 @@ class Document:
             return read_bytes(self.path.parent.joinpath(*name.parts))
 
 
-def _compressed(what: str, extension: str) -> InputError:
-    return InputError(f"{what} is compressed with {extension}, which is not read; export it without compression")
-
-
 def _chunks(data: bytes) -> tuple[bytes, bytes | None]:
     """Return the JSON and the binary chunk of a GLB file."""
-    if len(data) < 12:
-        raise InputError("it ends within its header")
-    version, length = struct.unpack("<II", data[4:12])
+    version, length = struct.unpack("<II", data[4:12].ljust(8, b"\0"))
     if version != 2:
         raise InputError(f"it is of version {version} of GLB; version 2 is read")
     if length > len(data):
