@@ -82,10 +82,10 @@ def _text(sides: tuple[int, ...], gas: Series, theirs: dict[tuple[Projection, in
         lines.append(line)
     head = ["canvas", "perspective: original", "ours", "ratio", "orthographic: original", "ours", "ratio"]
     return (
-        f"From {first} x {first} to {last} x {last} pixels gas grows as side^{ours:.2f} here (linear in pixels would be"
-        f" 2) and as side^{log2(after / before):.2f} in the original, where memory is priced quadratically. The"
-        " orthographic cube is cheaper here: the eye is infinitely far away, so that each face has one highlight for"
-        " all its pixels.\n\n" + table(head, lines)
+        f"From {first} x {first} to {last} x {last} pixels, gas grows as side^{ours:.2f} here (2 would be linear in"
+        f" pixels) and as side^{log2(after / before):.2f} in the original, where the price of memory is quadratic. The"
+        " orthographic cube is cheaper here: the eye is infinitely far away, so each face has one highlight for all"
+        " its pixels.\n\n" + table(head, lines)
     )
 
 

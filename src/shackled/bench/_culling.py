@@ -94,11 +94,12 @@ def _text(pairs: list[Pair]) -> str:
     ]
     head = ["object", "triangles", "drawn", "with culling", "without", "ratio", "pixels that differ"]
     return (
-        f"Of {len(pairs)} objects at {SIDE} x {SIDE} pixels {len(alike)} look alike with culling and without: at most"
+        f"Of {len(pairs)} objects at {SIDE} x {SIDE} pixels, {len(alike)} look the same with and without"
+        f" culling: at most"
         f" one pixel in 1000 differs. For these, culling makes the mean picture {unculled / culled:.2f} times cheaper."
         f" The ratio was {PAPER_CULLING_RATIO} in the paper because the cost of the original grows with the square"
-        " of its triangles: half of them, a quarter of the gas. Here it is no more than what the hidden faces cost."
-        " The others are open surfaces, or wires, whose backs can be seen.\n\n"
+        " of its triangles: half the triangles take a quarter of the gas. Here, culling saves only the cost of the"
+        " hidden faces. The other objects are open surfaces, or wires, whose backs are visible.\n\n"
         + table(["mean gas", "objects", "with culling", "without", "ratio"], lines)
         + "\n\n"
         + table(head, details)

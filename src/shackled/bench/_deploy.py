@@ -44,13 +44,13 @@ def deploy(runner: Runner) -> ExperimentReport:
     core = sum(gas[name] for name in RENDERER)
     price = PAPER_DEPLOYMENT_ETHER * 1e9 / DEPLOYMENT_GAS
     text = (
-        f"The renderer is {', '.join(RENDERER[:-1])} and {RENDERER[-1]}: {millions(core)} gas; with all"
-        f" {len(names)} contracts of the package {millions(sum(gas.values()))}. The seven contracts of the"
-        f" original, its token and its generator among them, take {millions(DEPLOYMENT_GAS, 1)}."
+        f"The renderer is {', '.join(RENDERER[:-1])} and {RENDERER[-1]}: {millions(core)} gas. All"
+        f" {len(names)} contracts of the package take {millions(sum(gas.values()))}. The seven contracts of the"
+        f" original, including its token and its generator, take {millions(DEPLOYMENT_GAS, 1)}."
         f" The paper paid {PAPER_DEPLOYMENT_ETHER} ether for 13"
         " contracts and libraries; for the"
-        f" {millions(DEPLOYMENT_GAS, 1)} of the seven that would be {price:.1f} gwei for each gas."
-        f" At that price the renderer would take {core * price / 1e9:.3f} ether.\n\n"
+        f" {millions(DEPLOYMENT_GAS, 1)} of the seven, this would be {price:.1f} gwei per gas."
+        f" At this price, the renderer would cost {core * price / 1e9:.3f} ether.\n\n"
     )
     lines = [[name, f"{sizes[name][0]:,}", f"{sizes[name][1]:,}", millions(gas[name], 3)] for name in names]
     theirs = [[f"original: {name}", f"{size:,}", "", ""] for name, size in CODE_SIZES.items()]

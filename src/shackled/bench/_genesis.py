@@ -103,10 +103,11 @@ def _text(found: list[GenesisCost], theirs: list[Measured]) -> str:
     before, gas, faces = _column(theirs, "gas"), _column(found, "gas"), [piece.triangles for piece in found]
     over = int((gas + 21000 > 1 << 24).sum())
     return (
-        f"{len(found)} pieces, {min(faces)} to {max(faces)} triangles; on average"
-        f" {before.mean() / gas.mean():,.0f} times less gas than the {len(theirs)} pieces of the original that were"
-        f" measured. What a piece costs now follows the pixels it covers rather than its triangles. The most"
-        f" expensive takes {millions(gas.max())}; {'none is' if not over else f'{over} are'} above the 16.777M of one"
+        f"{len(found)} pieces, {min(faces)} to {max(faces)} triangles. On average, they take"
+        f" {before.mean() / gas.mean():,.0f} times less gas than the {len(theirs)} measured pieces of the original. The"
+        f" cost of a piece now depends on the pixels that it covers rather than on its triangles. The most"
+        f" expensive piece takes {millions(gas.max())}; {'none is' if not over else f'{over} are'} above the"
+        f" 16.777M of one"
         " transaction.\n\n"
         + table(
             ["gas", "least", "median", "mean", "most"], [["original", *_spread(before, 0)], ["ours", *_spread(gas, 2)]]

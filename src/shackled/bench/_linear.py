@@ -40,8 +40,8 @@ def triangles(runner: Runner) -> ExperimentReport:
     ours, before = fit([x], gas), fit([x], theirs)
     rows = zip(counts, costs, theirs, strict=True)
     text = (
-        f"A line through the gas is {_line(ours)}; through that of the original {_line(before)}. A term with the"
-        f" square of the triangles takes {_share(x, gas)} of the gas of the last picture; in the original"
+        f"The fitted line is {_line(ours)}; for the original, it is {_line(before)}. A term with the square of the"
+        f" number of triangles accounts for {_share(x, gas)} of the gas of the last picture; in the original, for"
         f" {_share(x, theirs)}.\n\n"
     )
     lines = [
@@ -174,13 +174,13 @@ def _text(rows: list[Row]) -> str:
         lines.append(_fitted(f"ours: {look}, all", {"triangles": triangles, "pixels": pixels}, gas))
     counts = [row[1] for row in rows if row[0] == "unlit squares"]
     return (
-        "R2 says what share of the differences a straight line explains. Square: the share that a term with the square"
-        " of the triangles, or of the pixels, takes in the gas of the largest scene, if the fit may use such a term."
-        " The first four rows are the same scenes on both engines. Squares: one of fixed size, cut into"
+        "R2 is the share of the variance that a straight line explains. Square: the share of the gas of the largest"
+        " scene that a term with the square of the triangles, or of the pixels, accounts for, if the fit may use such a"
+        " term. The first four rows are the same scenes in both renderers. Squares: one square of fixed size, cut into"
         f" {min(counts):,} to {max(counts):,} triangles at {SQUARE_SIDE} x {SQUARE_SIDE} pixels. Matte: without"
         " highlights. Highlights are computed for single pixels of large triangles and for the vertices of small ones,"
-        " so that a glossy square cut finer first needs more gas, then less, then more again, and lies on no line.\n\n"
-        + table(["scenes", "gas", "R2", "square"], lines)
+        " so a glossy square that is cut more finely first needs more gas, then less, then more again: no line"
+        " fits it.\n\n" + table(["scenes", "gas", "R2", "square"], lines)
     )
 
 
