@@ -227,12 +227,9 @@ def test_the_tutorial(project: Path, monkeypatch: pytest.MonkeyPatch, capsys: py
     monkeypatch.chdir(project)
     command = re.search(r"^shackled (preview .*--check)$", page, re.M)
     assert command
-    sheet = project / "sheet.png"
-    arguments = [*shlex.split(command[1]), "--first", "40", "--tokens", "16", "-o", str(sheet)]
+    arguments = [*shlex.split(command[1]), "--first", "40", "--tokens", "16"]
     assert run_shackled(arguments) == 0, capsys.readouterr().err
     assert "Totems.tokenURI: 16 tokens" in capsys.readouterr().out
-    with PillowImage.open(sheet) as opened:
-        assert len(np.unique(np.asarray(opened).reshape(-1, 4), axis=0)) > 100
 
 
 @pytest.mark.skipif(not HARDHAT.is_dir(), reason="Hardhat is not installed: python tools/prepare.py node")
