@@ -6,6 +6,7 @@ import os
 import shutil
 import socket
 import subprocess
+import tempfile
 import time
 from pathlib import Path
 from types import TracebackType
@@ -40,8 +41,11 @@ class Anvil:
             port = found.getsockname()[1]
         self.url = f"http://127.0.0.1:{port}"
         self.connection = Connection(self.url, PATIENCE)
+        # old states, which anvil would leave in the user's folder
+        self.states = tempfile.TemporaryDirectory(prefix="anvil-")
+        options = ["--cache-path", self.states.name, *self.options]
         self.process = subprocess.Popen(
-            [self.binary, "--host", "127.0.0.1", "--port", str(port), "--silent", *self.options],
+            [self.binary, "--host", "127.0.0.1", "--port", str(port), "--silent", *options],
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
@@ -69,6 +73,7 @@ class Anvil:
         except subprocess.TimeoutExpired:
             self.process.kill()
             self.process.wait()
+        self.states.cleanup()
 
     def _wait(self) -> None:
         end = time.monotonic() + PATIENCE
