@@ -128,6 +128,8 @@ def test_the_look_of_a_mesh() -> None:
 def in_a_scene_file(mesh: Mesh, folder: Path) -> Object:
     trimesh.Trimesh(mesh.positions, mesh.faces, process=False).export(folder / "mesh.obj")
     path = folder / "scene.toml"
+    path.write_text('[[objects]]\nmesh = "mesh.obj"\n')
+    assert load(path).objects[0].material == Material("flat")
     path.write_text('[[objects]]\nmesh = "mesh.obj"\nmaterial = { shading = "smooth" }\n')
     return load(path).objects[0]
 

@@ -420,7 +420,8 @@ def test_the_camera_and_the_lights_of_a_file(file: File, tmp_path: Path) -> None
     assert (front.camera.projection, front.camera.half_height, front.width) == ("orthographic", 3, 32)
     with pytest.raises(InputError, match=r"model\.gltf: it has no camera 'Back'; it has 0, 1 Front$"):
         load(path, use_camera="Back")
-    file.document["nodes"] += [file.document["nodes"][5]] * 3
+    # scaled to nothing, as hidden ones often are
+    file.document["nodes"] += [file.document["nodes"][5] | {"scale": [0, 0, 0]}] * 3
     file.document["scenes"][0]["nodes"] += [6, 7, 8]
     with pytest.warns(InputWarning, match=r"left out: 2 lights, the weakest: 4 are drawn$"):
         assert len(load(file.write(tmp_path), use_camera=0).lights) == 4

@@ -43,7 +43,7 @@ def test_unknown_extension(tmp_path: Path) -> None:
     known = ".obj, .ply, .stl, .glb, .gltf, .off, .toml, .json, .png"
     path = tmp_path / "a.3mf"
     assert refusal(path, read=load) == f" is neither a mesh nor a scene file by its extension; known are {known}"
-    assert refusal(tmp_path, read=load) == f" is neither a mesh nor a scene file by its extension; known are {known}"
+    assert refusal(tmp_path, read=load) == f" is a directory; a mesh or scene file is needed: {known}"
 
 
 @pytest.mark.skipif(os.geteuid() == 0 if hasattr(os, "geteuid") else True, reason="root may read everything")

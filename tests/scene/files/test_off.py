@@ -46,6 +46,7 @@ def test_colors_of_vertices_need_no_letter(tmp_path: Path) -> None:
     ("text", "message"),
     [
         ("OBJ\n3 1 0\n", BEGINS),
+        ("4OFF\n3 1 0\n", BEGINS),
         ("OFF\n", "line 1 should hold the counts of vertices and faces, not ''"),
         ("OFF\nfour 1\n", "line 2 should hold the counts of vertices and faces, not 'four 1'"),
         ("OFF\n4 -1 0\n" + SQUARE, "line 2 should hold the counts of vertices and faces, not '4 -1 0'"),

@@ -101,7 +101,9 @@ def test_binary_with_triangles_and_quads(tmp_path: Path, encoding: str, order: s
         (RGB, "1 2 3", RGB, ["255 255 255"] * 2, [(1, 2, 3)] * 2),
         # other names, of which the first counts, if it is whole
         (properties("uchar", "diffuse_red", "diffuse_green", "diffuse_blue"), "10 20 30", "", [""], [(10, 20, 30)]),
-        (properties("uchar", "diffuse_red", "green", "blue"), "10 20 30", "", [""], [DEFAULT_COLOR]),
+        (properties("uchar", "r", "g", "b"), "10 20 30", "", [""], [(10, 20, 30)]),
+        (properties("uchar", "r", "g", "b") + RGB, "1 2 3 4 5 6", "", [""], [(4, 5, 6)]),
+        (properties("uchar", "r", "g", "red"), "10 20 30", "", [""], [DEFAULT_COLOR]),
         (RGB + properties("float", "s", "t"), "1 2 3 0.5 0.5", "", [""], [(1, 2, 3)]),
     ],
 )
@@ -113,7 +115,7 @@ def test_colors(
     mesh, notes = read_with_notes(tmp_path, text)
     assert corner_colors(mesh) == [[list(each)] * 3 for each in expected]
     names = [line.split()[-1] for line in vertex.splitlines()]
-    left = [name for name in names if len(name) == 1 or {"diffuse_red", "green"} <= set(names)]
+    left = [name for name in names if (len(name) == 1 and names != ["r", "g", "b"]) or names == ["r", "g", "red"]]
     lost = [LEFT + ", ".join(f"{name} of vertex" for name in left)] if left else []
     assert notes == [*lost, *([OF_FACES] if vertex and len(set(faces)) > 1 else [])]
 
@@ -176,6 +178,7 @@ def of_header(number: int, line: str) -> str:
         (changed("comment made", "made"), of_header(3, "made by hand")),
         (changed("comment made by hand", "x" * 90), of_header(3, "x" * 60)),
         (changed("format ascii 1.0", "format ascii"), of_header(2, "format ascii")),
+        (changed("format ascii 1.0", "format utf8 1.0"), of_header(2, "format utf8 1.0")),
         (changed("vertex 4", "vertex -1"), of_header(4, "element vertex -1")),
         (changed("vertex 4", "vertex many"), of_header(4, "element vertex many")),
         (changed("float x", "half x"), of_header(5, "property half x")),

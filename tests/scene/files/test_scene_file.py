@@ -126,7 +126,7 @@ def test_json_has_the_same_keys(folder: Path) -> None:
 def test_defaults_show_all_that_is_there(folder: Path) -> None:
     scene = scene_of(folder, objects=[thing(), thing(position=[40, 0, 0], scale=3)])
     assert (scene.width, scene.height, scene.background) == (128, 128, BACKGROUND)
-    assert len(scene.lights) == 1
+    assert (len(scene.lights), scene.objects[0].material) == (1, Material("flat"))
     assert 0.9 < np.abs(projected(scene)).max() < 1
 
 

@@ -72,6 +72,8 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
         return read_picture(path)
     if extension not in SCENES:
         known = ", ".join((*READERS, *SCENES, PICTURE))
+        if path.is_dir():
+            raise InputError(f"{path} is a directory; a mesh or scene file is needed: {known}")
         raise InputError(f"{path} is neither a mesh nor a scene file by its extension; known are {known}")
     document = parse(path, read_text(path), extension)
     with about(str(path)):

@@ -48,7 +48,7 @@ def _camera(gltf: Document, nodes: Mapping[int, Node], name: str | int) -> Camer
     kind = keys.choice("type", ("perspective", "orthographic"))
     lens = keys.table(kind)
     half_height = math.tan(lens.number("yfov") / 2) if kind == "perspective" else lens.number("ymag")
-    eye, back = node.matrix[:3, 3], units(node.matrix[:3, 2])
+    eye, back = node.matrix[:3, 3], _back(node)
     with about(keys.where):
         return Camera(eye, eye - back, node.matrix[:3, 1], kind, half_height, lens.number("znear"))
 
@@ -63,7 +63,7 @@ def _lights(gltf: Document, nodes: Mapping[int, Node], middle: NDArray[np.float6
             continue
         light = declared[keys.index("light", len(declared), "lights")]
         kind = light.choice("type", LIGHT_KINDS)
-        place, back = node.matrix[:3, 3], units(node.matrix[:3, 2])
+        place, back = node.matrix[:3, 3], _back(node)
         strength = light.number("intensity", 1)
         if kind != "directional":
             strength /= max(float(np.sum((place - middle) ** 2)), 1e-12)
@@ -78,3 +78,9 @@ def _lights(gltf: Document, nodes: Mapping[int, Node], middle: NDArray[np.float6
     most = max((strength * color.max() for strength, color, _ in found), default=0)
     found = sorted((each for each in found if most > 0), key=lambda each: -each[0])
     return [evolve(light, color=to_srgb(strength * color / most).astype(int)) for strength, color, light in found]
+
+
+def _back(node: Node) -> NDArray[np.float64]:
+    """Return the direction of z; as at rest for a node that is scaled to nothing, as hidden ones are."""
+    back = units(node.matrix[:3, 2])
+    return back if back.any() else np.array([0.0, 0.0, 1.0])
