@@ -13,7 +13,7 @@ from attrs import evolve
 from PIL import Image as PillowImage
 
 from made_scenes import flat, teapot_scene
-from pictures import Pixels, call, counts, draw, dynamic, soup, unlit_scene
+from pictures import Pixels, call, counts, covered, draw, dynamic, soup, unlit_scene
 from shackled import Background, Camera, Scene
 from shackled.scene import fit
 
@@ -95,6 +95,13 @@ def test_gradients_end_in_their_colors(width: int, height: int) -> None:
     assert (picture[-1] == (bottom if height > 1 else top)).all()
     assert np.abs(picture - (top + (bottom - top) * part)).max() <= 0.501
     assert (draw(evolve(scene, invert=True)) == 255 - picture).all()
+
+
+def test_lit_pixels_are_those_that_are_covered() -> None:
+    """Of the last picture in several bands."""
+    for width, height in ((1, 1), (31, 17), (150, 140)):
+        scene = scene_of_size(width, height)
+        assert counts(scene)[1] == covered(evolve(scene, background=Background((0, 0, 0)))).sum()
 
 
 def test_triangles_are_those_that_face_the_eye() -> None:
