@@ -115,7 +115,7 @@ def test_a_precompiled_contract_that_is_missing(preview: Any) -> None:
     # STATICCALL of the contract 2
     code = bytes.fromhex("5f5f5f5f60025afa00")
     (problem,) = preview(contract(code)).token(0).problems
-    assert problem == f"image(0) fails: failed: the precompiled contract 0x{word(2)[12:].hex()} is not part of this EVM"
+    assert problem == f"image(0) fails: the precompiled contract 0x{word(2)[12:].hex()} is not part of this EVM"
 
 
 def test_an_endless_loop_takes_its_time_once(preview: Any, monkeypatch: pytest.MonkeyPatch) -> None:

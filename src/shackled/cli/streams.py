@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from ..errors import InputError, InputWarning
-from ..scene import MAX_BYTES
+from ..scene import MAX_BYTES, PICTURE, READERS, SCENES
 from ..untrusted import read_json
 
 #: What stands for standard input, and for standard output.
@@ -98,4 +98,5 @@ def _extension(data: bytes) -> str:
         except ValueError:
             document = None
         return ".gltf" if isinstance(document, dict) and "asset" in document else ".json"
-    raise InputError(f"the format of {INPUT} is not told by its content: give a file with its extension")
+    known = " ".join((*READERS, *SCENES, PICTURE))
+    raise InputError(f"the format of {INPUT} is not told by its content: give a file with its extension, {known}")

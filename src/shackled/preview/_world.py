@@ -82,7 +82,7 @@ class World:
         said = answer.output.decode(errors="replace").removeprefix('Custom("').removesuffix('")')
         if said in ("OpcodeNotFound", "NotActivated"):
             return "the embedded EVM has the rules of Cancun, and does not know an instruction: compile for cancun"
-        return f"failed: {said}"
+        return said
 
     @contextmanager
     def _instance(self) -> Iterator[Instance]:
@@ -101,7 +101,7 @@ class World:
         made = evm.deploy(self._creation, MOST_GAS)
         if made.status != Status.SUCCESS:
             reason = self.reason(made)
-            if reason == "failed: CreateContractSizeLimit":
+            if reason == "CreateContractSizeLimit":
                 reason = "its code has more than 24,576 bytes (EIP-170): turn the optimizer on, or split it"
             raise InputError(f"{self.contract.name} cannot be deployed: {reason}")
         self.address = made.output
