@@ -113,7 +113,7 @@ class _Worker:
                     [sys.executable, "-P", "-c", "from shackled.workers import _serve; _serve()"],
                     stdin=subprocess.PIPE,
                     stdout=subprocess.PIPE,
-                    env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
+                    env=os.environ | {"PYTHONPATH": os.pathsep.join(map(str, sys.path))},
                     start_new_session=True,
                 )
             return self._process

@@ -140,7 +140,7 @@ def _greet(address: str) -> None:
     # in a thread, since a notebook already runs an event loop in its own
     pool = ThreadPoolExecutor(1)
     try:
-        pool.submit(asyncio.run, asyncio.wait_for(greet(), PATIENCE)).result()
+        pool.submit(asyncio.run, asyncio.wait_for(greet(), PATIENCE)).result(2 * PATIENCE)
     except TimeoutError:
         raise OSError("it does not answer") from None
     finally:

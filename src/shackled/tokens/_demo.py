@@ -97,7 +97,7 @@ class Demo:
         prepare, chosen = collection.contract.prepare, chosen_pieces(None)
         self.report(f"{len(chosen)} icons are stored on chain")
         storage = plan_storage(self.connection, [SceneToStore(piece.name, token_scene(piece)) for piece in chosen])
-        store(storage, owner)
+        store(storage, owner, self._paid)
         for piece, pointer in zip(chosen, storage.pointers, strict=True):
             icon = (piece.title, pointer, SCALE, ICON_PRICE, 100, 1)
             self._pay(f"add {piece.title}", owner, add_call(collection.contract, icon, storage.codes))
@@ -120,13 +120,16 @@ class Demo:
         # a new address, so that the demonstration can be repeated on the same node
         salt = self.connection.number("eth_blockNumber")
         plan = plan_launch(self.connection, kind, CollectionTerms(_name(owner), _name(owner), salt=salt))
-        return launch(plan, owner, lambda part, _, receipt: self.report(f"  {part}: {receipt.gas:,} gas"))[0]
+        return launch(plan, owner, self._paid)[0]
 
     def _pay(self, name: str, user: Transactor, call: Call) -> Receipt:
         """Send a transaction, and report its gas."""
         receipt = perform(user, call)
-        self.report(f"  {name}: {receipt.gas:,} gas")
+        self._paid(name, user.address, receipt)
         return receipt
+
+    def _paid(self, name: str, _: bytes, receipt: Receipt) -> None:
+        self.report(f"  {name}: {receipt.gas:,} gas")
 
     def _after_sale(self, collection: Collection, giver: Transactor, receiver: Transactor) -> None:
         """Transfer a token, whose picture must not change, and withdraw the ether."""
