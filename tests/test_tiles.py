@@ -11,8 +11,8 @@ from numpy.random import Generator
 
 from pictures import draw
 from random_scenes import KINDS, random_case
-from shackled import Scene
-from shackled.scene import Rectangle
+from shackled import Camera, Light, Material, Mesh, Object, Scene
+from shackled.scene import Rectangle, fit
 
 
 def cut(rng: Generator, tile: Rectangle, depth: int) -> Iterator[Rectangle]:
@@ -54,6 +54,24 @@ def test_a_tile_of_a_fan() -> None:
     """Of the 58 faces around a vertex, those in the tile have the borders that they have in the whole picture."""
     scene = random_case(1, "slivers").scene
     assert np.array_equal(draw(scene, Rectangle(11, 0, 25, 8)), draw(scene)[:8, 11:36])
+
+
+@pytest.mark.xfail(strict=True, reason="the contract keeps 16 edges of vertices that have 13 triangles each")
+def test_a_tile_of_a_fan_of_fans() -> None:
+    """Around a vertex are 20 others, each with 13 more faces."""
+    count, rng = 20, np.random.default_rng(1)
+    turns = [2 * np.pi * np.arange(count) / count + each for each in (0, 0, 0.06)]
+    radii = (500, 900, 900)
+    rings = [radius * np.stack([np.cos(t), np.sin(t), 0 * t], 1) for radius, t in zip(radii, turns, strict=True)]
+    points = np.rint([(0, 0, 0), *np.concatenate(rings)])
+    k = np.arange(count)
+    outer = np.repeat(np.stack([1 + k, 1 + count + k, 1 + 2 * count + k], 1), 13, axis=0)
+    faces = [*outer, *np.stack([0 * k, 1 + k, 1 + (k + 1) % count], 1)]
+    mesh = Mesh(points, faces, rng.integers(0, 256, points.shape), np.tile([0, 0, 1], (len(points), 1)))
+    thing = Object(mesh, (0, 0, -2500), material=Material("smooth"))
+    lights = [Light.directional(toward=(1, 2, 3))]
+    scene = fit(Scene([thing], Camera(), lights, "black", width=96, height=96, antialias=True))
+    assert_tiles_are_parts(scene, (Rectangle(x, y, 16, 16) for x in range(0, 96, 16) for y in range(0, 96, 16)))
 
 
 def test_every_pixel_as_a_tile() -> None:

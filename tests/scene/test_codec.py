@@ -348,3 +348,8 @@ def test_the_largest_meshes() -> None:
     corners = np.zeros((65535, 3))
     faces = np.tile(FACES, (65535, 1))
     assert pack(Mesh(corners, faces))[1:5] == b"\xff" * 4
+    words = r"has {} vertices and {} triangles; a contract takes 65,535 and 65,535: simplify it with `max_triangles`$"
+    with pytest.raises(InputError, match=words.format("65,536", "1")):
+        pack(Mesh(np.zeros((65536, 3)), FACES))
+    with pytest.raises(InputError, match=words.format("65,535", "65,536")):
+        pack(Mesh(corners, np.tile(FACES, (65536, 1))))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..checks import Floats
 from ..errors import InputError
 from ._arithmetic import units
-from ._mesh import Mesh, vertex_normals
+from ._mesh import MAX_FACES, MAX_VERTICES, Mesh, vertex_normals
 from ._records import TEXTURE_BILINEAR, TEXTURE_CLAMP
 from ._texture import Texture
 
@@ -31,6 +31,10 @@ NORMAL_UNIT = 511
 def pack(mesh: Mesh, smooth: bool = False) -> bytes:
     """Return the bytes of a mesh with whole coordinates, of 16 bits if all fit, else 24; with normals if `smooth`."""
     positions, faces = mesh.positions, mesh.faces
+    if len(positions) > MAX_VERTICES or len(faces) > MAX_FACES:
+        found = f"{len(positions):,} vertices and {len(faces):,} triangles"
+        most = f"{MAX_VERTICES:,} and {MAX_FACES:,}"
+        raise InputError(f"a mesh has {found}; a contract takes {most}: simplify it with `max_triangles`")
     if (bits := bits_of(positions)) is None:
         raise InputError(f"a packed mesh needs whole coordinates from {-MAX_WIDE - 1:,} to {MAX_WIDE:,}")
     coordinates = np.ascontiguousarray(positions, dtype=">i4")

@@ -33,7 +33,8 @@ export function Sheet(props: {
         // the event of a dialog that is gone must not close one that was opened since
         if (dialog.current && app.dialog.value === name) app.dialog.value = null;
     };
-    const beside = ({ target }: MouseEvent): void => void (target === dialog.current && close());
+    // the second click of two may come beside a dialog that the first one made smaller
+    const beside = ({ target, detail }: MouseEvent): void => void (target === dialog.current && detail < 2 && close());
     const [id, look] = [`${name}-title`, props.wide ? "wide" : ""];
     return (
         <dialog ref={dialog} id={name} class={look} aria-labelledby={id} onClose={close} onMouseDown={beside}>
