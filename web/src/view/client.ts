@@ -33,6 +33,7 @@ export class Client {
     readonly #waiting = new Map<number, Waiting>();
     #worker: Promise<Worker> | null = null;
     #last = 0;
+    #stops = 0;
 
     constructor(assets: () => Promise<Assets>) {
         this.#assets = assets;
@@ -55,6 +56,7 @@ export class Client {
 
     /** End the worker, with all that it was asked; the next question starts another. */
     stop(reason: Error = new Interrupted()): void {
+        this.#stops++;
         void this.#worker?.then((worker) => worker.terminate()).catch(() => undefined);
         this.#worker = null;
         for (const { reject, timer } of this.#waiting.values()) {
@@ -65,7 +67,9 @@ export class Client {
     }
 
     async #start(): Promise<Worker> {
+        const stops = this.#stops;
         const { module, contracts } = await this.#assets();
+        if (stops !== this.#stops) throw new Interrupted();
         scriptUrl ??= URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
         const worker = new Worker(scriptUrl);
         worker.onmessage = ({ data }: MessageEvent<Reply>) => {

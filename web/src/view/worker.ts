@@ -9,19 +9,27 @@ import { describeCall, resizeCall, turnCall } from "../turn.js";
 import type { Checked, Drawn, Kind, Opened, Request, Requests, Source, Wish } from "./protocol.js";
 import { readFile } from "./source.js";
 
+let given: Pick<Requests["start"][0], "module" | "contracts"> | null = null;
 let evm: ContractEvm | null = null;
 let opened: Uint8Array | null = null;
 
+/** Return an EVM with the contracts and nothing else. */
+function newMachine(): ContractEvm {
+    if (!given) throw new InputError("the worker was not started");
+    return new ContractEvm(given.module, given.contracts);
+}
+
+/** Return the EVM that draws. */
 function machine(): ContractEvm {
-    if (!evm) throw new InputError("the worker was not started");
-    return evm;
+    return (evm ??= newMachine());
 }
 
 async function open(source: Source): Promise<Opened> {
     const call =
         "file" in source
             ? await readFile(source.file)
-            : await readStored(machine(), source.rpc, source.studio, source.pointer);
+            : // a node places no code in the EVM that draws, and every node is asked for all parts
+              await readStored(newMachine(), source.rpc, source.studio, source.pointer);
     const facts = describeCall(call);
     if (isTiled(functionOf(call) ?? "render")) {
         throw new InputError("the call draws a part of a picture: give one of render, which draws the whole");
@@ -87,7 +95,7 @@ async function check({ url, wish }: Requests["check"][0]): Promise<Checked> {
 
 const handlers: { [K in Kind]: (value: Requests[K][0]) => Promise<Requests[K][1]> | Requests[K][1] } = {
     start: ({ module, contracts, call }) => {
-        evm = new ContractEvm(module, contracts);
+        given = { module, contracts };
         opened = call;
         return null;
     },
