@@ -17,7 +17,7 @@ from judge import judge_pixels, render
 from judge.calldata import scene_type
 from pictures import call_data, chain, dynamic, words
 from random_scenes import KINDS, broken_call, random_case
-from shackled import Background, Camera, ChainError, Light, Material, Mesh, Object, RenderError, Scene
+from shackled import Background, Camera, ChainError, Fog, Light, Material, Mesh, Object, RenderError, Scene
 from shackled.artifacts import artifact
 from shackled.errors import OutOfGasError
 from shackled.image import decode_bmp
@@ -303,6 +303,24 @@ WRONG: list[tuple[Callable[[Values], None], str]] = [
     (put(OBJECTS, 1, MESH, value=b"\0\0\0\0\1" + bytes(6)), "IndexOutOfRange(object=1, face=0, vertexCount=0)"),
     *((put(EXTENSIONS, value=data), error) for data, error in RECORDS),
 ]
+
+
+@pytest.mark.parametrize(
+    "changes", [{}, {"antialias": True}, {"fog": Fog("red", 1, 2)}], ids=["plain", "smooth edges", "fog"]
+)
+@pytest.mark.parametrize("shading", ["flat", "smooth"])
+def test_every_index(shading: str, changes: dict[str, Any]) -> None:
+    """Each engine checks 16 indices at once, of which the first may lie before those of the mesh."""
+    scene = evolve(Scene([], Camera(near=1), [Light("directional", (1, 2, 3))], width=8, height=8), **changes)
+    for faces in range(1, 17):
+        mesh = Mesh(TRIANGLE, [[0, 1, 2]] * faces, normals=[[0, 0, 1]] * 3)
+        thing = Object(mesh, (0, 0, -200), material=Material(shading))
+        data = call_data("render", evolve(scene, objects=[thing]))
+        start = data.index(bytes.fromhex("000000010002") * faces)
+        for index in range(3 * faces):
+            place = start + 2 * index
+            error = f"IndexOutOfRange(object=0, face={index // 3}, vertexCount=3)"
+            assert refusal(data[:place] + b"\0\3" + data[place + 2 :]) == error
 
 
 @pytest.mark.parametrize(("change", "error"), WRONG, ids=lambda case: case if isinstance(case, str) else "")
