@@ -373,13 +373,20 @@ def shortened(old: str, new: str, around: int = 12) -> tuple[str, str]:
 
 
 def summary(rows: list[dict[str, Any]]) -> str:
-    """Return how many mutants each judge detects, and how many only it does."""
-    sets = Counter(tuple(judge for judge in JUDGES if row["killed by"][judge]) for row in rows)
-    lines = [f"{len(rows)} mutants"]
-    for judge in JUDGES:
-        alone = sets[(judge,)]
-        lines.append(f"{judge}: {sum(n for found, n in sets.items() if judge in found)}, alone {alone}")
-    return "\n".join([*lines, f"none: {sets[()]}"])
+    """Return in Markdown how many mutants of each folder each judge detects, and how many none does."""
+    counts = {folder: Counter[str]() for folder in [*FOLDERS, "**all**"]}
+    for row in rows:
+        found = [judge for judge in JUDGES if row["killed by"][judge]] or ["none"]
+        for folder in (row["file"].split("/")[0], "**all**"):
+            counts[folder].update(["mutants", *found])
+    names = ["mutants", *JUDGES, "none"]
+    lines = [f"| folder | {' | '.join(names)} |", "|---" * (1 + len(names)) + "|"]
+    return "\n".join(
+        [
+            *lines,
+            *(f"| {folder} | {' | '.join(str(each[name]) for name in names)} |" for folder, each in counts.items()),
+        ]
+    )
 
 
 def main() -> int:
