@@ -381,12 +381,9 @@ def summary(rows: list[dict[str, Any]]) -> str:
             counts[folder].update(["mutants", *found])
     names = ["mutants", *JUDGES, "none"]
     lines = [f"| folder | {' | '.join(names)} |", "|---" * (1 + len(names)) + "|"]
-    return "\n".join(
-        [
-            *lines,
-            *(f"| {folder} | {' | '.join(str(each[name]) for name in names)} |" for folder, each in counts.items()),
-        ]
-    )
+    for folder, found_by in counts.items():
+        lines.append(f"| {folder} | {' | '.join(str(found_by[name]) for name in names)} |")
+    return "\n".join(lines)
 
 
 def main() -> int:
