@@ -55,7 +55,7 @@ creator: page ## open the Creator in the browser
 
 # ---- everything that must hold ----
 
-check: lint $(DEV) ## check an edit: style, types, and the tests without the marks slow, browser, node
+check: lint $(DEV) $(NODE) ## check an edit: style, types, and the tests without the marks slow, browser, node
 	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory types fast
 
 # the tests wait for nodes and browsers much of the time, in which the other checks run
@@ -86,7 +86,7 @@ web: $(DEV) $(NODE) ## check types, style, tests and bundles of the TypeScript p
 docs: $(DEV) page ## build the documentation into site/, with the Creator in site/creator/
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict
 
-fast: $(DEV)
+fast: $(DEV) $(NODE)
 	$(BIN)/pytest -n 2 --dist worksteal -m "not slow and not browser and not node"
 
 unit: $(DEV) $(NODE) page browser opengl ## run the tests of Python and of the contracts
