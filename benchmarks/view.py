@@ -3,7 +3,8 @@
 python -m benchmarks.view [--seconds 6] [--element] [--write]
 
 The element: the teapot of the datasets, 128 x 128 pixels without antialiasing, as it is and smooth. Half the time
-passes before frames are counted: the browser first compiles what runs often. --element: nothing else.
+passes before frames are counted: the browser first compiles what runs often. Then the default look at 256 x 256 pixels,
+with compiled contracts and in the interpreter, in turns: the time of drawing. --element: nothing else.
 
 The Creator, from a static server: the milliseconds until its first picture, with the bytes and requests for it; frames
 a second and their size while the first picture, and the teapot, are dragged. --write: puts it into view.json, under
@@ -26,25 +27,26 @@ from typing import Any
 
 from tools.page_server import chromium, static
 
-from shackled import load
-from shackled.artifacts import artifact
+from shackled import Scene, load
 from shackled.datasets import require
 from shackled.evm import module_bytes
-from shackled.scene import encode
+from shackled.scene import render_call
 
 #: Turns the scene for some milliseconds, a little in each frame of the screen; the second half is counted.
 TURN = """milliseconds => new Promise(resolve => {
     const view = document.querySelector('shackled-view');
     const begin = performance.now();
-    const times = [];
+    const times = [], drawn = [];
     let size = '';
     view.addEventListener('frame', ({detail}) => {
         size = `${detail.width} x ${detail.height}`;
-        if (performance.now() > begin + milliseconds / 2) times.push(performance.now());
+        if (performance.now() <= begin + milliseconds / 2) return;
+        times.push(performance.now());
+        drawn.push(detail.milliseconds);
     });
     const step = now => {
         if (now > begin + milliseconds) {
-            resolve({rate: (times.length - 1) / (times.at(-1) - times[0]) * 1000, size});
+            resolve({rate: (times.length - 1) / (times.at(-1) - times[0]) * 1000, size, drawn});
             return;
         }
         view.turn = {azimuth: (now - begin) / 20, elevation: 10};
@@ -54,30 +56,36 @@ TURN = """milliseconds => new Promise(resolve => {
 })"""
 
 
-def page(call: bytes, attributes: str = "") -> str:
-    """Return an HTML page that holds a view of a call, and all that it needs. attributes: of the element."""
+def page(call: bytes, attributes: str = "", compiles: bool = True) -> str:
+    """Return an HTML page that holds a view of a call, and all that it needs.
+
+    attributes: of the element. compiles: otherwise WebAssembly is said to have no tail calls.
+    """
 
     def script(name: str, content: bytes) -> str:
         packed = base64.b64encode(gzip.compress(content, 9, mtime=0)).decode()
         return f'<script type="text/plain" id="{name}">{packed}</script>'
 
     folder = files("shackled") / "web"
+    view = (folder / "view.js").read_text("utf-8")
+    assert "WebAssembly.validate(" in view
+    if not compiles:
+        view = view.replace("WebAssembly.validate(", "(()=>false)(")
     return f"""<!doctype html>
 <meta charset="utf-8">
 <shackled-view src="#scene" evm="#evm" contracts="#contracts" {attributes}></shackled-view>
 {script("scene", call)}
 {script("evm", module_bytes())}
 {script("contracts", (folder / "contracts.json").read_bytes())}
-<script type="module">{(folder / "view.js").read_text("utf-8")}</script>
+<script type="module">{view}</script>
 """
 
 
-def measure(browser: Any, smooth: bool, seconds: float) -> dict[str, Any]:
-    """Return the frames a second, and their size."""
-    scene = load(require("teapot").make(), smooth=smooth)
+def measure(browser: Any, scene: Scene, seconds: float, compiles: bool = True) -> dict[str, Any]:
+    """Return the frames a second, their size, and the milliseconds that the contracts took for each."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "page.html"
-        path.write_text(page(encode(artifact("Renderer").selectors["render"], scene)), "utf-8")
+        path.write_text(page(render_call(scene), compiles=compiles), "utf-8")
         tab = browser.new_page(viewport={"width": 480, "height": 600})
         tab.goto(path.as_uri())
         tab.wait_for_function(
@@ -88,6 +96,27 @@ def measure(browser: Any, smooth: bool, seconds: float) -> dict[str, Any]:
         found: dict[str, Any] = tab.evaluate(TURN, 1000 * seconds)
         tab.close()
     return found
+
+
+#: Rounds of the time of drawing.
+ROUNDS = 5
+
+
+def drawing(browser: Any, seconds: float) -> str:
+    """Return what compiled contracts save, in one line."""
+    scene = load("teapot", 256)
+    medians: dict[bool, list[float]] = {True: [], False: []}
+    rates: list[float] = []
+    for _ in range(ROUNDS):
+        for compiles, each in medians.items():
+            found = measure(browser, scene, seconds, compiles)
+            each.append(statistics.median(found["drawn"]))
+            rates += [found["rate"]] if compiles else []
+    compiled, interpreted = statistics.median(medians[True]), statistics.median(medians[False])
+    return (
+        f"teapot, default look, {found['size']} pixels: {compiled:.1f} ms compiled, {interpreted:.1f} ms interpreted, "
+        f"ratio {compiled / interpreted:.2f}; {statistics.median(rates):.1f} frames a second compiled"
+    )
 
 
 # ---- the Creator ----
@@ -180,9 +209,10 @@ def main() -> None:
     options = parser.parse_args()
     with chromium() as browser:
         for smooth in (False, True):
-            found = measure(browser, smooth, options.seconds)
+            found = measure(browser, load(require("teapot").make(), smooth=smooth), options.seconds)
             name = "smooth" if smooth else "flat"
             print(f"teapot, {name}: {found['rate']:.1f} frames a second of {found['size']} pixels")
+        print(drawing(browser, options.seconds))
         if not options.element:
             with static() as server:
                 after = measure_creator(browser, server.address, options.seconds, TEAPOT)

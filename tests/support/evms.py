@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+import wasmtime
 
 from shackled.chain._embedded import SENDER, PyEvmChain
 from shackled.ethereum import intrinsic_gas, to_hex
@@ -20,14 +21,26 @@ Codes = dict[bytes, bytes]
 
 
 class Ours:
-    """The EVM of the package, one instance for all calls."""
+    """The EVM of the package, one instance for all calls. region: of compiled code; None for the interpreter."""
 
-    def __init__(self) -> None:
-        self.instance = Instance()
+    def __init__(self, region: int | None = None) -> None:
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setenv("SHACKLED_EVM", "interpreter")
+            self.instance = Instance()
+        self.region = region
+        self._compiled: set[bytes] = set()
+
+    def put(self, address: bytes, code: bytes) -> None:
+        """Set the code of a contract, and compile it."""
+        self.instance.put(address, code)
+        if self.region is not None and code and code not in self._compiled:
+            translated = self.instance.translate(code, self.region)
+            assert self.instance._link(address, wasmtime.Module(self.instance._engine, translated))
+            self._compiled.add(code)
 
     def call(self, codes: Codes, address: bytes, data: bytes, gas: int) -> Answer:
         for each, code in codes.items():
-            self.instance.put(each, code)
+            self.put(each, code)
         answer = self.instance.call(address, data, gas)
         return answer._replace(output=b"") if answer.status == Status.FAILURE else answer
 

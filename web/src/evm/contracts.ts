@@ -71,6 +71,11 @@ export class ContractEvm {
         return this.#checked(this.#evm.send(address, data, gas, value), gas);
     }
 
+    /** Compile the contracts that used at least so much gas so far, as `Evm.compile`. */
+    compile(least: number): Promise<void> {
+        return this.#evm.compile(least);
+    }
+
     /** Return the gas of a call of the Renderer by stage. CallError where it fails, InputError for stages of other contracts. */
     profile(data: Uint8Array, stages: Stages, gas = GAS_LIMIT): StageGas[] {
         if (this.#described !== stages) {

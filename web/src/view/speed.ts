@@ -1,7 +1,8 @@
 // How long pictures of a size take, and the size at which they are drawn while the viewer moves.
 
-/** Milliseconds that a picture may take while the viewer moves: 25 a second. */
-const FRAME = 40;
+/** Milliseconds that a picture may take while the viewer moves: 60 a second at the call's own size or above it, or 25. */
+const FRAME = 16;
+const SLOW_FRAME = 40;
 /** Sizes while the viewer moves, as fractions of that at rest, and below the call's own as fractions of that. */
 const LARGER = [1, 0.75, 0.5];
 const SMALLER = [1, 0.75, 0.5, 0.25, 0.125];
@@ -44,7 +45,10 @@ export class Speed {
     movingSize(own: Size, shown: Size): Size {
         const sizes = [...LARGER.map((part) => scaled(shown, part)), ...SMALLER.map((part) => scaled(own, part))];
         const allowed = sizes.filter(([width], index) => index >= LARGER.length || width > own[0]);
-        return allowed.find(([width, height]) => this.predict(width * height) <= FRAME) ?? (allowed.at(-1) as Size);
+        const within = (time: number, sizes: readonly Size[]): Size | undefined =>
+            sizes.find(([width, height]) => this.predict(width * height) <= time);
+        const large = allowed.filter(([width]) => width >= own[0]);
+        return within(FRAME, large) ?? within(SLOW_FRAME, allowed) ?? (allowed.at(-1) as Size);
     }
 }
 

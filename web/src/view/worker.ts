@@ -9,6 +9,9 @@ import { describeCall, resizeCall, turnCall } from "../turn.js";
 import type { Checked, Drawn, Kind, Opened, Request, Requests, Source, Wish } from "./protocol.js";
 import { readFile } from "./source.js";
 
+/** Contracts that used so much gas are compiled: all that drew a picture. */
+const BUSY = 1_000_000;
+
 let given: Pick<Requests["start"][0], "module" | "contracts"> | null = null;
 let evm: ContractEvm | null = null;
 let opened: Uint8Array | null = null;
@@ -109,6 +112,7 @@ async function answer<K extends Kind>({ id, kind, value }: Request<K>): Promise<
         const result = await handlers[kind](value);
         const transfer = result && "pixels" in result ? [result.pixels.buffer] : [];
         self.postMessage({ id, value: result }, { transfer });
+        if (kind === "draw") await evm?.compile(BUSY);
     } catch (error) {
         self.postMessage({ id, error: error instanceof Error ? error.message : String(error) });
     }

@@ -18,6 +18,9 @@ import { quoteOf } from "./quote.js";
 import { stagesOf } from "./stages.js";
 import { pathOf, seenFrom } from "./turntable.js";
 
+/** Gas that a contract uses before it is compiled: more than the first picture of the page takes. */
+const BUSY = 20_000_000;
+
 export class Machine {
     readonly #meshes = new Map<string, StoredMesh>();
     readonly #given: Supplies = {};
@@ -66,6 +69,11 @@ export class Machine {
 
     get evm(): ContractEvm {
         return (this.#evm ??= this.newEvm());
+    }
+
+    /** Compile the contracts that drew a few pictures. */
+    async compile(): Promise<void> {
+        await this.#evm?.compile(BUSY);
     }
 
     /** Return where a contract is. */

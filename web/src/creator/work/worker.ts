@@ -11,6 +11,7 @@ self.onmessage = ({ data }: MessageEvent<Message>) => {
     last = last.then(async () => {
         const reply = await machine.reply(data);
         if (reply) self.postMessage(reply, { transfer: buffersOf(reply) });
+        void machine.compile();
     });
 };
 
