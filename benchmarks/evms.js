@@ -18,7 +18,7 @@ async function start(module, codes, isCompiled) {
         const [to, value] = [put(bytes(address)), bytes(code)];
         exports.put(to, put(value), value.length);
         if (!isCompiled) continue;
-        const size = exports.compile(put(value), value.length, REGION);
+        const size = exports.compile(put(value), value.length, REGION, 0);
         const made = new Uint8Array(exports.memory.buffer, exports.module(), size).slice();
         const { instance } = await WebAssembly.instantiate(made, { evm: { ...exports } });
         const run = exports.__indirect_function_table.grow(1);

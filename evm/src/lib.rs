@@ -106,14 +106,15 @@ pub unsafe extern "C" fn send(address: *const u8, value: *const u8, data: *const
     send_to(TxKind::Call(address), data, U256::from_be_slice(&value), gas)
 }
 
-/// Translates a code to a WebAssembly module, with regions of `budget` instructions; returns the size of the module in
+/// Translates a code to a WebAssembly module, with regions of `budget` instructions, and `i64.mul_wide_u` if `is_wide` is
+/// not 0; returns the size of the module in
 /// bytes, or 0 if it would be too large.
 ///
 /// # Safety
 /// The arguments lie in memory from `allocate`.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn compile(code: *const u8, size: usize, budget: usize) -> usize {
-    let module = shackled_compile::translate(&unsafe { read(code, size) }, budget).unwrap_or_default();
+pub unsafe extern "C" fn compile(code: *const u8, size: usize, budget: usize, is_wide: u32) -> usize {
+    let module = shackled_compile::translate(&unsafe { read(code, size) }, budget, is_wide != 0).unwrap_or_default();
     INSTANCE.with_borrow_mut(|instance| {
         instance.module = module;
         instance.module.len()

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from evms import ADDRESS, Ours, pyevm_call, pyrevm_call
+from evms import ADDRESS, REGIONS, Ours, pyevm_call, pyrevm_call
 from shackled.evm import Answer, Status
 
 GAS = 100_000
@@ -61,9 +61,10 @@ def op(code: int, *operands: int) -> bytes:
 END = op(MSTORE, 0x100) + op(MSTORE, 0x120) + bytes([MSIZE, PUSH0, RETURN])
 
 
-@pytest.fixture(scope="module")
-def ours() -> Ours:
-    return Ours()
+@pytest.fixture(scope="module", params=REGIONS)
+def ours(request: pytest.FixtureRequest) -> Ours:
+    """In the interpreter, compiled in regions of one instruction, and as usual."""
+    return Ours(request.param)
 
 
 def agree(ours: Ours, code: bytes, data: bytes = b"", gas: int = GAS) -> Answer:
@@ -209,7 +210,7 @@ def test_a_static_call_writes_nothing(ours: Ours) -> None:
 def test_other_precompiled_contracts_fail_as_a_whole(ours: Ours) -> None:
     """They are left out; what they would return is not made up."""
     for number in (*range(1, 4), *range(5, 11)):
-        ours.instance.put(ADDRESS, op(STATICCALL, GAS, number, 0, 0, 0, 0) + END)
+        ours.put(ADDRESS, op(STATICCALL, GAS, number, 0, 0, 0, 0) + END)
         answer = ours.instance.call(ADDRESS, b"", GAS)
         assert answer.status == Status.FAILURE
         assert b"is not part of this EVM" in answer.output

@@ -198,7 +198,7 @@ def test_hostile_code(name: str) -> None:
     assert time.process_time() - begin < 5
     assert len(translated) < 8 << 20
     if translated:
-        wasmtime.Module.validate(wasmtime.Engine(), translated)
+        wasmtime.Module.validate(evm._engine, translated)
         stores.check(translated)
     assert evm.translate(bytes(1 << 18), _compiled.REGION) == b""
 

@@ -5,6 +5,7 @@ Names of failures are left out: they differ between versions of revm.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -12,12 +13,32 @@ import wasmtime
 
 from shackled.chain._embedded import SENDER, PyEvmChain
 from shackled.ethereum import intrinsic_gas, to_hex
-from shackled.evm import Answer, Instance, Status
+from shackled.evm import Answer, Instance, Status, _compiled
 
 #: Where code under test is put.
 ADDRESS = bytes(18) + b"\xc0\xde"
 
+#: What runs a program: the interpreter, compiled regions of one instruction, and those that are shipped.
+REGIONS = (None, 1, _compiled.REGION)
+
 Codes = dict[bytes, bytes]
+
+#: What other EVMs returned, by their name and the arguments: each program is compared several times.
+_known: dict[tuple[Any, ...], Answer] = {}
+
+
+def _once(
+    ask: Callable[..., Answer],
+    codes: Codes,
+    address: bytes,
+    data: bytes,
+    gas: int,
+    block: tuple[int, int, bytes] | None,
+) -> Answer:
+    key = (ask, tuple(codes.items()), address, data, gas, block)
+    if key not in _known:
+        _known[key] = ask(codes, address, data, gas, block)
+    return _known[key]
 
 
 class Ours:
@@ -49,6 +70,10 @@ def pyrevm_call(
     codes: Codes, address: bytes, data: bytes, gas: int, block: tuple[int, int, bytes] | None = None
 ) -> Answer:
     """Call in a new EVM of pyrevm; skip the test where it is not installed. block: the arguments of `set_block`."""
+    return _once(_pyrevm_call, codes, address, data, gas, block)
+
+
+def _pyrevm_call(codes: Codes, address: bytes, data: bytes, gas: int, block: tuple[int, int, bytes] | None) -> Answer:
     pyrevm: Any = pytest.importorskip("pyrevm")
     evm = pyrevm.EVM(spec_id="Cancun")
     if block is not None:
@@ -72,6 +97,10 @@ def pyrevm_call(
 
 def pyevm_call(codes: Codes, address: bytes, data: bytes, gas: int) -> Answer:
     """Call in py-evm; skip the test where it is not installed."""
+    return _once(_pyevm_call, codes, address, data, gas, None)
+
+
+def _pyevm_call(codes: Codes, address: bytes, data: bytes, gas: int, _: None) -> Answer:
     exceptions: Any = pytest.importorskip("eth.exceptions")
     chain = PyEvmChain()
     for each, code in codes.items():

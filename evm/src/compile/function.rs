@@ -91,11 +91,13 @@ impl Function {
         InstructionSink::new(&mut self.body)
     }
 
+    #[inline(never)]
     pub fn local(&mut self, kind: ValType) -> u32 {
         self.locals.push(kind);
         self.parameters + self.locals.len() as u32 - 1
     }
 
+    #[inline(never)]
     pub fn get(&mut self, local: u32) -> InstructionSink<'_> {
         match self.last_set.take() {
             // set and get of the same local are a tee
@@ -108,6 +110,7 @@ impl Function {
         self.put()
     }
 
+    #[inline(never)]
     pub fn set(&mut self, local: u32) {
         let begin = self.body.len();
         self.put().local_set(local);
@@ -115,22 +118,26 @@ impl Function {
     }
 
     /// Moves what is on the stack to a new local.
+    #[inline(never)]
     pub fn keep(&mut self, kind: ValType) -> u32 {
         let local = self.local(kind);
         self.set(local);
         local
     }
 
+    #[inline(never)]
     pub fn keep_limb(&mut self) -> Limb {
         Limb::Local(self.keep(ValType::I64))
     }
 
     /// Moves the word on the stack, the lowest limb first, to new locals.
+    #[inline(never)]
     pub fn keep_limbs(&mut self) -> Limbs {
         let [high, c, b, low] = std::array::from_fn(|_| self.keep_limb());
         [low, b, c, high]
     }
 
+    #[inline(never)]
     pub fn push(&mut self, limb: Limb) -> InstructionSink<'_> {
         match limb {
             Limb::Known(value) => _ = self.put().i64_const(value as i64),
@@ -139,6 +146,7 @@ impl Function {
         self.put()
     }
 
+    #[inline(never)]
     pub fn push_all(&mut self, limbs: &[Limb]) {
         for limb in limbs {
             self.push(*limb);
@@ -146,6 +154,7 @@ impl Function {
     }
 
     /// Pushes the limbs, joined by OR.
+    #[inline(never)]
     pub fn push_any(&mut self, limbs: &[Limb]) -> InstructionSink<'_> {
         let mut others = limbs.iter().filter(|limb| **limb != NOUGHT);
         self.push(*others.next().unwrap_or(&NOUGHT));
@@ -155,6 +164,7 @@ impl Function {
         self.put()
     }
 
+    #[inline(never)]
     pub fn op(&mut self, op: Op, a: Limb, b: Limb) -> Limb {
         op.fold(a, b).unwrap_or_else(|| {
             self.push(a);
@@ -170,10 +180,12 @@ impl Function {
         std::mem::take(&mut self.body)
     }
 
+    #[inline(never)]
     pub fn append(&mut self, body: &[u8]) {
         self.body.extend(body);
     }
 
+    #[inline(never)]
     pub fn finish(mut self) -> wasm_encoder::Function {
         self.put().end();
         let mut function = wasm_encoder::Function::new_with_locals_types(self.locals);

@@ -63,15 +63,16 @@ impl Helper {
         }
     }
 
-    pub fn function(self) -> Function {
+    /// is_wide: whether a product of two limbs is one instruction.
+    pub fn function(self, is_wide: bool) -> Function {
         match self {
             Helper::Wide => {
                 let mut f = Function::new(2);
-                let (low, high) = wide(&mut f, Limb::Local(0), Limb::Local(1));
+                let (low, high) = wide(&mut f, Limb::Local(0), Limb::Local(1), is_wide);
                 f.push_all(&[low, high]);
                 f
             }
-            Helper::Multiply => multiply(),
+            Helper::Multiply => multiply(is_wide),
             Helper::ShiftLeft | Helper::ShiftRight | Helper::ShiftSigned => shift(self),
             Helper::Byte => byte(),
             Helper::Divide => divide(Calculation::Divide),
@@ -99,8 +100,14 @@ fn parameters(first: u32) -> Limbs {
     from_fn(|i| Limb::Local(first + i as u32))
 }
 
-/// Returns the two limbs of a product.
-fn wide(f: &mut Function, a: Limb, b: Limb) -> (Limb, Limb) {
+/// Returns the two limbs of a product, by one instruction, or by products of 32 bits.
+fn wide(f: &mut Function, a: Limb, b: Limb, is_wide: bool) -> (Limb, Limb) {
+    if is_wide {
+        f.push_all(&[a, b]);
+        f.put().i64_mul_wide_u();
+        let high = f.keep_limb();
+        return (f.keep_limb(), high);
+    }
     const HALF: Limb = Limb::Known(32);
     const MASK: Limb = Limb::Known(u32::MAX as u64);
     let (a_low, a_high) = (f.op(Op::And, a, MASK), f.op(Op::ShrU, a, HALF));
@@ -129,12 +136,12 @@ fn push_misfit(f: &mut Function, words: [Limbs; 2]) -> [Limb; 2] {
     signs
 }
 
-fn multiply() -> Function {
+fn multiply(is_wide: bool) -> Function {
     let mut f = Function::new(8);
     let (a, b) = (parameters(0), parameters(4));
     let [a_sign, b_sign] = push_misfit(&mut f, [a, b]);
     f.put().i64_eqz().if_(BlockType::Empty);
-    let (low, high) = wide(&mut f, a[0], b[0]);
+    let (low, high) = wide(&mut f, a[0], b[0], is_wide);
     let (less, more) = (f.op(Op::And, a_sign, b[0]), f.op(Op::And, b_sign, a[0]));
     let high = f.op(Op::Sub, high, less);
     let high = f.op(Op::Sub, high, more);
@@ -153,7 +160,7 @@ fn multiply() -> Function {
                 let sum = f.op(Op::Add, Limb::Local(place), low);
                 f.op(Op::Add, sum, carry)
             } else {
-                let (low, high) = wide(&mut f, a[i], b[j]);
+                let (low, high) = wide(&mut f, a[i], b[j], is_wide);
                 let part = f.op(Op::Add, Limb::Local(place), low);
                 let sum = f.op(Op::Add, part, carry);
                 let (over, more) = (f.op(Op::LtU, part, low), f.op(Op::LtU, sum, carry));

@@ -22,7 +22,7 @@ pub use state::{Calculation, State};
 use revm::{
     bytecode::opcode,
     interpreter::instructions::{GasTable, gas_table_spec},
-    primitives::{HashMap, U256, hardfork::SpecId},
+    primitives::{U256, hardfork::SpecId},
 };
 use std::mem::offset_of;
 use wasm_encoder::{
@@ -97,17 +97,16 @@ struct Plan {
     /// Instructions of a region, after which it ends at the next fork or JUMPDEST; in a line it has its square.
     budget: usize,
     /// The number of the region that begins at a position, and these positions by number.
-    numbers: HashMap<usize, u32>,
+    numbers: Vec<Option<u32>>,
     starts: Vec<usize>,
 }
 
 impl Plan {
     /// Returns the index of the function of the region that begins at a position.
     fn function_at(&mut self, pc: usize) -> u32 {
-        let starts = &mut self.starts;
-        let number = *self.numbers.entry(pc).or_insert_with(|| {
-            starts.push(pc);
-            starts.len() as u32 - 1
+        let number = *self.numbers[pc].get_or_insert_with(|| {
+            self.starts.push(pc);
+            self.starts.len() as u32 - 1
         });
         FIRST_REGION + number
     }
@@ -129,8 +128,11 @@ impl Plan {
 const RUN: u32 = (IMPORTS.len() + Helper::ALL.len()) as u32;
 const FIRST_REGION: u32 = RUN + 1;
 
-/// Returns the module of a code; None if it would be too large. budget: of a region, in instructions.
-pub fn translate(code: &[u8], budget: usize) -> Option<Vec<u8>> {
+/// Returns the module of a code; None if it would be too large. budget: of a region, in instructions. is_wide: whether the
+/// host has `i64.mul_wide_u`.
+// in its caller it would be compiled for speed
+#[inline(never)]
+pub fn translate(code: &[u8], budget: usize, is_wide: bool) -> Option<Vec<u8>> {
     if code.len() > MAX_CODE {
         return None;
     }
@@ -140,7 +142,7 @@ pub fn translate(code: &[u8], budget: usize) -> Option<Vec<u8>> {
         jumps,
         prices: gas_table_spec(SpecId::CANCUN),
         budget,
-        numbers: HashMap::default(),
+        numbers: vec![None; code.len() + 1],
         starts: Vec::new(),
     };
     for (pc, _) in entries.iter().enumerate().filter(|(_, is_entry)| **is_entry) {
@@ -148,7 +150,7 @@ pub fn translate(code: &[u8], budget: usize) -> Option<Vec<u8>> {
     }
     let mut bodies = CodeSection::new();
     for helper in Helper::ALL {
-        bodies.function(&helper.function().finish());
+        bodies.function(&helper.function(is_wide).finish());
     }
     bodies.function(&run().finish());
     let mut next = 0;

@@ -10,7 +10,7 @@ use crate::{
     words::Word,
 };
 use crate::state::State;
-use std::{array::from_fn, collections::BTreeSet, mem::offset_of};
+use std::{array::from_fn, mem::offset_of};
 use wasm_encoder::{BlockType, ValType};
 
 /// The parameters of a region: the end of the stack, memory of the EVM and its size, gas, and the state of the frame.
@@ -60,10 +60,10 @@ pub struct Region<'a> {
     /// Of a loop, the locals of the stack's upper words.
     homes: Vec<Limbs>,
     is_loop: bool,
-    /// Of a loop, the words that rounds change.
-    changed: BTreeSet<usize>,
+    /// Of a loop, the words that rounds change: a bit for each slot.
+    changed: u64,
     /// The same, while it is not known to be a loop; None without a jump to its start.
-    rounds: Option<BTreeSet<usize>>,
+    rounds: Option<u64>,
     /// Blocks that are open.
     pub depth: u32,
 }
@@ -99,7 +99,7 @@ impl<'a> Region<'a> {
             keep,
             homes: Vec::new(),
             is_loop: false,
-            changed: BTreeSet::new(),
+            changed: 0,
             rounds: None,
             depth: 0,
         }
@@ -116,7 +116,7 @@ impl<'a> Region<'a> {
         self.f.get(STATE).i32_load(at(offset_of!(State, limit))).local_get(STACK).i32_sub();
         self.f.put().i32_const((WORD * self.height) as i32).i32_lt_u().i32_or().if_(BlockType::Empty);
         let homes = std::mem::take(&mut self.homes);
-        self.changed.clear();
+        self.changed = 0;
         self.path = Known::default();
         self.leave(self.start, 0);
         self.f.put().end();
@@ -207,7 +207,7 @@ impl<'a> Region<'a> {
     fn spill(&mut self) -> i32 {
         self.reach_homes();
         let mut all = self.moved();
-        for slot in self.changed.clone() {
+        for slot in (0..REACH).filter(|slot| self.changed >> slot & 1 == 1) {
             // a round before may have changed it
             let j = self.path.taken - 1 - slot;
             if self.path.words.get(j) == Some(&Word::Slot(slot)) {
@@ -265,7 +265,7 @@ impl<'a> Region<'a> {
                 return self.iterate(gas);
             }
             let (moved, taken) = (self.moved(), self.path.taken);
-            self.rounds.get_or_insert_default().extend(moved.iter().map(|(j, _)| taken - 1 - j));
+            *self.rounds.get_or_insert_default() |= moved.iter().fold(0, |bits, (j, _)| bits | 1 << (taken - 1 - j));
         }
         self.push_arguments(gas);
         let function = self.plan.function_at(pc);

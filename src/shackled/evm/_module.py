@@ -134,6 +134,8 @@ def config(kind: Kind) -> wasmtime.Config:
 
     made = wasmtime.Config()
     made.epoch_interruption = kind.is_stoppable
+    # products of 64 bits, for compiled contracts
+    made.wasm_wide_arithmetic = True
     if kind.is_small:
         made.memory_reservation, made.memory_guard_size = 64 << 20, 64 << 10
         made.memory_reservation_for_growth, made.memory_init_cow = 64 << 20, False

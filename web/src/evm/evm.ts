@@ -24,9 +24,12 @@ const ADDRESS = 20;
 const REGION = 25;
 const MOST_COMPILED = 24;
 
-/** A module whose function calls itself at its end. */
-const TAIL_CALL = [0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 6, 1, 4, 0, 18, 0, 11];
-const hasTailCalls = (): boolean => WebAssembly.validate(new Uint8Array(TAIL_CALL));
+/** Modules whose function calls itself at its end, and multiplies two numbers of 64 bits. */
+const START = [0, 97, 115, 109, 1, 0, 0, 0];
+const TAIL_CALL = [...START, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 6, 1, 4, 0, 18, 0, 11];
+const TYPE = [1, 8, 1, 96, 2, 126, 126, 2, 126, 126, 3, 2, 1, 0];
+const WIDE = [...START, ...TYPE, 10, 10, 1, 8, 0, 32, 0, 32, 1, 252, 22, 11];
+const has = (module: number[]): boolean => WebAssembly.validate(new Uint8Array(module));
 
 interface Exports {
     memory: WebAssembly.Memory;
@@ -38,7 +41,7 @@ interface Exports {
     describe(address: number, places: number, size: number): void;
     profile(address: number, data: number, size: number, gas: bigint): number;
     busiest(address: number, least: bigint): bigint;
-    compile(code: number, size: number, region: number): number;
+    compile(code: number, size: number, region: number, isWide: number): number;
     module(): number;
     link(address: number, run: number): void;
     __indirect_function_table: WebAssembly.Table;
@@ -115,7 +118,7 @@ export class Evm {
      * for the same gas. Does nothing where WebAssembly has no tail calls; what cannot be compiled stays as it is.
      */
     async compile(least: number): Promise<void> {
-        if (this.#isCompiling || !hasTailCalls()) return;
+        if (this.#isCompiling || !has(TAIL_CALL)) return;
         this.#isCompiling = true;
         try {
             while (this.#compiled < MOST_COMPILED && (await this.#compileBusiest(least)));
@@ -136,7 +139,9 @@ export class Evm {
         });
         if (!isBusy) return false;
         const code = this.#codes.get(String(address))?.[1];
-        const size = code ? passed(exports, [code], (place) => exports.compile(place, code.length, REGION)) : 0;
+        const translate = (place: number): number =>
+            exports.compile(place, code?.length ?? 0, REGION, Number(has(WIDE)));
+        const size = code ? passed(exports, [code], translate) : 0;
         if (!size) return true;
         this.#compiled++;
         const bytes = new Uint8Array(exports.memory.buffer, exports.module(), size).slice();
