@@ -163,7 +163,7 @@ def frames() -> str:
     with tempfile.TemporaryDirectory() as folder:
 
         def draw(mode: str) -> None:
-            output = Path(folder, f"{mode}.png")
+            output = Path(folder, f"frames-{mode}.png")
             run([PROGRAM, "render", *FRAMES, "-o", str(output)], XDG_CACHE_HOME=folder, SHACKLED_EVM=mode)
 
         draw("compiled")
@@ -171,7 +171,7 @@ def frames() -> str:
         for _ in range(ROUNDS):
             for mode, each in taken.items():
                 each.append(timed(partial(draw, mode)))
-        assert Path(folder, ".png").read_bytes() == Path(folder, "interpreter.png").read_bytes()
+        assert Path(folder, "frames-.png").read_bytes() == Path(folder, "frames-interpreter.png").read_bytes()
     interpreted, default = (statistics.median(each) for each in taken.values())
     return (
         f"`shackled render {' '.join(FRAMES)}` takes {interpreted:.2f} seconds with SHACKLED_EVM=interpreter, and "
