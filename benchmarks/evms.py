@@ -164,7 +164,9 @@ def frames() -> str:
 
         def draw(mode: str) -> None:
             output = Path(folder, f"frames-{mode}.png")
-            run([PROGRAM, "render", *FRAMES, "-o", str(output)], XDG_CACHE_HOME=folder, SHACKLED_EVM=mode)
+            # Python keeps bytecode, as where the package is installed
+            kept = {"PYTHONDONTWRITEBYTECODE": "", "PYTHONPYCACHEPREFIX": folder, "XDG_CACHE_HOME": folder}
+            run([PROGRAM, "render", *FRAMES, "-o", str(output)], SHACKLED_EVM=mode, **kept)
 
         draw("compiled")
         taken: dict[str, list[float]] = {"interpreter": [], "": []}

@@ -81,11 +81,11 @@ def page(call: bytes, attributes: str = "", compiles: bool = True) -> str:
 """
 
 
-def measure(browser: Any, scene: Scene, seconds: float, compiles: bool = True) -> dict[str, Any]:
+def measure(browser: Any, scene: Scene, seconds: float, compiles: bool = True, attributes: str = "") -> dict[str, Any]:
     """Return the frames a second, their size, and the milliseconds that the contracts took for each."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "page.html"
-        path.write_text(page(render_call(scene), compiles=compiles), "utf-8")
+        path.write_text(page(render_call(scene), attributes, compiles), "utf-8")
         tab = browser.new_page(viewport={"width": 480, "height": 600})
         tab.goto(path.as_uri())
         tab.wait_for_function(
@@ -109,7 +109,7 @@ def drawing(browser: Any, seconds: float) -> str:
     rates: list[float] = []
     for _ in range(ROUNDS):
         for compiles, each in medians.items():
-            found = measure(browser, scene, seconds, compiles)
+            found = measure(browser, scene, seconds, compiles, "exact")
             each.append(statistics.median(found["drawn"]))
             rates += [found["rate"]] if compiles else []
     compiled, interpreted = statistics.median(medians[True]), statistics.median(medians[False])

@@ -38,7 +38,7 @@ OWN_FLAGS = ["-C", "link-arg=--export-table", "-C", "link-arg=--growable-table"]
 TARGET_FOLDER = user_cache_path("shackled", appauthor=False) / "evm-build"
 
 #: Bytes of the module at most, plain and compressed.
-MAX_SIZE, MAX_COMPRESSED = 1_500_000, 600_000
+MAX_SIZE, MAX_COMPRESSED = 430_000, 180_000
 
 MIT = """Permission is hereby granted, free of charge, to any person obtaining a copy of this software and associated
 documentation files (the "Software"), to deal in the Software without restriction, including without limitation the

@@ -155,7 +155,7 @@ def test_code_made_at_run_time() -> None:
     store = b"".join(push(byte) + push(n) + b"\x53" for n, byte in enumerate(inner))
     creation = store + push(len(inner)) + b"\x5f\xf3"
     fill = b"".join(push(byte) + push(n) + b"\x53" for n, byte in enumerate(creation))
-    call = push(32) + push(0x300) + push(32) + push(0x200) + b"\x85\x5a\xfa"
+    call = push(32) + push(0x300) + push(32) + push(0x200) + b"\x84\x5a\xfa\x50"
     made = fill + push(len(creation)) + b"\x5f\x5f\xf0" + push(5) + push(0x200) + b"\x52" + call + call
     answer = same({ADDRESS: made + END, OTHER: inner})
     assert answer.output[0x300:0x320] == (15).to_bytes(32, "big")

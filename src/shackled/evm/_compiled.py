@@ -16,16 +16,16 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from ..errors import ChainError, InputError
-from ._module import Kind, config, folder, load, save, version
+from ._module import Kind, config, folder, read, save, version
 
 if TYPE_CHECKING:
     import wasmtime
 
 #: Instructions of a region of compiled code: more take longer to compile, and are not faster.
 REGION = 25
-#: The gas of a code in the interpreter from which on it is looked for on disk, and from which on it is compiled: more
-#: than that of most pictures, and half a second of a processor.
-SOME, MUCH = 30_000_000, 250_000_000
+#: The gas of a code in the interpreter from which on it is looked for on disk, and from which on it is compiled: that
+#: of a picture, and half a second of a processor.
+SOME, MUCH = 10_000_000, 250_000_000
 #: At most so many codes are compiled in a process; the translation of one has so many bytes; the cache so many files.
 MOST_CODES, MOST_BYTES, MOST_FILES = 24, 4 << 20, 40
 
@@ -49,10 +49,10 @@ def module_of(code: bytes, engine: wasmtime.Engine, kind: Kind) -> wasmtime.Modu
     """Return the module of a code for an engine, and compile it first where that is needed; None if it cannot be."""
     name = _name(code, kind)
     with _lock:
-        is_new = name not in _machine_code and name not in _begun
+        if (module := _module(name, engine)) is not None or name in _begun:
+            return module
         _begun.add(name)
-    if is_new and not _is_on_disk(name, kind):
-        _compile(name, code, kind)
+    _compile(name, code, kind)
     return _module(name, engine)
 
 
@@ -63,14 +63,11 @@ def busy_module_of(code: bytes, gas: int, engine: wasmtime.Engine, kind: Kind) -
         if _gas[code] < SOME:
             return None
         name = _name(code, kind)
-        is_new = name not in _sought
-        _sought.add(name)
-        if name in _machine_code or (is_new and _is_on_disk(name, kind)):
-            return _module(name, engine)
-        if _gas[code] >= MUCH and name not in _begun and len(_begun) < MOST_CODES:
+        module = _module(name, engine)
+        if module is None and _gas[code] >= MUCH and name not in _begun and len(_begun) < MOST_CODES:
             _begun.add(name)
             threading.Thread(target=_compile, args=(name, code, kind), daemon=True).start()
-        return None
+        return module
 
 
 def _name(code: bytes, kind: Kind) -> str:
@@ -78,21 +75,18 @@ def _name(code: bytes, kind: Kind) -> str:
 
 
 def _module(name: str, engine: wasmtime.Engine) -> wasmtime.Module | None:
+    """Return the module of machine code that is in memory or on disk; None if there is none for this wasmtime."""
     import wasmtime
 
+    if name not in _sought and len(_machine_code) < MOST_CODES and (found := read(folder() / name)) is not None:
+        _machine_code.setdefault(name, found)
+    _sought.add(name)
     if name in _machine_code:
-        with suppress(wasmtime.WasmtimeError, MemoryError):
+        try:
             return wasmtime.Module.deserialize(engine, _machine_code[name])
+        except (wasmtime.WasmtimeError, MemoryError):
+            del _machine_code[name]
     return None
-
-
-def _is_on_disk(name: str, kind: Kind) -> bool:
-    import wasmtime
-
-    module = load(wasmtime.Engine(config(kind)), folder() / name)
-    if module is not None:
-        _machine_code[name] = bytes(module.serialize())
-    return module is not None
 
 
 def _compile(name: str, code: bytes, kind: Kind) -> None:

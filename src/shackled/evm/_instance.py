@@ -68,8 +68,8 @@ class Instance:
         self._exports: Any = instance.exports(self._store)
         self._memory: Any = self._exports["memory"]
         self._codes: dict[bytes, bytes] = {}
-        #: Of the calls since the busiest contract was sought, so that no first call waits for that.
-        self._gas = 0
+        #: Of the calls since the busiest contract was sought, and after how much it is sought again: no first call waits.
+        self._gas, self._patience = 0, MUCH_GAS
 
     def stop(self) -> None:
         """End the call that runs in another thread, if any, and all later ones, by ChainError."""
@@ -110,7 +110,7 @@ class Instance:
 
     def call(self, address: bytes, data: bytes, gas: int) -> Answer:
         """Call a contract with at most `gas` for the execution."""
-        if self._gas >= MUCH_GAS and self._mode != "interpreter":
+        if self._gas >= self._patience and self._mode != "interpreter":
             self._note_busiest()
         answer = self._answer(self._pass("call", _checked(address), data, gas=gas))
         self._gas += answer.gas
@@ -152,12 +152,13 @@ class Instance:
 
     def _note_busiest(self) -> None:
         """Let the contract that used most gas in the interpreter run as machine code, if there is some."""
-        self._gas = 0
+        self._gas, self._patience = 0, 2 * self._patience
         place = self._run("allocate", ADDRESS)
         gas = self._run("busiest", place, MUCH_GAS)
         address = bytes(self._memory.read(self._store, place, place + ADDRESS))
         self._run("release", place, ADDRESS)
         if gas and address in self._codes:
+            self._patience = MUCH_GAS
             self._link(address, _compiled.busy_module_of(self._codes[address], gas, self._engine, self._kind))
 
     def _link(self, address: bytes, module: wasmtime.Module | None) -> bool:

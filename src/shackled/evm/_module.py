@@ -165,7 +165,7 @@ def _compiled(kind: Kind) -> tuple[wasmtime.Engine, wasmtime.Module]:
         ) from error
     engine = wasmtime.Engine(config(kind))
     path = folder() / f"evm-{version()}{kind.suffix}.bin"
-    module = load(engine, path)
+    module = _load(engine, path)
     if module is None:
         try:
             module = wasmtime.Module(engine, module_bytes())
@@ -175,19 +175,24 @@ def _compiled(kind: Kind) -> tuple[wasmtime.Engine, wasmtime.Module]:
     return engine, module
 
 
-def load(engine: wasmtime.Engine, path: Path) -> wasmtime.Module | None:
-    """Return the module of a cache file; None if others could have written it, it is damaged, or wasmtime differs."""
+def _load(engine: wasmtime.Engine, path: Path) -> wasmtime.Module | None:
+    """Return the module of a cache file; None if it cannot be read, or wasmtime differs."""
     import wasmtime
 
-    try:
-        with open(path, "rb", opener=_open_plainly) as file:
-            if not _is_trusted(os.fstat(file.fileno())):
-                return None
+    code = read(path)
+    with suppress(wasmtime.WasmtimeError):
+        return None if code is None else wasmtime.Module.deserialize(engine, code)
+    return None
+
+
+def read(path: Path) -> bytes | None:
+    """Return the machine code of a cache file; None if others could have written it, or it is damaged."""
+    with suppress(OSError), open(path, "rb", opener=_open_plainly) as file:
+        if _is_trusted(os.fstat(file.fileno())):
             digest, code = file.read(32), file.read()
-        # wasmtime takes code as it is: what was cut off or changed would crash
-        return wasmtime.Module.deserialize(engine, code) if hashlib.sha256(code).digest() == digest else None
-    except (OSError, wasmtime.WasmtimeError):
-        return None
+            # wasmtime takes code as it is: what was cut off or changed would crash
+            return code if hashlib.sha256(code).digest() == digest else None
+    return None
 
 
 def _open_plainly(path: str, flags: int) -> int:
