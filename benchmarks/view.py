@@ -27,7 +27,7 @@ from typing import Any
 
 from tools.page_server import chromium, static
 
-from shackled import Scene, load
+from shackled import load
 from shackled.datasets import require
 from shackled.evm import module_bytes
 from shackled.scene import render_call
@@ -36,23 +36,34 @@ from shackled.scene import render_call
 TURN = """milliseconds => new Promise(resolve => {
     const view = document.querySelector('shackled-view');
     const begin = performance.now();
-    const times = [], drawn = [];
+    const times = [];
     let size = '';
     view.addEventListener('frame', ({detail}) => {
         size = `${detail.width} x ${detail.height}`;
-        if (performance.now() <= begin + milliseconds / 2) return;
-        times.push(performance.now());
-        drawn.push(detail.milliseconds);
+        if (performance.now() > begin + milliseconds / 2) times.push(performance.now());
     });
     const step = now => {
         if (now > begin + milliseconds) {
-            resolve({rate: (times.length - 1) / (times.at(-1) - times[0]) * 1000, size, drawn});
+            resolve({rate: (times.length - 1) / (times.at(-1) - times[0]) * 1000, size});
             return;
         }
         view.turn = {azimuth: (now - begin) / 20, elevation: 10};
         requestAnimationFrame(step);
     };
     requestAnimationFrame(step);
+})"""
+
+
+#: Turns the scene so often, each time until its picture is drawn at rest; returns the milliseconds of the second half.
+DRAW = """count => new Promise(resolve => {
+    const view = document.querySelector('shackled-view');
+    const drawn = [];
+    view.addEventListener('picture', ({detail}) => {
+        drawn.push(detail.milliseconds);
+        if (drawn.length === count) resolve(drawn.slice(count / 2));
+        else view.turn = {azimuth: 9 * drawn.length, elevation: 10};
+    });
+    view.turn = {azimuth: 1, elevation: 10};
 })"""
 
 
@@ -81,11 +92,11 @@ def page(call: bytes, attributes: str = "", compiles: bool = True) -> str:
 """
 
 
-def measure(browser: Any, scene: Scene, seconds: float, compiles: bool = True, attributes: str = "") -> dict[str, Any]:
-    """Return the frames a second, their size, and the milliseconds that the contracts took for each."""
+def run(browser: Any, html: str, script: str, argument: float) -> Any:
+    """Return what a script returns in a page, once its picture is there."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "page.html"
-        path.write_text(page(render_call(scene), attributes, compiles), "utf-8")
+        path.write_text(html, "utf-8")
         tab = browser.new_page(viewport={"width": 480, "height": 600})
         tab.goto(path.as_uri())
         tab.wait_for_function(
@@ -93,29 +104,27 @@ def measure(browser: Any, scene: Scene, seconds: float, compiles: bool = True, a
         )
         # the element measures its speed
         tab.wait_for_timeout(1000)
-        found: dict[str, Any] = tab.evaluate(TURN, 1000 * seconds)
+        found = tab.evaluate(script, argument)
         tab.close()
     return found
 
 
-#: Rounds of the time of drawing.
-ROUNDS = 5
+#: Rounds and turns of the time of drawing.
+ROUNDS, TURNS = 5, 24
 
 
 def drawing(browser: Any, seconds: float) -> str:
     """Return what compiled contracts save, in one line."""
-    scene = load("teapot", 256)
-    medians: dict[bool, list[float]] = {True: [], False: []}
-    rates: list[float] = []
+    call = render_call(load("teapot", 256))
+    times: dict[bool, list[float]] = {True: [], False: []}
     for _ in range(ROUNDS):
-        for compiles, each in medians.items():
-            found = measure(browser, scene, seconds, compiles, "exact")
-            each.append(statistics.median(found["drawn"]))
-            rates += [found["rate"]] if compiles else []
-    compiled, interpreted = statistics.median(medians[True]), statistics.median(medians[False])
+        for compiles, each in times.items():
+            each += run(browser, page(call, "exact", compiles), DRAW, TURNS)
+    compiled, interpreted = statistics.median(times[True]), statistics.median(times[False])
+    rate = run(browser, page(call), TURN, 1000 * seconds)
     return (
-        f"teapot, default look, {found['size']} pixels: {compiled:.1f} ms compiled, {interpreted:.1f} ms interpreted, "
-        f"ratio {compiled / interpreted:.2f}; {statistics.median(rates):.1f} frames a second compiled"
+        f"teapot, default look, 256 x 256 pixels: {compiled:.1f} ms compiled, {interpreted:.1f} ms interpreted, ratio "
+        f"{compiled / interpreted:.2f}; while it turns {rate['rate']:.1f} frames a second of {rate['size']} pixels"
     )
 
 
@@ -209,7 +218,8 @@ def main() -> None:
     options = parser.parse_args()
     with chromium() as browser:
         for smooth in (False, True):
-            found = measure(browser, load(require("teapot").make(), smooth=smooth), options.seconds)
+            call = render_call(load(require("teapot").make(), smooth=smooth))
+            found = run(browser, page(call), TURN, 1000 * options.seconds)
             name = "smooth" if smooth else "flat"
             print(f"teapot, {name}: {found['rate']:.1f} frames a second of {found['size']} pixels")
         print(drawing(browser, options.seconds))

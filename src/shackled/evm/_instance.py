@@ -68,7 +68,7 @@ class Instance:
         self._exports: Any = instance.exports(self._store)
         self._memory: Any = self._exports["memory"]
         self._codes: dict[bytes, bytes] = {}
-        #: Of the calls since the busiest contract was sought, and after how much it is sought again: no first call waits.
+        #: Of the calls since the busiest contract was sought, and after how much it is sought again.
         self._gas, self._patience = 0, MUCH_GAS
 
     def stop(self) -> None:
