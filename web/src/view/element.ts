@@ -41,6 +41,8 @@ const SLOWEST = 0.01;
 /** Milliseconds that a picture may take, unless the attribute `timeout` says otherwise; and a check by a node. */
 const TIMEOUT = 30_000;
 const CHECK_TIMEOUT = 300_000;
+/** Frames after which a larger size is tried. */
+const LEARN = 8;
 const SOURCES = ["src", "rpc", "studio", "pointer"];
 
 /** Shows a scene as the contracts draw it, in a worker. docs/export.md describes its attributes, properties and events. */
@@ -73,6 +75,8 @@ export class ShackledView extends HTMLElement {
     #generation = 0;
     /** The size of all frames of a movement; null at rest. */
     #moving: Size | null = null;
+    /** Frames since it began to move. */
+    #frames = 0;
     #held = false;
     #dirty = false;
     #drawing: Wish | null = null;
@@ -409,7 +413,8 @@ export class ShackledView extends HTMLElement {
         if (!this.#facts) return;
         change();
         if (!this.#moving) {
-            this.#moving = this.#speed.movingSize([this.#facts.width, this.#facts.height], this.#shownSize());
+            this.#moving = this.#movingSize(this.#facts);
+            this.#frames = 0;
             this.#parts.stage.dataset["moving"] = "";
             const wish = this.#drawing;
             const slow = wish && this.#speed.predict(wish.width * wish.height * wish.samples ** 2) > INTERRUPT;
@@ -421,6 +426,10 @@ export class ShackledView extends HTMLElement {
         this.#dirty = true;
         this.#settle();
         void this.#drawFrames();
+    }
+
+    #movingSize({ width, height }: CallFacts): Size {
+        return this.#speed.movingSize([width, height], this.#shownSize());
     }
 
     /** Draw the picture at rest, once the viewer has not moved for a moment. */
@@ -449,6 +458,9 @@ export class ShackledView extends HTMLElement {
                 this.#paint(drawn, this.hasAttribute("exact"));
                 const { milliseconds } = drawn;
                 this.dispatchEvent(new CustomEvent("frame", { detail: { width, height, milliseconds } }));
+                // contracts that were compiled meanwhile draw larger pictures in the same time
+                const size = ++this.#frames % LEARN === 0 && this.#facts && this.#movingSize(this.#facts);
+                if (size && size[0] > width) this.#moving = size;
             }
         } catch (error) {
             this.#fail(messageOf(error), error);
