@@ -126,7 +126,7 @@ def javascript() -> str:
     """Return a table of the same pictures in the engines of JavaScript that are there: milliseconds, and ratios."""
     chain = RevmChain()
     to = chain.address("Renderer")
-    work = {
+    work: dict[str, Any] = {
         "evm": base64.b64encode(module_bytes()).decode(),
         "codes": {address.hex(): code.hex() for address, code in chain.codes().items()},
         "to": to.hex(),
