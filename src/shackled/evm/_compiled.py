@@ -12,6 +12,7 @@ import hashlib
 import os
 import threading
 from collections import Counter
+from collections.abc import Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -29,6 +30,9 @@ SOME, MUCH = 10_000_000, 250_000_000
 #: At most so many codes are compiled in a process; the translation of one has so many bytes; the cache so many files.
 MOST_CODES, MOST_BYTES, MOST_FILES = 24, 4 << 20, 40
 
+#: Returns the translation of a code; empty if it would be too large.
+Translate = Callable[[bytes], bytes]
+
 _lock = threading.Lock()
 _gas: Counter[bytes] = Counter()
 #: What was looked for on disk; what is being compiled, or cannot be; machine code.
@@ -45,18 +49,20 @@ def mode() -> str:
     return value
 
 
-def module_of(code: bytes, engine: wasmtime.Engine, kind: Kind) -> wasmtime.Module | None:
+def module_of(code: bytes, engine: wasmtime.Engine, kind: Kind, translate: Translate) -> wasmtime.Module | None:
     """Return the module of a code for an engine, and compile it first where that is needed; None if it cannot be."""
     name = _name(code, kind)
     with _lock:
         if (module := _module(name, engine)) is not None or name in _begun:
             return module
         _begun.add(name)
-    _compile(name, code, kind)
+    _compile(name, code, kind, translate)
     return _module(name, engine)
 
 
-def busy_module_of(code: bytes, gas: int, engine: wasmtime.Engine, kind: Kind) -> wasmtime.Module | None:
+def busy_module_of(
+    code: bytes, gas: int, engine: wasmtime.Engine, kind: Kind, translate: Translate
+) -> wasmtime.Module | None:
     """Return the same for a code that used gas in the interpreter, or None; start to compile it where that pays."""
     with _lock:
         _gas[code] += gas
@@ -66,7 +72,7 @@ def busy_module_of(code: bytes, gas: int, engine: wasmtime.Engine, kind: Kind) -
         module = _module(name, engine)
         if module is None and _gas[code] >= MUCH and name not in _begun and len(_begun) < MOST_CODES:
             _begun.add(name)
-            threading.Thread(target=_compile, args=(name, code, kind), daemon=True).start()
+            threading.Thread(target=_compile, args=(name, code, kind, translate), daemon=True).start()
         return module
 
 
@@ -89,14 +95,12 @@ def _module(name: str, engine: wasmtime.Engine) -> wasmtime.Module | None:
     return None
 
 
-def _compile(name: str, code: bytes, kind: Kind) -> None:
+def _compile(name: str, code: bytes, kind: Kind, translate: Translate) -> None:
     """Compile a code, and keep the machine code in memory and on disk; the oldest files are removed."""
     import wasmtime
 
-    from ._instance import Instance
-
     with suppress(ChainError, wasmtime.WasmtimeError, MemoryError):
-        translated = Instance().translate(code, REGION)
+        translated = translate(code)
         if not 0 < len(translated) <= MOST_BYTES:
             return
         settings = config(kind)

@@ -148,7 +148,7 @@ class Instance:
 
     def compile(self, address: bytes) -> bool:
         """Let the contract at an address run as machine code; return whether that is possible."""
-        return self._link(address, _compiled.module_of(self._codes[address], self._engine, self._kind))
+        return self._link(address, _compiled.module_of(self._codes[address], self._engine, self._kind, _translated))
 
     def _note_busiest(self) -> None:
         """Let the contract that used most gas in the interpreter run as machine code, if there is some."""
@@ -159,7 +159,9 @@ class Instance:
         self._run("release", place, ADDRESS)
         if gas and address in self._codes:
             self._patience = MUCH_GAS
-            self._link(address, _compiled.busy_module_of(self._codes[address], gas, self._engine, self._kind))
+            self._link(
+                address, _compiled.busy_module_of(self._codes[address], gas, self._engine, self._kind, _translated)
+            )
 
     def _link(self, address: bytes, module: wasmtime.Module | None) -> bool:
         """Let the contract at an address run in a module; return whether it does."""
@@ -211,6 +213,11 @@ class Instance:
             if (limit := address_space()) is not None:
                 why += f", or than this process has left of {limit >> 20:,} MB of address space (`ulimit -v`)"
             raise ChainError(why) from error
+
+
+def _translated(code: bytes) -> bytes:
+    """Translate a code in an instance of its own: that of a call may be in use."""
+    return Instance().translate(code, _compiled.REGION)
 
 
 def _checked(address: bytes) -> bytes:
