@@ -8,6 +8,7 @@ import numpy as np
 from attrs import evolve
 
 from ..errors import InputError, warn
+from ._files.images import Images
 from ._files.model import MeshPart, Picture, finite_uvs, is_transparent
 from ._mesh import Mesh, is_trimesh, weld
 from ._object import Material, Object
@@ -43,7 +44,8 @@ def part_of(value: Any) -> MeshPart:
     cutoff = 0.5 if cutoff is None else float(cutoff)
     has_alpha = mode == "BLEND" or (mode == "MASK" and cutoff > 0)
     image = (as_rgba if has_alpha and is_transparent(image) else as_rgb)(image)
-    picture = Picture(image, "the texture of the mesh", cutoff=cutoff_of(cutoff) if mode == "MASK" else 0)
+    cutoff = cutoff_of(cutoff) if mode == "MASK" else 0
+    picture = Picture(lambda: image, "the texture of the mesh", Images(), image.mode == "RGBA", True, cutoff=cutoff)
     corners = finite_uvs(uvs, picture.name)[faces] * (1, -1) + (0, 1)
     texture, coordinates = picture.texture(corners, 1)
     colors = np.broadcast_to(to_srgb(color), (*faces.shape, 3))

@@ -25,6 +25,8 @@ WRAPS: tuple[Wrap, ...] = ("repeat", "clamp")
 
 #: The most texels along a side.
 MAX_TEXTURE_SIDE = 256
+#: So many rows of an image are converted at a time.
+_ROWS = 256
 #: The most pixels of an image that is read.
 MAX_PIXELS = 1 << 26
 
@@ -176,11 +178,19 @@ def as_rgb(image: Image.Image) -> Image.Image:
     if image.mode[0] not in "IF":
         return image.convert("RGB")
     # Pillow cuts the levels of these off at 255
-    grey = np.nan_to_num(np.asarray(image, dtype=np.float64))
+    parts = [slice(row, row + _ROWS) for row in range(0, image.height, _ROWS)]
+    grey = np.asarray(image)
+
+    def levels(part: slice) -> NDArray[np.float64]:
+        return np.nan_to_num(grey[part].astype(np.float64))
+
+    scale = 1.0
     if image.mode == "F":
-        grey *= 65535 / next((each for each in (1, 255) if grey.max() <= each), 65535)
+        most = max(levels(part).max() for part in parts)
+        scale = 65535 / next((each for each in (1, 255) if most <= each), 65535)
     # the upper byte, as of 16-bit colours
-    return Image.fromarray((np.clip(grey, 0, 65535) // 256).astype(np.uint8)).convert("RGB")
+    found = [(np.clip(levels(part) * scale, 0, 65535) // 256).astype(np.uint8) for part in parts]
+    return Image.fromarray(np.concatenate(found)).convert("RGB")
 
 
 def as_rgba(image: Image.Image) -> Image.Image:
@@ -225,8 +235,7 @@ def sample(image: Image.Image, coordinates: ArrayLike) -> NDArray[np.float64]:
 
     coordinates: (n, 2) float, from the bottom left (0, 0) to the top right (1, 1); outside of it the image repeats.
     """
-    texels = np.asarray(image.convert("RGB"), dtype=np.float64)
-    height, width = texels.shape[:2]
+    width, height = image.size
     uv = np.nan_to_num(np.asarray(coordinates, dtype=np.float64)[:, :2], posinf=0, neginf=0)
     # the far border belongs to the image itself, not to its first repetition
     uv = np.where((uv >= 0) & (uv <= 1), uv, uv % 1)
@@ -235,6 +244,9 @@ def sample(image: Image.Image, coordinates: ArrayLike) -> NDArray[np.float64]:
     left, top = np.floor(x).astype(int), np.floor(y).astype(int)
     right, bottom = np.minimum(left + 1, width - 1), np.minimum(top + 1, height - 1)
     fx, fy = (x - left)[:, None], (y - top)[:, None]
-    upper = texels[top, left] * (1 - fx) + texels[top, right] * fx
-    lower = texels[bottom, left] * (1 - fx) + texels[bottom, right] * fx
+    ends = (left.min(), top.min(), right.max() + 1, bottom.max() + 1) if len(uv) else (0, 0, 1, 1)
+    texels = np.asarray(image.crop(tuple(map(int, ends))).convert("RGB"))
+    (x, right), (y, bottom) = ((left - ends[0], right - ends[0]), (top - ends[1], bottom - ends[1]))
+    upper = texels[y, x] * (1 - fx) + texels[y, right] * fx
+    lower = texels[bottom, x] * (1 - fx) + texels[bottom, right] * fx
     return np.asarray(np.rint(upper * (1 - fy) + lower * fy))

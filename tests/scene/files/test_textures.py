@@ -199,7 +199,7 @@ HUGE = SMALL[:12] + HEADER + struct.pack(">I", zlib.crc32(HEADER)) + SMALL[33:]
         ("lost.png", ".uri: {folder}/lost.png does not exist"),
         ("data:image/png;base64,####", " is not an image that can be read"),
         ("data:,no image", " is not an image that can be read"),
-        ("http://x/a.png", ".uri is 'http://x/a.png'; only files in the folder of the glTF file are read"),
+        ("http://x/a.png", ".uri: 'http://x/a.png' is outside of the folder of the file that names it; only files in that folder are read"),
         (HUGE, " is not an image that can be read"),
     ],
     ids=lambda value: str(value)[:20],

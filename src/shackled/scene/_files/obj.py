@@ -25,6 +25,7 @@ from .._mesh import DEFAULT_COLOR
 from .._texture import to_bytes
 from .beside import picture_beside
 from .content import read_text
+from .images import Images
 from .model import REPLACED, Look, MeshPart, Picture, replaced, split, under
 from .mtl import Map, ObjMaterial, material_name, read_materials
 from .polygons import cut
@@ -243,7 +244,7 @@ class _Surfaces:
         painted, colors = _vertex_colors(obj, len(drawn.positions))
         self.has_own, self.colors = painted[corners[..., 0], None], colors[corners[..., 0]]
         self.uvs = np.zeros((len(corners), 3, 2))
-        self.pictures: dict[Map, Picture | None] = {}
+        self.images, self.pictures = Images(), dict[Map, Picture | None]()
         self.looks: dict[Look, int] = {Look(): 0}
         self.look = np.zeros(len(corners), dtype=np.int64)
         #: how many of a thing there are, and what of it is left out
@@ -275,7 +276,8 @@ class _Surfaces:
         self.look[own] = self.looks.setdefault(look, len(self.looks))
         image = material.texture
         if image is not None and image not in self.pictures:
-            self.pictures[image] = picture_beside(self.obj.path, image.folders, image.name, image.wrap, image.alpha)
+            found = picture_beside(self.obj.path, image.folders, image.name, self.images, image.wrap, image.alpha)
+            self.pictures[image] = found
         picture = self.pictures[image] if image is not None else None
         if picture is None:
             return

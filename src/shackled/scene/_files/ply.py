@@ -20,6 +20,7 @@ from .._mesh import DEFAULT_COLOR
 from .._texture import to_bytes
 from .beside import picture_beside
 from .content import plain_text, read_bytes
+from .images import Images
 from .model import REPLACED, Look, MeshPart, Picture, finite_uvs, given_normals, replaced, split, under
 from .polygons import cut
 
@@ -314,7 +315,8 @@ def read_ply(path: Path) -> list[MeshPart]:
     corners, polygon = numbers[triangles[:, :3]], triangles[:, 3]
     colors = _colors(path, vertex, Element("face", 0) if is_strips else face, corners, polygon)
     normals = given_normals(vertex.table("nx", "ny", "nz"), positions, corners, str(path))
-    opened = [picture_beside(path, [path.parent], name) for name in textures]
+    images = Images()
+    opened = [picture_beside(path, [path.parent], name, images) for name in textures]
     pictures = {number: each for number, each in enumerate(opened) if each is not None}
     picture, uvs = np.full(len(corners), _NONE), np.zeros((len(corners), 3, 2))
     if pictures:

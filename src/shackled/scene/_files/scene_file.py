@@ -33,6 +33,7 @@ from .._settings import Kind, Part, exclude, settings_of
 from .._staging import BACKGROUND, DEFAULT_SIDE, Viewpoint, frame, painted_object, toward_viewer
 from .._texture import FILTERS, WRAPS, Texture
 from .._upright import AXES, axis_of_file, upright
+from .beside import inside
 from .content import parse, read_text
 from .mesh_file import READERS, read_model
 from .model import MeshPart
@@ -259,7 +260,7 @@ def _parts(keys: Table, where: str, folder: Path | None) -> list[MeshPart]:
 def _beside(folder: Path | None, name: str) -> Path:
     if folder is None:
         raise InputError(f"a link cannot name files, such as {name!r:.60}; save a scene file in the Creator instead")
-    return folder / name
+    return inside(folder, folder / name, name)
 
 
 def _mesh_of_piece(keys: Table) -> Mesh:
