@@ -107,9 +107,11 @@ class Picture:
             if image.getpixel(tuple(ends[0])) != image.getpixel(tuple(ends[1])):
                 return False
         start, end = low.min(axis=0), high.max(axis=0) + 1
+        if 2 * (end - start).prod() > image.width * image.height:  # no copy of nearly all
+            start, end = np.array([[0, 0], image.size])
         if not self.images.compares(int((end - start).prod())):
             return False
-        pixels = np.asarray(image.crop((*start.tolist(), *end.tolist())))
+        pixels = np.asarray(image.crop((*start.tolist(), *end.tolist())) if start.any() or (end < image.size).any() else image)
         low, high = low - start, high - start
         return not (_changes(pixels, low, high).any() or _changes(pixels.swapaxes(0, 1), low[:, ::-1], high[:, ::-1]).any())
 
@@ -130,7 +132,9 @@ class Picture:
         wrap = needed.pop() if len(needed) == 1 else "repeat" if any(outside) else "clamp"
         if wrap == "repeat" and uvs.size and np.abs(uvs).max() > _FAR:
             uvs -= np.floor(uvs.min(axis=1, keepdims=True))
-        smaller = reduced(image, _side(count))
+        # once for all looks with this picture
+        smaller = image.info.setdefault(_side(count), None) or reduced(image, _side(count))
+        image.info[_side(count)] = smaller
         if smaller.size != image.size:
             (width, height), (old_width, old_height) = smaller.size, image.size
             warn(f"{self.name} is reduced from {old_width} x {old_height} to {width} x {height} texels")
