@@ -8,12 +8,12 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
-import case_files
 import numpy as np
 import pytest
 from benchmarks import shared
 from PIL import Image
 
+import case_files
 from shackled.cli.app import run
 
 CASES = shared.SHARED / "review" / "cases"

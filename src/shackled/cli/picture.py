@@ -5,7 +5,8 @@ from __future__ import annotations
 import hashlib
 import sys
 import time
-from contextlib import nullcontext
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,7 @@ from .._render import render as draw
 from .._render import turntable as turn
 from ..animation import DURATION, Animation, check_duration
 from ..chain import open_chain
-from ..errors import ChainError
+from ..errors import ChainError, renaming
 from ..gas import Fit, fits_of, headline, render_call, suffices
 from ..image import MOST_COLORS, Image, colors, total
 from ..parallel import Listener, folder_of, remove_parts
@@ -28,24 +29,32 @@ from ..whole_file import make_output_folder
 from .look_options import load_with
 from .option import exclude, need, option
 from .progress import LateBar
-from .streams import OUTPUT, STREAM, as_stdin, write_stdout
+from .streams import OUTPUT, STREAM, write_stdout
 
 
 @dataclass(frozen=True)
 class Source:
     """An input of a command.
 
-    name: as it was given. place: a path, or the name of a piece. stem: of the name of its picture.
+    name: as it was given. place: a path, or the name of a piece. stem: of the name of its picture. stored: what
+    messages call it, if it is standard input or a pipe, which is stored in a file at its place.
     """
 
     name: str
     place: str
     stem: str
+    stored: str | None = None
 
     @property
     def is_picture(self) -> bool:
         """Whether its scene is in a picture."""
-        return self.name != STREAM and self.place.lower().endswith(PICTURE)
+        return self.stored is None and self.place.lower().endswith(PICTURE)
+
+    @contextmanager
+    def named(self) -> Iterator[None]:
+        """Let messages not name the file in which it is stored."""
+        with nullcontext() if self.stored is None else renaming(self.place, self.stored):
+            yield
 
 
 @dataclass(frozen=True)
@@ -143,7 +152,7 @@ class Done:
 def render_to(source: Source, path: Path | None, task: Task, listener: Listener) -> Done:
     """Render an input to a file, or for None to standard output."""
     film = task.film
-    with as_stdin(source.place) if source.name == STREAM else nullcontext():
+    with source.named():
         if film.frames is None:
             scenes, length = [load_with(source.place, task.look, task.fit)], 0.0
         else:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 import numpy as np
+from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
@@ -121,6 +122,30 @@ class Look:
     picture: Picture | None = None
     emission: Color = (0, 0, 0)
     opacity: float = 1.0
+
+
+def seen(parts: Sequence[MeshPart], name: str) -> list[MeshPart]:
+    """Return the parts of a model, opaque if all of them are invisible, of which an InputWarning tells.
+
+    Writers without transparency leave 0 as alpha, and of the statement Tr of OBJ files some mean the opposite.
+    """
+    if not parts or any(map(_is_visible, parts)):
+        return list(parts)
+    warn(f"{name}: its opacity is 0 everywhere, which cannot be meant; it is drawn opaque")
+    return [_opaque(part) for part in parts]
+
+
+def _is_visible(part: MeshPart) -> bool:
+    opacities, texture = part.mesh.opacities, part.material.get("texture")
+    is_shown = texture is None or texture.alpha is None or bool((texture.alpha >= max(texture.cutoff, 1)).any())
+    return part.opacity > 0 and (opacities is None or bool(opacities.any())) and is_shown
+
+
+def _opaque(part: MeshPart) -> MeshPart:
+    fields = dict(part.material)
+    if (texture := fields.get("texture")) is not None:
+        fields["texture"] = evolve(texture, alpha=None, cutoff=0)
+    return replace(part, mesh=evolve(part.mesh, opacities=None), material=fields, opacity=1.0)
 
 
 def split(

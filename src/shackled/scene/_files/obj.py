@@ -24,7 +24,7 @@ from .._crease import corner_normals, filled
 from .._mesh import DEFAULT_COLOR
 from .._texture import to_bytes
 from .beside import picture_beside
-from .content import read_text
+from .content import read_text, with_points
 from .model import REPLACED, Look, MeshPart, Picture, replaced, split, under
 from .mtl import Map, ObjMaterial, material_name, read_materials
 from .polygons import cut
@@ -79,7 +79,8 @@ def _read_lines(path: Path) -> _Lines:
     """Return the lines of a file. InputError for one that is of no OBJ file."""
     obj = _Lines(path)
     material, group = 0, 0
-    lines = enumerate(io.StringIO(read_text(path) + "\n"), 1)
+    text = with_points(path, read_text(path), "v|vn|vt")
+    lines = enumerate(io.StringIO(text + "\n"), 1)
     for number, line in lines:
         while "\\" in line and line.rstrip().endswith("\\") and not _OF_NAMES.match(line):
             line = line.rstrip()[:-1] + " " + next(lines, (0, ""))[1]
@@ -248,7 +249,7 @@ class _Surfaces:
         self.look = np.zeros(len(corners), dtype=np.int64)
         #: how many of a thing there are, and what of it is left out
         self.notes: Counter[tuple[str, str]] = Counter()
-        lost = []
+        self.hidden, lost = 0, []
         for name, number in obj.material_numbers.items():
             triangles = np.flatnonzero(material == number)
             if len(triangles) and name in obj.materials:
@@ -260,6 +261,9 @@ class _Surfaces:
             self.notes["material", f"that no material file has, drawn in light grey: {named}"] = len(lost)
         elif not obj.has_library:  # otherwise a warning tells that it is not read
             self.notes["material", f"left out, for no line mtllib names their file: {named}"] = len(lost)
+        hidden = [look.opacity == 0 for look in self.looks]
+        if not all(np.array(hidden)[self.look]):  # otherwise the opacity of 0 is not meant
+            self.notes["material", "with an opacity of 0, of which nothing is visible"] = self.hidden
         for (thing, note), count in self.notes.items():
             if count:
                 warn(f"{obj.path}: {plural(count, thing)} {note}")
@@ -267,7 +271,7 @@ class _Surfaces:
     def _take(self, material: ObjMaterial, own: Ints) -> None:
         """Give triangles their material."""
         self.notes.update((f"{each[:20]} statement", "of its materials left out") for each in sorted(material.left_out))
-        self.notes["material", "with an opacity of 0, of which nothing is visible"] += material.opacity == 0
+        self.hidden += material.opacity == 0
         has_own = self.has_own[own]
         self.colors[own] = np.where(has_own, self.colors[own], to_bytes(material.color, largest=1))
         red, green, blue = to_bytes(material.emission, largest=1).astype(int).tolist()

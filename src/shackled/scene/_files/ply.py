@@ -19,7 +19,7 @@ from ...values import plural
 from .._mesh import DEFAULT_COLOR
 from .._texture import to_bytes
 from .beside import picture_beside
-from .content import plain_text, read_bytes
+from .content import plain_text, read_content, with_points
 from .model import REPLACED, Look, MeshPart, Picture, finite_uvs, given_normals, replaced, split, under
 from .polygons import cut
 
@@ -98,9 +98,9 @@ class Element:
         return to_bytes(table, _LARGEST.get(kind))
 
 
-def read_elements(data: bytes) -> tuple[dict[str, Element], list[str]]:
+def read_elements(data: bytes, path: Path) -> tuple[dict[str, Element], list[str]]:
     """Return the elements of a PLY file by their names, and the textures that its comments name."""
-    elements, textures, source = _open(data)
+    elements, textures, source = _open(data, path)
     for element in elements:
         if element.count and element.properties:
             element.values = _values(element, source)
@@ -109,7 +109,7 @@ def read_elements(data: bytes) -> tuple[dict[str, Element], list[str]]:
     return {element.name: element for element in elements}, textures
 
 
-def _open(data: bytes) -> tuple[list[Element], list[str], _Text | _Binary]:
+def _open(data: bytes, path: Path) -> tuple[list[Element], list[str], _Text | _Binary]:
     """Return what the header says: elements that have no values yet, and textures; and where the values are."""
     elements, textures, encoding = list[Element](), list[str](), ""
     if not data.startswith((b"ply", b"PLY")):
@@ -146,7 +146,7 @@ def _open(data: bytes) -> tuple[list[Element], list[str], _Text | _Binary]:
     if not encoding:
         raise InputError("its header has no line format")
     if encoding == "ascii":
-        return elements, textures, _Text(data[start:], number)
+        return elements, textures, _Text(with_points(path, plain_text(data[start:])), number)
     return elements, textures, _Binary(data[start:], "<" if "little" in encoding else ">")
 
 
@@ -157,9 +157,9 @@ _Field = tuple[str, str, int]
 class _Text:
     """Lines of numbers, a line for each row of an element."""
 
-    def __init__(self, data: bytes, before: int) -> None:
+    def __init__(self, text: str, before: int) -> None:
         """Take the lines after the header. before: the number of lines of the header."""
-        self.lines = plain_text(data).split("\n")
+        self.lines = text.split("\n")
         self.before = before
         self.at = 0
 
@@ -287,7 +287,7 @@ def read_ply(path: Path) -> list[MeshPart]:
     A corner has the colour of its texture, else of its face, else of its vertex, else light grey. Where all faces have
     the same colour, those of vertices come first. An InputWarning tells what is left out.
     """
-    elements, textures = read_elements(read_bytes(path))
+    elements, textures = read_elements(read_content(path), path)
     vertex = elements.get("vertex", Element("vertex", 0))
     face = next((elements[name] for name in ("face", "tristrips") if name in elements and elements[name].count), None)
     positions = vertex.table("x", "y", "z")

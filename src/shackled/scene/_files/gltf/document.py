@@ -16,7 +16,7 @@ from PIL import Image
 
 from ....errors import InputError
 from ....values import plural
-from ..content import parse, read_bytes
+from ..content import parse, read_bytes, read_content
 from ..table import Table, about
 
 _JSON, _BIN = b"JSON", b"BIN\0"
@@ -45,7 +45,7 @@ class Document:
     def __init__(self, path: Path) -> None:
         """Read a file. InputError for what asks for another reader."""
         self.path = path
-        data = read_bytes(path)
+        data = read_content(path)
         self.binary: bytes | None = None
         if data.startswith(b"glTF"):
             data, self.binary = _chunks(data)
