@@ -6,7 +6,7 @@ import hashlib
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from .._render import film as draw_film
 from .._render import pace
 from .._render import render as draw
 from .._render import turntable as turn
+from .._visible import why_nothing
 from ..animation import DURATION, Animation, check_duration
 from ..chain import open_chain
 from ..errors import ChainError, renaming
@@ -27,7 +28,7 @@ from ..scene import PICTURE, Scene, scene_chunk
 from ..values import plural
 from ..whole_file import make_output_folder
 from .look_options import load_with
-from .option import exclude, need, option
+from .option import exclude, need, option, with_options
 from .progress import LateBar
 from .streams import OUTPUT, STREAM, write_stdout
 
@@ -219,6 +220,8 @@ def render_to(source: Source, path: Path | None, task: Task, listener: Listener)
         "calls": made.calls,
     }
     if not shows_something:
+        with suppress(ChainError):
+            print(with_options(why_nothing(loaded, frames[0].evm)), file=sys.stderr)
         print("nothing is visible; the picture shows only the background", file=sys.stderr)
     if extension == ".gif" and (found := colors([frame.pixels for frame in frames])) > MOST_COLORS:
         whose = "picture" if len(frames) == 1 else "frames"
@@ -228,14 +231,14 @@ def render_to(source: Source, path: Path | None, task: Task, listener: Listener)
 
 
 def _counted(made: Image | Animation) -> tuple[int | None, int | None, bool]:
-    """Return the triangles and covered pixels of a picture, None where they are not known, and whether anything shows.
+    """Return the triangles and lit pixels of a picture, None where they are not known, and whether anything shows.
 
     The picture is already written: what fails here is only told.
     """
     try:
         if isinstance(made, Image):
-            return made.triangles, made.covered_pixels, made.covered_pixels != 0
-        return None, None, any(frame.covered_pixels != 0 for frame in made.frames)
+            return made.triangles, made.visible_pixels, made.visible_pixels != 0
+        return None, None, any(frame.visible_pixels != 0 for frame in made.frames)
     except ChainError as error:
         print(f"shackled: triangles and lit pixels were not counted: {error}", file=sys.stderr)
         return None, None, True
