@@ -174,7 +174,7 @@ NAMED: dict[str, tuple[Callable[[], Any], str]] = {
     "list_models": (lambda: s.list_models(), "shackled.datasets.pieces()"),
     "no file": (lambda: s.render("nothere.obj"), "nothere.obj does not exist"),
     "rotate=45": (lambda: cube(rotate=45), "`rotate` must be x, y, z in degrees"),
-    "a stream": (lambda: s.load(io.BytesIO(b"v 0 0 0")), "a path, the name of a piece, a Mesh, (vertices, faces), "),
+    "a stream": (lambda: s.load(io.BytesIO(b"v 0 0 0")), "the data: it has no faces, only 1 vertex"),
     "scale": (lambda: s.Object(MESH, scale=(1, 2, 1)), "the scale of an object must be a number"),
     "nothing": (lambda: s.render([], size=SIDE), "vertices and faces are needed"),
     "nan": (lambda: s.render((np.full((3, 3), np.nan), [(0, 1, 2)])), "not a finite number: [nan, nan, nan]"),

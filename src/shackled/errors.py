@@ -6,6 +6,9 @@ import os
 import re
 import sys
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any
 
 #: Where frames of the package are: in its folder, and in the code that attrs generates for its classes.
@@ -45,10 +48,32 @@ def caller() -> Place:
     return code.co_filename, frame.f_lineno, names.get("__name__") or "", names.setdefault("__warningregistry__", {})
 
 
+#: What stands in messages, and what is said in its place.
+_NAMES: ContextVar[tuple[tuple[str, str], ...]] = ContextVar("_NAMES", default=())
+
+
+def _renamed(message: str) -> str:
+    for said, name in _NAMES.get():
+        message = message.replace(said, name)
+    return message
+
+
+@contextmanager
+def renaming(path: str, name: str) -> Iterator[None]:
+    """Let messages about a file, and about what is beside it, not name where it is stored."""
+    before = _NAMES.set(((path, name), (f"{os.path.dirname(path)}{os.sep}", ""), *_NAMES.get()))
+    try:
+        yield
+    except InputError as error:
+        raise InputError(_renamed(str(error))) from None
+    finally:
+        _NAMES.reset(before)
+
+
 def warn(message: str, category: type[Warning] = InputWarning, place: Place | None = None) -> None:
     """Warn, by default at the line of `caller`."""
     file, line, module, registry = place or caller()
-    warnings.warn_explicit(message, category, file, line, module, registry)
+    warnings.warn_explicit(_renamed(message), category, file, line, module, registry)
 
 
 class OutputError(ShackledError, OSError):

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, BinaryIO, Generic, TypeVar
 
 import numpy as np
-from attrs import field, frozen
+from attrs import evolve, field, frozen
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 from PIL import Image as PillowImage
 from PIL.PngImagePlugin import PngInfo
@@ -106,6 +106,19 @@ class Image(Value):
     @cached_property
     def _counts(self) -> tuple[int, int] | tuple[None, None]:
         return (None, None) if self.scene is None else open_chain(self.evm).count(self.scene)
+
+    @cached_property
+    def visible_pixels(self) -> int | None:
+        """The number of pixels that differ from the background; None if the scene is not known.
+
+        A background has one colour in each row: the embedded EVM draws one column of it. Raises the errors of `render`.
+        """
+        if self.alpha is not None:
+            return int(np.count_nonzero(self.alpha))
+        if self.scene is None:
+            return None
+        behind = open_chain(self.evm).draw(evolve(self.scene, objects=[], ground=None, width=1))
+        return int((self.pixels != decode_bmp(behind.bmp, 1, self.height)).any(axis=2).sum())
 
     @property
     def sha256(self) -> str:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import hashlib
 import sys
 import time
-from contextlib import nullcontext
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,9 +17,10 @@ from .._render import film as draw_film
 from .._render import pace
 from .._render import render as draw
 from .._render import turntable as turn
+from .._visible import why_nothing
 from ..animation import DURATION, Animation, check_duration
 from ..chain import open_chain
-from ..errors import ChainError
+from ..errors import ChainError, renaming
 from ..gas import Fit, fits_of, headline, render_call, suffices
 from ..image import MOST_COLORS, Image, colors, total
 from ..parallel import Listener, folder_of, remove_parts
@@ -26,26 +28,34 @@ from ..scene import PICTURE, Scene, scene_chunk
 from ..values import plural
 from ..whole_file import make_output_folder
 from .look_options import load_with
-from .option import exclude, need, option
+from .option import exclude, need, option, with_options
 from .progress import LateBar
-from .streams import OUTPUT, STREAM, as_stdin, write_stdout
+from .streams import OUTPUT, STREAM, write_stdout
 
 
 @dataclass(frozen=True)
 class Source:
     """An input of a command.
 
-    name: as it was given. place: a path, or the name of a piece. stem: of the name of its picture.
+    name: as it was given. place: a path, or the name of a piece. stem: of the name of its picture. stored: what
+    messages call it, if it is standard input or a pipe, which is stored in a file at its place.
     """
 
     name: str
     place: str
     stem: str
+    stored: str | None = None
 
     @property
     def is_picture(self) -> bool:
         """Whether its scene is in a picture."""
-        return self.name != STREAM and self.place.lower().endswith(PICTURE)
+        return self.stored is None and self.place.lower().endswith(PICTURE)
+
+    @contextmanager
+    def named(self) -> Iterator[None]:
+        """Let messages not name the file in which it is stored."""
+        with nullcontext() if self.stored is None else renaming(self.place, self.stored):
+            yield
 
 
 @dataclass(frozen=True)
@@ -143,7 +153,7 @@ class Done:
 def render_to(source: Source, path: Path | None, task: Task, listener: Listener) -> Done:
     """Render an input to a file, or for None to standard output."""
     film = task.film
-    with as_stdin(source.place) if source.name == STREAM else nullcontext():
+    with source.named():
         if film.frames is None:
             scenes, length = [load_with(source.place, task.look, task.fit)], 0.0
         else:
@@ -210,6 +220,8 @@ def render_to(source: Source, path: Path | None, task: Task, listener: Listener)
         "calls": made.calls,
     }
     if not shows_something:
+        with suppress(ChainError):
+            print(with_options(why_nothing(loaded, frames[0].evm)), file=sys.stderr)
         print("nothing is visible; the picture shows only the background", file=sys.stderr)
     if extension == ".gif" and (found := colors([frame.pixels for frame in frames])) > MOST_COLORS:
         whose = "picture" if len(frames) == 1 else "frames"
@@ -219,14 +231,14 @@ def render_to(source: Source, path: Path | None, task: Task, listener: Listener)
 
 
 def _counted(made: Image | Animation) -> tuple[int | None, int | None, bool]:
-    """Return the triangles and covered pixels of a picture, None where they are not known, and whether anything shows.
+    """Return the triangles and lit pixels of a picture, None where they are not known, and whether anything shows.
 
     The picture is already written: what fails here is only told.
     """
     try:
         if isinstance(made, Image):
-            return made.triangles, made.covered_pixels, made.covered_pixels != 0
-        return None, None, any(frame.covered_pixels != 0 for frame in made.frames)
+            return made.triangles, made.visible_pixels, made.visible_pixels != 0
+        return None, None, any(frame.visible_pixels != 0 for frame in made.frames)
     except ChainError as error:
         print(f"shackled: triangles and lit pixels were not counted: {error}", file=sys.stderr)
         return None, None, True

@@ -18,14 +18,14 @@ from ..animation import check_animation
 from ..datasets import Piece
 from ..errors import InputError, InputWarning, ShackledError
 from ..image import check_output
-from ..scene import PICTURE, READERS, Link
+from ..scene import PICTURE, READERS, Link, format_by_name, is_pipe, read_pipe, stored
 from ..untrusted import plain
 from ..workers import each
 from .option import argument, with_options
 from .output import Action, action, noting
 from .picture import Done, Source, Task, render_to
 from .progress import LateBar, Notes
-from .streams import STREAM, is_output, stdin_file
+from .streams import INPUT, STREAM, is_output, stdin_file
 
 #: The argument of commands with several inputs.
 INPUTS = argument(
@@ -56,7 +56,11 @@ def inputs_of(names: Sequence[str], stack: ExitStack) -> list[Source]:
     sources: list[Source] = []
     for name in names:
         if name == STREAM:
-            sources.append(Source(name, str(stack.enter_context(stdin_file())), UNNAMED))
+            sources.append(Source(name, str(stack.enter_context(stdin_file())), UNNAMED, INPUT))
+            continue
+        if is_pipe(name):  # which can be read once
+            path = stack.enter_context(stored(read_pipe(name), name))
+            sources.append(Source(name, str(path), UNNAMED, name))
             continue
         try:
             found = locate(name)
@@ -72,13 +76,14 @@ def inputs_of(names: Sequence[str], stack: ExitStack) -> list[Source]:
             members = _meshes(found)
             if not members and len(names) == 1 and found.is_dir():
                 raise InputError(f"the folder {name} has no mesh files in it, {' '.join(READERS)}")
-            sources += [Source(each, each, Path(each).stem or UNNAMED) for each in members or [name]]
+            found_names = members or [name]
+            sources += [Source(each, each, Path(each.removesuffix(".gz")).stem or UNNAMED) for each in found_names]
     return sources
 
 
 def _meshes(folder: Path) -> list[str]:
     try:
-        return sorted(str(path) for path in folder.iterdir() if path.suffix.lower() in READERS and path.is_file())
+        return sorted(str(path) for path in folder.iterdir() if format_by_name(path) in READERS and path.is_file())
     except OSError:  # not a folder, or reading it reports what is wrong
         return []
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import count
 
-from .._load import load, locate
+from .._load import is_model, load, locate
 from ..artifacts import known_errors
 from ..chain import RevmChain, describe_revert
 from ..datasets import Piece
@@ -17,7 +17,6 @@ from ..deploy import CONTRACTS, deployments
 from ..errors import InputError
 from ..ethereum import Errors, error_table, intrinsic_gas, keccak256, word
 from ..evm import Answer, Instance, Status
-from ..scene import READERS
 from ..studio import STUDIO, store_scene
 from ..tokens import token_scene
 from ._arguments import Call, constructor_arguments, contract_of
@@ -137,7 +136,7 @@ def stored_scene(input: str) -> dict[bytes, bytes]:
     input: a piece of a dataset, a mesh or a scene file. The scene is that of `shackled store`.
     """
     source = locate(input)
-    is_mesh = not isinstance(source, Piece) and source.suffix.lower() in READERS
+    is_mesh = is_model(source)
     thing = token_scene(source) if isinstance(source, Piece) else source
     scene = load(thing, antialias=False if is_mesh else None)
     return {each.pointer: each.code for each in store_scene(scene, deployments([STUDIO])[-1].address)}

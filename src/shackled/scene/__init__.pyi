@@ -4,7 +4,8 @@ from ._canvas import as_shown
 from ._codec import WIREFRAME, Rectangle, encode, encode_scene, render_call
 from ._decode import decode
 from ._effects import Background, Fog, Hemisphere, Rim, Tone
-from ._files.content import MAX_BYTES
+from ._files.beside import is_inside
+from ._files.content import MAX_BYTES, format_of, is_pipe, read_pipe, stored
 from ._files.gltf.animation import animation_length, animations_of
 from ._files.gltf.view import read_view
 from ._files.link import Link, link_of
@@ -12,9 +13,11 @@ from ._files.mesh_file import GLTF, READERS, read_mesh, read_model
 from ._files.model import MeshPart
 from ._files.picture import CHUNK, PICTURE, SceneChunk, scene_chunk
 from ._files.scene_file import SCENES, read_scene
+from ._files.signatures import format_by_name
 from ._files.table import about
 from ._files.written import encode_scene_file
 from ._fit import fit
+from ._from_others import mesh_of
 from ._from_trimesh import objects_of, part_of
 from ._ground import Ground
 from ._light import INNER_ANGLE, LIGHT_KINDS, WHITE, Light
@@ -89,19 +92,25 @@ __all__ = [
     "euler",
     "faces_of_all",
     "fit",
+    "format_by_name",
+    "format_of",
     "frame_count",
     "from_euler",
     "full_turn",
     "is_closed",
+    "is_inside",
+    "is_pipe",
     "is_trimesh",
     "link_of",
     "look_at",
+    "mesh_of",
     "objects_of",
     "pack",
     "painted",
     "part_of",
     "read_mesh",
     "read_model",
+    "read_pipe",
     "read_scene",
     "read_view",
     "render_call",
@@ -113,6 +122,7 @@ __all__ = [
     "simplify_scene",
     "size_of",
     "stage",
+    "stored",
     "upright",
     "vertex_normals",
     "view_axes",

@@ -9,14 +9,18 @@ from attrs import evolve
 
 from ..errors import InputError, warn
 from ._files.images import Images
-from ._files.model import MeshPart, Picture, finite_uvs, is_transparent
+from ._files.model import MeshPart, Picture, finite_uvs, is_transparent, seen
 from ._mesh import Mesh, is_trimesh, weld
 from ._object import Material, Object
 from ._texture import as_rgb, as_rgba, cutoff_of, to_srgb
 
 
 def part_of(value: Any) -> MeshPart:
-    """Return the mesh of a trimesh.Trimesh with what its material says. Errors as in `Mesh.from_trimesh`."""
+    """Return the mesh of a trimesh.Trimesh with what its material says, as `seen`. Errors as in `Mesh.from_trimesh`."""
+    return seen([_part_of(value)], "the mesh")[0]
+
+
+def _part_of(value: Any) -> MeshPart:
     visual: Any = getattr(value, "visual", None)
     uvs = getattr(visual, "uv", None)
     if not is_trimesh(value) or getattr(visual, "kind", None) != "texture":
@@ -55,14 +59,16 @@ def part_of(value: Any) -> MeshPart:
 
 def objects_of(scene: Any) -> list[Object]:
     """Return the objects of a trimesh.Scene, one for each place in which a mesh stands."""
-    objects = []
+    placed = []
     for name in scene.graph.nodes_geometry:
         matrix, geometry = scene.graph[name]
         whole = scene.geometry[geometry]
         if not hasattr(whole, "faces"):
             warn(f"{geometry} of the scene has no faces and is left out")
             continue
-        part = part_of(whole)
+        placed.append((matrix, _part_of(whole)))
+    objects = []
+    for part, (matrix, _) in zip(seen([part for _, part in placed], "the scene"), placed, strict=True):
         fields: dict[str, Any] = {"material": Material(**part.material), "opacity": part.opacity}
         try:
             objects.append(Object.from_matrix(part.mesh, matrix, **fields))

@@ -245,7 +245,7 @@ def sample(image: Image.Image, coordinates: ArrayLike) -> NDArray[np.float64]:
     right, bottom = np.minimum(left + 1, width - 1), np.minimum(top + 1, height - 1)
     fx, fy = (x - left)[:, None], (y - top)[:, None]
     ends = (left.min(), top.min(), right.max() + 1, bottom.max() + 1) if len(uv) else (0, 0, 1, 1)
-    texels = np.asarray(image.crop(tuple(map(int, ends))).convert("RGB"))
+    texels = np.asarray(image.crop((*map(int, ends),)).convert("RGB"))
     (x, right), (y, bottom) = ((left - ends[0], right - ends[0]), (top - ends[1], bottom - ends[1]))
     upper = texels[y, x] * (1 - fx) + texels[y, right] * fx
     lower = texels[bottom, x] * (1 - fx) + texels[bottom, right] * fx

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..checks import Floats, vector
 from ..errors import InputError, warn
 from ._arithmetic import from_euler, unit
+from ._files.content import format_of
 from ._files.model import MeshPart
 from ._mesh import face_normals, faces_of_all
 
@@ -48,7 +49,7 @@ def turned_up(direction: ArrayLike) -> Floats:
 
 def axis_of_format(path: Path) -> Axis:
     """Return the axis that points up in files of a format: z for STL files, y for others."""
-    return "z" if path.suffix.lower() in _Z_UP else "y"
+    return "z" if format_of(path) in _Z_UP else "y"
 
 
 def axis_of_file(path: Path, parts: Sequence[MeshPart]) -> Axis:
@@ -56,7 +57,7 @@ def axis_of_file(path: Path, parts: Sequence[MeshPart]) -> Axis:
     axis = axis_of_format(path)
     if axis != "y":
         warn(f"{path} is read as {axis} up; `up_axis` y keeps it as it is")
-    elif path.suffix.lower() in _EITHER:
+    elif format_of(path) in _EITHER:
         meshes = [part.mesh for part in parts]
         if base_axis(np.concatenate([mesh.positions for mesh in meshes]), faces_of_all(meshes)) == "z":
             warn(f"{path} is read as y up, but stands on a flat base along z; `up_axis` z turns it upright")

@@ -99,14 +99,18 @@ def read_beside(folders: Sequence[Path], name: str, read: Callable[[Path], T]) -
 
 
 def inside(folder: Path, place: Path, name: str) -> Path:
-    """Return a place, if it is in a folder, or in folders there, links resolved. Otherwise InputError with its name."""
-    try:  # the first of these does not look at what may not be read
-        is_inside = all(Path(each(place)).is_relative_to(each(folder)) for each in (os.path.abspath, os.path.realpath))
-    except ValueError:  # a NUL
-        is_inside = False
-    if not is_inside:
+    """Return a place for which `is_inside`. Otherwise InputError with its name."""
+    if not is_inside(folder, place):
         raise InputError(f"{name!r:.80} {OUTSIDE}")
     return place
+
+
+def is_inside(folder: Path, place: Path) -> bool:
+    """Return whether a place is in a folder, or in folders there, links resolved."""
+    try:  # the first of these does not look at what may not be read
+        return all(Path(each(place)).is_relative_to(each(folder)) for each in (os.path.abspath, os.path.realpath))
+    except ValueError:  # a NUL
+        return False
 
 
 def _places(folders: Sequence[Path], name: str) -> Iterator[Path]:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal, cast
 
 import numpy as np
+from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
@@ -37,7 +38,7 @@ _FAR = 100
 _ROUNDING = 1e-4
 #: The same of texels.
 _TEXEL_ROUNDING = 1e-3
-#: So many triangles of a picture are looked at by themselves, before a table of its pixels is made, in parts of so many.
+#: So many triangles of a picture are looked at before a table of its pixels is made, in parts of so many pixels.
 _FIRST, _AT_ONCE = 64, 1 << 20
 #: An image is so large at most before it is mirrored.
 _MIRRORED = 1 << 12
@@ -111,9 +112,13 @@ class Picture:
             start, end = np.array([[0, 0], image.size])
         if not self.images.compares(int((end - start).prod())):
             return False
-        pixels = np.asarray(image.crop((*start.tolist(), *end.tolist())) if start.any() or (end < image.size).any() else image)
+        pixels = np.asarray(
+            image.crop((*start.tolist(), *end.tolist())) if start.any() or (end < image.size).any() else image
+        )
         low, high = low - start, high - start
-        return not (_changes(pixels, low, high).any() or _changes(pixels.swapaxes(0, 1), low[:, ::-1], high[:, ::-1]).any())
+        return not (
+            _changes(pixels, low, high).any() or _changes(pixels.swapaxes(0, 1), low[:, ::-1], high[:, ::-1]).any()
+        )
 
     def texture(self, uvs: Array, count: int) -> tuple[Texture, Array]:
         """Return the texture of a file with so many, and where corners, (m, 3, 2), are on it; warn of what changes."""
@@ -133,8 +138,9 @@ class Picture:
         if wrap == "repeat" and uvs.size and np.abs(uvs).max() > _FAR:
             uvs -= np.floor(uvs.min(axis=1, keepdims=True))
         # once for all looks with this picture
-        smaller = image.info.setdefault(_side(count), None) or reduced(image, _side(count))
-        image.info[_side(count)] = smaller
+        key = ("reduced to", _side(count))
+        smaller: Image.Image = known[key] if key in (known := cast(Any, image.info)) else reduced(image, _side(count))
+        known[key] = smaller
         if smaller.size != image.size:
             (width, height), (old_width, old_height) = smaller.size, image.size
             warn(f"{self.name} is reduced from {old_width} x {old_height} to {width} x {height} texels")
@@ -142,7 +148,7 @@ class Picture:
 
 
 def _changes(pixels: NDArray[np.uint8], low: NDArray[np.int64], high: NDArray[np.int64]) -> NDArray[np.int32]:
-    """Return how often colours change from left to right in rectangles, (m,); `low` and `high` are their ends, (m, 2)."""
+    """Return how often colours change from left to right in rectangles, (m,), from `low` to `high`, (m, 2)."""
     rows, columns = pixels.shape[:2]
     # of all that is above and to the left; a change is behind the first column of a rectangle
     sums = np.zeros((rows + 1, columns + 1), dtype=np.int32)
@@ -151,7 +157,7 @@ def _changes(pixels: NDArray[np.uint8], low: NDArray[np.int64], high: NDArray[np
         part = pixels[row : row + at_once]
         changed = (part[:, 1:] != part[:, :-1]).any(axis=2)
         sums[row + 1 : row + 1 + len(part), 2:] = changed.cumsum(axis=1, dtype=np.int32).cumsum(axis=0) + sums[row, 2:]
-    (left, top), (right, bottom) = low.T + [[1], [0]], high.T + 1
+    left, top, right, bottom = low[:, 0] + 1, low[:, 1], high[:, 0] + 1, high[:, 1] + 1
     found: NDArray[np.int32] = sums[bottom, right] - sums[top, right] - sums[bottom, left] + sums[top, left]
     return found
 
@@ -163,6 +169,30 @@ class Look:
     picture: Picture | None = None
     emission: Color = (0, 0, 0)
     opacity: float = 1.0
+
+
+def seen(parts: Sequence[MeshPart], name: str) -> list[MeshPart]:
+    """Return the parts of a model, opaque if all of them are invisible, of which an InputWarning tells.
+
+    Writers without transparency leave 0 as alpha, and of the statement Tr of OBJ files some mean the opposite.
+    """
+    if not parts or any(map(_is_visible, parts)):
+        return list(parts)
+    warn(f"{name}: its opacity is 0 everywhere, which cannot be meant; it is drawn opaque")
+    return [_opaque(part) for part in parts]
+
+
+def _is_visible(part: MeshPart) -> bool:
+    opacities, texture = part.mesh.opacities, part.material.get("texture")
+    is_shown = texture is None or texture.alpha is None or bool((texture.alpha >= max(texture.cutoff, 1)).any())
+    return part.opacity > 0 and (opacities is None or bool(opacities.any())) and is_shown
+
+
+def _opaque(part: MeshPart) -> MeshPart:
+    fields = dict(part.material)
+    if (texture := fields.get("texture")) is not None:
+        fields["texture"] = evolve(texture, alpha=None, cutoff=0)
+    return replace(part, mesh=evolve(part.mesh, opacities=None), material=fields, opacity=1.0)
 
 
 def split(

@@ -12,7 +12,7 @@ from ...errors import InputError
 from .._codec import render_call
 from .._decode import decode
 from .._scene import Scene
-from .content import read_bytes
+from .content import read_content
 from .table import about
 
 #: The extension of pictures that carry their scene.
@@ -59,7 +59,7 @@ def scene_chunk(scene: Scene) -> SceneChunk:
 
 def read_picture(path: Path) -> Scene:
     """Return the scene that a PNG file carries. InputError, with the path, if there is none. Pixels are not read."""
-    data = read_bytes(path)
+    data = read_content(path)
     with about(str(path)):
         found = [each for each in _chunks(data) if each[0] in TEXTS and each[1].startswith(KEYWORD + b"\0")]
         kinds = [kind for kind, _ in found]

@@ -34,7 +34,7 @@ from .._staging import BACKGROUND, DEFAULT_SIDE, Viewpoint, frame, painted_objec
 from .._texture import FILTERS, WRAPS, Texture
 from .._upright import AXES, axis_of_file, upright
 from .beside import inside
-from .content import parse, read_text
+from .content import format_of, parse, read_text
 from .mesh_file import READERS, read_model
 from .model import MeshPart
 from .original import original_scene
@@ -68,7 +68,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     path, if anything is wrong.
     """
     path = Path(path)
-    extension = path.suffix.lower()
+    extension = format_of(path, with_note=True)
     if extension == PICTURE:
         return read_picture(path)
     if extension not in SCENES:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ....errors import InputError
 from ....values import plural
 from ..beside import read_beside
-from ..content import parse, read_bytes
+from ..content import parse, read_bytes, read_content
 from ..images import Images
 from ..model import Picture
 from ..table import Table, about
@@ -50,7 +50,7 @@ class Document:
     def __init__(self, path: Path) -> None:
         """Read a file. InputError for what asks for another reader."""
         self.path = path
-        data = read_bytes(path)
+        data = read_content(path)
         self.binary: bytes | None = None
         if data.startswith(b"glTF"):
             data, self.binary = _chunks(data)
@@ -78,7 +78,7 @@ class Document:
         self._extensions |= set(extensions) - _KNOWN
 
     def leave_out(self, what: str, where: str, sentence: str = "{}", count: int = 1) -> None:
-        """Keep, for a note, that so many of a thing at a place are left out. what: a noun; sentence: around its count."""
+        """Keep, for a note, that so many of a thing at a place are left out. what: a noun; sentence: around the count."""
         self._left_out.setdefault((what, sentence), {})[where] = count
 
     def left_out(self) -> list[str]:

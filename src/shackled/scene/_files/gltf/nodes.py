@@ -71,15 +71,15 @@ def _matrices(nodes: Sequence[Table]) -> Array:
         np.array([rest if name not in node or "matrix" in node else node.numbers(name, rest) for node in nodes])
         for name, rest in ((name.lower(), rest) for name, rest in _RESTS.items())
     ]
-    found = _composed(*(row.reshape(len(nodes), -1) for row in rows), lambda number: nodes[number].where)
+    found = _composed(lambda number: nodes[number].where, *(row.reshape(len(nodes), -1) for row in rows))
     for number, node in enumerate(nodes):
         if "matrix" in node:
             found[number] = np.array(node.numbers("matrix", tuple(np.eye(4).flat))).reshape(4, 4).T
     return found
 
 
-def _composed(translations: Array, rotations: Array, scales: Array, where: Callable[[int], str]) -> Array:
-    """Return the matrices, (n, 4, 4), of so many translations, rotations and scales. where: the place of one of them."""
+def _composed(where: Callable[[int], str], translations: Array, rotations: Array, scales: Array) -> Array:
+    """Return the matrices, (n, 4, 4), of so many translations, rotations and scales. where: the place of one."""
     largest = np.abs(rotations).max(axis=1, keepdims=True, initial=0)
     bad = np.flatnonzero(~np.isfinite(largest[:, 0]) | (largest[:, 0] == 0))
     if len(bad):
@@ -96,7 +96,7 @@ def _composed(translations: Array, rotations: Array, scales: Array, where: Calla
 
 
 def instances(gltf: Document, node: Node, most: int) -> Array:
-    """Return the matrices, (n, 4, 4), that put the mesh of a node into the world: one, or one for each of its instances.
+    """Return the matrices, (n, 4, 4), that put the mesh of a node into the world: one, or one for each instance.
 
     most: how many there may be.
     """
@@ -114,7 +114,8 @@ def instances(gltf: Document, node: Node, most: int) -> Array:
     if count > most:
         raise too_many(gltf)
     columns = [np.asarray(given.get(name, np.tile(rest, (count, 1))), np.float64) for name, rest in _RESTS.items()]
-    return node.matrix @ _composed(*columns, lambda _: attributes.where)
+    placed: Array = node.matrix @ _composed(lambda _: attributes.where, *columns)
+    return placed
 
 
 #: Other attributes of morph targets are not read; tangents are for normal textures, which are not, either.

@@ -111,7 +111,7 @@ def _corners(gltf: Document, primitive: Table, mode: int, count: int) -> NDArray
 
 
 def in_place(piece: Piece, matrices: Array, turn: int) -> Piece:
-    """Return a piece where each of some matrices, (k, 4, 4), puts it, from a turn on; or its joints, if it is skinned."""
+    """Return a piece where each of some matrices, (k, 4, 4), puts it, from a turn on; or its joints, if skinned."""
     count, points = len(matrices), len(piece.positions)
     matrix = matrices[:, None] if piece.matrices is None else piece.matrices
     linear = matrix[..., :3, :3]
