@@ -244,9 +244,10 @@ def sample(image: Image.Image, coordinates: ArrayLike) -> NDArray[np.float64]:
     left, top = np.floor(x).astype(int), np.floor(y).astype(int)
     right, bottom = np.minimum(left + 1, width - 1), np.minimum(top + 1, height - 1)
     fx, fy = (x - left)[:, None], (y - top)[:, None]
-    ends = (left.min(), top.min(), right.max() + 1, bottom.max() + 1) if len(uv) else (0, 0, 1, 1)
-    texels = np.asarray(image.crop((*map(int, ends),)).convert("RGB"))
-    (x, right), (y, bottom) = ((left - ends[0], right - ends[0]), (top - ends[1], bottom - ends[1]))
+    first, upmost = (int(each.min(initial=0 if not len(uv) else each[0])) for each in (left, top))
+    last, lowest = (int(each.max(initial=0)) for each in (right, bottom))
+    texels = np.asarray(image.crop((first, upmost, last + 1, lowest + 1)).convert("RGB"))
+    x, right, y, bottom = left - first, right - first, top - upmost, bottom - upmost
     upper = texels[y, x] * (1 - fx) + texels[y, right] * fx
     lower = texels[bottom, x] * (1 - fx) + texels[bottom, right] * fx
     return np.asarray(np.rint(upper * (1 - fy) + lower * fy))

@@ -126,9 +126,8 @@ def read_elements(data: bytes, path: Path) -> tuple[dict[str, Element], list[str
                     raise InputError(str(broken)) from None
                 element.values = _by_property(element, broken.rows)
                 lost = element.count - len(broken.rows)
-                warn(
-                    f"{path}: {lost:,} of its {element.count:,} elements {element.name}, and what follows, left out: {broken}"
-                )
+                what = f"{lost:,} of its {element.count:,} elements {element.name} and all behind"
+                warn(f"{path}: {what} left out: {broken}")
                 return {each.name: each for each in elements}, textures
     if isinstance(source, _Text):
         source.finish()

@@ -78,7 +78,7 @@ class Document:
         self._extensions |= set(extensions) - _KNOWN
 
     def leave_out(self, what: str, where: str, sentence: str = "{}", count: int = 1) -> None:
-        """Keep, for a note, that so many of a thing at a place are left out. what: a noun; sentence: around the count."""
+        """Keep, for a note, that so many things at a place are left out. what: a noun; sentence: around the count."""
         self._left_out.setdefault((what, sentence), {})[where] = count
 
     def left_out(self) -> list[str]:
