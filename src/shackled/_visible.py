@@ -26,7 +26,7 @@ def why_nothing(scene: Scene, evm: str | None = None) -> str:
         return "everything that is drawn has the colour of the background"
     shown = evolve(scene, objects=[evolve(each, cull=False) for each in scene.objects])
     if not triangles and chain.count(shown)[1]:
-        return "all faces turn away from the viewer and are culled: `cull` of false draws them"
+        return "all faces turn away from the viewer and are culled: --no-cull, or cull=False, draws them"
     return "everything is outside of the view, or smaller than a pixel"
 
 

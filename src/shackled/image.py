@@ -145,18 +145,23 @@ class Image(Value):
         return encoded(self, self.alpha is not None, extension, FORMATS, scene)
 
     def save(
-        self, file: str | os.PathLike[str] | BinaryIO, extension: str | None = None, scene: bool | None = None
+        self,
+        file: str | os.PathLike[str] | BinaryIO,
+        extension: str | None = None,
+        scene: bool | None = None,
+        *,
+        format: str | None = None,
     ) -> None:
         """Write a file atomically in the format of its extension, or to an open file in the format of `extension`.
 
-        scene: as in `encode`. InputError where the path or the extension is wrong, OutputError where the disk is full
-        or fails.
+        format: another word for `extension`, such as "PNG". scene: as in `encode`. InputError where the path or the
+        extension is wrong, OutputError where the disk is full or fails.
         """
         if not isinstance(file, str | os.PathLike):
-            write_open(file, extension, FORMATS, lambda kind: self.encode(kind, scene))
+            write_open(file, extension or format, FORMATS, lambda kind: self.encode(kind, scene))
             return
         path = check_output(file)
-        write_output(path, self.encode(extension or path.suffix, scene))
+        write_output(path, self.encode(extension or format or path.suffix, scene))
 
     def data_uri(self, extension: str = ".png") -> str:
         """Return a URI that holds a file, for HTML and JSON."""

@@ -29,10 +29,12 @@ def without_strays(objects: Sequence[Object], name: str) -> tuple[list[Object], 
     shares, middles = areas / areas.sum(), corners.mean(axis=1)
     order = middles.argsort(axis=0)
     summed = shares[order].cumsum(axis=0)
-    low, high = (
-        np.array([np.interp(part, summed[:, axis], middles[order[:, axis], axis]) for axis in range(3)])
-        for part in (_AREA / 2, 1 - _AREA / 2)
-    )
+    ends = [[np.searchsorted(column, part) for column in summed.T] for part in (_AREA / 2, 1 - _AREA / 2)]
+    low, high = (middles[order[rows, range(3)], range(3)] for rows in ends)
+    core = corners[((middles >= low) & (middles <= high)).all(axis=1)].reshape(-1, 3)
+    if not len(core):
+        return list(objects), None
+    low, high = core.min(axis=0), core.max(axis=0)
     size = (high - low).max()
     far = ((corners < low - size) | (corners > high + size)).any(axis=(1, 2))
     near, extent = corners[~far].reshape(-1, 3), np.ptp(corners.reshape(-1, 3), axis=0).max()
@@ -44,11 +46,11 @@ def without_strays(objects: Sequence[Object], name: str) -> tuple[list[Object], 
         f"{name}: {plural(int(far.sum()), 'triangle')} so far away that the model is {times:,} times as large with"
         " them; the picture is filled by the others"
     )
-    ends = np.cumsum([each.mesh.triangles for each in objects])[:-1]
+    cuts = np.cumsum([each.mesh.triangles for each in objects])[:-1]
     parts = [
         evolve(each, mesh=part_of_faces(each.mesh, each.mesh.faces[own == is_far]))
         for is_far in (False, True)
-        for each, own in zip(objects, np.split(far, ends), strict=True)
+        for each, own in zip(objects, np.split(far, cuts), strict=True)
         if (own == is_far).any()
     ]
     return parts, near

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 import os
 import warnings
@@ -17,6 +18,7 @@ from PIL import Image
 from ..checks import choice, fixed, whole
 from ..errors import InputError
 from ..values import Value, checked, with_names
+from ._files.signatures import HEAD, signature_of
 
 Filter = Literal["nearest", "bilinear"]
 FILTERS: tuple[Filter, ...] = ("nearest", "bilinear")
@@ -90,22 +92,25 @@ class Texture(Value):
     @classmethod
     def open(
         cls,
-        image: str | os.PathLike[str] | Image.Image,
+        image: str | os.PathLike[str] | bytes | IO[bytes] | Image.Image,
         filter: Filter = "bilinear",
         wrap: Wrap = "repeat",
         alpha: bool = False,
         cutoff: int = 0,
     ) -> Texture:
-        """Return the texture of an image, or of the file of one, reduced to 256 texels along each side.
+        """Return the texture of an image, or of a file of one, reduced to 256 texels along each side.
 
+        image: of Pillow; or the path of a file, its bytes, or an open file.
         alpha: whether it has the alpha of the image, if that is transparent anywhere; hidden texels get the colours of
         the nearest visible ones. cutoff: see `Texture`. InputError if the file does not exist or is not an image.
         """
         convert = as_rgba if alpha else as_rgb
-        if isinstance(image, str | os.PathLike):
+        if isinstance(image, Image.Image):
+            opened = convert(image)
+        elif isinstance(image, str | os.PathLike):
             opened = open_image(Path(image), str(image), convert)
         else:
-            opened = convert(image)
+            opened = open_image(io.BytesIO(image) if isinstance(image, bytes) else image, "the image", convert)
         return cls.of_image(reduced(opened), filter, wrap, cutoff)
 
     @classmethod
@@ -136,8 +141,10 @@ def _unhidden(pixels: NDArray[np.uint8], wrap: Wrap) -> NDArray[np.uint8]:
     neighbours that are not.
     """
     sums, known = pixels[..., :3].astype(np.float64), pixels[..., 3] > 0
+    if not known.any():
+        return np.array(pixels[..., :3])
     sums[~known] = 0
-    while known.any() and not known.all():
+    while not known.all():
         padded = np.pad(
             np.dstack([sums, known]), ((1, 1), (1, 1), (0, 0)), mode="wrap" if wrap == "repeat" else "constant"
         )
@@ -169,8 +176,17 @@ def open_image(
         raise InputError(f"{name} does not exist") from None
     except InputError:
         raise
-    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
-        raise InputError(f"{name} is not an image that can be read") from None
+    except (OSError, ValueError, SyntaxError, AttributeError, Image.DecompressionBombError):
+        raise InputError(f"{name} is not an image that can be read{_instead(source)}") from None
+
+
+def _instead(source: Path | IO[bytes]) -> str:
+    """Return what a file is that is no image, if that is known."""
+    if not isinstance(source, Path) or not source.is_file():
+        return ""
+    with source.open("rb") as file:
+        found = signature_of(file.read(HEAD))
+    return "" if found is None or found.format is not None else f": it is {found.name}: {found.do}"
 
 
 def as_rgb(image: Image.Image) -> Image.Image:

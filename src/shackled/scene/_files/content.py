@@ -58,6 +58,8 @@ def format_of(path: Path, with_note: bool = False) -> str:
     is_alike = found.format in (".json", ".toml") or {found.format, named} <= {".glb", ".gltf"}
     if found.format is None or (is_known and is_alike):
         return named
+    if is_known and found.format == ".png" != named:
+        raise InputError(f"{path} is {found.name}: one that carries a scene must have a name in .png")
     if with_note and is_known and found.format != named:
         warn(f"{path} is {found.name}, and is read as one")
     return found.format
