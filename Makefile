@@ -23,10 +23,10 @@ help: ## show this list
 
 # ---- set-up ----
 
-$(PACKAGE): pyproject.toml tools/prepare.py tools/constraints.txt
+$(PACKAGE): pyproject.toml tools/prepare.py tools/locked/package.txt
 	@$(PYTHON) tools/prepare.py package
 
-$(DEV): pyproject.toml tools/prepare.py tools/constraints.txt
+$(DEV): pyproject.toml tools/prepare.py tools/locked/dev.txt
 	@$(PYTHON) tools/prepare.py dev
 
 $(NODE): $(foreach folder,contracts web tests/package,$(folder)/package.json $(folder)/package-lock.json) tools/prepare.py

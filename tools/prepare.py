@@ -8,7 +8,7 @@
     python3 tools/prepare.py opengl     an OpenGL without a screen, to compare pictures with, if it can be had
 
 Missing packages of the system are installed by apt-get, if that is there and the user is root, unless the variable
-SHACKLED_NO_APT is set. The versions of Python packages are those of tools/constraints.txt.
+SHACKLED_NO_APT is set. Python packages are those of tools/locked, by version and hash.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ PYTHON = VENV / "bin" / "python"
 CONTRACTS = ROOT / "contracts"
 WEB = ROOT / "web"
 PACKAGE_TESTS = ROOT / "tests" / "package"
-CONSTRAINTS = ROOT / "tools" / "constraints.txt"
+LOCKED = ROOT / "tools" / "locked"
 
 #: Browsers that the tests of pages use: their commands, and the package with them.
 BROWSERS = {"chromium": ("chromium", "chromium-browser"), "firefox-esr": ("firefox-esr", "firefox")}
@@ -39,8 +39,6 @@ OPENGL_PACKAGES = ("libegl1", "libgl1", "libegl-mesa0", "libgl1-mesa-dri")
 
 OLDEST_PYTHON = (3, 11)
 OLDEST_NODE = 20
-#: The first pip that installs dependency groups.
-PIP = "pip>=25.1"
 
 
 def main() -> int:
@@ -68,18 +66,15 @@ def prepare_package() -> None:
     """Install the package in .venv, editable."""
     make_venv()
     say("installing the package")
-    install("--editable", ROOT)
-    (VENV / ".package").touch()
+    install("package")
 
 
 def prepare_dev() -> None:
     """Install the package and the dependency group "dev"."""
     make_venv()
     say("installing the package and the tools of development")
-    install("--upgrade", PIP)
-    install("--editable", ROOT, "--group", f"{ROOT / 'pyproject.toml'}:dev")
-    for stamp in (".package", ".dev"):
-        (VENV / stamp).touch()
+    install("dev")
+    (VENV / ".dev").touch()
 
 
 def prepare_web() -> None:
@@ -152,9 +147,13 @@ def make_venv() -> None:
     run(sys.executable, "-m", "venv", "--clear", VENV)
 
 
-def install(*wanted: object) -> None:
-    """Install Python packages in .venv."""
-    run(PYTHON, "-m", "pip", "install", "--quiet", "--constraint", CONSTRAINTS, *wanted)
+def install(listed: str) -> None:
+    """Install in .venv what a file of tools/locked lists, whose hashes pip compares, and the package itself."""
+    pip = (PYTHON, "-m", "pip", "install", "--quiet", "--disable-pip-version-check")
+    run(*pip, "--require-hashes", "--requirement", LOCKED / f"{listed}.txt")
+    # what builds it is among what was installed
+    run(*pip, "--no-deps", "--no-build-isolation", "--editable", ROOT)
+    (VENV / ".package").touch()
 
 
 def npm_install(folder: Path) -> None:

@@ -6,12 +6,12 @@ import http.client
 import json
 import re
 import signal
-import subprocess
 import sys
 from contextlib import closing
 from pathlib import Path
 
 import pytest
+from tools.children import child
 
 from commands import Shackled
 from shackled import InputError
@@ -100,8 +100,7 @@ def test_the_command_serves_until_it_is_interrupted(page: Path) -> None:
         "creator.built_page = lambda: (pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[1]));"
         "sys.exit(app.run(['creator', 'cube', '--no-browser', '--port', '0']))"
     )
-    command = [sys.executable, "-c", code, str(page)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+    with child(sys.executable, "-c", code, page) as process:
         assert process.stdout is not None
         found = re.search(r"http://127\.0\.0\.1:(\d+)/\?input", process.stdout.readline())
         assert found
