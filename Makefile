@@ -16,7 +16,7 @@ endif
 # the tests, which takes as long as they do to be collected.
 unexport PYTHONDONTWRITEBYTECODE
 .DEFAULT_GOAL := help
-.PHONY: help browser opengl demo page creator check test lint types contracts evm evm-check web docs fast unit verify build npm release-check gas golden bench paper fuzz models mutants conformance pictures clean
+.PHONY: help browser opengl rust demo page creator check test lint types contracts evm evm-check web docs fast unit verify build npm release-check gas golden bench paper fuzz models mutants conformance pictures clean
 
 help: ## show this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -41,6 +41,9 @@ browser:
 opengl:
 	@$(PYTHON) tools/prepare.py opengl
 
+rust:
+	@$(PYTHON) tools/prepare.py rust
+
 # ---- a picture ----
 
 demo: $(PACKAGE) ## draw a first picture: the teapot, in build/teapot.png
@@ -59,7 +62,7 @@ check: lint $(DEV) $(NODE) ## check an edit: style, types, and the tests without
 	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory types fast
 
 # the tests wait for nodes and browsers much of the time, in which the other checks run
-test: lint $(DEV) $(NODE) browser opengl ## run all checks and tests
+test: lint $(DEV) $(NODE) browser opengl rust ## run all checks and tests
 	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory contracts types unit evm-check web docs
 	@echo "all checks and tests passed"
 
@@ -74,7 +77,7 @@ contracts: $(DEV) $(NODE) ## check that the compiled contracts match contracts/
 	$(BIN)/python tools/build_contracts.py --check
 	$(BIN)/python -m tools.build_package --check
 
-evm-check: $(DEV) ## check that evm.wasm matches evm/
+evm-check: $(DEV) rust ## build evm/ again, and check that evm.wasm has the same bytes
 	$(BIN)/python tools/build_evm.py --check
 
 web: $(DEV) $(NODE) ## check types, style, tests and bundles of the TypeScript package
@@ -107,7 +110,7 @@ npm: $(DEV) ## build the npm package for contract authors into build/npm
 release-check: $(DEV) $(NODE) page ## build what would be published into build/release, and use it in fresh environments
 	$(BIN)/python -m tools.release_check
 
-evm: $(DEV) ## compile the EVM of evm/ into src/shackled/evm, with the compiler that src/shackled/evm/evm.json names
+evm: $(DEV) rust ## compile the EVM of evm/ into src/shackled/evm, with the compiler that src/shackled/evm/evm.json names
 	$(BIN)/python tools/build_evm.py
 
 gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens.json, icons.json, motion.json

@@ -1,21 +1,42 @@
 """Put the sources of the contracts' libraries, if npm has installed them, and the Creator into wheels and sdists.
 
 Hatchling runs this. Explorers verify contracts with their sources: see `shackled.artifacts.standard_input`. The page of
-the Creator is there if `make page` has built it. A wheel that is built from an sdist has the same files as one that is
-built here.
+the Creator is that of build/. If `make page` has not built it there, or something has changed since, it is built for
+this wheel only, where Node and npm are. A wheel that is built from an sdist has the same files as one built here.
 """
 
 from __future__ import annotations
 
 import json
+import os
+import shutil
+import subprocess
+import sys
+import tomllib
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
+#: What the page is made of.
+PAGE_SOURCES = (
+    "web/src",
+    "web/build.mjs",
+    "web/package-lock.json",
+    "src/shackled",
+    "tools/build_page.py",
+    "examples/showcase.py",
+)
+
 
 class BuildHook(BuildHookInterface):  # type: ignore[type-arg]
     """A build hook for wheels and sdists."""
+
+    def dependencies(self) -> list[str]:
+        """Return what must be installed for the build: all that the package needs, if it draws the page's pictures."""
+        project = tomllib.loads(Path(self.root, "pyproject.toml").read_text("utf-8"))["project"]
+        return list(project["dependencies"]) if has_node() and not is_page_built(Path(self.root)) else []
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Add the sources that the artifacts name. An editable installation reads those of the checkout."""
@@ -24,21 +45,52 @@ class BuildHook(BuildHookInterface):  # type: ignore[type-arg]
         root = Path(self.root)
         artifacts = (root / "src" / "shackled" / "artifacts").glob("[A-Z]*.json")
         paths = {path for each in artifacts for path in json.loads(each.read_text("utf-8"))["sources"]}
-        # each file, with its place in a wheel
-        found: dict[Path, str] = {}
+        # each file, with its place in a wheel, and in an sdist
+        found: dict[Path, tuple[str, str]] = {}
         for path in sorted(paths):
             places = [root / "contracts" / folder / path for folder in ("src", "node_modules")]
             file = next((place for place in places if place.is_file()), None)
             if file is None:
                 self.app.display_warning(f"without {path}, which npm ci installs in contracts/")
             else:
-                found[file] = f"shackled/artifacts/sources/{path}"
-        built = {root / "build" / name: f"shackled/web/{name}" for name in ("page", "creator.html")}
-        if all(path.exists() for path in built):
-            found |= built
-        else:
-            self.app.display_warning("without the Creator, which make page builds")
+                found[file] = f"shackled/artifacts/sources/{path}", file.relative_to(root).as_posix()
+        if built := self.page(root):
+            found |= {built / name: (f"shackled/web/{name}", f"build/{name}") for name in ("page", "creator.html")}
         here = self.target_name == "sdist"
-        build_data["force_include"] |= {
-            str(path): path.relative_to(root).as_posix() if here else place for path, place in found.items()
-        }
+        build_data["force_include"] |= {str(path): places[here] for path, places in found.items()}
+
+    def page(self, root: Path) -> Path | None:
+        """Return the folder with the page of the Creator. None, and a warning, if it cannot be built."""
+        if is_page_built(root):
+            return root / "build"
+        if not has_node():
+            self.app.display_warning("without the page of the Creator, which needs Node 20 or newer and npm")
+            return None
+        # deleted with the hook
+        self.made = TemporaryDirectory()
+        modules = os.pathsep.join([str(root), str(root / "src"), os.environ.get("PYTHONPATH", "")])
+        lock, installed = (root / "web" / name for name in ("package-lock.json", "node_modules/.package-lock.json"))
+        try:
+            if not installed.is_file() or installed.stat().st_mtime < lock.stat().st_mtime:
+                subprocess.run(["npm", "ci", "--no-audit", "--no-fund"], cwd=root / "web", check=True)
+                installed.touch()
+            command = [sys.executable, "-m", "tools.build_page", "--out", self.made.name]
+            subprocess.run(command, cwd=root, env=os.environ | {"PYTHONPATH": modules}, check=True)
+        except (OSError, subprocess.CalledProcessError) as error:
+            self.app.display_warning(f"without the page of the Creator, which cannot be built: {error}")
+            return None
+        return Path(self.made.name)
+
+
+def has_node() -> bool:
+    """Return whether Node and npm are in the PATH."""
+    return all(map(shutil.which, ("node", "npm")))
+
+
+def is_page_built(root: Path) -> bool:
+    """Return whether build/ has the page, and what it is made of is not newer."""
+    built = [root / "build" / "page" / "index.html", root / "build" / "creator.html"]
+    places = [root / name for name in PAGE_SOURCES]
+    sources = [path for place in places for path in (place, *place.rglob("*")) if "__pycache__" not in path.parts]
+    changed = max(path.stat().st_mtime for path in sources if path.is_file())
+    return all(path.is_file() and path.stat().st_mtime >= changed for path in built)

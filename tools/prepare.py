@@ -6,6 +6,7 @@
     python3 tools/prepare.py node       node_modules of contracts/, web/ and tests/package: compilers, anvil, Hardhat
     python3 tools/prepare.py browser    browsers for the tests of pages, if they can be had
     python3 tools/prepare.py opengl     an OpenGL without a screen, to compare pictures with, if it can be had
+    python3 tools/prepare.py rust       the compiler of evm/, if it can be had
 
 Missing packages of the system are installed by apt-get, if that is there and the user is root, unless the variable
 SHACKLED_NO_APT is set. Python packages are those of tools/locked, by version and hash.
@@ -36,6 +37,9 @@ BROWSERS = {"chromium": ("chromium", "chromium-browser"), "firefox-esr": ("firef
 OPENGL_LIBRARIES = ("EGL", "GL", "EGL_mesa")
 OPENGL_RENDERERS = ("dri/swrast_dri.so", "libgallium-*.so")
 OPENGL_PACKAGES = ("libegl1", "libgl1", "libegl-mesa0", "libgl1-mesa-dri")
+#: The programs that compile evm/, as tools/build_evm.py calls them, and the packages with them.
+RUST = ("/usr/bin/rustc", "/usr/bin/cargo", "wasm-ld-19")
+RUST_PACKAGES = ("rustc-web", "cargo-web", "rust-web-src", "lld-19")
 
 OLDEST_PYTHON = (3, 11)
 OLDEST_NODE = 20
@@ -50,6 +54,7 @@ def main() -> int:
         "node": prepare_node,
         "browser": prepare_browser,
         "opengl": prepare_opengl,
+        "rust": prepare_rust,
     }
     if len(sys.argv) != 2 or sys.argv[1] not in targets:
         print(f"usage: python3 tools/prepare.py {'|'.join(targets)}", file=sys.stderr)
@@ -134,6 +139,16 @@ def prepare_opengl() -> None:
         say(f"the tests against OpenGL are skipped: {error}")
 
 
+def prepare_rust() -> None:
+    """Install the compiler of evm/ as packages of the system. Only the check that builds evm.wasm again needs it."""
+    if all(map(shutil.which, RUST)):
+        return
+    try:
+        apt_install("the compiler of evm/", *RUST_PACKAGES)
+    except (SystemExit, subprocess.CalledProcessError) as error:
+        say(f"evm.wasm is not built again: {error}")
+
+
 def make_venv() -> None:
     """Create .venv, if there is none that works."""
     if sys.version_info < OLDEST_PYTHON:
@@ -169,7 +184,9 @@ def apt_install(what: str, *packages: str) -> None:
     say(f"missing: {what}; installing {' '.join(packages)}")
     environment = os.environ | {"DEBIAN_FRONTEND": "noninteractive"}
     run("apt-get", "update", "-qq", env=environment)
-    run("apt-get", "install", "-y", "-qq", "--no-install-recommends", *packages, env=environment)
+    # another program may be installing packages
+    options = ("-y", "-qq", "--no-install-recommends", "-o", "DPkg::Lock::Timeout=300")
+    run("apt-get", "install", *options, *packages, env=environment)
 
 
 def run(*command: object, cwd: Path = ROOT, env: dict[str, str] | None = None) -> None:
