@@ -7,6 +7,7 @@ PACKAGE := $(VENV)/.package
 DEV := $(VENV)/.dev
 NODE := tests/package/node_modules/.package-lock.json
 WEB := web/node_modules/.package-lock.json
+CONTRACTS := contracts/node_modules/.package-lock.json
 
 # Set-up steps write to the same folders. Checks do not: `make test` runs two of them at a time.
 ifndef CHECKS
@@ -34,6 +35,9 @@ $(NODE): $(foreach folder,contracts web tests/package,$(folder)/package.json $(f
 
 $(WEB): web/package.json web/package-lock.json tools/prepare.py
 	@$(PYTHON) tools/prepare.py web
+
+$(CONTRACTS): contracts/package.json contracts/package-lock.json tools/prepare.py
+	@$(PYTHON) tools/prepare.py contracts
 
 browser:
 	@$(PYTHON) tools/prepare.py browser
@@ -104,7 +108,7 @@ build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bund
 	$(BIN)/python -m tools.build_package
 	$(BIN)/python tools/build_web.py
 
-npm: $(DEV) ## build the npm package for contract authors into build/npm
+npm: $(PACKAGE) $(CONTRACTS) ## build the npm package for contract authors into build/npm
 	$(BIN)/python -m tools.build_package
 
 release-check: $(DEV) $(NODE) page ## build what would be published into build/release, and use it in fresh environments

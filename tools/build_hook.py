@@ -1,8 +1,8 @@
 """Put the sources of the contracts' libraries, if npm has installed them, and the Creator into wheels and sdists.
 
 Hatchling runs this. Explorers verify contracts with their sources: see `shackled.artifacts.standard_input`. The page of
-the Creator is that of build/. If `make page` has not built it there, or something has changed since, it is built for
-this wheel only, where Node and npm are. A wheel that is built from an sdist has the same files as one built here.
+the Creator is that of build/. If `make page` has not built it there, or something has changed since, it is built now,
+where Node and npm are. A wheel that is built from an sdist has the same files as one that is built here.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ import subprocess
 import sys
 import tomllib
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
@@ -45,41 +44,42 @@ class BuildHook(BuildHookInterface):  # type: ignore[type-arg]
         root = Path(self.root)
         artifacts = (root / "src" / "shackled" / "artifacts").glob("[A-Z]*.json")
         paths = {path for each in artifacts for path in json.loads(each.read_text("utf-8"))["sources"]}
-        # each file, with its place in a wheel, and in an sdist
-        found: dict[Path, tuple[str, str]] = {}
+        # each file, with its place in a wheel
+        found: dict[Path, str] = {}
         for path in sorted(paths):
             places = [root / "contracts" / folder / path for folder in ("src", "node_modules")]
             file = next((place for place in places if place.is_file()), None)
             if file is None:
                 self.app.display_warning(f"without {path}, which npm ci installs in contracts/")
             else:
-                found[file] = f"shackled/artifacts/sources/{path}", file.relative_to(root).as_posix()
-        if built := self.page(root):
-            found |= {built / name: (f"shackled/web/{name}", f"build/{name}") for name in ("page", "creator.html")}
+                found[file] = f"shackled/artifacts/sources/{path}"
+        if fault := build_page(root):
+            self.app.display_warning(f"without the page of the Creator: {fault}")
+        else:
+            found |= {root / "build" / name: f"shackled/web/{name}" for name in ("page", "creator.html")}
         here = self.target_name == "sdist"
-        build_data["force_include"] |= {str(path): places[here] for path, places in found.items()}
+        build_data["force_include"] |= {
+            str(path): path.relative_to(root).as_posix() if here else place for path, place in found.items()
+        }
 
-    def page(self, root: Path) -> Path | None:
-        """Return the folder with the page of the Creator. None, and a warning, if it cannot be built."""
-        if is_page_built(root):
-            return root / "build"
-        if not has_node():
-            self.app.display_warning("without the page of the Creator, which needs Node 20 or newer and npm")
-            return None
-        # deleted with the hook
-        self.made = TemporaryDirectory()
-        modules = os.pathsep.join([str(root), str(root / "src"), os.environ.get("PYTHONPATH", "")])
-        lock, installed = (root / "web" / name for name in ("package-lock.json", "node_modules/.package-lock.json"))
-        try:
-            if not installed.is_file() or installed.stat().st_mtime < lock.stat().st_mtime:
-                subprocess.run(["npm", "ci", "--no-audit", "--no-fund"], cwd=root / "web", check=True)
-                installed.touch()
-            command = [sys.executable, "-m", "tools.build_page", "--out", self.made.name]
-            subprocess.run(command, cwd=root, env=os.environ | {"PYTHONPATH": modules}, check=True)
-        except (OSError, subprocess.CalledProcessError) as error:
-            self.app.display_warning(f"without the page of the Creator, which cannot be built: {error}")
-            return None
-        return Path(self.made.name)
+
+def build_page(root: Path) -> str:
+    """Build the page, unless it is there. Return why it cannot be built; an empty text if it is there."""
+    if is_page_built(root):
+        return ""
+    if not has_node():
+        return "it needs Node 20 or newer and npm"
+    lock, installed = (root / "web" / name for name in ("package-lock.json", "node_modules/.package-lock.json"))
+    modules = os.pathsep.join([str(root), str(root / "src"), os.environ.get("PYTHONPATH", "")])
+    try:
+        if not installed.is_file() or installed.stat().st_mtime < lock.stat().st_mtime:
+            subprocess.run(["npm", "ci", "--no-audit", "--no-fund"], cwd=root / "web", check=True)
+            installed.touch()
+        command = [sys.executable, "-m", "tools.build_page"]
+        subprocess.run(command, cwd=root, env=os.environ | {"PYTHONPATH": modules}, check=True)
+    except (OSError, subprocess.CalledProcessError) as error:
+        return str(error)
+    return ""
 
 
 def has_node() -> bool:

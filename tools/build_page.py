@@ -1,9 +1,8 @@
 """Build the Creator: build/page/, the files of a static page, and build/creator.html, the same page as one file.
 
-    python -m tools.build_page [--out DIR] [--sizes FILE]
+    python -m tools.build_page [--sizes FILE]
 
-Needs Node and `npm ci` in web/. Fails if the page has become too large. --out: the folder in place of build/; --sizes:
-writes the sizes in JSON, too.
+Needs Node and `npm ci` in web/. Fails if the page has become too large. --sizes: writes the sizes in JSON, too.
 """
 
 from __future__ import annotations
@@ -60,12 +59,10 @@ CONNECT = "data: blob: http: https:"
 def main() -> int:
     """Build the page, and print its sizes."""
     parser = argparse.ArgumentParser(description="Build the Creator into build/page and build/creator.html.")
-    parser.add_argument("--out", type=Path, default=BUILD, help="folder to write to (default: build/)")
     parser.add_argument("--sizes", type=Path, help="file for the sizes, in JSON")
     options = parser.parse_args()
-    out: Path = options.out
-    out.mkdir(exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=out) as folder:
+    BUILD.mkdir(exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=BUILD) as folder:
         scripts, page = Path(folder, "scripts"), Path(folder, "page")
         if code := subprocess.run(["node", "build.mjs", "page", scripts], cwd=WEB).returncode:
             return code
@@ -78,9 +75,9 @@ def main() -> int:
         shutil.copytree(scripts, page)
         write_folder(page, data)
         sizes = measure(page, first_files(meta), data)
-        shutil.rmtree(out / "page", ignore_errors=True)
-        page.rename(out / "page")
-    (out / "creator.html").write_bytes(one)
+        shutil.rmtree(BUILD / "page", ignore_errors=True)
+        page.rename(BUILD / "page")
+    (BUILD / "creator.html").write_bytes(one)
     sizes["one"] = len(one)
     return report(sizes, options.sizes)
 

@@ -3,6 +3,7 @@
     python3 tools/prepare.py package    .venv with the package in it
     python3 tools/prepare.py dev        and with what tests and documentation need
     python3 tools/prepare.py web        node_modules of web/, with which the Creator is built
+    python3 tools/prepare.py contracts  node_modules of contracts/: the compiler, and sources of libraries
     python3 tools/prepare.py node       node_modules of contracts/, web/ and tests/package: compilers, anvil, Hardhat
     python3 tools/prepare.py browser    browsers for the tests of pages, if they can be had
     python3 tools/prepare.py opengl     an OpenGL without a screen, to compare pictures with, if it can be had
@@ -51,6 +52,7 @@ def main() -> int:
         "package": prepare_package,
         "dev": prepare_dev,
         "web": prepare_web,
+        "contracts": prepare_contracts,
         "node": prepare_node,
         "browser": prepare_browser,
         "opengl": prepare_opengl,
@@ -87,6 +89,13 @@ def prepare_web() -> None:
     need_node()
     say("installing the bundler and the libraries of the page")
     npm_install(WEB)
+
+
+def prepare_contracts() -> None:
+    """Install node_modules of contracts/ from its package-lock.json."""
+    need_node()
+    say("installing the compiler and the libraries of the contracts")
+    npm_install(CONTRACTS)
 
 
 def need_node() -> None:
