@@ -111,8 +111,9 @@ build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bund
 npm: $(PACKAGE) $(CONTRACTS) ## build the npm package for contract authors into build/npm
 	$(BIN)/python -m tools.build_package
 
-release-check: $(DEV) $(NODE) page ## build what would be published into build/release, and use it in fresh environments
+release-check: $(DEV) $(NODE) page ## build what would be published into build/release, use it in fresh environments, and follow README and docs
 	$(BIN)/python -m tools.release_check
+	$(BIN)/python -m tools.doc_commands
 
 evm: $(DEV) rust ## compile the EVM of evm/ into src/shackled/evm, with the compiler that src/shackled/evm/evm.json names
 	$(BIN)/python tools/build_evm.py

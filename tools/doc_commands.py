@@ -12,6 +12,7 @@ import os
 import re
 import shlex
 import signal
+import subprocess
 import sys
 import tempfile
 import time
@@ -58,16 +59,13 @@ class Reader:
         self.has_node, self.url, self.clone = has_node, url, work / "clone"
         run("git", "clone", "--quiet", ROOT, self.clone, cwd=work)
         (self.clone / "scene.toml").write_text(SCENE)
-        tools = make_environment(Path(sys.executable), work / "environment").parent
+        tools = make_environment(Path(sys.executable), work / "environment", "pip").parent
         paths = [str(tools), *os.get_exec_path()]
         if not has_node:
             (others := work / "programs").mkdir()
-            for program in (
-                path for folder in reversed(paths) if Path(folder).is_dir() for path in Path(folder).iterdir()
-            ):
-                if program.name not in ("node", "nodejs", "npm", "npx"):
-                    (others / program.name).unlink(missing_ok=True)
-                    (others / program.name).symlink_to(program)
+            found = {each.name: each for path in reversed(paths) for each in Path(path).glob("*")}
+            for name in found.keys() - {"node", "nodejs", "npm", "npx"}:
+                (others / name).symlink_to(found[name])
             paths = [str(tools), str(others)]
         # `true` opens no page
         more = {"PATH": os.pathsep.join(paths), "BROWSER": "true", "SHACKLED_NO_APT": "1", "KEY": KEY}
@@ -89,7 +87,8 @@ class Reader:
     def output(self, command: str) -> list[str]:
         """Run a command; return what is worth telling. Failure if it fails, or without Node does not ask for it."""
         line = re.sub(rf"{NODE}|\bURL\b", self.url, command)
-        with child("sh", "-c", f"{line} 2>&1", cwd=self.clone, env=self.variables, start_new_session=True) as process:
+        options = {"cwd": self.clone, "env": self.variables, "start_new_session": True}
+        with child(*shlex.split(line), stderr=subprocess.STDOUT, **options) as process:
             assert process.stdout is not None
             told = ""
             if "creator" in shlex.split(command):
@@ -102,7 +101,7 @@ class Reader:
             else:
                 told = process.communicate(timeout=PATIENCE)[0]
             code = process.wait()
-        last = ([""] + told.strip().splitlines())[-1]
+        last = ["", *told.strip().splitlines()][-1]
         if command.startswith(NEED_NODE) and not self.has_node:
             demand(code and re.search(r"Node(\.js)?\b", told), f"it does not ask for Node: {last}")
             return ["asks for Node"]
