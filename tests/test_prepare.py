@@ -66,5 +66,27 @@ def test_packages_are_those_that_were_tried(
     assert sys.version_info >= prepare.OLDEST_PYTHON
 
 
+def test_make_npm_needs_the_compiler_only(commands: list[tuple[object, ...]], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(prepare, "need_node", lambda: None)
+    monkeypatch.setattr(Path, "touch", lambda path: None)
+    prepare.prepare_contracts()
+    assert [command[:2] for command in commands] == [("npm", "ci")]
+    makefile = (prepare.ROOT / "Makefile").read_text()
+    assert "\nnpm: $(PACKAGE) $(CONTRACTS) ##" in makefile
+
+
+def test_the_compiler_of_evm_is_installed_where_it_can_be(
+    commands: list[tuple[object, ...]], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    prepare.prepare_rust()
+    assert commands == []
+    monkeypatch.setattr(shutil, "which", lambda name: name if name == "apt-get" else None)
+    prepare.prepare_rust()
+    assert commands[1][-4:] == prepare.RUST_PACKAGES
+    monkeypatch.setenv("SHACKLED_NO_APT", "1")
+    prepare.prepare_rust()
+    assert "evm.wasm is not built again: missing: the compiler of evm/" in capsys.readouterr().out
+
+
 def test_one_line_for_each_package() -> None:
     assert one_line_each("a==1 ; os \\\n    --hash=b \\\n    --hash=c\nd==2\n") == "a==1 ; os --hash=b --hash=c\nd==2\n"

@@ -84,9 +84,12 @@ def test_written_to_a_folder(page: Path, tmp_path: Path, shackled: Shackled) -> 
 
 
 def test_without_a_built_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """As in a clone in which nothing was built."""
+    """As in an installed package, and in a clone in which nothing was built."""
     package = tmp_path / "src" / "shackled"
     monkeypatch.setattr(creator, "__file__", str(package / "cli" / "creator.py"))
+    with pytest.raises(InputError, match=r"needs Node 20 or newer and npm.* `pip install --force-reinstall"):
+        creator.built_page()
+    (tmp_path / "Makefile").touch()
     with pytest.raises(InputError, match="`make page`"):
         creator.built_page()
     (tmp_path / "build" / "page").mkdir(parents=True)
