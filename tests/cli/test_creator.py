@@ -6,12 +6,12 @@ import http.client
 import json
 import re
 import signal
-import subprocess
 import sys
 from contextlib import closing
 from pathlib import Path
 
 import pytest
+from tools.children import child
 
 from commands import Shackled
 from shackled import InputError
@@ -84,9 +84,12 @@ def test_written_to_a_folder(page: Path, tmp_path: Path, shackled: Shackled) -> 
 
 
 def test_without_a_built_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """As in a clone in which nothing was built."""
+    """As in an installed package, and in a clone in which nothing was built."""
     package = tmp_path / "src" / "shackled"
     monkeypatch.setattr(creator, "__file__", str(package / "cli" / "creator.py"))
+    with pytest.raises(InputError, match=r"needs Node 20 or newer and npm.* `pip install --force-reinstall"):
+        creator.built_page()
+    (tmp_path / "Makefile").touch()
     with pytest.raises(InputError, match="`make page`"):
         creator.built_page()
     (tmp_path / "build" / "page").mkdir(parents=True)
@@ -100,8 +103,7 @@ def test_the_command_serves_until_it_is_interrupted(page: Path) -> None:
         "creator.built_page = lambda: (pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[1]));"
         "sys.exit(app.run(['creator', 'cube', '--no-browser', '--port', '0']))"
     )
-    command = [sys.executable, "-c", code, str(page)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+    with child(sys.executable, "-c", code, page) as process:
         assert process.stdout is not None
         found = re.search(r"http://127\.0\.0\.1:(\d+)/\?input", process.stdout.readline())
         assert found

@@ -57,10 +57,16 @@ def creator(
 def built_page() -> tuple[Path, Path]:
     """Return the folder of the page, and the page as one file: of the package, or of a clone. InputError without."""
     package = Path(__file__).parents[1]
-    for folder in (package / "web", package.parents[1] / "build"):
+    clone = package.parents[1]
+    for folder in (package / "web", clone / "build"):
         if (folder / "page" / "index.html").is_file():
             return folder / "page", folder / "creator.html"
-    raise InputError("the page of the Creator is not built: run `make page`, which needs Node 20 and npm")
+    if (clone / "Makefile").is_file():
+        raise InputError("the page of the Creator is not built: run `make page`, which needs Node 20 or newer and npm")
+    raise InputError(
+        "this installation has no page of the Creator: building it needs Node 20 or newer and npm. With these in the "
+        "PATH, install Shackled again from its clone: `pip install --force-reinstall --no-deps .`"
+    )
 
 
 def first_answers(input: str | None, page: Path) -> tuple[dict[str, Path | bytes], str]:
