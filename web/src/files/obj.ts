@@ -60,7 +60,7 @@ export async function readObj(source: Source): Promise<Triangles> {
         // normals of faces, by the loader
         if (!/^[ \t]*vn[ \t]/m.test(text)) geometry.deleteAttribute("normal");
     }
-    return trianglesOf(root, ({ name }, { geometry }) => {
+    return trianglesOf(root, source.bytes.length, ({ name }, { geometry }) => {
         const look = looks.get(name) as Shown;
         // a texture, or else colours of vertices, replace the colour of the material
         if (look.surface.picture) geometry.deleteAttribute("color");
@@ -102,7 +102,7 @@ function cutPolygons(text: string): string {
     return text.replace(polygons, (line, list: string) => {
         const corners = list.trim().split(/\s+/);
         const outline = corners.map((corner) => points[parseInt(corner) - 1]);
-        const ears = outline.every(Boolean) ? earsOf(outline, line.trim()) : undefined;
+        const ears = outline.every(Boolean) ? earsOf(outline, `the face ${line.trim().slice(0, 20)}...`) : undefined;
         return ears?.map((ear, at) => `${at % 3 ? "" : "\nf"} ${corners[ear]}`).join("") ?? line;
     });
 }

@@ -5,6 +5,7 @@ import { InputError } from "../errors.js";
 import { documentOfScene, type Library, type Made } from "../creator/save.js";
 import { decodeCall } from "../scene/decode.js";
 import { readFile } from "../view/source.js";
+import { Images } from "./images.js";
 import { readOff } from "./off.js";
 import { partsOf, type Part, type Triangles } from "./parts.js";
 import { readPly } from "./ply.js";
@@ -73,9 +74,10 @@ export async function readFiles(files: readonly Given[], options: Options): Prom
         );
     }
     const notes: string[] = [];
+    const images = new Images();
     const sources = shown.map((file): Source => {
         const tell = (note: string): void => void notes.push(`${baseOf(file.name)}: ${note}`);
-        return { ...file, folder, draco, beside, tell };
+        return { ...file, folder, draco, beside, tell, images };
     });
     const made = scenes.length ? await openScene(sources[0], options) : await openMeshes(sources, options);
     const unused = folder.filter((file) => !file.used && !shown.includes(file) && !SILENT.test(file.name));

@@ -1,6 +1,7 @@
 // What readers get: a file, the files beside it, and where notes go.
 
 import { InputError } from "../errors.js";
+import type { Images } from "./images.js";
 
 /** A file by its name, which may have folders in it. used: whether another one names it. */
 export interface Given {
@@ -15,6 +16,7 @@ export interface Source extends Given {
     /** Returns a file beside these. */
     beside: ((name: string) => Given | undefined) | undefined;
     tell: (note: string) => void;
+    images: Images;
     /** Return the decoder of Draco's meshes. */
     draco: () => Promise<Uint8Array>;
 }
@@ -59,18 +61,23 @@ export function numberOf(word: string): number | undefined {
 }
 
 /**
- * Return the file that another one names. The name may be that of the machine of its author: then it is the file of that
- * name in any folder, in any letter case.
+ * Return the file that another one names. The name may be an address, or that of the machine of its author: then it is the
+ * file of that name in any folder, in any letter case.
  */
 export function fileBeside({ name: from, folder, beside }: Source, name: string): Given | undefined {
-    const parts = from.split("/").slice(0, -1);
-    for (const part of name.replaceAll("\\", "/").split("/")) {
-        if (part === "..") parts.pop();
-        else if (part && part !== ".") parts.push(part);
+    const decoded = (codes: string): string =>
+        new TextDecoder().decode(Uint8Array.from(codes.slice(1).split("%"), (code) => parseInt(code, 16)));
+    const plain = (text: string): string => text.replace(/(?:%[0-9a-f]{2})+/gi, decoded).replaceAll("\\", "/");
+    for (const each of new Set([name.replaceAll("\\", "/"), plain(name), plain(name.replace(/[?#].*/, ""))])) {
+        const parts = from.split("/").slice(0, -1);
+        for (const part of each.split("/")) {
+            if (part === "..") parts.pop();
+            else if (part && part !== ".") parts.push(part);
+        }
+        const path = parts.join("/");
+        const isSame = (other: Given): boolean => baseOf(other.name).toLowerCase() === baseOf(each).toLowerCase();
+        const found = folder.find((other) => other.name === path) ?? folder.find(isSame) ?? beside?.(path);
+        if (found) return Object.assign(found, { used: true });
     }
-    const path = parts.join("/");
-    const isSame = (each: Given): boolean => baseOf(each.name).toLowerCase() === baseOf(name).toLowerCase();
-    const found = folder.find((each) => each.name === path) ?? folder.find(isSame) ?? beside?.(path);
-    if (found) found.used = true;
-    return found;
+    return undefined;
 }
