@@ -100,26 +100,39 @@ def test_textures_inside(visit: Visit, kind: str) -> None:
     uri = f"data:image/{kind};base64," + base64.b64encode(stream.getvalue()).decode()
     page = visit(scene("cube"))
     page.after(lambda: page.drop(**{"a.gltf": gltf({"uri": uri}, extension(kind))}))
-    table = page.run("(({width, height, pixels}) => [width, height, ...pixels])(app.meshes.get(app.doc.value.objects[0].mesh).texture)")
+    table = page.run(
+        "(({width, height, pixels}) => [width, height, ...pixels])"
+        "(app.meshes.get(app.doc.value.objects[0].mesh).texture)"
+    )
     assert table[:2] == [16, 16]
     assert np.abs(np.reshape(table[2:], (16, 16, 3))[:, [0, -1]].astype(int) - pixels[:, [0, -1]]).max() < 12
 
 
+#: A script that asks for an address in all the ways that workers have.
+FAULT = """
+const ways = [
+    () => fetch(URL), () => fetch(URL, { mode: "no-cors" }), () => importScripts(URL), () => new EventSource(URL),
+    () => new WebSocket(URL.replace("http", "ws")),
+    () => { const ask = new XMLHttpRequest(); ask.open("GET", URL, false); ask.send(); },
+];
+for (const way of ways) try { Promise.resolve(way()).catch(() => 0) } catch {}
+fetch("data:,").then(() => console.log("the fault ran"));
+"""
+#: Lets scripts of workers that are made in frames begin with it.
+FRAMES = """
+if (self !== top) globalThis.Blob = class extends Blob {
+    constructor(parts, options) {
+        super(options?.type === "text/javascript" ? [FAULT, ...parts] : parts, options);
+    }
+};
+"""
+
+
 @pytest.mark.parametrize("disk", [False, True])
 def test_what_reads_files_reaches_no_address(visit: Visit, counter: Counter, disk: bool) -> None:
-    """As if a reader had such a fault as any may have: its script asks in all the ways that workers have."""
-    fault = """
-        const url = %r;
-        const ways = [() => fetch(url), () => fetch(url, {mode: "no-cors"}), () => importScripts(url), () => new EventSource(url),
-            () => new WebSocket(url.replace("http", "ws")), () => { const ask = new XMLHttpRequest(); ask.open("GET", url, false); ask.send(); }];
-        for (const way of ways) try { Promise.resolve(way()).catch(() => 0) } catch {}
-        fetch("data:,").then(() => console.log("the fault ran"));
-    """ % f"{counter.address}/leak"
-    script = """
-        if (self !== top) globalThis.Blob = class extends Blob {
-            constructor(parts, options) { super(options?.type === "text/javascript" ? [%s, ...parts] : parts, options) }
-        };
-    """ % json.dumps(fault)
+    """Whatever fault a reader may have."""
+    script = FAULT.replace("URL", json.dumps(f"{counter.address}/leak"))
+    script = FRAMES.replace("FAULT", json.dumps(script))
     page = visit(scene("cube"), disk=disk, script=script, allowed=counter.address, nodes=[counter.address])
     lines: list[str] = []
     page.page.context.on("console", lambda message: lines.append(message.text))

@@ -41,8 +41,20 @@ export function extensionOf(name: string): string {
     return /\.[^./]+$/.exec(name)?.[0].toLowerCase() ?? "";
 }
 
+/** Return bytes as UTF-8 without a byte order mark, if they begin with one. */
+export function unmarked(bytes: Uint8Array): Uint8Array<ArrayBuffer> {
+    const mark = `${bytes[0]} ${bytes[1]}`;
+    const kind = mark === "255 254" ? "utf-16le" : mark === "254 255" ? "utf-16be" : undefined;
+    if (kind) return new TextEncoder().encode(new TextDecoder(kind).decode(bytes));
+    const hasMark = bytes[0] === 0xef && bytes[1] === 0xbb && bytes[2] === 0xbf;
+    return bytes.subarray(hasMark ? 3 : 0) as Uint8Array<ArrayBuffer>;
+}
+
 /** Return the text of bytes, with line ends of Unix; what is not UTF-8 is taken as the code page of Windows. */
-export function textOf(bytes: Uint8Array): string {
+export function textOf(given: Uint8Array): string {
+    const whole = unmarked(given);
+    // some writers fill up with zeros
+    const bytes = whole.subarray(0, whole.findLastIndex((byte) => byte) + 1);
     if (bytes.includes(0)) throw new InputError("it is not a text file, as one of this kind should be");
     let text: string;
     try {
@@ -51,6 +63,19 @@ export function textOf(bytes: Uint8Array): string {
         text = new TextDecoder("windows-1252").decode(bytes);
     }
     return text.includes("\r") ? text.replace(/\r\n?/g, "\n") : text;
+}
+
+/**
+ * Return a text with points for decimal commas, of which a note tells, in lines that begin with a keyword, by default any.
+ * What is behind # stays.
+ */
+export function withPoints(text: string, { tell }: Source, keywords = "[^\\s#]*"): string {
+    if (!text.includes(",")) return text;
+    const lines = new RegExp(`^[ \\t]*(?:${keywords})(?!\\S)[^\\n#]*`, "gm");
+    const comma = /(?<!\S)([-+]?\d+),(\d+(?:e[-+]?\d+)?)(?!\S)/gi;
+    const found = text.replace(lines, (line) => line.replace(comma, "$1.$2"));
+    if (found !== text) tell("its numbers have decimal commas, which are read as points");
+    return found;
 }
 
 /** Return the number of a word: NaN for one that says that it is none, undefined for anything else. */
