@@ -1,111 +1,63 @@
-"""Files of strangers in the Creator: they make it ask for nothing, and their textures of any kind are drawn."""
+"""Files of strangers in the Creator: they make it ask for nothing, and textures inside of them are drawn."""
 
 from __future__ import annotations
 
 import base64
 import io
 import json
-import threading
 from collections.abc import Iterator
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from typing import Any
+from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image as PillowImage
+from PIL import Image
+from tools.page_server import Static, static
 
 from creator_page import Visit, scene
+from mesh_files import GltfObject
 
-TRIANGLE = np.array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1], dtype="<f4").tobytes()
-
-
-class Counter(ThreadingHTTPServer):
-    """A server that keeps what it is asked for."""
-
-    def __init__(self) -> None:
-        self.asked: list[str] = []
-        asked = self.asked
-
-        class Handler(BaseHTTPRequestHandler):
-            def do_GET(self) -> None:
-                asked.append(self.path)
-                self.send_response(200)
-                self.send_header("Access-Control-Allow-Origin", "*")
-                self.send_header("Content-Length", "0")
-                self.end_headers()
-
-            do_OPTIONS = do_POST = do_HEAD = do_GET
-
-            def log_message(self, *_: Any) -> None:
-                pass
-
-        super().__init__(("127.0.0.1", 0), Handler)
-        self.address = f"http://127.0.0.1:{self.server_port}"
+STRIPES = np.array([[[255, 0, 0]] * 8 + [[0, 255, 0]] * 8] * 16, dtype="u1")
+KINDS = ("webp", "avif", "png")
 
 
 @pytest.fixture
-def counter() -> Iterator[Counter]:
-    with Counter() as server:
-        thread = threading.Thread(target=server.serve_forever)
-        thread.start()
-        yield server
-        server.shutdown()
-        thread.join()
+def other(tmp_path: Path) -> Iterator[Static]:
+    """A server of somebody else, who sees what it is asked for."""
+    with static(tmp_path) as served:
+        yield served
 
 
-def gltf(image: dict[str, Any], texture: dict[str, Any]) -> bytes:
-    """A triangle with a texture."""
-    uri = "data:;base64," + base64.b64encode(TRIANGLE).decode()
-    return json.dumps(
-        {
-            "asset": {"version": "2.0"},
-            "buffers": [{"byteLength": len(TRIANGLE), "uri": uri}],
-            "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}],
-            "accessors": [
-                {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
-                {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"},
-            ],
-            "images": [image],
-            "textures": [texture],
-            "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
-            "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
-            "nodes": [{"mesh": 0}],
-            "scenes": [{"nodes": [0]}],
-        }
-    ).encode()
-
-
-def extension(kind: str) -> dict[str, Any]:
-    return {"extensions": {f"EXT_texture_{kind}": {"source": 0}}} if kind != "png" else {"source": 0}
+def gltf(kind: str, uri: str, folder: Path) -> bytes:
+    """A triangle with a texture of a kind."""
+    file = GltfObject()
+    file.material(pbrMetallicRoughness={"baseColorTexture": file.texture(STRIPES)})
+    file.document["images"] = [{"uri": uri}]
+    if kind != "png":
+        file.document["textures"] = [{"extensions": {f"EXT_texture_{kind}": {"source": 0}}}]
+    return file.write(folder).read_bytes()
 
 
 @pytest.mark.parametrize("disk", [False, True])
-def test_no_file_makes_the_page_ask(visit: Visit, counter: Counter, disk: bool) -> None:
+def test_no_file_makes_the_page_ask(visit: Visit, other: Static, tmp_path: Path, disk: bool) -> None:
     page = visit(scene("cube"), disk=disk)
-    for kind in ("webp", "avif", "png"):
-        name = f"{kind}.gltf"
-        page.after(lambda: page.drop(**{name: gltf({"uri": f"{counter.address}/track.{kind}"}, extension(kind))}))  # noqa: B023
+    for kind in KINDS:
+        content = gltf(kind, f"{other.address}track.{kind}", tmp_path)
+        page.after(lambda: page.drop(**{f"{kind}.gltf": content}))  # noqa: B023
         assert page.doc()["title"] == kind
         assert f"track.{kind}, which was not given" in page.said()
-    assert counter.asked == []
+    assert other.asked == []
 
 
-@pytest.mark.parametrize("kind", ["webp", "avif", "png"])
-def test_textures_inside(visit: Visit, kind: str) -> None:
-    """Red to the left, green to the right, whatever the image is packed with."""
-    pixels = np.zeros((16, 16, 3), dtype="u1")
-    pixels[:, :8, 0] = pixels[:, 8:, 1] = 255
+@pytest.mark.parametrize("kind", KINDS)
+def test_textures_inside(visit: Visit, tmp_path: Path, kind: str) -> None:
     stream = io.BytesIO()
-    PillowImage.fromarray(pixels).save(stream, kind, **({"lossless": True} if kind == "webp" else {}))
+    Image.fromarray(STRIPES).save(stream, kind, **({"lossless": True} if kind == "webp" else {}))
     uri = f"data:image/{kind};base64," + base64.b64encode(stream.getvalue()).decode()
     page = visit(scene("cube"))
-    page.after(lambda: page.drop(**{"a.gltf": gltf({"uri": uri}, extension(kind))}))
-    table = page.run(
-        "(({width, height, pixels}) => [width, height, ...pixels])"
-        "(app.meshes.get(app.doc.value.objects[0].mesh).texture)"
-    )
-    assert table[:2] == [16, 16]
-    assert np.abs(np.reshape(table[2:], (16, 16, 3))[:, [0, -1]].astype(int) - pixels[:, [0, -1]]).max() < 12
+    page.after(lambda: page.drop(**{"a.gltf": gltf(kind, uri, tmp_path)}))
+    texture = "app.meshes.get(app.doc.value.objects[0].mesh).texture"
+    pixels = np.reshape(page.run(f"Array.from({texture}.pixels)"), STRIPES.shape)
+    np.testing.assert_allclose(pixels[:, [0, -1]], STRIPES[:, [0, -1]], atol=12)  # AVIF is lossy
 
 
 #: A script that asks for an address in all the ways that workers have.
@@ -129,14 +81,14 @@ if (self !== top) globalThis.Blob = class extends Blob {
 
 
 @pytest.mark.parametrize("disk", [False, True])
-def test_what_reads_files_reaches_no_address(visit: Visit, counter: Counter, disk: bool) -> None:
+def test_what_reads_files_reaches_no_address(visit: Visit, other: Static, tmp_path: Path, disk: bool) -> None:
     """Whatever fault a reader may have."""
-    script = FAULT.replace("URL", json.dumps(f"{counter.address}/leak"))
-    script = FRAMES.replace("FAULT", json.dumps(script))
-    page = visit(scene("cube"), disk=disk, script=script, allowed=counter.address, nodes=[counter.address])
+    script = FRAMES.replace("FAULT", json.dumps(FAULT.replace("URL", json.dumps(f"{other.address}leak"))))
+    page = visit(scene("cube"), disk=disk, script=script, allowed=other.address, nodes=[other.address])
     lines: list[str] = []
     page.page.context.on("console", lambda message: lines.append(message.text))
-    page.after(lambda: page.drop(**{"a.gltf": gltf({"uri": "data:,"}, extension("webp"))}))
+    page.after(lambda: page.drop(**{"a.gltf": gltf("webp", "data:,", tmp_path)}))
+    page.wait("!app.busy.value")
     page.page.wait_for_timeout(300)
     assert "the fault ran" in lines
-    assert counter.asked == []
+    assert other.asked == []

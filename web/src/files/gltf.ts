@@ -49,11 +49,9 @@ export async function readGltf(source: Source): Promise<Triangles> {
         uri === undefined ? (number ? undefined : binary) : resource(uri, source),
     );
     const size = [...new Set(given)].reduce((sum, bytes) => sum + (bytes?.length ?? 0), source.bytes.length);
+    // the fallback of meshopt has no bytes, and is not read
+    const buffers = given.map((bytes) => bytes ?? new Uint8Array());
     checkLengths(json, size);
-    // the fallback of meshopt has no bytes
-    const buffers = given.map(
-        (bytes, number) => bytes ?? new Uint8Array(Math.min(json.buffers[number].byteLength, MOST)),
-    );
     const gltf: Gltf = { json, buffers, pictures: new Map(), source, leaveOut };
     check(gltf);
     prepare(gltf);
@@ -104,8 +102,7 @@ function containerOf(bytes: Uint8Array): { json: Json; binary: Uint8Array | unde
         }
         if (!found.JSON) throw new InputError("it has no JSON chunk");
     }
-    // padded by spaces, or wrongly by zeros
-    const text = textOf(found.JSON?.subarray(0, found.JSON.findLastIndex((byte) => byte) + 1) ?? bytes);
+    const text = textOf(found.JSON ?? bytes);
     try {
         const json = JSON.parse(text);
         // the loader reads those that are declared
@@ -250,10 +247,10 @@ function prepare({ json, leaveOut }: Gltf): void {
 }
 
 /** Check to how many bytes a document unpacks, whose files have so many. */
-function checkLengths({ buffers = [], bufferViews = [], accessors = [] }: Json, size: number): void {
+function checkLengths({ bufferViews = [], accessors = [] }: Json, size: number): void {
     const made = ({ bufferView, sparse, count, componentType, type }: Json): number =>
         bufferView === undefined || sparse ? count * SIZES[componentType] * SIZES[type] : 0;
-    const lengths = [...[...buffers, ...bufferViews].map(({ byteLength }: Json) => byteLength), ...accessors.map(made)];
+    const lengths = [...bufferViews.map(({ byteLength }: Json) => byteLength), ...accessors.map(made)];
     const total = lengths.reduce((sum, length) => sum + (Number(length) || 0), 0);
     if (total > Math.max(MOST_BYTES, 4 * size))
         throw new InputError(`it unpacks to ${plural(total, "byte")}, too many for a file of this size`);

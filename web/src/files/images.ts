@@ -4,11 +4,18 @@ import { InputError } from "../errors.js";
 import type { Texture } from "../scene/checked.js";
 import { baseOf, fileBeside, type Source } from "./source.js";
 
-/** Rows from the top; red, green, blue and alpha of each pixel. */
+/**
+ * Rows from the top; red, green, blue and alpha of each pixel. The rest is kept for all surfaces that show it: what `hides`
+ * returned, whether it has one colour, how many pixels `isPlain` has looked at, and smaller images of it.
+ */
 export interface Image {
     width: number;
     height: number;
     pixels: Uint8Array;
+    hides?: boolean;
+    isOne?: boolean;
+    steps?: number;
+    smaller?: Map<string, Image>;
 }
 
 /** An image as a file names it. name: for notes. hasAlpha: whether its alpha counts. cutoff: as in Texture. */
@@ -51,21 +58,6 @@ let decoder: (bytes: Uint8Array) => Image | Promise<Image> = async (bytes) => {
     return { width, height, pixels };
 };
 
-/** What was found out of images, for all surfaces that show them. steps: pixels that were looked at for `isPlain`. */
-interface Facts {
-    hides?: boolean;
-    isOne?: boolean;
-    steps: number;
-    reduced: Map<string, Image>;
-}
-const facts = new WeakMap<Image, Facts>();
-
-function factsOf(image: Image): Facts {
-    const found: Facts = facts.get(image) ?? { steps: 0, reduced: new Map() };
-    facts.set(image, found);
-    return found;
-}
-
 /** Let another function decode images. */
 export function decodeImagesBy(decode: typeof decoder): void {
     decoder = decode;
@@ -80,12 +72,13 @@ function checkSize(width: number, height: number): void {
 function sizeOf(bytes: Uint8Array): readonly [number, number] {
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
     const start = new TextDecoder("latin1").decode(bytes.subarray(0, 512));
-    const of = (at: number, bits: number): number => (view.getUint32(at, true) & (2 ** bits - 1)) + 1;
+    const of = (at: number, bits: number): number => view.getUint32(at, true) & (2 ** bits - 1);
     const avif = start.indexOf("ispe");
-    if (start[1] === "P") return [view.getUint32(16), view.getUint32(20)];
+    if (start.startsWith("\x89P")) return [view.getUint32(16), view.getUint32(20)];
     if (start.startsWith("GIF8")) return [of(6, 16), of(8, 16)];
-    if (start.startsWith("WEBPVP8X", 8)) return [of(24, 24), of(27, 24)];
-    if (start.startsWith("WEBPVP8L", 8)) return [of(21, 14), (of(21, 28) >> 14) + 1];
+    if (start.startsWith("WEBPVP8 ", 8)) return [of(26, 14), of(28, 14)];
+    if (start.startsWith("WEBPVP8L", 8)) return [of(21, 14) + 1, (of(21, 28) >> 14) + 1];
+    if (start.startsWith("WEBPVP8X", 8)) return [of(24, 24) + 1, of(27, 24) + 1];
     return avif > 0 ? [view.getUint32(avif + 8), view.getUint32(avif + 12)] : [0, 0];
 }
 
@@ -134,7 +127,7 @@ export async function pictureBeside(source: Source, name: string): Promise<Pictu
 
 /** Return whether an image is not opaque everywhere. */
 export function hides(image: Image): boolean {
-    return (factsOf(image).hides ??= isSomewhere(image, (pixels, at) => pixels[at + 3] < 255));
+    return (image.hides ??= isSomewhere(image, (pixels, at) => pixels[at + 3] < 255));
 }
 
 function isSomewhere({ pixels }: Image, is: (pixels: Uint8Array, at: number) => boolean): boolean {
@@ -153,13 +146,12 @@ export function isPlain(
 ): boolean {
     const { width, height, pixels } = image;
     if (hasAlpha) return false;
-    const found = factsOf(image);
     const [red, green, blue] = pixels;
-    found.isOne ??= !isSomewhere(
+    image.isOne ??= !isSomewhere(
         image,
         (_, at) => pixels[at] !== red || pixels[at + 1] !== green || pixels[at + 2] !== blue,
     );
-    if (found.isOne) return true;
+    if (image.isOne) return true;
     const colorAt = (x: number, y: number): number => {
         const at = 4 * (y * width + x);
         return (pixels[at] << 16) | (pixels[at + 1] << 8) | pixels[at + 2];
@@ -175,8 +167,8 @@ export function isPlain(
     return triangles.every((triangle) => {
         const [[left, right], [top, bottom]] = [range(6 * triangle, width), range(6 * triangle + 1, height)];
         if (!(left >= 0 && top >= 0 && right < width && bottom < height)) return false;
-        found.steps += (right - left + 1) * (bottom - top + 1);
-        if (found.steps > MAX_STEPS) return false;
+        image.steps = (image.steps ?? 0) + (right - left + 1) * (bottom - top + 1);
+        if (image.steps > MAX_STEPS) return false;
         const color = colorAt(left, top);
         for (let y = top; y <= bottom; y++)
             for (let x = left; x <= right; x++) if (colorAt(x, y) !== color) return false;
@@ -223,7 +215,7 @@ export function textureOf(
     }
     let side = MAX_SIDE;
     for (let left = count; left > FULL_SIZE && side > 1; left = Math.floor((left + 3) / 4)) side /= 2;
-    const [known, key] = [factsOf(picture.image).reduced, `${side} ${hasAlpha}`];
+    const [known, key] = [(picture.image.smaller ??= new Map()), `${side} ${hasAlpha}`];
     let image = known.get(key) ?? reduced(picture.image, side, hasAlpha);
     known.set(key, image);
     const [{ width, height }, { width: wide, height: high }] = [image, picture.image];

@@ -3,7 +3,7 @@
 import { InputError } from "../errors.js";
 import { inflate, isGzip } from "../evm/bytes.js";
 import { DAMAGED, SIGNATURES, type Signature } from "./signatures.js";
-import { baseOf, extensionOf, unmarked, type Given, type Source } from "./source.js";
+import { extensionOf, unmarked, type Given, type Source } from "./source.js";
 
 export type Kind = Pick<Signature, "name" | "format" | "do">;
 
@@ -43,7 +43,7 @@ function isDamaged(bytes: Uint8Array): boolean {
 export async function gunzipped(file: Given): Promise<Given> {
     if (!isGzip(file.bytes)) return file;
     const name = file.name.replace(/\.gz$/i, "");
-    return { ...file, name, bytes: await inflate(file.bytes, "gzip", MOST_UNPACKED, baseOf(file.name)) };
+    return { ...file, name, bytes: await inflate(file.bytes, "gzip", MOST_UNPACKED, "what it holds") };
 }
 
 /** Return the extension of the format of a file, by its content, or else by its name. */

@@ -57,7 +57,7 @@ const SILENT = /\.(mtl|bin|txt|md|pdf|url)$/i;
 /** Return the document of files. InputError, a sentence, if nothing of them can be shown. */
 export async function readFiles(files: readonly Given[], options: Options): Promise<Opened> {
     const { draco = noDraco, beside } = options;
-    const folder = unpacked(await Promise.all(files.map(gunzipped)));
+    const folder = unpacked(await Promise.all(files.map((file) => said(file, () => gunzipped(file)))));
     // by content also those of other names, where no name tells of a format
     const known = folder.filter(({ name }) => [...MESHES, ...SCENES[0]].includes(namedFormat(name)));
     const of = (extensions: readonly string[]): Given[] =>
