@@ -85,7 +85,8 @@ def look(preset: Preset) -> dict[str, Any]:
 def signatures() -> str:
     """Return the file of signatures."""
     known = tomllib.loads(files("shackled.scene._files").joinpath("signatures.toml").read_text("utf-8"))
-    rows = "".join(f"    {json.dumps(row)},\n" for row in known["signature"])
+    # the page is one file, too, in which no script may hold the beginning of a comment
+    rows = "".join(f"    {json.dumps(row)},\n" for row in known["signature"]).replace("<!--", "<[!]--")
     table = f"\n// prettier-ignore\nexport const SIGNATURES: readonly Signature[] = [\n{rows}];\n"
     return f"{SIGNATURES}{table}\n// prettier-ignore\nexport const DAMAGED = {json.dumps(known['damaged'])};\n"
 

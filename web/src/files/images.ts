@@ -39,19 +39,20 @@ const FULL_SIZE = 4;
 /** Coordinates outside of 0..1 by less are taken as rounded; beyond the second number they are moved by whole images. */
 const [ROUNDING, FAR] = [1e-4, 100];
 
-/** What makes pixels of the bytes of an image; browsers have it built in, Node has not. */
-let decoder: (bytes: Uint8Array) => Image | Promise<Image> = async (bytes) => {
+/** What makes pixels of the bytes of an image, maybe reduced to so many pixels a side; browsers have it built in, Node has not. */
+let decoder: (bytes: Uint8Array, side: number) => Image | Promise<Image> = async (bytes, side) => {
     const options = { premultiplyAlpha: "none", colorSpaceConversion: "none" } as const;
     const bitmap = await createImageBitmap(new Blob([bytes as Uint8Array<ArrayBuffer>]), options);
-    const { width, height } = bitmap;
-    checkSize(width, height);
+    checkSize(bitmap.width, bitmap.height);
+    const scale = Math.min(side / Math.max(bitmap.width, bitmap.height), 1);
+    const [width, height] = [bitmap.width, bitmap.height].map((each) => Math.max(Math.round(scale * each), 1));
     const pixels = new Uint8Array(4 * width * height);
     // in strips: a canvas of the whole image would take its memory three times
     const rows = Math.min(Math.ceil(2 ** 22 / width), height);
     const context = new OffscreenCanvas(width, rows).getContext("2d") as OffscreenCanvasRenderingContext2D;
     for (let y = 0; y < height; y += rows) {
         context.clearRect(0, 0, width, rows);
-        context.drawImage(bitmap, 0, -y);
+        context.drawImage(bitmap, 0, -y, width, height);
         pixels.set(context.getImageData(0, 0, width, Math.min(rows, height - y)).data, 4 * width * y);
     }
     bitmap.close();
@@ -100,9 +101,10 @@ export class Images {
         checkSize(width, height);
         if (this.total + width * height > MAX_ALL)
             throw new InputError(`all textures together may have ${MAX_ALL.toLocaleString("en")} pixels`);
-        const image = await decoder(bytes);
-        this.total += image.width * image.height;
-        return this.total > MAX_PIXELS ? reduced(image, KEPT_SIDE, false) : image;
+        const side = this.total + width * height > MAX_PIXELS ? KEPT_SIDE : Infinity;
+        const image = await decoder(bytes, side);
+        this.total += width * height || image.width * image.height;
+        return reduced(image, side, false);
     }
 }
 

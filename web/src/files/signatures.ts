@@ -38,7 +38,7 @@ export const SIGNATURES: readonly Signature[] = [
     {"name": "a file of materials", "begins": "(?:#[^\\n]*\\n|[ \\t\\r\\n])*newmtl[ \\t]", "text": true, "format": ".mtl", "do": "give the OBJ file that it belongs to"},
     {"name": "a COLLADA file", "begins": "[ \\t\\r\\n]*<\\?xml[\\s\\S]{0,2000}<COLLADA\\b", "do": "export it as GLB, for instance with Blender"},
     {"name": "an SVG picture", "begins": "[ \\t\\r\\n]*(?:<\\?xml[\\s\\S]{0,2000})?<svg\\b", "do": "give a mesh or scene file"},
-    {"name": "a web page, not the file that was to be downloaded", "begins": "[ \\t\\r\\n]*(?:<\\?xml[^>]*>|<!--[\\s\\S]{0,2000}?-->|[ \\t\\r\\n])*<(?:!doctype[ \\t]+html|html|head|body)\\b", "case": false, "do": "download the file itself, for instance by the link Raw or Download of the page"},
+    {"name": "a web page, not the file that was to be downloaded", "begins": "[ \\t\\r\\n]*(?:<\\?xml[^>]*>|<[!]--[\\s\\S]{0,2000}?-->|[ \\t\\r\\n])*<(?:!doctype[ \\t]+html|html|head|body)\\b", "case": false, "do": "download the file itself, for instance by the link Raw or Download of the page"},
     {"name": "an XML document", "begins": "[ \\t\\r\\n]*<\\?xml\\b", "do": "export the model as GLB, OBJ or STL"},
     {"name": "a PDF document", "begins": "%PDF-", "do": "give a mesh or scene file"},
     {"name": "a picture", "begins": "\\xff\\xd8\\xff|GIF8[79]a[\\s\\S]|RIFF[\\s\\S]{4}WEBP|II\\*\\0|MM\\0\\*|BM[\\s\\S]{4}\\0{4}[\\s\\S]{3}\\0[\\x0c\\x28\\x38\\x40\\x6c\\x7c]\\0\\0\\0|DDS \\x7c\\0\\0\\0|v/1\\x01|\\0\\0\\0[\\s\\S]ftyp(?:avif|heic)", "do": "give a mesh or scene file; a texture is read with the mesh file that names it"},
