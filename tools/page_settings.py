@@ -1,12 +1,15 @@
-"""Write web/src/creator/settings.ts: what the page takes from the package, which are settings, looks and limits of gas.
+"""Write what the page takes from the package: web/src/creator/settings.ts, with settings, looks and limits of gas, and
+web/src/files/signatures.ts, with the beginnings of files.
 
-python tools/page_settings.py    with --check it writes nothing, and fails if the file is not as it would be written
+python tools/page_settings.py    with --check it writes nothing, and fails if a file is not as it would be written
 """
 
 from __future__ import annotations
 
 import json
 import sys
+import tomllib
+from importlib.resources import files
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -16,7 +19,7 @@ from shackled.gas import limits
 from shackled.scene import PRESETS, SETTINGS
 from shackled.scene._presets import Preset
 
-FILE = Path(__file__).resolve().parent.parent / "web" / "src" / "creator" / "settings.ts"
+SOURCES = Path(__file__).resolve().parent.parent / "web" / "src"
 HEAD = """// Written by tools/page_settings.py from the tables of the Python package.
 
 /** What can be set: src/shackled/scene/_settings.py. `low` and `high` are null where there is none. */
@@ -40,6 +43,18 @@ export type Preset = Readonly<
 export type Limit = Readonly<
     Record<"name" | "node" | "source" | "date" | "remark", string> & { gas: number; kind: "transaction" | "call" }
 >;
+"""
+SIGNATURES = """// Written by tools/page_settings.py from src/shackled/scene/_files/signatures.toml.
+
+/** How a file begins, and what it is: the table explains the keys. */
+export interface Signature {
+    name: string;
+    begins: string;
+    case?: boolean;
+    text?: boolean;
+    format?: string;
+    do?: string;
+}
 """
 #: The tables, and the types of their rows.
 TYPES = {"SETTINGS": "Setting", "PRESETS": "Preset", "LIMITS": "Limit"}
@@ -67,8 +82,17 @@ def look(preset: Preset) -> dict[str, Any]:
     }
 
 
+def signatures() -> str:
+    """Return the file of signatures."""
+    known = tomllib.loads(files("shackled.scene._files").joinpath("signatures.toml").read_text("utf-8"))
+    # the page is one file, too, in which no script may hold the beginning of a comment
+    rows = "".join(f"    {json.dumps(row)},\n" for row in known["signature"]).replace("<!--", "<[!]--")
+    table = f"\n// prettier-ignore\nexport const SIGNATURES: readonly Signature[] = [\n{rows}];\n"
+    return f"{SIGNATURES}{table}\n// prettier-ignore\nexport const DAMAGED = {json.dumps(known['damaged'])};\n"
+
+
 def text() -> str:
-    """Return the file."""
+    """Return the file of settings."""
     names = ("name", "gas", "kind", "node", "source", "date", "remark")
     known = [{name: getattr(each, name) for name in names} for each in limits()]
     made = [HEAD]
@@ -85,7 +109,8 @@ def _hex(color: Color) -> str:
 if __name__ == "__main__":
     if sys.argv[1:] not in ([], ["--check"]):
         sys.exit(__doc__)
-    if not sys.argv[1:]:
-        FILE.write_text(text(), "utf-8")
-    elif FILE.read_text("utf-8") != text():
-        sys.exit(f"{FILE.name} is not as tools/page_settings.py writes it: run it without --check")
+    for name, content in {"creator/settings.ts": text(), "files/signatures.ts": signatures()}.items():
+        if not sys.argv[1:]:
+            (SOURCES / name).write_text(content, "utf-8")
+        elif not (SOURCES / name).exists() or (SOURCES / name).read_text("utf-8") != content:
+            sys.exit(f"{name} is not as tools/page_settings.py writes it: run it without --check")
