@@ -22,7 +22,7 @@ from ..errors import ChainError
 from ..gas import Fit, fits_of, headline, render_call, suffices
 from ..image import MOST_COLORS, Image, colors, total
 from ..parallel import Listener, folder_of, remove_parts
-from ..scene import PICTURE, Scene, scene_chunk
+from ..scene import PICTURE, Scene, scene_chunk, shows_scene
 from ..values import plural
 from ..whole_file import make_output_folder
 from .look_options import load_with
@@ -92,6 +92,10 @@ class Task:
     on: On | None
     gas_limit: int | None
     tile: tuple[int, int] | None
+    #: Whether triangles and lit pixels are counted, by a second call.
+    count: bool = True
+    #: Whether a file that shows the same scene is left as it is.
+    skip_existing: bool = False
 
 
 @dataclass(frozen=True)
@@ -102,12 +106,19 @@ class Done:
     """
 
     report: dict[str, Any]
-    scene: int | None
-    fits: tuple[Fit, ...] | None
+    scene: int | None = None
+    fits: tuple[Fit, ...] | None = None
+
+    @property
+    def is_skipped(self) -> bool:
+        """Whether the file was there already."""
+        return "skipped" in self.report
 
     @property
     def words(self) -> str:
         """The report in several lines."""
+        if self.is_skipped:
+            return self.line
         report, scene, fits = self.report, self.scene, self.fits
         frames, calls = report["frames"], report["calls"]
         several = f"{frames} frames of " if frames > 1 else ""
@@ -118,7 +129,7 @@ class Done:
         rows["gas"] = "not counted"
         if report["gas"] is not None and report["intrinsic_gas"] is not None:
             sent = "the scene" if calls == 1 else f"the scene {calls} times"
-            rows["gas"] = f"{report['gas']:,} (and {report['intrinsic_gas']:,} to send {sent})"
+            rows["gas"] = f"{report['gas']:,}{_in_calls(report)} (and {report['intrinsic_gas']:,} to send {sent})"
         if fits is not None:
             each = f"each of its {calls} calls: " if calls > 1 else ""
             rows["fits"] = each + headline(fits).removeprefix("fits ")
@@ -133,15 +144,29 @@ class Done:
     def line(self) -> str:
         """The report in one line."""
         report = self.report
-        gas = "" if report["gas"] is None else f", {report['gas']:,} gas"
+        if self.is_skipped:
+            return f"{report['input']} -> {report['output']}: skipped, as it shows the same scene already"
+        gas = "" if report["gas"] is None else f", {report['gas']:,} gas{_in_calls(report)}"
         fits = "" if self.fits is None else f"; {headline(self.fits)}"
         size = f"{report['width']} x {report['height']} pixels"
         frames = f", {report['frames']} frames" if report["frames"] > 1 else ""
         return f"{report['input']} -> {report['output']}: {size}{frames}{gas}{fits}"
 
 
+def _in_calls(report: dict[str, Any]) -> str:
+    """Return what is said of the gas of a picture that took several calls, which is more than that of one."""
+    calls = report["calls"] // report["frames"]
+    return (f" in {calls} calls" + (" for each frame" if report["frames"] > 1 else "")) if calls > 1 else ""
+
+
 def render_to(source: Source, path: Path | None, task: Task, listener: Listener) -> Done:
     """Render an input to a file, or for None to standard output."""
+    opened = open_input(source, path, task)
+    return opened if isinstance(opened, Done) else opened.finish(opened.draw(listener), listener)
+
+
+def open_input(source: Source, path: Path | None, task: Task) -> Opened | Done:
+    """Read an input; return what is to be drawn, or that its picture is there already."""
     film = task.film
     with as_stdin(source.place) if source.name == STREAM else nullcontext():
         if film.frames is None:
@@ -149,84 +174,112 @@ def render_to(source: Source, path: Path | None, task: Task, listener: Listener)
         else:
             with LateBar("reading"):
                 scenes, length = load_frames(source.place, film.frames, **task.look)
-    loaded = scenes[0]
     if task.scene:
-        scene_chunk(loaded).check()
-    extension = PICTURE if path is None else path.suffix.lower()
+        scene_chunk(scenes[0]).check()
+    if task.skip_existing and path is not None and shows_scene(path, scenes[0], task.transparent):
+        return Done({"input": source.name, "output": str(path), "skipped": True})
     if path is not None:
         make_output_folder(path.parent)
-    place, bounds = place_of(task.on), Bounds(task.gas_limit, task.tile)
-    in_parts = not film.one_call and (film.is_film or not is_one_call(place, loaded, bounds))
-    started = time.perf_counter()
-    keep = folder_of(path) if in_parts and path is not None else None
-    told: dict[str, Any] = {"gas_limit": task.gas_limit, "tile": task.tile, "listener": listener, "keep": keep}
-    told |= {"on": task.on, "transparent": task.transparent}
-    made: Image | Animation
-    with nullcontext() if in_parts else LateBar("rendering"):
-        if film.frames is not None:
-            shown = pace(length, film.frames) if film.duration is None else film.duration
-            made = draw_film(scenes, shown, place, bounds, listener, keep, task.transparent)
-        elif film.turntable is not None:
-            shown = DURATION if film.duration is None else film.duration
-            made = turn(loaded, film.turntable, duration=shown, one_call=film.one_call, **told)
-        else:
-            made = draw(loaded, **told)
-    try:
-        with LateBar("writing"):
-            if path is None:
-                write_stdout(made.encode(PICTURE, task.scene))
-            else:
-                made.save(path, scene=task.scene)
-    except BaseException:
-        if keep is not None and keep.is_dir():
-            listener.warned(f"finished parts are kept in {keep}: run the same command to resume")
-        raise
-    if keep is not None:
-        remove_parts(keep)
-    frames = [made] if isinstance(made, Image) else made.frames
-    chunk = frames[0].scene_chunk if extension in (PICTURE, "") and task.scene is not False else None
-    written = len(chunk.data) if chunk is not None and (task.scene or chunk.is_small) else None
-    with LateBar("counting"):
-        triangles, lit_pixels, shows_something = _counted(made)
-        fits = fits_of_made(made, loaded)
-    digest = hashlib.sha256()
-    for frame in frames:
-        digest.update(frame.channels.tobytes())
-    report = {
-        "input": source.name,
-        "width": loaded.width,
-        "height": loaded.height,
-        "triangles": triangles,
-        "lit_pixels": lit_pixels,
-        "gas": made.gas,
-        "intrinsic_gas": made.intrinsic_gas,
-        "seconds": round(time.perf_counter() - started, 6),
-        "chain": frames[0].made_by,
-        "output": STREAM if path is None else str(path),
-        "sha256": digest.hexdigest(),
-        "scene_bytes": written,
-        "fits": None if fits is None else [fit.to_json() for fit in fits],
-        "frames": len(frames),
-        "calls": made.calls,
-    }
-    if not shows_something:
-        print("nothing is visible; the picture shows only the background", file=sys.stderr)
-    if extension == ".gif" and (found := colors([frame.pixels for frame in frames])) > MOST_COLORS:
-        whose = "picture" if len(frames) == 1 else "frames"
-        text = f"a GIF has at most {MOST_COLORS} colours; the {found:,} of the {whose} were mapped to the nearest"
-        print(text, file=sys.stderr)
-    return Done(report, None if chunk is None else len(chunk.data), fits)
+    return Opened(source, path, task, scenes, length, time.perf_counter())
 
 
-def _counted(made: Image | Animation) -> tuple[int | None, int | None, bool]:
+@dataclass(frozen=True)
+class Opened:
+    """An input that was read. scenes: its frames. length: of its animation, in seconds. started: when that was."""
+
+    source: Source
+    path: Path | None
+    task: Task
+    scenes: list[Scene]
+    length: float
+    started: float
+
+    @property
+    def keep(self) -> Path | None:
+        """The folder of finished parts; None where there are none."""
+        film, place, bounds = self.task.film, place_of(self.task.on), Bounds(self.task.gas_limit, self.task.tile)
+        in_parts = not film.one_call and (film.is_film or not is_one_call(place, self.scenes[0], bounds))
+        return folder_of(self.path) if in_parts and self.path is not None else None
+
+    def draw(self, listener: Listener) -> Image | Animation:
+        """Draw the picture or the frames."""
+        task, film, loaded = self.task, self.task.film, self.scenes[0]
+        told: dict[str, Any] = {"gas_limit": task.gas_limit, "tile": task.tile, "listener": listener, "keep": self.keep}
+        told |= {"on": task.on, "transparent": task.transparent}
+        # with parts, the listener shows a bar
+        with LateBar("rendering") if self.keep is None else nullcontext():
+            if film.frames is not None:
+                shown = pace(self.length, film.frames) if film.duration is None else film.duration
+                place, bounds = place_of(task.on), Bounds(task.gas_limit, task.tile)
+                return draw_film(self.scenes, shown, place, bounds, listener, self.keep, task.transparent)
+            if film.turntable is not None:
+                shown = DURATION if film.duration is None else film.duration
+                return turn(loaded, film.turntable, duration=shown, one_call=film.one_call, **told)
+            return draw(loaded, **told)
+
+    def finish(self, made: Image | Animation, listener: Listener) -> Done:
+        """Write what was drawn, and return a report on it."""
+        path, task, loaded, keep = self.path, self.task, self.scenes[0], self.keep
+        extension = PICTURE if path is None else path.suffix.lower()
+        try:
+            with LateBar("writing"):
+                if path is None:
+                    write_stdout(made.encode(PICTURE, task.scene))
+                else:
+                    made.save(path, scene=task.scene)
+        except BaseException:
+            if keep is not None and keep.is_dir():
+                listener.warned(f"finished parts are kept in {keep}: run the same command to resume")
+            raise
+        if keep is not None:
+            remove_parts(keep)
+        frames = [made] if isinstance(made, Image) else made.frames
+        chunk = frames[0].scene_chunk if extension in (PICTURE, "") and task.scene is not False else None
+        written = len(chunk.data) if chunk is not None and (task.scene or chunk.is_small) else None
+        with LateBar("counting"):
+            triangles, lit_pixels, shows_something = _counted(made, task.count)
+            fits = fits_of_made(made, loaded)
+        digest = hashlib.sha256()
+        for frame in frames:
+            digest.update(frame.channels.tobytes())
+        report = {
+            "input": self.source.name,
+            "width": loaded.width,
+            "height": loaded.height,
+            "triangles": triangles,
+            "lit_pixels": lit_pixels,
+            "gas": made.gas,
+            "intrinsic_gas": made.intrinsic_gas,
+            "seconds": round(time.perf_counter() - self.started, 6),
+            "chain": frames[0].made_by,
+            "output": STREAM if path is None else str(path),
+            "sha256": digest.hexdigest(),
+            "scene_bytes": written,
+            "fits": None if fits is None else [fit.to_json() for fit in fits],
+            "frames": len(frames),
+            "calls": made.calls,
+        }
+        if not shows_something:
+            print("nothing is visible; the picture shows only the background", file=sys.stderr)
+        if extension == ".gif" and (found := colors([frame.pixels for frame in frames])) > MOST_COLORS:
+            whose = "picture" if len(frames) == 1 else "frames"
+            text = f"a GIF has at most {MOST_COLORS} colours; the {found:,} of the {whose} were mapped to the nearest"
+            print(text, file=sys.stderr)
+        return Done(report, None if chunk is None else len(chunk.data), fits)
+
+
+def _counted(made: Image | Animation, count: bool) -> tuple[int | None, int | None, bool]:
     """Return the triangles and covered pixels of a picture, None where they are not known, and whether anything shows.
 
     The picture is already written: what fails here is only told.
     """
+    frames = [made] if isinstance(made, Image) else made.frames
     try:
-        if isinstance(made, Image):
-            return made.triangles, made.covered_pixels, made.covered_pixels != 0
-        return None, None, any(frame.covered_pixels != 0 for frame in made.frames)
+        # a background has one colour in each row: only what looks like one is drawn again to be sure
+        shows = any((each.pixels != each.pixels[:, :1]).any() or each.covered_pixels != 0 for each in frames)
+        return (
+            (made.triangles, made.covered_pixels, shows) if count and isinstance(made, Image) else (None, None, shows)
+        )
     except ChainError as error:
         print(f"shackled: triangles and lit pixels were not counted: {error}", file=sys.stderr)
         return None, None, True

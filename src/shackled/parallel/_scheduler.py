@@ -138,6 +138,8 @@ class Scheduler:
                 while not self._over():
                     # with a timeout, so that Ctrl-C works on every platform
                     self._changed.wait(0.5)
+                    for text in [text for state in self._states for text in state.backend.check()]:
+                        self._listener.warned(text)
                 if self._error is not None:
                     raise self._error
                 return dict(self._results)
