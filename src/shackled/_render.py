@@ -14,6 +14,7 @@ from ._load import Thing, load_frames, load_picture
 from ._on import Bounds, Embedded, On, Place, is_one_call, place_of
 from .animation import DURATION, DURATIONS, Animation
 from .chain import Drawing
+from .checks import flag
 from .errors import InputError, warn
 from .image import Image, decode_bmp, uncovered
 from .scene import Background, LookOptions, Scene, full_turn
@@ -66,7 +67,7 @@ def render(
         if found.scene != scene:
             warn(found.sentence)
         scene = found.scene
-    if not transparent:
+    if not flag(transparent, "`transparent`"):
         return draw([scene], place, bounds, listener, keep)[0]
     black, white = draw(_twice(scene), place, bounds, listener, keep)
     return uncovered(black, white, scene)
@@ -159,7 +160,7 @@ def film(
     """Render scenes of one size as the frames of an animation."""
     from .parallel import render_frames
 
-    drawn = [each for scene in scenes for each in _twice(scene)] if transparent else scenes
+    drawn = [each for scene in scenes for each in _twice(scene)] if flag(transparent, "`transparent`") else scenes
     images = render_frames(drawn, place, bounds, listener, keep)
     if transparent:
         images = [uncovered(*both) for both in zip(images[::2], images[1::2], scenes, strict=True)]
