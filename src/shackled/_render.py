@@ -15,7 +15,7 @@ from ._on import Bounds, Embedded, On, Place, is_one_call, place_of
 from .animation import DURATION, DURATIONS, Animation
 from .chain import Drawing
 from .checks import flag
-from .errors import InputError, warn
+from .errors import InputError, OutOfGasError, warn
 from .image import Image, decode_bmp, uncovered
 from .scene import Background, LookOptions, Scene, full_turn
 from .words import with_words
@@ -179,10 +179,18 @@ def draw(
     """Render scenes of one size, by one call each or by several."""
     from .parallel import render_frames
 
-    if isinstance(place, Embedded) and all(is_one_call(place, scene, bounds) for scene in scenes):
-        chain, evm = place.opened(), place.evm
-        return [render_whole(scene, chain.draw, chain.name, evm) for scene in scenes]
-    return render_frames(scenes, place, bounds, listener, keep)
+    is_whole = isinstance(place, Embedded) and all(is_one_call(place, scene, bounds) for scene in scenes)
+    try:
+        if isinstance(place, Embedded) and is_whole:
+            chain, evm = place.opened(), place.evm
+            return [render_whole(scene, chain.draw, chain.name, evm) for scene in scenes]
+        return render_frames(scenes, place, bounds, listener, keep)
+    except OutOfGasError as error:
+        from .gas import savings
+
+        if error.limit is None:
+            raise
+        raise OutOfGasError(f"{error}{savings(scenes[0], error.limit, not is_whole)}") from None
 
 
 def render_whole(scene: Scene, draw: Callable[[Scene], Drawing], made_by: str, evm: str | None = None) -> Image:

@@ -89,7 +89,9 @@ class RenderError(ChainError):
 
 
 class OutOfGasError(ChainError):
-    """A call needed more gas than its limit."""
+    """A call needed more gas than its limit, which is None if it is not known."""
+
+    limit: int | None = None
 
 
 class RevertError(ChainError):

@@ -44,10 +44,9 @@ _VALUES: dict[tuple[str, object], Given] = {
     ("style", "surface"): {"wireframe": False},
 }
 #: Colours of one letter, as in matplotlib.
-_LETTERS = {
-    name: f"#{digits}"
-    for name, digits in zip("bgrcmykw", "00f 008000 f00 00bfbf bf00bf bfbf00 000 fff".split(), strict=True)
-}
+_LETTERS = dict(
+    zip("bgrcmykw", ("#00f", "#008000", "#f00", "#00bfbf", "#bf00bf", "#bfbf00", "#000", "#fff"), strict=True)
+)
 _COLOR = {"colour": "color"}
 _CAMERA = {"look_at": "target", "position": "eye", "yfov": "fov"}
 _PICTURE = {"alpha": "transparent"}
@@ -132,7 +131,8 @@ def in_our_words(owner: str, given: Given) -> Given:
     """Return keywords with the words of other programs replaced. KeywordError where one is given twice."""
     found: Given = {}
     for name, value in given.items():
-        ours = SAME.get(owner, {}).get(name, name)
+        # a number is that of objects, not of the picture
+        ours = name if name == "alpha" and isinstance(value, float) else SAME.get(owner, {}).get(name, name)
         if owner == "look" and isinstance(value, str | bool):
             value = _LETTERS.get(str(value), value) if "color" in ours or ours == "background" else value
             ((ours, value),) = _VALUES.get((name, value), {ours: value}).items()

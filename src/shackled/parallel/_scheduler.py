@@ -328,6 +328,8 @@ class Scheduler:
             if isinstance(error, OutOfGasError) and state.backend.gas is not None and not state.backend.untrusted:
                 text = f"{error} even for {tile}; raise `gas_limit` or use `max_triangles`"
             self._error = type(error)(text)
+            if isinstance(self._error, OutOfGasError):
+                self._error.limit = state.backend.gas
             return
         self._put_first([Part(part.frame, tile) for tile in tiles])
         if others and state.misses >= (TIMEOUTS if isinstance(error, NodeTimeoutError) else MISSES):
