@@ -159,113 +159,102 @@ def _in_calls(report: dict[str, Any]) -> str:
     return (f" in {calls} calls" + (" for each frame" if report["frames"] > 1 else "")) if calls > 1 else ""
 
 
-def render_to(source: Source, path: Path | None, task: Task, listener: Listener) -> Done:
-    """Render an input to a file, or for None to standard output."""
-    opened = open_input(source, path, task)
-    return opened if isinstance(opened, Done) else opened.finish(opened.draw(listener), listener)
-
-
-def open_input(source: Source, path: Path | None, task: Task) -> Opened | Done:
-    """Read an input; return what is to be drawn, or that its picture is there already."""
-    film = task.film
+def load_input(source: Source, task: Task) -> tuple[list[Scene], float]:
+    """Return the scene of an input, or the frames of its animation, and the length of that in seconds."""
     with as_stdin(source.place) if source.name == STREAM else nullcontext():
-        if film.frames is None:
-            scenes, length = [load_with(source.place, task.look, task.fit)], 0.0
-        else:
-            with LateBar("reading"):
-                scenes, length = load_frames(source.place, film.frames, **task.look)
+        if task.film.frames is None:
+            return [load_with(source.place, task.look, task.fit)], 0.0
+        with LateBar("reading"):
+            return load_frames(source.place, task.film.frames, **task.look)
+
+
+def render_to(
+    source: Source,
+    path: Path | None,
+    task: Task,
+    listener: Listener,
+    loaded: Scene | None = None,
+    drawn: Image | None = None,
+) -> Done:
+    """Render an input to a file, or for None to standard output. loaded, drawn: what is there already."""
+    film = task.film
+    scenes, length = load_input(source, task) if loaded is None else ([loaded], 0.0)
+    loaded = scenes[0]
     if task.scene:
-        scene_chunk(scenes[0]).check()
-    if task.skip_existing and path is not None and shows_scene(path, scenes[0], task.transparent):
+        scene_chunk(loaded).check()
+    if is_there(path, task, loaded):
         return Done({"input": source.name, "output": str(path), "skipped": True})
+    extension = PICTURE if path is None else path.suffix.lower()
     if path is not None:
         make_output_folder(path.parent)
-    return Opened(source, path, task, scenes, length, time.perf_counter())
+    place, bounds = place_of(task.on), Bounds(task.gas_limit, task.tile)
+    in_parts = not film.one_call and (film.is_film or not is_one_call(place, loaded, bounds))
+    started = time.perf_counter() - (0 if drawn is None else drawn.seconds)
+    keep = folder_of(path) if in_parts and path is not None else None
+    told: dict[str, Any] = {"gas_limit": task.gas_limit, "tile": task.tile, "listener": listener, "keep": keep}
+    told |= {"on": task.on, "transparent": task.transparent}
+    made: Image | Animation
+    with nullcontext() if in_parts else LateBar("rendering"):
+        if drawn is not None:
+            made = drawn
+        elif film.frames is not None:
+            shown = pace(length, film.frames) if film.duration is None else film.duration
+            made = draw_film(scenes, shown, place, bounds, listener, keep, task.transparent)
+        elif film.turntable is not None:
+            shown = DURATION if film.duration is None else film.duration
+            made = turn(loaded, film.turntable, duration=shown, one_call=film.one_call, **told)
+        else:
+            made = draw(loaded, **told)
+    try:
+        with LateBar("writing"):
+            if path is None:
+                write_stdout(made.encode(PICTURE, task.scene))
+            else:
+                made.save(path, scene=task.scene)
+    except BaseException:
+        if keep is not None and keep.is_dir():
+            listener.warned(f"finished parts are kept in {keep}: run the same command to resume")
+        raise
+    if keep is not None:
+        remove_parts(keep)
+    frames = [made] if isinstance(made, Image) else made.frames
+    chunk = frames[0].scene_chunk if extension in (PICTURE, "") and task.scene is not False else None
+    written = len(chunk.data) if chunk is not None and (task.scene or chunk.is_small) else None
+    with LateBar("counting"):
+        triangles, lit_pixels, shows_something = _counted(made, task.count)
+        fits = fits_of_made(made, loaded)
+    digest = hashlib.sha256()
+    for frame in frames:
+        digest.update(frame.channels.tobytes())
+    report = {
+        "input": source.name,
+        "width": loaded.width,
+        "height": loaded.height,
+        "triangles": triangles,
+        "lit_pixels": lit_pixels,
+        "gas": made.gas,
+        "intrinsic_gas": made.intrinsic_gas,
+        "seconds": round(time.perf_counter() - started, 6),
+        "chain": frames[0].made_by,
+        "output": STREAM if path is None else str(path),
+        "sha256": digest.hexdigest(),
+        "scene_bytes": written,
+        "fits": None if fits is None else [fit.to_json() for fit in fits],
+        "frames": len(frames),
+        "calls": made.calls,
+    }
+    if not shows_something:
+        print("nothing is visible; the picture shows only the background", file=sys.stderr)
+    if extension == ".gif" and (found := colors([frame.pixels for frame in frames])) > MOST_COLORS:
+        whose = "picture" if len(frames) == 1 else "frames"
+        text = f"a GIF has at most {MOST_COLORS} colours; the {found:,} of the {whose} were mapped to the nearest"
+        print(text, file=sys.stderr)
+    return Done(report, None if chunk is None else len(chunk.data), fits)
 
 
-@dataclass(frozen=True)
-class Opened:
-    """An input that was read. scenes: its frames. length: of its animation, in seconds. started: when that was."""
-
-    source: Source
-    path: Path | None
-    task: Task
-    scenes: list[Scene]
-    length: float
-    started: float
-
-    @property
-    def keep(self) -> Path | None:
-        """The folder of finished parts; None where there are none."""
-        film, place, bounds = self.task.film, place_of(self.task.on), Bounds(self.task.gas_limit, self.task.tile)
-        in_parts = not film.one_call and (film.is_film or not is_one_call(place, self.scenes[0], bounds))
-        return folder_of(self.path) if in_parts and self.path is not None else None
-
-    def draw(self, listener: Listener) -> Image | Animation:
-        """Draw the picture or the frames."""
-        task, film, loaded = self.task, self.task.film, self.scenes[0]
-        told: dict[str, Any] = {"gas_limit": task.gas_limit, "tile": task.tile, "listener": listener, "keep": self.keep}
-        told |= {"on": task.on, "transparent": task.transparent}
-        # with parts, the listener shows a bar
-        with LateBar("rendering") if self.keep is None else nullcontext():
-            if film.frames is not None:
-                shown = pace(self.length, film.frames) if film.duration is None else film.duration
-                place, bounds = place_of(task.on), Bounds(task.gas_limit, task.tile)
-                return draw_film(self.scenes, shown, place, bounds, listener, self.keep, task.transparent)
-            if film.turntable is not None:
-                shown = DURATION if film.duration is None else film.duration
-                return turn(loaded, film.turntable, duration=shown, one_call=film.one_call, **told)
-            return draw(loaded, **told)
-
-    def finish(self, made: Image | Animation, listener: Listener) -> Done:
-        """Write what was drawn, and return a report on it."""
-        path, task, loaded, keep = self.path, self.task, self.scenes[0], self.keep
-        extension = PICTURE if path is None else path.suffix.lower()
-        try:
-            with LateBar("writing"):
-                if path is None:
-                    write_stdout(made.encode(PICTURE, task.scene))
-                else:
-                    made.save(path, scene=task.scene)
-        except BaseException:
-            if keep is not None and keep.is_dir():
-                listener.warned(f"finished parts are kept in {keep}: run the same command to resume")
-            raise
-        if keep is not None:
-            remove_parts(keep)
-        frames = [made] if isinstance(made, Image) else made.frames
-        chunk = frames[0].scene_chunk if extension in (PICTURE, "") and task.scene is not False else None
-        written = len(chunk.data) if chunk is not None and (task.scene or chunk.is_small) else None
-        with LateBar("counting"):
-            triangles, lit_pixels, shows_something = _counted(made, task.count)
-            fits = fits_of_made(made, loaded)
-        digest = hashlib.sha256()
-        for frame in frames:
-            digest.update(frame.channels.tobytes())
-        report = {
-            "input": self.source.name,
-            "width": loaded.width,
-            "height": loaded.height,
-            "triangles": triangles,
-            "lit_pixels": lit_pixels,
-            "gas": made.gas,
-            "intrinsic_gas": made.intrinsic_gas,
-            "seconds": round(time.perf_counter() - self.started, 6),
-            "chain": frames[0].made_by,
-            "output": STREAM if path is None else str(path),
-            "sha256": digest.hexdigest(),
-            "scene_bytes": written,
-            "fits": None if fits is None else [fit.to_json() for fit in fits],
-            "frames": len(frames),
-            "calls": made.calls,
-        }
-        if not shows_something:
-            print("nothing is visible; the picture shows only the background", file=sys.stderr)
-        if extension == ".gif" and (found := colors([frame.pixels for frame in frames])) > MOST_COLORS:
-            whose = "picture" if len(frames) == 1 else "frames"
-            text = f"a GIF has at most {MOST_COLORS} colours; the {found:,} of the {whose} were mapped to the nearest"
-            print(text, file=sys.stderr)
-        return Done(report, None if chunk is None else len(chunk.data), fits)
+def is_there(path: Path | None, task: Task, scene: Scene) -> bool:
+    """Return whether a picture is not drawn, as its file shows the same scene already."""
+    return task.skip_existing and path is not None and shows_scene(path, scene, task.transparent)
 
 
 def _counted(made: Image | Animation, count: bool) -> tuple[int | None, int | None, bool]:

@@ -13,22 +13,23 @@ from contextlib import ExitStack, closing, redirect_stderr
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Literal, TypeVar
+from typing import Any, Literal, TypeVar
 
 from attrs import evolve
 
 from .._load import locate
 from .._on import Cluster, Processes
+from .._render import render as draw
 from ..animation import check_animation
 from ..datasets import Piece
 from ..errors import InputError, InputWarning, ShackledError
 from ..image import Image, check_output
-from ..scene import PICTURE, READERS, Link
+from ..scene import PICTURE, READERS, Link, Scene
 from ..untrusted import plain
 from ..workers import each
 from .option import argument, with_options
 from .output import Action, action, noting
-from .picture import Done, Opened, Source, Task, open_input, render_to
+from .picture import Done, Source, Task, is_there, load_input, render_to
 from .progress import LateBar, Notes
 from .streams import STREAM, is_output, stdin_file
 
@@ -196,37 +197,39 @@ def _on_cluster(work: Sequence[Work], on: Cluster, bar: LateBar) -> Iterator[tup
     from ..parallel import ClusterBackend
 
     done: list[tuple[int, Outcome]] = []
-    said: dict[int, str] = {}
 
-    def read() -> Iterator[tuple[int, Opened]]:
+    def read() -> Iterator[tuple[int, Scene, str]]:
         for number, (source, path, task, notes) in enumerate(work):
-            opening = partial(open_input, source, path, replace(task, on=on.evm))
-            opened, said[number] = _heard(opening, notes)
-            if isinstance(opened, Opened):
-                yield number, opened
+            found, said = _heard(partial(load_input, source, task), notes)
+            if isinstance(found, ShackledError):
+                done.append((number, (found, said)))
+            elif is_there(path, task, scene := found[0][0]):
+                done.append((number, (render_to(source, path, task, Notes(), scene), said)))
             else:
-                done.append((number, (opened, said[number])))
+                yield number, scene, said
 
-    with closing(ClusterBackend(on.address, on.evm, work[0][2].gas_limit)) as backend:
-        for (number, opened), made in backend.each(_draw, read(), lambda text: bar.print(f"shackled: {text}")):
-            if isinstance(made, ShackledError):
-                done.append((number, (made, said[number])))
-            else:
-                drawn = replace(opened, started=time.perf_counter() - made.seconds)
-                found, more = _heard(
-                    partial(drawn.finish, evolve(made, made_by=backend.name), Notes()), work[number][3]
+    task = work[0][2]
+    bounds = {"on": on.evm, "transparent": task.transparent, "gas_limit": task.gas_limit, "tile": task.tile}
+    with closing(ClusterBackend(on.address, on.evm, task.gas_limit)) as backend:
+        drawn = backend.each(partial(_draw, bounds), read(), lambda text: bar.print(f"shackled: {text}"))
+        for (number, scene, said), made in drawn:
+            source, path, task, notes = work[number]
+            outcome: Outcome = (
+                (made, "")
+                if isinstance(made, ShackledError)
+                else _heard(
+                    partial(render_to, source, path, task, Notes(), scene, evolve(made, made_by=backend.name)), notes
                 )
-                done.append((number, (found, said[number] + more)))
+            )
+            done.append((number, (outcome[0], said + outcome[1])))
             yield from done
             done.clear()
     yield from done
 
 
-def _draw(item: tuple[int, Opened]) -> Image:
+def _draw(bounds: dict[str, Any], item: tuple[int, Scene, str]) -> Image:
     """Draw a picture in the process of a worker."""
-    made = item[1].draw(Notes())
-    assert isinstance(made, Image)
-    return made
+    return draw(item[1], **bounds)
 
 
 def _render(work: Work) -> Outcome:
