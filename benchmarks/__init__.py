@@ -43,6 +43,9 @@ def run_main(main: Callable[[], int | None], has_options: bool = False) -> NoRet
         sys.exit(main())
     except ModuleNotFoundError as error:
         sys.exit(f"the package {error.name} is not installed: pip install {(error.name or '').replace('_', '-')}")
+    except FileNotFoundError as error:
+        hint = ": npm ci in contracts/" if "node_modules" in str(error.filename) else ""
+        sys.exit(f"{error.filename} does not exist{hint}")
     except ShackledError as error:
         sys.exit(" ".join(str(error).split()))
 
