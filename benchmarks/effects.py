@@ -8,7 +8,6 @@ which `python -m tools.readme` makes the table of docs/light.md.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -18,7 +17,7 @@ from tools.readme import EFFECTS
 from shackled import Camera, Fog, Light, Material, Mesh, Object, Rim, Scene, Tone, render
 from shackled.scene import Hemisphere
 
-from . import write_figures
+from . import run_main, write_figures
 
 CORNERS = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]
 #: Normals that differ, so that every fragment has its own.
@@ -93,4 +92,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

@@ -18,8 +18,25 @@ _INSIDE = (os.path.dirname(__file__) + os.sep, "<attrs generated")
 Place = tuple[str, int, str, dict[Any, Any]]
 
 
-class ShackledError(Exception):
+class _OneLine:
+    """An error that a notebook shows in one line, since all that is to be done about it is in the message."""
+
+    def _render_traceback_(self) -> list[str]:
+        """Return what IPython shows in place of the traceback, which `traceback.print_exc` prints as ever."""
+        return [f"{type(self).__name__}: {self}"]
+
+
+class ShackledError(_OneLine, Exception):
     """Base of all errors of the library."""
+
+
+class KeywordError(_OneLine, TypeError):
+    """A keyword that is not known, or given twice. The message says what would be right."""
+
+    def __init__(self, message: str, keyword: str = "") -> None:
+        """Take the message, and the keyword if it is not known."""
+        super().__init__(message)
+        self.keyword = keyword
 
 
 class InputError(ShackledError, ValueError):
@@ -97,7 +114,9 @@ class RenderError(ChainError):
 
 
 class OutOfGasError(ChainError):
-    """A call needed more gas than its limit."""
+    """A call needed more gas than its limit, which is None if it is not known."""
+
+    limit: int | None = None
 
 
 class RevertError(ChainError):

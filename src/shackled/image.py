@@ -20,7 +20,7 @@ from PIL.PngImagePlugin import PngInfo
 from .chain import open_chain
 from .checks import fixed
 from .errors import InputError, RenderError
-from .scene import CHUNK, PICTURE, Scene, SceneChunk, scene_chunk
+from .scene import CHUNK, DIGEST, PICTURE, Scene, SceneChunk, scene_chunk
 from .values import Value, array_key
 from .whole_file import check_output_file, write_output
 
@@ -265,10 +265,10 @@ def png_options(image: Image, scene: bool | None = None) -> dict[str, PngInfo]:
         if chunk is None:
             raise InputError("the picture cannot carry its scene, which is not known")
         chunk.check()
-    if chunk is None or not (scene or chunk.is_small):
+    if chunk is None:
         return {}
     texts = PngInfo()
-    texts.add(CHUNK, chunk.data)
+    texts.add(*((CHUNK, chunk.data) if scene or chunk.is_small else (DIGEST, chunk.digest)))
     return {"pnginfo": texts}
 
 

@@ -110,7 +110,7 @@ def test_workers_that_do_not_fit(found: str | None, message: str) -> None:
     place = ClusterBackend.__new__(ClusterBackend)
     place._client = Workers(found)  # type: ignore[assignment]
     with pytest.raises(InputError, match=message):
-        place._check()
+        place._greet_workers()
 
 
 def test_without_the_package(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,6 +3,7 @@ from ._flame_graph import flame_graph
 from ._limits import Fit, fits_of, headline, limits, measure, render_call
 from ._profile import KINDS, STACK, Profile, profile
 from ._report import GasReport, make_report
+from ._savings import savings
 from ._search import SearchStep, search, suffices
 from ._stages import STAGES
 
@@ -23,6 +24,7 @@ __all__ = [
     "measure",
     "profile",
     "render_call",
+    "savings",
     "search",
     "suffices",
 ]

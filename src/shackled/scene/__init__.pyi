@@ -11,7 +11,7 @@ from ._files.gltf.view import read_view
 from ._files.link import Link, link_of
 from ._files.mesh_file import GLTF, READERS, read_mesh, read_model
 from ._files.model import MeshPart
-from ._files.picture import CHUNK, PICTURE, SceneChunk, scene_chunk
+from ._files.picture import CHUNK, DIGEST, PICTURE, SceneChunk, scene_chunk, shows_scene
 from ._files.scene_file import SCENES, read_scene
 from ._files.signatures import format_by_name
 from ._files.table import about
@@ -37,6 +37,7 @@ from ._upright import Axis, axis_of_file, axis_of_format, base_axis, upright
 __all__ = [
     "ALL",
     "CHUNK",
+    "DIGEST",
     "GENTLE",
     "GLTF",
     "INNER_ANGLE",
@@ -118,6 +119,7 @@ __all__ = [
     "rotate",
     "scene_chunk",
     "settings_of",
+    "shows_scene",
     "simplify",
     "simplify_scene",
     "size_of",
