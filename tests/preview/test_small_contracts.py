@@ -53,6 +53,20 @@ def test_token_0_is_left_out_only_where_it_is_missing(preview: Any, data: bytes,
     assert preview(found).first == first
 
 
+def test_token_0_is_shown_where_it_is_too_expensive(preview: Any) -> None:
+    """A call inside runs out of gas, and the contract reverts without a reason, as for a token that does not exist."""
+    answer = output(SVG)
+    size = len(answer).to_bytes(2, "big").hex()
+    # without data, 17.6 million gas are used; for 0 such a call is made, and its failure is passed on without data
+    starts, tries = "3615602557" + "600435601857", "5f5f5f5f305afa" + "601857" + "5f5ffd"
+    code = bytes.fromhex(starts + tries + f"5b61{size}602e5f3961{size}5ff3" + "5b") + DEAR
+    assert code.index(DEAR) == 0x26
+    made = preview(contract(code + answer), count=2)
+    (problem,) = made.token(0).problems
+    assert (made.first, made.token(1).problems) == (0, [])
+    assert problem.startswith("image(0) takes 17,")
+
+
 @pytest.mark.parametrize(("supply", "count"), [(16, 16), (10_000, 256), (0, 256)])
 def test_as_many_tokens_as_there_are(preview: Any, supply: int, count: int) -> None:
     # `totalSupply` is a call without a number, which reads as 0

@@ -12,7 +12,7 @@ from typing import Any
 
 from ..errors import InputError
 from ..ethereum import Interface, intrinsic_gas
-from ..evm import Answer, Status
+from ..evm import Status
 from ._arguments import parse_call
 from ._document import Document, judge, judge_picture, unicode_fault
 from ._project import Compiled, Project
@@ -146,15 +146,14 @@ class Preview:
 
     def _first(self) -> int:
         """Return 1 where there is no token 0, but a token 1."""
-        if not self.is_numbered or not self._is_missing(self.world.call(self._data(0), MAX_GAS)):
-            return 0
-        return int(self.world.call(self._data(1)).status == Status.SUCCESS)
+        return int(self.is_numbered and self._is_missing(0) and not self._is_missing(1))
 
-    def _is_missing(self, answer: Answer) -> bool:
-        """Return whether a call failed as calls for tokens do that do not exist; other failures are to be shown."""
-        return answer.status == Status.REVERT and (
-            not answer.output or NONEXISTENT.search(self.world.reason(answer)) is not None
-        )
+    def _is_missing(self, number: int) -> bool:
+        """Return whether a call fails as calls for tokens do that do not exist; other failures are to be shown."""
+        # a token that is too expensive would also revert without a reason, where a call inside runs out of gas
+        answer = self.world.call(self._data(number), MOST_GAS)
+        is_told = not answer.output or NONEXISTENT.search(self.world.reason(answer)) is not None
+        return answer.status == Status.REVERT and answer.gas <= MAX_GAS and is_told
 
     def _supply(self) -> int:
         """Return how many tokens there are, up to `MOST_TOKENS`; also that many where nobody knows."""
