@@ -127,7 +127,7 @@ def result_of(package: Package, name: str, path: Path, picture: Path) -> dict[st
         try:
             result["faces"] = facts_of(path).triangles
             done = render_to(Source(name, str(path), path.stem), picture, DEFAULTS, Notes())
-            result |= {"gas": done.report["gas"], "fits": headline(done.fits or ()).removeprefix("fits ")}
+            result |= {"gas": done.report["gas"], "fits": headline(done.fits or ())}
         except ShackledError as error:
             result["refused"] = _words(error, path)
     notes = [_words(each.message, path) for each in caught if issubclass(each.category, InputWarning)]

@@ -13,6 +13,7 @@ from typing import Any
 from ..errors import InputError
 from ..ethereum import Interface, intrinsic_gas
 from ..evm import Status
+from ..gas import quick_path_note
 from ._arguments import parse_call
 from ._document import Document, judge, judge_picture, unicode_fault
 from ._project import Compiled, Project
@@ -61,13 +62,17 @@ class Request:
 
 @dataclass
 class Token:
-    """A token. gas: of the execution and the data of the call; None if it failed. bytes: of what it returned."""
+    """A token. gas: of the execution and the data of the call; None if it failed. bytes: of what it returned.
+
+    notes: what costs gas that it need not, each in one line.
+    """
 
     number: int
     gas: int | None = None
     bytes: int = 0
     document: Document = field(default_factory=Document)
     problems: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
 
 
 class Preview:
@@ -142,7 +147,11 @@ class Preview:
         if not self.request.allow_empty and any(file and file.is_empty for file in files):
             problems.append(EMPTY)
         size = len(value.encode() if isinstance(value, str) else value)
-        return Token(number, answer.gas + intrinsic, size, document, problems + document.problems)
+        scene = self.world.scene(data)
+        note = "" if scene is None else quick_path_note(scene)
+        return Token(
+            number, answer.gas + intrinsic, size, document, problems + document.problems, [note] if note else []
+        )
 
     def _first(self) -> int:
         """Return 1 where there is no token 0, but a token 1."""
