@@ -1,5 +1,5 @@
-"""Write what the page takes from the package: web/src/creator/settings.ts, with settings, looks and limits of gas, and
-web/src/files/signatures.ts, with the beginnings of files.
+"""Write what the page takes from the package: web/src/creator/settings.ts, with settings, looks, limits of gas and
+chains, and web/src/files/signatures.ts, with the beginnings of files.
 
 python tools/page_settings.py    with --check it writes nothing, and fails if a file is not as it would be written
 """
@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from shackled.checks import Color
-from shackled.gas import limits
+from shackled.gas import known_chains, limits
 from shackled.scene import PRESETS, SETTINGS
 from shackled.scene._presets import Preset
 
@@ -39,10 +39,13 @@ export type Preset = Readonly<
         }
 >;
 
-/** How much gas a request may use, the smallest first: src/shackled/gas/limits.toml. */
+/** How much gas a request may use, the smallest first: src/shackled/gas/limits.toml, chains.toml. */
 export type Limit = Readonly<
-    Record<"name" | "node" | "source" | "date" | "remark", string> & { gas: number; kind: "transaction" | "call" }
+    Record<"name" | "place" | "source" | "date" | "remark", string> & { gas: number; kind: "transaction" | "call" }
 >;
+
+/** A chain, its currency by symbol; node: one that a wallet can use, or "": src/shackled/gas/chains.toml. */
+export type KnownChain = Readonly<Record<"name" | "currency" | "explorer" | "node", string> & { number: number }>;
 """
 SIGNATURES = """// Written by tools/page_settings.py from src/shackled/scene/_files/signatures.toml.
 
@@ -57,7 +60,7 @@ export interface Signature {
 }
 """
 #: The tables, and the types of their rows.
-TYPES = {"SETTINGS": "Setting", "PRESETS": "Preset", "LIMITS": "Limit"}
+TYPES = {"SETTINGS": "Setting", "PRESETS": "Preset", "LIMITS": "Limit", "CHAINS": "KnownChain"}
 
 
 def settings() -> list[dict[str, Any]]:
@@ -93,10 +96,12 @@ def signatures() -> str:
 
 def text() -> str:
     """Return the file of settings."""
-    names = ("name", "gas", "kind", "node", "source", "date", "remark")
+    names = ("name", "gas", "kind", "place", "source", "date", "remark")
     known = [{name: getattr(each, name) for name in names} for each in limits()]
+    names = ("number", "name", "currency", "explorer", "node")
+    chains = [{name: getattr(each, name) for name in names} for each in known_chains()]
     made = [HEAD]
-    for table, rows in zip(TYPES, (settings(), [look(each) for each in PRESETS], known), strict=True):
+    for table, rows in zip(TYPES, (settings(), [look(each) for each in PRESETS], known, chains), strict=True):
         lines = "".join(f"    {json.dumps(row, ensure_ascii=False, default=str)},\n" for row in rows)
         made.append(f"\n// prettier-ignore\nexport const {table}: readonly {TYPES[table]}[] = [\n{lines}];\n")
     return "".join(made)

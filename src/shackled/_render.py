@@ -50,9 +50,10 @@ def render(
     keep: a folder in which finished tiles are stored, so that the same call resumes; the caller removes it.
     transparent: whether to leave out the background and to return `Image.alpha`. The scene is drawn twice, over black
         and over white, so the gas is that of two pictures.
-    fit: "transaction" or "call": lower antialiasing, size and triangles as far as needed for one transaction, intrinsic
-        gas included, or for a read call of a node with geth's default settings; an InputWarning says what was done. It
-        excludes `tile` and `gas_limit`. InputError if nothing fits.
+    fit: lower antialiasing, size and triangles as far as needed for one request: "transaction" on Ethereum, intrinsic
+        gas included; one on "base", "optimism", "monad", "arbitrum" or "polygon"; or "call", a read call of a node with
+        geth's default settings. An InputWarning says what was done. It excludes `tile` and `gas_limit`. InputError if
+        nothing fits.
 
     Raises InputError for an invalid scene, ChainError if a call fails.
     """

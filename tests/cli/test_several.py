@@ -43,7 +43,7 @@ def test_a_folder_of_meshes(three: Path, jobs: str, shackled: Shackled) -> None:
         "shape.obj -> out/shape.webp",
     ]
     expected = render("models/c.obj", 16)
-    assert f": 16 x 16 pixels, {expected.gas:,} gas; fits one transaction" in lines[1]
+    assert f": 16 x 16 pixels, {expected.gas:,} gas; free to read on most nodes" in lines[1]
     with PillowImage.open("out/c.webp") as picture:
         assert picture.convert("RGB").tobytes() == expected.pixels.tobytes()
     error, summary = said.err.splitlines()

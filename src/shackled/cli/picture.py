@@ -21,7 +21,7 @@ from .._visible import why_nothing
 from ..animation import DURATION, Animation, check_duration
 from ..chain import open_chain
 from ..errors import ChainError, renaming
-from ..gas import Fit, fits_of, headline, render_call, suffices
+from ..gas import Fit, fits_as_json, fits_of, headline, render_call, suffices
 from ..image import MOST_COLORS, Image, colors, total
 from ..parallel import Listener, folder_of, remove_parts
 from ..scene import PICTURE, Scene, scene_chunk, shows_scene
@@ -142,7 +142,7 @@ class Done:
             rows["gas"] = f"{report['gas']:,}{_in_calls(report)} (and {report['intrinsic_gas']:,} to send {sent})"
         if fits is not None:
             each = f"each of its {calls} calls: " if calls > 1 else ""
-            rows["fits"] = each + headline(fits).removeprefix("fits ")
+            rows["fits"] = each + headline(fits)
         if scene is not None:
             size = f"{scene / 1024:.1f} KB"
             left_out = f"not in the file, as it takes {size}: --scene writes it"
@@ -249,7 +249,7 @@ def render_to(
         "output": STREAM if path is None else str(path),
         "sha256": digest.hexdigest(),
         "scene_bytes": written,
-        "fits": None if fits is None else [fit.to_json() for fit in fits],
+        "fits": None if fits is None else fits_as_json(fits),
         "frames": len(frames),
         "calls": made.calls,
     }

@@ -2,7 +2,7 @@ from ._arithmetic import euler, from_euler, rotate
 from ._camera import Camera, Projection
 from ._canvas import as_shown
 from ._codec import WIREFRAME, Rectangle, encode, encode_scene, render_call
-from ._decode import decode
+from ._decode import decode, read_call
 from ._effects import Background, Fog, Hemisphere, Rim, Tone
 from ._files.beside import is_inside
 from ._files.content import MAX_BYTES, format_of, is_pipe, read_pipe, stored
@@ -109,6 +109,7 @@ __all__ = [
     "pack",
     "painted",
     "part_of",
+    "read_call",
     "read_mesh",
     "read_model",
     "read_pipe",

@@ -10,7 +10,7 @@ import type { Document } from "../document.js";
 import { titleOf } from "../programs/subject.js";
 import { TRANSACTION_GAS } from "../work/protocol.js";
 import type { EditionTerms, Quote } from "../work/work.js";
-import { CHAINS, addressBook, chainName, chainsOf } from "./chains.js";
+import { ETHER_CHAINS, addressBook, chainName, chainsOf } from "./chains.js";
 import { add, planOf, termsOf, type Added, type Fields, type Plan, type Quoted } from "./edition.js";
 import { allows, rightsOf } from "./licence.js";
 import { Act, Chains, Said, TokenView, WalletLine, atMost, ether, job, perform } from "./parts.js";
@@ -205,7 +205,7 @@ function Elsewhere({ quote, chain }: { quote: Quote; chain: number }) {
             <p class="quiet">
                 Switch to a chain that has one, or deploy it: <code>shackled deploy --contracts Editions</code>
             </p>
-            <Chains of="edition" chains={found.length ? found : Object.keys(CHAINS).map(Number)} />
+            <Chains of="edition" chains={found.length ? found : ETHER_CHAINS} />
         </section>
     );
 }
