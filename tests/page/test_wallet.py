@@ -234,7 +234,7 @@ def test_licences(visitor: Visitor) -> None:
             app.assets.pieces = async () => (await all).map(each => ({ ...each, commercial: each.title !== 'Heart' }));
         })()"""
     )
-    page.run("void (app.dialog.value = null)")
+    page.run("app.closeDialog()")
     page.after(lambda: page.run("app.openPiece('icons/heart')"))
     trouble(page.dialog("edition"), "“icons/heart” must not be minted")
 
@@ -287,7 +287,7 @@ def test_two_clicks_add_once(visitor: Visitor, node: Node) -> None:
     assert dead.is_disabled()
     # whatever the button lets through, there is one thing at a time; a dialog that is opened anew knows it
     dead.evaluate("e => { e.disabled = false; e.click(); }")
-    page.run("void (app.dialog.value = null)")
+    page.run("app.closeDialog()")
     dialog = page.dialog("edition")
     dialog.get_by_text("Storing the scene (1 of 3)").wait_for()
     assert dialog.locator("[data-name=add]:enabled").count() == 0

@@ -1,5 +1,6 @@
 // The files of the page: beside it, each in gzip, or as elements of a page that is one file, in gzip and base64.
 
+import { InputError } from "../errors.js";
 import { fetchBytes } from "../evm/assets.js";
 import { inflate, isGzip } from "../evm/bytes.js";
 import { unpackPiece } from "./packed.js";
@@ -69,6 +70,14 @@ export class PageAssets {
     async piece(name: string): Promise<Record<string, unknown>> {
         return unpackPiece(await this.bytes(`pieces/${name.replace("/", "-")}`));
     }
+}
+
+/** Return a module whose code is loaded when it is needed. InputError where it cannot be had. */
+export async function loaded<T>(importing: Promise<T>): Promise<T> {
+    return importing.catch((error: unknown) => {
+        console.warn(error);
+        throw new InputError("This part of the page could not be loaded. Try again when the network is back");
+    });
 }
 
 async function load(name: string): Promise<Uint8Array<ArrayBuffer>> {

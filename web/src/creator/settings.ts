@@ -95,3 +95,9 @@ export const LIMITS: readonly Limit[] = [
     {"name": "eth_call, Besu: default of --rpc-gas-cap", "gas": 100000000, "kind": "call", "node": "Besu", "source": "https://github.com/besu-eth/besu/pull/8738", "date": "2025-06-04", "remark": "50 million before, and no limit until 2025-02"},
     {"name": "eth_call, Alchemy", "gas": 550000000, "kind": "call", "node": "Alchemy", "source": "https://www.alchemy.com/docs/reference/gas-limits-for-eth_call-and-eth_estimategas", "date": "2026-11-21", "remark": "the page bears no date: the day on which a copy of it was read"},
 ];
+
+/** The bounds of quotes, in wei per gas, and the margin of gas limits, as a fraction: src/shackled/deploy/_quote.py. */
+export const BOUNDS = { tip: 1000000000n, mostTip: 3000000000n, mostTimes: 10n, margin: [21n, 20n] } as const;
+
+/** Gas: of minting a token, besides that of its data; of a transaction that reveals, and of each round in it. */
+export const USUAL_GAS = { mint: 65000, reveal: 45000, round: 50000 } as const;

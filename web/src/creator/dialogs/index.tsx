@@ -1,11 +1,12 @@
-// The dialog that is open, if any.
+// The dialogs, which are loaded when the first is opened.
 
 import type { App, DialogName } from "../app.js";
+import { loaded } from "../assets.js";
 import { About } from "./about.js";
 import { Download } from "./download.js";
 import { Keys } from "./keys.js";
 import { Limits } from "./limits.js";
-import { Sheet, Trouble, useMade } from "./parts.js";
+import { Button, Sheet, Trouble, useMade } from "./parts.js";
 import { Things } from "./things.js";
 
 const TITLES: Record<DialogName, string> = {
@@ -20,12 +21,10 @@ const TITLES: Record<DialogName, string> = {
 };
 const CONTENTS = { download: Download, limits: Limits, keys: Keys, things: Things, about: About };
 
-export function Dialogs({ app }: { app: App }) {
-    const name = app.dialog.value;
-    if (!name) return null;
+export function Dialog({ app, name }: { app: App; name: DialogName }) {
     const Content = name === "mint" || name === "edition" || name === "reveal" ? null : CONTENTS[name];
     return (
-        <Sheet key={name} app={app} name={name} title={TITLES[name]} wide={name === "limits" || name === "download"}>
+        <Sheet app={app} name={name} title={TITLES[name]} wide={name === "limits" || name === "download"}>
             {Content ? <Content app={app} /> : <OfWallet app={app} name={name as WalletDialog} />}
         </Sheet>
     );
@@ -35,9 +34,19 @@ type WalletDialog = "mint" | "edition" | "reveal";
 
 /** A dialog of wallets, whose code is loaded when it is needed. */
 function OfWallet({ app, name }: { app: App; name: WalletDialog }) {
-    const { value, error } = useMade(async () => (await import("../wallet/dialogs.js")).DIALOGS[name], [name]);
-    if (!value)
-        return error ? <Trouble text="This part of the page could not be loaded." /> : <p class="quiet">Loading …</p>;
-    const Content = value;
-    return <Content app={app} />;
+    const {
+        value: Content,
+        error,
+        again,
+    } = useMade(async () => (await loaded(import("../wallet/dialogs.js"))).DIALOGS[name], [name]);
+    if (Content) return <Content app={app} />;
+    if (!error) return <p class="quiet">Loading …</p>;
+    return (
+        <>
+            <Trouble text={error} />
+            <Button name="retry" does={again}>
+                Try again
+            </Button>
+        </>
+    );
 }

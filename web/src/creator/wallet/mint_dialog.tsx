@@ -2,10 +2,10 @@
 
 import { useState } from "preact/hooks";
 import type { App } from "../app.js";
-import { Choices, Trouble, useMade } from "../dialogs/parts.js";
+import { Choices, useMade } from "../dialogs/parts.js";
 import { addressBook, chainName, chainsOf } from "./chains.js";
 import { TITLES, mint, offerOf, shopsOf, type Shop } from "./mint.js";
-import { Act, Chains, Said, TokenView, WalletLine, atMost, job, perform } from "./parts.js";
+import { Act, Chains, Poor, Said, TokenView, WalletLine, atMost, job, perform } from "./parts.js";
 import type { Token } from "./tokens.js";
 import { plainly, session, type Session } from "./wallet.js";
 
@@ -21,7 +21,6 @@ export function MintDialog({ app }: { app: App }) {
     return (
         <>
             <WalletLine app={app} of="mint" command={COMMAND} />
-            <Trouble text={shops.error} />
             {now && shops.value && !shop && (
                 <section>
                     <p>No collection is known on {chainName(now.chain)}.</p>
@@ -37,8 +36,11 @@ export function MintDialog({ app }: { app: App }) {
                     does={choose}
                 />
             )}
-            {now && shop && <Shelf key={`${now.chain} ${shop.contract}`} now={now} shop={shop} />}
-            <Said of="mint" />
+            {now && shop ? (
+                <Shelf key={`${now.chain} ${shop.contract}`} now={now} shop={shop} />
+            ) : (
+                <Said of="mint" made={shops} />
+            )}
         </>
     );
 }
@@ -70,34 +72,37 @@ function Shelf({ now, shop }: { now: Session; shop: Shop }) {
         if (found) perform("mint", async (tell) => setToken(await mint(found, tell)));
     };
     return (
-        <section class="take" data-name="offer">
-            {found?.image ? <img class="pixels" src={found.image} alt={found.words} /> : <span />}
-            <div>
-                {shop.kinds && (
-                    <label class="named">
-                        {shop.contract === "Editions" ? "Edition" : "Icon"}
-                        <select
-                            class="field"
-                            name="number"
-                            value={number}
-                            onChange={({ currentTarget: { value } }) => setNumber(Number(value))}
-                        >
-                            {shop.kinds.map((each) => (
-                                <option key={each.number} value={each.number} children={each.name} />
-                            ))}
-                        </select>
-                    </label>
-                )}
-                {found && (
-                    <p data-name="cost">
-                        {found.words} With gas, at most <b>{atMost(found.most)}</b> in total.
-                    </p>
-                )}
-                <Trouble text={offer.error} />
-                <Act name="mint" look="main" off={!found} does={start}>
-                    Mint one token
-                </Act>
-            </div>
-        </section>
+        <>
+            <section class="take" data-name="offer">
+                {found?.image ? <img class="pixels" src={found.image} alt={found.words} /> : <span />}
+                <div>
+                    {shop.kinds && (
+                        <label class="named">
+                            {shop.contract === "Editions" ? "Edition" : "Icon"}
+                            <select
+                                class="field"
+                                name="number"
+                                value={number}
+                                onChange={({ currentTarget: { value } }) => setNumber(Number(value))}
+                            >
+                                {shop.kinds.map((each) => (
+                                    <option key={each.number} value={each.number} children={each.name} />
+                                ))}
+                            </select>
+                        </label>
+                    )}
+                    {found && (
+                        <p data-name="cost">
+                            {found.words} With gas, at most <b>{atMost(found.most)}</b> in total.
+                        </p>
+                    )}
+                    {found && <Poor {...found} />}
+                    <Act name="mint" look="main" off={!found || found.balance < found.most} does={start}>
+                        Mint one token
+                    </Act>
+                </div>
+            </section>
+            <Said of="mint" made={offer} />
+        </>
     );
 }
