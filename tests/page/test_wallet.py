@@ -57,7 +57,7 @@ Lie = Callable[[Any, list[Any], "Node"], Any]
 class Node:
     """A node, and a wallet before it. sent: the transactions. lies: what is made of the answer to a method.
 
-    declined: methods that the owner of the wallet refuses.
+    declined: methods that the owner of the wallet refuses. is_down: whether the wallet does not reach the node.
     """
 
     def __init__(self, node: Anvil, owner: Transactor, genesis: Collection) -> None:
@@ -72,6 +72,7 @@ class Node:
         self.asked: list[str] = []
         self.sent: list[dict[str, str]] = []
         self.known = {CHAIN, 1}
+        self.is_down = False
 
     @property
     def address(self) -> str:
@@ -82,6 +83,8 @@ class Node:
         self.asked.append(method)
         if method in self.declined:
             return {"error": "User denied transaction signature.", "code": 4001}
+        if self.is_down and method not in ("eth_accounts", "eth_chainId"):
+            return {"error": "Failed to fetch", "code": -32603}
         result: Any = None
         match method:
             case "eth_accounts" | "eth_requestAccounts":
@@ -383,6 +386,92 @@ def test_wallets_that_lie_or_change(visitor: Visitor, node: Node, method: str, l
     if sent == 3:
         dialog.locator("[data-name=again]:enabled").wait_for()
         assert dialog.locator("[data-name=add]").count() == 0
+
+
+def test_a_node_that_fails_takes_no_button_away(visitor: Visitor, node: Node) -> None:
+    page = visitor()
+    dialog = connected(page, "edition")
+    button, cost = (dialog.locator(f"[data-name={name}]") for name in ("add", "cost"))
+    told = cost.inner_text()
+    for name in ("add", "retry"):
+        node.is_down = True
+        press(dialog, name)
+        dialog.locator("[data-name=retry]:enabled").wait_for()
+        assert dialog.locator(".trouble").all_inner_texts() == [
+            "The node of the wallet does not answer (Failed to fetch)"
+        ]
+        assert (button.is_disabled(), cost.inner_text()) == (True, told)
+    # what was seen is not said again, by a dialog that finds the node
+    page.close()
+    node.is_down = False
+    dialog = page.dialog("edition")
+    dialog.locator("[data-name=add]:enabled").wait_for()
+    assert dialog.locator(".trouble").count() == 0
+    node.is_down = True
+    press(dialog, "add")
+    dialog.locator("[data-name=retry]:enabled").wait_for()
+    node.is_down = False
+    press(dialog, "retry")
+    press(dialog, "add")
+    dialog.locator("[data-name=token]").wait_for()
+    assert len(node.sent) == 3
+    # so it is where a token is minted
+    node.is_down = True
+    page.close()
+    dialog = page.dialog("mint")
+    trouble(dialog, "The node of the wallet does not answer")
+    node.is_down = False
+    press(dialog, "retry")
+    press(dialog, "mint")
+    dialog.get_by_text("Minted: token 1").wait_for()
+
+
+BASE = {"baseFeePerGas": hex(2**255)}
+#: What a node says of prices, and what the page then says.
+PRICES: tuple[tuple[str, Lie, str], ...] = (
+    (
+        "eth_maxPriorityFeePerGas",
+        lambda *_: hex(3 * 10**9 + 1),
+        "a tip of 3.000000001 gwei per unit of gas, more than 3",
+    ),
+    (
+        "eth_maxPriorityFeePerGas",
+        lambda *_: hex(10**13),
+        "a tip of 10000 gwei per unit of gas, more than 3: nothing is",
+    ),
+    ("eth_estimateGas", lambda *_: hex(10**12), "The wallet expects 1000000000000 gas, where"),
+    ("eth_getBlockByNumber", lambda block, asked, _: block | BASE if asked[0] == "latest" else block, "less than that"),
+)
+
+
+@pytest.mark.parametrize(("name", "button"), [("edition", "add"), ("mint", "mint"), ("reveal", "send")])
+def test_prices_that_are_not_plausible(visitor: Visitor, node: Node, name: str, button: str) -> None:
+    mine(node, missing=0)
+    page = visitor(book=node.book)
+    dialog = connected(page, name)
+
+    def ask() -> None:
+        if name == "mint":
+            dialog.get_by_role("radio", name="Genesis").check(force=True)
+        elif name == "reveal":
+            press(dialog, "find")
+
+    for method, lie, words in PRICES:
+        node.lies = {method: lie}
+        page.close()
+        dialog = page.dialog(name)
+        ask()
+        trouble(dialog, words)
+        assert dialog.locator(f"[data-name={button}]:enabled").count() == 0
+    node.lies = {
+        "eth_maxPriorityFeePerGas": lambda *_: hex(3 * 10**9),
+        "eth_estimateGas": lambda gas, *_: hex(2 * int(gas, 16)),
+    }
+    page.close()
+    dialog = page.dialog(name)
+    ask()
+    dialog.locator(f"[data-name={button}]:enabled").wait_for()
+    assert node.sent == []
 
 
 def test_another_picture_is_told(visitor: Visitor, node: Node) -> None:

@@ -74,9 +74,13 @@ export class PageAssets {
 
 /** Return a module whose code is loaded when it is needed. InputError where it cannot be had. */
 export async function loaded<T>(importing: Promise<T>): Promise<T> {
-    return importing.catch((error: unknown) => {
+    return importing.catch(async (error: unknown) => {
+        // Firefox keeps that a module could not be had: by another address it is asked for again
+        const address = /https?:\S+\.js/.exec(String(error))?.[0];
+        const again = address && (await import(`${address}?${Date.now()}`).catch(() => null));
+        if (again) return again as T;
         console.warn(error);
-        throw new InputError("This part of the page could not be loaded. Try again when the network is back");
+        throw new InputError("A part of the page could not be loaded: try again when the network is back");
     });
 }
 

@@ -1,10 +1,10 @@
 // Files that people open: mesh files, scene files, pictures with their scene, calls, and ZIP files of them.
 
-import { unzipSync } from "fflate";
 import { InputError } from "../errors.js";
 import { documentOfScene, type Library, type Made } from "../creator/save.js";
 import { decodeCall } from "../scene/decode.js";
 import { readFile } from "../view/source.js";
+import { unzipped } from "./inflate.js";
 import { readOff } from "./off.js";
 import { partsOf, type Part, type Triangles } from "./parts.js";
 import { readPly } from "./ply.js";
@@ -163,15 +163,12 @@ function unpacked(files: readonly Given[]): Given[] {
         if (extensionOf(file.name) !== ".zip") return [{ ...file, name: file.name.replaceAll("\\", "/") }];
         let count = 0;
         try {
-            const entries = unzipSync(file.bytes, {
-                filter: ({ name, originalSize }) => {
-                    if (/\/$|(^|\/)(__MACOSX|\.[^/]*)/.test(name)) return false;
-                    if (++count > MOST_FILES) throw new InputError(`A ZIP file may hold up to ${MOST_FILES} files.`);
-                    add(originalSize);
-                    return true;
-                },
+            return unzipped(file.bytes, (name, size) => {
+                if (/\/$|(^|\/)(__MACOSX|\.[^/]*)/.test(name)) return false;
+                if (++count > MOST_FILES) throw new InputError(`A ZIP file may hold up to ${MOST_FILES} files.`);
+                add(size);
+                return true;
             });
-            return Object.entries(entries).map(([name, bytes]) => ({ name, bytes: new Uint8Array(bytes) }));
         } catch (error) {
             if (error instanceof InputError) throw error;
             throw new InputError(
