@@ -46,6 +46,12 @@ def test_the_shelf(visit: Visit) -> None:
     assert len(page.doc()["objects"]) == 2
     page.after(page.click("piece-teapot"))
     assert len(page.doc()["objects"]) == 1
+    # in its own shape, so that nothing of it is cut off
+    shown = page.after(lambda: page.run("app.openPiece('showcase/wires')"))
+    wires = shackled.load(SCENES["wires"](), size=(48, 36), antialias=False)
+    assert shown == shackled.render(wires).pixels.tobytes()
+    page.after(page.click("piece-teapot"))
+    assert (page.doc()["width"], page.doc()["height"]) == (48, 48)
     # every piece is that of the package, number for number
     names = page.run("(await app.assets.pieces()).map(each => each.name)")
     assert {"icons/diamond", "teapot", "showcase/glass"} <= set(names)

@@ -191,8 +191,15 @@ export class App {
 
     async #open(piece: Document, add: boolean): Promise<void> {
         const now = this.doc.peek();
-        const { width, height, antialias } = now;
-        if (!add) return this.openDocument({ ...piece, width, height, antialias }, `Open ${piece.title}`);
+        if (!add) {
+            // in its own shape, as large as the picture before
+            const scale = Math.max(now.width, now.height) / Math.max(piece.width, piece.height);
+            const [width, height] = [piece.width, piece.height].map((side) => Math.round(scale * side)) as [
+                number,
+                number,
+            ];
+            return this.openDocument({ ...piece, width, height, antialias: now.antialias }, `Open ${piece.title}`);
+        }
         this.addObjects(fitted(withPiece(now, piece, this.meshes), this.meshes), `Add ${piece.title}`);
     }
 
@@ -278,7 +285,7 @@ export class App {
 
     /** Show a sentence for some seconds. */
     tell(text: string): void {
-        this.#say(capital(text), "note");
+        this.#say(text, "note");
     }
 
     /** Show an error. */

@@ -3,6 +3,7 @@
 import { InputError } from "../errors.js";
 import { documentOfScene, type Library, type Made } from "../creator/save.js";
 import { decodeCall } from "../scene/decode.js";
+import type { Scene } from "../scene/types.js";
 import { readFile } from "../view/source.js";
 import { unzipped } from "./inflate.js";
 import { readOff } from "./off.js";
@@ -66,12 +67,7 @@ export async function readFiles(files: readonly Given[], options: Options): Prom
             .find(({ length }) => length) ?? [];
     if (scenes.length > 1) throw new InputError(`Open one scene at a time: ${namesOf(scenes)} are ${scenes.length}.`);
     const shown = scenes.length ? scenes : meshes;
-    if (!shown.length) {
-        const known = [...MESHES, ...SCENES.slice(0, 2).flat()].join(", ");
-        throw new InputError(
-            `${files.length ? `${namesOf(folder)} cannot be shown` : "There is no file to open"}. Known are ${known} and .zip files of them.`,
-        );
-    }
+    if (!shown.length) throw unknown(folder);
     const notes: string[] = [];
     const sources = shown.map((file): Source => {
         const tell = (note: string): void => void notes.push(`${baseOf(file.name)}: ${note}`);
@@ -87,16 +83,26 @@ function noDraco(): Promise<never> {
     throw new InputError("it is compressed with Draco, whose decoder is not here");
 }
 
+/** Return the error for files of which none is of a known kind. */
+function unknown(files: readonly Given[]): InputError {
+    const kind = files.length > 1 ? "These are no 3D files" : "This is no 3D file";
+    const what = files.length ? `${kind}: ${namesOf(files)}` : "There is no file to open";
+    const known = [...MESHES, ...SCENES.slice(0, 2).flat()].join(", ");
+    return new InputError(`${what}. Known are ${known} and .zip files of them.`);
+}
+
 async function openScene(source: Source, { library, onProgress }: Options): Promise<Made> {
     onProgress?.(`Reading ${baseOf(source.name)}`);
     const title = titleOf(source);
     return said(source, async () => {
         if (SCENES[0].includes(extensionOf(source.name))) return readScene(source, library, readMesh);
-        const call = await readFile(source.bytes).catch((error: Error) => {
+        const read = async (): Promise<Scene> => decodeCall(await readFile(source.bytes));
+        const scene = await read().catch((error: Error) => {
+            if (/must begin with the selector/.test(error.message)) throw unknown([source]);
             if (!/carries no scene/.test(error.message)) throw error;
             throw new InputError("This PNG was not made by Shackled: it holds no scene.");
         });
-        return documentOfScene(decodeCall(call), { title });
+        return documentOfScene(scene, { title });
     });
 }
 
