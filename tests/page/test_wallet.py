@@ -360,7 +360,7 @@ def meanwhile(**changes: Any) -> Callable[[Any, list[Any], Node], Any]:
         ("eth_getCode", lambda code, *_: code[:-2] + "00", "has no collection of editions", 0),
         ("eth_requestAccounts", lambda *_: [7], "The wallet gives no account", 0),
         ("eth_chainId", lambda *_: "many", "which is no number", 0),
-        ("eth_estimateGas", lambda *_: hex(10**9), "The wallet expects 1000000000 gas, where", 0),
+        ("eth_estimateGas", lambda *_: hex(10**9), "The wallet expects 1,000,000,000 gas, where", 0),
         ("eth_getBalance", lambda *_: "0x5", "The account has 0.000000000000000005 ether, less than that", 0),
         ("eth_sendTransaction", lambda *_: 7, "The wallet does not say what it sent", 1),
         ("eth_sendTransaction", meanwhile(chain=1), "The wallet is on Ethereum now: nothing more was sent", 1),
@@ -439,7 +439,7 @@ PRICES: tuple[tuple[str, Lie, str], ...] = (
         lambda *_: hex(10**13),
         "a tip of 10000 gwei per unit of gas, more than 3: nothing is",
     ),
-    ("eth_estimateGas", lambda *_: hex(10**12), "The wallet expects 1000000000000 gas, where"),
+    ("eth_estimateGas", lambda *_: hex(10**12), "The wallet expects 1,000,000,000,000 gas, where"),
     ("eth_getBlockByNumber", lambda block, asked, _: block | BASE if asked[0] == "latest" else block, "less than that"),
 )
 

@@ -44,9 +44,11 @@ function OfWallet({ app, name }: { app: App; name: WalletDialog }) {
     return (
         <>
             <Trouble text={error} />
-            <Button name="retry" does={again}>
-                Try again
-            </Button>
+            <div class="scales">
+                <Button name="retry" does={again}>
+                    Try again
+                </Button>
+            </div>
         </>
     );
 }

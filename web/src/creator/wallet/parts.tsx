@@ -47,9 +47,11 @@ export function Said({ of, made }: { of: DialogName; made?: Remade<unknown> }) {
             )}
             {made?.error && made.error !== words && <Trouble text={made.error} />}
             {made?.error && (
-                <Act name="retry" does={again}>
-                    Try again
-                </Act>
+                <div class="scales">
+                    <Act name="retry" does={again}>
+                        Try again
+                    </Act>
+                </div>
             )}
         </>
     );

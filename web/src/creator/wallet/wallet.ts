@@ -161,9 +161,8 @@ export async function estimate(from: Session, call: Omit<Call, "gas">, counted: 
     const { to, data, value = 0n } = call;
     const expected = await number(from.client, "eth_estimateGas", { from: from.account, to, data, value: hex(value) });
     if (expected <= BOUNDS.mostTimes * counted) return expected;
-    throw new InputError(
-        `The wallet expects ${expected} gas, where ${counted} were counted here: nothing is sent. ${UNUSUAL}`,
-    );
+    const [gas, own] = [expected, counted].map((number) => number.toLocaleString("en"));
+    throw new InputError(`The wallet expects ${gas} gas, where ${own} were counted here: nothing is sent. ${UNUSUAL}`);
 }
 
 /** Return gas with a margin, since the state of the chain changes. */
