@@ -115,13 +115,9 @@ const builds = {
         const chunkNames = "chunks/[name]-[hash]";
         const { metafile } = await build({ ...page, splitting: true, chunkNames, outdir: folder });
         const loaded = loadedBy(relative(".", `${folder}/creator.js`), metafile.outputs);
-        for (const path of Object.keys(metafile.outputs)) {
-            if (loaded.has(path) || path.endsWith(".css")) continue;
-            rmSync(path);
-            delete metafile.outputs[path];
-        }
-        const inputs = Object.values(metafile.outputs).map((output) => output.inputs);
-        writeNotices(Object.assign({}, ...inputs, insideWorkers), `${folder}/LICENSES.txt`);
+        for (const path of Object.keys(metafile.outputs)) if (/js$/.test(path) && !loaded.has(path)) rmSync(path);
+        const inputs = { ...metafile.inputs, ...insideWorkers };
+        writeNotices(inputs, `${folder}/LICENSES.txt`);
         writeFileSync(`${folder}/meta.json`, JSON.stringify(metafile));
         await build({ ...page, outdir: `${folder}/one` });
     },

@@ -24,12 +24,10 @@ test("what is deflated is inflated as far as it may be", async () => {
     const message = { name: "InputError", message: "too much" };
     assert.ok(2 * processorTime(() => assert.throws(() => inflated(BOMB, 1 << 20, "too much"), message)) < WHOLE);
     const content = Uint8Array.from({ length: 100_000 }, (_, at) => Math.sin(at * at) * 256);
-    for (const bytes of [content, content.subarray(0, 1), new Uint8Array(1 << 20)]) {
-        const packed = deflateRawSync(bytes);
-        assert.deepEqual(inflated(packed, bytes.length, ""), Uint8Array.from(bytes));
-        assert.throws(() => inflated(packed, bytes.length - 1, "too much"), message);
-        assert.throws(() => inflated(packed.subarray(0, -1), bytes.length, "too much"), /unexpected EOF/);
-    }
+    const packed = deflateRawSync(content);
+    assert.deepEqual(inflated(packed, content.length, ""), content);
+    assert.throws(() => inflated(packed, content.length - 1, "too much"), message);
+    assert.throws(() => inflated(packed.subarray(0, -1), content.length, ""), /unexpected EOF/);
     const link = `#1${BOMB.toString("base64url")}`;
     const refused = { name: "InputError", message: "The link holds more than 4,194,304 bytes" };
     const before = process.cpuUsage();
@@ -38,19 +36,12 @@ test("what is deflated is inflated as far as it may be", async () => {
 });
 
 test("ZIP files are read as fflate does, but for those that lie", async () => {
-    const files = {
-        "a/ä.txt": strToU8("one ".repeat(9999)),
-        "b.bin": Uint8Array.of(1, 2, 3),
-        "none.txt": new Uint8Array(),
-    };
+    const files = { "a/ä.txt": strToU8("one ".repeat(9999)), "b.bin": Uint8Array.of(1, 2), "c.txt": new Uint8Array() };
     for (const level of [0, 9] as const) {
         const zip = zipSync(files, { level, comment: "PK" });
         const found = unzipped(Uint8Array.from(zip), (name) => name !== "b.bin");
-        const expected = Object.entries(unzipSync(zip)).filter(([name]) => name !== "b.bin");
-        assert.deepEqual(
-            found.map(({ name, bytes }) => [name, bytes]),
-            expected,
-        );
+        const expected = Object.entries(unzipSync(zip)).map(([name, bytes]) => ({ name, bytes }));
+        assert.deepEqual(found, [expected[0], expected[2]]);
     }
     const zip = Uint8Array.from(zipSync({ "a.obj": BOMB }, { level: 0 }));
     const [local, entry] = [0, zip.length - 22 - 46 - 5];
@@ -64,19 +55,13 @@ test("ZIP files are read as fflate does, but for those that lie", async () => {
         message: "a.obj in the ZIP file is larger than it says.",
     });
     assert.ok(process.cpuUsage(before).user < WHOLE);
-    const damaged: [number, number, RegExp][] = [
+    for (const [at, value, words] of [
         [zip.length - 22, 0, /no directory/],
         [entry, 0, /directory is damaged/],
         [entry + 8, 1, /encrypted/],
         [entry + 10, 12, /by method 12/],
-        [zip.length - 6, 0xffffffff, /outside the bounds/],
-    ];
-    for (const [at, value, words] of damaged) {
-        const bytes = zip.slice();
-        bytes[at] = value;
-        if (value > 255) new DataView(bytes.buffer).setUint32(at, value);
-        assert.throws(() => unzipped(bytes, () => true), words);
-    }
+    ] as const)
+        assert.throws(() => unzipped(zip.with(at, value), () => true), words);
 });
 
 test("a node that says that there are endless editions", async () => {

@@ -42,7 +42,7 @@ export interface Toast {
 /** A dialog: its name, and the component that shows it. */
 export interface OpenDialog {
     name: DialogName;
-    Dialog: ComponentType<{ app: App; name: DialogName }>;
+    Dialog: ComponentType<{ app: App }>;
 }
 export type DialogName = "download" | "limits" | "keys" | "things" | "about" | "mint" | "edition" | "reveal";
 
@@ -82,7 +82,7 @@ export class App {
     /** Ends the opening of files or a piece when others are opened: the last are shown. */
     #opening = new AbortController();
     #toast = 0;
-    #dialogs: typeof import("./dialogs/index.js") | undefined;
+    readonly #dialogs: Partial<Record<DialogName, OpenDialog["Dialog"] | undefined>> = {};
     /** The dialog that was asked for last. */
     #asked: DialogName | null = null;
 
@@ -221,11 +221,12 @@ export class App {
         });
     }
 
-    /** Open a dialog in place of another. It is open once its code is there, which is loaded for the first one. */
+    /** Open a dialog in place of another. It is open once its code is there. */
     async openDialog(name: DialogName): Promise<void> {
         this.#asked = name;
-        this.#dialogs ??= await this.run("Opening", () => loaded(import("./dialogs/index.js")));
-        if (this.#dialogs && this.#asked === name) this.#dialog.value = { name, Dialog: this.#dialogs.Dialog };
+        const load = async () => (await loaded(import("./dialogs/index.js"))).dialogOf(name);
+        const Dialog = (this.#dialogs[name] ??= await this.run("Opening", load));
+        if (Dialog && this.#asked === name) this.#dialog.value = { name, Dialog };
     }
 
     closeDialog(): void {

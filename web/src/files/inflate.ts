@@ -3,6 +3,7 @@
 import { Inflate } from "fflate";
 import { InputError } from "../errors.js";
 import { joined } from "../evm/bytes.js";
+import type { Given } from "./source.js";
 
 /** Deflated bytes that are inflated at a time, to at most some thousand times as many. */
 const STEP = 1 << 13;
@@ -29,24 +30,20 @@ export function inflated(
 }
 
 /** Return names and bytes of the files in a ZIP file. takes: whether one is wanted, by its name and size. Error where it is damaged. */
-export function unzipped(
-    zip: Uint8Array<ArrayBuffer>,
-    takes: (name: string, size: number) => boolean,
-): { name: string; bytes: Uint8Array<ArrayBuffer> }[] {
+export function unzipped(zip: Uint8Array<ArrayBuffer>, takes: (name: string, size: number) => boolean): Given[] {
     const view = new DataView(zip.buffer, zip.byteOffset, zip.length);
     const [half, word] = [(at: number) => view.getUint16(at, true), (at: number) => view.getUint32(at, true)];
     // a comment may follow
     let end = zip.length - END_SIZE;
     while (end >= 0 && word(end) !== END) end--;
     if (end < 0) throw new Error("it has no directory");
-    const found: { name: string; bytes: Uint8Array<ArrayBuffer> }[] = [];
+    const found: Given[] = [];
     for (let left = half(end + 10), at = word(end + 16); left > 0; left--) {
         if (word(at) !== ENTRY) throw new Error("its directory is damaged");
         const [flags, method, packed, size] = [half(at + 8), half(at + 10), word(at + 20), word(at + 24)];
-        const [names, more, comment, local] = [half(at + 28), half(at + 30), half(at + 32), word(at + 42)];
-        const letters = new TextDecoder(flags & 0x800 ? "utf-8" : "windows-1252");
-        const name = letters.decode(zip.subarray(at + 46, at + 46 + names));
-        at += 46 + names + more + comment;
+        const [local, next] = [word(at + 42), at + 46 + half(at + 28)];
+        const name = new TextDecoder(flags & 0x800 ? "utf-8" : "latin1").decode(zip.subarray(at + 46, next));
+        at = next + half(at + 30) + half(at + 32);
         if (!takes(name, size)) continue;
         if (flags & 1) throw new Error("its files are encrypted");
         const from = local + 30 + half(local + 26) + half(local + 28);

@@ -1,12 +1,13 @@
-// The dialogs, which are loaded when the first is opened.
+// The dialogs.
 
+import type { ComponentType } from "preact";
 import type { App, DialogName } from "../app.js";
 import { loaded } from "../assets.js";
 import { About } from "./about.js";
 import { Download } from "./download.js";
 import { Keys } from "./keys.js";
 import { Limits } from "./limits.js";
-import { Button, Sheet, Trouble, useMade } from "./parts.js";
+import { Sheet } from "./parts.js";
 import { Things } from "./things.js";
 
 const TITLES: Record<DialogName, string> = {
@@ -21,34 +22,13 @@ const TITLES: Record<DialogName, string> = {
 };
 const CONTENTS = { download: Download, limits: Limits, keys: Keys, things: Things, about: About };
 
-export function Dialog({ app, name }: { app: App; name: DialogName }) {
-    const Content = name === "mint" || name === "edition" || name === "reveal" ? null : CONTENTS[name];
-    return (
+/** Return a dialog, whose code is loaded when it is needed. InputError where it cannot be had. */
+export async function dialogOf(name: DialogName): Promise<ComponentType<{ app: App }>> {
+    const isOfWallet = name === "mint" || name === "edition" || name === "reveal";
+    const Content = isOfWallet ? (await loaded(import("../wallet/dialogs.js"))).DIALOGS[name] : CONTENTS[name];
+    return ({ app }) => (
         <Sheet app={app} name={name} title={TITLES[name]} wide={name === "limits" || name === "download"}>
-            {Content ? <Content app={app} /> : <OfWallet app={app} name={name as WalletDialog} />}
+            <Content app={app} />
         </Sheet>
-    );
-}
-
-type WalletDialog = "mint" | "edition" | "reveal";
-
-/** A dialog of wallets, whose code is loaded when it is needed. */
-function OfWallet({ app, name }: { app: App; name: WalletDialog }) {
-    const {
-        value: Content,
-        error,
-        again,
-    } = useMade(async () => (await loaded(import("../wallet/dialogs.js"))).DIALOGS[name], [name]);
-    if (Content) return <Content app={app} />;
-    if (!error) return <p class="quiet">Loading …</p>;
-    return (
-        <>
-            <Trouble text={error} />
-            <div class="scales">
-                <Button name="retry" does={again}>
-                    Try again
-                </Button>
-            </div>
-        </>
     );
 }

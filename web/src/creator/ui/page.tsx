@@ -49,7 +49,7 @@ export function Page({ app }: { app: App }) {
                     Drop files to open them
                 </div>
             )}
-            {open && <open.Dialog key={open.name} app={app} name={open.name} />}
+            {open && <open.Dialog key={open.name} app={app} />}
         </div>
     );
 }

@@ -72,37 +72,35 @@ function Shelf({ now, shop }: { now: Session; shop: Shop }) {
         if (found) perform("mint", async (tell) => setToken(await mint(found, tell)));
     };
     return (
-        <>
-            <section class="take" data-name="offer">
-                {found?.image ? <img class="pixels" src={found.image} alt={found.words} /> : <span />}
-                <div>
-                    {shop.kinds && (
-                        <label class="named">
-                            {shop.contract === "Editions" ? "Edition" : "Icon"}
-                            <select
-                                class="field"
-                                name="number"
-                                value={number}
-                                onChange={({ currentTarget: { value } }) => setNumber(Number(value))}
-                            >
-                                {shop.kinds.map((each) => (
-                                    <option key={each.number} value={each.number} children={each.name} />
-                                ))}
-                            </select>
-                        </label>
-                    )}
-                    {found && (
-                        <p data-name="cost">
-                            {found.words} With gas, at most <b>{atMost(found.most)}</b> in total.
-                        </p>
-                    )}
-                    {found && <Poor {...found} />}
-                    <Act name="mint" look="main" off={!found || found.balance < found.most} does={start}>
-                        Mint one token
-                    </Act>
-                </div>
-            </section>
-            <Said of="mint" made={offer} />
-        </>
+        <section class="take" data-name="offer">
+            {found?.image ? <img class="pixels" src={found.image} alt={found.words} /> : <span />}
+            <div>
+                {shop.kinds && (
+                    <label class="named">
+                        {shop.contract === "Editions" ? "Edition" : "Icon"}
+                        <select
+                            class="field"
+                            name="number"
+                            value={number}
+                            onChange={({ currentTarget: { value } }) => setNumber(Number(value))}
+                        >
+                            {shop.kinds.map((each) => (
+                                <option key={each.number} value={each.number} children={each.name} />
+                            ))}
+                        </select>
+                    </label>
+                )}
+                {found && (
+                    <p data-name="cost">
+                        {found.words} With gas, at most <b>{atMost(found.most)}</b> in total.
+                    </p>
+                )}
+                {found && <Poor {...found} />}
+                <Act name="mint" look="main" off={!found || found.balance < found.most} does={start}>
+                    Mint one token
+                </Act>
+                <Said of="mint" made={offer} />
+            </div>
+        </section>
     );
 }

@@ -54,9 +54,8 @@ const PAUSE = 1000;
 const PATIENCE = 240_000;
 /** What helps where the chain itself is unusual. */
 const UNUSUAL = "If that is right on this chain, use the command shackled with --max-fee";
-/** Codes of errors: the visitor said no (EIP-1193, WalletConnect); no chain is reached; the chain is not known (EIP-3326). */
+/** Codes of errors: the visitor said no (EIP-1193, WalletConnect); the chain is not known (EIP-3326). */
 const DECLINED = [4001, 5000];
-const DISCONNECTED = [4900, 4901];
 const UNKNOWN_CHAIN = [4902];
 /** What is said where a node cannot be reached: by browsers, wallets and viem. */
 const UNREACHED =
@@ -261,8 +260,7 @@ function hasCode(error: unknown, codes: readonly number[]): boolean {
 export function wordsOf(error: unknown): string {
     if (error instanceof BaseError) {
         const words = oneLine(error.details || error.shortMessage).slice(0, 200);
-        const isUnreached = UNREACHED.test(words) || hasCode(error, DISCONNECTED);
-        return isUnreached ? `The node of the wallet does not answer (${words})` : words;
+        return UNREACHED.test(words) ? `The node of the wallet does not answer (${words})` : words;
     }
     return error instanceof Error ? error.message : String(error);
 }
