@@ -1,5 +1,5 @@
-"""Write what the page takes from the package: web/src/creator/settings.ts, with settings, looks, limits of gas and
-chains, and web/src/files/signatures.ts, with the beginnings of files.
+"""Write what the page takes from the package: web/src/creator/settings.ts, with settings, looks, limits of gas, chains,
+and bounds of what transactions cost; and web/src/files/signatures.ts, with the beginnings of files.
 
 python tools/page_settings.py    with --check it writes nothing, and fails if a file is not as it would be written
 """
@@ -15,9 +15,12 @@ from pathlib import Path
 from typing import Any
 
 from shackled.checks import Color
+from shackled.deploy import _quote
 from shackled.gas import known_chains, limits
 from shackled.scene import PRESETS, SETTINGS
 from shackled.scene._presets import Preset
+from shackled.tokens._contract import USUAL_GAS
+from shackled.tokens._reveal import FIRST_GAS, REVEAL_GAS
 
 SOURCES = Path(__file__).resolve().parent.parent / "web" / "src"
 HEAD = """// Written by tools/page_settings.py from the tables of the Python package.
@@ -104,7 +107,22 @@ def text() -> str:
     for table, rows in zip(TYPES, (settings(), [look(each) for each in PRESETS], known, chains), strict=True):
         lines = "".join(f"    {json.dumps(row, ensure_ascii=False, default=str)},\n" for row in rows)
         made.append(f"\n// prettier-ignore\nexport const {table}: readonly {TYPES[table]}[] = [\n{lines}];\n")
+    made.append(bounds())
     return "".join(made)
+
+
+def bounds() -> str:
+    """Return the bounds of what transactions cost, and the gas of those whose gas is not measured here."""
+    tips = f"tip: {_quote.TIP}n, mostTip: {_quote.MOST_TIP}n"
+    margin = ", ".join(f"{number}n" for number in _quote.MARGIN)
+    gas = f"mint: {USUAL_GAS['mint']}, reveal: {FIRST_GAS}, round: {REVEAL_GAS}"
+    return f"""
+/** The bounds of quotes, in wei per gas, and the margin of gas limits, as a fraction: src/shackled/deploy/_quote.py. */
+export const BOUNDS = {{ {tips}, mostTimes: {_quote.MOST_TIMES}n, margin: [{margin}] }} as const;
+
+/** Gas: of minting a token, besides that of its data; of a transaction that reveals, and of each round in it. */
+export const USUAL_GAS = {{ {gas} }} as const;
+"""
 
 
 def _hex(color: Color) -> str:

@@ -116,3 +116,9 @@ export const CHAINS: readonly KnownChain[] = [
     {"number": 560048, "name": "Hoodi", "currency": "ETH", "explorer": "https://hoodi.etherscan.io", "node": "https://rpc.hoodi.ethpandaops.io"},
     {"number": 31337, "name": "a development chain", "currency": "ETH", "explorer": "", "node": "http://127.0.0.1:8545"},
 ];
+
+/** The bounds of quotes, in wei per gas, and the margin of gas limits, as a fraction: src/shackled/deploy/_quote.py. */
+export const BOUNDS = { tip: 1000000000n, mostTip: 3000000000n, mostTimes: 10n, margin: [21n, 20n] } as const;
+
+/** Gas: of minting a token, besides that of its data; of a transaction that reveals, and of each round in it. */
+export const USUAL_GAS = { mint: 65000, reveal: 45000, round: 50000 } as const;

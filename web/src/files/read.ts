@@ -1,11 +1,12 @@
 // Files that people open: mesh files, scene files, pictures with their scene, calls, and ZIP files of them.
 
-import { unzipSync } from "fflate";
 import { InputError } from "../errors.js";
 import { documentOfScene, type Library, type Made } from "../creator/save.js";
 import { decodeCall } from "../scene/decode.js";
+import type { Scene } from "../scene/types.js";
 import { readFile } from "../view/source.js";
 import { Images } from "./images.js";
+import { unzipped } from "./inflate.js";
 import { contentOf, formatOf, gunzipped, namedFormat } from "./kinds.js";
 import { readOff } from "./off.js";
 import { partsOf, type Part, type Triangles } from "./parts.js";
@@ -72,10 +73,7 @@ export async function readFiles(files: readonly Given[], options: Options): Prom
     const shown = scenes.length ? scenes : meshes;
     if (!shown.length) {
         for (const file of folder) await said(file, async () => contentOf({ ...file, tell: () => undefined }));
-        const known = [...MESHES, ...SCENES.slice(0, 2).flat()].join(", ");
-        throw new InputError(
-            `${files.length ? `${namesOf(folder)} cannot be shown` : "There is no file to open"}. Known are ${known} and .zip files of them.`,
-        );
+        throw unknown(folder);
     }
     const notes: string[] = [];
     const images = new Images();
@@ -93,17 +91,27 @@ function noDraco(): Promise<never> {
     throw new InputError("it is compressed with Draco, whose decoder is not here");
 }
 
+/** Return the error for files of which none is of a known kind. */
+function unknown(files: readonly Given[]): InputError {
+    const kind = files.length > 1 ? "These are no 3D files" : "This is no 3D file";
+    const what = files.length ? `${kind}: ${namesOf(files)}` : "There is no file to open";
+    const known = [...MESHES, ...SCENES.slice(0, 2).flat()].join(", ");
+    return new InputError(`${what}. Known are ${known} and .zip files of them.`);
+}
+
 async function openScene(source: Source, { library, onProgress }: Options): Promise<Made> {
     onProgress?.(`Reading ${baseOf(source.name)}`);
     const title = titleOf(source);
     return said(source, async () => {
         const bytes = contentOf(source);
         if (SCENES[0].includes(formatOf(source))) return readScene({ ...source, bytes }, library, readMesh);
-        const call = await readFile(source.bytes).catch((error: Error) => {
+        const read = async (): Promise<Scene> => decodeCall(await readFile(source.bytes));
+        const scene = await read().catch((error: Error) => {
+            if (/must begin with the selector/.test(error.message)) throw unknown([source]);
             if (!/carries no scene/.test(error.message)) throw error;
             throw new InputError("This PNG was not made by Shackled: it holds no scene.");
         });
-        return documentOfScene(decodeCall(call), { title });
+        return documentOfScene(scene, { title });
     });
 }
 
@@ -173,15 +181,12 @@ function unpacked(files: readonly Given[]): Given[] {
         if (extensionOf(file.name) !== ".zip") return [{ ...file, name: file.name.replaceAll("\\", "/") }];
         let count = 0;
         try {
-            const entries = unzipSync(file.bytes, {
-                filter: ({ name, originalSize }) => {
-                    if (/\/$|(^|\/)(__MACOSX|\.[^/]*)/.test(name)) return false;
-                    if (++count > MOST_FILES) throw new InputError(`A ZIP file may hold up to ${MOST_FILES} files.`);
-                    add(originalSize);
-                    return true;
-                },
+            return unzipped(file.bytes, (name, size) => {
+                if (/\/$|(^|\/)(__MACOSX|\.[^/]*)/.test(name)) return false;
+                if (++count > MOST_FILES) throw new InputError(`A ZIP file may hold up to ${MOST_FILES} files.`);
+                add(size);
+                return true;
             });
-            return Object.entries(entries).map(([name, bytes]) => ({ name, bytes: new Uint8Array(bytes) }));
         } catch (error) {
             if (error instanceof InputError) throw error;
             throw new InputError(

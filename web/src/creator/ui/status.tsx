@@ -51,7 +51,7 @@ function count({ shown, work }: App): (() => void) | undefined {
 }
 
 export function Status({ app }: { app: App }) {
-    const { drawing, doc, shown, dialog } = app;
+    const { drawing, doc, shown } = app;
     useSignalEffect(() => count(app));
     const [seen, problem, last] = [drawing.seen.value, drawing.problem.value, shown.value];
     const current = last !== null && last.doc === doc.value;
@@ -83,7 +83,7 @@ export function Status({ app }: { app: App }) {
                     aria-haspopup="dialog"
                     title="Gas, limits and stages"
                     data-name="status"
-                    onClick={() => (dialog.value = "limits")}
+                    onClick={() => void app.openDialog("limits")}
                 >
                     <span>
                         <b data-name="gas">{number(drawn.gas)}</b> gas
