@@ -29,7 +29,7 @@ NOTE = "shackled: note: "
 
 
 def shared_file(name: str) -> Path:
-    path: Path = CASES / name
+    path = Path(CASES, name)
     if not path.is_file():
         pytest.skip(f"needs {name} of ../shared/review/cases")
     return path

@@ -183,7 +183,8 @@ def test_lit_pixels_differ_from_the_background() -> None:
     made = render((V, F), size=16, unlit=True, margin=0.5, antialias=False)
     assert made.visible_pixels == made.covered_pixels
     assert 0 < (made.covered_pixels or 0) < 256
-    faded = render((V, F), size=16, unlit=True, margin=0.5, opacity=0, antialias=False)
+    alike: dict[str, Any] = {"color": "#102030", "background": "#102030"}
+    faded = render((V, F), size=16, unlit=True, margin=0.5, antialias=False, **alike)
     assert (faded.visible_pixels, faded.covered_pixels) == (0, made.covered_pixels)
     clear = render((V, F), size=16, transparent=True)
     assert clear.alpha is not None
