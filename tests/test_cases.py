@@ -29,9 +29,10 @@ NOTE = "shackled: note: "
 
 
 def shared_file(name: str) -> Path:
-    if not (CASES / name).is_file():
+    path = Path(CASES, name)
+    if not path.is_file():
         pytest.skip(f"needs {name} of ../shared/review/cases")
-    return CASES / name
+    return path
 
 
 def file_of(row: dict[str, Any], folder: Path) -> Path:

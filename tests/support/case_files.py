@@ -82,7 +82,7 @@ def hidden_gltf(folder: Path) -> Path:
 def hidden_map(folder: Path) -> Path:
     Image.new("L", (4, 4), 0).save(folder / "a.png")
     written(folder, "m.mtl", "newmtl a\nKd 1 0 0\nmap_d a.png\n")
-    points, _ = SQUARE.split("f ")
+    points = SQUARE.partition("f ")[0]
     return written(folder, "x.obj", f"mtllib m.mtl\n{points}vt 0 0\nusemtl a\nf 1/1 2/1 3/1 4/1\n")
 
 
