@@ -86,8 +86,8 @@ def _with_alpha(path: Path, images: Images, shown: Found | None, hidden: Found, 
 def read_beside(folders: Sequence[Path], name: str, read: Callable[[Path], T]) -> T:
     """Read a file by the name that another file gives it, maybe an address or a path of the machine of the author.
 
-    Then the file is in one of the folders, in any letter case.
- Nothing is read outside of the last folder. InputError of the first attempt if none of them succeeds.
+       Then the file is in one of the folders, in any letter case.
+    Nothing is read outside of the last folder. InputError of the first attempt if none of them succeeds.
     """
     first = None
     for place in dict.fromkeys(_places(folders, name)):
