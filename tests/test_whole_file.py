@@ -115,3 +115,13 @@ def test_wrong_paths(tmp_path: Path) -> None:
         make_output_folder(tmp_path / "file" / "a" / "b")
     make_output_folder(tmp_path / "x" / "y")
     assert check_output_folder(tmp_path / "x" / "y").is_dir()
+
+
+def test_data_is_on_the_disk_before_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Otherwise a power failure could leave an empty file in place of the old one."""
+    done: list[str] = []
+    for name in ("fsync", "replace"):
+        each = getattr(os, name)
+        monkeypatch.setattr(os, name, lambda *path, each=each, name=name: (done.append(name), each(*path))[1])
+    write_whole(tmp_path / "file", b"data")
+    assert done == ["fsync", "replace"]

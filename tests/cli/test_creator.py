@@ -59,6 +59,18 @@ def test_an_input_comes_with_the_files_that_it_names(page: Path, tmp_path: Path)
     assert json.loads(ask(page, "addresses.json") or b"") == {"chains": {"1": {}}}
 
 
+def test_only_files_that_readers_use_are_served(page: Path, tmp_path: Path) -> None:
+    """Not what is named within other words, what no reader reads, or what is elsewhere."""
+    folder = tmp_path / "models"
+    write(folder, {"a.obj": "# id_rsa .env notes/diary.txt mywood.png Wood.PNG link.png\nmtllib sub/a.mtl\n"})
+    write(folder, {name: "no" for name in ("id_rsa", ".env", "notes/diary.txt", "e", "v", "d.png", "wood.png")})
+    write(folder, {"sub/a.mtl": "", "notes/a.mtl.bak": ""})
+    write(tmp_path, {"private.png": "no"})
+    (folder / "link.png").symlink_to(tmp_path / "private.png")
+    names = json.loads(ask(page, "input.json", str(folder / "a.obj")) or b"")["names"]
+    assert names == ["a.obj", "sub/a.mtl", "wood.png"]
+
+
 def test_pieces_and_links(page: Path, tmp_path: Path) -> None:
     (page / "data" / "pieces").mkdir()
     (page / "data" / "pieces" / "icons-heart.gz").write_bytes(b"")

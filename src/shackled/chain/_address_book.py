@@ -55,6 +55,7 @@ class AddressBook:
 
     def write(self, chain_id: int, addresses: Mapping[str, bytes]) -> None:
         """Add or replace addresses of a chain. Raises InputError or OutputError; then the file has not changed."""
+        self._read()  # before a folder is made
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             with locked(self.path.parent):  # from reading to writing, so that two writers lose nothing

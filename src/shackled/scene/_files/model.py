@@ -40,6 +40,8 @@ _ROUNDING = 1e-4
 _TEXEL_ROUNDING = 1e-3
 #: So many triangles of a picture are looked at before a table of its pixels is made, in parts of so many pixels.
 _FIRST, _AT_ONCE = 64, 1 << 20
+#: So many rows of an image are copied at a time.
+_ROWS = 256
 #: An image is so large at most before it is mirrored.
 _MIRRORED = 1 << 12
 #: How many textures of the full size a file may have; a quarter of the texels allows four times as many.
@@ -107,14 +109,13 @@ class Picture:
         for ends in np.stack([low, high], axis=1)[:_FIRST].tolist():
             if image.getpixel(tuple(ends[0])) != image.getpixel(tuple(ends[1])):
                 return False
-        start, end = low.min(axis=0), high.max(axis=0) + 1
-        if 2 * (end - start).prod() > image.width * image.height:  # no copy of nearly all
-            start, end = np.array([[0, 0], image.size])
-        if not self.images.compares(int((end - start).prod())):
+        (left, top), (right, bottom) = start, _ = low.min(axis=0), high.max(axis=0) + 1
+        if not self.images.compares(int((right - left) * (bottom - top))):
             return False
-        pixels = np.asarray(
-            image.crop((*start.tolist(), *end.tolist())) if start.any() or (end < image.size).any() else image
-        )
+        pixels = np.empty((bottom - top, right - left, 3), dtype=np.uint8)
+        for row in range(top, bottom, _ROWS):  # of all at once there would be three copies
+            part = image.crop((left, row, right, min(row + _ROWS, bottom)))
+            pixels[row - top : row - top + part.height] = np.asarray(part)
         low, high = low - start, high - start
         return not (
             _changes(pixels, low, high).any() or _changes(pixels.swapaxes(0, 1), low[:, ::-1], high[:, ::-1]).any()
