@@ -9,6 +9,7 @@ NODE := tests/package/node_modules/.package-lock.json
 WEB := web/node_modules/.package-lock.json
 CONTRACTS := contracts/node_modules/.package-lock.json
 
+# A target that needs Node names it first, so that its absence is told at once.
 # Set-up steps write to the same folders. Checks do not: `make test` runs two of them at a time.
 ifndef CHECKS
 .NOTPARALLEL:
@@ -54,7 +55,7 @@ demo: $(PACKAGE) ## draw a first picture: the teapot, in build/teapot.png
 	@$(BIN)/python examples/meshes.py --into build teapot
 	$(BIN)/shackled render build/teapot.obj -o build/teapot.png --rotate 0,12,0 --color '#c8553d'
 
-page: $(PACKAGE) $(WEB) ## build the Creator: build/page, for any host, and build/creator.html
+page: $(WEB) $(PACKAGE) ## build the Creator: build/page, for any host, and build/creator.html
 	$(BIN)/python -m tools.build_page
 
 creator: page ## open the Creator in the browser
@@ -108,7 +109,7 @@ build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bund
 	$(BIN)/python -m tools.build_package
 	$(BIN)/python tools/build_web.py
 
-npm: $(PACKAGE) $(CONTRACTS) ## build the npm package for contract authors into build/npm
+npm: $(CONTRACTS) $(PACKAGE) ## build the npm package for contract authors into build/npm
 	$(BIN)/python -m tools.build_package
 
 release-check: $(DEV) $(NODE) page ## build what would be published into build/release, use it in fresh environments, and follow README and docs

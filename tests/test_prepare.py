@@ -72,7 +72,7 @@ def test_make_npm_needs_the_compiler_only(commands: list[tuple[object, ...]], mo
     prepare.prepare_contracts()
     assert [command[:2] for command in commands] == [("npm", "ci")]
     makefile = (prepare.ROOT / "Makefile").read_text()
-    assert "\nnpm: $(PACKAGE) $(CONTRACTS) ##" in makefile
+    assert "\nnpm: $(CONTRACTS) $(PACKAGE) ##" in makefile
 
 
 def test_the_compiler_of_evm_is_installed_where_it_can_be(

@@ -98,7 +98,7 @@ class Table:
             yield details
         except Failure as failure:
             self.row(name, "FAILED", [failure])
-        except (OSError, LookupError, ValueError) as error:
+        except (OSError, LookupError, ValueError, subprocess.SubprocessError) as error:
             self.row(name, "FAILED", [repr(error)])
         else:
             self.row(name, "good", details)
