@@ -14,7 +14,7 @@ from PIL import Image as PillowImage
 
 from commands import Shackled
 from shackled import render
-from shackled.chain import ContractCaller
+from shackled.chain import RevmChain
 from shackled.cli import progress
 
 
@@ -121,10 +121,8 @@ def test_a_picture_is_drawn_once(monkeypatch: pytest.MonkeyPatch, shackled: Shac
     """Unless its triangles are shown: then it is drawn again to count them."""
     calls = []
     for name in ("draw", "count"):
-        made = getattr(ContractCaller, name)
-        monkeypatch.setattr(
-            ContractCaller, name, lambda *given, name=name, made=made: (calls.append(name), made(*given))[1]
-        )
+        made = getattr(RevmChain, name)
+        monkeypatch.setattr(RevmChain, name, lambda *given, name=name, made=made: (calls.append(name), made(*given))[1])
     for words, expected in (
         ("shape.obj teapot", ["draw", "draw"]),
         ("shape.obj -q", ["draw"]),
@@ -132,7 +130,7 @@ def test_a_picture_is_drawn_once(monkeypatch: pytest.MonkeyPatch, shackled: Shac
         ("shape.obj teapot --json", ["draw", "count"] * 2),
         # what looks like a background is counted to be sure
         ("shape.obj teapot --target 0,99,0 --eye 0,99,1", ["draw", "count"] * 2),
-        ("shape.obj --unlit --margin 0 --eye 0,0,-1 --target 0,0,0 --fov 1 -q", ["draw", "count"]),
+        ("shape.obj --unlit --color red --ambient 1 --eye 0.1,0.1,3 --target 0,0,0 --fov 1 -q", ["draw", "count"]),
     ):
         calls.clear()
         said = shackled(f"render {words} --size 16 -o out/")

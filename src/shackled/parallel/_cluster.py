@@ -116,7 +116,7 @@ class ClusterBackend:
         except Exception:  # what waits for the scheduler fails, too
             return []
         gone, self._workers = self._workers - present, present
-        if present:
+        if present or gone:
             self._seen = now
         elif now - self._seen > PATIENCE:
             raise RenderError(f"the dask cluster has had no worker for {PATIENCE} s: start one, and run this again")
