@@ -146,8 +146,8 @@ def table(results: Sequence[dict[str, Any]]) -> str:
     of_geth = sum("geth" in each["calls"] for each in fits)
     lines = [
         f"{len(gas)} models are rendered, {len(results) - len(gas)} are refused. The median of the gas is "
-        f"{median(gas or [0]) / 1e6:,.1f}M; {of_ethereum} pictures fit one transaction on Ethereum, {of_geth} a read call "
-        "of most nodes.",
+        f"{median(gas or [0]) / 1e6:,.1f}M; {of_ethereum} pictures fit one transaction on Ethereum, {of_geth} a "
+        "read call of most nodes.",
         "",
         "| package | file | format | faces | gas | notes |",
         "|---|---|---|---:|---:|---|",
