@@ -142,13 +142,12 @@ def table(results: Sequence[dict[str, Any]]) -> str:
     """Return a summary, and a row for each model, in Markdown."""
     gas = [each["gas"] for each in results if "gas" in each]
     fits = [each["fits"] for each in results if "gas" in each]
-    small = [
-        sum(place in each[kind] for each in fits) for kind, place in (("transactions", "Ethereum"), ("calls", "geth"))
-    ]
+    of_ethereum = sum("Ethereum" in each["transactions"] for each in fits)
+    of_geth = sum("geth" in each["calls"] for each in fits)
     lines = [
         f"{len(gas)} models are rendered, {len(results) - len(gas)} are refused. The median of the gas is "
-        f"{median(gas or [0]) / 1e6:,.1f}M; {small[0]} pictures fit one transaction on Ethereum, {small[1]} a read call of "
-        "most nodes.",
+        f"{median(gas or [0]) / 1e6:,.1f}M; {of_ethereum} pictures fit one transaction on Ethereum, {of_geth} a "
+        "read call of most nodes.",
         "",
         "| package | file | format | faces | gas | notes |",
         "|---|---|---|---:|---:|---|",

@@ -101,8 +101,8 @@ def text() -> str:
     """Return the file of settings."""
     names = ("name", "gas", "kind", "place", "source", "date", "remark")
     known = [{name: getattr(each, name) for name in names} for each in limits()]
-    names = ("number", "name", "currency", "explorer", "node")
-    chains = [{name: getattr(each, name) for name in names} for each in known_chains()]
+    of_chains = ("number", "name", "currency", "explorer", "node")
+    chains = [{name: getattr(each, name) for name in of_chains} for each in known_chains()]
     made = [HEAD]
     for table, rows in zip(TYPES, (settings(), [look(each) for each in PRESETS], known, chains), strict=True):
         lines = "".join(f"    {json.dumps(row, ensure_ascii=False, default=str)},\n" for row in rows)
