@@ -41,7 +41,7 @@ def file_of(row: dict[str, Any], folder: Path) -> Path:
     if "make" in row:
         made: Path = getattr(case_files, row["make"])(folder)
         return made
-    path = folder / row["name"]
+    path = folder / str(row["name"])
     path.write_text(row["text"], "utf-8")
     return path
 
