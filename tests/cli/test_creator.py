@@ -63,7 +63,7 @@ def test_only_files_that_readers_use_are_served(page: Path, tmp_path: Path) -> N
     """Not what is named within other words, what no reader reads, or what is elsewhere."""
     folder = tmp_path / "models"
     write(folder, {"a.obj": "# id_rsa .env notes/diary.txt mywood.png Wood.PNG link.png\nmtllib sub/a.mtl\n"})
-    write(folder, {name: "no" for name in ("id_rsa", ".env", "notes/diary.txt", "e", "v", "d.png", "wood.png")})
+    write(folder, dict.fromkeys(("id_rsa", ".env", "notes/diary.txt", "e", "v", "d.png", "wood.png"), "no"))
     write(folder, {"sub/a.mtl": "", "notes/a.mtl.bak": ""})
     write(tmp_path, {"private.png": "no"})
     (folder / "link.png").symlink_to(tmp_path / "private.png")
