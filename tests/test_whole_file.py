@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import stat
 import threading
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -120,8 +121,17 @@ def test_wrong_paths(tmp_path: Path) -> None:
 def test_data_is_on_the_disk_before_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Otherwise a power failure could leave an empty file in place of the old one."""
     done: list[str] = []
-    for name in ("fsync", "replace"):
+
+    def watched(name: str) -> Callable[..., None]:
         each = getattr(os, name)
-        monkeypatch.setattr(os, name, lambda *path, each=each, name=name: (done.append(name), each(*path))[1])
+
+        def call(*arguments: object) -> None:
+            done.append(name)
+            each(*arguments)
+
+        return call
+
+    for name in ("fsync", "replace"):
+        monkeypatch.setattr(os, name, watched(name))
     write_whole(tmp_path / "file", b"data")
     assert done == ["fsync", "replace"]

@@ -241,7 +241,10 @@ def test_faces_before_one_that_is_wrong(tmp_path: Path, faces: str, line: int | 
 
 @pytest.mark.parametrize("missing", range(1, 40))
 def test_a_binary_file_that_ends_early(tmp_path: Path, missing: int) -> None:
-    """The end of its data is told, wherever that is: in a number, a length, a list. Whole faces are drawn."""
+    """Nothing but the end of its data is told, wherever that is: in a number, a length, a list. Whole faces are drawn.
+
+    A face takes 17 bytes.
+    """
     faces = struct.pack("<BiiiBiiii", 3, 0, 1, 2, 4, 0, 1, 2, 3)
     content = header("binary_little_endian", "", 2).encode() + BINARY_POINTS + faces
     if missing <= 17:
