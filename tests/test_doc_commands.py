@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 from tools import build_hook
-from tools.doc_commands import NEED_NODE, ROOT, SKIPPED, commands
+from tools.addresses import ROOT
+from tools.doc_commands import NEED_NODE, SKIPPED, commands
 
 PAGE = """Run `make npm`, or `make`.
 
