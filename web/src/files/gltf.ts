@@ -152,7 +152,7 @@ function check({ json, buffers }: Gltf): void {
         if (!(count >= 0 && count < MOST && size > 0 && fits))
             throw new InputError(`its accessors[${number}] needs ${end} bytes, of ${view?.byteLength ?? 0}`);
     });
-    const need = (kind: string, ...numbers: Json[]): void => {
+    const need = (kind: string, numbers: Json[]): void => {
         const count = json[kind]?.length ?? 0;
         const wrong = numbers.find(
             (each) => each !== undefined && !(Number.isInteger(each) && each >= 0 && each < count),
@@ -160,18 +160,24 @@ function check({ json, buffers }: Gltf): void {
         if (wrong !== undefined)
             throw new InputError(`it names number ${show(wrong)} of its ${kind}, of which there are ${count}`);
     };
-    need("meshes", ...nodes.map(({ mesh }: Json) => mesh));
-    need("skins", ...nodes.map(({ skin }: Json) => skin));
+    need(
+        "meshes",
+        nodes.map(({ mesh }: Json) => mesh),
+    );
+    need(
+        "skins",
+        nodes.map(({ skin }: Json) => skin),
+    );
     for (const { joints = [], inverseBindMatrices } of skins)
-        (need("nodes", ...joints), need("accessors", inverseBindMatrices));
+        (need("nodes", joints), need("accessors", [inverseBindMatrices]));
     for (const { attributes = {}, indices, material } of (json.meshes ?? []).flatMap(
         ({ primitives }: Json) => primitives,
     )) {
-        need("accessors", ...Object.values(attributes), indices);
-        need("materials", material);
+        need("accessors", [...Object.values(attributes), indices]);
+        need("materials", [material]);
     }
     for (const { pbrMetallicRoughness: keys, emissiveTexture } of json.materials ?? [])
-        need("textures", keys?.baseColorTexture?.index, emissiveTexture?.index);
+        need("textures", [keys?.baseColorTexture?.index, emissiveTexture?.index]);
 }
 
 /** Take what is not drawn out of a document, with notes. */
