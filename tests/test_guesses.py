@@ -216,7 +216,7 @@ NAMED: dict[str, tuple[Callable[[], Any], str]] = {
     "camera_position": (lambda: cube(camera_position="xy"), "`azimuth` and `elevation` turn it"),
     "image.shape": (lambda: cube().shape, "the `pixels` of a picture have a shape"),
     "image.size": (lambda: cube().size, "`width` and `height`"),
-    "mesh.bounds": (lambda: MESH.bounds, "mesh.positions.min(axis=0)"),
+    "mesh.bounds": (lambda: s.Mesh(BOX.vertices, BOX.faces).bounds, "mesh.positions.min(axis=0)"),
     "scene.show": (lambda: s.load("cube").show(), "shackled.render(scene).show()"),
     "tokens": (lambda: s.tokens.read_metadata, "No shackled.tokens attribute read_metadata"),
 }

@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from PIL import Image as PillowImage
@@ -119,10 +120,19 @@ def test_results_are_not_printed_through_the_bar(three: Path) -> None:
 
 def test_a_picture_is_drawn_once(monkeypatch: pytest.MonkeyPatch, shackled: Shackled) -> None:
     """Unless its triangles are shown: then it is drawn again to count them."""
-    calls = []
-    for name in ("draw", "count"):
+    calls: list[str] = []
+
+    def watched(name: str) -> Any:
         made = getattr(RevmChain, name)
-        monkeypatch.setattr(RevmChain, name, lambda *given, name=name, made=made: (calls.append(name), made(*given))[1])
+
+        def call(*given: Any) -> Any:
+            calls.append(name)
+            return made(*given)
+
+        return call
+
+    for name in ("draw", "count"):
+        monkeypatch.setattr(RevmChain, name, watched(name))
     for words, expected in (
         ("shape.obj teapot", ["draw", "draw"]),
         ("shape.obj -q", ["draw"]),

@@ -133,9 +133,9 @@ def test_workers_that_are_lost(
     try:
         start("scheduler", "--host", "127.0.0.1", "--port", where.rpartition(":")[2])
         workers = [start("worker", where, "--nthreads", "1", "--no-nanny") for _ in range(2)]
-        client = Client(where, timeout=60, set_as_default=False)  # type: ignore[no-untyped-call]
+        client = Client(where, timeout=60, set_as_default=False)
         client.wait_for_workers(2, timeout=60)
-        client.close()  # type: ignore[no-untyped-call]
+        client.close()
 
         def kill() -> None:
             for worker, event in zip(workers, (connected, told), strict=True):
