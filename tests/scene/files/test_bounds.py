@@ -93,7 +93,7 @@ def gltf(path: Path, data: bytes, counts: tuple[int, ...], **document: Any) -> P
 
 
 TRIANGLE = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
-TOO_MANY = "it shows more than 1,048,576 triangles, the most that are read of a file of its size"
+TOO_MANY = "it shows more than 524,288 triangles, the most that are read of a file of its size"
 
 
 def instanced(path: Path, primitives: int, count: int) -> Path:

@@ -11,7 +11,7 @@ from ...errors import InputError
 #: The pixels of the images that are kept open at a time, of which there is at least one.
 _KEPT = 1 << 26
 #: How many pixels may be opened for a file, each as often as it is opened, and compared with their neighbours.
-_MOST_OPENED, _MOST_COMPARED = 1 << 30, 1 << 26
+_MOST_OPENED, _MOST_COMPARED = 1 << 30, 1 << 25
 
 
 class Images:

@@ -144,7 +144,7 @@ class Document:
 
 #: How many triangles are read, each mesh as often as it is shown; and of how many it does not matter how large the file
 #: is. Other files have at least so many bytes for each.
-MAX_TRIANGLES, _FREE, _BYTES = 1 << 24, 1 << 20, 8
+MAX_TRIANGLES, _FREE, _BYTES = 1 << 24, 1 << 19, 8
 
 
 def most_triangles(gltf: Document) -> int:
