@@ -224,7 +224,7 @@ def test_files_beside_a_file(tmp_path: Path) -> None:
         Image.new("RGB", (2, 2), (0, 0, 255)).save(path)
     (home / "link.png").symlink_to(tmp_path / "private.png")
     (home / "out").symlink_to(tmp_path)
-    wanted = {}
+    wanted: dict[str, bool] = {}
     for number, (place, found) in enumerate(PLACES.items()):
         name = place.replace("FOLDER", str(tmp_path))
         (home / f"{number}.mtl").write_text(f"newmtl m\nmap_Kd {name}\n")
