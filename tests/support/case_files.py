@@ -205,7 +205,7 @@ def escaped_obj(folder: Path) -> Path:
 def foreign_ply(folder: Path) -> Path:
     """Write a square whose texture is named by a path of another machine."""
     Image.new("RGB", (4, 4), "red").save(folder / "Wood.PNG")
-    head = "ply\nformat ascii 1.0\ncomment TextureFile /home/me/models/wood.png\nelement vertex 4\n"
+    head = "ply\nformat ascii 1.0\ncomment TextureFile D:\\\\models\\\\wood.png\nelement vertex 4\n"
     head += "".join(f"property float {name}\n" for name in "xyzst")
     rows = "-1 -1 0 0 0\n1 -1 0 1 0\n1 1 0 1 1\n-1 1 0 0 1\n4 0 1 2 3\n"
     path = folder / "square.ply"
