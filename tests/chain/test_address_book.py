@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import errno
 import json
-import subprocess
 import sys
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
+from tools.children import child
 
 from shackled.chain import VARIABLE, AddressBook, book_path
 from shackled.errors import InputError, OutputError
@@ -95,7 +96,9 @@ def test_two_writers_lose_nothing(tmp_path: Path) -> None:
         "for each in range(50):\n    book.write(int(sys.argv[2]) + each, {'Renderer': bytes(19) + b'\\1'})\n"
     )
     path = tmp_path / "book.json"
-    writers = [subprocess.Popen([sys.executable, "-c", code, str(path), str(start)]) for start in (1000, 2000, 3000)]
-    assert [writer.wait(120) for writer in writers] == [0, 0, 0]
+    with ExitStack() as stack:
+        command = (sys.executable, "-c", code, path)
+        writers = [stack.enter_context(child(*command, str(start))) for start in (1000, 2000, 3000)]
+        assert [writer.wait(120) for writer in writers] == [0, 0, 0]
     assert len(json.loads(path.read_text())["chains"]) == 150
     assert [each.name for each in tmp_path.iterdir()] == ["book.json"]

@@ -14,7 +14,7 @@ import pytest
 from PIL import Image as PillowImage
 
 from commands import Shackled
-from shackled import render
+from shackled import Scene, render
 from shackled.chain import RevmChain
 from shackled.cli import progress
 
@@ -119,28 +119,29 @@ def test_results_are_not_printed_through_the_bar(three: Path) -> None:
 
 
 def test_a_picture_is_drawn_once(monkeypatch: pytest.MonkeyPatch, shackled: Shackled) -> None:
-    """Unless its triangles are shown: then it is drawn again to count them."""
+    """Unless its triangles are shown: then it is drawn again to count them. A drawing is told by its width."""
     calls: list[str] = []
 
     def watched(name: str) -> Any:
         made = getattr(RevmChain, name)
 
-        def call(*given: Any) -> Any:
-            calls.append(name)
-            return made(*given)
+        def call(chain: RevmChain, scene: Scene, *given: Any) -> Any:
+            calls.append(name if name == "count" else str(scene.width))
+            return made(chain, scene, *given)
 
         return call
 
     for name in ("draw", "count"):
         monkeypatch.setattr(RevmChain, name, watched(name))
     for words, expected in (
-        ("shape.obj teapot", ["draw", "draw"]),
-        ("shape.obj -q", ["draw"]),
-        ("shape.obj", ["draw", "count"]),
-        ("shape.obj teapot --json", ["draw", "count"] * 2),
-        # what looks like a background is counted to be sure
-        ("shape.obj teapot --target 0,99,0 --eye 0,99,1", ["draw", "count"] * 2),
-        ("shape.obj --unlit --color red --ambient 1 --eye 0.1,0.1,3 --target 0,0,0 --fov 1 -q", ["draw", "count"]),
+        ("shape.obj teapot", ["16", "16"]),
+        ("shape.obj -q", ["16"]),
+        # lit pixels are those that differ from a column of the background
+        ("shape.obj", ["16", "count", "1"]),
+        ("shape.obj teapot --json", ["16", "count", "1"] * 2),
+        # what looks like a background is compared with one
+        ("shape.obj teapot --target 0,99,0 --eye 0,99,1", ["16", "1"] * 2),
+        ("shape.obj --unlit --color red --ambient 1 --eye 0.1,0.1,3 --target 0,0,0 --fov 1 -q", ["16", "1"]),
     ):
         calls.clear()
         said = shackled(f"render {words} --size 16 -o out/")

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Iterator
+from contextlib import AbstractContextManager, ExitStack
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ from typing import Any
 import pytest
 import trimesh
 from attrs import evolve
+from tools.children import child
 from tools.cluster import cluster
 
 from nodes import Reply, serving
@@ -115,13 +117,10 @@ def test_workers_that_are_lost(
     monkeypatch.setattr(ClusterBackend, "_greet_workers", greeted)
     monkeypatch.setattr(ClusterBackend, "check", checked)
     where = "tcp://127.0.0.1:{}"
-    programs: list[subprocess.Popen[bytes]] = []
 
-    def start(kind: str, *arguments: str) -> subprocess.Popen[bytes]:
-        command = [sys.executable, "-m", f"distributed.cli.dask_{kind}", "--no-dashboard", *arguments]
-        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-        programs.append(subprocess.Popen(command, **quiet))  # type: ignore[call-overload]
-        return programs[-1]
+    def started(kind: str, *arguments: str) -> AbstractContextManager[subprocess.Popen[str]]:
+        command = (sys.executable, "-m", f"distributed.cli.dask_{kind}", "--no-dashboard", *arguments)
+        return child(*command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
@@ -130,9 +129,9 @@ def test_workers_that_are_lost(
     for name in names:
         trimesh.creation.icosphere(subdivisions=3).export(name)
     size = ["--size", "192"] if is_folder else ["--size", "1024", "--tile", "32"]
-    try:
-        start("scheduler", "--host", "127.0.0.1", "--port", where.rpartition(":")[2])
-        workers = [start("worker", where, "--nthreads", "1", "--no-nanny") for _ in range(2)]
+    with ExitStack() as stack:
+        stack.enter_context(started("scheduler", "--host", "127.0.0.1", "--port", where.rpartition(":")[2]))
+        workers = [stack.enter_context(started("worker", where, "--nthreads", "1", "--no-nanny")) for _ in range(2)]
         client = Client(where, timeout=60, set_as_default=False)
         client.wait_for_workers(2, timeout=60)
         client.close()
@@ -146,10 +145,6 @@ def test_workers_that_are_lost(
         thread.start()
         assert run(["render", *map(str, names), *size, "-o", f"{tmp_path}/out/", "--cluster", where]) == 1
         thread.join()
-    finally:
-        for program in programs:
-            program.kill()
-            program.wait()
     said = capsys.readouterr().err
     assert len(re.findall(r"the worker tcp://\S+ has left the cluster: others draw its parts", said)) == 1
     assert (
