@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import sys
 from pathlib import Path
 
 from shackled.artifacts import RENDERER
@@ -21,6 +20,7 @@ from shackled.ethereum import keccak256, to_hex
 from shackled.evm import Answer, Instance, Status
 from shackled.scene import render_call
 
+from . import run_main
 from .evms import PICTURES, scene
 
 FOLDER = Path(__file__).with_name("client")
@@ -153,4 +153,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

@@ -33,6 +33,8 @@ from shackled.chain import CHAINS, ContractChain, NodeChain, RevmChain, open_cha
 from shackled.evm import module_bytes
 from shackled.scene import LookOptions, render_call
 
+from . import run_main
+
 PAGE = Path(__file__).resolve().parent / "evms.md"
 PROGRAM = str(Path(sys.executable).with_name("shackled"))
 
@@ -241,4 +243,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    run_main(main)

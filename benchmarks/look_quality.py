@@ -29,7 +29,7 @@ sys.path.insert(0, str(ROOT / "tests" / "support"))
 sys.path.insert(0, str(ROOT / "tests"))
 from judge import render as in_float64
 
-from . import flip, publish, read_figures
+from . import flip, publish, read_figures, run_main
 
 FILE = Path(__file__).with_name("look_quality.json")
 PIECES = ("teapot", "torus-knot", "icons/crown", "genesis/7")
@@ -133,4 +133,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)
