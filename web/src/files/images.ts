@@ -5,13 +5,15 @@ import type { Texture } from "../scene/checked.js";
 import { baseOf, fileBeside, type Source } from "./source.js";
 
 /**
- * Rows from the top; red, green, blue and alpha of each pixel. The rest is kept for all surfaces that show it: what `hides`
- * returned, whether it has one colour, how many pixels `isPlain` has looked at, and smaller images of it.
+ * Rows from the top; red, green, blue and alpha of each pixel. given: the size in the file, where it was reduced. The rest is
+ * kept for all surfaces that show it: what `hides` returned, whether it has one colour, how many pixels `isPlain` has looked
+ * at, and smaller images of it.
  */
 export interface Image {
     width: number;
     height: number;
     pixels: Uint8Array;
+    given?: string;
     hides?: boolean;
     isOne?: boolean;
     steps?: number;
@@ -49,8 +51,9 @@ let decoder: (bytes: Uint8Array, most: number) => Image | Promise<Image> = async
     const context = new OffscreenCanvas(width, height).getContext("2d") as OffscreenCanvasRenderingContext2D;
     context.imageSmoothingQuality = "high";
     context.drawImage(bitmap, 0, 0, width, height);
+    const given = `${bitmap.width} x ${bitmap.height}`;
     bitmap.close();
-    return { width, height, pixels: new Uint8Array(context.getImageData(0, 0, width, height).data.buffer) };
+    return { width, height, given, pixels: new Uint8Array(context.getImageData(0, 0, width, height).data.buffer) };
 };
 
 /** Let another function decode images. */
@@ -69,7 +72,7 @@ function sizeOf(bytes: Uint8Array): readonly [number, number] {
     const start = new TextDecoder("latin1").decode(bytes.subarray(0, 512));
     const of = (at: number, bits: number): number => view.getUint32(at, true) & (2 ** bits - 1);
     const avif = start.indexOf("ispe");
-    if (start.startsWith("\x89P")) return [view.getUint32(16), view.getUint32(20)];
+    if (start.startsWith("PNG", 1)) return [view.getUint32(16), view.getUint32(20)];
     if (start.startsWith("GIF8")) return [of(6, 16), of(8, 16)];
     if (start.startsWith("WEBPVP8 ", 8)) return [of(26, 14), of(28, 14)];
     if (start.startsWith("WEBPVP8L", 8)) return [of(21, 14) + 1, (of(21, 28) >> 14) + 1];
@@ -94,11 +97,14 @@ export class Images {
         const [width, height] = sizeOf(bytes);
         checkSize(width, height);
         if (this.total + width * height > MAX_ALL)
-            throw new InputError(`all textures together may have ${MAX_ALL.toLocaleString("en")} pixels`);
+            throw new InputError(
+                `all textures together may have up to ${MAX_ALL.toLocaleString("en")} pixels; reduce them`,
+            );
         const most = Math.min(MAX_KEPT, MAX_ALL_KEPT - this.total);
         const image = await decoder(bytes, most);
         this.total += width * height || image.width * image.height;
-        return image.width * image.height > most ? reduced(image, KEPT_SIDE, false) : image;
+        const { given = `${image.width} x ${image.height}` } = image;
+        return image.width * image.height > most ? { ...reduced(image, KEPT_SIDE, false), given } : image;
     }
 }
 
@@ -215,7 +221,8 @@ export function textureOf(
     let image = known.get(key) ?? reduced(picture.image, side, hasAlpha);
     known.set(key, image);
     const [{ width, height }, { width: wide, height: high }] = [image, picture.image];
-    if (wide > width) tell(`the texture ${name} is reduced from ${wide} x ${high} to ${width} x ${height} texels`);
+    const { given: size = `${wide} x ${high}` } = picture.image;
+    if (wide > width) tell(`the texture ${name} is reduced from ${size} to ${width} x ${height} texels`);
     if (hasAlpha) image = unhidden(image);
     const pixels = image.pixels.filter((_, at) => at % 4 < 3);
     const alpha = hasAlpha ? image.pixels.filter((_, at) => at % 4 === 3) : undefined;
