@@ -95,7 +95,7 @@ def read(call: bytes) -> Record:
         has_effects=any(kind > ANTIALIAS for kind in effects),
         hemisphere=np.reshape([*effects.get(HEMISPHERE, bytes(6))], (2, 3)), rim=np.array([*rim[:3]]), rim_power=rim[3],
         fog=None if fog is None else (np.array([*fog[:3]]), *q32(np.frombuffer(fog[3:], ">i8"))),
-        exposure=int.from_bytes(tone[:4], "big") / 2**16, filmic=tone[4] & 1, gamma=tone[4] & 2,
+        exposure=int.from_bytes(tone[:4], "big") / 2**16, filmic=bool(tone[4] & 1), gamma=bool(tone[4] & 2),
     )  # fmt: skip
 
 
@@ -129,7 +129,7 @@ def object_of(mesh: bytes, fields: list[int], records: dict[int, bytes]) -> Reco
         normals=normals @ matrix.T, faces=np.frombuffer(mesh, ">u2", -1, 5 + rows.size).astype(np.int64).reshape(-1, 3),
         position=position, shading=shading, ambient=ambient / 2**32, diffuse=diffuse / 2**32, specular=specular / 2**32,
         shininess=shininess, culls=bool(flags & CULL_BACKFACES), is_wire=bool(flags & WIREFRAME),
-        two_sided=bool(flags & TWO_SIDED and not flags & WIREFRAME), opacities=opacities, uvs=uvs, texture=texture,
+        two_sided=bool(flags & TWO_SIDED), opacities=opacities, uvs=uvs, texture=texture,
         fade=fade, emission=rgb(int.from_bytes(records.get(EMISSION, b""), "big")),
         is_glass=bool(records.keys() & GLASS), is_opaque=not records.keys() & {*GLASS, GROUND},
     )  # fmt: skip
@@ -146,7 +146,7 @@ def texture_of(data: bytes, count: int) -> tuple[Record, Array]:
         texels = np.frombuffer(data, np.uint8, 3 << bits, 4).reshape(-1, 3)[digits @ (1 << np.arange(bits)[::-1])]
     uvs = numbers(np.frombuffer(data, np.uint8, 6 * count, begin + size).reshape(count, 2, 3)) / 2**16
     image = texels.reshape(height, width, 3).astype(float)
-    return Record(texels=image, alpha=None, cutoff=0, bilinear=flags & 1, clamps=flags & 2), uvs
+    return Record(texels=image, alpha=None, cutoff=0, bilinear=bool(flags & 1), clamps=bool(flags & 2)), uvs
 
 
 def numbers(data: NDArray[np.uint8]) -> Array:
@@ -348,7 +348,7 @@ def normals(scene: Record, solid: Record, faces: Integers, weights: Array) -> Ar
     across = np.cross(b - a, c - a)
     normal = unit(mix(solid.normals[faces], weights) if solid.shading == SMOOTH else across)
     is_turned = dot(across, scene.camera.toward(a)) < 0
-    return np.where(is_turned, -normal, normal) if solid.two_sided else normal
+    return np.where(is_turned, -normal, normal) if solid.two_sided and not solid.is_wire else normal
 
 
 def cosines_of(lamp: Record, point: Array, normal: Array, view: Array) -> tuple[Array, Array, Array]:

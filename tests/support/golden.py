@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 if __name__ == "__main__":
-    sys.path.insert(0, str(Path(__file__).parents[1]))
+    sys.path[:0] = [str(Path(__file__).parents[1]), str(Path(__file__).parents[2] / "contracts")]
 
 from original_scenes import call_data, document, genesis_document, object_keys
 from pictures import chain
