@@ -7,7 +7,9 @@ PACKAGE := $(VENV)/.package
 DEV := $(VENV)/.dev
 NODE := tests/package/node_modules/.package-lock.json
 WEB := web/node_modules/.package-lock.json
+CONTRACTS := contracts/node_modules/.package-lock.json
 
+# A target that needs Node names it first, so that its absence is told at once.
 # Set-up steps write to the same folders. Checks do not: `make test` runs two of them at a time.
 ifndef CHECKS
 .NOTPARALLEL:
@@ -16,17 +18,17 @@ endif
 # the tests, which takes as long as they do to be collected.
 unexport PYTHONDONTWRITEBYTECODE
 .DEFAULT_GOAL := help
-.PHONY: help browser opengl demo page creator check test lint types contracts evm evm-check web docs fast unit verify build npm release-check gas golden bench paper fuzz models mutants conformance pictures clean
+.PHONY: help browser opengl rust demo page creator check test lint types contracts evm evm-check web docs fast unit verify build npm release-check gas golden bench paper fuzz models mutants conformance pictures clean
 
 help: ## show this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
 
 # ---- set-up ----
 
-$(PACKAGE): pyproject.toml tools/prepare.py tools/constraints.txt
+$(PACKAGE): pyproject.toml tools/prepare.py tools/locked/package.txt
 	@$(PYTHON) tools/prepare.py package
 
-$(DEV): pyproject.toml tools/prepare.py tools/constraints.txt
+$(DEV): pyproject.toml tools/prepare.py tools/locked/dev.txt
 	@$(PYTHON) tools/prepare.py dev
 
 $(NODE): $(foreach folder,contracts web tests/package,$(folder)/package.json $(folder)/package-lock.json) tools/prepare.py
@@ -35,11 +37,17 @@ $(NODE): $(foreach folder,contracts web tests/package,$(folder)/package.json $(f
 $(WEB): web/package.json web/package-lock.json tools/prepare.py
 	@$(PYTHON) tools/prepare.py web
 
+$(CONTRACTS): contracts/package.json contracts/package-lock.json tools/prepare.py
+	@$(PYTHON) tools/prepare.py contracts
+
 browser:
 	@$(PYTHON) tools/prepare.py browser
 
 opengl:
 	@$(PYTHON) tools/prepare.py opengl
+
+rust:
+	@$(PYTHON) tools/prepare.py rust
 
 # ---- a picture ----
 
@@ -47,7 +55,7 @@ demo: $(PACKAGE) ## draw a first picture: the teapot, in build/teapot.png
 	@$(BIN)/python examples/meshes.py --into build teapot
 	$(BIN)/shackled render build/teapot.obj -o build/teapot.png --rotate 0,12,0 --color '#c8553d'
 
-page: $(PACKAGE) $(WEB) ## build the Creator: build/page, for any host, and build/creator.html
+page: $(WEB) $(PACKAGE) ## build the Creator: build/page, for any host, and build/creator.html
 	$(BIN)/python -m tools.build_page
 
 creator: page ## open the Creator in the browser
@@ -59,7 +67,7 @@ check: lint $(DEV) $(NODE) ## check an edit: style, types, and the tests without
 	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory types fast
 
 # the tests wait for nodes and browsers much of the time, in which the other checks run
-test: lint $(DEV) $(NODE) browser opengl ## run all checks and tests
+test: lint $(DEV) $(NODE) browser opengl rust ## run all checks and tests
 	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory contracts types unit evm-check web docs
 	@echo "all checks and tests passed"
 
@@ -74,7 +82,7 @@ contracts: $(DEV) $(NODE) ## check that the compiled contracts match contracts/
 	$(BIN)/python tools/build_contracts.py --check
 	$(BIN)/python -m tools.build_package --check
 
-evm-check: $(DEV) ## check that evm.wasm matches evm/
+evm-check: $(DEV) rust ## build evm/ again, and check that evm.wasm has the same bytes
 	$(BIN)/python tools/build_evm.py --check
 
 web: $(DEV) $(NODE) ## check types, style, tests and bundles of the TypeScript package
@@ -101,13 +109,14 @@ build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bund
 	$(BIN)/python -m tools.build_package
 	$(BIN)/python tools/build_web.py
 
-npm: $(DEV) ## build the npm package for contract authors into build/npm
+npm: $(CONTRACTS) $(PACKAGE) ## build the npm package for contract authors into build/npm
 	$(BIN)/python -m tools.build_package
 
-release-check: $(DEV) $(NODE) page ## build what would be published into build/release, and use it in fresh environments
+release-check: $(DEV) $(NODE) page ## build what would be published into build/release, use it in fresh environments, and follow README and docs
 	$(BIN)/python -m tools.release_check
+	$(BIN)/python -m tools.doc_commands
 
-evm: $(DEV) ## compile the EVM of evm/ into src/shackled/evm, with the compiler that src/shackled/evm/evm.json names
+evm: $(DEV) rust ## compile the EVM of evm/ into src/shackled/evm, with the compiler that src/shackled/evm/evm.json names
 	$(BIN)/python tools/build_evm.py
 
 gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens.json, icons.json, motion.json

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import argparse
 import json
+import sys
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import ArrayLike
 from tools.pages import ROOT, update
+
+from shackled import ShackledError
 
 FOLDER = ROOT / "benchmarks"
 README = FOLDER / "README.md"
@@ -22,6 +27,27 @@ class Section:
     title: str
     text: str
     data: dict[str, Any]
+
+
+def run_main(main: Callable[[], int | None], has_options: bool = False) -> NoReturn:
+    """Run the command of a module, and end. What it needs and is not there is said in one sentence.
+
+    has_options: whether it reads its arguments itself; others take none but --help.
+    """
+    module = sys.modules["__main__"]
+    if not has_options:
+        name = module.__spec__.name.removesuffix(".__main__") if module.__spec__ else ""
+        form = argparse.RawDescriptionHelpFormatter
+        argparse.ArgumentParser(f"python -m {name}", description=module.__doc__, formatter_class=form).parse_args()
+    try:
+        sys.exit(main())
+    except ModuleNotFoundError as error:
+        sys.exit(f"the package {error.name} is not installed: pip install {(error.name or '').replace('_', '-')}")
+    except FileNotFoundError as error:
+        hint = ": npm ci in contracts/" if "node_modules" in str(error.filename) else ""
+        sys.exit(f"{error.filename} does not exist{hint}")
+    except ShackledError as error:
+        sys.exit(" ".join(str(error).split()))
 
 
 def read_figures(path: Path) -> dict[str, Any]:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import sys
-
-from . import FOLDER, cost, stages, write_figures
+from . import FOLDER, cost, run_main, stages, write_figures
 
 RESULTS, FIGURES = FOLDER / "results.md", FOLDER / "results.json"
 
@@ -28,4 +26,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

@@ -15,6 +15,8 @@ import shackled
 from shackled.chain import RevmChain
 from shackled.scene import render_call
 
+from . import run_main
+
 ROUNDS, LIMIT = 9, 2 << 30
 
 
@@ -38,4 +40,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    run_main(main)

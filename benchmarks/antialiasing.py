@@ -7,7 +7,6 @@ measures pictures with and without it, rewrites the table of docs/measurements.m
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable
 from statistics import fmean
 
@@ -17,7 +16,7 @@ from tools.pages import ROOT, update
 from shackled import Scene, render
 from shackled.datasets import pieces, require
 
-from . import shared
+from . import run_main, shared
 
 PAGE = ROOT / "docs" / "measurements.md"
 
@@ -76,4 +75,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

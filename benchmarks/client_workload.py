@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import sys
 from pathlib import Path
 
 from shackled import load
@@ -19,6 +18,8 @@ from shackled.errors import ChainError
 from shackled.ethereum import keccak256, to_hex
 from shackled.evm import Answer, Instance, Status
 from shackled.scene import render_call
+
+from . import run_main
 
 FOLDER = Path(__file__).with_name("client")
 PIECE, SIDE = "teapot", 128
@@ -132,4 +133,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

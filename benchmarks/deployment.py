@@ -23,7 +23,6 @@ is that other contracts are accessed for 3,000 instead of 2,600.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -41,6 +40,8 @@ from shackled.scene import fit, pack
 from shackled.studio import STUDIO, StoreTransaction
 from shackled.studio._compact_mesh import compact
 from shackled.studio._storage import quantize, store_mesh
+
+from . import run_main
 
 PAGE = ROOT / "docs" / "studio.md"
 
@@ -191,4 +192,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

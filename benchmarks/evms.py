@@ -26,6 +26,8 @@ from shackled.artifacts import artifact
 from shackled.chain import CHAINS, ContractChain, NodeChain, open_chain, open_node
 from shackled.scene import LookOptions, encode
 
+from . import run_main
+
 PAGE = Path(__file__).resolve().parent / "evms.md"
 PROGRAM = str(Path(sys.executable).with_name("shackled"))
 
@@ -149,4 +151,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    run_main(main)

@@ -9,7 +9,6 @@ steps of `shackled.gas.fit_scene` follow from it.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
@@ -25,7 +24,7 @@ from tools.pages import ROOT, update
 from shackled import Image, Scene, load, render
 from shackled.scene import simplify_scene
 
-from . import flip, shared
+from . import flip, run_main, shared
 
 PAGE = ROOT / "docs" / "measurements.md"
 SIDE = 256
@@ -130,4 +129,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

@@ -9,7 +9,6 @@ benchmarks/README.md. A model that does not fit one picture, such as one with mo
 
 from __future__ import annotations
 
-import sys
 import warnings
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -26,7 +25,7 @@ from shackled.datasets.common import shapes
 from shackled.errors import InputWarning
 from shackled.scene import LookOptions, Mesh
 
-from . import publish, read_figures
+from . import publish, read_figures, run_main
 from .workload import workload_of
 
 FILE = Path(__file__).with_name("gas_model.json")
@@ -165,4 +164,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

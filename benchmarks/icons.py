@@ -8,7 +8,6 @@ antialiased: src/shackled/tokens/antialiased.json.
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 from attrs import evolve
@@ -21,7 +20,7 @@ from shackled.ethereum import intrinsic_gas
 from shackled.scene import resize
 from shackled.tokens import SCALE
 
-from . import read_figures, write_figures
+from . import read_figures, run_main, write_figures
 
 FILE = Path(__file__).with_name("icons.json")
 PAGE = ROOT / "docs" / "datasets.md"
@@ -100,4 +99,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

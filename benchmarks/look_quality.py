@@ -30,7 +30,7 @@ sys.path.insert(0, str(ROOT / "tests"))
 sys.path.insert(0, str(ROOT / "contracts"))
 from judge import render as in_float64
 
-from . import flip, publish, read_figures
+from . import flip, publish, read_figures, run_main
 
 FILE = Path(__file__).with_name("look_quality.json")
 PIECES = ("teapot", "torus-knot", "icons/crown", "genesis/7")
@@ -134,4 +134,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

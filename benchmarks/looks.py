@@ -8,7 +8,6 @@ docs/parallel.md, and prints the first. Figures of meshes and scenes that are no
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,7 +21,7 @@ from shackled.bench import gas
 from shackled.gas import KINDS, profile
 from shackled.scene._object import Shading
 
-from . import antialiasing, cost, read_figures, shared, write_figures
+from . import antialiasing, cost, read_figures, run_main, shared, write_figures
 from .scenes import SECOND_LIGHT, staged_teapot
 
 FILE = Path(__file__).with_name("looks.json")
@@ -205,4 +204,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

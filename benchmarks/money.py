@@ -13,7 +13,6 @@ byte.
 from __future__ import annotations
 
 import argparse
-import sys
 import zlib
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
@@ -25,7 +24,7 @@ from shackled.bench.scenes import cube
 from shackled.ethereum import intrinsic_gas
 from shackled.scene import encode
 
-from . import publish, read_figures
+from . import publish, read_figures, run_main
 
 FILE = Path(__file__).with_name("money.json")
 #: Limit of a transaction (EIP-7825).
@@ -124,4 +123,4 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main, has_options=True)

@@ -7,7 +7,6 @@ measures everything, rewrites motion.json and the table of docs/motion.md, and p
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 from tools.pages import ROOT, update
@@ -19,7 +18,7 @@ from shackled.datasets import pieces
 from shackled.scene import resize
 from shackled.studio import ANIMATE, store_scene
 
-from . import read_figures, write_figures
+from . import read_figures, run_main, write_figures
 
 FILE = Path(__file__).with_name("motion.json")
 PAGE = ROOT / "docs" / "motion.md"
@@ -111,4 +110,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

@@ -29,7 +29,7 @@ from shackled.parallel._scheduler import Scheduler
 from shackled.parallel._tiles import grid
 from shackled.scene import Rectangle, full_turn
 
-from . import Section, shared
+from . import Section, run_main, shared
 
 FOLDER = Path(__file__).parent
 SIDES = (128, 256, 512, 1024)
@@ -171,4 +171,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

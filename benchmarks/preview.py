@@ -23,6 +23,8 @@ from urllib.request import urlopen
 from tools import build_package
 from tools.pages import ROOT
 
+from . import run_main
+
 PAGE = ROOT / "docs" / "token-tutorial.md"
 MODULES = ROOT / "contracts" / "node_modules"
 SOURCE = "src/Totems.sol"
@@ -121,4 +123,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

@@ -25,13 +25,12 @@ from tools.pages import ROOT, update
 from shackled import Scene, load, render
 from shackled.datasets import pieces
 
-from . import flip, read_figures, shared, write_figures
+from . import flip, read_figures, run_main, shared, write_figures
 from .antialiasing import PAGE
 
 sys.path.insert(0, str(ROOT / "tests" / "support"))
 sys.path.insert(0, str(ROOT / "tests"))
 sys.path.insert(0, str(ROOT / "contracts"))
-from conformance import opengl
 from conformance.world import World, background, before_camera
 
 Array = NDArray[np.float64]
@@ -95,6 +94,8 @@ def samples(
     world: World, behind: Array, within: int, place: tuple[float, float] = (0.0, 0.0)
 ) -> tuple[NDArray[np.int64], Array]:
     """Draw within x within samples of each pixel: their triangles, (H, n, W, n), and their colours, (H, n, W, n, 3)."""
+    from conformance import opengl  # here, since it needs moderngl
+
     drawing = opengl.draw(replace(world, width=within * world.width, height=within * world.height), place=place)
     triangles = drawing.triangle.reshape(world.height, within, world.width, within)
     colors = drawing.color.reshape(*triangles.shape, 3)
@@ -109,6 +110,8 @@ def over_pixels(reduce: np.ufunc, values: NDArray[Any]) -> NDArray[Any]:
 
 def judged_pictures(scene: Scene) -> Iterator[Array]:
     """Yield the pictures of JUDGED, (H, W, 3) each, in whole levels."""
+    from conformance import opengl
+
     for antialias in (False, True):
         yield render(evolve(scene, antialias=antialias)).pixels.astype(float)
     world, behind = before_camera(scene), background(scene)
@@ -160,6 +163,8 @@ def table(figures: dict[str, Figures]) -> str:
 
 def main() -> int:
     """Measure, print and write the figures."""
+    from conformance import opengl
+
     try:
         opengl.context()
     except opengl.Unavailable as error:
@@ -177,4 +182,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

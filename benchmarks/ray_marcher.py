@@ -9,7 +9,6 @@ contracts/.
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -26,7 +25,7 @@ from shackled.ethereum import Interface
 from shackled.evm import Instance, Status
 from shackled.scene import Mesh, from_euler, painted, rotate
 
-from . import flip, publish, read_figures
+from . import flip, publish, read_figures, run_main
 
 CONTRACT = Path(__file__).with_name("RayMarcher.sol")
 FILE = Path(__file__).with_name("ray_marcher.json")
@@ -156,4 +155,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

@@ -9,7 +9,6 @@ Seed number N is keccak256("random-N").
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Sequence
 from statistics import fmean, median
 
@@ -17,6 +16,8 @@ from eth_utils.crypto import keccak
 from tools.pages import ROOT, update
 from tools.tokens.stage import stage
 from tools.tokens.world import GAS
+
+from . import run_main
 
 PAGE = ROOT / "docs" / "datasets.md"
 COUNT = 10_000
@@ -60,4 +61,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main, has_options=True)

@@ -7,7 +7,6 @@ measures pictures on a ground, without and with shadows, rewrites the table of d
 
 from __future__ import annotations
 
-import sys
 from statistics import fmean
 
 from attrs import evolve
@@ -16,6 +15,8 @@ from tools.pages import ROOT, update
 from shackled import Camera, Ground, Light, Material, Object, Scene, load, render
 from shackled.datasets import pieces, require
 from shackled.datasets.common.shapes import sphere
+
+from . import run_main
 
 PAGE = ROOT / "docs" / "light.md"
 
@@ -75,4 +76,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

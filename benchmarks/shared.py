@@ -33,8 +33,9 @@ UNLIT_SUFFIX, SMOOTH_SUFFIX, OWN_SUFFIX, LAMP_SUFFIX = " unlit", " smooth", " sm
 
 
 def is_there() -> bool:
-    """Return whether the folder of the scenes exists."""
-    return FOLDER.is_dir()
+    """Return whether the scenes are there, and not only those that need no download."""
+    needed = (CUBE, LARGE_CUBE, QUAD, *genesis())
+    return bool(objects()) and all((FOLDER / f"{name}.json").is_file() for name in needed)
 
 
 @cache

@@ -7,7 +7,6 @@ measures everything and rewrites gas.json; what changed is printed. The figures 
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 from attrs import evolve
@@ -21,7 +20,7 @@ from shackled.datasets.genesis import seed_of
 from shackled.deploy import STANDARD
 from shackled.scene import Rectangle
 
-from . import read_figures, shared, unit_costs, write_figures
+from . import read_figures, run_main, shared, unit_costs, write_figures
 from .original.documents import call_data, document, mesh_keys
 from .scenes import LAMP, cubes, empty, room, staged_teapot
 
@@ -158,4 +157,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

@@ -7,13 +7,13 @@ As `shackled gas` profiles it, beside the least that each stage could need.
 
 from __future__ import annotations
 
-import sys
+import argparse
 
 from shackled import Scene, load
 from shackled.bench import millions, table
 from shackled.gas import STAGES, profile
 
-from . import Section, shared
+from . import Section, run_main, shared
 from .scenes import staged_teapot
 from .workload import Workload, workload_of
 
@@ -101,9 +101,12 @@ def _examples() -> dict[str, Scene]:
 
 def main() -> int:
     """Print the stages of the files that are named."""
-    print(report({name: load(name) for name in sys.argv[1:]}).text if sys.argv[1:] else section().text)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", help="files or pieces; none: those of results.md")
+    names = parser.parse_args().names
+    print(report({name: load(name) for name in names}).text if names else section().text)
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main, has_options=True)

@@ -6,8 +6,8 @@ python -m benchmarks.story --check    writes nothing; fails if they are not up t
 
 from __future__ import annotations
 
+import argparse
 import csv
-import sys
 from pathlib import Path
 from statistics import fmean
 
@@ -20,7 +20,7 @@ from shackled.bench.scenes import cube
 from shackled.ethereum import intrinsic_gas
 from shackled.scene import encode
 
-from . import README, energy
+from . import README, energy, run_main
 from .original.recipe import SOURCES, digests
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -96,12 +96,14 @@ def rows(name: str) -> list[dict[str, str]]:
 
 def main() -> int:
     """Update the pages."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true", help="only say whether a page would change")
     return update(
         {README: content, ESTIMATES: {"energy": estimates()}.get},
         "python -m benchmarks.story",
-        "--check" in sys.argv[1:],
+        parser.parse_args().check,
     )
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main, has_options=True)

@@ -7,7 +7,6 @@ measures everything, rewrites studio.json and the tables of docs/studio.md, and 
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -26,7 +25,7 @@ from shackled.studio import store_scene
 from shackled.studio._compact_mesh import compact
 from shackled.studio._storage import quantize, store_mesh
 
-from . import read_figures, write_figures
+from . import read_figures, run_main, write_figures
 from .snapshot import changes
 
 FILE = Path(__file__).with_name("studio.json")
@@ -177,4 +176,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

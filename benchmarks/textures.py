@@ -7,7 +7,6 @@ python -m benchmarks.textures --models DIR   fetches BoxTextured and Duck, and d
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +18,8 @@ from shackled.chain import open_chain
 from shackled.scene._packed import pack_texture
 from shackled.scene._texture import FILTERS
 from shackled.studio import store_scene
+
+from . import run_main
 
 PAGE = ROOT / "docs" / "light.md"
 
@@ -110,4 +111,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main, has_options=True)

@@ -8,7 +8,6 @@ measures everything, rewrites tokens.json and the table of docs/tokens.md, and p
 from __future__ import annotations
 
 import statistics
-import sys
 from pathlib import Path
 
 from tools.pages import update
@@ -18,7 +17,7 @@ from tools.tokens.world import GAS, ZERO, account, keccak
 
 from shackled.datasets.genesis import seed_of
 
-from . import read_figures, write_figures
+from . import read_figures, run_main, write_figures
 
 ROOT = Path(__file__).resolve().parent.parent
 FILE = Path(__file__).with_name("tokens.json")
@@ -164,4 +163,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

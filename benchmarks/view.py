@@ -32,6 +32,8 @@ from shackled.datasets import require
 from shackled.evm import module_bytes
 from shackled.scene import encode
 
+from . import run_main
+
 #: Turns the scene for some milliseconds, a little in each frame of the screen; the second half is counted.
 TURN = """milliseconds => new Promise(resolve => {
     const view = document.querySelector('shackled-view');
@@ -193,4 +195,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    run_main(main, has_options=True)

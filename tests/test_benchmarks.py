@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 from attrs import evolve
-from benchmarks import client_workload, gas_model, look_quality, money, ray_marcher, stages
+from benchmarks import client_workload, cost, gas_model, look_quality, money, ray_marcher, shared, stages
 from benchmarks.scenes import cubes, staged_teapot
 from benchmarks.workload import workload_of
 
@@ -168,3 +168,56 @@ def test_a_part_of_a_look_is_left_out() -> None:
     assert np.abs(right - render(scene).pixels).mean() < 5
     for change in look_quality.LOOKS["effects"][1].values():
         assert np.abs(right - render(change(scene)).pixels).mean() > 1.25
+
+
+#: Runs the module of its first argument with the others, without packages that are not needed to render.
+WITHOUT = """
+import runpy, sys
+for name in ("pyrevm", "flip_evaluator", "moderngl", "matplotlib", "distributed"):
+    sys.modules[name] = None
+_, names, *arguments = sys.argv
+for name in names.split(","):
+    sys.argv[1:] = arguments
+    try:
+        runpy.run_module(name, run_name="__main__", alter_sys=True)
+    except SystemExit as end:
+        print(f"{name}: {end.code}", flush=True)
+"""
+COMMANDS = [
+    ".".join(path.relative_to(ROOT).with_suffix("").parts)
+    for path in sorted((ROOT / "benchmarks").rglob("*.py"))
+    if 'if __name__ == "__main__":' in path.read_text("utf-8")
+]
+
+
+def without_packages(names: list[str], *arguments: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-W", "ignore", "-c", WITHOUT, ",".join(names), *arguments]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
+
+
+def test_help_does_nothing_else() -> None:
+    """And needs no optional package."""
+    before = {path: path.stat().st_mtime_ns for path in (ROOT / "benchmarks").rglob("*.*")}
+    done = without_packages(COMMANDS, "--help")
+    assert len(COMMANDS) > 20
+    assert [line for line in done.stdout.splitlines() if line.startswith("benchmarks.")] == [
+        f"{n}: 0" for n in COMMANDS
+    ]
+    assert done.stdout.count("usage: ") == len(COMMANDS)
+    assert {path: path.stat().st_mtime_ns for path in before} == before
+
+
+def test_a_package_that_is_missing_is_named() -> None:
+    for name, package in (("tokens", "pyrevm"), ("look_quality", "flip-evaluator"), ("quality", "moderngl")):
+        done = without_packages([f"benchmarks.{name}"])
+        assert done.stdout.startswith(
+            f"benchmarks.{name}: the package {package.replace('-', '_')} is not installed: pip install {package}"
+        )
+        assert "Traceback" not in done.stderr
+
+
+def test_scenes_of_which_some_are_missing_are_skipped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(shared, "FOLDER", tmp_path)
+    for name in (shared.CUBE, shared.LARGE_CUBE, shared.QUAD, *shared.genesis()):
+        (tmp_path / f"{name}.json").touch()
+    assert cost.section().text == shared.SKIPPED

@@ -112,7 +112,7 @@ def test_the_files_that_pages_name_exist() -> None:
 @cache
 def sources() -> list[str]:
     folders = ("src", "contracts/src", "contracts/npm", "tests", "tools", "benchmarks", "examples")
-    files = [*ROOT.glob("*.toml"), *(ROOT / "contracts").glob("*.toml")]
+    files = [*ROOT.glob("*.toml"), *(ROOT / "contracts").glob("*.toml"), *(ROOT / "contracts").glob("*.py")]
     files += [path for folder in folders for path in (ROOT / folder).rglob("*.*")]
     return [path.as_posix() for path in files]
 

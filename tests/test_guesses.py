@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import traceback
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -88,6 +89,15 @@ SAME: list[tuple[Callable[[], Any], Callable[[], Any]]] = [
     (lambda: cube(bg="white"), lambda: cube(background="white")),
     (lambda: cube(background="transparent"), lambda: cube(transparent=True)),
     (lambda: cube(alpha=True), lambda: cube(transparent=True)),
+    # pyvista and matplotlib
+    (lambda: s.render("cube", window_size=(24, 12)), lambda: s.render("cube", (24, 12))),
+    (lambda: cube(elev=20.0, azim=50), lambda: cube(elevation=20, azimuth=50)),
+    (lambda: cube(smooth_shading=True), lambda: cube(shading="smooth")),
+    (lambda: cube(smooth_shading=False), lambda: cube(shading="flat")),
+    (lambda: cube(style="wireframe"), lambda: cube(wireframe=True)),
+    (lambda: cube(style="surface"), cube),
+    (lambda: cube(bg="w", color="c"), lambda: cube(background="white", color=(0, 191, 191))),
+    (lambda: s.turntable("cube", n_frames=2, size=SIDE), lambda: s.turntable("cube", 2, SIDE)),
     (lambda: np.asarray(cube(transparent=True)).shape, lambda: (SIDE, SIDE, 4)),
     (lambda: cube(background=None), cube),
     (lambda: cube(background=(0.2, 0.4, 0.6)), lambda: cube(background="#336699")),
@@ -174,7 +184,7 @@ NAMED: dict[str, tuple[Callable[[], Any], str]] = {
     "list_models": (lambda: s.list_models(), "shackled.datasets.pieces()"),
     "no file": (lambda: s.render("nothere.obj"), "nothere.obj does not exist"),
     "rotate=45": (lambda: cube(rotate=45), "`rotate` must be x, y, z in degrees"),
-    "a stream": (lambda: s.load(io.BytesIO(b"v 0 0 0")), "a path, the name of a piece, a Mesh, (vertices, faces), "),
+    "a stream": (lambda: s.load(io.BytesIO(b"v 0 0 0")), "the data: it has no faces, only 1 vertex"),
     "scale": (lambda: s.Object(MESH, scale=(1, 2, 1)), "the scale of an object must be a number"),
     "nothing": (lambda: s.render([], size=SIDE), "vertices and faces are needed"),
     "nan": (lambda: s.render((np.full((3, 3), np.nan), [(0, 1, 2)])), "not a finite number: [nan, nan, nan]"),
@@ -192,6 +202,22 @@ NAMED: dict[str, tuple[Callable[[], Any], str]] = {
     "fps and duration": (lambda: s.Animation(turns(), 100, fps=10), "exclude each other: give one of them"),
     "faces of all sizes": (lambda: s.Mesh(BOX.vertices, [(0, 1, 2), (0, 1)]), "the faces of a mesh must be rows of 3"),
     "fps": (lambda: s.Animation(turns(), fps=0), "`fps` must be the number of frames in a second, not 0"),
+    "alpha": (lambda: cube(alpha=0.5), "'alpha' is not a keyword of a look; `transparent` of render leaves out"),
+    "transparent": (lambda: cube(transparent="no"), "`transparent` must be True or False, not 'no'"),
+    "transparent frames": (lambda: s.turntable("cube", 2, SIDE, transparent=0.5), "must be True or False, not 0.5"),
+    "sise": (lambda: s.render("cube", sise=3), "render has no keyword 'sise'; did you mean size?"),
+    "frams": (lambda: s.turntable("cube", frams=3), "turntable has no keyword 'frams'; did you mean frames?"),
+    "elevaton": (lambda: cube(elevaton=3), "did you mean elevation?"),
+    "show_edges": (lambda: cube(show_edges=True), "`wireframe` draws edges only"),
+    "style": (lambda: cube(style="points"), "`wireframe` draws edges only"),
+    "two words": (lambda: cube(style="wireframe", wireframe=True), "are the same: give one"),
+    "cmap": (lambda: cube(cmap="viridis"), "Mesh(positions, faces, colors=...)"),
+    "dpi": (lambda: cube(dpi=100), "`size` is the side in pixels"),
+    "camera_position": (lambda: cube(camera_position="xy"), "`azimuth` and `elevation` turn it"),
+    "image.shape": (lambda: cube().shape, "the `pixels` of a picture have a shape"),
+    "image.size": (lambda: cube().size, "`width` and `height`"),
+    "mesh.bounds": (lambda: s.Mesh(BOX.vertices, BOX.faces).bounds, "mesh.positions.min(axis=0)"),
+    "scene.show": (lambda: s.load("cube").show(), "shackled.render(scene).show()"),
     "tokens": (lambda: s.tokens.read_metadata, "No shackled.tokens attribute read_metadata"),
 }
 
@@ -210,3 +236,23 @@ def test_the_light_of_the_sun_falls_where_it_travels() -> None:
     for light in (sun((0, 1, 0)), s.Light.directional(direction=(0, -1, 0))):
         pixels = s.render(BALL, 32, elevation=0, lights=light, ambient=0, background="black").pixels.astype(int)
         assert pixels[:16].sum() > 10 * pixels[16:].sum()
+
+
+def test_an_error_is_one_line_in_a_notebook(capsys: pytest.CaptureFixture[str]) -> None:
+    """And has its traceback everywhere else, as errors of other libraries have there."""
+    shell = pytest.importorskip("IPython.core.interactiveshell").InteractiveShell()
+    wrong = "import shackled; shackled.render('cube', %s)"
+    for cell, said in (
+        (wrong % "sise=3", "KeywordError: render has no keyword 'sise'; did you mean size?\n"),
+        (wrong % "size=0", "InputError: "),
+        (wrong % "on='http://127.0.0.1:1'", "NodeUnreachableError: "),
+    ):
+        shell.run_cell(cell)
+        shown = capsys.readouterr().out
+        assert shown.startswith(said)
+        assert shown.count("\n") == 1
+        with pytest.raises((TypeError, shackled.ShackledError)) as error:
+            exec(cell)
+        assert len(traceback.format_exception(error.value)) > 3
+    shell.run_cell("1 / 0")
+    assert "Traceback" in capsys.readouterr().out

@@ -28,7 +28,7 @@ NEEDED = [Requirement(line) for line in PROJECT["project"]["dependencies"]]
 EXTRAS = {
     name: [Requirement(line) for line in lines] for name, lines in PROJECT["project"]["optional-dependencies"].items()
 }
-CONSTRAINTS = ROOT / "tools" / "constraints.txt"
+LOCKED = ROOT / "tools" / "locked"
 
 #: What parts of the package may import beside what every installation has: the extras that errors name.
 EXTRA_OF = {
@@ -207,20 +207,39 @@ def test_the_package_of_the_contracts() -> None:
     assert "ignore-scripts=true" in (ROOT / "contracts" / ".npmrc").read_text().splitlines()
 
 
-def test_constraints_fit_what_is_asked_for() -> None:
-    """One exact version of each package, for the version of Python with which it was tried, and of no address."""
-    pinned: dict[str, str] = {}
-    for line in CONSTRAINTS.read_text().splitlines():
-        if not line or line.startswith("#"):
-            continue
-        assert re.fullmatch(r"[A-Za-z0-9._-]+==[A-Za-z0-9.!+]+ ; python_version == '3\.11'", line)
-        requirement = Requirement(line)
-        (exact,) = requirement.specifier
-        pinned[canonicalize_name(requirement.name)] = exact.version
+def locked(name: str) -> list[Requirement]:
+    """Return the requirements of a file of tools/locked: each of one version, with hashes, and of no address."""
+    found = []
+    for line in (LOCKED / f"{name}.txt").read_text().splitlines()[1:]:
+        requirement, *hashes = line.split(" --hash=")
+        assert re.fullmatch(r"[A-Za-z0-9._-]+==[A-Za-z0-9.!+]+( ; [^/]+)?", requirement)
+        assert hashes
+        assert all(re.fullmatch("sha256:[0-9a-f]{64}", each) for each in hashes)
+        found.append(Requirement(requirement))
+    return found
+
+
+@pytest.mark.parametrize("python", ["3.11", "3.12", "3.13", "3.14"])
+@pytest.mark.parametrize(
+    "platform", [("linux", "x86_64"), ("linux", "aarch64"), ("darwin", "arm64"), ("win32", "AMD64")]
+)
+def test_locked_packages_fit_what_is_asked_for(python: str, platform: tuple[str, str]) -> None:
+    """One version of each on each platform; both files have the same."""
+    environment = {"python_version": python, "python_full_version": f"{python}.9"}
+    environment |= dict(zip(("sys_platform", "platform_machine"), platform, strict=True))
+
+    def here(requirements: list[Requirement]) -> list[Requirement]:
+        return [each for each in requirements if each.marker is None or each.marker.evaluate(environment)]
+
     group = [Requirement(line) for line in PROJECT["dependency-groups"]["dev"]]
-    environment = {"python_version": "3.11", "sys_platform": "linux", "platform_machine": "x86_64"}
-    for requirement in [*NEEDED, *group, *(each for lines in EXTRAS.values() for each in lines)]:
-        if requirement.marker is None or requirement.marker.evaluate(environment):
-            version = pinned.get(canonicalize_name(requirement.name), "")
-            assert version, f"{requirement.name} is not in tools/constraints.txt: run python3 tools/constraints.py"
+    extras = [each for lines in EXTRAS.values() for each in lines]
+    build = [Requirement(line) for line in PROJECT["build-system"]["requires"]]
+    dev = {canonicalize_name(each.name): str(each.specifier) for each in here(locked("dev"))}
+    for name, wanted in (("package", [*NEEDED, *build]), ("dev", [*NEEDED, *build, *group, *extras])):
+        pinned = {canonicalize_name(each.name): str(each.specifier) for each in here(locked(name))}
+        assert len(pinned) == len(here(locked(name)))
+        assert pinned.items() <= dev.items()
+        for requirement in here(wanted):
+            version = pinned.get(canonicalize_name(requirement.name), "")[2:]
+            assert version, f"{requirement.name} is not in tools/locked/{name}.txt: run python tools/lock.py"
             assert requirement.specifier.contains(version, prereleases=True)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from tools import prepare
-from tools.constraints import HEAD, constraints
+from tools.lock import one_line_each
 
 
 @pytest.fixture
@@ -52,18 +52,41 @@ def test_node_is_looked_at(commands: list[tuple[object, ...]], monkeypatch: pyte
     assert commands == []
 
 
-@pytest.mark.parametrize("target", [prepare.prepare_package, prepare.prepare_dev])
-def test_versions_are_those_that_were_tried(
-    target: Callable[[], None], commands: list[tuple[object, ...]], monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(("target", "listed"), [(prepare.prepare_package, "package"), (prepare.prepare_dev, "dev")])
+def test_packages_are_those_that_were_tried(
+    target: Callable[[], None], listed: str, commands: list[tuple[object, ...]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """By version and hash; the package itself brings no others, nor does what builds it."""
     monkeypatch.setattr(prepare, "make_venv", lambda: None)
     monkeypatch.setattr(Path, "touch", lambda path: None)
     target()
-    assert {command[command.index("--constraint") + 1] for command in commands} == {prepare.CONSTRAINTS}
-
-
-def test_constraints_are_of_one_python() -> None:
-    assert constraints("a==1\nb @ file:///b\nc==2\n", (3, 12)) == (
-        f"{HEAD}a==1 ; python_version == '3.12'\nc==2 ; python_version == '3.12'\n"
-    )
+    others, itself = commands
+    assert others[-3:] == ("--require-hashes", "--requirement", prepare.LOCKED / f"{listed}.txt")
+    assert itself[-4:] == ("--no-deps", "--no-build-isolation", "--editable", prepare.ROOT)
     assert sys.version_info >= prepare.OLDEST_PYTHON
+
+
+def test_make_npm_needs_the_compiler_only(commands: list[tuple[object, ...]], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(prepare, "need_node", lambda: None)
+    monkeypatch.setattr(Path, "touch", lambda path: None)
+    prepare.prepare_contracts()
+    assert [command[:2] for command in commands] == [("npm", "ci")]
+    makefile = (prepare.ROOT / "Makefile").read_text()
+    assert "\nnpm: $(CONTRACTS) $(PACKAGE) ##" in makefile
+
+
+def test_the_compiler_of_evm_is_installed_where_it_can_be(
+    commands: list[tuple[object, ...]], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    prepare.prepare_rust()
+    assert commands == []
+    monkeypatch.setattr(shutil, "which", lambda name: name if name == "apt-get" else None)
+    prepare.prepare_rust()
+    assert commands[1][-4:] == prepare.RUST_PACKAGES
+    monkeypatch.setenv("SHACKLED_NO_APT", "1")
+    prepare.prepare_rust()
+    assert "evm.wasm is not built again: missing: the compiler of evm/" in capsys.readouterr().out
+
+
+def test_one_line_for_each_package() -> None:
+    assert one_line_each("a==1 ; os \\\n    --hash=b \\\n    --hash=c\nd==2\n") == "a==1 ; os --hash=b --hash=c\nd==2\n"

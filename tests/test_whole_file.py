@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import stat
 import threading
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -115,3 +116,22 @@ def test_wrong_paths(tmp_path: Path) -> None:
         make_output_folder(tmp_path / "file" / "a" / "b")
     make_output_folder(tmp_path / "x" / "y")
     assert check_output_folder(tmp_path / "x" / "y").is_dir()
+
+
+def test_data_is_on_the_disk_before_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Otherwise a power failure could leave an empty file in place of the old one."""
+    done: list[str] = []
+
+    def watched(name: str) -> Callable[..., None]:
+        each = getattr(os, name)
+
+        def call(*arguments: object) -> None:
+            done.append(name)
+            each(*arguments)
+
+        return call
+
+    for name in ("fsync", "replace"):
+        monkeypatch.setattr(os, name, watched(name))
+    write_whole(tmp_path / "file", b"data")
+    assert done == ["fsync", "replace"]

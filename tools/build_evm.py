@@ -4,8 +4,9 @@
     python tools/build_evm.py --check    writes nothing; fails if they are not those of the sources
 
 Building needs the compiler, the library sources and the linker of Debian's packages rustc-web, cargo-web, rust-web-src
-and lld-19: Rust itself has no prebuilt library for WebAssembly everywhere. Where that compiler is not installed, or not
-of the recorded version, or nothing was built here before, the check compares hashes only.
+and lld-19: Rust itself has no prebuilt library for WebAssembly everywhere. The check builds the module again, and says
+so where it can only compare hashes: where that compiler is not installed, or not of the recorded version, or the crates
+cannot be downloaded.
 """
 
 from __future__ import annotations
@@ -143,8 +144,12 @@ def main() -> int:
         if record["sources"] != sources or record["module"] != hashlib.sha256(kept).hexdigest():
             print("src/shackled/evm/evm.wasm is not that of the sources: run tools/build_evm.py", file=sys.stderr)
             return 1
-        if found != record["compiler"] or not TARGET_FOLDER.exists():
-            print(f"the EVM is not rebuilt, hashes are compared only: `make evm` builds it, with {record['compiler']}")
+        if found != record["compiler"]:
+            here = f"here is {found}" if found else "which is not installed here (python3 tools/prepare.py rust)"
+            print(f"evm.wasm is not built again, only hashes are compared: it needs {record['compiler']}; {here}")
+            return 0
+        if subprocess.run([CARGO, "fetch", "--locked", "--quiet"], cwd=SOURCES).returncode:
+            print("evm.wasm is not built again, only hashes are compared: the crates cannot be downloaded")
             return 0
         if build() != kept:
             print("src/shackled/evm/evm.wasm differs from a new build: run tools/build_evm.py", file=sys.stderr)

@@ -11,22 +11,21 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from tools.children import child
+
 
 @contextmanager
 def cluster(workers: int) -> Iterator[tuple[str, subprocess.Popen[str]]]:
     """Yield the address of a new cluster, and its process, which ends with the context."""
     command = [sys.executable, "-m", "tools.cluster", str(workers)]
-    with subprocess.Popen(
-        command,
-        cwd=Path(__file__).parents[1],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-    ) as process:
+    place = Path(__file__).parents[1]
+    with child(*command, cwd=place, stdin=subprocess.PIPE, stderr=subprocess.DEVNULL) as process:
         assert process.stdout is not None
-        yield process.stdout.readline().strip(), process
-        process.communicate(timeout=60)
+        try:
+            yield process.stdout.readline().strip(), process
+        finally:
+            # the end of its input: it ends its own processes then
+            process.communicate(timeout=60)
 
 
 if __name__ == "__main__":

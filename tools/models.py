@@ -32,7 +32,7 @@ from shackled.cli.option import with_options
 from shackled.cli.picture import FilmOptions, Source, Task, render_to
 from shackled.cli.progress import Notes
 from shackled.errors import InputWarning, ShackledError
-from shackled.gas import headline
+from shackled.gas import fits_as_json
 
 from .pages import ROOT, update
 
@@ -127,7 +127,7 @@ def result_of(package: Package, name: str, path: Path, picture: Path) -> dict[st
         try:
             result["faces"] = facts_of(path).triangles
             done = render_to(Source(name, str(path), path.stem), picture, DEFAULTS, Notes())
-            result |= {"gas": done.report["gas"], "fits": headline(done.fits or ()).removeprefix("fits ")}
+            result |= {"gas": done.report["gas"], "fits": fits_as_json(done.fits or ())}
         except ShackledError as error:
             result["refused"] = _words(error, path)
     notes = [_words(each.message, path) for each in caught if issubclass(each.category, InputWarning)]
@@ -142,19 +142,21 @@ def table(results: Sequence[dict[str, Any]]) -> str:
     """Return a summary, and a row for each model, in Markdown."""
     gas = [each["gas"] for each in results if "gas" in each]
     fits = [each["fits"] for each in results if "gas" in each]
+    of_ethereum = sum("Ethereum" in each["transactions"] for each in fits)
+    of_geth = sum("geth" in each["calls"] for each in fits)
     lines = [
         f"{len(gas)} models are rendered, {len(results) - len(gas)} are refused. The median of the gas is "
-        f"{median(gas or [0]) / 1e6:,.1f}M; {sum('one transaction' in each for each in fits)} pictures fit one "
-        f"transaction, {sum('any node' in each for each in fits)} a read call of any node.",
+        f"{median(gas or [0]) / 1e6:,.1f}M; {of_ethereum} pictures fit one transaction on Ethereum, {of_geth} a "
+        "read call of most nodes.",
         "",
-        "| package | file | format | faces | gas | fits | notes |",
-        "|---|---|---|---:|---:|---|---|",
+        "| package | file | format | faces | gas | notes |",
+        "|---|---|---|---:|---:|---|",
     ]
     for each in results:
         path = PurePosixPath(each["file"].removesuffix(".js"))
         cells = [each["package"], "/".join(path.parts[-2:]), path.suffix[1:].upper()]
         cells.append(f"{each['faces']:,}" if "faces" in each else "")
-        cells += [f"{each['gas'] / 1e6:,.1f}M", each["fits"]] if "gas" in each else ["refused", ""]
+        cells.append(f"{each['gas'] / 1e6:,.1f}M" if "gas" in each else "refused")
         notes = [*each["notes"], *([f"**{each['refused']}**"] if "refused" in each else [])]
         lines.append(f"| {' | '.join([*cells, '; '.join(notes).replace('|', '/')])} |")
     return "\n".join(lines)

@@ -1,22 +1,28 @@
-"""Write web/src/creator/settings.ts: what the page takes from the package, which are settings, looks and limits of gas.
+"""Write what the page takes from the package: web/src/creator/settings.ts, with settings, looks, limits of gas, chains,
+and bounds of what transactions cost; and web/src/files/signatures.ts, with the beginnings of files.
 
-python tools/page_settings.py    with --check it writes nothing, and fails if the file is not as it would be written
+python tools/page_settings.py    with --check it writes nothing, and fails if a file is not as it would be written
 """
 
 from __future__ import annotations
 
 import json
 import sys
+import tomllib
+from importlib.resources import files
 from math import isfinite
 from pathlib import Path
 from typing import Any
 
 from shackled.checks import Color
-from shackled.gas import limits
+from shackled.deploy import _quote
+from shackled.gas import known_chains, limits
 from shackled.scene import PRESETS, SETTINGS
 from shackled.scene._presets import Preset
+from shackled.tokens._contract import USUAL_GAS
+from shackled.tokens._reveal import FIRST_GAS, REVEAL_GAS
 
-FILE = Path(__file__).resolve().parent.parent / "web" / "src" / "creator" / "settings.ts"
+SOURCES = Path(__file__).resolve().parent.parent / "web" / "src"
 HEAD = """// Written by tools/page_settings.py from the tables of the Python package.
 
 /** What can be set: src/shackled/scene/_settings.py. `low` and `high` are null where there is none. */
@@ -36,13 +42,28 @@ export type Preset = Readonly<
         }
 >;
 
-/** How much gas a request may use, the smallest first: src/shackled/gas/limits.toml. */
+/** How much gas a request may use, the smallest first: src/shackled/gas/limits.toml, chains.toml. */
 export type Limit = Readonly<
-    Record<"name" | "node" | "source" | "date" | "remark", string> & { gas: number; kind: "transaction" | "call" }
+    Record<"name" | "place" | "source" | "date" | "remark", string> & { gas: number; kind: "transaction" | "call" }
 >;
+
+/** A chain, its currency by symbol; node: one that a wallet can use, or "": src/shackled/gas/chains.toml. */
+export type KnownChain = Readonly<Record<"name" | "currency" | "explorer" | "node", string> & { number: number }>;
+"""
+SIGNATURES = """// Written by tools/page_settings.py from src/shackled/scene/_files/signatures.toml.
+
+/** How a file begins, and what it is: the table explains the keys. */
+export interface Signature {
+    name: string;
+    begins: string;
+    case?: boolean;
+    text?: boolean;
+    format?: string;
+    do?: string;
+}
 """
 #: The tables, and the types of their rows.
-TYPES = {"SETTINGS": "Setting", "PRESETS": "Preset", "LIMITS": "Limit"}
+TYPES = {"SETTINGS": "Setting", "PRESETS": "Preset", "LIMITS": "Limit", "CHAINS": "KnownChain"}
 
 
 def settings() -> list[dict[str, Any]]:
@@ -67,15 +88,41 @@ def look(preset: Preset) -> dict[str, Any]:
     }
 
 
+def signatures() -> str:
+    """Return the file of signatures."""
+    known = tomllib.loads(files("shackled.scene._files").joinpath("signatures.toml").read_text("utf-8"))
+    # the page is one file, too, in which no script may hold the beginning of a comment
+    rows = "".join(f"    {json.dumps(row)},\n" for row in known["signature"]).replace("<!--", "<[!]--")
+    table = f"\n// prettier-ignore\nexport const SIGNATURES: readonly Signature[] = [\n{rows}];\n"
+    return f"{SIGNATURES}{table}\n// prettier-ignore\nexport const DAMAGED = {json.dumps(known['damaged'])};\n"
+
+
 def text() -> str:
-    """Return the file."""
-    names = ("name", "gas", "kind", "node", "source", "date", "remark")
+    """Return the file of settings."""
+    names = ("name", "gas", "kind", "place", "source", "date", "remark")
     known = [{name: getattr(each, name) for name in names} for each in limits()]
+    of_chains = ("number", "name", "currency", "explorer", "node")
+    chains = [{name: getattr(each, name) for name in of_chains} for each in known_chains()]
     made = [HEAD]
-    for table, rows in zip(TYPES, (settings(), [look(each) for each in PRESETS], known), strict=True):
+    for table, rows in zip(TYPES, (settings(), [look(each) for each in PRESETS], known, chains), strict=True):
         lines = "".join(f"    {json.dumps(row, ensure_ascii=False, default=str)},\n" for row in rows)
         made.append(f"\n// prettier-ignore\nexport const {table}: readonly {TYPES[table]}[] = [\n{lines}];\n")
+    made.append(bounds())
     return "".join(made)
+
+
+def bounds() -> str:
+    """Return the bounds of what transactions cost, and the gas of those whose gas is not measured here."""
+    tips = f"tip: {_quote.TIP}n, mostTip: {_quote.MOST_TIP}n"
+    margin = ", ".join(f"{number}n" for number in _quote.MARGIN)
+    gas = f"mint: {USUAL_GAS['mint']}, reveal: {FIRST_GAS}, round: {REVEAL_GAS}"
+    return f"""
+/** The bounds of quotes, in wei per gas, and the margin of gas limits, as a fraction: src/shackled/deploy/_quote.py. */
+export const BOUNDS = {{ {tips}, mostTimes: {_quote.MOST_TIMES}n, margin: [{margin}] }} as const;
+
+/** Gas: of minting a token, besides that of its data; of a transaction that reveals, and of each round in it. */
+export const USUAL_GAS = {{ {gas} }} as const;
+"""
 
 
 def _hex(color: Color) -> str:
@@ -85,7 +132,8 @@ def _hex(color: Color) -> str:
 if __name__ == "__main__":
     if sys.argv[1:] not in ([], ["--check"]):
         sys.exit(__doc__)
-    if not sys.argv[1:]:
-        FILE.write_text(text(), "utf-8")
-    elif FILE.read_text("utf-8") != text():
-        sys.exit(f"{FILE.name} is not as tools/page_settings.py writes it: run it without --check")
+    for name, content in {"creator/settings.ts": text(), "files/signatures.ts": signatures()}.items():
+        if not sys.argv[1:]:
+            (SOURCES / name).write_text(content, "utf-8")
+        elif not (SOURCES / name).exists() or (SOURCES / name).read_text("utf-8") != content:
+            sys.exit(f"{name} is not as tools/page_settings.py writes it: run it without --check")

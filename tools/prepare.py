@@ -3,12 +3,14 @@
     python3 tools/prepare.py package    .venv with the package in it
     python3 tools/prepare.py dev        and with what tests and documentation need
     python3 tools/prepare.py web        node_modules of web/, with which the Creator is built
+    python3 tools/prepare.py contracts  node_modules of contracts/: the compiler, and sources of libraries
     python3 tools/prepare.py node       node_modules of contracts/, web/ and tests/package: compilers, anvil, Hardhat
     python3 tools/prepare.py browser    browsers for the tests of pages, if they can be had
     python3 tools/prepare.py opengl     an OpenGL without a screen, to compare pictures with, if it can be had
+    python3 tools/prepare.py rust       the compiler of evm/, if it can be had
 
 Missing packages of the system are installed by apt-get, if that is there and the user is root, unless the variable
-SHACKLED_NO_APT is set. The versions of Python packages are those of tools/constraints.txt.
+SHACKLED_NO_APT is set. Python packages are those of tools/locked, by version and hash.
 """
 
 from __future__ import annotations
@@ -27,7 +29,7 @@ PYTHON = VENV / "bin" / "python"
 CONTRACTS = ROOT / "contracts"
 WEB = ROOT / "web"
 PACKAGE_TESTS = ROOT / "tests" / "package"
-CONSTRAINTS = ROOT / "tools" / "constraints.txt"
+LOCKED = ROOT / "tools" / "locked"
 
 #: Browsers that the tests of pages use: their commands, and the package with them.
 BROWSERS = {"chromium": ("chromium", "chromium-browser"), "firefox-esr": ("firefox-esr", "firefox")}
@@ -36,11 +38,12 @@ BROWSERS = {"chromium": ("chromium", "chromium-browser"), "firefox-esr": ("firef
 OPENGL_LIBRARIES = ("EGL", "GL", "EGL_mesa")
 OPENGL_RENDERERS = ("dri/swrast_dri.so", "libgallium-*.so")
 OPENGL_PACKAGES = ("libegl1", "libgl1", "libegl-mesa0", "libgl1-mesa-dri")
+#: The programs that compile evm/, as tools/build_evm.py calls them, and the packages with them.
+RUST = ("/usr/bin/rustc", "/usr/bin/cargo", "wasm-ld-19")
+RUST_PACKAGES = ("rustc-web", "cargo-web", "rust-web-src", "lld-19")
 
 OLDEST_PYTHON = (3, 11)
 OLDEST_NODE = 20
-#: The first pip that installs dependency groups.
-PIP = "pip>=25.1"
 
 
 def main() -> int:
@@ -49,9 +52,11 @@ def main() -> int:
         "package": prepare_package,
         "dev": prepare_dev,
         "web": prepare_web,
+        "contracts": prepare_contracts,
         "node": prepare_node,
         "browser": prepare_browser,
         "opengl": prepare_opengl,
+        "rust": prepare_rust,
     }
     if len(sys.argv) != 2 or sys.argv[1] not in targets:
         print(f"usage: python3 tools/prepare.py {'|'.join(targets)}", file=sys.stderr)
@@ -68,18 +73,15 @@ def prepare_package() -> None:
     """Install the package in .venv, editable."""
     make_venv()
     say("installing the package")
-    install("--editable", ROOT)
-    (VENV / ".package").touch()
+    install("package")
 
 
 def prepare_dev() -> None:
     """Install the package and the dependency group "dev"."""
     make_venv()
     say("installing the package and the tools of development")
-    install("--upgrade", PIP)
-    install("--editable", ROOT, "--group", f"{ROOT / 'pyproject.toml'}:dev")
-    for stamp in (".package", ".dev"):
-        (VENV / stamp).touch()
+    install("dev")
+    (VENV / ".dev").touch()
 
 
 def prepare_web() -> None:
@@ -87,6 +89,13 @@ def prepare_web() -> None:
     need_node()
     say("installing the bundler and the libraries of the page")
     npm_install(WEB)
+
+
+def prepare_contracts() -> None:
+    """Install node_modules of contracts/ from its package-lock.json."""
+    need_node()
+    say("installing the compiler and the libraries of the contracts")
+    npm_install(CONTRACTS)
 
 
 def need_node() -> None:
@@ -139,6 +148,16 @@ def prepare_opengl() -> None:
         say(f"the tests against OpenGL are skipped: {error}")
 
 
+def prepare_rust() -> None:
+    """Install the compiler of evm/ as packages of the system. Only the check that builds evm.wasm again needs it."""
+    if all(map(shutil.which, RUST)):
+        return
+    try:
+        apt_install("the compiler of evm/", *RUST_PACKAGES)
+    except (SystemExit, subprocess.CalledProcessError) as error:
+        say(f"evm.wasm is not built again: {error}")
+
+
 def make_venv() -> None:
     """Create .venv, if there is none that works."""
     if sys.version_info < OLDEST_PYTHON:
@@ -152,9 +171,13 @@ def make_venv() -> None:
     run(sys.executable, "-m", "venv", "--clear", VENV)
 
 
-def install(*wanted: object) -> None:
-    """Install Python packages in .venv."""
-    run(PYTHON, "-m", "pip", "install", "--quiet", "--constraint", CONSTRAINTS, *wanted)
+def install(listed: str) -> None:
+    """Install in .venv what a file of tools/locked lists, whose hashes pip compares, and the package itself."""
+    pip = (PYTHON, "-m", "pip", "install", "--quiet", "--disable-pip-version-check")
+    run(*pip, "--require-hashes", "--requirement", LOCKED / f"{listed}.txt")
+    # what builds it is among what was installed
+    run(*pip, "--no-deps", "--no-build-isolation", "--editable", ROOT)
+    (VENV / ".package").touch()
 
 
 def npm_install(folder: Path) -> None:
@@ -170,7 +193,9 @@ def apt_install(what: str, *packages: str) -> None:
     say(f"missing: {what}; installing {' '.join(packages)}")
     environment = os.environ | {"DEBIAN_FRONTEND": "noninteractive"}
     run("apt-get", "update", "-qq", env=environment)
-    run("apt-get", "install", "-y", "-qq", "--no-install-recommends", *packages, env=environment)
+    # another program may be installing packages
+    options = ("-y", "-qq", "--no-install-recommends", "-o", "DPkg::Lock::Timeout=300")
+    run("apt-get", "install", *options, *packages, env=environment)
 
 
 def run(*command: object, cwd: Path = ROOT, env: dict[str, str] | None = None) -> None:

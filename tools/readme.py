@@ -79,7 +79,7 @@ def effects() -> str:
 def pixels() -> str:
     """Return the table of what each effect costs for each pixel."""
     data: dict[str, list[int]] = json.loads(EFFECTS.read_text("utf-8"))
-    lines = ["| gas for each pixel | flat | smooth |", "|---|---:|---:|"]
+    lines = ["| gas for each pixel | flat | smooth | quick path |", "|---|---:|---:|---:|"]
     lines += [f"| {name} | {' | '.join(f'{gas:,}' for gas in each)} |" for name, each in data.items()]
     return "\n".join(lines)
 

@@ -65,6 +65,14 @@ CONTRACTS = """
 require.resolve("shackled-contracts/interfaces/IRenderer.sol");
 console.log(require("shackled-contracts").contracts.Renderer.address);
 """
+#: Draws meshes of other libraries, and fails unless they are what arrays of the same numbers are.
+OTHERS = """
+import numpy, meshio, open3d, pyvista, shackled
+v, f = numpy.array([(-1.0, -1, 0), (1, -1, 0), (1, 1, 0)]), numpy.array([(0, 1, 2)])
+one = open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(v), open3d.utility.Vector3iVector(f))
+meshes = one, pyvista.PolyData.from_regular_faces(v, f), meshio.Mesh(v, {"triangle": f})
+assert all((shackled.render(each, 16).pixels == shackled.render((v, f), 16).pixels).all() for each in meshes)
+"""
 TRIANGLE = "v 0 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\n"
 
 
@@ -90,7 +98,7 @@ class Table:
             yield details
         except Failure as failure:
             self.row(name, "FAILED", [failure])
-        except (OSError, LookupError, ValueError) as error:
+        except (OSError, LookupError, ValueError, subprocess.SubprocessError) as error:
             self.row(name, "FAILED", [repr(error)])
         else:
             self.row(name, "good", details)
@@ -252,6 +260,17 @@ def use_python(table: Table, name: str, python: Path, package: Path, work: Path)
             details.append(f"these say what else they need: {' '.join(needing)}")
 
 
+def use_others(table: Table, python: Path, work: Path) -> None:
+    """Draw meshes of other libraries, in an environment of its own."""
+    try:
+        inside = make_environment(python, work / "others", released("*.whl"), "pyvista", "open3d", "meshio")
+    except Failure as failure:
+        table.row("meshes of PyVista, Open3D, meshio", "absent", [failure])
+        return
+    with table.check("meshes of PyVista, Open3D, meshio"):
+        run(inside, "-c", OTHERS, cwd=work)
+
+
 def runs(python: Path, program: Path, folder: Path) -> bool:
     """Run a program. Return whether it succeeded; raise Failure if it failed with more than a line that says why."""
     done = subprocess.run([python, program], cwd=folder, env=VARIABLES, capture_output=True, text=True)
@@ -323,6 +342,7 @@ def use(table: Table, work: Path, pythons: list[Path], nodes: list[Path]) -> Non
             table.row(f"Python {version}", "absent")
     if first := next(filter(None, found.values()), None):
         use_python(table, "sdist", first, released("*.tar.gz"), work)
+        use_others(table, first, work)
     for node in [*find_nodes(), *nodes]:
         use_node(table, node, work)
 

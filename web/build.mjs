@@ -6,6 +6,7 @@
 //   node build.mjs page DIR      the scripts and styles of the Creator, into DIR; in DIR/one also as one script
 
 import { copyFileSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { relative, resolve } from "node:path";
 import { build } from "esbuild";
 
 /** What the scripts of workers are made of, for notices. */
@@ -20,7 +21,7 @@ const workers = {
             namespace: "worker",
         }));
         building.onLoad({ filter: /./, namespace: "worker" }, async ({ path }) => {
-            const script = { ...common, plugins: [draco], external: ["fs", "path"], format: "iife", minify: true };
+            const script = { ...common, plugins: [libraries], external: ["fs", "path"], format: "iife", minify: true };
             const { outputFiles, metafile } = await build({
                 ...script,
                 entryPoints: [path],
@@ -33,10 +34,15 @@ const workers = {
     },
 };
 
-/** What starts the decoder of Draco meshes is no module: here it exports what it defines. */
-const draco = {
-    name: "draco",
+/**
+ * Readers need no renderer, and the core of three.js has none. What starts the decoder of Draco meshes is no module: here it
+ * exports what it defines.
+ */
+const libraries = {
+    name: "libraries",
     setup: (building) => {
+        const core = resolve("node_modules/three/build/three.core.js");
+        building.onResolve({ filter: /^three$/ }, () => ({ path: core }));
         building.onLoad({ filter: /draco_wasm_wrapper\.js$/ }, ({ path }) => ({
             contents: `${readFileSync(path, "utf8")}\nexport default DracoDecoderModule;`,
         }));
@@ -54,7 +60,7 @@ const common = {
 };
 /** The decoder of Draco meshes; what starts it asks for parts of Node there. */
 const DRACO = "three/examples/jsm/libs/draco/gltf/draco_decoder.wasm";
-const modules = { ...common, plugins: [workers, draco] };
+const modules = { ...common, plugins: [workers, libraries] };
 const forPython = { shackled: "src/index.ts", view: "src/view/index.ts" };
 
 /** Write the licences of the packages that a bundle is made of. */
@@ -69,6 +75,14 @@ function writeNotices(inputs, path) {
     });
     const decoder = "Draco (Apache-2.0)\n\nThe decoder of compressed meshes: https://github.com/google/draco";
     writeFileSync(path, `${[...notices, decoder].join(`\n\n${"-".repeat(78)}\n`)}\n`);
+}
+
+/** Return the paths of all that a script loads, at once or later. Of imports that nothing uses, esbuild writes chunks too. */
+function loadedBy(script, outputs) {
+    const found = new Set([script]);
+    for (const path of found)
+        for (const { path: next, external } of outputs[path].imports) if (!external) found.add(next);
+    return found;
 }
 
 const builds = {
@@ -89,7 +103,7 @@ const builds = {
         return build({
             ...common,
             entryPoints: entryPoints.map((name) => `tests/${name}`),
-            plugins: [workers, draco],
+            plugins: [workers, libraries],
             platform: "node",
             outdir: "dist/tests",
         });
@@ -100,6 +114,8 @@ const builds = {
         const page = { ...modules, entryPoints, external: ["fs", "path"], minify: true, metafile: true };
         const chunkNames = "chunks/[name]-[hash]";
         const { metafile } = await build({ ...page, splitting: true, chunkNames, outdir: folder });
+        const loaded = loadedBy(relative(".", `${folder}/creator.js`), metafile.outputs);
+        for (const path of Object.keys(metafile.outputs)) if (/js$/.test(path) && !loaded.has(path)) rmSync(path);
         const inputs = { ...metafile.inputs, ...insideWorkers };
         writeNotices(inputs, `${folder}/LICENSES.txt`);
         writeFileSync(`${folder}/meta.json`, JSON.stringify(metafile));

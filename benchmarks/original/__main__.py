@@ -38,6 +38,7 @@ from shackled.ethereum import intrinsic_gas, keccak256, parse_address, to_hex
 from shackled.evm import Instance, Status
 from shackled.evm._instance import MOST_GAS
 
+from .. import run_main
 from .documents import Document, call_data
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -243,4 +244,4 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main, has_options=True)

@@ -15,7 +15,6 @@ from __future__ import annotations
 import argparse
 import hashlib
 import json
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,9 +27,10 @@ from shackled.bench.scenes import cube, equal_triangles
 from shackled.datasets import cache_folder, keep
 from shackled.datasets.common._fetch import checksum, download
 from shackled.datasets.common._models import Model
-from shackled.errors import FetchError
+from shackled.errors import ShackledError
 from shackled.scene import from_euler, rotate
 
+from .. import run_main
 from .documents import Document, document, genesis_document, scene_document
 
 DIGESTS = Path(__file__).with_name("scenes.json")
@@ -116,7 +116,10 @@ SMALL = 300
 
 
 def documents(files: Path | None = None) -> Iterator[tuple[str, Document]]:
-    """Yield the scenes by name. files: the folder of the models; they are downloaded without."""
+    """Yield the scenes by name. files: the folder of the models; they are downloaded without.
+
+    InputError at the end if models are missing.
+    """
     for side in SIDES:
         yield f"cube_persp_{side}", scene_document(cube(side))
         if side <= ORTHOGRAPHIC_SIDE:
@@ -129,14 +132,25 @@ def documents(files: Path | None = None) -> Iterator[tuple[str, Document]]:
     yield "fullquad_128", document(128, {}, **QUAD)
     for number in PIECES:
         yield f"genesis_{number:03}", genesis_document(number)
+    missing: list[str] = []
     for name, source in SOURCES.items():
-        mesh = geometry(file_of(name, source, files), source.merge)
+        try:
+            path = file_of(name, source, files)
+        except ShackledError as error:
+            missing.append(str(error).partition(" A copy")[0])
+            continue
+        mesh = geometry(path, source.merge)
         for kind, most in {"obj": source.triangles, **({"small": SMALL} if source.small else {})}.items():
             for cull in (True, False):
                 yield (
                     f"{kind}_{name}_{'cull' if cull else 'nocull'}",
                     model_document(*reduced(*mesh, most, source.aggression), source.angles, cull),
                 )
+    if missing:
+        raise InputError(
+            f"the scenes of {len(missing)} of {len(SOURCES)} models are left out: {missing[0]}; "
+            "files that you have: --from FOLDER"
+        )
 
 
 def file_of(name: str, source: Source, files: Path | None) -> Path:
@@ -229,19 +243,14 @@ def main() -> int:
     scenes = arguments.folder / "scenes"
     scenes.mkdir(parents=True, exist_ok=True)
     known, other = digests(), []
-    try:
-        for name, scene in documents(arguments.files):
-            (scenes / f"{name}.json").write_text(json.dumps(scene) + "\n", "utf-8")
-            if known[name] != digest(scene):
-                other.append(name)
-    except FetchError as error:
-        raise SystemExit(f"{str(error).partition(' A copy')[0]}; files that you have: --from FOLDER") from None
-    except InputError as error:
-        raise SystemExit(str(error)) from None
+    for name, scene in documents(arguments.files):
+        (scenes / f"{name}.json").write_text(json.dumps(scene) + "\n", "utf-8")
+        if known[name] != digest(scene):
+            other.append(name)
     print(f"{len(known)} scenes in {scenes}, {len(known) - len(other)} of them as they were measured")
     print("".join(f"{name} is another scene; fast-simplification 0.2.0 was used then\n" for name in other), end="")
     return bool(other)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main, has_options=True)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
-from contextlib import nullcontext
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any, Unpack
 
@@ -31,16 +31,22 @@ from .scene import (
     as_shown,
     axis_of_file,
     checked_look,
+    format_by_name,
+    format_of,
     frame_count,
+    is_pipe,
     is_trimesh,
     link_of,
     look_at,
+    mesh_of,
     objects_of,
     part_of,
     read_model,
+    read_pipe,
     read_scene,
     read_view,
     settings_of,
+    stored,
     upright,
 )
 from .words import with_words
@@ -84,7 +90,10 @@ def load_picture(thing: Thing, size: int | tuple[int, int] | None = None, **look
 def _loaded(thing: Thing, look: Mapping[str, Any], is_picture: bool) -> Scene:
     chosen = checked_look(look)
     found = _located(thing)
-    is_posed = isinstance(found, Path) and found.suffix.lower() in GLTF
+    if _is_data(found):
+        with _as_file(found) as path:
+            return _loaded(path, look, is_picture)
+    is_posed = isinstance(found, Path) and format_of(found) in GLTF
     made = read_posed(found, chosen, pose_of(chosen)) if is_posed else _made(found, chosen)
     with about(str(found)) if isinstance(found, Path | Link) else nullcontext():
         scene = look_at(made, chosen, name=str(found) if isinstance(found, Path) else "the mesh")
@@ -98,11 +107,43 @@ def is_model(thing: Any) -> bool:
     if isinstance(thing, list | tuple):
         return all(map(is_model, thing))
     found = _located(thing)
-    return isinstance(found, Path) and found.suffix.lower() in READERS
+    return isinstance(found, Path) and format_of(found) in READERS
 
 
 def _located(thing: Any) -> Any:
     return locate(thing) if isinstance(thing, str | os.PathLike) else thing
+
+
+def _is_data(thing: Any) -> bool:
+    """Return whether an input is the content of a file: bytes, an open file, or a pipe."""
+    is_open = isinstance(thing, bytes | bytearray | memoryview) or hasattr(thing, "read")
+    return is_open or (isinstance(thing, Path) and is_pipe(thing))
+
+
+@contextmanager
+def _as_file(thing: Any) -> Iterator[Path]:
+    """Yield the path of a file with the content of an input: that of an open file which is at its beginning."""
+    name, file = "the data", getattr(thing, "buffer", thing)
+    if _is_whole(file):
+        yield Path(file.name)
+        return
+    try:
+        if isinstance(thing, Path):
+            name, data = str(thing), read_pipe(thing)
+        else:
+            data = file.read() if hasattr(file, "read") else bytes(file)
+    except OSError as error:
+        raise InputError(f"{name} cannot be read: {error.strerror or error}") from None
+    with stored(data.encode() if isinstance(data, str) else bytes(data), name) as path:
+        yield path
+
+
+def _is_whole(file: Any) -> bool:
+    """Return whether an open file has a path, and is at its beginning."""
+    try:
+        return os.path.samestat(os.fstat(file.fileno()), os.stat(file.name)) and file.tell() == 0
+    except (OSError, ValueError, TypeError, AttributeError):
+        return False
 
 
 def locate(input: str | os.PathLike[str]) -> Path | Piece | Link:
@@ -113,7 +154,7 @@ def locate(input: str | os.PathLike[str]) -> Path | Piece | Link:
         raise InputError(f"{input} is an address of the web: download the file first")
     path = Path(input)
     name = input if isinstance(input, str) else path.as_posix()
-    if path.suffix.lower() in (*READERS, *SCENES, PICTURE) or os.path.isfile(path):
+    if format_by_name(path) in (*READERS, *SCENES, PICTURE) or os.path.isfile(path):
         return path
     piece = find(name)
     if piece is not None:
@@ -167,10 +208,13 @@ def _made(thing: Any, look: Mapping[str, Any]) -> Mesh | list[Object] | Scene:
     """Return the mesh, the parts of a model or the scene of an input."""
     if isinstance(thing, Mesh | Scene):
         return thing
-    if isinstance(thing, Path):
-        return _model(thing, look) if thing.suffix.lower() in READERS else read_scene(thing)
+    if isinstance(thing, Path) and not _is_data(thing):
+        return _model(thing, look) if format_of(thing) in READERS else read_scene(thing)
     if isinstance(thing, Link):
         return thing.scene()
+    if _is_data(thing):
+        with _as_file(thing) as path:
+            return _made(path, look)
     if isinstance(thing, Piece):
         return evolve(thing.make(), width=MESH_STAGING.side, height=MESH_STAGING.side, antialias=True)
     if isinstance(thing, Object):
@@ -183,9 +227,11 @@ def _made(thing: Any, look: Mapping[str, Any]) -> Mesh | list[Object] | Scene:
         if 2 <= len(thing) <= 4:
             return Mesh(*thing)
         raise InputError(f"vertices and faces are needed, not {len(thing)} parts: {thing!r:.60}")
+    if (mesh := mesh_of(thing)) is not None:
+        return mesh
     raise InputError(
         "a path, the name of a piece, a Mesh, (vertices, faces), a Scene or a mesh of trimesh is needed, not "
-        f"{thing!r:.60}"
+        f"{thing!r:.60}; also the bytes of a file, an open file, or a mesh of PyVista, Open3D or meshio"
     )
 
 
@@ -195,7 +241,8 @@ def _is_input(thing: Any) -> bool:
         first = thing[0]
         has_rows = hasattr(first, "__len__") and len(first) > 0 and hasattr(first[0], "__len__")
         return (has_rows and 2 <= len(thing) <= 4) or _is_input(first)
-    return isinstance(thing, str | os.PathLike | Piece | Link | Mesh | Object | Scene) or is_trimesh(thing)
+    is_own = isinstance(thing, str | os.PathLike | Piece | Link | Mesh | Object | Scene)
+    return is_own or is_trimesh(thing) or _is_data(thing) or hasattr(thing, "points") or hasattr(thing, "vertices")
 
 
 def _staged(objects: list[Object], look: Mapping[str, Any]) -> Scene:
@@ -219,7 +266,7 @@ def _combined(things: Sequence[Any], look: Mapping[str, Any]) -> list[Object] | 
             if isinstance(made, list):
                 model, models = [*model, *made], models + 1
                 made = _in_their_places(made, str(found) if isinstance(found, Path) else "the mesh")
-            elif isinstance(made, Scene) and isinstance(found, Scene | Path | Link):
+            elif isinstance(made, Scene) and (isinstance(found, Scene | Path | Link) or _is_data(found)):
                 scenes.append(made)
             parts = [made] if isinstance(made, Object) else [Object(made)] if isinstance(made, Mesh) else made.objects
             if isinstance(found, Piece):
@@ -256,7 +303,7 @@ def _stand_in_a_row(objects: list[Object], pieces: Sequence[slice]) -> None:
 
 
 def load_frames(
-    thing: str | os.PathLike[str],
+    thing: Thing,
     frames: int,
     size: int | tuple[int, int] | None = None,
     **look: Unpack[LookOptions],
@@ -269,8 +316,11 @@ def load_frames(
     frames: how many, 2..720. size, look: as in `load`, but for `time`.
     """
     chosen = checked_look({"size": size, **look})
-    path = locate(thing)
-    if not isinstance(path, Path) or path.suffix.lower() not in GLTF:
+    path = _located(thing)
+    if _is_data(path):
+        with _as_file(path) as file:
+            return load_frames(file, frames, size, **look)
+    if not isinstance(path, Path) or format_of(path) not in GLTF:
         raise InputError(f"{thing} has no animation: those of glTF files are read, {' or '.join(GLTF)}")
     if "time" in chosen:
         raise InputError("`time` is for one picture: frames take all times of an animation")

@@ -14,7 +14,8 @@ from ._load import Thing, load_frames, load_picture
 from ._on import Bounds, Embedded, On, Place, is_one_call, place_of
 from .animation import DURATION, DURATIONS, Animation
 from .chain import Drawing
-from .errors import InputError, warn
+from .checks import flag
+from .errors import InputError, OutOfGasError, warn
 from .image import Image, decode_bmp, uncovered
 from .scene import Background, LookOptions, Scene, full_turn
 from .words import with_words
@@ -49,9 +50,10 @@ def render(
     keep: a folder in which finished tiles are stored, so that the same call resumes; the caller removes it.
     transparent: whether to leave out the background and to return `Image.alpha`. The scene is drawn twice, over black
         and over white, so the gas is that of two pictures.
-    fit: "transaction" or "call": lower antialiasing, size and triangles as far as needed for one transaction, intrinsic
-        gas included, or for a read call of a node with geth's default settings; an InputWarning says what was done. It
-        excludes `tile` and `gas_limit`. InputError if nothing fits.
+    fit: lower antialiasing, size and triangles as far as needed for one request: "transaction" on Ethereum, intrinsic
+        gas included; one on "base", "optimism", "monad", "arbitrum" or "polygon"; or "call", a read call of a node with
+        geth's default settings. An InputWarning says what was done. It excludes `tile` and `gas_limit`. InputError if
+        nothing fits.
 
     Raises InputError for an invalid scene, ChainError if a call fails.
     """
@@ -66,7 +68,7 @@ def render(
         if found.scene != scene:
             warn(found.sentence)
         scene = found.scene
-    if not transparent:
+    if not flag(transparent, "`transparent`"):
         return draw([scene], place, bounds, listener, keep)[0]
     black, white = draw(_twice(scene), place, bounds, listener, keep)
     return uncovered(black, white, scene)
@@ -159,7 +161,7 @@ def film(
     """Render scenes of one size as the frames of an animation."""
     from .parallel import render_frames
 
-    drawn = [each for scene in scenes for each in _twice(scene)] if transparent else scenes
+    drawn = [each for scene in scenes for each in _twice(scene)] if flag(transparent, "`transparent`") else scenes
     images = render_frames(drawn, place, bounds, listener, keep)
     if transparent:
         images = [uncovered(*both) for both in zip(images[::2], images[1::2], scenes, strict=True)]
@@ -178,10 +180,18 @@ def draw(
     """Render scenes of one size, by one call each or by several."""
     from .parallel import render_frames
 
-    if isinstance(place, Embedded) and all(is_one_call(place, scene, bounds) for scene in scenes):
-        chain, evm = place.opened(), place.evm
-        return [render_whole(scene, chain.draw, chain.name, evm) for scene in scenes]
-    return render_frames(scenes, place, bounds, listener, keep)
+    is_whole = isinstance(place, Embedded) and all(is_one_call(place, scene, bounds) for scene in scenes)
+    try:
+        if isinstance(place, Embedded) and is_whole:
+            chain, evm = place.opened(), place.evm
+            return [render_whole(scene, chain.draw, chain.name, evm) for scene in scenes]
+        return render_frames(scenes, place, bounds, listener, keep)
+    except OutOfGasError as error:
+        from .gas import savings
+
+        if error.limit is None:
+            raise
+        raise OutOfGasError(f"{error}{savings(scenes[0], error.limit, not is_whole)}") from None
 
 
 def render_whole(scene: Scene, draw: Callable[[Scene], Drawing], made_by: str, evm: str | None = None) -> Image:

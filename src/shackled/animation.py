@@ -135,19 +135,25 @@ class Animation(Words):
         return encoded(self, self.frames[0].alpha is not None, extension, FORMATS, scene)
 
     def save(
-        self, file: str | os.PathLike[str] | BinaryIO, extension: str | None = None, scene: bool | None = None
+        self,
+        file: str | os.PathLike[str] | BinaryIO,
+        extension: str | None = None,
+        scene: bool | None = None,
+        *,
+        format: str | None = None,
     ) -> None:
         """Write a file atomically in the format of its extension, or to an open file in the format of `extension`.
 
-        A path without an extension is a folder of numbered PNG files, each with its scene. scene: as in `encode`.
-        InputError where the path or the extension is wrong, OutputError where the disk is full or fails.
+        A path without an extension is a folder of numbered PNG files, each with its scene. format: another word for
+        `extension`. scene: as in `encode`. InputError where the path or the extension is wrong, OutputError where the
+        disk is full or fails.
         """
         if not isinstance(file, str | os.PathLike):
-            write_open(file, extension, FORMATS, lambda kind: self.encode(kind, scene))
+            write_open(file, extension or format, FORMATS, lambda kind: self.encode(kind, scene))
             return
         path = check_animation(file)
         if path.suffix:
-            write_output(path, self.encode(extension or path.suffix, scene))
+            write_output(path, self.encode(extension or format or path.suffix, scene))
             return
         make_output_folder(path)
         for name, frame in zip(frame_names(len(self.frames)), self.frames, strict=True):

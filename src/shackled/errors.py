@@ -6,6 +6,9 @@ import os
 import re
 import sys
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any
 
 #: Where frames of the package are: in its folder, and in the code that attrs generates for its classes.
@@ -15,8 +18,25 @@ _INSIDE = (os.path.dirname(__file__) + os.sep, "<attrs generated")
 Place = tuple[str, int, str, dict[Any, Any]]
 
 
-class ShackledError(Exception):
+class _OneLine:
+    """An error that a notebook shows in one line, since all that is to be done about it is in the message."""
+
+    def _render_traceback_(self) -> list[str]:
+        """Return what IPython shows in place of the traceback, which `traceback.print_exc` prints as ever."""
+        return [f"{type(self).__name__}: {self}"]
+
+
+class ShackledError(_OneLine, Exception):
     """Base of all errors of the library."""
+
+
+class KeywordError(_OneLine, TypeError):
+    """A keyword that is not known, or given twice. The message says what would be right."""
+
+    def __init__(self, message: str, keyword: str = "") -> None:
+        """Take the message, and the keyword if it is not known."""
+        super().__init__(message)
+        self.keyword = keyword
 
 
 class InputError(ShackledError, ValueError):
@@ -45,10 +65,32 @@ def caller() -> Place:
     return code.co_filename, frame.f_lineno, names.get("__name__") or "", names.setdefault("__warningregistry__", {})
 
 
+#: What stands in messages, and what is said in its place.
+_NAMES: ContextVar[tuple[tuple[str, str], ...]] = ContextVar("_NAMES", default=())
+
+
+def _renamed(message: str) -> str:
+    for said, name in _NAMES.get():
+        message = message.replace(said, name)
+    return message
+
+
+@contextmanager
+def renaming(path: str, name: str) -> Iterator[None]:
+    """Let messages about a file, and about what is beside it, not name where it is stored."""
+    before = _NAMES.set(((path, name), (f"{os.path.dirname(path)}{os.sep}", ""), *_NAMES.get()))
+    try:
+        yield
+    except InputError as error:
+        raise InputError(_renamed(str(error))) from None
+    finally:
+        _NAMES.reset(before)
+
+
 def warn(message: str, category: type[Warning] = InputWarning, place: Place | None = None) -> None:
     """Warn, by default at the line of `caller`."""
     file, line, module, registry = place or caller()
-    warnings.warn_explicit(message, category, file, line, module, registry)
+    warnings.warn_explicit(_renamed(message), category, file, line, module, registry)
 
 
 class OutputError(ShackledError, OSError):
@@ -72,7 +114,9 @@ class RenderError(ChainError):
 
 
 class OutOfGasError(ChainError):
-    """A call needed more gas than its limit."""
+    """A call needed more gas than its limit, which is None if it is not known."""
+
+    limit: int | None = None
 
 
 class RevertError(ChainError):

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, BinaryIO, Generic, TypeVar
 
 import numpy as np
-from attrs import field, frozen
+from attrs import evolve, field, frozen
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 from PIL import Image as PillowImage
 from PIL.PngImagePlugin import PngInfo
@@ -20,7 +20,7 @@ from PIL.PngImagePlugin import PngInfo
 from .chain import open_chain
 from .checks import fixed
 from .errors import InputError, RenderError
-from .scene import CHUNK, PICTURE, Scene, SceneChunk, scene_chunk
+from .scene import CHUNK, DIGEST, PICTURE, Scene, SceneChunk, scene_chunk
 from .values import Value, array_key
 from .whole_file import check_output_file, write_output
 
@@ -107,6 +107,19 @@ class Image(Value):
     def _counts(self) -> tuple[int, int] | tuple[None, None]:
         return (None, None) if self.scene is None else open_chain(self.evm).count(self.scene)
 
+    @cached_property
+    def visible_pixels(self) -> int | None:
+        """The number of pixels that differ from the background; None if the scene is not known.
+
+        A background has one colour in each row: the embedded EVM draws one column of it. Raises the errors of `render`.
+        """
+        if self.alpha is not None:
+            return int(np.count_nonzero(self.alpha))
+        if self.scene is None:
+            return None
+        behind = open_chain(self.evm).draw(evolve(self.scene, objects=[], ground=None, width=1))
+        return int((self.pixels != decode_bmp(behind.bmp, 1, self.height)).any(axis=2).sum())
+
     @property
     def sha256(self) -> str:
         """The SHA-256 of the bytes of `channels`, in hexadecimal digits."""
@@ -132,18 +145,23 @@ class Image(Value):
         return encoded(self, self.alpha is not None, extension, FORMATS, scene)
 
     def save(
-        self, file: str | os.PathLike[str] | BinaryIO, extension: str | None = None, scene: bool | None = None
+        self,
+        file: str | os.PathLike[str] | BinaryIO,
+        extension: str | None = None,
+        scene: bool | None = None,
+        *,
+        format: str | None = None,
     ) -> None:
         """Write a file atomically in the format of its extension, or to an open file in the format of `extension`.
 
-        scene: as in `encode`. InputError where the path or the extension is wrong, OutputError where the disk is full
-        or fails.
+        format: another word for `extension`, such as "PNG". scene: as in `encode`. InputError where the path or the
+        extension is wrong, OutputError where the disk is full or fails.
         """
         if not isinstance(file, str | os.PathLike):
-            write_open(file, extension, FORMATS, lambda kind: self.encode(kind, scene))
+            write_open(file, extension or format, FORMATS, lambda kind: self.encode(kind, scene))
             return
         path = check_output(file)
-        write_output(path, self.encode(extension or path.suffix, scene))
+        write_output(path, self.encode(extension or format or path.suffix, scene))
 
     def data_uri(self, extension: str = ".png") -> str:
         """Return a URI that holds a file, for HTML and JSON."""
@@ -247,10 +265,10 @@ def png_options(image: Image, scene: bool | None = None) -> dict[str, PngInfo]:
         if chunk is None:
             raise InputError("the picture cannot carry its scene, which is not known")
         chunk.check()
-    if chunk is None or not (scene or chunk.is_small):
+    if chunk is None:
         return {}
     texts = PngInfo()
-    texts.add(CHUNK, chunk.data)
+    texts.add(*((CHUNK, chunk.data) if scene or chunk.is_small else (DIGEST, chunk.digest)))
     return {"pnginfo": texts}
 
 

@@ -6,10 +6,15 @@ import errno
 import os
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from .errors import InputError, OutputError
+
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None  # type: ignore[assignment]
 
 #: Bytes of a file's name that are repeated in that of its temporary file; names have at most 255.
 NAME = 200
@@ -77,12 +82,29 @@ def write_whole(path: Path, data: bytes, mode: int = 0o666) -> None:
         try:
             file.write(data)
             file.flush()
+            os.fsync(file.fileno())  # otherwise it may be empty after a power failure
             os.chmod(file.name, mode & ~_umask())
             file.close()
             os.replace(file.name, target)
         except BaseException:
-            os.unlink(file.name)
+            with suppress(FileNotFoundError):
+                os.unlink(file.name)
             raise
+
+
+@contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Hold the lock of a folder, for which other processes wait; none where the system has no such locks."""
+    if fcntl is None:
+        yield
+        return
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        with suppress(OSError):  # a disk of another machine may have none
+            fcntl.flock(descriptor, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(descriptor)
 
 
 @contextmanager

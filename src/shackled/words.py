@@ -11,27 +11,46 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from attrs.exceptions import FrozenInstanceError
 
-from .errors import InputError
+from .errors import InputError, KeywordError
 
 P = ParamSpec("P")
 R = TypeVar("R")
 #: Keywords with their values.
 Given = dict[str, Any]
+#: The most names that an error lists.
+MOST_NAMES = 16
+#: How alike a name must be to be meant, from 0 to 1.
+CUTOFF = 0.7
 
 #: Of all that takes a look.
 _LOOK = {
     "aa": "antialias",
+    "azim": "azimuth",
     "bg": "background",
     "colour": "color",
+    "elev": "elevation",
     "emissive": "emission",
     "light": "lights",
     "resolution": "size",
     "rotation": "rotate",
     "shadows": "shadow",
+    "window_size": "size",
 }
+#: Settings of other programs with their values, and what these are here.
+_VALUES: dict[tuple[str, object], Given] = {
+    ("smooth_shading", True): {"shading": "smooth"},
+    ("smooth_shading", False): {"shading": "flat"},
+    ("style", "wireframe"): {"wireframe": True},
+    ("style", "surface"): {"wireframe": False},
+}
+#: Colours of one letter, as in matplotlib.
+_LETTERS = dict(
+    zip("bgrcmykw", ("#00f", "#008000", "#f00", "#00bfbf", "#bf00bf", "#bfbf00", "#000", "#fff"), strict=True)
+)
 _COLOR = {"colour": "color"}
 _CAMERA = {"look_at": "target", "position": "eye", "yfov": "fov"}
 _PICTURE = {"alpha": "transparent"}
+_FILM = {**_PICTURE, "n_frames": "frames"}
 #: Other words for keywords, by what has these: a class, a function, or a look.
 SAME = {
     "look": _LOOK,
@@ -57,8 +76,8 @@ SAME = {
     "spot": _COLOR,
     "perspective": _CAMERA,
     "render": _PICTURE,
-    "turntable": _PICTURE,
-    "animate": _PICTURE,
+    "turntable": _FILM,
+    "animate": _FILM,
 }
 
 _SURFACE = "`color`, `shading`, `specular` and others set it, or render an Object with a Material"
@@ -67,7 +86,15 @@ _SCENE_FIXED = "a Scene does not change: give all objects to Scene([...]), or to
 #: What to give instead of a keyword, an attribute, or a name of the package.
 INSTEAD = {
     **dict.fromkeys(("output", "path", "filename"), _FILE),
-    **dict.fromkeys(("width", "height", "shape"), "`size` is the side in pixels, or (width, height)"),
+    **dict.fromkeys(("width", "height", "dpi"), "`size` is the side in pixels, or (width, height)"),
+    **dict.fromkeys(("cmap", "scalars"), "Mesh(positions, faces, colors=...) has a colour for each vertex"),
+    **dict.fromkeys(("smooth_shading", "style"), "`shading` is flat, smooth or unlit, `wireframe` draws edges only"),
+    "shape": "`size` is the side in pixels, or (width, height); the `pixels` of a picture have a shape",
+    "bounds": "mesh.positions.min(axis=0) and mesh.positions.max(axis=0) are the corners of its box",
+    "camera_position": "`eye`, `target` and `up` place the camera, or `azimuth` and `elevation` turn it",
+    "size": "`width` and `height` are the sides in pixels",
+    "show": "shackled.render(scene).show() opens its picture, shackled.view(scene) turns it in a notebook",
+    "show_edges": "`wireframe` draws edges only",
     "PointLight": "shackled.Light.point makes a light at a position",
     "DirectionalLight": "shackled.Light.directional makes a light at infinity",
     "SpotLight": "shackled.Light.spot makes a light that shines into a cone",
@@ -90,20 +117,27 @@ INSTEAD = {
 }
 
 
-def instead_of(name: str, known: Iterable[str], cutoff: float = 0.8) -> str:
+def instead_of(name: str, known: Iterable[str]) -> str:
     """Return what was meant by a name that is not known, or else what is known."""
     names = list(known)
-    close = get_close_matches(name, names, 1, cutoff)
-    return f"did you mean {close[0]}?" if close else INSTEAD.get(name, f"known are {', '.join(names)}")
+    if name in INSTEAD:
+        return INSTEAD[name]
+    if close := get_close_matches(name, names, 1, CUTOFF):
+        return f"did you mean {close[0]}?"
+    return f"known are {', '.join(names)}" if len(names) <= MOST_NAMES else "`shackled render --help` lists all"
 
 
 def in_our_words(owner: str, given: Given) -> Given:
-    """Return keywords with the words of other programs replaced. TypeError where one is given twice."""
+    """Return keywords with the words of other programs replaced. KeywordError where one is given twice."""
     found: Given = {}
     for name, value in given.items():
-        ours = SAME.get(owner, {}).get(name, name)
+        # a number is that of objects, not of the picture
+        ours = name if name == "alpha" and isinstance(value, float) else SAME.get(owner, {}).get(name, name)
+        if owner == "look" and isinstance(value, str | bool):
+            value = _LETTERS.get(str(value), value) if "color" in ours or ours == "background" else value
+            ((ours, value),) = _VALUES.get((name, value), {ours: value}).items()
         if ours in found or (ours != name and ours in given):
-            raise TypeError(f"`{name}` and `{ours}` are the same: give one of them")
+            raise KeywordError(f"`{name}` and `{ours}` are the same: give one of them")
         found[ours] = value
     return found
 
@@ -128,7 +162,16 @@ def with_words(function: Callable[P, R]) -> Callable[P, R]:
             given = with_duration(given)
         if not has_look:
             _check(function.__qualname__, given, [name for name in named if name != "cls"])
-        return function(*args, **given)
+        try:
+            return function(*args, **given)
+        except KeywordError as error:
+            # one of a look is not known there, which does not know those of the function
+            close = get_close_matches(error.keyword, named, 1, CUTOFF)
+            if close:
+                raise KeywordError(
+                    f"{function.__name__} has no keyword {error.keyword!r}; did you mean {close[0]}?"
+                ) from None
+            raise
 
     return understanding
 
@@ -192,7 +235,7 @@ def words_of(
 def _check(owner: str, given: Given, names: Sequence[str]) -> None:
     for name in given:
         if name not in names:
-            raise TypeError(f"{owner} has no keyword {name!r}; {instead_of(name, names)}")
+            raise KeywordError(f"{owner} has no keyword {name!r}; {instead_of(name, names)}", name)
 
 
 class Package(ModuleType):

@@ -83,18 +83,26 @@ def test_normals_are_weighted_by_angles() -> None:
 
 
 def test_a_file_must_be_the_right_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    file_of = recipe.file_of
     source = recipe.SOURCES["cow"]
     with pytest.raises(InputError, match="does not exist; it is https://"):
         recipe.file_of("cow", source, tmp_path)
     (tmp_path / "cow.obj").write_text("v 0 0 0\n")
     with pytest.raises(InputError, match="its checksum is git-blob:"):
         recipe.file_of("cow", source, tmp_path)
-    # a port at which nobody listens
-    monkeypatch.setattr(recipe, "SOURCES", {"cow": replace(source, address="http://127.0.0.1:9/cow.obj")})
+    # a port at which nobody listens, and a file that is there
+    gone = replace(source, address="http://127.0.0.1:9/cow.obj")
+    (tmp_path / "here.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n")
+    monkeypatch.setattr(
+        recipe, "file_of", lambda name, *_: file_of(name, gone, None) if name == "cow" else tmp_path / "here.obj"
+    )
+    monkeypatch.setattr(recipe, "SOURCES", {"cow": gone, "horse": source})
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.setattr("sys.argv", ["recipe", str(tmp_path)])
-    with pytest.raises(SystemExit, match=r"cow: http.*obj cannot be downloaded.*files that you have: --from FOLDER"):
+    wrong = r"^the scenes of 1 of 2 models are left out: cow: http.*obj cannot be downloaded.*have: --from FOLDER$"
+    with pytest.raises(InputError, match=wrong):
         recipe.main()
+    assert (tmp_path / "scenes" / "obj_horse_cull.json").is_file()
 
 
 # ---- the measurement ----

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import errno
+import json
+import sys
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
+from tools.children import child
 
 from shackled.chain import VARIABLE, AddressBook, book_path
 from shackled.errors import InputError, OutputError
@@ -83,3 +87,18 @@ def test_a_full_disk_is_no_wrong_input(monkeypatch: pytest.MonkeyPatch, tmp_path
     for use in (book.check, lambda: book.write(1, {"Engine": ONE})):
         with pytest.raises(OutputError, match=message):
             use()
+
+
+def test_two_writers_lose_nothing(tmp_path: Path) -> None:
+    code = (
+        "import sys\nfrom pathlib import Path\nfrom shackled.chain import AddressBook\n"
+        "book = AddressBook(Path(sys.argv[1]))\n"
+        "for each in range(50):\n    book.write(int(sys.argv[2]) + each, {'Renderer': bytes(19) + b'\\1'})\n"
+    )
+    path = tmp_path / "book.json"
+    with ExitStack() as stack:
+        command = (sys.executable, "-c", code, path)
+        writers = [stack.enter_context(child(*command, str(start))) for start in (1000, 2000, 3000)]
+        assert [writer.wait(120) for writer in writers] == [0, 0, 0]
+    assert len(json.loads(path.read_text())["chains"]) == 150
+    assert [each.name for each in tmp_path.iterdir()] == ["book.json"]

@@ -6,12 +6,12 @@ import http.client
 import json
 import re
 import signal
-import subprocess
 import sys
 from contextlib import closing
 from pathlib import Path
 
 import pytest
+from tools.children import child
 
 from commands import Shackled
 from shackled import InputError
@@ -59,6 +59,18 @@ def test_an_input_comes_with_the_files_that_it_names(page: Path, tmp_path: Path)
     assert json.loads(ask(page, "addresses.json") or b"") == {"chains": {"1": {}}}
 
 
+def test_only_files_that_readers_use_are_served(page: Path, tmp_path: Path) -> None:
+    """Not what is named within other words, what no reader reads, or what is elsewhere."""
+    folder = tmp_path / "models"
+    write(folder, {"a.obj": "# id_rsa .env notes/diary.txt mywood.png Wood.PNG link.png\nmtllib sub/a.mtl\n"})
+    write(folder, dict.fromkeys(("id_rsa", ".env", "notes/diary.txt", "e", "v", "d.png", "wood.png"), "no"))
+    write(folder, {"sub/a.mtl": "", "notes/a.mtl.bak": ""})
+    write(tmp_path, {"private.png": "no"})
+    (folder / "link.png").symlink_to(tmp_path / "private.png")
+    names = json.loads(ask(page, "input.json", str(folder / "a.obj")) or b"")["names"]
+    assert names == ["a.obj", "sub/a.mtl", "wood.png"]
+
+
 def test_pieces_and_links(page: Path, tmp_path: Path) -> None:
     (page / "data" / "pieces").mkdir()
     (page / "data" / "pieces" / "icons-heart.gz").write_bytes(b"")
@@ -84,9 +96,12 @@ def test_written_to_a_folder(page: Path, tmp_path: Path, shackled: Shackled) -> 
 
 
 def test_without_a_built_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """As in a clone in which nothing was built."""
+    """As in an installed package, and in a clone in which nothing was built."""
     package = tmp_path / "src" / "shackled"
     monkeypatch.setattr(creator, "__file__", str(package / "cli" / "creator.py"))
+    with pytest.raises(InputError, match=r"needs Node 20 or newer and npm.* `pip install --force-reinstall"):
+        creator.built_page()
+    (tmp_path / "Makefile").touch()
     with pytest.raises(InputError, match="`make page`"):
         creator.built_page()
     (tmp_path / "build" / "page").mkdir(parents=True)
@@ -100,8 +115,7 @@ def test_the_command_serves_until_it_is_interrupted(page: Path) -> None:
         "creator.built_page = lambda: (pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[1]));"
         "sys.exit(app.run(['creator', 'cube', '--no-browser', '--port', '0']))"
     )
-    command = [sys.executable, "-c", code, str(page)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+    with child(sys.executable, "-c", code, page) as process:
         assert process.stdout is not None
         found = re.search(r"http://127\.0\.0\.1:(\d+)/\?input", process.stdout.readline())
         assert found

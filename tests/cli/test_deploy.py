@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 from eth_account import Account
 from tools.anvil import Anvil
+from tools.children import child
 
 from commands import Said, Shackled
 from nodes import KEY, Reply, failure, forward, free_port, serving
@@ -156,17 +157,13 @@ def test_asking(node: Anvil, folder: Path, answer: str, code: int, blocks: int) 
     pty = pytest.importorskip("pty")
     command = [sys.executable, "-m", "shackled", "deploy", "--rpc", node.url, "--private-key-env", "TEST_KEY"]
     ours, theirs = pty.openpty()
-    process = subprocess.Popen(
-        [*command, "--contracts", "Engine"], stdin=theirs, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
-    )
-    os.close(theirs)
-    try:
-        os.write(ours, f"{answer}\n".encode())
-        out, _ = process.communicate(timeout=60)
-    finally:
-        process.kill()
-        os.close(ours)
-    text = out.decode()
+    with (
+        os.fdopen(ours, "wb", buffering=0) as typed,
+        child(*command, "--contracts", "Engine", stdin=theirs, stderr=subprocess.STDOUT) as process,
+    ):
+        os.close(theirs)
+        typed.write(f"{answer}\n".encode())
+        text, _ = process.communicate(timeout=60)
     assert process.returncode == code
     assert text.index(f"{deployments(['Engine'])[0].gas:,}") < text.index("Send from 0x")
     assert int(node.rpc("eth_blockNumber"), 16) == blocks

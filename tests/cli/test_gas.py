@@ -14,7 +14,7 @@ from nodes import anvil, needs_anvil
 from shackled import load, render
 from shackled.cli.app import app
 from shackled.datasets import Piece
-from shackled.gas import KINDS, STAGES
+from shackled.gas import KINDS, STAGES, limits
 from shackled.scene import SETTINGS
 
 
@@ -49,8 +49,17 @@ def test_one_json_object_says_it_all(report: Any, shackled: Shackled) -> None:
     assert transaction["gas_limit"] == found["searched_gas"] + found["intrinsic_gas"]
     assert transaction["ether"] == pytest.approx(transaction["gas"] * 2e-9)
     assert transaction["usd"] == pytest.approx(transaction["gas"] * 6e-6)
-    assert all(entry["fits"] == (transaction["gas_limit"] <= entry["limit"]) for entry in found["fits"])
-    assert {entry["limit"] for entry in found["fits"]} >= {1 << 24, 50_000_000, 100_000_000}
+    for limit in limits():
+        assert (limit.place in found["fits"][f"{limit.kind}s"]) == (transaction["gas_limit"] <= limit.gas)
+    assert found["missed_quick_path"] == {}
+
+
+def test_the_quick_path(shackled: Shackled, report: Any) -> None:
+    assert "quick path" not in shackled("gas shape.obj --no-stages --size 20").out
+    words = "--no-stages --size 20 --hemisphere white --shading flat --color tan --specular 0.08"
+    missed = report(words)["missed_quick_path"]
+    note = f"quick path   of 4 faces, these miss the quick path of effects: 4 because of {''.join(missed)}"
+    assert (note in shackled(f"gas shape.obj {words}").out, missed) == (True, {"a highlight of 8 percent": 4})
 
 
 def test_the_look_is_that_of_render(report: Any, shackled: Shackled) -> None:

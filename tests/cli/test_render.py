@@ -17,6 +17,7 @@ from commands import Shackled
 from shackled import Camera, InputError, Mesh, Object, Rim, Scene, Tone, load, render, whole_file
 from shackled.chain import CHAINS, RevmChain
 from shackled.cli.app import run
+from shackled.gas import limits
 from shackled.scene import Hemisphere, render_call
 from shackled.studio import make_apng
 
@@ -61,30 +62,30 @@ def test_one_json_object_says_it_all(shackled: Shackled) -> None:
 
 
 def test_where_it_fits(shackled: Shackled) -> None:
-    def fits(options: str) -> tuple[str, list[bool]]:
+    def fits(options: str) -> tuple[str, dict[str, list[str]]]:
         (line,) = re.findall("^fits     (.*)$", shackled(f"render shape.obj {options}").out, re.MULTILINE)
         found = shackled(f"render shape.obj --json {options}").json["fits"]
         assert found == shackled(f"gas shape.obj --json --no-stages {options}").json["fits"]
-        return line, [each["fits"] for each in found]
+        return line, found
 
-    everywhere, by_limit = fits("--size 16")
-    assert everywhere == "one transaction, and any node's read call"
-    assert all(by_limit)
-    large, by_limit = fits("--size 600")
-    assert large == "any node's read call; no transaction"
-    assert by_limit == [False] + [True] * 6
+    places = {f"{kind}s": [e.place for e in limits() if e.kind == kind] for kind in ("transaction", "call")}
+    anywhere = "free to read on most nodes; a contract can draw it inside a transaction"
+    assert fits("--size 16") == (anywhere, places)
+    line, found = fits("--size 600")
+    assert line == "free to read on most nodes; too much for a contract to draw inside a transaction"
+    assert found == places | {"transactions": []}
     # of several calls, that of each
     said = shackled("render shape.obj --size 600 --tile 600x60")
-    assert "fits     each of its 10 calls: one transaction, and any node's read call" in said.out
+    assert f"fits     each of its 10 calls: {anywhere}" in said.out
 
 
 def test_a_picture_is_made_to_fit(shackled: Shackled) -> None:
     said = shackled("render shape.obj --size 700 --fit transaction")
     width = len(pixels("shape.png"))
     assert 128 < width < 700
-    assert "fits     one transaction, and any node's read call" in said.out
+    assert "fits     free to read on most nodes; a contract can draw it inside a transaction\n" in said.out
     size = f"at {width} x {width} instead of 700 x 700 pixels"
-    note = f"shackled: note: to fit one transaction, the picture is drawn without antialiasing and {size}: "
+    note = f"shackled: note: to fit one transaction on Ethereum, the picture is drawn without antialiasing and {size}: "
     assert said.err.startswith(note)
     assert said.err.count("\n") == 1
     said = shackled("gas shape.obj --size 700 --fit transaction --no-stages --json")

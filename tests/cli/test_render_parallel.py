@@ -5,16 +5,16 @@ from __future__ import annotations
 import hashlib
 import os
 import signal
-import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from PIL import Image as PillowImage
+from tools.children import child
 
 from commands import Shackled
 from nodes import anvil, needs_anvil
@@ -116,15 +116,6 @@ def test_stopped_and_resumed(report: Any, shackled: Shackled, monkeypatch: pytes
     assert not Path("spin.gif.parts").exists()
 
 
-@pytest.fixture
-def interruptible() -> Iterator[None]:
-    """What is started from here on reacts to SIGINT, even where the tests themselves run with it ignored."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
-
-
-@pytest.mark.usefixtures("interruptible")
 @pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
 @pytest.mark.parametrize(
     ("inputs", "kind"),
@@ -135,13 +126,7 @@ def test_nothing_runs_on(inputs: list[str], kind: signal.Signals) -> None:
     """Ctrl-C ends threads, and the processes of several inputs, which also end if the command is killed."""
     mark = f"SHACKLED_TEST_{os.getpid()}_{kind}"
     command = [sys.executable, "-m", "shackled", "render", *inputs, "--size", "128", "--jobs", "2"]
-    with subprocess.Popen(
-        [*command, "--turntable", "720", "-o", "{stem}.gif"],
-        env={**os.environ, mark: "1"},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    ) as process:
+    with child(*command, "--turntable", "720", "-o", "{stem}.gif", env={**os.environ, mark: "1"}) as process:
         wait_until(lambda: len(list(Path("teapot.gif.parts").glob("*.part"))) > 4)
         assert len(marked(mark) - {process.pid}) == (2 if len(inputs) > 1 else 0)
         process.send_signal(kind)

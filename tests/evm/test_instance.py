@@ -11,9 +11,11 @@ import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import AbstractContextManager
 from pathlib import Path
 
 import pytest
+from tools.children import child
 
 from shackled import ChainError, InputError
 from shackled.chain import RevmChain
@@ -151,22 +153,27 @@ except ChainError as error:
 ANSWER = bytes(31).hex() + "2a"
 
 
-def start(cache: Path, limit: str = "", value: int = 0, memory: int = 0) -> subprocess.Popen[str]:
+def start(
+    cache: Path, limit: str = "", value: int = 0, memory: int = 0
+) -> AbstractContextManager[subprocess.Popen[str]]:
     """Start a process whose cache is in a folder."""
-    command = [sys.executable, "-c", PROGRAM, limit, str(value), str(memory)]
     environment = os.environ | {"XDG_CACHE_HOME": str(cache)}
-    return subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    return child(sys.executable, "-c", PROGRAM, limit, str(value), str(memory), env=environment)
 
 
-def said(process: subprocess.Popen[str]) -> str:
-    with process:
-        output, errors = process.communicate(timeout=120)
+def output(process: subprocess.Popen[str]) -> str:
+    output, errors = process.communicate(timeout=120)
     assert (process.returncode, errors, output.count("\n")) == (0, "", 1)
     return output.strip()
 
 
-def check(process: subprocess.Popen[str]) -> None:
-    assert said(process) == ANSWER
+def said(cache: Path, limit: str = "", value: int = 0, memory: int = 0) -> str:
+    with start(cache, limit, value, memory) as process:
+        return output(process)
+
+
+def check(cache: Path, limit: str = "", value: int = 0, memory: int = 0) -> None:
+    assert said(cache, limit, value, memory) == ANSWER
 
 
 @needs_linux
@@ -174,16 +181,16 @@ def check(process: subprocess.Popen[str]) -> None:
 def test_it_starts_with_little_address_space(tmp_path: Path, megabytes: int) -> None:
     """Its memory can grow, too, beyond the 64 MB that are reserved."""
     memory = 80 << 20 if megabytes > 1000 else 32
-    check(start(tmp_path, "RLIMIT_AS", megabytes << 20, memory))
+    check(tmp_path, "RLIMIT_AS", megabytes << 20, memory)
 
 
 @needs_linux
 def test_too_little_address_space(tmp_path: Path) -> None:
-    assert said(start(tmp_path, "RLIMIT_AS", 400 << 20)) == (
+    assert said(tmp_path, "RLIMIT_AS", 400 << 20) == (
         "the embedded EVM cannot start: this process may use 400 MB of address space, and needs at least 512: raise "
         "the limit (`ulimit -v`)"
     )
-    assert said(start(tmp_path, "RLIMIT_AS", 1 << 30, 600 << 20)) == (
+    assert said(tmp_path, "RLIMIT_AS", 1 << 30, 600 << 20) == (
         "the embedded EVM stopped: the call needs more than 1,024 MB of memory, or than this process has left of 1,024 "
         "MB of address space (`ulimit -v`)"
     )
@@ -192,7 +199,7 @@ def test_too_little_address_space(tmp_path: Path) -> None:
 @needs_linux
 def test_a_limit_of_the_size_of_files(tmp_path: Path) -> None:
     """Nothing is cached then."""
-    check(start(tmp_path, "RLIMIT_FSIZE", 1000, 32))
+    check(tmp_path, "RLIMIT_FSIZE", 1000, 32)
     assert cached(tmp_path) == []
 
 
@@ -205,8 +212,8 @@ def cached(cache: Path) -> list[Path]:
 
 @needs_linux
 def test_two_processes_at_once(tmp_path: Path) -> None:
-    for process in [start(tmp_path), start(tmp_path)]:
-        check(process)
+    with start(tmp_path) as one, start(tmp_path) as other:
+        assert [output(one), output(other)] == [ANSWER, ANSWER]
     assert [path.suffix for path in cached(tmp_path)] == [".bin"]
 
 
@@ -214,7 +221,7 @@ def test_two_processes_at_once(tmp_path: Path) -> None:
 def compiled(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A cache that a process has written."""
     folder = tmp_path_factory.mktemp("compiled")
-    check(start(folder))
+    check(folder)
     return folder
 
 
@@ -232,12 +239,12 @@ def test_a_damaged_cache(tmp_path: Path, cache: Path) -> None:
     whole = cache.read_bytes()
     for damaged in (whole[:-1], whole[:5000] + bytes(50) + whole[5050:]):
         cache.write_bytes(damaged)
-        check(start(tmp_path))
+        check(tmp_path)
         assert cache.read_bytes() == whole
     # or not written, where a file is in the place of the folder
     shutil.rmtree(tmp_path / "shackled")
     (tmp_path / "shackled").write_text("")
-    check(start(tmp_path))
+    check(tmp_path)
 
 
 SPOIL: dict[str, Callable[[Path], object]] = {
@@ -256,7 +263,7 @@ def test_a_cache_that_others_could_have_written(tmp_path: Path, cache: Path, spo
         pytest.skip("only root can give files away")
     SPOIL[spoil](cache)
     spoilt = cache.lstat()
-    check(start(tmp_path))
+    check(tmp_path)
     now = cache.lstat()
     assert now.st_ctime_ns > spoilt.st_ctime_ns
     assert (stat.S_ISREG(now.st_mode), now.st_uid, now.st_mode & 0o777) == (True, os.geteuid(), 0o600)
@@ -266,13 +273,13 @@ def test_a_cache_that_others_could_have_written(tmp_path: Path, cache: Path, spo
 def test_only_the_user_writes_the_cache(tmp_path: Path) -> None:
     before = os.umask(0)
     try:
-        check(start(tmp_path))
+        check(tmp_path)
     finally:
         os.umask(before)
     (path,) = cached(tmp_path)
     assert [each.stat().st_mode & 0o777 for each in (path.parent, path)] == [0o700, 0o600]
     kept = path.stat().st_mtime_ns
-    check(start(tmp_path))
+    check(tmp_path)
     assert path.stat().st_mtime_ns == kept
 
 

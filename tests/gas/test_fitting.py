@@ -7,13 +7,14 @@ from attrs import evolve
 
 from shackled import InputError, Scene, load, render
 from shackled.chain import CallResult, open_chain
+from shackled.cli.look_options import FIT
 from shackled.datasets import teapot
 from shackled.errors import InputWarning
 from shackled.gas import fit_scene, fits_of, limits, measure, render_call, suffices
 from shackled.gas._fitting import FITS, Fitted
 from shackled.scene import resize
 
-LIMITS = {limit.kind: limit for limit in limits() if limit.node in ("", "geth")}
+LIMITS = {what: next(limit for limit in limits() if limit.place == place) for what, place in FITS.items()}
 
 
 @pytest.fixture(scope="module")
@@ -133,13 +134,45 @@ def test_too_many_triangles_for_a_request_at_all() -> None:
 def test_what_fits_nowhere_is_told(default: Scene) -> None:
     pytest.importorskip("fast_simplification")
     scene = dear(resize(default, 80), 20 * LIMITS["call"].gas)
-    with pytest.raises(InputError, match="larger than what one transaction can hold"):
+    with pytest.raises(InputError, match="larger than what one transaction on Ethereum can hold"):
         fit_scene(evolve(scene, objects=2 * scene.objects), "transaction")
     small = r"without antialiasing, at 64 x 64 instead of 80 x 80 pixels and with [\d,]+ of [\d,]+ triangles$"
     with pytest.raises(InputError, match=f"fits a read call of geth, even {small}"):
         fit_scene(scene, "call")
-    with pytest.raises(InputError, match="`fit` must be one of transaction, call"):
+    with pytest.raises(InputError, match=r"`fit` must be one of transaction, call, ethereum, base, .*, not 'block'"):
         fit_scene(scene, "block")
+
+
+def test_shadows_that_no_size_makes_cheap_are_told() -> None:
+    scene = load("icons/crystals", ground="white", shadow=True)
+    least, lights = resize(scene, 64), [evolve(each, shadow=False) for each in scene.lights]
+    shadows, geometry = (gas(each) - gas(evolve(each, lights=lights)) for each in (least, resize(scene, 1)))
+    with pytest.raises(InputError) as caught:
+        fit_scene(scene, "transaction")
+    head, *others = str(caught.value).split("; ")
+    assert head.endswith(
+        "fits one transaction on Ethereum, even at 64 x 64 instead of 256 x 256 pixels, "
+        f"where shadows take {shadows:,} gas, {geometry:,} of it for geometry at any size"
+    )
+    # with effects a picture is always antialiased; without them, the whole size fits
+    one, both = others
+    found = fit_scene(evolve(scene, lights=lights), "transaction").scene
+    assert one == (
+        f"without shadows, it fits at {found.width} x {found.width} instead of 256 x 256 pixels ({gas(found):,} gas)"
+    )
+    plain = evolve(scene, lights=lights, ground=None, antialias=False)
+    assert both == f"without shadows and the ground, it fits without antialiasing ({gas(plain):,} gas)"
+
+
+def test_each_chain_has_its_own_limit() -> None:
+    scene = load("icons/crystals", ground="white", shadow=True)
+    sides = {what: fit_scene(scene, what).scene.width for what in ("monad", "polygon", "call")}
+    assert 64 <= sides["monad"] <= sides["polygon"] < sides["call"] < 256
+    words = f"to fit one transaction on Polygon, the picture is drawn at {sides['polygon']} x"
+    assert fit_scene(scene, "polygon").sentence.startswith(words)
+    # help names all of them
+    said = FIT.metadata["text"]
+    assert {each for each in FITS if each not in said} == {"ethereum"}
 
 
 def test_without_the_package_that_simplifies(default: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -150,7 +183,9 @@ def test_without_the_package_that_simplifies(default: Scene, monkeypatch: pytest
 
 
 def test_render_draws_what_fits(default: Scene) -> None:
-    with pytest.warns(InputWarning, match="to fit one transaction, the picture is drawn without antialiasing"):
+    with pytest.warns(
+        InputWarning, match="to fit one transaction on Ethereum, the picture is drawn without antialiasing"
+    ):
         image = render(default, fit="transaction", antialias=True)
     assert image == render(fit_scene(evolve(default, antialias=True), "transaction").scene)
     assert image.calls == 1

@@ -205,3 +205,38 @@ def test_both_read_the_same(name: str, folder: Path, of_page: dict[str, Any]) ->
         wanted[key], found[key], atol=1 if key == "color" else 1e-5)]  # fmt: skip
     differs += [] if "error" in found or kinds_of(wanted["notes"]) == kinds_of(found["notes"]) else ["notes"]
     assert bool(differs) == (name in ACCEPTED), (differs, wanted, found)
+
+
+#: Names of a picture in files, and whether it is found: in the folder of the file only, links resolved.
+PLACES = {
+    **dict.fromkeys(("t.png", "T.PNG", "t.png?v=1#top", "%74.png", "C:\\art\\t.png", "/art/t.png"), True),
+    **dict.fromkeys(("https://host/art/t.png", "../art/t.png", "sub/u.png", "SUB\\U.png", "sub/../t.png"), True),
+    **dict.fromkeys(("../private.png", "..\\private.png", "%2e%2e/private.png", "sub/../../private.png"), False),
+    **dict.fromkeys(("FOLDER/private.png", "file://FOLDER/private.png", "link.png", "out/private.png"), False),
+}
+
+
+@pytest.mark.usefixtures("of_page")
+def test_files_beside_a_file(tmp_path: Path) -> None:
+    home = tmp_path / "home"
+    (home / "sub").mkdir(parents=True)
+    for path in (tmp_path / "private.png", home / "t.png", home / "sub" / "u.png"):
+        Image.new("RGB", (2, 2), (0, 0, 255)).save(path)
+    (home / "link.png").symlink_to(tmp_path / "private.png")
+    (home / "out").symlink_to(tmp_path)
+    wanted: dict[str, bool] = {}
+    for number, (place, found) in enumerate(PLACES.items()):
+        name = place.replace("FOLDER", str(tmp_path))
+        (home / f"{number}.mtl").write_text(f"newmtl m\nmap_Kd {name}\n")
+        (home / f"{number}.obj").write_text(f"mtllib {number}.mtl\n{SQUARE}{UVS}usemtl m\nf 1/1 2/2 3/3 4/4\n")
+        file = File()
+        file.material(pbrMetallicRoughness={"baseColorTexture": file.texture([[[0, 0, 0]]])})
+        file.document["images"] = [{"uri": name}]
+        file.write(home).rename(home / f"{number}.gltf")
+        wanted |= {f"{number}.{kind}": found for kind in ("obj", "gltf")}
+    paths = [home / name for name in wanted]
+    ran = subprocess.run(["node", WEB / "dist" / "cli.js", "poster", "--json", *paths], capture_output=True, text=True)
+    lines = {Path(line["input"]).name: line for line in map(json.loads, ran.stdout.splitlines())}
+    for name, found in wanted.items():
+        assert np.allclose(lines[name]["color"], [0, 0, 255] if found else 255), (name, lines[name])
+        assert bool(lines[name]["notes"]) == (not found), lines[name]

@@ -61,8 +61,8 @@ def test_what_screen_readers_hear_and_what_keeps_its_place(visit: Visit) -> None
     place = page.place.bounding_box()
     for name, words in (
         ("fits", ""),
-        ("fits", "Fits any node's read call; no transaction"),
-        ("fits", "Fits no usual node: take fewer pixels or triangles"),
+        ("fits", "Free to read on most nodes; fits a transaction on Monad, Arbitrum One and Polygon"),
+        ("fits", "Too much for usual nodes: take fewer pixels or triangles"),
         ("triangles", "12,345 of 123,456 triangles"),
     ):
         page.run(f"void (document.querySelector('[data-name={name}]').lastChild.textContent = argument)", words)

@@ -46,6 +46,12 @@ def test_the_shelf(visit: Visit) -> None:
     assert len(page.doc()["objects"]) == 2
     page.after(page.click("piece-teapot"))
     assert len(page.doc()["objects"]) == 1
+    # in its own shape, so that nothing of it is cut off
+    shown = page.after(lambda: page.run("app.openPiece('showcase/wires')"))
+    wires = shackled.load(SCENES["wires"](), size=(48, 36), antialias=False)
+    assert shown == shackled.render(wires).pixels.tobytes()
+    page.after(page.click("piece-teapot"))
+    assert (page.doc()["width"], page.doc()["height"]) == (48, 48)
     # every piece is that of the package, number for number
     names = page.run("(await app.assets.pieces()).map(each => each.name)")
     assert {"icons/diamond", "teapot", "showcase/glass"} <= set(names)
@@ -168,6 +174,7 @@ def test_what_is_told_of_files(visit: Visit) -> None:
     for name, content, words in (
         ("broken.glb", b"glTF" + bytes(100), "broken.glb"),
         ("plain.png", stream.getvalue(), "was not made by Shackled"),
+        ("notes.txt", b"Buy milk.", "This is no 3D file: notes.txt. Known are .glb, "),
         ("deep.json", b'{"objects": ' + b"[" * 100_000, "deep.json"),
     ):
         page.run("void (app.toasts.value = [])")
@@ -187,7 +194,11 @@ def test_what_is_told_of_files(visit: Visit) -> None:
     points = "".join(f"v {x} {y} {z}\n" for x, y, z in ball.positions.tolist())
     faces = "".join(f"f {a} {b} {c}\n" for a, b, c in (ball.faces + 1).tolist())
     page.after(lambda: page.drop(**{"ball.obj": (points + faces).encode()}))
-    assert "simplified" in page.said()
+    told = page.said()
+    assert told.startswith("ball.obj: ")
+    assert "simplified" in told
+    notes, gas = (page.page.locator(name).bounding_box() for name in (".toasts", "[data-name=status]"))
+    assert notes["y"] + notes["height"] < gas["y"]
     triangles = page.run("app.meshes.get(app.doc.value.objects[0].mesh).triangles")
     assert triangles < ball.triangles or page.doc()["objects"][0]["maxTriangles"] < ball.triangles
 

@@ -53,6 +53,28 @@ def test_it_asks_for_few_files_of_its_own(visit: Visit, server: Static) -> None:
             assert not re.search("""(src|href)=["']?/""", path.read_text())
 
 
+def test_what_could_not_be_loaded_is_loaded_later(visit: Visit) -> None:
+    """A button whose dialog did not come works when it is clicked again, and so do the keys."""
+    page = visit("", allowed="Failed to")
+    network = page.page.context
+    network.set_offline(True)
+    page.click("download")()
+    assert "A part of the page could not be loaded" in page.said("error")
+    page.after(page.press("s"))
+    page.after(page.press("Control+z"))
+    network.set_offline(False)
+    page.click("download")()
+    dialog = page.page.locator("dialog[open]")
+    dialog.get_by_role("radio", name="On chain").check(force=True)
+    network.set_offline(True)
+    page.run("void (app.toasts.value = [])")
+    page.click("open-edition")()
+    assert "A part of the page could not be loaded" in page.said("error")
+    network.set_offline(False)
+    page.click("open-edition")()
+    dialog.get_by_text("There is no wallet in this browser.").wait_for()
+
+
 def test_from_disk(visit: Visit, tmp_path: Path) -> None:
     page = visit(TOWN, disk=True, **PHONE)
     assert page.settle() == drawn(TOWN, tmp_path).pixels.tobytes()

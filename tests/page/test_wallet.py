@@ -57,7 +57,7 @@ Lie = Callable[[Any, list[Any], "Node"], Any]
 class Node:
     """A node, and a wallet before it. sent: the transactions. lies: what is made of the answer to a method.
 
-    declined: methods that the owner of the wallet refuses.
+    declined: methods that the owner of the wallet refuses. is_down: whether the wallet does not reach the node.
     """
 
     def __init__(self, node: Anvil, owner: Transactor, genesis: Collection) -> None:
@@ -72,6 +72,7 @@ class Node:
         self.asked: list[str] = []
         self.sent: list[dict[str, str]] = []
         self.known = {CHAIN, 1}
+        self.is_down = False
 
     @property
     def address(self) -> str:
@@ -82,6 +83,8 @@ class Node:
         self.asked.append(method)
         if method in self.declined:
             return {"error": "User denied transaction signature.", "code": 4001}
+        if self.is_down and method not in ("eth_accounts", "eth_chainId"):
+            return {"error": "Failed to fetch", "code": -32603}
         result: Any = None
         match method:
             case "eth_accounts" | "eth_requestAccounts":
@@ -234,7 +237,7 @@ def test_licences(visitor: Visitor) -> None:
             app.assets.pieces = async () => (await all).map(each => ({ ...each, commercial: each.title !== 'Heart' }));
         })()"""
     )
-    page.run("void (app.dialog.value = null)")
+    page.run("app.closeDialog()")
     page.after(lambda: page.run("app.openPiece('icons/heart')"))
     trouble(page.dialog("edition"), "“icons/heart” must not be minted")
 
@@ -287,7 +290,7 @@ def test_two_clicks_add_once(visitor: Visitor, node: Node) -> None:
     assert dead.is_disabled()
     # whatever the button lets through, there is one thing at a time; a dialog that is opened anew knows it
     dead.evaluate("e => { e.disabled = false; e.click(); }")
-    page.run("void (app.dialog.value = null)")
+    page.run("app.closeDialog()")
     dialog = page.dialog("edition")
     dialog.get_by_text("Storing the scene (1 of 3)").wait_for()
     assert dialog.locator("[data-name=add]:enabled").count() == 0
@@ -357,7 +360,7 @@ def meanwhile(**changes: Any) -> Callable[[Any, list[Any], Node], Any]:
         ("eth_getCode", lambda code, *_: code[:-2] + "00", "has no collection of editions", 0),
         ("eth_requestAccounts", lambda *_: [7], "The wallet gives no account", 0),
         ("eth_chainId", lambda *_: "many", "which is no number", 0),
-        ("eth_estimateGas", lambda *_: hex(10**9), "The wallet expects 1000000000 gas, where", 0),
+        ("eth_estimateGas", lambda *_: hex(10**9), "The wallet expects 1,000,000,000 gas, where", 0),
         ("eth_getBalance", lambda *_: "0x5", "The account has 0.000000000000000005 ether, less than that", 0),
         ("eth_sendTransaction", lambda *_: 7, "The wallet does not say what it sent", 1),
         ("eth_sendTransaction", meanwhile(chain=1), "The wallet is on Ethereum now: nothing more was sent", 1),
@@ -383,6 +386,66 @@ def test_wallets_that_lie_or_change(visitor: Visitor, node: Node, method: str, l
     if sent == 3:
         dialog.locator("[data-name=again]:enabled").wait_for()
         assert dialog.locator("[data-name=add]").count() == 0
+
+
+def test_a_node_that_fails_takes_no_button_away(visitor: Visitor, node: Node) -> None:
+    page = visitor()
+    dialog = connected(page, "edition")
+    told = dialog.locator("[data-name=cost]").inner_text()
+    for name in ("add", "retry"):
+        node.is_down = True
+        press(dialog, name)
+        dialog.locator("[data-name=retry]:enabled").wait_for()
+        words = dialog.locator(".trouble").all_inner_texts()
+        assert words == ["The node of the wallet does not answer (Failed to fetch)"]
+        assert dialog.locator("[data-name=add]").is_disabled()
+        assert dialog.locator("[data-name=cost]").inner_text() == told
+    node.is_down = False
+    press(dialog, "retry")
+    dialog.locator("[data-name=add]:enabled").wait_for()
+    assert dialog.locator(".trouble").count() == 0
+    press(dialog, "add")
+    dialog.locator("[data-name=token]").wait_for()
+    assert len(node.sent) == 3
+    # so it is where a token is minted
+    page.close()
+    node.is_down = True
+    dialog = page.dialog("mint")
+    trouble(dialog, "The node of the wallet does not answer")
+    node.is_down = False
+    press(dialog, "retry")
+    press(dialog, "mint")
+    dialog.get_by_text("Minted: token 1").wait_for()
+
+
+BASE = {"baseFeePerGas": hex(2**255)}
+TIP = "eth_maxPriorityFeePerGas"
+#: What a node says of prices, and what the page then says.
+PRICES: tuple[tuple[str, Lie, str], ...] = (
+    (TIP, lambda *_: hex(3 * 10**9 + 1), "a tip of 3.000000001 gwei per unit of gas, more than 3"),
+    (TIP, lambda *_: hex(10**13), "a tip of 10000 gwei per unit of gas, more than 3"),
+    ("eth_estimateGas", lambda *_: hex(10**12), "The wallet expects 1,000,000,000,000 gas, where"),
+    ("eth_getBlockByNumber", lambda block, asked, _: block | BASE if asked[0] == "latest" else block, "less than that"),
+)
+
+
+@pytest.mark.parametrize(("name", "button"), [("edition", "add"), ("mint", "mint"), ("reveal", "send")])
+def test_prices_that_are_not_plausible(visitor: Visitor, node: Node, name: str, button: str) -> None:
+    mine(node, missing=0)
+    page = visitor(book=node.book)
+    connected(page, name)
+    for method, lie, words in (*PRICES, (TIP, lambda *_: hex(3 * 10**9), "")):
+        page.close()
+        node.lies = {method: lie}
+        dialog = page.dialog(name)
+        if name == "mint":
+            dialog.get_by_role("radio", name="Genesis").check(force=True)
+        elif name == "reveal":
+            press(dialog, "find")
+        if words:
+            trouble(dialog, words)
+        dialog.locator(f"[data-name={button}]:enabled").wait_for(state="detached" if words else "visible")
+    assert node.sent == []
 
 
 def test_another_picture_is_told(visitor: Visitor, node: Node) -> None:

@@ -2,25 +2,34 @@
 
 from __future__ import annotations
 
+import json
+import re
+import socket
 import subprocess
 import sys
+import threading
 from collections.abc import Iterator
+from contextlib import AbstractContextManager, ExitStack
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import pytest
+import trimesh
 from attrs import evolve
+from tools.children import child
 from tools.cluster import cluster
 
 from nodes import Reply, serving
 from shackled import ChainError, Cluster, InputError, Scene, load
 from shackled._on import Bounds
 from shackled.chain import Drawing
-from shackled.parallel import Listener, render_frames
+from shackled.cli.app import run
+from shackled.parallel import Listener, _cluster, render_frames
 from shackled.parallel._cluster import ClusterBackend
 from shackled.scene import Rectangle, full_turn
 
-pytest.importorskip("distributed")
+Client = pytest.importorskip("distributed").Client
 SCENE = evolve(load("teapot"), width=48, height=48)
 
 
@@ -53,6 +62,95 @@ def test_tiles(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
     assert render_frames([SCENE], Cluster(address), where)[0].bmp != right
     with pytest.raises(ChainError, match=r"^the dask cluster.* wrongly for the tile of 48 x 16 .* \(0, 32\): its"):
         render_frames([SCENE], Cluster(address, verify="all"), where)
+
+
+def test_a_folder_is_drawn_in_whole_inputs(address: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """For the same gas as here; one that fails does not stop the others."""
+    for number in range(5):
+        trimesh.creation.icosphere(subdivisions=1, radius=1 + number).export(tmp_path / f"{number}.stl")
+    (tmp_path / "bad.obj").write_text("nothing")
+    command = ["render", str(tmp_path), "--size", "64", "--json"]
+    reports = []
+    for where in ("", "--cluster"):
+        assert run([*command, "-o", f"{tmp_path}/out{where}/", *([where, address] if where else [])]) == 1
+        said = capsys.readouterr()
+        reports.append({each["input"]: each for each in map(json.loads, said.out.splitlines())})
+        assert "5 rendered, 1 failed, in " in said.err
+    here, there = reports
+    assert len(here) == 6
+    for name in here:
+        for same in ("sha256", "gas", "intrinsic_gas", "calls", "triangles", "lit_pixels", "fits", "error"):
+            assert here[name].get(same) == there[name].get(same)
+    assert there[str(tmp_path / "0.stl")]["chain"].endswith(", 2 workers")
+    assert run([*command, "-o", f"{tmp_path}/out--cluster/", "--skip-existing", "--cluster", address]) == 1
+    assert "0 rendered, 5 skipped, 1 failed, in " in capsys.readouterr().err
+
+
+def test_the_gas_of_tiles_says_so(address: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """One picture is shared among the workers."""
+    assert run(["render", "teapot", "--size", "64", "-o", f"{tmp_path}/x.png", "--cluster", address]) == 0
+    calls = re.search(r"\ngas +[\d,]+ in (\d+) calls \(and", capsys.readouterr().out)
+    assert calls is not None
+    assert int(calls[1]) > 1
+
+
+@pytest.mark.parametrize("is_folder", [False, True])
+def test_workers_that_are_lost(
+    is_folder: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Each is told, and where none is left, the command does not wait for ever."""
+    connected, told = threading.Event(), threading.Event()
+    greet, check = ClusterBackend._greet_workers, ClusterBackend.check
+
+    def greeted(place: ClusterBackend) -> set[str]:
+        found = greet(place)
+        monkeypatch.setattr(_cluster, "PATIENCE", 2)
+        connected.set()
+        return found
+
+    def checked(place: ClusterBackend) -> list[str]:
+        found = check(place)
+        if found:
+            told.set()
+        return found
+
+    monkeypatch.setattr(ClusterBackend, "_greet_workers", greeted)
+    monkeypatch.setattr(ClusterBackend, "check", checked)
+    where = "tcp://127.0.0.1:{}"
+
+    def started(kind: str, *arguments: str) -> AbstractContextManager[subprocess.Popen[str]]:
+        command = (sys.executable, "-m", f"distributed.cli.dask_{kind}", "--no-dashboard", *arguments)
+        return child(*command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        where = where.format(free.getsockname()[1])
+    names = [tmp_path / f"{number}.obj" for number in range(40 if is_folder else 1)]
+    for name in names:
+        trimesh.creation.icosphere(subdivisions=3).export(name)
+    size = ["--size", "192"] if is_folder else ["--size", "1024", "--tile", "32"]
+    with ExitStack() as stack:
+        stack.enter_context(started("scheduler", "--host", "127.0.0.1", "--port", where.rpartition(":")[2]))
+        workers = [stack.enter_context(started("worker", where, "--nthreads", "1", "--no-nanny")) for _ in range(2)]
+        client = Client(where, timeout=60, set_as_default=False)
+        client.wait_for_workers(2, timeout=60)
+        client.close()
+
+        def kill() -> None:
+            for worker, event in zip(workers, (connected, told), strict=True):
+                event.wait(60)
+                worker.kill()
+
+        thread = threading.Thread(target=kill)
+        thread.start()
+        assert run(["render", *map(str, names), *size, "-o", f"{tmp_path}/out/", "--cluster", where]) == 1
+        thread.join()
+    said = capsys.readouterr().err
+    assert len(re.findall(r"the worker tcp://\S+ has left the cluster: others draw its parts", said)) == 1
+    assert (
+        len(re.findall(r"the worker tcp://\S+ has left the cluster: no other is left; waiting 2 s for one", said)) == 1
+    )
+    assert "shackled: the dask cluster has had no worker for 2 s: start one, and run this again\n" in said
 
 
 def test_what_a_worker_says_is_told(address: str) -> None:
@@ -110,7 +208,7 @@ def test_workers_that_do_not_fit(found: str | None, message: str) -> None:
     place = ClusterBackend.__new__(ClusterBackend)
     place._client = Workers(found)  # type: ignore[assignment]
     with pytest.raises(InputError, match=message):
-        place._check()
+        place._greet_workers()
 
 
 def test_without_the_package(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -39,6 +39,13 @@ def test_parts_are_found_again(store: PartStore) -> None:
     assert store.read(PARTS[0]) is None
 
 
+def test_another_render_of_the_same_output_may_remove_the_parts(store: PartStore) -> None:
+    """The first of two that ends removes the folder, in which the other one still writes."""
+    remove_parts(store.folder)
+    store.write(PARTS[0], PIECE)
+    assert store.read(PARTS[0]) == PIECE
+
+
 def test_what_is_damaged_is_not_there(store: PartStore) -> None:
     """Even one bit of a pixel, without which the file would be another picture."""
     store.write(PARTS[0], PIECE)

@@ -43,6 +43,12 @@ def answering(zero: bytes, other: bytes = b"", zero_ends: int = RETURN) -> bytes
     return head + part(zero, place, zero_ends) + b"\x5b" + part(other, place + len(zero), RETURN) + zero + other
 
 
+def drawing(call: bytes, renderer: bytes) -> bytes:
+    """Return code that calls a renderer, and answers or reverts with what it returns."""
+    size, end = len(call).to_bytes(2, "big").hex(), "3d5f5f3e602f573d5ffd5b3d5ff3"
+    return bytes.fromhex(f"61{size}6100335f395f5f61{size}5f73{renderer.hex()}5afa{end}") + call
+
+
 def output(value: str | bytes) -> bytes:
     """Return the output of a function that returns text."""
     return encode(["bytes"], [value.encode() if isinstance(value, str) else value])

@@ -171,10 +171,63 @@ def test_types_that_the_content_does_not_have() -> None:
     assert "animation_url is not on the chain" in problem
 
 
+@pytest.mark.parametrize(
+    ("sizes", "named"),
+    [
+        ("width='0' height='0'", "width"),
+        ("width='10' height=' 0.00px '", "height"),
+        ("width='0%'", "width"),
+        ("viewBox='0 0 0 10'", "viewBox width"),
+        ("width='10' viewBox='0,0,10,-.0'", "viewBox height"),
+    ],
+)
+def test_svgs_that_show_nothing(sizes: str, named: str) -> None:
+    empty, shown = (f"<svg {each} {XMLNS}><rect width='0'/></svg>" for each in (sizes, sizes.replace("0", "5")))
+    assert of_picture(empty) == [f"image is an SVG of {named} 0, which shows nothing"]
+    assert problems(animation_url="data:image/svg+xml," + quote(empty)) != []
+    assert of_picture(shown) == []
+
+
+@pytest.mark.parametrize(
+    ("script", "named"),
+    [
+        ("localStorage.x=1", "localStorage"),
+        ("const s = window.sessionStorage;", "sessionStorage"),
+        ("if (localStorage['seen']) draw()", "localStorage"),
+        ("let a = 'https://a.io';indexedDB.open('a')", "indexedDB"),
+        ("document.cookie = 'a=1'", "document.cookie"),
+        ("try { draw() } catch {} localStorage?.clear()", "localStorage"),
+        ("try { if (a) { localStorage.x = 1 } } catch {}", None),
+        ("/* localStorage.x */ draw() // localStorage.x", None),
+        ("const myLocalStorage = {}; show('no localStorage here')", None),
+    ],
+)
+def test_pages_that_keep_something_in_the_browser(script: str, named: str | None) -> None:
+    line = f"animation_url uses {named}, which throws an error in the sandbox of marketplaces"
+    for found in (
+        of_page(f"<body><script>{script}</script>"),
+        problems(animation_url="data:image/svg+xml," + quote(svg(f"<script><![CDATA[{script}]]></script>"))),
+    ):
+        assert [each.partition(":")[0] for each in found] == [line] * (named is not None)
+
+
 def test_hostile_files_take_no_time() -> None:
     """Regular expressions that try many ways would take minutes."""
     begun = time.process_time()
-    for part in ("url( ", "/*", "import ", "open('A',", "<?xml-stylesheet ", "' , a", " a,"):
+    for part in (
+        "url( ",
+        "/*",
+        "import ",
+        "open('A',",
+        "<?xml-stylesheet ",
+        "' , a",
+        " a,",
+        "try{",
+        "try{{}",
+        "{}",
+        "=  ",
+        "//",
+    ):
         many = part * 20_000
         for head in ("<style>", '<img srcset="', "<script>"):
             of_page(head + many)

@@ -288,6 +288,7 @@ WRONG = {
     one(external_url="javascript:alert(1)"): "an address such as",
     one(attributes=[{"trait_type": "a"}]): "attribute 0 has no value",
     one(attributes=[{"value": 1, "display_type": {}}]): "display_type {} is none of",
+    one(attributes=[{"value": 1_700_000_000_000, "display_type": "date"}]): "attribute 0 is a date after the year 5000",
     one(animation_url="data:model/gltf-binary;base64,Z2xURg=="): "not a complete GLB",
     one(image="data:text/html,<script>"): "image has the type text/html",
     one(description="a" * 100_000): "bytes; marketplaces show no more than 100,000",

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tools.children import child
 
 from preview.small_contracts import answering, contract, function, output
 
@@ -58,17 +59,9 @@ def folder(tmp_path: Path) -> Path:
 @pytest.fixture
 def server(folder: Path) -> Iterator[subprocess.Popen[str]]:
     command = ["preview", "Small.sol", "--tokens", str(COUNT), "--no-browser", "--port", "0"]
-    process = subprocess.Popen(
-        [sys.executable, "-m", "shackled", *command],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        cwd=folder,
-        env=os.environ | {"PATH": f"{folder}{os.pathsep}{os.environ['PATH']}"},
-    )
-    yield process
-    process.kill()
-    process.communicate()
+    environment = os.environ | {"PATH": f"{folder}{os.pathsep}{os.environ['PATH']}"}
+    with child(sys.executable, "-m", "shackled", *command, cwd=folder, env=environment) as process:
+        yield process
 
 
 def address(server: subprocess.Popen[str]) -> str:

@@ -8,13 +8,16 @@ from typing import Any
 
 import pytest
 
-from preview.small_contracts import DEAR, ENDLESS, REVERT, SVG, Made, answering, contract, function, output
+from preview.small_contracts import DEAR, ENDLESS, REVERT, SVG, Made, answering, contract, drawing, function, output
+from shackled import load
+from shackled.chain import open_chain
 from shackled.ethereum import keccak256, word
 from shackled.evm import Answer
 from shackled.preview import Preview, Request, Token, folded
 from shackled.preview._arguments import Call
 from shackled.preview._project import Compiled
 from shackled.preview._world import World, in_units
+from shackled.scene import render_call
 
 PANIC = bytes.fromhex("4e487b71")
 SUPPLY = function("totalSupply", output="uint256")
@@ -51,6 +54,20 @@ def test_token_0_is_left_out_only_where_it_is_missing(preview: Any, data: bytes,
     entry = {"type": "error", "name": "TokenDoesNotExist", "inputs": []}
     found = contract(answering(data, output(SVG), REVERT), function("image", "uint256"), entry)
     assert preview(found).first == first
+
+
+def test_token_0_is_shown_where_it_is_too_expensive(preview: Any) -> None:
+    """A call inside runs out of gas, and the contract reverts without a reason, as for a token that does not exist."""
+    answer = output(SVG)
+    size = len(answer).to_bytes(2, "big").hex()
+    # without data, 17.6 million gas are used; for 0 such a call is made, and its failure is passed on without data
+    starts, tries = "3615602557" + "600435601857", "5f5f5f5f305afa" + "601857" + "5f5ffd"
+    code = bytes.fromhex(starts + tries + f"5b61{size}602e5f3961{size}5ff3" + "5b") + DEAR
+    assert code.index(DEAR) == 0x26
+    made = preview(contract(code + answer), count=2)
+    (problem,) = made.token(0).problems
+    assert (made.first, made.token(1).problems) == (0, [])
+    assert problem.startswith("image(0) takes 17,")
 
 
 @pytest.mark.parametrize(("supply", "count"), [(16, 16), (10_000, 256), (0, 256)])
@@ -166,6 +183,23 @@ def test_a_hint_where_no_token_can_be_read(preview: Any) -> None:
     made = preview(contract(answering(b"", b"", REVERT), function("image", "uint256")), first=0, count=1)
     assert "`setup`" in made.hint(list(made.tokens()))
     assert made.hint([Token(0, gas=1)]) is None
+
+
+def test_faces_that_miss_the_quick_path_are_a_note(preview: Any) -> None:
+    entry = function("image", "uint256", output="bytes")
+    for specular, notes in (
+        (0, []),
+        (0.08, ["of 12 faces, these miss the quick path of effects: 12 because of a highlight of 8 percent"]),
+    ):
+        scene = load("cube", size=16, shading="flat", color="tan", specular=specular, hemisphere="white")
+        made = preview(contract(drawing(render_call(scene), open_chain().address("Renderer")), entry), count=2)
+        token = made.token(0)
+        assert (token.problems, token.notes) == ([], notes)
+        # the renderer draws again afterwards
+        assert made.token(0).gas == token.gas
+        assert folded([token], "notes") == [("0", note) for note in notes]
+    # pictures of others have none
+    assert preview(contract(answering(output(SVG), output(SVG)))).token(0).notes == []
 
 
 def test_equal_problems_of_many_tokens_are_one_line() -> None:

@@ -180,7 +180,9 @@ def test_materials_of_trimesh(mode: str | None, image: Image.Image | None) -> No
 @pytest.mark.parametrize(("given", "expected"), [(None, 128), (0.25, 64), (1.0, 255), (0.0, None)])
 def test_masks_of_trimesh(given: float | None, expected: int | None) -> None:
     """Without a cutoff it is a half, as in glTF; one of 0 hides nothing."""
-    texture = part_with(alphaMode="MASK", alphaCutoff=given, baseColorTexture=IMAGE).material["texture"]
+    image = IMAGE.copy()
+    image.putpixel((0, 1), (1, 2, 3, 255))
+    texture = part_with(alphaMode="MASK", alphaCutoff=given, baseColorTexture=image).material["texture"]
     assert (None if texture.alpha is None else texture.cutoff) == expected
 
 

@@ -197,14 +197,14 @@ class Creator(Tab):
 
     def dialog(self, name: str) -> Any:
         """Open a dialog."""
-        self.run("void (app.dialog.value = argument)", name)
+        self.run("void app.openDialog(argument)", name)
         found = self.page.locator("dialog[open]")
         found.wait_for()
         return found
 
     def close(self) -> None:
         """Close the dialog."""
-        self.run("void (app.dialog.value = null)")
+        self.run("app.closeDialog()")
         self.page.locator("dialog[open]").wait_for(state="detached")
 
     def file(self, name: str) -> tuple[str, bytes]:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tools.children import child
 from websockets.sync.client import ClientConnection, connect
 
 #: Seconds in which it must start, and answer.
@@ -89,19 +90,17 @@ def firefox(place: str) -> Iterator[Tab]:
         pytest.skip("needs Firefox: apt-get install firefox-esr")
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         (Path(folder) / "user.js").write_text(PREFERENCES)
-        process = subprocess.Popen(
-            [path, "--headless", "--no-remote", "--profile", folder, "--remote-debugging-port", "0"],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
+        command = (path, "--headless", "--no-remote", "--profile", folder, "--remote-debugging-port", "0")
         said, end = Path(folder) / "WebDriverBiDiServer.json", time.monotonic() + PATIENCE
-        try:
-            while not (said.exists() and said.read_text().endswith("}")):
-                assert time.monotonic() < end, "Firefox did not start"
-                time.sleep(0.05)
-            port = json.loads(said.read_text())["ws_port"]
-            with connect(f"ws://127.0.0.1:{port}/session", max_size=None) as connection:
-                yield Tab(connection, place)
-        finally:
-            process.terminate()
-            process.wait(20)
+        with child(*command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+            try:
+                while not (said.exists() and said.read_text().endswith("}")):
+                    assert time.monotonic() < end, "Firefox did not start"
+                    time.sleep(0.05)
+                port = json.loads(said.read_text())["ws_port"]
+                with connect(f"ws://127.0.0.1:{port}/session", max_size=None) as connection:
+                    yield Tab(connection, place)
+            finally:
+                # it ends its own processes then
+                process.terminate()
+                process.wait(20)

@@ -67,6 +67,19 @@ def test_nobody_can_reveal_before_the_block(s: Stage) -> None:
             s.genesis.send("reveal", [0], [header], sender=s.owner)
 
 
+def test_rounds_whose_blocks_no_chain_reaches(s: Stage) -> None:
+    """The number of the block would not fit into 256 bits, or nearly so."""
+    last = 2**64 - 1
+    assert s.genesis.call("blockOf", last) == s.genesis.call("blockOf", 0) + 32 * last
+    with refused("BlockToCome", s.genesis.call("blockOf", last)):
+        s.genesis.send("reveal", [last], [b""])
+    for round_ in (last + 1, 2**251 - 6, 2**251, 2**256 - 1):
+        with refused("RoundTooLarge", round_, last):
+            s.genesis.call("blockOf", round_)
+        with refused("RoundTooLarge", round_, last):
+            s.genesis.send("reveal", [round_], [b""])
+
+
 def test_only_the_header_of_the_block_counts(s: Stage) -> None:
     s.mint()
     block = s.genesis.call("blockOf", 0)

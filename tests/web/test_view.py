@@ -226,6 +226,19 @@ def test_exact_pixels(show: Opener) -> None:
     assert "smoothed" not in view.page.locator("[part=figures]").inner_text()
 
 
+def test_what_is_finer_than_a_frame_of_the_movement_is_shown_at_once(show: Opener) -> None:
+    """On a screen of many pixels, the smooth picture takes seconds."""
+    view = show(render_call(load("teapot", size=512, antialias=True)), width=800, device_scale_factor=3)
+    view.wait("view.shadowRoot.querySelector('[aria-busy=false]')")
+    view.run(
+        """void (this.widths = [], view.addEventListener('picture', ({ detail }) =>
+            this.widths.push(view.shadowRoot.querySelector('canvas').width >= detail.width)))"""
+    )
+    view.after(lambda: view.drag(90, 20))
+    assert max(view.run("this.sizes")) < 512
+    assert view.run("this.widths") == [True]
+
+
 def test_means_of_four_pixels(show: Opener) -> None:
     view = show(width=40)  # the place of the picture is smaller than the picture
     view.wait("view.shadowRoot.querySelector('[aria-busy=false]')")

@@ -15,7 +15,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
-import pyrevm
 import rlp
 from Crypto.Hash import keccak as _keccak
 from eth_abi.abi import decode, encode
@@ -214,6 +213,8 @@ class World:
         return self._ready[0]
 
     def _evm(self) -> Any:
+        import pyrevm  # here, so that what only imports this module needs no EVM
+
         evm = pyrevm.EVM(spec_id="Cancun", env=pyrevm.Env(cfg=pyrevm.CfgEnv(chain_id=self.chain_id)))
         evm.set_block_env(
             pyrevm.BlockEnv(

@@ -1,7 +1,7 @@
 #!/usr/bin/env node
 // The command `shackled poster`: pictures of models and scenes, in Node.
 
-import { existsSync, mkdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, readdirSync, realpathSync, statSync, writeFileSync } from "node:fs";
 import { basename, dirname, join, relative, resolve, sep } from "node:path";
 import { parseArgs } from "node:util";
 import { encode as encodePng } from "fast-png";
@@ -13,7 +13,7 @@ import { InputError } from "./errors.js";
 import { toHex } from "./evm/bytes.js";
 import { decodeImagesBy } from "./files/images.js";
 import { decodeInNode } from "./files/node.js";
-import { readFiles, type Opened } from "./files/read.js";
+import { readFiles, type Given, type Opened } from "./files/read.js";
 import { render } from "./render.js";
 import { boundsOf } from "./scene/arithmetic.js";
 import { checkedScene, worldPositions } from "./scene/checked.js";
@@ -105,19 +105,35 @@ function numberOf(values: Values, name: keyof Values, low?: number, high?: numbe
 
 function open(input: string, values: Values): Promise<Opened> {
     const folder = dirname(resolve(input));
+    const read = new Map<string, Given>();
     return readFiles([{ name: basename(input), bytes: bytesOf(input) }], {
         size: numberOf(values, "size", 1, 2048) ?? 256,
         maxTriangles: values["max-triangles"] === "all" ? "all" : numberOf(values, "max-triangles", 1),
         draco: () => Promise.resolve(bytesOf(new URL("./draco.wasm", import.meta.url))),
         beside: (name) => {
-            const paths = [name, basename(name)].map((each) => resolve(folder, each.replaceAll("\\", "/")));
-            // only files in the folder of the input, or below
-            const isThere = (path: string): boolean =>
-                path.startsWith(folder + sep) && existsSync(path) && statSync(path).isFile();
-            const path = paths.find(isThere);
-            return path ? { name: relative(folder, path), bytes: bytesOf(path) } : undefined;
+            const path = fileIn(folder, name) ?? fileIn(folder, basename(name));
+            if (path && !read.has(path)) read.set(path, { name: relative(folder, path), bytes: bytesOf(path) });
+            return read.get(path ?? "");
         },
     });
+}
+
+/** Return the path of a file in a folder, or below, in any letter case; undefined if there is none, or a link leads out. */
+function fileIn(folder: string, name: string): string | undefined {
+    let paths = [folder];
+    for (const part of name.split("/")) {
+        const isSame = (each: string): boolean => each.toLowerCase() === part.toLowerCase();
+        paths = paths.flatMap((path) => {
+            try {
+                const names = readdirSync(path).filter(isSame);
+                return names.sort((each) => (each === part ? -1 : 0)).map((each) => join(path, each));
+            } catch {
+                return [];
+            }
+        });
+    }
+    const isInside = (path: string): boolean => realpathSync(path).startsWith(join(realpathSync(folder), sep));
+    return paths.find((path) => statSync(path, { throwIfNoEntry: false })?.isFile() && isInside(path));
 }
 
 function bytesOf(path: string | URL): Uint8Array<ArrayBuffer> {

@@ -37,6 +37,8 @@ abstract contract Rounds {
 
     /// @notice The number of headers must equal the number of rounds.
     error AsManyHeadersAsRounds(uint256 headers, uint256 rounds);
+    /// @notice Blocks of rounds after `last` have numbers that no chain reaches.
+    error RoundTooLarge(uint256 round, uint256 last);
     /// @notice The block is not yet mined, or is the current one.
     error BlockToCome(uint256 blockNumber);
     /// @notice The hash of the block is no longer available: prove it with the headers of later blocks, by `keepHash`.
@@ -57,6 +59,7 @@ abstract contract Rounds {
 
     /// @notice Returns the block whose PREVRANDAO value is the randomness of a round.
     function blockOf(uint256 round) public view returns (uint256) {
+        if (round > type(uint64).max) revert RoundTooLarge(round, type(uint64).max);
         return firstBlock + (round + 1) * ROUND - 1 + DELAY;
     }
 

@@ -110,7 +110,8 @@ def standard_input(group: str) -> dict[str, Any]:
     texts = {path: source(path) for path in sorted(digests)}
     for path, text in texts.items():
         if text is None:
-            raise InputError(f"the source {path}, of a library, is not installed: run npm ci in contracts/")
+            again = "" if SOURCES[1].is_dir() else " of the clone, install Shackled from it"
+            raise InputError(f"the source {path}, of a library, is not installed: run npm ci in contracts/{again}")
         if sha256(text.encode()).hexdigest() != digests[path]:
             raise InputError(f"{path} has changed: run tools/build_contracts.py --group {group}")
     return {

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ..errors import InputError, OutputError
 from ..ethereum import checksum_address, parse_address
-from ..whole_file import write_whole
+from ..whole_file import locked, write_whole
 
 #: The environment variable with the path of the file.
 VARIABLE = "SHACKLED_ADDRESS_BOOK"
@@ -55,15 +55,16 @@ class AddressBook:
 
     def write(self, chain_id: int, addresses: Mapping[str, bytes]) -> None:
         """Add or replace addresses of a chain. Raises InputError or OutputError; then the file has not changed."""
-        chains = self._read()
-        known = chains.get(str(chain_id), {})
-        chains[str(chain_id)] = known | {name: checksum_address(address) for name, address in addresses.items()}
-        if chains[str(chain_id)] == known:
-            return
-        text = json.dumps({"chains": dict(sorted(chains.items(), key=lambda item: int(item[0])))}, indent=2) + "\n"
+        self._read()  # before a folder is made
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
-            write_whole(self.path, text.encode())
+            with locked(self.path.parent):  # from reading to writing, so that two writers lose nothing
+                chains = self._read()
+                known = chains.get(str(chain_id), {})
+                chain = known | {name: checksum_address(address) for name, address in addresses.items()}
+                if chain != known:
+                    chains = dict(sorted((chains | {str(chain_id): chain}).items(), key=lambda item: int(item[0])))
+                    write_whole(self.path, (json.dumps({"chains": chains}, indent=2) + "\n").encode())
         except OSError as error:
             raise self._unwritable(error) from None
 

@@ -194,7 +194,9 @@ def _shown(value: Any) -> str:
 
 def out_of_gas(limit: int) -> OutOfGasError:
     """Return the error for a call that ran out of gas."""
-    return OutOfGasError(f"the call ran out of gas: {limit:,} gas is not enough")
+    error = OutOfGasError(f"the call ran out of gas: {limit:,} gas is not enough")
+    error.limit = limit
+    return error
 
 
 def _quote(said: str) -> str:

@@ -136,6 +136,8 @@ def _meant(error: click.ClickException) -> str | None:
     right = MEANT.get(given) or option_names().get((SAME["look"] | SAME["render"]).get(keyword, ""))
     if right in known:
         return f"no such option {given}: it is {right}"
+    if len(given) == 2:
+        return f"no such option {given}; before a file whose name begins with -, put --"
     return f"no such option {given}: {INSTEAD[keyword]}" if keyword in INSTEAD and "--fov" in known else None
 
 

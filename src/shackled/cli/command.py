@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import Field, fields, is_dataclass
 from importlib import import_module
@@ -17,6 +18,15 @@ from .output import STRICT
 
 class Command(click.Command):
     """A command whose help also lists its arguments, and its options by title."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read the arguments. A file whose name begins with a dash, as a shell gives it for *, is not an option."""
+        names = {name for each in self.params for name in (*each.opts, *each.secondary_opts)}
+        end = args.index("--") if "--" in args else len(args)
+        for place, each in enumerate(args[:end]):
+            if each.startswith("-") and each not in ("-", *names) and os.path.isfile(each):
+                args[place] = os.path.join(os.curdir, each)
+        return super().parse_args(ctx, args)
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the arguments and options."""

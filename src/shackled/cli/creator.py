@@ -11,13 +11,15 @@ from itertools import islice
 from pathlib import Path
 from urllib.parse import quote
 
+from PIL import Image
+
 from .._load import load, locate
 from ..chain import book_path
 from ..datasets import Piece
 from ..datasets.genesis import seed_of
 from ..errors import InputError
 from ..local_server import Answer, listen, run, type_of
-from ..scene import SCENES, Link, encode_scene_file
+from ..scene import READERS, SCENES, Link, encode_scene_file, is_inside
 from ..whole_file import make_output_folder
 from .option import argument, option
 
@@ -55,10 +57,16 @@ def creator(
 def built_page() -> tuple[Path, Path]:
     """Return the folder of the page, and the page as one file: of the package, or of a clone. InputError without."""
     package = Path(__file__).parents[1]
-    for folder in (package / "web", package.parents[1] / "build"):
+    clone = package.parents[1]
+    for folder in (package / "web", clone / "build"):
         if (folder / "page" / "index.html").is_file():
             return folder / "page", folder / "creator.html"
-    raise InputError("the page of the Creator is not built: run `make page`, which needs Node 20 and npm")
+    if (clone / "Makefile").is_file():
+        raise InputError("the page of the Creator is not built: run `make page`, which needs Node 20 or newer and npm")
+    raise InputError(
+        "this installation has no page of the Creator: building it needs Node 20 or newer and npm. With these in the "
+        "PATH, install Shackled again from its clone: `pip install --force-reinstall --no-deps .`"
+    )
 
 
 def first_answers(input: str | None, page: Path) -> tuple[dict[str, Path | bytes], str]:
@@ -93,13 +101,18 @@ def first_answers(input: str | None, page: Path) -> tuple[dict[str, Path | bytes
 
 
 def _beside(path: Path) -> Iterator[Path]:
-    """Yield the files in the folder of a file, and in folders there, whose names it contains."""
+    """Yield the files in the folder of a file, and in folders there, that it names and readers use."""
     if path.suffix.lower() not in NAMING:
         return
     text = path.read_bytes()
+    images = (extension for extension, format in Image.registered_extensions().items() if format in Image.OPEN)
+    used = {*NAMING, *READERS, ".bin", *images}
     around = filter(Path.is_file, islice(path.parent.rglob("*"), MOST_BESIDE))
     for each in sorted(around, key=lambda each: (each.suffix.lower() not in NAMING, each)):
-        if each != path and (each.name.encode() in text or quote(each.name).encode() in text):
+        if each == path or each.suffix.lower() not in used or not is_inside(path.parent, each):
+            continue
+        names = b"|".join(re.escape(name.encode()) for name in {each.name, quote(each.name)})
+        if re.search(rb"(?<![\w.-])(?:%s)(?![\w.-])" % names, text, re.IGNORECASE):
             if each.suffix.lower() in NAMING:
                 text += each.read_bytes()
             yield each

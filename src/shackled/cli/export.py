@@ -5,19 +5,21 @@ from __future__ import annotations
 import json
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from .._load import locate
+from .._visible import why_nothing
 from ..datasets import Piece
-from ..errors import InputError
+from ..errors import ChainError, InputError
 from ..scene import Scene
 from ..studio import make_glb
 from ..web import check_page
 from ..web import export as write_page
 from ..whole_file import check_output_file
 from .look_options import INPUT, load_with
-from .option import option
+from .option import option, with_options
 from .progress import LateBar
 
 
@@ -57,7 +59,10 @@ def export(
             print(source.notice, file=sys.stderr)
         with LateBar("rendering"):
             image = write_page(source, path, title=title, **look)
-        if not image.covered_pixels:
+        if not image.visible_pixels:
+            assert image.scene is not None
+            with suppress(ChainError):
+                print(with_options(why_nothing(image.scene)), file=sys.stderr)
             print("nothing is visible; the picture shows only the background", file=sys.stderr)
         facts = {"width": image.width, "height": image.height, "triangles": image.triangles, "gas": image.gas}
         more = {"sha256": image.sha256}

@@ -20,6 +20,7 @@ from ..gas import (
     SearchStep,
     flame_graph,
     make_report,
+    quick_path_note,
     render_call,
 )
 from ..values import plural
@@ -186,6 +187,7 @@ def _figures(report: GasReport, gas_price: float, eth_price: float | None) -> di
     ether = report.ether(gas_price)
     dollars = "" if eth_price is None else f", {ether * eth_price:,.2f} US dollars at {eth_price:,g} per ether"
     per = (report.per(report.triangles), report.per(report.lit_pixels))
+    note = quick_path_note(report.scene)
     return {
         "picture": f"{report.scene.width} x {report.scene.height} pixels; "
         f"{plural(report.triangles, 'triangle')}, {plural(report.lit_pixels, 'lit pixel')}",
@@ -201,7 +203,7 @@ def _figures(report: GasReport, gas_price: float, eth_price: float | None) -> di
         ),
         "transaction": f"{exact.transaction_gas:,} gas, {ether:.6g} ether at {gas_price:g} gwei{dollars}; "
         f"needs a limit of {report.request_limit:,}",
-    }
+    } | ({"quick path": note} if note else {})
 
 
 def _share(part: int, whole: int) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, nullcontext
+from contextlib import ExitStack
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -32,6 +32,7 @@ from ..scene import (
     axis_of_format,
     base_axis,
     faces_of_all,
+    format_of,
     is_closed,
     read_model,
 )
@@ -41,7 +42,6 @@ from .output import print_json, print_line
 from .picture import Source, fits_of_made
 from .progress import LateBar
 from .several import INPUTS, inputs_of
-from .streams import STREAM, as_stdin
 
 #: The sides of the pictures whose gas is told, in pixels.
 SIDES = (128, 256, 512)
@@ -81,8 +81,7 @@ def info(
 
 def _told(source: Source, gas: bool) -> tuple[Facts, list[str], list[dict[str, Any]]]:
     """Return facts, notes, and for `gas` the pictures, with the size, gas and limits of each."""
-    named = as_stdin(source.place) if source.name == STREAM else nullcontext()
-    with warnings.catch_warnings(record=True) as caught, LateBar("reading"), named:
+    with warnings.catch_warnings(record=True) as caught, LateBar("reading"), source.named():
         place = locate(source.place)
         scene, facts = load(place), facts_of(place)
     notes = [with_options(str(each.message)) for each in caught if issubclass(each.category, InputWarning)]
@@ -198,7 +197,7 @@ class Facts:
 
 def facts_of(place: Path | Piece | Link) -> Facts:
     """Return the facts of a file or a piece."""
-    kind = place.suffix.lower() if isinstance(place, Path) else ""
+    kind = format_of(place) if isinstance(place, Path) else ""
     if kind in READERS and isinstance(place, Path):
         parts = read_model(place)
         objects = [

@@ -165,7 +165,8 @@ INPUT = argument("Mesh file, scene file, or name of a piece.", "INPUT")
 #: The option of commands that can make a picture fit.
 FIT = option(
     "--fit",
-    "Reduce antialiasing, size and triangles until the picture fits a transaction, or a node's read call (call).",
+    "Reduce antialiasing, size and triangles until the picture fits a node's read call (call), a transaction on "
+    "Ethereum (transaction), or one on another chain (base, optimism, monad, arbitrum, polygon).",
     "LIMIT",
     "Canvas",
 )

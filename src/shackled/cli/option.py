@@ -144,5 +144,12 @@ def with_options(message: str) -> str:
     """Return a message of the library in one line, with options in place of the parameters that it names."""
     if "`" in message:
         names = option_names()
-        message = re.sub(r"`(\w+)`", lambda match: names.get(match[1], match[0]), message)
+
+        def named(match: re.Match[str]) -> str:
+            option, value = names.get(match[1]), match[2]
+            if option is None or value is None:
+                return option or match[0]
+            return option.replace("--", "--no-", 1) if value == "False" else f"{option} {value}"
+
+        message = re.sub(r"`(\w+)(?:=([^`]+))?`", named, message)
     return " ".join(message.split())

@@ -5,7 +5,8 @@ from __future__ import annotations
 import hashlib
 import sys
 import time
-from contextlib import nullcontext
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,36 +17,45 @@ from .._render import film as draw_film
 from .._render import pace
 from .._render import render as draw
 from .._render import turntable as turn
+from .._visible import why_nothing
 from ..animation import DURATION, Animation, check_duration
 from ..chain import open_chain
-from ..errors import ChainError
-from ..gas import Fit, fits_of, headline, render_call, suffices
+from ..errors import ChainError, renaming
+from ..gas import Fit, fits_as_json, fits_of, headline, render_call, suffices
 from ..image import MOST_COLORS, Image, colors, total
 from ..parallel import Listener, folder_of, remove_parts
-from ..scene import PICTURE, Scene, scene_chunk
+from ..scene import PICTURE, Scene, scene_chunk, shows_scene
 from ..values import plural
 from ..whole_file import make_output_folder
 from .look_options import load_with
-from .option import exclude, need, option
+from .option import exclude, need, option, with_options
 from .progress import LateBar
-from .streams import OUTPUT, STREAM, as_stdin, write_stdout
+from .streams import OUTPUT, STREAM, write_stdout
 
 
 @dataclass(frozen=True)
 class Source:
     """An input of a command.
 
-    name: as it was given. place: a path, or the name of a piece. stem: of the name of its picture.
+    name: as it was given. place: a path, or the name of a piece. stem: of the name of its picture. stored: what
+    messages call it, if it is standard input or a pipe, which is stored in a file at its place.
     """
 
     name: str
     place: str
     stem: str
+    stored: str | None = None
 
     @property
     def is_picture(self) -> bool:
         """Whether its scene is in a picture."""
-        return self.name != STREAM and self.place.lower().endswith(PICTURE)
+        return self.stored is None and self.place.lower().endswith(PICTURE)
+
+    @contextmanager
+    def named(self) -> Iterator[None]:
+        """Let messages not name the file in which it is stored."""
+        with nullcontext() if self.stored is None else renaming(self.place, self.stored):
+            yield
 
 
 @dataclass(frozen=True)
@@ -92,6 +102,10 @@ class Task:
     on: On | None
     gas_limit: int | None
     tile: tuple[int, int] | None
+    #: Whether triangles and lit pixels are counted, by a second call.
+    count: bool = True
+    #: Whether a file that shows the same scene is left as it is.
+    skip_existing: bool = False
 
 
 @dataclass(frozen=True)
@@ -102,12 +116,19 @@ class Done:
     """
 
     report: dict[str, Any]
-    scene: int | None
-    fits: tuple[Fit, ...] | None
+    scene: int | None = None
+    fits: tuple[Fit, ...] | None = None
+
+    @property
+    def is_skipped(self) -> bool:
+        """Whether the file was there already."""
+        return "skipped" in self.report
 
     @property
     def words(self) -> str:
         """The report in several lines."""
+        if self.is_skipped:
+            return self.line
         report, scene, fits = self.report, self.scene, self.fits
         frames, calls = report["frames"], report["calls"]
         several = f"{frames} frames of " if frames > 1 else ""
@@ -118,10 +139,10 @@ class Done:
         rows["gas"] = "not counted"
         if report["gas"] is not None and report["intrinsic_gas"] is not None:
             sent = "the scene" if calls == 1 else f"the scene {calls} times"
-            rows["gas"] = f"{report['gas']:,} (and {report['intrinsic_gas']:,} to send {sent})"
+            rows["gas"] = f"{report['gas']:,}{_in_calls(report)} (and {report['intrinsic_gas']:,} to send {sent})"
         if fits is not None:
             each = f"each of its {calls} calls: " if calls > 1 else ""
-            rows["fits"] = each + headline(fits).removeprefix("fits ")
+            rows["fits"] = each + headline(fits)
         if scene is not None:
             size = f"{scene / 1024:.1f} KB"
             left_out = f"not in the file, as it takes {size}: --scene writes it"
@@ -133,37 +154,60 @@ class Done:
     def line(self) -> str:
         """The report in one line."""
         report = self.report
-        gas = "" if report["gas"] is None else f", {report['gas']:,} gas"
+        if self.is_skipped:
+            return f"{report['input']} -> {report['output']}: skipped, as it shows the same scene already"
+        gas = "" if report["gas"] is None else f", {report['gas']:,} gas{_in_calls(report)}"
         fits = "" if self.fits is None else f"; {headline(self.fits)}"
         size = f"{report['width']} x {report['height']} pixels"
         frames = f", {report['frames']} frames" if report["frames"] > 1 else ""
         return f"{report['input']} -> {report['output']}: {size}{frames}{gas}{fits}"
 
 
-def render_to(source: Source, path: Path | None, task: Task, listener: Listener) -> Done:
-    """Render an input to a file, or for None to standard output."""
+def _in_calls(report: dict[str, Any]) -> str:
+    """Return what is said of the gas of a picture that took several calls, which is more than that of one."""
+    calls = report["calls"] // report["frames"]
+    return (f" in {calls} calls" + (" for each frame" if report["frames"] > 1 else "")) if calls > 1 else ""
+
+
+def load_input(source: Source, task: Task) -> tuple[list[Scene], float]:
+    """Return the scene of an input, or the frames of its animation, and the length of that in seconds."""
+    with source.named():
+        if task.film.frames is None:
+            return [load_with(source.place, task.look, task.fit)], 0.0
+        with LateBar("reading"):
+            return load_frames(source.place, task.film.frames, **task.look)
+
+
+def render_to(
+    source: Source,
+    path: Path | None,
+    task: Task,
+    listener: Listener,
+    loaded: Scene | None = None,
+    drawn: Image | None = None,
+) -> Done:
+    """Render an input to a file, or for None to standard output. loaded, drawn: what is there already."""
     film = task.film
-    with as_stdin(source.place) if source.name == STREAM else nullcontext():
-        if film.frames is None:
-            scenes, length = [load_with(source.place, task.look, task.fit)], 0.0
-        else:
-            with LateBar("reading"):
-                scenes, length = load_frames(source.place, film.frames, **task.look)
+    scenes, length = load_input(source, task) if loaded is None else ([loaded], 0.0)
     loaded = scenes[0]
     if task.scene:
         scene_chunk(loaded).check()
+    if is_there(path, task, loaded):
+        return Done({"input": source.name, "output": str(path), "skipped": True})
     extension = PICTURE if path is None else path.suffix.lower()
     if path is not None:
         make_output_folder(path.parent)
     place, bounds = place_of(task.on), Bounds(task.gas_limit, task.tile)
     in_parts = not film.one_call and (film.is_film or not is_one_call(place, loaded, bounds))
-    started = time.perf_counter()
+    started = time.perf_counter() - (0 if drawn is None else drawn.seconds)
     keep = folder_of(path) if in_parts and path is not None else None
     told: dict[str, Any] = {"gas_limit": task.gas_limit, "tile": task.tile, "listener": listener, "keep": keep}
     told |= {"on": task.on, "transparent": task.transparent}
     made: Image | Animation
     with nullcontext() if in_parts else LateBar("rendering"):
-        if film.frames is not None:
+        if drawn is not None:
+            made = drawn
+        elif film.frames is not None:
             shown = pace(length, film.frames) if film.duration is None else film.duration
             made = draw_film(scenes, shown, place, bounds, listener, keep, task.transparent)
         elif film.turntable is not None:
@@ -187,7 +231,7 @@ def render_to(source: Source, path: Path | None, task: Task, listener: Listener)
     chunk = frames[0].scene_chunk if extension in (PICTURE, "") and task.scene is not False else None
     written = len(chunk.data) if chunk is not None and (task.scene or chunk.is_small) else None
     with LateBar("counting"):
-        triangles, lit_pixels, shows_something = _counted(made)
+        triangles, lit_pixels, shows_something = _counted(made, task.count)
         fits = fits_of_made(made, loaded)
     digest = hashlib.sha256()
     for frame in frames:
@@ -205,11 +249,13 @@ def render_to(source: Source, path: Path | None, task: Task, listener: Listener)
         "output": STREAM if path is None else str(path),
         "sha256": digest.hexdigest(),
         "scene_bytes": written,
-        "fits": None if fits is None else [fit.to_json() for fit in fits],
+        "fits": None if fits is None else fits_as_json(fits),
         "frames": len(frames),
         "calls": made.calls,
     }
     if not shows_something:
+        with suppress(ChainError):
+            print(with_options(why_nothing(loaded, frames[0].evm)), file=sys.stderr)
         print("nothing is visible; the picture shows only the background", file=sys.stderr)
     if extension == ".gif" and (found := colors([frame.pixels for frame in frames])) > MOST_COLORS:
         whose = "picture" if len(frames) == 1 else "frames"
@@ -218,15 +264,23 @@ def render_to(source: Source, path: Path | None, task: Task, listener: Listener)
     return Done(report, None if chunk is None else len(chunk.data), fits)
 
 
-def _counted(made: Image | Animation) -> tuple[int | None, int | None, bool]:
-    """Return the triangles and covered pixels of a picture, None where they are not known, and whether anything shows.
+def is_there(path: Path | None, task: Task, scene: Scene) -> bool:
+    """Return whether a picture is not drawn, as its file shows the same scene already."""
+    return task.skip_existing and path is not None and shows_scene(path, scene, task.transparent)
+
+
+def _counted(made: Image | Animation, count: bool) -> tuple[int | None, int | None, bool]:
+    """Return the triangles and lit pixels of a picture, None where they are not known, and whether anything shows.
 
     The picture is already written: what fails here is only told.
     """
+    frames = [made] if isinstance(made, Image) else made.frames
     try:
-        if isinstance(made, Image):
-            return made.triangles, made.covered_pixels, made.covered_pixels != 0
-        return None, None, any(frame.covered_pixels != 0 for frame in made.frames)
+        # a background has one colour in each row: only what looks like one is compared with it
+        shows = any((each.pixels != each.pixels[:, :1]).any() or each.visible_pixels != 0 for each in frames)
+        if count and isinstance(made, Image):
+            return made.triangles, made.visible_pixels, shows
+        return None, None, shows
     except ChainError as error:
         print(f"shackled: triangles and lit pixels were not counted: {error}", file=sys.stderr)
         return None, None, True

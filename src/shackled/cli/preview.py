@@ -105,6 +105,8 @@ def _check(project: Project, request: Request, as_json: bool) -> None:
             print_line(problem)
         if wrong:
             print_table(("tokens", "problem"), folded(wrong))
+        if notes := folded(found, "notes"):
+            print_table(("tokens", "note"), notes)
         if gas:
             most = max(found, key=lambda token: token.gas or 0)
             print_line(

@@ -13,6 +13,8 @@ from .option import with_options
 #: Seconds before a bar is shown, and between two pictures of it.
 PATIENCE = 1.0
 PAUSE = 0.1
+#: Seconds between two lines of a log, where there is no terminal.
+LOG_PAUSE = 10.0
 #: Characters of a bar.
 WIDTH = 40
 
@@ -20,14 +22,18 @@ WIDTH = 40
 class LateBar:
     """A bar that appears on a terminal when a task takes longer than a second, and is removed at its end.
 
+    Where stderr is no terminal, it is a line every ten seconds.
     It is thread-safe, and a context manager.
     """
+
+    #: Of what is counted.
+    unit = ""
 
     def __init__(self, what: str, patience: float = PATIENCE) -> None:
         """Start the timer. what: the label of the bar."""
         self._what = what
         self._done, self._total = 0, 0
-        self._shown, self._drawn = False, 0.0
+        self._shown, self._drawn, self._logged = False, 0.0, 0.0
         self._started = time.monotonic()
         self._lock = threading.RLock()
         self._timer: threading.Timer | None = None
@@ -44,6 +50,12 @@ class LateBar:
             self._done, self._total = done, total or 0
             if time.monotonic() - self._drawn >= PAUSE:
                 self._draw()
+            spent = time.monotonic() - self._started
+            if self._timer is None and done and total and spent - self._logged >= LOG_PAUSE:
+                self._logged = spent
+                left = spent * (total / done - 1)
+                text = f"{self._what}: {done:,} of {total:,}{self.unit} in {spent:.0f} s, about {left:.0f} s left"
+                print(text, file=sys.stderr, flush=True)
 
     def print(self, line: str, to_stdout: bool = False) -> None:
         """Print a line on stderr or stdout, above the bar if there is one on the same terminal."""
@@ -103,6 +115,8 @@ class Notes(Listener):
 
 class JobProgress(LateBar, Listener):
     """A bar that shows the progress of a job; it also prints the estimated cost of a job of several parts."""
+
+    unit = " pixels"
 
     def __init__(self) -> None:
         """Start the timer of the bar."""

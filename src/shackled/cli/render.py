@@ -23,7 +23,7 @@ from .look_options import FIT, INPUT, load_with, parse_sides
 from .option import exclude, is_from_environment, need, option
 from .picture import FilmOptions, Task, render_to
 from .progress import JobProgress
-from .several import INPUTS, inputs_of, outputs_of, render_all
+from .several import INPUTS, inputs_of, outputs_of, parse_shard, render_all
 
 EVM = option("--evm", f"EVM to draw in: {', '.join(CHAINS)}; default: revm.", "NAME", "Where")
 
@@ -102,6 +102,12 @@ def render(
         "--transparent", "Make the background transparent, at twice the gas; same as --background none.", None, "Canvas"
     ),
     fit: str | None = FIT,
+    skip_existing: bool = option(
+        "--skip-existing", "Leave PNG files that show the same scene already as they are.", None, "Files"
+    ),
+    shard: tuple[int, int] | None = option(
+        "--shard", "Render only the I-th of N parts of the inputs, as 2/4.", "I/N", "Files", parse=parse_shard
+    ),
     as_json: bool = option("--json", "Print a JSON object instead of text, for each input.", None, "Files"),
     quiet: bool = option("-q --quiet", "Print only errors, and the output of --json.", None, "Files"),
     **look: Any,
@@ -126,10 +132,19 @@ def render(
         exclude("--fit", fit, {**parts, "--turntable": film.turntable, "--frames": film.frames})
         exclude("--scene", scene, {"--one-call": film.one_call})
         exclude("--transparent", transparent, {"--one-call": film.one_call})
+        exclude("--skip-existing", skip_existing, {"--no-scene": scene is False})
+        exclude("--skip-existing", skip_existing, {"--turntable": film.turntable, "--frames": film.frames})
         if scene and extensions - {PICTURE}:
             raise InputError(f"--scene needs a {PICTURE} file, not {paths[0]}")
-        task = Task(look, fit, film, transparent, scene, on, where.gas_limit, where.tile)
-        if len(sources) > 1:
+        if skip_existing and (None in paths or extensions - {PICTURE}):
+            raise InputError(f"--skip-existing needs {PICTURE} files, which say what they show, not {paths[0] or '-'}")
+        is_batch = len(sources) > 1
+        count = as_json or not (quiet or is_batch)
+        task = Task(look, fit, film, transparent, scene, on, where.gas_limit, where.tile, count, skip_existing)
+        if shard is not None:
+            mine = slice(shard[0] - 1, None, shard[1])
+            sources, paths = sources[mine], paths[mine]
+        if is_batch or shard is not None:
             render_all(sources, paths, task, "json" if as_json else None if quiet else "line")
             return
         done = render_to(sources[0], paths[0], task, JobProgress())

@@ -5,27 +5,33 @@ from __future__ import annotations
 import io
 import json
 import os
+import re
 import sys
-from collections.abc import Sequence
-from contextlib import ExitStack, redirect_stderr
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, closing, redirect_stderr
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal, TypeVar
+
+from attrs import evolve
 
 from .._load import locate
-from .._on import Processes
+from .._on import Cluster, Processes
+from .._render import render as draw
 from ..animation import check_animation
 from ..datasets import Piece
 from ..errors import InputError, InputWarning, ShackledError
-from ..image import check_output
-from ..scene import PICTURE, READERS, Link
+from ..image import Image, check_output
+from ..scene import PICTURE, READERS, Link, Scene, format_by_name, is_pipe, read_pipe, stored
 from ..untrusted import plain
 from ..workers import each
 from .option import argument, with_options
 from .output import Action, action, noting
-from .picture import Done, Source, Task, render_to
+from .picture import Done, Source, Task, is_there, load_input, render_to
 from .progress import LateBar, Notes
-from .streams import STREAM, is_output, stdin_file
+from .streams import INPUT, STREAM, is_output, stdin_file
 
 #: The argument of commands with several inputs.
 INPUTS = argument(
@@ -45,6 +51,18 @@ Work = tuple[Source, Path | None, Task, Action]
 #: A picture that was rendered, or why not; and what was said meanwhile.
 Outcome = tuple[Done | ShackledError, str]
 
+Result = TypeVar("Result")
+#: The most inputs that a line names.
+MOST_NAMES = 3
+
+
+def parse_shard(text: str, name: str) -> tuple[int, int]:
+    """Return I and N of "I/N": a part of the inputs, numbered from 1, and the number of parts."""
+    match = re.fullmatch(r"(\d{1,6})/(\d{1,6})", text)
+    if not match or not 1 <= int(match[1]) <= int(match[2]):
+        raise InputError(f"{name} must be the number of a part and of all parts, such as 1/4 to 4/4, not {text!r}")
+    return int(match[1]), int(match[2])
+
 
 def inputs_of(names: Sequence[str], stack: ExitStack) -> list[Source]:
     """Return the inputs with these names; of a folder, all mesh files in it.
@@ -56,7 +74,11 @@ def inputs_of(names: Sequence[str], stack: ExitStack) -> list[Source]:
     sources: list[Source] = []
     for name in names:
         if name == STREAM:
-            sources.append(Source(name, str(stack.enter_context(stdin_file())), UNNAMED))
+            sources.append(Source(name, str(stack.enter_context(stdin_file())), UNNAMED, INPUT))
+            continue
+        if is_pipe(name):  # which can be read once
+            path = stack.enter_context(stored(read_pipe(name), name))
+            sources.append(Source(name, str(path), UNNAMED, name))
             continue
         try:
             found = locate(name)
@@ -72,13 +94,14 @@ def inputs_of(names: Sequence[str], stack: ExitStack) -> list[Source]:
             members = _meshes(found)
             if not members and len(names) == 1 and found.is_dir():
                 raise InputError(f"the folder {name} has no mesh files in it, {' '.join(READERS)}")
-            sources += [Source(each, each, Path(each).stem or UNNAMED) for each in members or [name]]
+            found_names = members or [name]
+            sources += [Source(each, each, Path(each.removesuffix(".gz")).stem or UNNAMED) for each in found_names]
     return sources
 
 
 def _meshes(folder: Path) -> list[str]:
     try:
-        return sorted(str(path) for path in folder.iterdir() if path.suffix.lower() in READERS and path.is_file())
+        return sorted(str(path) for path in folder.iterdir() if format_by_name(path) in READERS and path.is_file())
     except OSError:  # not a folder, or reading it reports what is wrong
         return []
 
@@ -125,19 +148,20 @@ def _check_overwriting(sources: Sequence[Source], paths: Sequence[Path]) -> None
 
 def render_all(sources: Sequence[Source], paths: Sequence[Path | None], task: Task, report: Report) -> None:
     """Render each input, and print a report on it. ExceptionGroup of the errors of those that failed."""
-    jobs = 1
-    if isinstance(task.on, Processes):
-        # a process for each input, instead of several for the parts of one
-        jobs, task = task.on.count, replace(task, on=task.on.evm)
+    started, skipped = time.monotonic(), 0
     failed: list[ShackledError] = []
-    work = [(source, path, task, action()) for source, path in zip(sources, paths, strict=True)]
-    found = each(_render, work, jobs, lambda error: (error, ""))
+    notes: dict[str, list[str]] = {}
     with LateBar("rendering") as bar:
-        for number, (place, (result, said)) in enumerate(found, 1):
+        for number, (place, (result, said)) in enumerate(_outcomes(sources, paths, task, bar), 1):
             name = sources[place].name
             for line in said.splitlines():
-                bar.print(line)
+                # the same note on other inputs is printed once
+                alike = notes.setdefault(line.replace(name, STEM), [])
+                alike.append(name)
+                if len(alike) == 1:
+                    bar.print(line if name in line or line.startswith("shackled:") else f"{name}: {line}")
             if isinstance(result, Done):
+                skipped += result.is_skipped
                 if report is not None:
                     bar.print(json.dumps(result.report) if report == "json" else plain(result.line), to_stdout=True)
             else:
@@ -145,20 +169,86 @@ def render_all(sources: Sequence[Source], paths: Sequence[Path | None], task: Ta
                 failed.append(ShackledError(text if name in text else f"{name}: {text}"))
                 if report == "json":
                     bar.print(json.dumps({"input": name, "error": text}), to_stdout=True)
-            bar.set(number, len(work))
-    summary = f"{len(work) - len(failed)} rendered, {len(failed)} failed"
+            bar.set(number, len(sources))
+    for first, *others in notes.values():
+        if others:
+            more = f" and {len(others) - MOST_NAMES} more" if len(others) > MOST_NAMES else ""
+            print(
+                f"shackled: the note on {first} is also true of {', '.join(others[:MOST_NAMES])}{more}", file=sys.stderr
+            )
+    counts = f"{len(sources) - len(failed) - skipped} rendered, " + (f"{skipped} skipped, " if skipped else "")
+    summary = f"{counts}{len(failed)} failed, in {time.monotonic() - started:.1f} s"
     if failed:
         raise ExceptionGroup(summary, failed)
     print(summary, file=sys.stderr)
 
 
+def _outcomes(
+    sources: Sequence[Source], paths: Sequence[Path | None], task: Task, bar: LateBar
+) -> Iterator[tuple[int, Outcome]]:
+    """Yield the number of each input and what became of it, as they are done."""
+    jobs, on = 1, task.on
+    if isinstance(on, Processes):
+        # a process for each input, instead of several for the parts of one
+        jobs, task = on.count, replace(task, on=on.evm)
+    work = [(source, path, task, action()) for source, path in zip(sources, paths, strict=True)]
+    if work and isinstance(on, Cluster) and on.verify is None and not task.film.is_film:
+        return _on_cluster(work, on, bar)
+    return each(_render, work, jobs, lambda error: (error, ""))
+
+
+def _on_cluster(work: Sequence[Work], on: Cluster, bar: LateBar) -> Iterator[tuple[int, Outcome]]:
+    """Read inputs and write pictures here, and draw each picture whole on a worker of a cluster."""
+    from ..parallel import ClusterBackend
+
+    done: list[tuple[int, Outcome]] = []
+
+    def read() -> Iterator[tuple[int, Scene, str]]:
+        for number, (source, path, task, notes) in enumerate(work):
+            found, said = _heard(partial(load_input, source, task), notes)
+            if isinstance(found, ShackledError):
+                done.append((number, (found, said)))
+            elif is_there(path, task, scene := found[0][0]):
+                done.append((number, (render_to(source, path, task, Notes(), scene), said)))
+            else:
+                yield number, scene, said
+
+    task = work[0][2]
+    bounds = {"on": on.evm, "transparent": task.transparent, "gas_limit": task.gas_limit, "tile": task.tile}
+    with closing(ClusterBackend(on.address, on.evm, task.gas_limit)) as backend:
+        drawn = backend.each(partial(_draw, bounds), read(), lambda text: bar.print(f"shackled: {text}"))
+        for (number, scene, said), made in drawn:
+            source, path, task, notes = work[number]
+            outcome: Outcome = (
+                (made, "")
+                if isinstance(made, ShackledError)
+                else _heard(
+                    partial(render_to, source, path, task, Notes(), scene, evolve(made, made_by=backend.name)), notes
+                )
+            )
+            done.append((number, (outcome[0], said + outcome[1])))
+            yield from done
+            done.clear()
+    yield from done
+
+
+def _draw(bounds: dict[str, Any], item: tuple[int, Scene, str]) -> Image:
+    """Draw a picture in the process of a worker."""
+    return draw(item[1], **bounds)
+
+
 def _render(work: Work) -> Outcome:
     """Render one input, in this process or in one of several."""
     source, path, task, notes = work
+    return _heard(partial(render_to, source, path, task, Notes()), notes)
+
+
+def _heard(function: Callable[[], Result], notes: Action) -> tuple[Result | ShackledError, str]:
+    """Call a function; return its result or its error, and what it printed on stderr."""
     said = io.StringIO()
     with redirect_stderr(said), noting(notes):
         try:
-            return render_to(source, path, task, Notes()), said.getvalue()
+            return function(), said.getvalue()
         except InputWarning as note:
             return InputError(str(note)), said.getvalue()
         except ShackledError as error:

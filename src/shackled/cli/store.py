@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .._load import load, locate
+from .._load import is_model, load, locate
 from ..chain import Connection
 from ..datasets import Piece
 from ..errors import InputError
 from ..ethereum import checksum_address
 from ..image import FORMATS, check_output, one_of
-from ..scene import ALL, READERS
+from ..scene import ALL
 from .chain_options import (
     CALLDATA,
     JSON,
@@ -64,7 +64,7 @@ def store(
     node.check()
     payer.check()
     # a token is drawn by nodes of all kinds, of which many allow a call too little gas for antialiased meshes
-    is_mesh = not isinstance(source, Piece) and source.suffix.lower() in READERS
+    is_mesh = is_model(source)
     thing = (token_scene(source) if size is None else source.make()) if isinstance(source, Piece) else source
     # what is stored can be drawn at any size
     scene = load(thing, size, max_triangles=max_triangles or ALL, antialias=False if is_mesh else None)

@@ -18,11 +18,12 @@ from ..errors import InputError, OutOfGasError
 from ..ethereum import intrinsic_gas
 from ..scene import Scene, simplify_scene
 from ..values import listed
-from ._limits import ENVELOPE, MAX_TRANSACTION, Limit, floor_gas, limits, render_call
+from ._limits import ENVELOPE, MAX_TRANSACTION, Limit, floor_gas, known_chains, limits, render_call
+from ._quick_path import has_effects
 
-#: What a picture is to fit: one transaction, or a read call of a node with the default settings of geth.
-FITS = ("transaction", "call")
-CALL_NODE = "geth"
+#: What a picture is to fit, by the place whose limit it is: one transaction on Ethereum or on another chain, or a read
+#: call of a node with the default settings of geth.
+FITS = {"transaction": "Ethereum", "call": "geth"} | {e.id: e.name for e in known_chains() if not e.is_test}
 
 #: Longer sides of the canvas, in pixels, down to which the size is lowered: before triangles, and after them.
 SMALL, SMALLEST = 128, 64
@@ -57,6 +58,17 @@ STEPS: tuple[tuple[_Name, Callable[[_Settings], int]], ...] = (
 )
 
 
+#: What is left out, one after another, where nothing fits, to say what would.
+EXTRAS: dict[str, Callable[[Scene], Scene]] = {
+    "shadows": lambda scene: evolve(scene, lights=[evolve(each, shadow=False) for each in scene.lights]),
+    "the ground": lambda scene: evolve(scene, ground=None),
+    "effects of light": lambda scene: evolve(scene, hemisphere=None, rim=None, fog=None, tone=None),
+    "textures": lambda scene: evolve(
+        scene, objects=[evolve(o, material=evolve(o.material, texture=None)) for o in scene.objects]
+    ),
+}
+
+
 @dataclass(frozen=True)
 class Fitted:
     """A scene that fits, and a sentence that says what was done."""
@@ -68,34 +80,42 @@ class Fitted:
 def fit_scene(scene: Scene, what: str, crease: float | None = None) -> Fitted:
     """Return the scene with less antialiasing, size and triangles, as far as it takes to fit one request.
 
-    what: "transaction" or "call". crease: as in `simplify_scene`.
+    what: "transaction" (on Ethereum), "call", or the id of a chain, such as "base". crease: as in `simplify_scene`.
     Each try is a call with no more gas than the request may use, so that it never takes longer than a picture that
     fits. InputError if nothing fits.
     """
-    kind = choice(what, "`fit`", FITS)
-    limit = next(each for each in limits() if each.kind == kind and each.node in ("", CALL_NODE))
-    return _Fitting(scene, limit, crease).run()
+    place = FITS[choice(what, "`fit`", FITS)]
+    return _Fitting(scene, next(each for each in limits() if each.place == place), crease).run()
 
 
 class _Fitting:
     def __init__(self, scene: Scene, limit: Limit, crease: float | None) -> None:
         chain = open_chain()
         self._scene, self._limit, self._crease, self._chain = scene, limit, crease, chain
-        self._place = "one transaction" if limit.kind == "transaction" else f"a read call of {limit.node}"
+        self._place = f"{'one transaction on' if limit.kind == 'transaction' else 'a read call of'} {limit.place}"
         triangles = max((each.mesh.triangles for each in scene.objects), default=0)
         self._asked = _Settings(int(scene.antialias), max(scene.width, scene.height), triangles)
         self._simpler = {triangles: scene}
 
     def run(self) -> Fitted:
         """Find the first settings that fit, in the order of the steps."""
+        found, least, remark = self._find()
+        if found is not None:
+            return self._fitted(*found)
+        even = f", even {words}" if (words := self._words(least)) else ""
+        raise InputError(f"nothing that is left of the picture fits {self._place}{even}{remark}{self._costs(least)}")
+
+    def _find(self) -> tuple[tuple[_Settings, int] | None, _Settings, str]:
+        """Return the first settings that fit and their gas, or None; the last that were tried; a remark on these."""
         now = self._sendable()
         if (gas := self._gas(now)) is not None:
-            return self._fitted(now, gas)
+            return (now, gas), now, ""
         remark = ""
         for name, lowest in STEPS:
             high = getattr(now, name)
             low = min(high, lowest(now))
-            if low == high:
+            # scenes with effects are always antialiased
+            if low == high or (name == "antialias" and has_effects(self._scene)):
                 continue
             least = replace(now, **{name: low})
             try:
@@ -105,10 +125,34 @@ class _Fitting:
                 remark = f"; {error}"
                 continue
             if gas is not None:
-                found = (least, gas) if name == "antialias" else self._highest(name, least, gas, high)
-                return self._fitted(*found)
+                return (least, gas) if name == "antialias" else self._highest(name, least, gas, high), least, remark
             now = least
-        raise InputError(f"nothing that is left of the picture fits {self._place}, even {self._words(now)}{remark}")
+        return None, now, remark
+
+    def _costs(self, least: _Settings) -> str:
+        """Return what shadows cost with the least settings, and what fits without them and without other extras."""
+        said, left_out, without = "", list[str](), self
+        for name, leave_out in EXTRAS.items():
+            plainer = leave_out(without._scene)
+            if plainer == without._scene:
+                continue
+            before, without = without, _Fitting(plainer, self._limit, self._crease)
+            left_out.append(name)
+            if name == "shadows":
+                saved, for_geometry = (before._used(e) - without._used(e) for e in (least, replace(least, side=1)))
+                said += f", where shadows take {saved:,} gas, {for_geometry:,} of it for geometry at any size"
+            found, *_ = without._find()
+            if found is not None:
+                settings, gas = found
+                said += f"; without {listed(left_out)}, it fits {without._words(settings) or 'as it is'} ({gas:,} gas)"
+                if settings.side == self._asked.side:
+                    break
+        return said
+
+    def _used(self, settings: _Settings) -> int:
+        """Return the gas of a call with intrinsic gas, whatever fits."""
+        data = render_call(self._scene_of(settings))
+        return intrinsic_gas(data) + (self._chain.call("Renderer", data).gas or 0)
 
     def _highest(self, name: _Name, best: _Settings, gas: int, high: int) -> tuple[_Settings, int]:
         """Return the highest setting below `high`, which does not fit, that fits, and its gas. best: one that does."""

@@ -1,4 +1,4 @@
-"""Exact gas of a picture, the gas limit that its call needs, and how it fits documented limits: see limits.toml."""
+"""Exact gas of a picture, the gas limit that its call needs, and which documented limits it fits."""
 
 from __future__ import annotations
 
@@ -21,6 +21,8 @@ KEPT = 64
 MAX_TRANSACTION = 4 * 32 * 1024
 #: Bytes of a transaction besides its data: signature, addresses, fees; rounded up.
 ENVELOPE = 512
+#: What requests are, as `Limit.kind` has it.
+KINDS_OF_LIMITS = ("transaction", "call")
 
 
 @dataclass(frozen=True)
@@ -63,26 +65,61 @@ def needed_for(gas: int) -> int:
 
 
 @dataclass(frozen=True)
+class KnownChain:
+    """A chain, as chains.toml has it.
+
+    id: as `fit` takes it. number: as EIP-155 has it. gas: of one transaction at most. currency: the symbol of what gas
+    is paid in. date: of the source of `gas`. explorer, node: addresses, or "".
+    """
+
+    id: str
+    name: str
+    number: int
+    gas: int
+    currency: str
+    source: str
+    date: str
+    explorer: str = ""
+    is_test: bool = False
+    node: str = ""
+
+
+@cache
+def known_chains() -> tuple[KnownChain, ...]:
+    """Return all known chains, test networks last."""
+    return tuple(KnownChain(**entry) for entry in _table("chains")["chain"])
+
+
+@dataclass(frozen=True)
 class Limit:
     """The gas that one request may use.
 
-    kind: "transaction" or "call". node: the client or service that has it; "" for a transaction. date: of the source.
+    kind: "transaction" or "call". place: the chain of a transaction; the client or service that answers a call. date:
+    of the source.
     """
 
     name: str
     gas: int
-    kind: str
     source: str
     date: str
-    node: str = ""
+    place: str
+    kind: str = "call"
     remark: str = ""
 
 
 @cache
 def limits() -> tuple[Limit, ...]:
-    """Return all known limits, the smallest first."""
-    data = tomllib.loads(files(__package__).joinpath("limits.toml").read_text("utf-8"))
-    return tuple(sorted((Limit(**entry) for entry in data["limit"]), key=lambda limit: limit.gas))
+    """Return the limits of transactions on chains other than test networks, and of read calls, the smallest first."""
+    found = [Limit(**entry) for entry in _table("limits")["limit"]]
+    for chain in known_chains():
+        if not chain.is_test:
+            name = f"one transaction on {chain.name}"
+            found.append(Limit(name, chain.gas, chain.source, chain.date, chain.name, "transaction"))
+    return tuple(sorted(found, key=lambda limit: limit.gas))
+
+
+def _table(name: str) -> dict[str, Any]:
+    return tomllib.loads(files(__package__).joinpath(f"{name}.toml").read_text("utf-8"))
 
 
 @dataclass(frozen=True)
@@ -97,18 +134,6 @@ class Fit:
     needed: int
     fits: bool
     reason: str
-
-    def to_json(self) -> dict[str, Any]:
-        """Return the object that `--json` prints."""
-        limit = self.limit
-        return {
-            "name": limit.name,
-            "limit": limit.gas,
-            "fits": self.fits,
-            "source": limit.source,
-            "date": limit.date,
-            "remark": limit.remark,
-        }
 
 
 def fits_of(gas: int, calldata: bytes, suffices: Callable[[int], bool] | None = None) -> tuple[Fit, ...]:
@@ -131,12 +156,20 @@ def fits_of(gas: int, calldata: bytes, suffices: Callable[[int], bool] | None = 
     return tuple(found)
 
 
+def fits_as_json(fits: Sequence[Fit]) -> dict[str, list[str]]:
+    """Return the object that `--json` prints: the chains on which a transaction can draw, and whose read calls can."""
+    return {f"{kind}s": [e.limit.place for e in fits if e.fits and e.limit.kind == kind] for kind in KINDS_OF_LIMITS}
+
+
 def headline(fits: Sequence[Fit]) -> str:
-    """Return the result in a few words, such as "fits one transaction, and any node's read call"."""
-    in_transaction = all(fit.fits for fit in fits if fit.limit.kind == "transaction")
-    calls = [fit for fit in fits if fit.limit.kind == "call"]
-    nodes = [fit.limit.node for fit in calls if fit.fits]
+    """Return what the limits mean for a picture, such as "free to read on most nodes"; names only where they help."""
+    all_of = {kind: [fit.limit.place for fit in fits if fit.limit.kind == kind] for kind in KINDS_OF_LIMITS}
+    chains, nodes = fits_as_json(fits).values()
     if not nodes:
-        return "fits no usual node: take fewer pixels or triangles"
-    where = "any node's read call" if len(nodes) == len(calls) else f"calls of {listed(nodes)}"
-    return f"fits one transaction, and {where}" if in_transaction else f"fits {where}; no transaction"
+        return "too much for a read call of any usual node: draw it in tiles, or with fewer pixels or triangles"
+    if len(nodes) < len(all_of["call"]):
+        return f"free to read on {listed(nodes)}; on other nodes in tiles"
+    if not chains:
+        return "free to read on most nodes; too much for a contract to draw inside a transaction"
+    where = "" if len(chains) == len(all_of["transaction"]) else f" on {listed(chains)}"
+    return f"free to read on most nodes; a contract can draw it inside a transaction{where}"

@@ -8,8 +8,9 @@ from typing import Any
 
 from ..chain import ContractChain, NodeChain
 from ..scene import Scene
-from ._limits import ExactGas, Fit, fits_of, measure, render_call
+from ._limits import ExactGas, Fit, fits_as_json, fits_of, measure, render_call
 from ._profile import Profile, profile
+from ._quick_path import missed_quick_path
 from ._search import Search, SearchStep, search, suffices
 
 GWEI_PER_ETHER = 10**9
@@ -72,7 +73,8 @@ class GasReport:
                 "ether": ether,
                 "usd": None if eth_price is None else ether * eth_price,
             },
-            "fits": [fit.to_json() for fit in self.fits],
+            "missed_quick_path": missed_quick_path(self.scene),
+            "fits": fits_as_json(self.fits),
             "chain": self.chain,
         }
 

@@ -45,6 +45,9 @@ class Backend(Protocol):
     def render(self, scene: Scene, tile: Rectangle) -> Drawing:
         """Render a part; as many threads as there are slots may call this."""
 
+    def check(self) -> list[str]:
+        """Return what is to be told while parts are rendered; raise RenderError if none can be any more."""
+
     def close(self) -> None:
         """Stop what still runs; may be called while it renders, and more than once."""
 
@@ -68,6 +71,10 @@ class ChainBackend:
         if self.gas is not None and piece.gas is not None and piece.gas > self.gas:
             raise out_of_gas(self.gas)
         return piece
+
+    def check(self) -> list[str]:
+        """Return nothing: a chain that fails says so."""
+        return []
 
     def close(self) -> None:
         """End the calls of several threads, where the chain can be stopped; one slot may be a caller's chain."""

@@ -4,21 +4,31 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import time
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from itertools import islice
+from queue import Empty, SimpleQueue
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..chain import Drawing, open_chain
 from ..errors import InputError, RenderError, ShackledError, not_installed
 from ..scene import Rectangle, Scene
+from ..values import plural
 from ._backends import ChainBackend
 from ._store import contracts_digest
 
 if TYPE_CHECKING:
-    from distributed import Client
+    from distributed import Client, Future
 
-#: Seconds within which a scheduler must answer.
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+
+#: Seconds within which a scheduler must answer, and a cluster without workers must get one.
 PATIENCE = 15
+#: Seconds between two looks at which workers there are.
+PAUSE = 0.5
 #: Parts that are queued for each worker, so that none is idle between two.
 AHEAD = 2
 #: Parts of dask's messages when the connection to its scheduler has broken.
@@ -55,32 +65,78 @@ class ClusterBackend:
             self._client: Client = QuietClient(  # type: ignore[no-untyped-call]
                 address, timeout=PATIENCE, set_as_default=False
             )
-            workers = self._check()
+            workers = self._greet_workers()
         except BaseException as error:
             self.close()
             if isinstance(error, ShackledError) or not isinstance(error, Exception):
                 raise
             raise RenderError(f"no dask scheduler answers at {address}: {_line(error)}") from None
-        self.slots = AHEAD * workers
-        self.name = f"dask cluster, {open_chain(chain).name}, {workers} worker" + ("s" if workers != 1 else "")
+        self._workers, self._looked, self._seen = workers, 0.0, time.monotonic()
+        self.slots = AHEAD * len(workers)
+        self.name = f"dask cluster, {open_chain(chain).name}, {plural(len(workers), 'worker')}"
 
     def render(self, scene: Scene, tile: Rectangle) -> Drawing:
         """Render a part on any free worker."""
+        piece = self._result(self._client.submit(_answer, self._chain, self.gas, scene, tile, pure=False))
+        if isinstance(piece, ShackledError):
+            raise piece
+        assert isinstance(piece, Drawing)
+        return piece
+
+    def each(
+        self, function: Callable[[Item], Result], items: Iterable[Item], warned: Callable[[str], object]
+    ) -> Iterator[tuple[Item, Result | ShackledError]]:
+        """Call a function for each item on a free worker; yield the item with its result, or its error, as it is done.
+
+        items: taken a few ahead. warned: is told what `check` returns. Raises the error of `check`.
+        """
+        left, waiting, done = iter(items), dict[Any, Item](), SimpleQueue[Any]()
+        while True:
+            for item in islice(left, self.slots - len(waiting)):
+                future = self._client.submit(function, item, pure=False)
+                waiting[future] = item
+                future.add_done_callback(done.put)  # type: ignore[no-untyped-call]
+            if not waiting:
+                return
+            with suppress(Empty):
+                future = done.get(timeout=PAUSE)
+                item, result = waiting.pop(future), self._result(future)
+                yield item, result
+            for text in self.check():
+                warned(text)
+
+    def check(self) -> list[str]:
+        """Return which workers have left the cluster; raise RenderError if there has been none for `PATIENCE` s."""
+        now = time.monotonic()
+        if now - self._looked < PAUSE:
+            return []
+        self._looked = now
+        try:
+            present = set(self._client.nthreads())  # type: ignore[no-untyped-call]
+        except Exception:  # what waits for the scheduler fails, too
+            return []
+        gone, self._workers = self._workers - present, present
+        if present or gone:
+            self._seen = now
+        elif now - self._seen > PATIENCE:
+            raise RenderError(f"the dask cluster has had no worker for {PATIENCE} s: start one, and run this again")
+        then = "others draw its parts" if present else f"no other is left; waiting {PATIENCE} s for one"
+        return [f"the worker {each} has left the cluster: {then}" for each in sorted(gone)]
+
+    def _result(self, future: Future[Any]) -> Any:
+        """Return the result of a call or its error; RenderError where the cluster failed."""
         from distributed import KilledWorker
 
         try:
-            piece: Drawing = self._client.submit(_answer, self._chain, self.gas, scene, tile, pure=False).result()
+            return future.result()
         except KilledWorker:
-            raise RenderError(
-                "the workers of the cluster died over the same part of the picture, one after the other"
-            ) from None
-        except ShackledError:
-            raise
+            return RenderError("the workers of the cluster died over the same part of the picture, one after the other")
+        except ShackledError as error:
+            return error
         except Exception as error:
             lost = any(sign in f"{type(error).__name__}: {error}" for sign in LOST)
             what = "its scheduler cannot be reached any more; is it running?" if lost else _line(error)
-            raise RenderError(f"the cluster failed: {what}") from None
-        return piece
+            return RenderError(f"the cluster failed: {what}")
 
     def close(self) -> None:
         """Disconnect, which cancels queued parts."""
@@ -89,8 +145,8 @@ class ClusterBackend:
                 self._client.close(timeout=5)  # type: ignore[no-untyped-call]
         self._logger.setLevel(self._level)
 
-    def _check(self) -> int:
-        """Return the number of workers; raise InputError if one lacks the contracts."""
+    def _greet_workers(self) -> set[str]:
+        """Return the addresses of the workers; raise InputError if one lacks the contracts."""
         try:
             self._client.wait_for_workers(1, timeout=PATIENCE)
             facts = self._client.run(_facts_function())
@@ -105,7 +161,7 @@ class ClusterBackend:
                 raise InputError(f"the worker {worker} lacks shackled: pip install shackled there")
             if found != contracts_digest().hex():
                 raise InputError(f"the worker {worker} has other contracts: install the same version of shackled there")
-        return len(facts)
+        return set(facts)
 
 
 def _answer(chain: str | None, gas: int | None, scene: Scene, tile: Rectangle) -> Drawing:

@@ -138,6 +138,8 @@ class Scheduler:
                 while not self._over():
                     # with a timeout, so that Ctrl-C works on every platform
                     self._changed.wait(0.5)
+                    for text in [text for state in self._states for text in state.backend.check()]:
+                        self._listener.warned(text)
                 if self._error is not None:
                     raise self._error
                 return dict(self._results)
@@ -326,6 +328,8 @@ class Scheduler:
             if isinstance(error, OutOfGasError) and state.backend.gas is not None and not state.backend.untrusted:
                 text = f"{error} even for {tile}; raise `gas_limit` or use `max_triangles`"
             self._error = type(error)(text)
+            if isinstance(self._error, OutOfGasError):
+                self._error.limit = state.backend.gas
             return
         self._put_first([Part(part.frame, tile) for tile in tiles])
         if others and state.misses >= (TIMEOUTS if isinstance(error, NodeTimeoutError) else MISSES):

@@ -14,13 +14,15 @@ from pathlib import Path
 
 from ..artifacts import RENDERER, artifact
 from ..chain import Drawing
-from ..errors import ChainError
+from ..errors import ChainError, InputError
 from ..image import decode_bmp
 from ..scene import Scene, encode_scene, fit
 from ..whole_file import make_output_folder, write_output
 from ._backends import Part
 
 SUFFIX = ".part"
+#: Another render of the same output may remove the folder at any time: so often is it made again.
+_TRIES = 5
 
 
 def folder_of(output: Path) -> Path:
@@ -72,7 +74,13 @@ class PartStore:
     def write(self, part: Part, piece: Drawing) -> None:
         """Write a finished part; raise OutputError if that fails."""
         body = json.dumps([piece.gas, piece.intrinsic_gas]).encode() + b"\n" + piece.bmp
-        write_output(self._path(part), hashlib.sha256(body).digest() + body)
+        for tries_left in reversed(range(_TRIES)):
+            try:
+                make_output_folder(self.folder)
+                return write_output(self._path(part), hashlib.sha256(body).digest() + body)
+            except InputError:
+                if not tries_left:
+                    raise
 
     def forget(self, part: Part) -> None:
         """Delete a part that turned out to be wrong."""

@@ -34,6 +34,8 @@ MAX_SIDE = 4096
 MAX_PIXELS = 1 << 27
 #: What `display_type` may be (OpenSea's metadata standards).
 DISPLAY_TYPES = {"number", "boost_number", "boost_percentage", "date"}
+#: Greater values of dates are milliseconds, or no dates.
+LATEST = 10**11
 #: A % that does not escape a byte.
 STRAY = re.compile("%(?![0-9a-fA-F]{2})")
 #: Keys whose values are text, and what they must match.
@@ -162,6 +164,10 @@ def attribute_problems(attributes: Any) -> list[str]:
             found.append(f"display_type {plain(json.dumps(kind))[:40]} is none of {', '.join(sorted(DISPLAY_TYPES))}")
         elif kind is not None and (isinstance(value, bool) or not isinstance(value, int | float)):
             found.append(f"attribute {number} has the display_type {kind}, so its value must be a number")
+        elif kind == "date" and abs(value) >= LATEST:
+            found.append(
+                f"attribute {number} is a date after the year 5000: write seconds since 1970, not milliseconds"
+            )
     return found
 
 

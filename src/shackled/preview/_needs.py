@@ -31,6 +31,16 @@ SCRIPT_ADDRESS = re.compile(
     r"(?:\b(?:from|import)\s{0,99}|\b(?:import|fetch|importScripts|load|open|Worker|WebSocket|EventSource)\(\s{0,99}"
     r"(?:[\"'][A-Z]+[\"'],\s{0,99})?|\.(?:src|href)\s?=\s?)[\"'`]((?:(?:https?:|wss?:)?//|ipfs:)[^\"'`\s]{1,200})"
 )
+#: What throws an error in the sandbox in which marketplaces show pages, except where `try` handles it.
+STORAGE = r"((?:local|session)Storage|indexedDB|document\.cookie)"
+STORED = re.compile(
+    rf"(?:[=(,.!&|?:;{{}}]\s{{0,9}}|^\s{{0,9}}){STORAGE}\b|\b{STORAGE}\s{{0,9}}(?:\?\.|[.\[=])", re.MULTILINE
+)
+SCRIPT_UNSTORED = re.compile(
+    r"/\*.*?(?:\*/|\Z)|(?:^|\s)//[^\n]*|\btry\s{0,9}\{[^{}]*(?:\{[^{}]*\}[^{}]*)*\}", re.DOTALL | re.MULTILINE
+)
+#: A length of 0, with its unit.
+ZERO = re.compile(r"\s*[-+]?(?:0+\.?0*|\.0+)(?:[a-z]{2,4}|%)?\s*", re.IGNORECASE)
 MAP_ADDRESS = re.compile(r"https?://[^\"\s]{1,200}")
 #: Elements of HTML in an SVG.
 HTML_IN_SVG = ("foreignObject", "iframe", "embed", "object", "audio", "video", "canvas")
@@ -55,6 +65,13 @@ def svg_problems(root: ElementTree.Element, content: bytes, key: str) -> list[st
     elements = _of_svg(root)
     sheets = [each.decode(errors="replace") for each in STYLESHEET.findall(content)]
     found = _outside([*sheets, *_addresses(elements)], key, "the SVG")
+    sizes = {name: root.get(name, "") for name in ("width", "height")}
+    sizes |= zip(
+        ("viewBox width", "viewBox height"), re.split(r"[\s,]+", root.get("viewBox", "").strip())[2:], strict=False
+    )
+    if nothing := [name for name, size in sizes.items() if ZERO.fullmatch(size)]:
+        found.append(f"{key} is an SVG of {nothing[0]} 0, which shows nothing")
+    found += _stored(elements, key)
     if key == "animation_url":
         return found
     tags = {each.tag for each in elements}
@@ -71,7 +88,8 @@ def svg_problems(root: ElementTree.Element, content: bytes, key: str) -> list[st
 
 def html_problems(content: bytes, key: str, media_type: str) -> list[str]:
     """Return what a page needs that it does not have, each in one line. media_type: with its parameters."""
-    found = _outside(_addresses(_Page(content).elements), key, "the page")
+    elements = _Page(content).elements
+    found = [*_outside(_addresses(elements), key, "the page"), *_stored(elements, key)]
     is_declared = "charset=" in media_type.lower() or content.startswith((b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff"))
     if not (content.isascii() or is_declared or CHARSET.search(content[:HEAD])):
         found.append(f"{key} has letters beyond ASCII but no charset: begin its head with <meta charset='utf-8'>")
@@ -95,6 +113,15 @@ def _outside(addresses: Iterable[str], key: str, place: str) -> list[str]:
     more = f" and {len(found) - MOST_NAMED} more" if len(found) > MOST_NAMED else ""
     named = ", ".join(plain(each)[:MOST_LETTERS] for each in found[:MOST_NAMED])
     return [f"{key} loads {named}{more} from outside: put it into {place}"] if found else []
+
+
+def _stored(elements: Iterable[Element], key: str) -> list[str]:
+    """Return the line on what scripts keep in the browser; nothing if they keep nothing."""
+    scripts = [each.text for each in elements if each.tag == "script"]
+    named = [match for text in scripts for match in STORED.findall(SCRIPT_UNSTORED.sub(" ", text))]
+    first = next(("".join(match) for match in named), None)
+    why = "which throws an error in the sandbox of marketplaces: leave it out, or catch the error"
+    return [f"{key} uses {first}, {why}"] if first else []
 
 
 def _addresses(elements: Iterable[Element]) -> Iterator[str]:

@@ -12,7 +12,8 @@ from typing import Any
 
 from ..errors import InputError
 from ..ethereum import Interface, intrinsic_gas
-from ..evm import Answer, Status
+from ..evm import Status
+from ..gas import quick_path_note
 from ._arguments import parse_call
 from ._document import Document, judge, judge_picture, unicode_fault
 from ._project import Compiled, Project
@@ -61,13 +62,17 @@ class Request:
 
 @dataclass
 class Token:
-    """A token. gas: of the execution and the data of the call; None if it failed. bytes: of what it returned."""
+    """A token. gas: of the execution and the data of the call; None if it failed. bytes: of what it returned.
+
+    notes: what costs gas that it need not, each in one line.
+    """
 
     number: int
     gas: int | None = None
     bytes: int = 0
     document: Document = field(default_factory=Document)
     problems: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
 
 
 class Preview:
@@ -142,19 +147,22 @@ class Preview:
         if not self.request.allow_empty and any(file and file.is_empty for file in files):
             problems.append(EMPTY)
         size = len(value.encode() if isinstance(value, str) else value)
-        return Token(number, answer.gas + intrinsic, size, document, problems + document.problems)
+        scene = self.world.scene(data)
+        note = "" if scene is None else quick_path_note(scene)
+        return Token(
+            number, answer.gas + intrinsic, size, document, problems + document.problems, [note] if note else []
+        )
 
     def _first(self) -> int:
         """Return 1 where there is no token 0, but a token 1."""
-        if not self.is_numbered or not self._is_missing(self.world.call(self._data(0), MAX_GAS)):
-            return 0
-        return int(self.world.call(self._data(1)).status == Status.SUCCESS)
+        return int(self.is_numbered and self._is_missing(0) and not self._is_missing(1))
 
-    def _is_missing(self, answer: Answer) -> bool:
-        """Return whether a call failed as calls for tokens do that do not exist; other failures are to be shown."""
-        return answer.status == Status.REVERT and (
-            not answer.output or NONEXISTENT.search(self.world.reason(answer)) is not None
-        )
+    def _is_missing(self, number: int) -> bool:
+        """Return whether a call fails as calls for tokens do that do not exist; other failures are to be shown."""
+        # a token that is too expensive would also revert without a reason, where a call inside runs out of gas
+        answer = self.world.call(self._data(number), MOST_GAS)
+        is_told = not answer.output or NONEXISTENT.search(self.world.reason(answer)) is not None
+        return answer.status == Status.REVERT and answer.gas <= MAX_GAS and is_told
 
     def _supply(self) -> int:
         """Return how many tokens there are, up to `MOST_TOKENS`; also that many where nobody knows."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, Literal
 
 from ._preview import Token
 
@@ -13,17 +13,17 @@ from ._preview import Token
 MOST_RANGES = 20
 
 
-def folded(tokens: Iterable[Token]) -> list[tuple[str, str]]:
+def folded(tokens: Iterable[Token], kind: Literal["problems", "notes"] = "problems") -> list[tuple[str, str]]:
     """Return the problems with the numbers of the tokens that have them, such as ("16 to 255", "tokenURI fails").
 
-    Problems that differ only in the number of the token and in gas are one; the words are those of the first token.
+    Those that differ only in the number of the token, in gas and in faces are one; the words are of the first token.
     """
     groups: dict[str, list[tuple[int, str]]] = {}
-    found = [(token.number, problem) for token in tokens for problem in token.problems]
+    found = [(token.number, problem) for token in tokens for problem in getattr(token, kind)]
     # equal words may have the number of one of their tokens by chance
     times = Counter(problem for _, problem in found)
     for number, problem in found:
-        alike = problem if times[problem] > 1 else re.sub(rf"[\d,]+ gas\b|\b{number}\b", "#", problem)
+        alike = problem if times[problem] > 1 else re.sub(rf"[\d,]+ (gas|faces?|because)\b|\b{number}\b", "#", problem)
         groups.setdefault(alike, []).append((number, problem))
     lines = []
     for group in groups.values():
@@ -54,6 +54,7 @@ def summary(token: Token) -> dict[str, Any]:
         "bytes": token.bytes,
         "name": document.name,
         "problems": token.problems,
+        "notes": token.notes,
         "image": document.image.media_type if document.image else None,
         "animation": document.animation.media_type if document.animation else None,
         "frames": max((file.frames for file in (document.image, document.animation) if file), default=0),

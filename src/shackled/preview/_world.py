@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import count
 
-from .._load import load, locate
+from .._load import is_model, load, locate
 from ..artifacts import known_errors
 from ..chain import RevmChain, describe_revert
 from ..datasets import Piece
@@ -17,7 +17,7 @@ from ..deploy import CONTRACTS, deployments
 from ..errors import InputError
 from ..ethereum import Errors, error_table, intrinsic_gas, keccak256, word
 from ..evm import Answer, Instance, Status
-from ..scene import READERS
+from ..scene import Scene, read_call
 from ..studio import STUDIO, store_scene
 from ..tokens import token_scene
 from ._arguments import Call, constructor_arguments, contract_of
@@ -27,6 +27,8 @@ from ._project import Compiled
 MOST_GAS = 1_000_000_000
 #: The gas of one transaction on Ethereum (EIP-7825), and of a call on some nodes.
 MAX_GAS = 1 << 24
+#: Code that reverts with the data of its call, which contracts pass on.
+RETURN_CALLDATA = bytes.fromhex("365f5f37365ffd")
 #: The block of the deployment; each transaction has a block of its own.
 FIRST_BLOCK = 20_000_000
 SECONDS_PER_BLOCK = 12
@@ -50,6 +52,7 @@ class World:
         self.contract, self.setup = contract, setup
         self._now = int(time.time())
         chain = RevmChain()
+        self._renderer = chain.address("Renderer")
         addresses = {name: chain.address(name) for name in CONTRACTS}
         #: Code of the contracts of the package and of what the Studio stores, by address.
         self.codes = {**chain.codes(), **(stored or {})}
@@ -71,6 +74,19 @@ class World:
         """Call the contract with at most so much gas for the execution."""
         with self._instance() as evm:
             return evm.call(self.address, data, gas)
+
+    def scene(self, data: bytes) -> Scene | None:
+        """Return the scene that a call has the Renderer draw; None if there is none, or Python does not read it."""
+        with self._instance() as evm:
+            evm.put(self._renderer, RETURN_CALLDATA)
+            try:
+                output = evm.call(self.address, data, MOST_GAS).output
+            finally:
+                evm.put(self._renderer, self.codes[self._renderer])
+        try:
+            return read_call(output)
+        except InputError:
+            return None
 
     def reason(self, answer: Answer) -> str:
         """Return why a call was not successful."""
@@ -137,7 +153,7 @@ def stored_scene(input: str) -> dict[bytes, bytes]:
     input: a piece of a dataset, a mesh or a scene file. The scene is that of `shackled store`.
     """
     source = locate(input)
-    is_mesh = not isinstance(source, Piece) and source.suffix.lower() in READERS
+    is_mesh = is_model(source)
     thing = token_scene(source) if isinstance(source, Piece) else source
     scene = load(thing, antialias=False if is_mesh else None)
     return {each.pointer: each.code for each in store_scene(scene, deployments([STUDIO])[-1].address)}

@@ -2,19 +2,22 @@ from ._arithmetic import euler, from_euler, rotate
 from ._camera import Camera, Projection
 from ._canvas import as_shown
 from ._codec import WIREFRAME, Rectangle, encode, encode_scene, render_call
-from ._decode import decode
+from ._decode import decode, read_call
 from ._effects import Background, Fog, Hemisphere, Rim, Tone
-from ._files.content import MAX_BYTES
+from ._files.beside import is_inside
+from ._files.content import MAX_BYTES, format_of, is_pipe, read_pipe, stored
 from ._files.gltf.animation import animation_length, animations_of
 from ._files.gltf.view import read_view
 from ._files.link import Link, link_of
 from ._files.mesh_file import GLTF, READERS, read_mesh, read_model
 from ._files.model import MeshPart
-from ._files.picture import CHUNK, PICTURE, SceneChunk, scene_chunk
+from ._files.picture import CHUNK, DIGEST, PICTURE, SceneChunk, scene_chunk, shows_scene
 from ._files.scene_file import SCENES, read_scene
+from ._files.signatures import format_by_name
 from ._files.table import about
 from ._files.written import encode_scene_file
 from ._fit import fit
+from ._from_others import mesh_of
 from ._from_trimesh import objects_of, part_of
 from ._ground import Ground
 from ._light import INNER_ANGLE, LIGHT_KINDS, WHITE, Light
@@ -34,6 +37,7 @@ from ._upright import Axis, axis_of_file, axis_of_format, base_axis, upright
 __all__ = [
     "ALL",
     "CHUNK",
+    "DIGEST",
     "GENTLE",
     "GLTF",
     "INNER_ANGLE",
@@ -89,19 +93,26 @@ __all__ = [
     "euler",
     "faces_of_all",
     "fit",
+    "format_by_name",
+    "format_of",
     "frame_count",
     "from_euler",
     "full_turn",
     "is_closed",
+    "is_inside",
+    "is_pipe",
     "is_trimesh",
     "link_of",
     "look_at",
+    "mesh_of",
     "objects_of",
     "pack",
     "painted",
     "part_of",
+    "read_call",
     "read_mesh",
     "read_model",
+    "read_pipe",
     "read_scene",
     "read_view",
     "render_call",
@@ -109,10 +120,12 @@ __all__ = [
     "rotate",
     "scene_chunk",
     "settings_of",
+    "shows_scene",
     "simplify",
     "simplify_scene",
     "size_of",
     "stage",
+    "stored",
     "upright",
     "vertex_normals",
     "view_axes",

@@ -8,14 +8,19 @@ import numpy as np
 from attrs import evolve
 
 from ..errors import InputError, warn
-from ._files.model import MeshPart, Picture, finite_uvs, is_transparent
+from ._files.images import Images
+from ._files.model import MeshPart, Picture, finite_uvs, is_transparent, seen
 from ._mesh import Mesh, is_trimesh, weld
 from ._object import Material, Object
 from ._texture import as_rgb, as_rgba, cutoff_of, to_srgb
 
 
 def part_of(value: Any) -> MeshPart:
-    """Return the mesh of a trimesh.Trimesh with what its material says. Errors as in `Mesh.from_trimesh`."""
+    """Return the mesh of a trimesh.Trimesh with what its material says, as `seen`. Errors as in `Mesh.from_trimesh`."""
+    return seen([_part_of(value)], "the mesh")[0]
+
+
+def _part_of(value: Any) -> MeshPart:
     visual: Any = getattr(value, "visual", None)
     uvs = getattr(visual, "uv", None)
     if not is_trimesh(value) or getattr(visual, "kind", None) != "texture":
@@ -43,7 +48,8 @@ def part_of(value: Any) -> MeshPart:
     cutoff = 0.5 if cutoff is None else float(cutoff)
     has_alpha = mode == "BLEND" or (mode == "MASK" and cutoff > 0)
     image = (as_rgba if has_alpha and is_transparent(image) else as_rgb)(image)
-    picture = Picture(image, "the texture of the mesh", cutoff=cutoff_of(cutoff) if mode == "MASK" else 0)
+    cutoff = cutoff_of(cutoff) if mode == "MASK" else 0
+    picture = Picture(lambda: image, "the texture of the mesh", Images(), image.mode == "RGBA", True, cutoff=cutoff)
     corners = finite_uvs(uvs, picture.name)[faces] * (1, -1) + (0, 1)
     texture, coordinates = picture.texture(corners, 1)
     colors = np.broadcast_to(to_srgb(color), (*faces.shape, 3))
@@ -53,14 +59,16 @@ def part_of(value: Any) -> MeshPart:
 
 def objects_of(scene: Any) -> list[Object]:
     """Return the objects of a trimesh.Scene, one for each place in which a mesh stands."""
-    objects = []
+    placed = []
     for name in scene.graph.nodes_geometry:
         matrix, geometry = scene.graph[name]
         whole = scene.geometry[geometry]
         if not hasattr(whole, "faces"):
             warn(f"{geometry} of the scene has no faces and is left out")
             continue
-        part = part_of(whole)
+        placed.append((matrix, _part_of(whole)))
+    objects = []
+    for part, (matrix, _) in zip(seen([part for _, part in placed], "the scene"), placed, strict=True):
         fields: dict[str, Any] = {"material": Material(**part.material), "opacity": part.opacity}
         try:
             objects.append(Object.from_matrix(part.mesh, matrix, **fields))

@@ -15,6 +15,7 @@ from ._arithmetic import IDENTITY, dot, length, multiply, rotate
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_in
 from ._crease import is_flat, shaded, with_normals
 from ._effects import Fog, Tone
+from ._fit import NEAR_PART
 from ._mesh import Mesh
 from ._object import Material, Object
 from ._presets import preset_of
@@ -32,6 +33,7 @@ from ._staging import (
     painted_object,
     toward_viewer,
 )
+from ._strays import without_strays
 from ._turning import middle, turn
 from ._upright import turned_up
 from ._winding import wound
@@ -73,7 +75,7 @@ def look_at(
         raise InputError(f"`{next(iter(of_file))}` is for what is read of one glTF file")
     if isinstance(thing, Scene) and not look:
         return thing
-    view = None
+    view, has_strays = None, False
     by_normals = staging.by_normals and not isinstance(thing, Scene)
     if isinstance(thing, Scene):
         scene = turn(thing, look["rotate"]) if "rotate" in look else thing
@@ -81,6 +83,9 @@ def look_at(
         scene = evolve(scene, width=width, height=height)
     else:
         parts = [Object(thing, material=staging.material)] if isinstance(thing, Mesh) else list(thing)
+        if by_normals and around is None:
+            parts, around = without_strays(parts, name)
+            has_strays = around is not None
         if by_normals:
             parts = wound(parts, name, split=not {"cull", "max_triangles"} & look.keys())
         else:
@@ -117,7 +122,11 @@ def look_at(
     if "shadow" in look:
         lights = [evolve(light, shadow=look["shadow"] and number == 0) for number, light in enumerate(scene.lights)]
         scene = evolve(scene, lights=lights)
-    scene = evolve(scene, camera=_camera(scene, look, view, is_framed=around is not None))
+    camera = _camera(scene, look, view, is_framed=around is not None)
+    if has_strays and camera.near is None and camera.projection == "perspective":
+        # of all but the strays, which are within 1 of the origin
+        camera = evolve(camera, near=NEAR_PART * (float(length(camera.eye)) + 1))
+    scene = evolve(scene, camera=camera)
     scene = evolve(scene, fog=_fog_between(scene, fog) if isinstance(fog, tuple) else fog)
     most = look.get("max_triangles", ALL)
     return scene if most == ALL else simplify_scene(scene, most, look.get("crease"))

@@ -10,7 +10,7 @@ from attrs import Factory, evolve, field, frozen
 from numpy.typing import ArrayLike
 
 from ..checks import choice, color, flag, integer, number, vector, whole
-from ..errors import InputError
+from ..errors import InputError, KeywordError
 from ..words import in_our_words, instead_of
 from ._arithmetic import IDENTITY, multiply, rotation_of
 from ._camera import FIELDS_OF_VIEW, Camera
@@ -381,7 +381,7 @@ def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
     known = {setting.name: setting for setting in SETTINGS}
     for name in options:
         if name not in known:
-            raise TypeError(f"{name!r} is not a keyword of a look; {instead_of(name, known)}")
+            raise KeywordError(f"{name!r} is not a keyword of a look; {instead_of(name, known)}", name)
     look = {name: known[name].check(value, f"`{name}`") for name, value in options.items()}
     shadings = {name for name in ("smooth", "unlit") if look.pop(name, False)} | {*filter(None, [look.get("shading")])}
     if len(shadings) > 1:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 import os
 import warnings
@@ -17,6 +18,7 @@ from PIL import Image
 from ..checks import choice, fixed, whole
 from ..errors import InputError
 from ..values import Value, checked, with_names
+from ._files.signatures import HEAD, signature_of
 
 Filter = Literal["nearest", "bilinear"]
 FILTERS: tuple[Filter, ...] = ("nearest", "bilinear")
@@ -25,6 +27,8 @@ WRAPS: tuple[Wrap, ...] = ("repeat", "clamp")
 
 #: The most texels along a side.
 MAX_TEXTURE_SIDE = 256
+#: So many rows of an image are converted at a time.
+_ROWS = 256
 #: The most pixels of an image that is read.
 MAX_PIXELS = 1 << 26
 
@@ -88,22 +92,25 @@ class Texture(Value):
     @classmethod
     def open(
         cls,
-        image: str | os.PathLike[str] | Image.Image,
+        image: str | os.PathLike[str] | bytes | IO[bytes] | Image.Image,
         filter: Filter = "bilinear",
         wrap: Wrap = "repeat",
         alpha: bool = False,
         cutoff: int = 0,
     ) -> Texture:
-        """Return the texture of an image, or of the file of one, reduced to 256 texels along each side.
+        """Return the texture of an image, or of a file of one, reduced to 256 texels along each side.
 
+        image: of Pillow; or the path of a file, its bytes, or an open file.
         alpha: whether it has the alpha of the image, if that is transparent anywhere; hidden texels get the colours of
         the nearest visible ones. cutoff: see `Texture`. InputError if the file does not exist or is not an image.
         """
         convert = as_rgba if alpha else as_rgb
-        if isinstance(image, str | os.PathLike):
+        if isinstance(image, Image.Image):
+            opened = convert(image)
+        elif isinstance(image, str | os.PathLike):
             opened = open_image(Path(image), str(image), convert)
         else:
-            opened = convert(image)
+            opened = open_image(io.BytesIO(image) if isinstance(image, bytes) else image, "the image", convert)
         return cls.of_image(reduced(opened), filter, wrap, cutoff)
 
     @classmethod
@@ -134,8 +141,10 @@ def _unhidden(pixels: NDArray[np.uint8], wrap: Wrap) -> NDArray[np.uint8]:
     neighbours that are not.
     """
     sums, known = pixels[..., :3].astype(np.float64), pixels[..., 3] > 0
+    if not known.any():
+        return np.array(pixels[..., :3])
     sums[~known] = 0
-    while known.any() and not known.all():
+    while not known.all():
         padded = np.pad(
             np.dstack([sums, known]), ((1, 1), (1, 1), (0, 0)), mode="wrap" if wrap == "repeat" else "constant"
         )
@@ -167,8 +176,17 @@ def open_image(
         raise InputError(f"{name} does not exist") from None
     except InputError:
         raise
-    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
-        raise InputError(f"{name} is not an image that can be read") from None
+    except (OSError, ValueError, SyntaxError, AttributeError, Image.DecompressionBombError):
+        raise InputError(f"{name} is not an image that can be read{_instead(source)}") from None
+
+
+def _instead(source: Path | IO[bytes]) -> str:
+    """Return what a file is that is no image, if that is known."""
+    if not isinstance(source, Path) or not source.is_file():
+        return ""
+    with source.open("rb") as file:
+        found = signature_of(file.read(HEAD))
+    return "" if found is None or found.format is not None else f": it is {found.name}: {found.do}"
 
 
 def as_rgb(image: Image.Image) -> Image.Image:
@@ -176,11 +194,19 @@ def as_rgb(image: Image.Image) -> Image.Image:
     if image.mode[0] not in "IF":
         return image.convert("RGB")
     # Pillow cuts the levels of these off at 255
-    grey = np.nan_to_num(np.asarray(image, dtype=np.float64))
+    parts = [slice(row, row + _ROWS) for row in range(0, image.height, _ROWS)]
+    grey = np.asarray(image)
+
+    def levels(part: slice) -> NDArray[np.float64]:
+        return np.nan_to_num(grey[part].astype(np.float64))
+
+    scale = 1.0
     if image.mode == "F":
-        grey *= 65535 / next((each for each in (1, 255) if grey.max() <= each), 65535)
+        most = max(levels(part).max() for part in parts)
+        scale = 65535 / next((each for each in (1, 255) if most <= each), 65535)
     # the upper byte, as of 16-bit colours
-    return Image.fromarray((np.clip(grey, 0, 65535) // 256).astype(np.uint8)).convert("RGB")
+    found = [(np.clip(levels(part) * scale, 0, 65535) // 256).astype(np.uint8) for part in parts]
+    return Image.fromarray(np.concatenate(found)).convert("RGB")
 
 
 def as_rgba(image: Image.Image) -> Image.Image:
@@ -225,8 +251,7 @@ def sample(image: Image.Image, coordinates: ArrayLike) -> NDArray[np.float64]:
 
     coordinates: (n, 2) float, from the bottom left (0, 0) to the top right (1, 1); outside of it the image repeats.
     """
-    texels = np.asarray(image.convert("RGB"), dtype=np.float64)
-    height, width = texels.shape[:2]
+    width, height = image.size
     uv = np.nan_to_num(np.asarray(coordinates, dtype=np.float64)[:, :2], posinf=0, neginf=0)
     # the far border belongs to the image itself, not to its first repetition
     uv = np.where((uv >= 0) & (uv <= 1), uv, uv % 1)
@@ -235,6 +260,10 @@ def sample(image: Image.Image, coordinates: ArrayLike) -> NDArray[np.float64]:
     left, top = np.floor(x).astype(int), np.floor(y).astype(int)
     right, bottom = np.minimum(left + 1, width - 1), np.minimum(top + 1, height - 1)
     fx, fy = (x - left)[:, None], (y - top)[:, None]
-    upper = texels[top, left] * (1 - fx) + texels[top, right] * fx
-    lower = texels[bottom, left] * (1 - fx) + texels[bottom, right] * fx
+    first, upmost = (int(each.min(initial=0 if not len(uv) else each[0])) for each in (left, top))
+    last, lowest = (int(each.max(initial=0)) for each in (right, bottom))
+    texels = np.asarray(image.crop((first, upmost, last + 1, lowest + 1)).convert("RGB"))
+    x, right, y, bottom = left - first, right - first, top - upmost, bottom - upmost
+    upper = texels[y, x] * (1 - fx) + texels[y, right] * fx
+    lower = texels[bottom, x] * (1 - fx) + texels[bottom, right] * fx
     return np.asarray(np.rint(upper * (1 - fy) + lower * fy))

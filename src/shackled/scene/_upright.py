@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..checks import Floats, vector
 from ..errors import InputError, warn
 from ._arithmetic import from_euler, unit
+from ._files.content import format_of
 from ._files.model import MeshPart
 from ._mesh import face_normals, faces_of_all
 
@@ -29,6 +30,10 @@ _FLAT, _LEVEL = 0.01, 0.99
 #: Along z, the least height by the largest side, and the largest top by the base: reliefs and letters, which face the
 #: viewer, are flatter, or have a front like their back.
 _HEIGHT, _TOP = 0.5, 0.5
+
+#: Points are at an end within this share of the height; what they span, as a share of the cross section, on which a
+#: model rests, and how many times what others span; and how many times as high as wide a tall model is.
+_TOUCH, _REST, _BETTER, _TALL = 0.02, 0.2, 3.0, 1.4
 
 
 def upright(axis: Axis) -> Floats:
@@ -48,7 +53,7 @@ def turned_up(direction: ArrayLike) -> Floats:
 
 def axis_of_format(path: Path) -> Axis:
     """Return the axis that points up in files of a format: z for STL files, y for others."""
-    return "z" if path.suffix.lower() in _Z_UP else "y"
+    return "z" if format_of(path) in _Z_UP else "y"
 
 
 def axis_of_file(path: Path, parts: Sequence[MeshPart]) -> Axis:
@@ -56,11 +61,33 @@ def axis_of_file(path: Path, parts: Sequence[MeshPart]) -> Axis:
     axis = axis_of_format(path)
     if axis != "y":
         warn(f"{path} is read as {axis} up; `up_axis` y keeps it as it is")
-    elif path.suffix.lower() in _EITHER:
+    elif format_of(path) in _EITHER:
         meshes = [part.mesh for part in parts]
-        if base_axis(np.concatenate([mesh.positions for mesh in meshes]), faces_of_all(meshes)) == "z":
+        positions = np.concatenate([mesh.positions for mesh in meshes])
+        base = base_axis(positions, faces_of_all(meshes))
+        if base == "z":
             warn(f"{path} is read as y up, but stands on a flat base along z; `up_axis` z turns it upright")
+        elif base is None and _rests_along_z(positions):
+            warn(f"{path} is read as y up, but may be meant to stand along z; `up_axis` z turns it upright")
     return axis
+
+
+@np.errstate(all="ignore")
+def _rests_along_z(positions: NDArray[np.float64]) -> bool:
+    """Return whether a model would rest on its lower end along z much better than on either end along y, or is a tall
+    box along z. Reliefs and letters, which face the viewer, are flatter.
+    """
+    low, sizes = positions.min(axis=0), np.ptp(positions, axis=0)
+    if not 0 < sizes.min() <= sizes.max() < np.inf or sizes[2] < _HEIGHT * sizes.max():
+        return False
+
+    def contact(axis: int, end: float) -> float:
+        """Return the share of the cross section that the points at an end span."""
+        touching = positions[np.abs(positions[:, axis] - end) <= _TOUCH * sizes[axis]]
+        return float(np.delete(np.ptp(touching, axis=0) / sizes, axis).prod())
+
+    along_z, along_y = contact(2, low[2]), max(contact(1, low[1]), contact(1, low[1] + sizes[1]))
+    return along_z >= _REST and (along_z >= _BETTER * along_y or bool(sizes[2] >= _TALL * sizes[:2].max()))
 
 
 def base_axis(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> Axis | None:

@@ -14,6 +14,7 @@ from PIL import Image
 
 from shackled.errors import InputWarning
 from shackled.scene import Texture, read_model
+from shackled.scene._files.beside import OUTSIDE
 from shackled.scene._mesh import DEFAULT_COLOR
 
 RED, BLUE, GREY, WHITE = (255, 0, 0), (0, 0, 255), DEFAULT_COLOR, (255, 255, 255)
@@ -86,7 +87,7 @@ CASES = {
         PAIR.format("a", "b").replace("m.mtl", "/some place/lost.mtl '/some place/My One.mtl'"),
         pair("a", "b").mtl,
         mtl_name="my one.mtl",
-        notes=("its materials are left out: /some place/lost.mtl does not exist",),
+        notes=(f"its materials are left out: '/some place/lost.mtl' {OUTSIDE}",),
     ),
     "a material that is in no file": Case(
         PAIR.format("a", "lost"), "newmtl a\nKd 1 0 0\n", colors=(RED, GREY),

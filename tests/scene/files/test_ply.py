@@ -189,8 +189,6 @@ def of_header(number: int, line: str) -> str:
             (PLAIN.replace("face 1", "face 2") + POINTS + faces, LINE_OF_FACE.format(line, wrong))
             for faces, line, wrong in (
                 ("3 0 1 2 1 0 0\n3 0 1 2\n", 15, "3 0 1 2 1 0 0"), ("3 0 1\n3 0 2 3\n", 15, "3 0 1"),
-                ("3 0 1 2\n4 0 1 2\n", 16, "4 0 1 2"), ("3 0 1 2\n-1 0 1 2\n", 16, "-1 0 1 2"),
-                ("3 0 1 2\n\n2.5 0 1 2\n", 17, "2.5 0 1 2"), ("3 0 1 2\n# none\n", 16, "# none"),
             )
         ),
         (PLAIN + "x" * 90, f"line 11 should hold an element vertex (x, y, z) and nothing else, not {'x' * 60!r}"),
@@ -200,7 +198,6 @@ def of_header(number: int, line: str) -> str:
         (header("ascii", RGB.replace("uchar", "float"), 1) + rows("0 nan 1") + TRIANGLE,
          "colour 0 must be finite numbers, not [0.0, nan, 1.0]"),
         (PLAIN + "0 0 0\n1 0 0\n", "it ends before its 4 elements vertex are complete"),
-        (header("ascii", "", 2) + POINTS + TRIANGLE, "it ends before its 2 elements face are complete"),
         (BINARY.decode().replace("vertex 4", "vertex 4000000000") + " " * 200,
          "it ends before its 4000000000 elements vertex are complete"),
         (header("ascii", "", 0) + POINTS, NO_FACES),
@@ -223,11 +220,37 @@ def test_what_is_wrong_is_told_in_one_line(tmp_path: Path, content: str, message
     assert mesh_files.refusal(tmp_path / "model.ply", content) == message
 
 
+REST = "1 of its 2 elements face and all behind left out: {}"
+
+
+@pytest.mark.parametrize(
+    ("faces", "line", "wrong"),
+    [
+        ("3 0 1 2\n4 0 1 2\n", 16, "4 0 1 2"),
+        ("3 0 1 2\n-1 0 1 2\n", 16, "-1 0 1 2"),
+        ("3 0 1 2\n\n2.5 0 1 2\n", 17, "2.5 0 1 2"),
+        ("3 0 1 2\n# none\n", 16, "# none"),
+        ("3 0 1 2\n", None, None),
+    ],
+)
+def test_faces_before_one_that_is_wrong(tmp_path: Path, faces: str, line: int | None, wrong: str | None) -> None:
+    mesh, notes = read_with_notes(tmp_path, PLAIN.replace("face 1", "face 2") + POINTS + faces)
+    told = LINE_OF_FACE.format(line, wrong) if line else "it ends before its 2 elements face are complete"
+    assert (mesh.triangles, notes) == (1, [REST.format(told)])
+
+
 @pytest.mark.parametrize("missing", range(1, 40))
 def test_a_binary_file_that_ends_early(tmp_path: Path, missing: int) -> None:
-    """Nothing but the end of its data is told, wherever that is: in a number, a length, a list."""
+    """Nothing but the end of its data is told, wherever that is: in a number, a length, a list. Whole faces are drawn.
+
+    A face takes 17 bytes.
+    """
     faces = struct.pack("<BiiiBiiii", 3, 0, 1, 2, 4, 0, 1, 2, 3)
     content = header("binary_little_endian", "", 2).encode() + BINARY_POINTS + faces
+    if missing <= 17:
+        mesh, notes = read_with_notes(tmp_path, content[:-missing])
+        assert (mesh.triangles, notes) == (1, [REST.format("it ends before its 2 elements face are complete")])
+        return
     name, count = ("face", 2) if missing <= len(faces) else ("vertex", 4)
     with pytest.raises(InputError, match=rf"it ends before its {count} elements {name} are complete$"):
         read(tmp_path, content[:-missing])
@@ -302,8 +325,8 @@ def test_strips_of_triangles(tmp_path: Path) -> None:
         other = read(tmp_path, strips(same))
         assert sorted(map(sorted, other.faces.tolist())) == sorted(map(sorted, mesh.faces.tolist()))
     assert read(tmp_path, strips("3 0 1 3\n3 3 1 2\n", 2)).triangles == 2
-    with pytest.raises(InputError, match=r"face 1 names the vertices \[3, 1, 7\]"):
-        read(tmp_path, strips("4 0 1 3 7\n"))
+    mesh, notes = read_with_notes(tmp_path, strips("4 0 1 3 7\n"))
+    assert (mesh.triangles, notes) == (1, ["1 face left out, with vertices that do not exist"])
 
 
 # ---- textures ----

@@ -20,6 +20,7 @@ from mesh_files import Gltf, png, sheet
 from shackled import InputError, Material, Mesh, Object, Scene, Texture, load
 from shackled.errors import InputWarning
 from shackled.scene import read_mesh, read_model, render_call, simplify
+from shackled.scene._files.beside import OUTSIDE
 from shackled.scene._files.model import TEXTURED
 from shackled.scene._packed import unpack_texture
 from shackled.scene._texture import sample
@@ -199,7 +200,10 @@ HUGE = SMALL[:12] + HEADER + struct.pack(">I", zlib.crc32(HEADER)) + SMALL[33:]
         ("lost.png", ".uri: {folder}/lost.png does not exist"),
         ("data:image/png;base64,####", " is not an image that can be read"),
         ("data:,no image", " is not an image that can be read"),
-        ("http://x/a.png", ".uri is 'http://x/a.png'; only files in the folder of the glTF file are read"),
+        (
+            "http://x/a.png",
+            f".uri: 'http://x/a.png' {OUTSIDE}",
+        ),
         (HUGE, " is not an image that can be read"),
     ],
     ids=lambda value: str(value)[:20],

@@ -1,10 +1,11 @@
 // The state of the page, and all that changes it.
 
 import { batch, computed, effect, signal, type ReadonlySignal, type Signal } from "@preact/signals";
+import type { ComponentType } from "preact";
 import { InputError } from "../errors.js";
 import { CallError } from "../evm/contracts.js";
 import type { Opened } from "../files/index.js";
-import type { PageAssets, PieceEntry } from "./assets.js";
+import { loaded, type PageAssets, type PieceEntry } from "./assets.js";
 import { fitted } from "./camera.js";
 import { prepare, type Document } from "./document.js";
 import { History } from "./history.js";
@@ -38,7 +39,11 @@ export interface Toast {
     kind: "note" | "error";
 }
 
-/** The dialogs, and what shows them. */
+/** A dialog: its name, and the component that shows it. */
+export interface OpenDialog {
+    name: DialogName;
+    Dialog: ComponentType<{ app: App }>;
+}
 export type DialogName = "download" | "limits" | "keys" | "things" | "about" | "mint" | "edition" | "reveal";
 
 /** Milliseconds after the last change until it is kept. */
@@ -56,8 +61,9 @@ export class App {
     /** The last finished picture at full size; null before the first. */
     readonly shown: Signal<Shown | null> = signal(null);
     readonly busy: Signal<Busy | null> = signal(null);
-    /** The dialog that is open. */
-    readonly dialog: Signal<DialogName | null> = signal(null);
+    readonly #dialog = signal<OpenDialog | null>(null);
+    /** The dialog that is open: see `openDialog`. */
+    readonly dialog: ReadonlySignal<OpenDialog | null> = this.#dialog;
     readonly toasts: Signal<readonly Toast[]> = signal([]);
     /** The link of the document, without the address of the page: "#1…"; null while it is not known. */
     readonly link: Signal<string | null> = signal(null);
@@ -76,6 +82,9 @@ export class App {
     /** Ends the opening of files or a piece when others are opened: the last are shown. */
     #opening = new AbortController();
     #toast = 0;
+    readonly #dialogs: Partial<Record<DialogName, OpenDialog["Dialog"] | undefined>> = {};
+    /** The dialog that was asked for last. */
+    #asked: DialogName | null = null;
 
     constructor(
         readonly assets: PageAssets,
@@ -140,7 +149,7 @@ export class App {
             if (files.reduce((sum, { size }) => sum + size, 0) > MOST_BYTES) {
                 throw new InputError("All files together may have up to 100 MB");
             }
-            const { readFiles } = await import("../files/index.js");
+            const { readFiles } = await loaded(import("../files/index.js"));
             const given = files.map(async (file) => {
                 return { name: file.webkitRelativePath || file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
             });
@@ -182,8 +191,15 @@ export class App {
 
     async #open(piece: Document, add: boolean): Promise<void> {
         const now = this.doc.peek();
-        const { width, height, antialias } = now;
-        if (!add) return this.openDocument({ ...piece, width, height, antialias }, `Open ${piece.title}`);
+        if (!add) {
+            // in its own shape, as large as the picture before
+            const scale = Math.max(now.width, now.height) / Math.max(piece.width, piece.height);
+            const [width, height] = [piece.width, piece.height].map((side) => Math.round(scale * side)) as [
+                number,
+                number,
+            ];
+            return this.openDocument({ ...piece, width, height, antialias: now.antialias }, `Open ${piece.title}`);
+        }
         this.addObjects(fitted(withPiece(now, piece, this.meshes), this.meshes), `Add ${piece.title}`);
     }
 
@@ -203,6 +219,18 @@ export class App {
             this.selected.value = new Set();
             this.change(doc, label);
         });
+    }
+
+    /** Open a dialog in place of another. It is open once its code is there. */
+    async openDialog(name: DialogName): Promise<void> {
+        this.#asked = name;
+        const load = async () => (await loaded(import("./dialogs/index.js"))).dialogOf(name);
+        const Dialog = (this.#dialogs[name] ??= await this.run("Opening", load));
+        if (Dialog && this.#asked === name) this.#dialog.value = { name, Dialog };
+    }
+
+    closeDialog(): void {
+        this.#asked = this.#dialog.value = null;
     }
 
     // ---- what is kept ----
@@ -258,7 +286,7 @@ export class App {
 
     /** Show a sentence for some seconds. */
     tell(text: string): void {
-        this.#say(capital(text), "note");
+        this.#say(text, "note");
     }
 
     /** Show an error. */

@@ -1,5 +1,6 @@
 // The files of the page: beside it, each in gzip, or as elements of a page that is one file, in gzip and base64.
 
+import { InputError } from "../errors.js";
 import { fetchBytes } from "../evm/assets.js";
 import { inflate, isGzip } from "../evm/bytes.js";
 import { unpackPiece } from "./packed.js";
@@ -69,6 +70,18 @@ export class PageAssets {
     async piece(name: string): Promise<Record<string, unknown>> {
         return unpackPiece(await this.bytes(`pieces/${name.replace("/", "-")}`));
     }
+}
+
+/** Return a module whose code is loaded when it is needed. InputError where it cannot be had. */
+export async function loaded<T>(importing: Promise<T>): Promise<T> {
+    return importing.catch(async (error: unknown) => {
+        // Firefox keeps that a module could not be had: by another address it is asked for again
+        const address = /https?:\S+\.js/.exec(String(error))?.[0];
+        const again = address && (await import(`${address}?${Date.now()}`).catch(() => null));
+        if (again) return again as T;
+        console.warn(error);
+        throw new InputError("A part of the page could not be loaded: try again when the network is back");
+    });
 }
 
 async function load(name: string): Promise<Uint8Array<ArrayBuffer>> {

@@ -1,8 +1,9 @@
 // Links: the scene file of a document, deflated, behind the # of the address of the page.
 
-import { deflateSync, inflateSync } from "fflate";
+import { deflateSync } from "fflate";
 import { InputError } from "../errors.js";
 import { fromBase64, toBase64 } from "../evm/bytes.js";
+import { inflated } from "../files/inflate.js";
 import type { Document, Item, Meshes } from "./document.js";
 import type { MeshStore } from "./library.js";
 import { LINK_DICTIONARY, documentOfState } from "./old_link.js";
@@ -71,11 +72,8 @@ function bytesOf(hash: string): Uint8Array {
 /** Return the object whose JSON was deflated; null if it is none. */
 function unpacked(bytes: Uint8Array, dictionary?: Uint8Array): Record<string, unknown> | null {
     try {
-        // what is larger is cut off
-        const out = new Uint8Array(MOST_JSON + 1);
-        const whole = inflateSync(bytes, { out, ...(dictionary && { dictionary }) });
-        if (whole.length > MOST_JSON)
-            throw new InputError(`The link holds more than ${MOST_JSON.toLocaleString("en")} bytes`);
+        const message = `The link holds more than ${MOST_JSON.toLocaleString("en")} bytes`;
+        const whole = inflated(bytes, MOST_JSON, message, dictionary);
         const value: unknown = JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(whole));
         const isTable = typeof value === "object" && value !== null && !Array.isArray(value);
         return isTable ? (value as Record<string, unknown>) : null;

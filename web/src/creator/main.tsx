@@ -2,7 +2,7 @@
 
 import { render } from "preact";
 import { App } from "./app.js";
-import { PageAssets } from "./assets.js";
+import { PageAssets, loaded } from "./assets.js";
 import { turned } from "./camera.js";
 import type { Document } from "./document.js";
 import { MeshStore } from "./library.js";
@@ -99,7 +99,7 @@ async function fromInput(meshes: MeshStore, assets: PageAssets): Promise<Start |
     const input = (await (await fetch("input.json")).json()) as Input;
     if ("piece" in input) return { doc: await meshes.piece(input.piece) };
     const [{ readFiles }, files] = await Promise.all([
-        import("../files/index.js"),
+        loaded(import("../files/index.js")),
         Promise.all(
             input.names.map(async (name) => {
                 const path = name.split("/").map(encodeURIComponent).join("/");

@@ -17,10 +17,13 @@ export type Preset = Readonly<
         }
 >;
 
-/** How much gas a request may use, the smallest first: src/shackled/gas/limits.toml. */
+/** How much gas a request may use, the smallest first: src/shackled/gas/limits.toml, chains.toml. */
 export type Limit = Readonly<
-    Record<"name" | "node" | "source" | "date" | "remark", string> & { gas: number; kind: "transaction" | "call" }
+    Record<"name" | "place" | "source" | "date" | "remark", string> & { gas: number; kind: "transaction" | "call" }
 >;
+
+/** A chain, its currency by symbol; node: one that a wallet can use, or "": src/shackled/gas/chains.toml. */
+export type KnownChain = Readonly<Record<"name" | "currency" | "explorer" | "node", string> & { number: number }>;
 
 // prettier-ignore
 export const SETTINGS: readonly Setting[] = [
@@ -87,11 +90,35 @@ export const PRESETS: readonly Preset[] = [
 
 // prettier-ignore
 export const LIMITS: readonly Limit[] = [
-    {"name": "one transaction on Ethereum (EIP-7825)", "gas": 16777216, "kind": "transaction", "node": "", "source": "https://eips.ethereum.org/EIPS/eip-7825", "date": "2025-12-03", "remark": "2^24; on the main network since the upgrade Fusaka, the date given"},
-    {"name": "eth_call, geth: default of --rpc.gascap", "gas": 50000000, "kind": "call", "node": "geth", "source": "https://geth.ethereum.org/docs/fundamentals/command-line-options", "date": "2025-01-27", "remark": "as github.com/besu-eth/besu/issues/8175 found it there on this date"},
-    {"name": "eth_call, reth: default of --rpc.gascap", "gas": 50000000, "kind": "call", "node": "reth", "source": "https://github.com/paradigmxyz/reth/pull/3812", "date": "2023-07-17", "remark": ""},
-    {"name": "eth_call, Erigon: default of --rpc.gascap", "gas": 50000000, "kind": "call", "node": "Erigon", "source": "https://github.com/besu-eth/besu/issues/8175", "date": "2025-01-27", "remark": "as another client's developers compare it"},
-    {"name": "eth_call, Nethermind: default of JsonRpc.GasCap", "gas": 100000000, "kind": "call", "node": "Nethermind", "source": "https://docs.nethermind.io/fundamentals/configuration/#jsonrpc-gascap", "date": "2025-01-27", "remark": "as github.com/besu-eth/besu/issues/8175 found it there on this date"},
-    {"name": "eth_call, Besu: default of --rpc-gas-cap", "gas": 100000000, "kind": "call", "node": "Besu", "source": "https://github.com/besu-eth/besu/pull/8738", "date": "2025-06-04", "remark": "50 million before, and no limit until 2025-02"},
-    {"name": "eth_call, Alchemy", "gas": 550000000, "kind": "call", "node": "Alchemy", "source": "https://www.alchemy.com/docs/reference/gas-limits-for-eth_call-and-eth_estimategas", "date": "2026-11-21", "remark": "the page bears no date: the day on which a copy of it was read"},
+    {"name": "one transaction on Ethereum", "gas": 16777216, "kind": "transaction", "place": "Ethereum", "source": "https://eips.ethereum.org/EIPS/eip-7825", "date": "2025-12-03", "remark": ""},
+    {"name": "one transaction on Base", "gas": 16777216, "kind": "transaction", "place": "Base", "source": "https://docs.base.org/base-chain/network-information/throughput-and-limits", "date": "2026-11-29", "remark": ""},
+    {"name": "one transaction on OP Mainnet", "gas": 16777216, "kind": "transaction", "place": "OP Mainnet", "source": "https://github.com/ethereum-optimism/optimism/pull/20070", "date": "2026-04-14", "remark": ""},
+    {"name": "one transaction on Monad", "gas": 30000000, "kind": "transaction", "place": "Monad", "source": "https://docs.monad.xyz/developer-essentials/gas-pricing", "date": "2026-11-29", "remark": ""},
+    {"name": "one transaction on Arbitrum One", "gas": 32000000, "kind": "transaction", "place": "Arbitrum One", "source": "https://eips.ethereum.org/EIPS/eip-8123", "date": "2026-01-11", "remark": ""},
+    {"name": "one transaction on Polygon", "gas": 32000000, "kind": "transaction", "place": "Polygon", "source": "https://eips.ethereum.org/EIPS/eip-8123", "date": "2026-01-11", "remark": ""},
+    {"name": "eth_call, geth: default of --rpc.gascap", "gas": 50000000, "kind": "call", "place": "geth", "source": "https://geth.ethereum.org/docs/fundamentals/command-line-options", "date": "2025-01-27", "remark": "as github.com/besu-eth/besu/issues/8175 found it there on this date"},
+    {"name": "eth_call, reth: default of --rpc.gascap", "gas": 50000000, "kind": "call", "place": "reth", "source": "https://github.com/paradigmxyz/reth/pull/3812", "date": "2023-07-17", "remark": ""},
+    {"name": "eth_call, Erigon: default of --rpc.gascap", "gas": 50000000, "kind": "call", "place": "Erigon", "source": "https://github.com/besu-eth/besu/issues/8175", "date": "2025-01-27", "remark": "as another client's developers compare it"},
+    {"name": "eth_call, Nethermind since April 2026: default of JsonRpc.GasCap", "gas": 100000000, "kind": "call", "place": "Nethermind", "source": "https://github.com/NethermindEth/nethermind/pull/11282", "date": "2026-04-21", "remark": "earlier versions stop at the gas limit of a block, whatever is configured"},
+    {"name": "eth_call, Besu: default of --rpc-gas-cap", "gas": 100000000, "kind": "call", "place": "Besu", "source": "https://github.com/besu-eth/besu/pull/8738", "date": "2025-06-04", "remark": "50 million before, and no limit until 2025-02"},
+    {"name": "eth_call, Alchemy", "gas": 550000000, "kind": "call", "place": "Alchemy", "source": "https://www.alchemy.com/docs/reference/gas-limits-for-eth_call-and-eth_estimategas", "date": "2026-11-21", "remark": "the page bears no date: the day on which a copy of it was read"},
 ];
+
+// prettier-ignore
+export const CHAINS: readonly KnownChain[] = [
+    {"number": 1, "name": "Ethereum", "currency": "ETH", "explorer": "https://etherscan.io", "node": ""},
+    {"number": 8453, "name": "Base", "currency": "ETH", "explorer": "https://basescan.org", "node": ""},
+    {"number": 10, "name": "OP Mainnet", "currency": "ETH", "explorer": "https://optimistic.etherscan.io", "node": ""},
+    {"number": 143, "name": "Monad", "currency": "MON", "explorer": "https://monadscan.com", "node": ""},
+    {"number": 42161, "name": "Arbitrum One", "currency": "ETH", "explorer": "https://arbiscan.io", "node": ""},
+    {"number": 137, "name": "Polygon", "currency": "POL", "explorer": "https://polygonscan.com", "node": ""},
+    {"number": 11155111, "name": "Sepolia", "currency": "ETH", "explorer": "https://sepolia.etherscan.io", "node": "https://11155111.rpc.thirdweb.com"},
+    {"number": 560048, "name": "Hoodi", "currency": "ETH", "explorer": "https://hoodi.etherscan.io", "node": "https://rpc.hoodi.ethpandaops.io"},
+    {"number": 31337, "name": "a development chain", "currency": "ETH", "explorer": "", "node": "http://127.0.0.1:8545"},
+];
+
+/** The bounds of quotes, in wei per gas, and the margin of gas limits, as a fraction: src/shackled/deploy/_quote.py. */
+export const BOUNDS = { tip: 1000000000n, mostTip: 3000000000n, mostTimes: 10n, margin: [21n, 20n] } as const;
+
+/** Gas: of minting a token, besides that of its data; of a transaction that reveals, and of each round in it. */
+export const USUAL_GAS = { mint: 65000, reveal: 45000, round: 50000 } as const;

@@ -1,14 +1,14 @@
 // glTF and GLB, by three.js: meshes in the pose at rest, of skins and morph targets, compressed or not.
 
-import { DoubleSide, Texture, type Mesh, type MeshStandardMaterial } from "three";
+import { DoubleSide, LoadingManager, Texture, type Mesh, type MeshStandardMaterial } from "three";
 import { GLTFLoader, type GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { MeshoptDecoder } from "meshoptimizer/decoder";
 import { InputError, show } from "../errors.js";
 import { dracoLoader } from "./draco.js";
-import { hides, imageOf, type Picture } from "./images.js";
+import { hides, imageOf, type Image, type Picture } from "./images.js";
 import { GREY, toLinear, toSrgb, type Surface, type Triangles } from "./parts.js";
 import { baseOf, fileBeside, plural, textOf, type Source } from "./source.js";
-import { trianglesOf, type Shown } from "./three.js";
+import { checkAmount, trianglesOf, type Shown } from "./three.js";
 
 /** What JSON holds. */
 type Json = any; // eslint-disable-line @typescript-eslint/no-explicit-any
@@ -24,7 +24,7 @@ interface Gltf {
 
 /** Extensions that are read, have notes of their own, or are without effect on what is drawn. */
 const KNOWN = new RegExp(
-    "_(mesh_gpu_instancing|texture_webp|draco_mesh_compression|lights_punctual|mesh_quantization|meshopt_compression" +
+    "_(mesh_gpu_instancing|texture_(webp|avif)|draco_mesh_compression|lights_punctual|mesh_quantization|meshopt_compression" +
         "|node_visibility|texture_transform|materials_(emissive_strength|pbrSpecularGlossiness|unlit))$",
 );
 const SIZES: Record<number | string, number> = {
@@ -33,6 +33,8 @@ const SIZES: Record<number | string, number> = {
 };
 /** The most elements of an accessor; an eighth of the most bytes of what is unpacked. */
 const MOST = 1 << 26;
+/** The most bytes of all views and accessors, meshes in places, and nodes that hang on one another. */
+const [MOST_BYTES, MOST_PARTS, MOST_LEVELS] = [1 << 28, 1 << 16, 2000];
 /** Of samplers, by their numbers in OpenGL. */
 const [NEAREST, CLAMP, MIRROR] = [9728, 33071, 33648];
 
@@ -43,15 +45,24 @@ export async function readGltf(source: Source): Promise<Triangles> {
     const leaveOut: Gltf["leaveOut"] = (one, several, count = 1) => {
         if (count) leftOut.set(one, [(leftOut.get(one)?.[0] ?? 0) + count, several]);
     };
-    const buffers = (json.buffers ?? []).map(({ uri, byteLength }: Json, number: number) => {
-        // the fallback of meshopt has no bytes
-        if (uri === undefined) return (!number && binary) || new Uint8Array(Math.min(byteLength, MOST));
-        return resource(uri, source);
-    });
+    const given: (Uint8Array | undefined)[] = (json.buffers ?? []).map(({ uri }: Json, number: number) =>
+        uri === undefined ? (number ? undefined : binary) : resource(uri, source),
+    );
+    const size = [...new Set(given)].reduce((sum, bytes) => sum + (bytes?.length ?? 0), source.bytes.length);
+    // the fallback of meshopt has no bytes, and is not read
+    const buffers = given.map((bytes) => bytes ?? new Uint8Array());
+    checkLengths(json, size);
     const gltf: Gltf = { json, buffers, pictures: new Map(), source, leaveOut };
     check(gltf);
     prepare(gltf);
-    const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder as never).setDRACOLoader(dracoLoader(source));
+    checkAmounts(gltf, size);
+    // all that a document names is read here; the loader asks for nothing
+    const manager = new LoadingManager().setURLModifier((url) => {
+        throw new InputError(`it names ${baseOf(url).slice(0, 60)} where files are not read`);
+    });
+    const loader = new GLTFLoader(manager)
+        .setMeshoptDecoder(MeshoptDecoder as never)
+        .setDRACOLoader(dracoLoader(source));
     let parser: GLTFParser | undefined;
     loader.register((found) => {
         const loadBuffer = (number: number): Promise<ArrayBuffer> => Promise.resolve(buffers[number].slice().buffer);
@@ -60,7 +71,7 @@ export async function readGltf(source: Source): Promise<Triangles> {
     });
     const { scene } = await loader.parseAsync(json, "");
     const looks = new Map<string, Shown | undefined>();
-    const triangles = trianglesOf(scene, (material, { geometry: { attributes } }) => {
+    const triangles = trianglesOf(scene, size, (material, { geometry: { attributes } }) => {
         const own = json.materials?.[parser?.associations.get(material)?.materials ?? -1];
         const key = `${material.uuid} ${Object.keys(attributes).join(" ")}`;
         if (!looks.has(key)) looks.set(key, lookOf(material as MeshStandardMaterial, own, attributes, gltf));
@@ -91,8 +102,7 @@ function containerOf(bytes: Uint8Array): { json: Json; binary: Uint8Array | unde
         }
         if (!found.JSON) throw new InputError("it has no JSON chunk");
     }
-    // padded by spaces, or wrongly by zeros
-    const text = textOf(found.JSON?.subarray(0, found.JSON.findLastIndex((byte) => byte) + 1) ?? bytes);
+    const text = textOf(found.JSON ?? bytes);
     try {
         const json = JSON.parse(text);
         // the loader reads those that are declared
@@ -114,11 +124,9 @@ function resource(uri: Json, source: Source): Uint8Array {
     } catch {
         throw new InputError("a data URI in it does not hold valid base64");
     }
-    const decoded = (codes: string): string =>
-        new TextDecoder().decode(Uint8Array.from(codes.slice(1).split("%"), (code) => parseInt(code, 16)));
-    const file = fileBeside(source, text) ?? fileBeside(source, text.replace(/(?:%[0-9a-f]{2})+/gi, decoded));
+    const file = fileBeside(source, text);
     if (file) return file.bytes;
-    const name = baseOf(text).slice(0, 60);
+    const name = baseOf(text.replace(/[?#].*/, "")).slice(0, 60);
     throw new InputError(`it needs ${name}, which was not given: choose or drop both files, or a ZIP file of them`);
 }
 
@@ -144,7 +152,7 @@ function check({ json, buffers }: Gltf): void {
         if (!(count >= 0 && count < MOST && size > 0 && fits))
             throw new InputError(`its accessors[${number}] needs ${end} bytes, of ${view?.byteLength ?? 0}`);
     });
-    const need = (kind: string, ...numbers: Json[]): void => {
+    const need = (kind: string, numbers: Json[]): void => {
         const count = json[kind]?.length ?? 0;
         const wrong = numbers.find(
             (each) => each !== undefined && !(Number.isInteger(each) && each >= 0 && each < count),
@@ -152,42 +160,51 @@ function check({ json, buffers }: Gltf): void {
         if (wrong !== undefined)
             throw new InputError(`it names number ${show(wrong)} of its ${kind}, of which there are ${count}`);
     };
-    need("meshes", ...nodes.map(({ mesh }: Json) => mesh));
-    need("skins", ...nodes.map(({ skin }: Json) => skin));
+    need(
+        "meshes",
+        nodes.map(({ mesh }: Json) => mesh),
+    );
+    need(
+        "skins",
+        nodes.map(({ skin }: Json) => skin),
+    );
     for (const { joints = [], inverseBindMatrices } of skins)
-        (need("nodes", ...joints), need("accessors", inverseBindMatrices));
+        (need("nodes", joints), need("accessors", [inverseBindMatrices]));
     for (const { attributes = {}, indices, material } of (json.meshes ?? []).flatMap(
         ({ primitives }: Json) => primitives,
     )) {
-        need("accessors", ...Object.values(attributes), indices);
-        need("materials", material);
+        need("accessors", [...Object.values(attributes), indices]);
+        need("materials", [material]);
     }
     for (const { pbrMetallicRoughness: keys, emissiveTexture } of json.materials ?? [])
-        need("textures", keys?.baseColorTexture?.index, emissiveTexture?.index);
+        need("textures", [keys?.baseColorTexture?.index, emissiveTexture?.index]);
 }
 
 /** Take what is not drawn out of a document, with notes. */
 function prepare({ json, leaveOut }: Gltf): void {
-    const { nodes = [], scenes = [], meshes = [], materials = [], animations = [] } = json;
+    const { nodes = [], scenes = [], meshes = [], materials = [], textures = [], animations = [] } = json;
     const children = new Set<number>(nodes.flatMap((node: Json) => node.children ?? []));
     const roots: number[] =
         scenes[json.scene ?? 0]?.nodes ?? [...nodes.keys()].filter((number) => !children.has(number));
-    const waiting = roots.map((number): [number, boolean] => [number, true]);
+    const waiting = roots.map((number): [number, boolean, number] => [number, true, 1]);
     const [seen, shown] = [new Set<number>(), new Set<Json>()];
     for (let next; (next = waiting.pop());) {
-        const [number, isAbove] = next;
+        const [number, isAbove, depth] = next;
         const node = nodes[number];
         if (!node) throw new InputError(`it names node ${show(number)}, but there are ${nodes.length}`);
         if (seen.has(number)) throw new InputError(`its nodes[${number}] hangs on several nodes, or on itself`);
+        if (depth > MOST_LEVELS)
+            throw new InputError(`its nodes hang on one another in more than ${MOST_LEVELS} levels; join some of them`);
         seen.add(number);
         const isShown = isAbove && node.extensions?.KHR_node_visibility?.visible !== false;
         if (isShown && node.camera !== undefined) leaveOut("camera");
         if (isShown && node.extensions?.KHR_lights_punctual) leaveOut("light");
         if (isShown) shown.add(meshes[node.mesh]);
         else delete node.mesh;
-        for (const child of node.children ?? []) waiting.push([child, isShown]);
+        for (const child of node.children ?? []) waiting.push([child, isShown, depth + 1]);
     }
-    for (const node of nodes) {
+    for (const [number, node] of nodes.entries()) {
+        if (!seen.has(number)) delete node.mesh;
         delete node.camera;
         delete node.extensions?.KHR_lights_punctual;
     }
@@ -201,6 +218,12 @@ function prepare({ json, leaveOut }: Gltf): void {
         leaveOut("primitive of points or lines", "primitives of points or lines", shown.has(mesh) ? lost : 0);
         leaveOut("set of joints beyond four of a vertex", "sets of joints beyond four of a vertex", more.length);
         mesh.primitives = drawn;
+    }
+    for (const texture of textures) {
+        // images in the order of preference, not of the extensions of the loader, which ask for addresses
+        const { EXT_texture_webp: webp, EXT_texture_avif: avif } = texture.extensions ?? {};
+        texture.sources = [webp?.source, texture.source, avif?.source].filter((each) => each !== undefined);
+        delete texture.extensions;
     }
     for (const material of materials) {
         const older = material.extensions?.KHR_materials_pbrSpecularGlossiness;
@@ -229,25 +252,74 @@ function prepare({ json, leaveOut }: Gltf): void {
     for (const key of ["scene", "animations", "cameras"]) delete json[key];
 }
 
+/** Check to how many bytes a document unpacks, whose files have so many. */
+function checkLengths({ bufferViews = [], accessors = [] }: Json, size: number): void {
+    const made = ({ bufferView, sparse, count, componentType, type }: Json): number =>
+        bufferView === undefined || sparse ? count * SIZES[componentType] * SIZES[type] : 0;
+    const lengths = [...bufferViews.map(({ byteLength }: Json) => byteLength), ...accessors.map(made)];
+    const total = lengths.reduce((sum, length) => sum + (Number(length) || 0), 0);
+    if (total > Math.max(MOST_BYTES, 4 * size))
+        throw new InputError(`it unpacks to ${plural(total, "byte")}, too many for a file of this size`);
+}
+
+/** Check how much of a document is shown, before anything of it is made. */
+function checkAmounts({ json }: Gltf, size: number): void {
+    const { nodes = [], meshes = [], accessors = [] } = json;
+    let [parts, triangles, vertices, moves] = [0, 0, 0, 0];
+    for (const { mesh, extensions } of nodes) {
+        const places = extensions?.EXT_mesh_gpu_instancing?.attributes ?? {};
+        const instances = accessors[Object.values<number>(places)[0]]?.count ?? 1;
+        for (const { attributes, indices, mode = 4, targets = [] } of meshes[mesh]?.primitives ?? []) {
+            const { count } = accessors[attributes.POSITION];
+            const corners = accessors[indices]?.count ?? count;
+            triangles += instances * Math.max(mode === 4 ? Math.floor(corners / 3) : corners - 2, 0);
+            vertices += instances * count;
+            moves += instances * count * targets.length;
+            if (++parts > MOST_PARTS)
+                throw new InputError(`it shows more than ${MOST_PARTS} meshes, each as often as it has nodes`);
+            // to move a vertex is an eighth of the work of another one
+            checkAmount(triangles, Math.max(vertices, moves / 8), size);
+        }
+    }
+}
+
 /** Return a texture whose name is that of its picture. */
-async function textureOf(number: number, { json, buffers, pictures, source, leaveOut }: Gltf): Promise<Texture> {
-    const { sampler, source: own, extensions } = json.textures[number];
+async function textureOf(number: number, gltf: Gltf): Promise<Texture> {
+    const { json, pictures, leaveOut } = gltf;
+    const { sampler, sources } = json.textures[number];
     const { magFilter, wrapS, wrapT } = json.samplers?.[sampler] ?? {};
     const texture = Object.assign(new Texture(), { name: `textures[${number}]` });
-    const { bufferView, uri } = json.images?.[extensions?.EXT_texture_webp?.source ?? own] ?? {};
-    const { buffer, byteOffset = 0, byteLength } = json.bufferViews?.[bufferView] ?? {};
-    try {
-        const bytes = buffers[buffer]?.subarray(byteOffset, byteOffset + byteLength) ?? resource(uri, source);
-        const image = await imageOf(bytes, texture.name, source);
-        if (!image) return texture;
-        if ([wrapS, wrapT].includes(MIRROR)) leaveOut("mirroring of a texture", "mirrorings of textures");
-        const wraps = [wrapS === CLAMP ? "clamp" : "repeat", wrapT === CLAMP ? "clamp" : "repeat"] as const;
-        const filter = magFilter === NEAREST ? "nearest" : "bilinear";
-        pictures.set(texture.name, { image, name: texture.name, hasAlpha: false, filter, wraps, cutoff: 0 });
-    } catch (error) {
-        source.tell(`the texture ${texture.name} is left out: ${(error as Error).message}`);
-    }
+    const image = await firstImage(sources, texture.name, gltf);
+    if (!image) return texture;
+    if ([wrapS, wrapT].includes(MIRROR)) leaveOut("mirroring of a texture", "mirrorings of textures");
+    const wraps = [wrapS === CLAMP ? "clamp" : "repeat", wrapT === CLAMP ? "clamp" : "repeat"] as const;
+    const filter = magFilter === NEAREST ? "nearest" : "bilinear";
+    pictures.set(texture.name, { image, name: texture.name, hasAlpha: false, filter, wraps, cutoff: 0 });
     return texture;
+}
+
+/** Return the first of some images that can be read; undefined, with a note of why the first cannot, if there is none. */
+async function firstImage(
+    numbers: number[],
+    name: string,
+    { json, buffers, source }: Gltf,
+): Promise<Image | undefined> {
+    const notes: string[] = [];
+    for (const number of numbers) {
+        const image = json.images?.[number] ?? {};
+        const { buffer, byteOffset = 0, byteLength } = json.bufferViews?.[image.bufferView] ?? {};
+        try {
+            // the same bytes for all textures, so that they are decoded once
+            image.bytes ??=
+                buffers[buffer]?.subarray(byteOffset, byteOffset + byteLength) ?? resource(image.uri, source);
+            const found = await imageOf(image.bytes, name, { ...source, tell: (note) => notes.push(note) });
+            if (found) return found;
+        } catch (error) {
+            notes.push(`the texture ${name} is left out: ${(error as Error).message}`);
+        }
+    }
+    source.tell(notes[0] ?? `the texture ${name} is left out: it names no image`);
+    return undefined;
 }
 
 /** Return how meshes with a material, and these attributes, look; undefined if nothing of them is seen. own: as the document has it. */

@@ -4,11 +4,18 @@ import { InputError } from "../errors.js";
 import type { Texture } from "../scene/checked.js";
 import { baseOf, fileBeside, type Source } from "./source.js";
 
-/** Rows from the top; red, green, blue and alpha of each pixel. */
+/**
+ * Rows from the top; red, green, blue and alpha of each pixel. The rest is kept for all surfaces that show it: what `hides`
+ * returned, whether it has one colour, how many pixels `isPlain` has looked at, and smaller images of it.
+ */
 export interface Image {
     width: number;
     height: number;
     pixels: Uint8Array;
+    hides?: boolean;
+    isOne?: boolean;
+    steps?: number;
+    smaller?: Map<string, Image>;
 }
 
 /** An image as a file names it. name: for notes. hasAlpha: whether its alpha counts. cutoff: as in Texture. */
@@ -21,23 +28,35 @@ export interface Picture {
     cutoff: number;
 }
 
-const MAX_PIXELS = 1 << 26;
+/** The most pixels of an image, and of all that are read together. Beyond the first number, those are kept smaller. */
+const [MAX_PIXELS, MAX_ALL] = [1 << 26, 1 << 28];
+const KEPT_SIDE = 1024;
+/** How many pixels are looked at to find triangles of one colour. */
+const MAX_STEPS = 1 << 28;
 const MAX_SIDE = 256;
 /** How many textures of the full size a file may have; a quarter of the texels allows four times as many. */
 const FULL_SIZE = 4;
 /** Coordinates outside of 0..1 by less are taken as rounded; beyond the second number they are moved by whole images. */
 const [ROUNDING, FAR] = [1e-4, 100];
 
-/** What makes pixels of the bytes of an image; browsers have it built in, Node has not. */
-let decoder: (bytes: Uint8Array) => Image | Promise<Image> = async (bytes) => {
+/** What makes pixels of the bytes of an image, maybe reduced to so many pixels a side; browsers have it built in, Node has not. */
+let decoder: (bytes: Uint8Array, side: number) => Image | Promise<Image> = async (bytes, side) => {
     const options = { premultiplyAlpha: "none", colorSpaceConversion: "none" } as const;
     const bitmap = await createImageBitmap(new Blob([bytes as Uint8Array<ArrayBuffer>]), options);
-    const { width, height } = bitmap;
-    checkSize(width, height);
-    const context = new OffscreenCanvas(width, height).getContext("2d") as OffscreenCanvasRenderingContext2D;
-    context.drawImage(bitmap, 0, 0);
+    checkSize(bitmap.width, bitmap.height);
+    const scale = Math.min(side / Math.max(bitmap.width, bitmap.height), 1);
+    const [width, height] = [bitmap.width, bitmap.height].map((each) => Math.max(Math.round(scale * each), 1));
+    const pixels = new Uint8Array(4 * width * height);
+    // in strips: a canvas of the whole image would take its memory three times
+    const rows = Math.min(Math.ceil(2 ** 22 / width), height);
+    const context = new OffscreenCanvas(width, rows).getContext("2d") as OffscreenCanvasRenderingContext2D;
+    for (let y = 0; y < height; y += rows) {
+        context.clearRect(0, 0, width, rows);
+        context.drawImage(bitmap, 0, -y, width, height);
+        pixels.set(context.getImageData(0, 0, width, Math.min(rows, height - y)).data, 4 * width * y);
+    }
     bitmap.close();
-    return { width, height, pixels: new Uint8Array(context.getImageData(0, 0, width, height).data.buffer) };
+    return { width, height, pixels };
 };
 
 /** Let another function decode images. */
@@ -50,13 +69,49 @@ function checkSize(width: number, height: number): void {
         throw new InputError(`it has ${width} x ${height} pixels; up to ${MAX_PIXELS.toLocaleString("en")} are read`);
 }
 
+/** Return width and height that an image of a kind that packs well declares; zeros for others. */
+function sizeOf(bytes: Uint8Array): readonly [number, number] {
+    const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
+    const start = new TextDecoder("latin1").decode(bytes.subarray(0, 512));
+    const of = (at: number, bits: number): number => view.getUint32(at, true) & (2 ** bits - 1);
+    const avif = start.indexOf("ispe");
+    if (start.startsWith("\x89P")) return [view.getUint32(16), view.getUint32(20)];
+    if (start.startsWith("GIF8")) return [of(6, 16), of(8, 16)];
+    if (start.startsWith("WEBPVP8 ", 8)) return [of(26, 14), of(28, 14)];
+    if (start.startsWith("WEBPVP8L", 8)) return [of(21, 14) + 1, (of(21, 28) >> 14) + 1];
+    if (start.startsWith("WEBPVP8X", 8)) return [of(24, 24) + 1, of(27, 24) + 1];
+    return avif > 0 ? [view.getUint32(avif + 8), view.getUint32(avif + 12)] : [0, 0];
+}
+
+/** The images of files that are opened together: each is decoded once, one after the other. */
+export class Images {
+    private readonly known = new Map<Uint8Array, Promise<Image>>();
+    private last: Promise<unknown> = Promise.resolve();
+    private total = 0;
+
+    get(bytes: Uint8Array): Promise<Image> {
+        const found = this.known.get(bytes) ?? this.last.then(() => this.decode(bytes));
+        this.last = found.catch(() => undefined);
+        this.known.set(bytes, found);
+        return found;
+    }
+
+    private async decode(bytes: Uint8Array): Promise<Image> {
+        const [width, height] = sizeOf(bytes);
+        checkSize(width, height);
+        if (this.total + width * height > MAX_ALL)
+            throw new InputError(`all textures together may have ${MAX_ALL.toLocaleString("en")} pixels`);
+        const side = this.total + width * height > MAX_PIXELS ? KEPT_SIDE : Infinity;
+        const image = await decoder(bytes, side);
+        this.total += width * height || image.width * image.height;
+        return reduced(image, side, false);
+    }
+}
+
 /** Return the image in bytes; undefined, with a note, if there is none that can be read. */
-export async function imageOf(bytes: Uint8Array, name: string, { tell }: Source): Promise<Image | undefined> {
+export async function imageOf(bytes: Uint8Array, name: string, { images, tell }: Source): Promise<Image | undefined> {
     try {
-        const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
-        // of PNG files: before anything is unpacked
-        if (bytes[0] === 0x89 && bytes.length > 24) checkSize(view.getUint32(16), view.getUint32(20));
-        return await decoder(bytes);
+        return await images.get(bytes);
     } catch (error) {
         const why = error instanceof InputError ? error.message : "it is not an image that can be read here";
         tell(`the texture ${name} is left out: ${why}`);
@@ -73,8 +128,12 @@ export async function pictureBeside(source: Source, name: string): Promise<Pictu
 }
 
 /** Return whether an image is not opaque everywhere. */
-export function hides({ pixels }: Image): boolean {
-    for (let at = 3; at < pixels.length; at += 4) if (pixels[at] < 255) return true;
+export function hides(image: Image): boolean {
+    return (image.hides ??= isSomewhere(image, (pixels, at) => pixels[at + 3] < 255));
+}
+
+function isSomewhere({ pixels }: Image, is: (pixels: Uint8Array, at: number) => boolean): boolean {
+    for (let at = 0; at < pixels.length; at += 4) if (is(pixels, at)) return true;
     return false;
 }
 
@@ -89,7 +148,12 @@ export function isPlain(
 ): boolean {
     const { width, height, pixels } = image;
     if (hasAlpha) return false;
-    if (pixels.every((level, at) => at % 4 === 3 || level === pixels[at % 4])) return true;
+    const [red, green, blue] = pixels;
+    image.isOne ??= !isSomewhere(
+        image,
+        (_, at) => pixels[at] !== red || pixels[at + 1] !== green || pixels[at + 2] !== blue,
+    );
+    if (image.isOne) return true;
     const colorAt = (x: number, y: number): number => {
         const at = 4 * (y * width + x);
         return (pixels[at] << 16) | (pixels[at + 1] << 8) | pixels[at + 2];
@@ -105,6 +169,8 @@ export function isPlain(
     return triangles.every((triangle) => {
         const [[left, right], [top, bottom]] = [range(6 * triangle, width), range(6 * triangle + 1, height)];
         if (!(left >= 0 && top >= 0 && right < width && bottom < height)) return false;
+        image.steps = (image.steps ?? 0) + (right - left + 1) * (bottom - top + 1);
+        if (image.steps > MAX_STEPS) return false;
         const color = colorAt(left, top);
         for (let y = top; y <= bottom; y++)
             for (let x = left; x <= right; x++) if (colorAt(x, y) !== color) return false;
@@ -151,7 +217,9 @@ export function textureOf(
     }
     let side = MAX_SIDE;
     for (let left = count; left > FULL_SIZE && side > 1; left = Math.floor((left + 3) / 4)) side /= 2;
-    let image = reduced(picture.image, side, hasAlpha);
+    const [known, key] = [(picture.image.smaller ??= new Map()), `${side} ${hasAlpha}`];
+    let image = known.get(key) ?? reduced(picture.image, side, hasAlpha);
+    known.set(key, image);
     const [{ width, height }, { width: wide, height: high }] = [image, picture.image];
     if (wide > width) tell(`the texture ${name} is reduced from ${wide} x ${high} to ${width} x ${height} texels`);
     if (hasAlpha) image = unhidden(image);
@@ -178,19 +246,24 @@ function reduced({ width, height, pixels }: Image, side: number, byAlpha: boolea
         });
     const [columns, rows] = [covered(wide, width), covered(high, height)];
     for (let pixel = 0; pixel < wide * high; pixel++) {
-        const sums = [0, 0, 0, 0];
-        let [weights, area] = [0, 0];
+        let [red, green, blue, alpha, weights, area] = [0, 0, 0, 0, 0, 0];
+        const across = columns[pixel % wide];
         for (const [row, up] of rows[Math.floor(pixel / wide)]) {
-            for (const [column, across] of columns[pixel % wide]) {
-                const at = 4 * (row * width + column);
-                const weight = up * across * (byAlpha ? pixels[at + 3] : 1);
-                for (let channel = 0; channel < 3; channel++) sums[channel] += weight * pixels[at + channel];
-                sums[3] += up * across * pixels[at + 3];
+            // without an iterator: an image may have 67 million pixels
+            for (let place = 0; place < across.length; place++) {
+                const at = 4 * (row * width + across[place][0]);
+                const share = up * across[place][1];
+                const weight = share * (byAlpha ? pixels[at + 3] : 1);
+                red += weight * pixels[at];
+                green += weight * pixels[at + 1];
+                blue += weight * pixels[at + 2];
+                alpha += share * pixels[at + 3];
                 weights += weight;
-                area += up * across;
+                area += share;
             }
         }
-        sums.forEach((sum, at) => (found[4 * pixel + at] = Math.round(sum / (at < 3 ? weights || 1 : area))));
+        const all = weights || 1;
+        found.set([red / all, green / all, blue / all, alpha / area].map(Math.round), 4 * pixel);
     }
     return { width: wide, height: high, pixels: found };
 }

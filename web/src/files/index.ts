@@ -29,11 +29,13 @@ export async function readFiles(files: readonly Given[], options: Options): Prom
         await library.load(refs);
         return refs.map((ref) => library.get(ref));
     };
-    signal?.throwIfAborted();
+    const frame = await closedFrame();
+    const { Blob, URL, Worker } = frame.contentWindow as Window & typeof globalThis;
     const url = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
     const worker = new Worker(url);
     const tell = (order: Order): void => worker.postMessage(order);
     try {
+        signal?.throwIfAborted();
         return await new Promise((resolve, reject) => {
             signal?.addEventListener("abort", () => reject(signal.reason), { once: true });
             worker.onerror = ({ message }) => reject(new Error(message));
@@ -54,5 +56,18 @@ export async function readFiles(files: readonly Given[], options: Options): Prom
     } finally {
         worker.terminate();
         URL.revokeObjectURL(url);
+        frame.remove();
     }
+}
+
+/** Return a frame whose workers reach no address: they have its policy besides that of the page, which allows nodes. */
+async function closedFrame(): Promise<HTMLIFrameElement> {
+    const policy = "connect-src data: blob:";
+    const srcdoc = `<meta http-equiv="Content-Security-Policy" content="${policy}">`;
+    const frame = Object.assign(document.createElement("iframe"), { hidden: true, srcdoc });
+    await new Promise((resolve) => {
+        frame.onload = resolve;
+        document.body.append(frame);
+    });
+    return frame;
 }

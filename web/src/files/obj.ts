@@ -8,7 +8,7 @@ import type { Vector } from "../scene/arithmetic.js";
 import { pictureBeside, type Picture } from "./images.js";
 import { GREY, PLAIN, toByte, toLinear, type Triangles } from "./parts.js";
 import { earsOf } from "./polygons.js";
-import { baseOf, fileBeside, plural, textOf, type Source } from "./source.js";
+import { baseOf, fileBeside, plural, textOf, withPoints, type Source } from "./source.js";
 import { trianglesOf, type Shown } from "./three.js";
 
 /** Lines that the loader does not read, or that make it take the faces of an object for lines; and those of no effect. */
@@ -17,6 +17,8 @@ const OTHERS = /^[ \t]*(?!(?:v|vt|vn|f|g|o|s|usemtl|mtllib)[ \t]|[#\s])(\S+)(.*)
 const JOINED = /^(?!\s*(?:#|(?:usemtl|mtllib|g|o)\s))(.*)\\\n/gm;
 /** Lines that end with a name. */
 const NAMED = /^[ \t]*(usemtl|mtllib|newmtl|map_\w+)[ \t]+(.*)/gm;
+/** Statements of materials that are followed by numbers. */
+const OF_NUMBERS = "K[ades]|N[is]|d|Tr|Tf";
 const SILENT = /^(g|o|s|mg|bevel|[cd]_interp|lod|shadow_obj|trace_obj)$/;
 const NAMES: Record<string, string> = { p: "point", l: "line", curv: "curve", surf: "curved surface" };
 
@@ -24,11 +26,13 @@ const NAMES: Record<string, string> = { p: "point", l: "line", curv: "curve", su
 export async function readObj(source: Source): Promise<Triangles> {
     const { tell } = source;
     const leftOut = new Map<string, number>();
-    const lines = `${textOf(source.bytes)}\n`.replace(JOINED, "$1 ").replace(OTHERS, (_, key: string, rest: string) => {
-        const count = key === "p" ? rest.trim().split(/\s+/).length : 1;
-        if (!SILENT.test(key)) leftOut.set(key, (leftOut.get(key) ?? 0) + count);
-        return "";
-    });
+    const lines = `${withPoints(textOf(source.bytes), source, "v|vn|vt")}\n`
+        .replace(JOINED, "$1 ")
+        .replace(OTHERS, (_, key: string, rest: string) => {
+            const count = key === "p" ? rest.trim().split(/\s+/).length : 1;
+            if (!SILENT.test(key)) leftOut.set(key, (leftOut.get(key) ?? 0) + count);
+            return "";
+        });
     const text = withColors(
         cutPolygons(lines.replace(NAMED, (_, key: string, name: string) => `${key} ${bare(name)}`)),
     );
@@ -37,6 +41,8 @@ export async function readObj(source: Source): Promise<Triangles> {
         .map(([key, count]) => plural(count, NAMES[key] ?? `statement '${key.slice(0, 20)}'`));
     if (!/^[ \t]*f[ \t]/m.test(text))
         throw new InputError(`it has no faces${list.length ? `, only ${list.join(", ")}` : ""}; only faces are drawn`);
+    const comma = /^[ \t]*f[ \t][^#\n]*,.*/m.exec(text)?.[0].trim().slice(0, 60);
+    if (comma) throw new InputError(`its face '${comma}' has a comma; numbers are separated by spaces, and have none`);
     if (list.length) tell(`${list.join(", ")} left out; only faces are drawn`);
     if (/^#MRGB/m.test(text)) tell("colours of ZBrush (#MRGB) are left out");
     const root = new OBJLoader().parse(text) as ReturnType<OBJLoader["parse"]> & { materialLibraries: string[] };
@@ -44,7 +50,11 @@ export async function readObj(source: Source): Promise<Triangles> {
     for (const name of root.materialLibraries.flatMap((each) => each.match(/\S.*?\.mtl(?!\S)|\S.*/gi) ?? [])) {
         const file = fileBeside(source, name);
         const text =
-            file && textOf(file.bytes).replace(NAMED, (_, key: string, name: string) => `${key} ${bare(name)}`);
+            file &&
+            withPoints(textOf(file.bytes), source, OF_NUMBERS).replace(
+                NAMED,
+                (_, key: string, name: string) => `${key} ${bare(name)}`,
+            );
         if (text !== undefined) Object.assign(materials, new MTLLoader().parse(text, "").materialsInfo);
         else tell(`its materials are left out: ${baseOf(name)} is not among the files that were given`);
     }
@@ -60,7 +70,7 @@ export async function readObj(source: Source): Promise<Triangles> {
         // normals of faces, by the loader
         if (!/^[ \t]*vn[ \t]/m.test(text)) geometry.deleteAttribute("normal");
     }
-    return trianglesOf(root, ({ name }, { geometry }) => {
+    return trianglesOf(root, source.bytes.length, ({ name }, { geometry }) => {
         const look = looks.get(name) as Shown;
         // a texture, or else colours of vertices, replace the colour of the material
         if (look.surface.picture) geometry.deleteAttribute("color");
@@ -102,7 +112,7 @@ function cutPolygons(text: string): string {
     return text.replace(polygons, (line, list: string) => {
         const corners = list.trim().split(/\s+/);
         const outline = corners.map((corner) => points[parseInt(corner) - 1]);
-        const ears = outline.every(Boolean) ? earsOf(outline, line.trim()) : undefined;
+        const ears = outline.every(Boolean) ? earsOf(outline, `the face ${line.trim().slice(0, 20)}...`) : undefined;
         return ears?.map((ear, at) => `${at % 3 ? "" : "\nf"} ${corners[ear]}`).join("") ?? line;
     });
 }

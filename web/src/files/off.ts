@@ -3,7 +3,7 @@
 import { InputError } from "../errors.js";
 import { GREY, PLAIN, ofCorners, toByte, type Triangles } from "./parts.js";
 import { cut } from "./polygons.js";
-import { numberOf, textOf, type Source } from "./source.js";
+import { numberOf, textOf, withPoints, type Source } from "./source.js";
 
 /** Return the triangles of an OFF file, whose header may have the letters ST, C and N in any order. */
 export function readOff(source: Source): Triangles {
@@ -11,7 +11,7 @@ export function readOff(source: Source): Triangles {
     if (/^\s*\w*OFF[ \t]+BINARY/.test(String.fromCharCode(...bytes.subarray(0, 99))))
         throw new InputError("it is binary; only text is read");
     const lines: [number, string[]][] = [];
-    textOf(bytes)
+    withPoints(textOf(bytes), source)
         .split("\n")
         .forEach((line, number) => {
             const words = line.replace(/#.*/, "").trim().split(/\s+/);

@@ -93,7 +93,7 @@ export function partsOf(
         for (const triangle of list) group.own.push(triangle);
     });
     const pictures = new Set([...groups.values()].flatMap(({ surface: { picture } }) => picture?.image ?? [])).size;
-    return [...groups.values()].map(({ own, surface: { picture, ...kind }, gloss: [rough, metal, known] }) => {
+    const parts = [...groups.values()].map(({ own, surface: { picture, ...kind }, gloss: [rough, metal, known] }) => {
         const triangles = Uint32Array.from(own);
         const of = <T extends Float64Array | Uint8Array | Uint32Array>(table: T, width: number): T =>
             rowsOf(table, triangles, 3 * width);
@@ -107,6 +107,21 @@ export function partsOf(
         const highlights = known > 0 && !kind.unlit ? highlightsOf(rough / known, metal / known) : undefined;
         return { ...kind, mesh: weld(positions, corners, table), texture: shown?.texture, highlights };
     });
+    if (parts.some(isVisible)) return parts;
+    // of writers without transparency, and where Tr of OBJ files means the opposite
+    source.tell("its opacity is 0 everywhere, which cannot be meant; it is drawn opaque");
+    return parts.map((part) => ({
+        ...part,
+        mesh: { ...part.mesh, opacities: undefined },
+        texture: part.texture && { ...part.texture, alpha: undefined, cutoff: 0 },
+        opacity: 1,
+    }));
+}
+
+function isVisible({ opacity, mesh, texture }: Part): boolean {
+    const cutoff = Math.max(texture?.cutoff ?? 0, 1);
+    const isSomewhere = texture?.alpha?.some((level) => level >= cutoff) ?? true;
+    return opacity > 0 && (mesh.opacities?.some(Boolean) ?? true) && isSomewhere;
 }
 
 /** Return strength and exponent, with Beckmann's roughness of Blinn-Phong; the strength is a matter of taste. */

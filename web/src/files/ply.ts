@@ -4,7 +4,7 @@ import { InputError } from "../errors.js";
 import { pictureBeside } from "./images.js";
 import { GREY, PLAIN, ofCorners, toByte, type Triangles } from "./parts.js";
 import { cut } from "./polygons.js";
-import { numberOf, plural, textOf, type Source } from "./source.js";
+import { numberOf, plural, textOf, withPoints, type Source } from "./source.js";
 
 const SIZES = { Int8: 1, Uint8: 1, Int16: 2, Uint16: 2, Int32: 4, Uint32: 4, Float32: 4, Float64: 8 };
 type Kind = keyof typeof SIZES;
@@ -77,7 +77,7 @@ class Element {
 /** Return the triangles of a PLY file, which has a texture at most. */
 export async function readPly(source: Source): Promise<Triangles> {
     const { tell } = source;
-    const { elements, textures } = elementsOf(source.bytes);
+    const { elements, textures } = elementsOf(source);
     const [vertex, face] = ["vertex", "face"].map(
         (name) => elements.find((each) => each.name === name) ?? new Element(name, 0),
     );
@@ -125,7 +125,8 @@ export async function readPly(source: Source): Promise<Triangles> {
     return found;
 }
 
-function elementsOf(bytes: Uint8Array): { elements: Element[]; textures: string[] } {
+function elementsOf(source: Source): { elements: Element[]; textures: string[] } {
+    const { bytes } = source;
     const start = new TextDecoder("latin1").decode(bytes.subarray(0, 1 << 16));
     const end = /end_header[ \t]*(\r\n|\n|\r)/.exec(start);
     if (!/^ply/i.test(start) || !end)
@@ -150,7 +151,8 @@ function elementsOf(bytes: Uint8Array): { elements: Element[]; textures: string[
     });
     if (!format) throw new InputError("its header has no line format");
     const body = bytes.subarray(end.index + end[0].length);
-    const read = format === "ascii" ? words(body) : numbers(body, format.includes("little"));
+    const read =
+        format === "ascii" ? words(withPoints(textOf(body), source)) : numbers(body, format.includes("little"));
     for (const { name, count, properties } of elements) {
         for (let row = 0; properties.length && row < count; row++) {
             const next = (kind: Kind): number => {
@@ -183,7 +185,7 @@ function numbers(bytes: Uint8Array, little: boolean): (kind: Kind) => number | u
 }
 
 /** Return the function of the next number in a text; undefined at its end. */
-function words(bytes: Uint8Array): () => number | undefined {
-    const [text, word] = [textOf(bytes), /\S+/g];
+function words(text: string): () => number | undefined {
+    const word = /\S+/g;
     return () => numberOf(word.exec(text)?.[0] ?? "x");
 }

@@ -1,10 +1,13 @@
 // Files that people open: mesh files, scene files, pictures with their scene, calls, and ZIP files of them.
 
-import { unzipSync } from "fflate";
 import { InputError } from "../errors.js";
 import { documentOfScene, type Library, type Made } from "../creator/save.js";
 import { decodeCall } from "../scene/decode.js";
+import type { Scene } from "../scene/types.js";
 import { readFile } from "../view/source.js";
+import { Images } from "./images.js";
+import { unzipped } from "./inflate.js";
+import { contentOf, formatOf, gunzipped, namedFormat } from "./kinds.js";
 import { readOff } from "./off.js";
 import { partsOf, type Part, type Triangles } from "./parts.js";
 import { readPly } from "./ply.js";
@@ -55,9 +58,11 @@ const SILENT = /\.(mtl|bin|txt|md|pdf|url)$/i;
 /** Return the document of files. InputError, a sentence, if nothing of them can be shown. */
 export async function readFiles(files: readonly Given[], options: Options): Promise<Opened> {
     const { draco = noDraco, beside } = options;
-    const folder = unpacked(files);
+    const folder = unpacked(await Promise.all(files.map((file) => said(file, () => gunzipped(file)))));
+    // by content also those of other names, where no name tells of a format
+    const known = folder.filter(({ name }) => [...MESHES, ...SCENES[0]].includes(namedFormat(name)));
     const of = (extensions: readonly string[]): Given[] =>
-        folder.filter(({ name }) => extensions.includes(extensionOf(name)));
+        (known.length ? known : folder).filter((file) => extensions.includes(formatOf(file)));
     const meshes = of(MESHES);
     // beside a mesh file, pictures are textures
     const scenes =
@@ -67,15 +72,14 @@ export async function readFiles(files: readonly Given[], options: Options): Prom
     if (scenes.length > 1) throw new InputError(`Open one scene at a time: ${namesOf(scenes)} are ${scenes.length}.`);
     const shown = scenes.length ? scenes : meshes;
     if (!shown.length) {
-        const known = [...MESHES, ...SCENES.slice(0, 2).flat()].join(", ");
-        throw new InputError(
-            `${files.length ? `${namesOf(folder)} cannot be shown` : "There is no file to open"}. Known are ${known} and .zip files of them.`,
-        );
+        for (const file of folder) await said(file, async () => contentOf({ ...file, tell: () => undefined }));
+        throw unknown(folder);
     }
     const notes: string[] = [];
+    const images = new Images();
     const sources = shown.map((file): Source => {
         const tell = (note: string): void => void notes.push(`${baseOf(file.name)}: ${note}`);
-        return { ...file, folder, draco, beside, tell };
+        return { ...file, folder, draco, beside, tell, images };
     });
     const made = scenes.length ? await openScene(sources[0], options) : await openMeshes(sources, options);
     const unused = folder.filter((file) => !file.used && !shown.includes(file) && !SILENT.test(file.name));
@@ -87,16 +91,27 @@ function noDraco(): Promise<never> {
     throw new InputError("it is compressed with Draco, whose decoder is not here");
 }
 
+/** Return the error for files of which none is of a known kind. */
+function unknown(files: readonly Given[]): InputError {
+    const kind = files.length > 1 ? "These are no 3D files" : "This is no 3D file";
+    const what = files.length ? `${kind}: ${namesOf(files)}` : "There is no file to open";
+    const known = [...MESHES, ...SCENES.slice(0, 2).flat()].join(", ");
+    return new InputError(`${what}. Known are ${known} and .zip files of them.`);
+}
+
 async function openScene(source: Source, { library, onProgress }: Options): Promise<Made> {
     onProgress?.(`Reading ${baseOf(source.name)}`);
     const title = titleOf(source);
     return said(source, async () => {
-        if (SCENES[0].includes(extensionOf(source.name))) return readScene(source, library, readMesh);
-        const call = await readFile(source.bytes).catch((error: Error) => {
+        const bytes = contentOf(source);
+        if (SCENES[0].includes(formatOf(source))) return readScene({ ...source, bytes }, library, readMesh);
+        const read = async (): Promise<Scene> => decodeCall(await readFile(source.bytes));
+        const scene = await read().catch((error: Error) => {
+            if (/must begin with the selector/.test(error.message)) throw unknown([source]);
             if (!/carries no scene/.test(error.message)) throw error;
             throw new InputError("This PNG was not made by Shackled: it holds no scene.");
         });
-        return documentOfScene(decodeCall(call), { title });
+        return documentOfScene(scene, { title });
     });
 }
 
@@ -111,7 +126,7 @@ async function openMeshes(sources: Source[], { size, maxTriangles, signal, onPro
         signal?.throwIfAborted();
         try {
             const parts = await said(source, () => readMesh(source));
-            models.push({ parts, isZUp: extensionOf(source.name) === ".stl", tell: source.tell });
+            models.push({ parts, isZUp: formatOf(source) === ".stl", tell: source.tell });
             titles.push(titleOf(source));
         } catch (error) {
             if (sources.length > 1) source.tell(`left out: ${(error as Error).message}`);
@@ -131,11 +146,14 @@ async function openMeshes(sources: Source[], { size, maxTriangles, signal, onPro
 /** Return the parts of a mesh file. */
 async function readMesh(source: Source): Promise<Part[]> {
     if (!source.bytes.length) throw new InputError("it is empty");
-    return partsOf(await READERS[extensionOf(source.name)](source), source);
+    const bytes = contentOf(source);
+    const read = READERS[formatOf(source)];
+    if (!read) throw new InputError(`it is none of the mesh files that are read: ${MESHES.join(", ")}`);
+    return partsOf(await read({ ...source, bytes }), source);
 }
 
 /** Return what `read` does, with errors in one sentence that names the file. */
-async function said<T>({ name }: Source, read: () => Promise<T>): Promise<T> {
+async function said<T>(file: Given, read: () => Promise<T>): Promise<T> {
     try {
         return await read();
     } catch (error) {
@@ -144,9 +162,9 @@ async function said<T>({ name }: Source, read: () => Promise<T>): Promise<T> {
             .split("\n")[0]
             .slice(0, 300);
         if (/^[A-Z].*\.$/.test(text)) throw error;
-        const kind = extensionOf(name).slice(1).toUpperCase();
+        const kind = formatOf(file).slice(1).toUpperCase();
         const why = error instanceof InputError ? text : `it is no ${kind} file that can be read (${text})`;
-        throw new InputError(`Cannot open ${baseOf(name)}: ${why}.`);
+        throw new InputError(`Cannot open ${baseOf(file.name)}: ${why}.`);
     }
 }
 
@@ -163,15 +181,12 @@ function unpacked(files: readonly Given[]): Given[] {
         if (extensionOf(file.name) !== ".zip") return [{ ...file, name: file.name.replaceAll("\\", "/") }];
         let count = 0;
         try {
-            const entries = unzipSync(file.bytes, {
-                filter: ({ name, originalSize }) => {
-                    if (/\/$|(^|\/)(__MACOSX|\.[^/]*)/.test(name)) return false;
-                    if (++count > MOST_FILES) throw new InputError(`A ZIP file may hold up to ${MOST_FILES} files.`);
-                    add(originalSize);
-                    return true;
-                },
+            return unzipped(file.bytes, (name, size) => {
+                if (/\/$|(^|\/)(__MACOSX|\.[^/]*)/.test(name)) return false;
+                if (++count > MOST_FILES) throw new InputError(`A ZIP file may hold up to ${MOST_FILES} files.`);
+                add(size);
+                return true;
             });
-            return Object.entries(entries).map(([name, bytes]) => ({ name, bytes: new Uint8Array(bytes) }));
         } catch (error) {
             if (error instanceof InputError) throw error;
             throw new InputError(

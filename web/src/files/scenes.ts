@@ -8,8 +8,9 @@ import { checkedMesh, type Mesh, type Texture } from "../scene/checked.js";
 import { parseJson } from "../scene/file.js";
 import { shadedMesh } from "../scene/normals.js";
 import { hides, imageOf, textureOf } from "./images.js";
+import { formatOf } from "./kinds.js";
 import type { Part } from "./parts.js";
-import { baseOf, extensionOf, fileBeside, plural, textOf, titleOf, type Given, type Source } from "./source.js";
+import { baseOf, fileBeside, plural, textOf, titleOf, type Given, type Source } from "./source.js";
 
 type Keys = Record<string, unknown>;
 
@@ -26,7 +27,7 @@ export async function readScene(
 ): Promise<Made> {
     const about = { title: titleOf(source), notice: "", licence: "" };
     const text = textOf(source.bytes);
-    const table = (extensionOf(source.name) === ".toml" ? plain(tomlOf(text)) : parseJson(text)) as Keys;
+    const table = (formatOf(source) === ".toml" ? plain(tomlOf(text)) : parseJson(text)) as Keys;
     const own = new Map<string, StoredMesh>();
     const given = Array.isArray(table.objects) ? (table.objects as Keys[]) : [];
     const objects: Keys[] = [];
@@ -41,7 +42,7 @@ export async function readScene(
         const file = needed(object.mesh, `${where}.mesh`, source);
         const parts = await read({ ...source, ...file, tell: (note) => source.tell(`${where}.mesh: ${note}`) });
         for (const part of parts) {
-            const { up_axis: up = isStl(file) && !object.rotation ? "z" : "y", ...rest } = object;
+            const { up_axis: up = formatOf(file) === ".stl" && !object.rotation ? "z" : "y", ...rest } = object;
             const turn = TURNS[String(up)];
             if (!turn) throw new InputError(`${where}.up_axis must be "x", "y" or "z", not ${show(up)}`);
             const turned = (_: number, at: number, table: Float64Array): number =>
@@ -69,10 +70,6 @@ export async function readScene(
     };
     const made = await openSceneFile(given.length ? { ...table, objects } : table, all, about);
     return { document: made.document, meshes: new Map([...own, ...made.meshes]) };
-}
-
-function isStl({ name }: Given): boolean {
-    return extensionOf(name) === ".stl";
 }
 
 /** Return a file that a scene file names. */

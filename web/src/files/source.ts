@@ -1,6 +1,7 @@
 // What readers get: a file, the files beside it, and where notes go.
 
 import { InputError } from "../errors.js";
+import type { Images } from "./images.js";
 
 /** A file by its name, which may have folders in it. used: whether another one names it. */
 export interface Given {
@@ -15,6 +16,7 @@ export interface Source extends Given {
     /** Returns a file beside these. */
     beside: ((name: string) => Given | undefined) | undefined;
     tell: (note: string) => void;
+    images: Images;
     /** Return the decoder of Draco's meshes. */
     draco: () => Promise<Uint8Array>;
 }
@@ -39,8 +41,20 @@ export function extensionOf(name: string): string {
     return /\.[^./]+$/.exec(name)?.[0].toLowerCase() ?? "";
 }
 
+/** Return bytes as UTF-8 without a byte order mark, if they begin with one. */
+export function unmarked(bytes: Uint8Array): Uint8Array<ArrayBuffer> {
+    const mark = `${bytes[0]} ${bytes[1]}`;
+    const kind = mark === "255 254" ? "utf-16le" : mark === "254 255" ? "utf-16be" : undefined;
+    if (kind) return new TextEncoder().encode(new TextDecoder(kind).decode(bytes));
+    const hasMark = bytes[0] === 0xef && bytes[1] === 0xbb && bytes[2] === 0xbf;
+    return bytes.subarray(hasMark ? 3 : 0) as Uint8Array<ArrayBuffer>;
+}
+
 /** Return the text of bytes, with line ends of Unix; what is not UTF-8 is taken as the code page of Windows. */
-export function textOf(bytes: Uint8Array): string {
+export function textOf(given: Uint8Array): string {
+    const whole = unmarked(given);
+    // some writers fill up with zeros
+    const bytes = whole.subarray(0, whole.findLastIndex((byte) => byte) + 1);
     if (bytes.includes(0)) throw new InputError("it is not a text file, as one of this kind should be");
     let text: string;
     try {
@@ -51,6 +65,19 @@ export function textOf(bytes: Uint8Array): string {
     return text.includes("\r") ? text.replace(/\r\n?/g, "\n") : text;
 }
 
+/**
+ * Return a text with points for decimal commas, of which a note tells, in lines that begin with a keyword, by default any.
+ * What is behind # stays.
+ */
+export function withPoints(text: string, { tell }: Source, keywords = "[^\\s#]*"): string {
+    if (!text.includes(",")) return text;
+    const lines = new RegExp(`^[ \\t]*(?:${keywords})(?!\\S)[^\\n#]*`, "gm");
+    const comma = /(?<!\S)([-+]?\d+),(\d+(?:e[-+]?\d+)?)(?!\S)/gi;
+    const found = text.replace(lines, (line) => line.replace(comma, "$1.$2"));
+    if (found !== text) tell("its numbers have decimal commas, which are read as points");
+    return found;
+}
+
 /** Return the number of a word: NaN for one that says that it is none, undefined for anything else. */
 export function numberOf(word: string): number | undefined {
     const value = Number(word);
@@ -59,18 +86,23 @@ export function numberOf(word: string): number | undefined {
 }
 
 /**
- * Return the file that another one names. The name may be that of the machine of its author: then it is the file of that
- * name in any folder, in any letter case.
+ * Return the file that another one names. The name may be an address, or that of the machine of its author: then it is the
+ * file of that name in any folder, in any letter case.
  */
 export function fileBeside({ name: from, folder, beside }: Source, name: string): Given | undefined {
-    const parts = from.split("/").slice(0, -1);
-    for (const part of name.replaceAll("\\", "/").split("/")) {
-        if (part === "..") parts.pop();
-        else if (part && part !== ".") parts.push(part);
+    const decoded = (codes: string): string =>
+        new TextDecoder().decode(Uint8Array.from(codes.slice(1).split("%"), (code) => parseInt(code, 16)));
+    const plain = (text: string): string => text.replace(/(?:%[0-9a-f]{2})+/gi, decoded).replaceAll("\\", "/");
+    for (const each of new Set([name.replaceAll("\\", "/"), plain(name), plain(name.replace(/[?#].*/, ""))])) {
+        const parts = from.split("/").slice(0, -1);
+        for (const part of each.split("/")) {
+            if (part === "..") parts.pop();
+            else if (part && part !== ".") parts.push(part);
+        }
+        const path = parts.join("/");
+        const isSame = (other: Given): boolean => baseOf(other.name).toLowerCase() === baseOf(each).toLowerCase();
+        const found = folder.find((other) => other.name === path) ?? folder.find(isSame) ?? beside?.(path);
+        if (found) return Object.assign(found, { used: true });
     }
-    const path = parts.join("/");
-    const isSame = (each: Given): boolean => baseOf(each.name).toLowerCase() === baseOf(name).toLowerCase();
-    const found = folder.find((each) => each.name === path) ?? folder.find(isSame) ?? beside?.(path);
-    if (found) found.used = true;
-    return found;
+    return undefined;
 }

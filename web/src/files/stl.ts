@@ -3,7 +3,7 @@
 import { STLLoader } from "three/examples/jsm/loaders/STLLoader.js";
 import { InputError } from "../errors.js";
 import { GREY, PLAIN, type Triangles } from "./parts.js";
-import { plural, textOf, type Source } from "./source.js";
+import { plural, textOf, withPoints, type Source } from "./source.js";
 
 /** Bytes of the header, and of a facet, the last two of which are its attribute. */
 const [HEADER, FACET] = [84, 50];
@@ -24,11 +24,11 @@ export function readStl(source: Source): Triangles {
     if (isText) {
         let lost = 0;
         // names may be of any words
-        const text = textOf(bytes.subarray(0, end)).replace(
-            /^[ \t]*(end)?solid\b.*/gim,
-            (_, end) => `${end ?? ""}solid`,
+        const text = textOf(bytes).replace(
+            /^[ \t]*(end)?solid\b(?:(?!\bfacet[ \t]+normal\b).)*/gim,
+            (_, end) => `${end ?? ""}solid `,
         );
-        data = text.replace(/\bfacet\b[\s\S]*?endfacet/gi, (facet) =>
+        data = withPoints(text, source).replace(/\bfacet\b[\s\S]*?endfacet/gi, (facet) =>
             /\b(nan|inf)|1\.#/i.test(facet) && ++lost ? "" : facet,
         );
         if (!/\bfacet\b/i.test(data))

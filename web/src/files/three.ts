@@ -5,9 +5,10 @@ import type { Mesh, Object3D, SkinnedMesh } from "three";
 import { InputError } from "../errors.js";
 import { rowsOf } from "../scene/topology.js";
 import { toSrgb, type Surface, type Triangles } from "./parts.js";
+import { plural } from "./source.js";
 
-/** How many triangles are read, each mesh as often as it is shown. */
-const MAX_TRIANGLES = 1 << 23;
+/** How many triangles are read, each mesh as often as it is shown; of files with less than eight bytes for each, fewer. */
+const [MAX_TRIANGLES, OF_SMALL] = [1 << 23, 1 << 20];
 
 /** How a material looks. factor: linear, of colours of vertices. blended: whether their alpha counts. channel, matrix: of uvs. */
 export interface Shown {
@@ -19,12 +20,38 @@ export interface Shown {
 }
 
 type AnyMesh = Mesh & Partial<InstancedMesh> & Partial<SkinnedMesh>;
-type Chunk = Pick<Triangles, "positions" | "faces" | "colors"> &
-    Record<"normals" | "uvs", Float64Array> & { surface: Uint32Array };
 
-/** Return the triangles of all meshes that are visible, where they are. shown: of a material; undefined to leave it out. */
-export function trianglesOf(root: Object3D, shown: (material: Material, mesh: Mesh) => Shown | undefined): Triangles {
-    const chunks: Chunk[] = [];
+/** A part of a mesh with one material: so many vertices from the first one, and corners of its triangles. */
+interface Piece {
+    mesh: AnyMesh;
+    look: Shown;
+    first: number;
+    many: number;
+    corners: Uint32Array;
+    instances: number;
+}
+
+/** Check how much a file of so many bytes shows, before it is made. */
+export function checkAmount(triangles: number, vertices: number, bytes: number): void {
+    const most = Math.min(Math.max(OF_SMALL, bytes / 8), MAX_TRIANGLES);
+    if (triangles <= most && vertices <= 3 * most) return;
+    const what = triangles > most ? "triangles" : "vertices";
+    const limit = plural(Math.floor(most), "triangle");
+    throw new InputError(
+        `it shows more ${what} than a file of this size may: up to ${limit}, each as often as it is shown`,
+    );
+}
+
+/**
+ * Return the triangles of all meshes that are visible, where they are. bytes: of the file. shown: of a material; undefined
+ * to leave it out.
+ */
+export function trianglesOf(
+    root: Object3D,
+    bytes: number,
+    shown: (material: Material, mesh: Mesh) => Shown | undefined,
+): Triangles {
+    const pieces: Piece[] = [];
     const surfaces = new Map<Surface, number>();
     let [total, vertices] = [0, 0];
     root.updateMatrixWorld(true);
@@ -33,58 +60,51 @@ export function trianglesOf(root: Object3D, shown: (material: Material, mesh: Me
         if (!mesh.isMesh) return;
         const { attributes, index, groups } = mesh.geometry;
         const size = attributes.position.count;
+        const instances = mesh.isInstancedMesh ? (mesh.count as number) : 1;
         const whole = [{ start: 0, count: index?.count ?? size, materialIndex: 0 }];
         for (const { start, count, materialIndex = 0 } of groups.length ? groups : whole) {
             const look = shown([mesh.material].flat()[materialIndex], mesh);
             if (!look) continue;
-            const number = surfaces.get(look.surface) ?? surfaces.size;
-            surfaces.set(look.surface, number);
+            surfaces.set(look.surface, surfaces.get(look.surface) ?? surfaces.size);
             // without an index, a group has the vertices of its own range
             const [first, many] = index ? [0, size] : [start, count - (count % 3)];
+            total += instances * (count - (count % 3));
+            vertices += instances * many;
+            checkAmount(total / 3, vertices, bytes);
             const corner = (_: unknown, at: number): number => (index ? index.getX(start + at) : at);
             const corners = Uint32Array.from({ length: count - (count % 3) }, corner);
             if (first + many > size || corners.some((each) => each >= many))
                 throw new InputError(`a mesh names a vertex beyond its ${size}`);
-            for (let instance = 0; instance < (mesh.isInstancedMesh ? (mesh.count as number) : 1); instance++) {
-                total += corners.length / 3;
-                if (total > MAX_TRIANGLES) throw new InputError(`it shows more than ${MAX_TRIANGLES} triangles`);
-                const own = new Matrix4();
-                if (mesh.isInstancedMesh) mesh.getMatrixAt?.(instance, own);
-                const place = own.premultiply(mesh.matrixWorld);
-                // the front of a mirrored mesh stays its front
-                const steps = place.determinant() < 0 ? [0, 1, -1] : [0, 0, 0];
-                const order = corners.map((_, at) => corners[at + steps[at % 3]]);
-                const { positions, colors, normals, uvs } = verticesOf(mesh, place, look, first, many);
-                const faces = order.map((each) => vertices + each);
-                const surface = new Uint32Array(order.length / 3).fill(number);
-                const table = {
-                    colors: rowsOf(colors, order, 4),
-                    normals: rowsOf(normals, order),
-                    uvs: rowsOf(uvs, order, 2),
-                };
-                chunks.push({ positions, faces, surface, ...table });
-                vertices += many;
-            }
+            pieces.push({ mesh, look, first, many, corners, instances });
         }
     });
-    /** Return tables of the chunks one after the other. empty: one of their kind. */
-    const joined = <T extends Float64Array | Uint8Array | Uint32Array>(tableOf: (chunk: Chunk) => T, empty: T): T => {
-        const tables = chunks.map(tableOf);
-        const size = tables.reduce((sum, { length }) => sum + length, 0);
-        const found = new (empty.constructor as new (size: number) => T)(size);
-        tables.reduce((at, table) => (found.set(table, at), at + table.length), 0);
-        return found;
-    };
-    const [floats, bytes, integers] = [new Float64Array(), new Uint8Array(), new Uint32Array()];
-    return {
-        positions: joined((chunk) => chunk.positions, floats),
-        faces: joined((chunk) => chunk.faces, integers),
-        colors: joined((chunk) => chunk.colors, bytes),
-        normals: joined((chunk) => chunk.normals, floats),
-        uvs: joined((chunk) => chunk.uvs, floats),
-        surface: joined((chunk) => chunk.surface, integers),
-        surfaces: [...surfaces.keys()],
-    };
+    const [positions, normals, uvs] = [3 * vertices, 3 * total, 2 * total].map((length) => new Float64Array(length));
+    const [faces, surface] = [total, total / 3].map((length) => new Uint32Array(length));
+    const colors = new Uint8Array(4 * total);
+    let [corner, vertex] = [0, 0];
+    for (const { mesh, look, first, many, corners, instances } of pieces) {
+        for (let instance = 0; instance < instances; instance++) {
+            const own = new Matrix4();
+            if (mesh.isInstancedMesh) mesh.getMatrixAt?.(instance, own);
+            const place = own.premultiply(mesh.matrixWorld);
+            // the front of a mirrored mesh stays its front
+            const steps = place.determinant() < 0 ? [0, 1, -1] : [0, 0, 0];
+            const order = corners.map((_, at) => corners[at + steps[at % 3]]);
+            const of = verticesOf(mesh, place, look, first, many);
+            positions.set(of.positions, 3 * vertex);
+            faces.set(
+                order.map((each) => vertex + each),
+                corner,
+            );
+            colors.set(rowsOf(of.colors, order, 4), 4 * corner);
+            normals.set(rowsOf(of.normals, order), 3 * corner);
+            uvs.set(rowsOf(of.uvs, order, 2), 2 * corner);
+            surface.fill(surfaces.get(look.surface) as number, corner / 3, (corner + order.length) / 3);
+            corner += order.length;
+            vertex += many;
+        }
+    }
+    return { positions, faces, colors, normals, uvs, surface, surfaces: [...surfaces.keys()] };
 }
 
 /** Return what vertices of a mesh have, in the world: zeros for normals and coordinates that are not there. */

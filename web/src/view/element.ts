@@ -480,7 +480,7 @@ export class ShackledView extends HTMLElement {
         }
     }
 
-    /** Draw the contract's own pixels, and where they are not to be shown, the mean of four for each. */
+    /** Draw the contract's own pixels, and where they are not to be shown at the end, the mean of four for each. */
     async #drawAtRest(): Promise<void> {
         if (!this.#facts || this.#drawing) return;
         this.#busy(true);
@@ -492,7 +492,8 @@ export class ShackledView extends HTMLElement {
         const shown = this.#shownSize();
         const smooth = !this.hasAttribute("exact") && 2 * Math.max(...shown) <= MAX_SIDE;
         this.#picture = { gas, width, height, milliseconds, sha256, pixels };
-        if (first || !smooth) this.#paint(drawn, this.hasAttribute("exact"));
+        // the smooth picture may take seconds: until then, what is finer than the last frame of the movement is shown
+        if (first || !smooth || this.#parts.canvas.width < width) this.#paint(drawn, this.hasAttribute("exact"));
         this.#say("");
         this.#report(this.#picture, smooth ? shown : null);
         if (smooth) {

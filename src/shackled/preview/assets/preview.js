@@ -202,7 +202,8 @@ async function show(token) {
     .filter(Boolean)
     .join("  ·  ");
   const frames = token.frames > 1 ? `, ${token.frames} frames` : "";
-  $("gas").textContent = token.gas === null ? "" : `${numbers.format(token.gas)} gas, ${numbers.format(token.bytes)} bytes${frames}`;
+  const costs = token.gas === null ? "" : `${numbers.format(token.gas)} gas, ${numbers.format(token.bytes)} bytes${frames}`;
+  $("gas").textContent = [costs, ...token.notes].filter(Boolean).join("; ");
   $("problems").replaceChildren(...token.problems.map((problem) => element("li", problem)));
   const shortened = (key, value) => (typeof value === "string" && value.length > 300 ? `${value.slice(0, 300)}… (${value.length} characters)` : value);
   $("json").textContent = JSON.stringify(found, shortened, 2);

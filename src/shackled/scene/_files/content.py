@@ -1,16 +1,20 @@
-"""Reading of files, with one-line errors."""
+"""Reading of files, with one-line errors, and what a file is by its content: signatures.toml."""
 
 from __future__ import annotations
 
 import os
 import re
 import stat
-from collections.abc import Mapping
+import zlib
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
-from ...errors import InputError
+from ...errors import InputError, renaming, warn
 from ...untrusted import read_json, read_toml
+from .signatures import BINARY_STL, HEAD, UTF8, UTF16, damage_of, format_by_name, signature_of, signatures
 
 #: No mesh for a contract is nearly as large; a larger file would only fill the memory.
 MAX_BYTES = 256 * 2**20
@@ -20,12 +24,57 @@ _NAN = re.compile(r"(?<!\S)[-+]?(1\.#(IND|INF|QNAN|SNAN)\d*|nan\(\w*\))(?!\S)", 
 
 _AT_ONCE = getattr(os, "O_NONBLOCK", 0)
 
+#: What a file of .gz may unpack to, and how it begins.
+MAX_UNPACKED = 64 * 2**20
+_GZIP = b"\x1f\x8b\x08"
+#: Numbers with a decimal comma.
+_COMMA = re.compile(r"(?<!\S)([-+]?\d+),(\d+(?:[eE][-+]?\d+)?)(?!\S)")
+
+
+def format_of(path: Path, with_note: bool = False) -> str:
+    """Return the extension of the format of a file: by its content, or else by its name.
+
+    with_note: whether an InputWarning tells if the name is that of another format. InputError, which says what it is
+    and what to do, for what is known not to be a mesh or a scene.
+    """
+    named = format_by_name(path)
+    try:
+        with open(path, "rb", opener=_open_at_once) as file:
+            status = os.fstat(file.fileno())
+            head, size = file.read(HEAD) if stat.S_ISREG(status.st_mode) else b"", status.st_size
+            if head.startswith(_GZIP):
+                file.seek(-4, os.SEEK_END)
+                size = int.from_bytes(file.read(4), "little")
+                head = zlib.decompressobj(31).decompress(head, HEAD)
+    except (OSError, ValueError, zlib.error):
+        return named  # reading it reports what is wrong
+    found = signature_of(head, size)
+    if found is None:
+        return named
+    if found.do is not None:
+        raise InputError(f"{path} is {found.name}: {found.do}")
+    is_known = any(row.format == named for row in signatures()) and named != ".mtl"
+    # any JSON or TOML begins as a scene file does, and all of glTF has one reader
+    is_alike = found.format in (".json", ".toml") or {found.format, named} <= {".glb", ".gltf"}
+    if found.format is None or (is_known and is_alike):
+        return named
+    if is_known and found.format == ".png" != named:
+        raise InputError(f"{path} is {found.name}: one that carries a scene must have a name in .png")
+    if with_note and is_known and found.format != named:
+        warn(f"{path} is {found.name}, and is read as one")
+    return found.format
+
+
+def _open_at_once(name: str, flags: int) -> int:
+    """Open a file without waiting for whoever writes to a pipe."""
+    return os.open(name, flags | _AT_ONCE)
+
 
 def read_bytes(path: Path) -> bytes:
     """Return everything in a file that exists, is not empty and not above `MAX_BYTES`."""
     try:
-        # opened before its status is read, so that an audit hook sees every file; without waiting for a pipe
-        with open(path, "rb", buffering=0, opener=lambda name, flags: os.open(name, flags | _AT_ONCE)) as file:
+        # opened before its status is read, so that an audit hook sees every file
+        with open(path, "rb", buffering=0, opener=_open_at_once) as file:
             status = os.fstat(file.fileno())
             if stat.S_ISREG(status.st_mode) and status.st_size <= MAX_BYTES:
                 data = file.readall()
@@ -44,9 +93,98 @@ def read_bytes(path: Path) -> bytes:
     return data
 
 
+def read_content(path: Path) -> bytes:
+    """Return everything in a mesh or scene file, or one of materials: unpacked, and UTF-8 if it is text with a byte
+    order mark. InputError as in `read_bytes`, and for what is damaged or known to be something else.
+    """
+    data = _unpacked(read_bytes(path), path)
+    found = damage_of(data) or signature_of(data)
+    if found is not None and found.format is None:
+        raise InputError(f"{path} is {found.name}: {found.do}")
+    if data.startswith(UTF16) and found is not BINARY_STL:
+        try:
+            return data.decode("utf-16").encode()
+        except UnicodeDecodeError:
+            return data
+    return data.removeprefix(UTF8)
+
+
+def _unpacked(data: bytes, name: Path | str) -> bytes:
+    """Return data, or what a file of .gz holds, of which no more is unpacked than is read."""
+    if not data.startswith(_GZIP):
+        return data
+    unpacked = b""
+    try:
+        while data.startswith(_GZIP):  # one part, or several
+            opener = zlib.decompressobj(31)
+            unpacked += opener.decompress(data, MAX_UNPACKED + 1 - len(unpacked))
+            if len(unpacked) > MAX_UNPACKED:
+                raise InputError(f"{name} unpacks to more than {MAX_UNPACKED >> 20} MB: unpack it first")
+            if not opener.eof:
+                raise InputError(f"{name} is cut off: it ends before all of it is unpacked")
+            data = opener.unused_data
+    except zlib.error:
+        raise InputError(f"{name} is a damaged gzip file") from None
+    if not unpacked.strip():
+        raise InputError(f"{name} is empty")
+    return unpacked
+
+
+def is_pipe(path: str | os.PathLike[str]) -> bool:
+    """Return whether a path is that of a pipe, such as /dev/stdin or what <(...) of a shell makes."""
+    try:
+        return stat.S_ISFIFO(os.stat(path).st_mode)
+    except (OSError, ValueError):
+        return False
+
+
+def read_pipe(path: str | os.PathLike[str]) -> bytes:
+    """Return all that is written to a pipe, up to `MAX_BYTES` and one more; nothing if nobody writes to it."""
+    with open(path, "rb", opener=_open_at_once) as file:
+        os.set_blocking(file.fileno(), True)
+        return file.read(MAX_BYTES + 1)
+
+
+@contextmanager
+def stored(data: bytes, name: str) -> Iterator[Path]:
+    """Store data that has no file in a temporary one, with the extension of its format, and yield its path.
+
+    Messages meanwhile call it by a name. InputError if it is empty, too long, or if its content does not tell a format.
+    """
+    if len(data) > MAX_BYTES:
+        raise InputError(f"{name} has more than {MAX_BYTES >> 20} MB, which is the most that is read")
+    if not data.strip():
+        raise InputError(f"{name} is empty")
+    data = _unpacked(data, name)
+    found = damage_of(data) or signature_of(data)
+    if found is not None and found.do is not None:
+        raise InputError(f"{name} is {found.name}: {found.do}")
+    if found is None or found.format is None:
+        known = " ".join(dict.fromkeys(row.format for row in signatures() if row.format and not row.do))
+        raise InputError(f"the format of {name} is not told by its content: give a file with its extension, {known}")
+    with TemporaryDirectory(prefix="shackled-") as folder:
+        path = Path(folder) / f"input{found.format}"
+        path.write_bytes(data)
+        with renaming(str(path), name):
+            yield path
+
+
+def with_points(path: Path, text: str, lines: str = r"[^\s#]*") -> str:
+    """Return a text with points for decimal commas in lines that begin with a keyword, of which an InputWarning tells.
+
+    lines: a regular expression for the keywords, by default any. What is behind # stays.
+    """
+    if "," not in text:
+        return text
+    found = re.sub(rf"(?m)^[ \t]*(?:{lines})(?!\S)[^\n#]*", lambda line: _COMMA.sub(r"\1.\2", line[0]), text)
+    if found != text:
+        warn(f"{path}: its numbers have decimal commas, which are read as points")
+    return found
+
+
 def read_text(path: Path) -> str:
     """Return the text of a file as `plain_text` does. InputError for binary data."""
-    data = read_bytes(path)
+    data = read_content(path).rstrip(b"\0")  # that some programs leave behind the text
     if b"\0" in data:
         raise InputError(f"{path} is not a text file, as a {path.suffix} file should be")
     return plain_text(data)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,8 +14,9 @@ from numpy.typing import NDArray
 from ...errors import InputError, InputWarning, warn
 from ...values import plural
 from .._mesh import Mesh
+from .content import format_of
 from .gltf.read import read_gltf
-from .model import TEXTURED, MeshPart, baked
+from .model import TEXTURED, MeshPart, baked, seen
 from .obj import read_obj
 from .off import read_off
 from .ply import read_ply
@@ -23,6 +25,8 @@ from .stl import read_stl
 #: A triangle that is thinner than this part of its length has no area but by rounding.
 _THIN = 1e-6
 
+#: Where a message quotes numbers with commas.
+_COMMAS = re.compile(r"'[^']*\d,[^']*'")
 
 #: The extensions of glTF files.
 GLTF = (".glb", ".gltf")
@@ -45,22 +49,24 @@ def read_mesh(path: str | os.PathLike[str]) -> Mesh:
 
 
 def read_model(path: str | os.PathLike[str], **pose: Any) -> list[MeshPart]:
-    """Return the meshes of a file, by its extension: one for each texture, and one for all that has none.
+    """Return the meshes of a file, by its format: one for each texture, and one for all that has none.
 
     Vertices that are equal in position, colour, normal and texture coordinates are one. An InputWarning tells what of
     the file is left out. pose: settings of `read_gltf`, for glTF files only. InputError, one line that
     begins with the path, for anything that is wrong with the file.
     """
     path = Path(path)
-    extension = path.suffix.lower()
+    extension = format_of(path, with_note=True)
     if extension not in READERS:
         raise InputError(f"{path} is not a mesh file that is known by its extension; known are {', '.join(READERS)}")
     try:
         parts = READERS[extension](path, **pose)
         _check_areas([part.mesh for part in parts])
-        return parts
+        return seen(parts, str(path))
     except InputError as error:
         message = str(error)
+        if _COMMAS.search(message):
+            message += "; numbers must be separated by spaces, and have a decimal point or none, no commas"
         raise InputError(message if message.startswith(str(path)) else f"{path}: {message}") from None
     except InputWarning:  # where warnings are errors
         raise

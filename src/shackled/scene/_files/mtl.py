@@ -12,7 +12,7 @@ import numpy as np
 
 from ...errors import InputError, warn
 from .beside import read_beside
-from .content import read_text
+from .content import read_text, with_points
 from .model import FileWrap
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?!\S)"
@@ -31,6 +31,8 @@ _DEFAULTS = {"t": (0.0, 0.0, 0.0), "mm": (0.0, 1.0)}
 _FILES = re.compile(r'"[^"]*"|\S.*?\.mtl(?!\S)|\S.*', re.IGNORECASE)
 #: A comment within a name begins where # stands alone: "Material #1" and "wood#2.png" are names.
 _COMMENT = re.compile(r"(?:^|(?<=\s))#(?=\s|$).*")
+#: Statements of numbers.
+_OF_NUMBERS = r"K[ades]|N[is]|d|Tr|Tf"
 #: The comment of the program that writes an opacity, not a transparency, as Tr.
 _MESHLAB = re.compile(r"^#.*\bmeshlab\b", re.IGNORECASE | re.MULTILINE)
 
@@ -97,6 +99,7 @@ def read_materials(path: Path, line: str) -> dict[str, ObjMaterial]:
         except InputError as error:
             warn(f"{path}: its materials are left out: {error}")
         else:
+            text = with_points(file, text, _OF_NUMBERS)
             materials.update(_parse(tuple(dict.fromkeys((file.parent, path.parent))), text))
     return materials
 

@@ -12,6 +12,7 @@ from array import array
 from collections import Counter
 from contextlib import suppress
 from dataclasses import replace
+from math import nan
 from pathlib import Path
 from typing import NamedTuple
 
@@ -24,10 +25,11 @@ from .._crease import corner_normals, filled
 from .._mesh import DEFAULT_COLOR
 from .._texture import to_bytes
 from .beside import picture_beside
-from .content import read_text
+from .content import read_text, with_points
+from .images import Images
 from .model import REPLACED, Look, MeshPart, Picture, replaced, split, under
 from .mtl import Map, ObjMaterial, material_name, read_materials
-from .polygons import cut
+from .polygons import cut, whole
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -50,7 +52,8 @@ class _Lines:
     """What the lines of a file say, in flat arrays, for there may be millions.
 
     corners: numbers of position, texture coordinates and normal. faces: how many corners each has, its line, and the
-    numbers of its material and smoothing group. left_out: how many statements of a kind are not read.
+    numbers of its material and smoothing group. left_out: how many statements of a kind are not read. bad, bad_lines:
+    the first line that is of no OBJ file, in a sentence, and how many there are.
     """
 
     def __init__(self, path: Path) -> None:
@@ -63,6 +66,7 @@ class _Lines:
         self.materials = dict[str, ObjMaterial]()
         self.has_library = False
         self.left_out = Counter[str]()
+        self.bad, self.bad_lines = "", 0
 
 
 class _Drawn(NamedTuple):
@@ -76,10 +80,11 @@ class _Drawn(NamedTuple):
 
 
 def _read_lines(path: Path) -> _Lines:
-    """Return the lines of a file. InputError for one that is of no OBJ file."""
+    """Return the lines of a file."""
     obj = _Lines(path)
     material, group = 0, 0
-    lines = enumerate(io.StringIO(read_text(path) + "\n"), 1)
+    text = with_points(path, read_text(path), "v|vn|vt")
+    lines = enumerate(io.StringIO(text + "\n"), 1)
     for number, line in lines:
         while "\\" in line and line.rstrip().endswith("\\") and not _OF_NAMES.match(line):
             line = line.rstrip()[:-1] + " " + next(lines, (0, ""))[1]
@@ -90,7 +95,7 @@ def _read_lines(path: Path) -> _Lines:
                     levels = bytes.fromhex(line[len(_POLYPAINT) :])
                     obj.polypaint += levels[: len(levels) // 4 * 4]
             continue
-        keyword = words[0]
+        keyword, corners = words[0], len(obj.corners)
         try:
             if keyword == "v":
                 values = _numbers(words, 3)
@@ -114,7 +119,13 @@ def _read_lines(path: Path) -> _Lines:
             elif keyword not in _SILENT:
                 obj.left_out[keyword] += len(words) - 1 if keyword == "p" else 1
         except ValueError:
-            raise InputError(f"line {number} is not one of an OBJ file: {line.strip()[:60]!r}") from None
+            obj.bad_lines += 1
+            obj.bad = obj.bad or f"line {number} is not one of an OBJ file: {line.strip()[:60]!r}"
+            del obj.corners[corners:]
+            # what follows keeps its numbers, and faces with this are left out
+            {"v": obj.positions, "vt": obj.texcoords, "vn": obj.normals}.get(keyword, array("d")).extend(
+                [nan] * (2 if keyword == "vt" else 3)
+            )
     return obj
 
 
@@ -146,10 +157,12 @@ def _number(word: str, count: int) -> int:
 
 
 def _drawn_faces(obj: _Lines) -> _Drawn:
-    """Return the faces with finite coordinates. InputError if there are none, or one names a vertex that is not there.
+    """Return the faces with vertices that exist and are finite. InputError if there are none.
 
     InputWarnings tell of what is left out.
     """
+    if obj.bad and not obj.faces:
+        raise InputError(obj.bad)
     _tell_of_statements(obj)
     positions, texcoords, normals = (
         np.array(column, dtype=np.float64).reshape(-1, width)
@@ -157,6 +170,9 @@ def _drawn_faces(obj: _Lines) -> _Drawn:
     )
     corners = np.array(obj.corners, dtype=np.int64).reshape(-1, 3)
     faces = np.array(obj.faces, dtype=np.int64).reshape(-1, 4)
+    owner = np.repeat(np.arange(len(faces)), faces[:, 0])
+    kept = whole(obj.path, faces[:, 0], corners[:, 0], len(positions))
+    corners, faces = corners[kept[owner]], faces[kept]
     owner = np.repeat(np.arange(len(faces)), faces[:, 0])
     bad = np.flatnonzero(corners[:, 0] >= len(positions))
     if len(bad):
@@ -178,6 +194,10 @@ def _drawn_faces(obj: _Lines) -> _Drawn:
     finite = np.asarray(np.isfinite(positions).all(axis=1))
     kept = np.ones(len(faces), dtype=bool)
     kept[owner[~finite[corners[:, 0]]]] = False
+    if obj.bad and not kept.any():
+        raise InputError(obj.bad)
+    if obj.bad:
+        warn(f"{obj.path}: {plural(obj.bad_lines, 'line')} left out, with what they say: {obj.bad}")
     if kept.any():  # otherwise the mesh tells what is wrong
         positions[~finite] = 0
         corners, faces = corners[kept[owner]], faces[kept]
@@ -203,6 +223,8 @@ def _tell_of_statements(obj: _Lines) -> None:
 
 #: So many images fit along a triangle in a contract, and so far away is it drawn, if they repeat.
 _SPAN, _FAR = 100, 1e6
+#: What stands in the name of an image for the number of its tile: 1001 is that from 0 to 1, 1002 right of it.
+_UDIM = "<UDIM>"
 #: So many materials that are missing are named.
 _MOST_NAMED = 5
 
@@ -243,12 +265,12 @@ class _Surfaces:
         painted, colors = _vertex_colors(obj, len(drawn.positions))
         self.has_own, self.colors = painted[corners[..., 0], None], colors[corners[..., 0]]
         self.uvs = np.zeros((len(corners), 3, 2))
-        self.pictures: dict[Map, Picture | None] = {}
+        self.images, self.pictures = Images(), dict[Map, Picture | None]()
         self.looks: dict[Look, int] = {Look(): 0}
         self.look = np.zeros(len(corners), dtype=np.int64)
         #: how many of a thing there are, and what of it is left out
         self.notes: Counter[tuple[str, str]] = Counter()
-        lost = []
+        self.hidden, lost = 0, []
         for name, number in obj.material_numbers.items():
             triangles = np.flatnonzero(material == number)
             if len(triangles) and name in obj.materials:
@@ -260,6 +282,9 @@ class _Surfaces:
             self.notes["material", f"that no material file has, drawn in light grey: {named}"] = len(lost)
         elif not obj.has_library:  # otherwise a warning tells that it is not read
             self.notes["material", f"left out, for no line mtllib names their file: {named}"] = len(lost)
+        hidden = [look.opacity == 0 for look in self.looks]
+        if not all(np.array(hidden)[self.look]):  # otherwise the opacity of 0 is not meant
+            self.notes["material", "with an opacity of 0, of which nothing is visible"] = self.hidden
         for (thing, note), count in self.notes.items():
             if count:
                 warn(f"{obj.path}: {plural(count, thing)} {note}")
@@ -267,20 +292,36 @@ class _Surfaces:
     def _take(self, material: ObjMaterial, own: Ints) -> None:
         """Give triangles their material."""
         self.notes.update((f"{each[:20]} statement", "of its materials left out") for each in sorted(material.left_out))
-        self.notes["material", "with an opacity of 0, of which nothing is visible"] += material.opacity == 0
+        self.hidden += material.opacity == 0
         has_own = self.has_own[own]
         self.colors[own] = np.where(has_own, self.colors[own], to_bytes(material.color, largest=1))
         red, green, blue = to_bytes(material.emission, largest=1).astype(int).tolist()
         look = Look(None, (red, green, blue), material.opacity)
         self.look[own] = self.looks.setdefault(look, len(self.looks))
         image = material.texture
-        if image is not None and image not in self.pictures:
-            self.pictures[image] = picture_beside(self.obj.path, image.folders, image.name, image.wrap, image.alpha)
-        picture = self.pictures[image] if image is not None else None
+        if image is not None and _UDIM in f"{image.name}{image.alpha}":
+            with np.errstate(all="ignore"):
+                column, row = np.floor(np.nan_to_num(self.texcoords[own].mean(axis=1))).clip(0, 9).T.astype(int)
+            tiles = 1001 + column + 10 * row
+            for tile in np.unique(tiles).tolist():
+                alpha = image.alpha and image.alpha.replace(_UDIM, str(tile))
+                one = replace(image, name=image.name.replace(_UDIM, str(tile)), alpha=alpha)
+                shift = np.array([(tile - 1001) % 10, (tile - 1001) // 10])
+                self._put(material, one, own[tiles == tile], look, shift)
+        elif image is not None:
+            self._put(material, image, own, look)
+
+    def _put(self, material: ObjMaterial, image: Map, own: Ints, look: Look, shift: Ints | int = 0) -> None:
+        """Give triangles an image of their material. shift: of their texture coordinates."""
+        has_own = self.has_own[own]
+        if image not in self.pictures:
+            found = picture_beside(self.obj.path, image.folders, image.name, self.images, image.wrap, image.alpha)
+            self.pictures[image] = found
+        picture = self.pictures[image]
         if picture is None:
             return
         with np.errstate(all="ignore"):
-            uvs = (self.texcoords[own] * material.scale + material.offset) * (1, -1) + (0, 1)
+            uvs = ((self.texcoords[own] - shift) * material.scale + material.offset) * (1, -1) + (0, 1)
             is_near = np.abs(uvs) <= (_SPAN if picture.wraps[0] == "clamp" else _FAR)
             has_place = is_near.all(axis=(1, 2)) & (np.ptp(uvs, axis=1) <= _SPAN).all(axis=1)
         self.notes["triangle", "without usable texture coordinates drawn without texture"] += int((~has_place).sum())

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ...errors import InputError, warn
 from .._mesh import DEFAULT_COLOR, weld
 from .._texture import to_bytes
-from .content import read_text
+from .content import read_text, with_points
 from .model import MeshPart, given_normals
 from .polygons import cut
 
@@ -29,7 +29,8 @@ def read_off(path: Path) -> list[MeshPart]:
     Colours, of a face, else of its vertices, else light grey, are integers 0..255 or fractions 0..1. An InputWarning
     tells what is left out, such as numbers into a table of colours, which the format leaves to the program.
     """
-    lines = [(number, line.partition("#")[0].split()) for number, line in enumerate(read_text(path).splitlines(), 1)]
+    text = with_points(path, read_text(path))
+    lines = [(number, line.partition("#")[0].split()) for number, line in enumerate(text.splitlines(), 1)]
     lines = [(number, words) for number, words in lines if words]
     header = _HEADER.fullmatch(lines[0][1][0]) if lines else None
     if header is None:

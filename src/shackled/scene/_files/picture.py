@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import zlib
 from binascii import Error, unhexlify
 from collections.abc import Iterator
@@ -12,7 +13,7 @@ from ...errors import InputError
 from .._codec import render_call
 from .._decode import decode
 from .._scene import Scene
-from .content import read_bytes
+from .content import read_content
 from .table import about
 
 #: The extension of pictures that carry their scene.
@@ -21,6 +22,8 @@ PICTURE = ".png"
 #: The kind of the chunk, and its keyword; and all chunks of text.
 CHUNK, KEYWORD = b"zTXt", b"shackled"
 TEXTS = (CHUNK, b"tEXt", b"iTXt")
+#: The chunk that is written in place of one that is too large: its keyword, before the SHA-256 of its text.
+DIGEST, DIGEST_KEYWORD = b"tEXt", b"shackled-sha256"
 #: The most bytes of the chunk, and characters of its text, that are written unless asked for. Pillow opens no picture
 #: with more characters.
 MAX_CHUNK, MAX_TEXT = 64 * 1024, 2**20
@@ -32,10 +35,14 @@ _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 @dataclass(frozen=True)
 class SceneChunk:
-    """A chunk zTXt with a scene. data: of the chunk, after its length and kind. characters: of its text."""
+    """A chunk zTXt with a scene. data: of the chunk, after its length and kind. characters: of its text.
+
+    digest: the data of the chunk that is written instead where this one is not.
+    """
 
     data: bytes
     characters: int
+    digest: bytes
 
     @property
     def is_small(self) -> bool:
@@ -54,12 +61,25 @@ class SceneChunk:
 def scene_chunk(scene: Scene) -> SceneChunk:
     """Return the chunk with a scene; the same bytes for the same scene and version of zlib."""
     text = b"0x" + render_call(scene).hex().encode()
-    return SceneChunk(KEYWORD + b"\0\0" + zlib.compress(text), len(text))
+    digest = DIGEST_KEYWORD + b"\0" + hashlib.sha256(text).hexdigest().encode()
+    return SceneChunk(KEYWORD + b"\0\0" + zlib.compress(text), len(text), digest)
+
+
+def shows_scene(path: Path, scene: Scene, has_alpha: bool) -> bool:
+    """Return whether a file is a whole PNG file that says that it shows a scene, with an alpha channel or without."""
+    wanted = scene_chunk(scene)
+    try:
+        chunks = list(_chunks(path.read_bytes()))
+    except (OSError, InputError):
+        return False
+    # the colour type is byte 9 of IHDR: 6 has alpha
+    is_alike = chunks[0][0] == b"IHDR" and (chunks[0][1][9:10] == b"\6") == has_alpha
+    return is_alike and ((CHUNK, wanted.data) in chunks or (DIGEST, wanted.digest) in chunks)
 
 
 def read_picture(path: Path) -> Scene:
     """Return the scene that a PNG file carries. InputError, with the path, if there is none. Pixels are not read."""
-    data = read_bytes(path)
+    data = read_content(path)
     with about(str(path)):
         found = [each for each in _chunks(data) if each[0] in TEXTS and each[1].startswith(KEYWORD + b"\0")]
         kinds = [kind for kind, _ in found]

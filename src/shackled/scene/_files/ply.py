@@ -19,9 +19,10 @@ from ...values import plural
 from .._mesh import DEFAULT_COLOR
 from .._texture import to_bytes
 from .beside import picture_beside
-from .content import plain_text, read_bytes
+from .content import plain_text, read_content, with_points
+from .images import Images
 from .model import REPLACED, Look, MeshPart, Picture, finite_uvs, given_normals, replaced, split, under
-from .polygons import cut
+from .polygons import cut, whole
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -98,18 +99,42 @@ class Element:
         return to_bytes(table, _LARGEST.get(kind))
 
 
-def read_elements(data: bytes) -> tuple[dict[str, Element], list[str]]:
+#: The elements of surfaces.
+_FACES = ("face", "tristrips")
+_Row = dict[str, list[float]]
+
+
+class _Broken(InputError):
+    """What is wrong with an element behind its first rows."""
+
+    def __init__(self, rows: list[_Row], message: str) -> None:
+        super().__init__(message)
+        self.rows = rows
+
+
+def read_elements(data: bytes, path: Path) -> tuple[dict[str, Element], list[str]]:
     """Return the elements of a PLY file by their names, and the textures that its comments name."""
-    elements, textures, source = _open(data)
+    elements, textures, source = _open(data, path)
     for element in elements:
         if element.count and element.properties:
-            element.values = _values(element, source)
+            try:
+                element.values = _values(element, source)
+            except _Broken as broken:
+                # without all vertices and one face there is nothing to draw
+                has_face = any(each.name in _FACES and each.values for each in elements)
+                if not has_face and not (element.name in _FACES and broken.rows):
+                    raise InputError(str(broken)) from None
+                element.values = _by_property(element, broken.rows)
+                lost = element.count - len(broken.rows)
+                what = f"{lost:,} of its {element.count:,} elements {element.name} and all behind"
+                warn(f"{path}: {what} left out: {broken}")
+                return {each.name: each for each in elements}, textures
     if isinstance(source, _Text):
         source.finish()
     return {element.name: element for element in elements}, textures
 
 
-def _open(data: bytes) -> tuple[list[Element], list[str], _Text | _Binary]:
+def _open(data: bytes, path: Path) -> tuple[list[Element], list[str], _Text | _Binary]:
     """Return what the header says: elements that have no values yet, and textures; and where the values are."""
     elements, textures, encoding = list[Element](), list[str](), ""
     if not data.startswith((b"ply", b"PLY")):
@@ -146,7 +171,7 @@ def _open(data: bytes) -> tuple[list[Element], list[str], _Text | _Binary]:
     if not encoding:
         raise InputError("its header has no line format")
     if encoding == "ascii":
-        return elements, textures, _Text(data[start:], number)
+        return elements, textures, _Text(with_points(path, plain_text(data[start:])), number)
     return elements, textures, _Binary(data[start:], "<" if "little" in encoding else ">")
 
 
@@ -157,9 +182,9 @@ _Field = tuple[str, str, int]
 class _Text:
     """Lines of numbers, a line for each row of an element."""
 
-    def __init__(self, data: bytes, before: int) -> None:
+    def __init__(self, text: str, before: int) -> None:
         """Take the lines after the header. before: the number of lines of the header."""
-        self.lines = plain_text(data).split("\n")
+        self.lines = text.split("\n")
         self.before = before
         self.at = 0
 
@@ -255,7 +280,10 @@ def _ended(element: Element) -> InputError:
 def _values(element: Element, source: _Text | _Binary) -> dict[str, Any]:
     """Return the rows of each property. Nearly always all lists are of one length, and all rows are one table."""
     start = source.at
-    sizes = {name: len(row) for name, row in source.row(element).items()}
+    try:
+        sizes = {name: len(row) for name, row in source.row(element).items()}
+    except InputError as error:
+        raise _Broken([], str(error)) from None
     source.at = start
     fields, lengths = list[_Field](), dict[str, int]()
     for p in element.properties:
@@ -267,9 +295,17 @@ def _values(element: Element, source: _Text | _Binary) -> dict[str, Any]:
     if table is not None and all((table[name] == size).all() for name, size in lengths.items()):
         return table
     if not lengths and isinstance(source, _Binary):
-        raise _ended(element)
+        raise _Broken([], str(_ended(element)))
     source.at = start
-    rows = [source.row(element) for _ in range(element.count)]
+    rows = list[_Row]()
+    try:
+        rows.extend(source.row(element) for _ in range(element.count))
+    except InputError as error:
+        raise _Broken(rows, str(error)) from None
+    return _by_property(element, rows)
+
+
+def _by_property(element: Element, rows: list[_Row]) -> dict[str, Any]:
     return {p.name: [row[p.name] for row in rows] for p in element.properties}
 
 
@@ -287,9 +323,9 @@ def read_ply(path: Path) -> list[MeshPart]:
     A corner has the colour of its texture, else of its face, else of its vertex, else light grey. Where all faces have
     the same colour, those of vertices come first. An InputWarning tells what is left out.
     """
-    elements, textures = read_elements(read_bytes(path))
+    elements, textures = read_elements(read_content(path), path)
     vertex = elements.get("vertex", Element("vertex", 0))
-    face = next((elements[name] for name in ("face", "tristrips") if name in elements and elements[name].count), None)
+    face = next((elements[name] for name in _FACES if name in elements and elements[name].count), None)
     positions = vertex.table("x", "y", "z")
     if face is None and positions is not None:
         raise InputError(
@@ -310,11 +346,14 @@ def read_ply(path: Path) -> list[MeshPart]:
     if is_strips:
         numbers = _strips(sizes, numbers)
         sizes = np.full(len(numbers) // 3, 3)
-    triangles = cut(positions, sizes, numbers)
+    kept = whole(path, sizes, numbers, len(positions))
+    triangles = cut(positions, sizes, np.where(kept.repeat(sizes), numbers, 0))
+    triangles = triangles[kept[triangles[:, 3]]]
     corners, polygon = numbers[triangles[:, :3]], triangles[:, 3]
     colors = _colors(path, vertex, Element("face", 0) if is_strips else face, corners, polygon)
     normals = given_normals(vertex.table("nx", "ny", "nz"), positions, corners, str(path))
-    opened = [picture_beside(path, [path.parent], name) for name in textures]
+    images = Images()
+    opened = [picture_beside(path, [path.parent], name, images) for name in textures]
     pictures = {number: each for number, each in enumerate(opened) if each is not None}
     picture, uvs = np.full(len(corners), _NONE), np.zeros((len(corners), 3, 2))
     if pictures:

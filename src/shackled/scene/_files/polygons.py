@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import mapbox_earcut
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...errors import InputError
+from ...errors import InputError, warn
+from ...values import plural
 from .._mesh import Mesh
 
 #: How many corners a polygon may have that no fan fills: the time that its cutting takes grows with their square.
@@ -61,6 +64,19 @@ def cut(positions: ArrayLike, sizes: ArrayLike, vertices: ArrayLike) -> NDArray[
     others = triangles[~np.isin(polygon, wrong)]
     together = np.concatenate([others, np.concatenate([corners[found], owner[found[:, :1]]], axis=1)])
     return together[np.argsort(together[:, 3], kind="stable")]
+
+
+def whole(path: Path, sizes: NDArray[np.int64], vertices: NDArray[np.int64], count: int) -> NDArray[np.bool_]:
+    """Return which polygons have vertices that are all among so many, (m,), or all if none has; an InputWarning tells.
+
+    sizes, vertices: as in `cut`.
+    """
+    kept = np.ones(len(sizes), dtype=bool)
+    kept[np.repeat(np.arange(len(sizes)), sizes)[(vertices < 0) | (vertices >= count)]] = False
+    if kept.all() or not kept.any():  # where none is right, an error tells what is wrong
+        return np.ones_like(kept)
+    warn(f"{path}: {plural(int((~kept).sum()), 'face')} left out, with vertices that do not exist")
+    return kept
 
 
 def fans(sizes: ArrayLike) -> NDArray[np.int64]:

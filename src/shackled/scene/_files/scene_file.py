@@ -33,7 +33,8 @@ from .._settings import Kind, Part, exclude, settings_of
 from .._staging import BACKGROUND, DEFAULT_SIDE, Viewpoint, frame, painted_object, toward_viewer
 from .._texture import FILTERS, WRAPS, Texture
 from .._upright import AXES, axis_of_file, upright
-from .content import parse, read_text
+from .beside import inside
+from .content import format_of, parse, read_text
 from .mesh_file import READERS, read_model
 from .model import MeshPart
 from .original import original_scene
@@ -67,7 +68,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     path, if anything is wrong.
     """
     path = Path(path)
-    extension = path.suffix.lower()
+    extension = format_of(path, with_note=True)
     if extension == PICTURE:
         return read_picture(path)
     if extension not in SCENES:
@@ -259,7 +260,7 @@ def _parts(keys: Table, where: str, folder: Path | None) -> list[MeshPart]:
 def _beside(folder: Path | None, name: str) -> Path:
     if folder is None:
         raise InputError(f"a link cannot name files, such as {name!r:.60}; save a scene file in the Creator instead")
-    return folder / name
+    return inside(folder, folder / name, name)
 
 
 def _mesh_of_piece(keys: Table) -> Mesh:

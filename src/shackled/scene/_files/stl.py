@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 from ...errors import InputError, warn
 from ...values import plural
 from .._mesh import DEFAULT_COLOR, weld
-from .content import plain_text, read_bytes
+from .content import plain_text, read_content, with_points
 from .model import MeshPart
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -32,12 +33,12 @@ def read_stl(path: Path) -> list[MeshPart]:
 
     An InputWarning tells of facets that are not finite, of a wrong count, and of what is not a facet.
     """
-    data = read_bytes(path)
+    data = read_content(path)
     text = data.rstrip(b"\0")
     if b"\0" in text:
         corners, colors = _binary(path, data)
     else:
-        corners, colors = _text(plain_text(text)), None
+        corners, colors = _text(path, plain_text(text)), None
     finite = np.isfinite(corners).all(axis=(1, 2))
     if not finite.any():
         raise InputError("it has no triangles" if not len(corners) else "none of its facets has finite coordinates")
@@ -59,7 +60,8 @@ def _binary(path: Path, data: bytes) -> tuple[Array, Array | None]:
     if 0 < declared < count and (len(body) - declared * _FACET.itemsize) % _FACET.itemsize:
         count = declared  # what follows is something else
     facets = np.frombuffer(body + b"\0\0", _FACET, count)
-    corners = facets["corners"].astype(np.float64)
+    with np.errstate(invalid="ignore"):  # of numbers that are none
+        corners = facets["corners"].astype(np.float64)
     if declared != count:
         if (np.abs(corners) < _PLAUSIBLE).all(axis=(1, 2)).mean() < 0.5:
             raise InputError("it is neither text nor binary STL")
@@ -95,17 +97,24 @@ def _colors(path: Path, header: bytes, attributes: NDArray[np.int64]) -> Array |
     return np.asarray(colors[:, None], dtype=np.float64)
 
 
-def _text(text: str) -> Array:
-    """Return the corners of the facets of all solids of a text, (n, 3, 3)."""
+def _text(path: Path, text: str) -> Array:
+    """Return the corners of the facets of all solids of a text, (n, 3, 3), which may be in one line."""
     # names may be of any words
-    text = re.sub(r"(?im)^[ \t]*(end)?solid\b.*", "", text)
-    rows = []
+    text = re.sub(r"(?im)^[ \t]*(end)?solid\b(?:(?!\bfacet[ \t]+normal\b).)*", "", text)
+    text = with_points(path, text)
+    facets, wrong = [], list[str]()
     for number, facet in enumerate(re.split(r"(?i)\bendfacet\b", text), 1):
         vertices = [words.split()[:3] for words in re.split(r"(?i)\bvertex\b", facet)[1:]]
-        if vertices and len(vertices) != 3:
-            raise InputError(f"facet {number} has {len(vertices)} vertices, not 3")
         try:
-            rows += [[float(x), float(y), float(z)] for x, y, z in vertices]
+            points = [(float(x), float(y), float(z)) for x, y, z in vertices]
+            if 0 < len(points) < 3:
+                wrong.append(f"facet {number} has {plural(len(points), 'vertex', 'vertices')}, not 3")
+            # a fan if there are more
+            facets += [(points[0], *pair) for pair in pairwise(points[1:])]
         except ValueError:
-            raise InputError(f"facet {number} has a vertex that is not three numbers: {vertices}") from None
-    return np.array(rows).reshape(-1, 3, 3)
+            wrong.append(f"facet {number} has a vertex that is not three numbers: {vertices}")
+    if wrong and not facets:
+        raise InputError(wrong[0])
+    if wrong:
+        warn(f"{path}: {plural(len(wrong), 'facet')} left out: {wrong[0]}")
+    return np.array(facets, dtype=np.float64).reshape(-1, 3, 3)

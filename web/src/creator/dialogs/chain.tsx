@@ -46,7 +46,7 @@ export function ChainTab({ app, doc, subject }: TabProps) {
                         help={help}
                         name={`open-${name}`}
                         word="Open"
-                        does={() => (app.dialog.value = name)}
+                        does={() => void app.openDialog(name)}
                     />
                 ))}
             </section>

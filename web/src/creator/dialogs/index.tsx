@@ -1,11 +1,13 @@
-// The dialog that is open, if any.
+// The dialogs.
 
+import type { ComponentType } from "preact";
 import type { App, DialogName } from "../app.js";
+import { loaded } from "../assets.js";
 import { About } from "./about.js";
 import { Download } from "./download.js";
 import { Keys } from "./keys.js";
 import { Limits } from "./limits.js";
-import { Sheet, Trouble, useMade } from "./parts.js";
+import { Sheet } from "./parts.js";
 import { Things } from "./things.js";
 
 const TITLES: Record<DialogName, string> = {
@@ -20,24 +22,13 @@ const TITLES: Record<DialogName, string> = {
 };
 const CONTENTS = { download: Download, limits: Limits, keys: Keys, things: Things, about: About };
 
-export function Dialogs({ app }: { app: App }) {
-    const name = app.dialog.value;
-    if (!name) return null;
-    const Content = name === "mint" || name === "edition" || name === "reveal" ? null : CONTENTS[name];
-    return (
-        <Sheet key={name} app={app} name={name} title={TITLES[name]} wide={name === "limits" || name === "download"}>
-            {Content ? <Content app={app} /> : <OfWallet app={app} name={name as WalletDialog} />}
+/** Return a dialog, whose code is loaded when it is needed. InputError where it cannot be had. */
+export async function dialogOf(name: DialogName): Promise<ComponentType<{ app: App }>> {
+    const isOfWallet = name === "mint" || name === "edition" || name === "reveal";
+    const Content = isOfWallet ? (await loaded(import("../wallet/dialogs.js"))).DIALOGS[name] : CONTENTS[name];
+    return ({ app }) => (
+        <Sheet app={app} name={name} title={TITLES[name]} wide={name === "limits" || name === "download"}>
+            <Content app={app} />
         </Sheet>
     );
-}
-
-type WalletDialog = "mint" | "edition" | "reveal";
-
-/** A dialog of wallets, whose code is loaded when it is needed. */
-function OfWallet({ app, name }: { app: App; name: WalletDialog }) {
-    const { value, error } = useMade(async () => (await import("../wallet/dialogs.js")).DIALOGS[name], [name]);
-    if (!value)
-        return error ? <Trouble text="This part of the page could not be loaded." /> : <p class="quiet">Loading …</p>;
-    const Content = value;
-    return <Content app={app} />;
 }

@@ -53,7 +53,11 @@ function Fits({ app, doc }: { app: App; doc: Document }) {
     const small = fits.value?.filter((each) => !each.fits) ?? [];
     const wanted = [
         ["edition", "Make it fit a token", token.value?.fits === false],
-        ["transaction", "Make it fit a transaction", small.some(({ kind }) => kind === "transaction")],
+        [
+            "transaction",
+            "Make it fit a transaction",
+            small.some(({ kind, gas }) => kind === "transaction" && gas <= TRANSACTION_GAS),
+        ],
         ["call", "Make it fit a read call", small.some(({ kind, gas }) => kind === "call" && gas <= CALL_GAS)],
     ] as const;
     return (
@@ -241,10 +245,8 @@ async function fitsOf(app: App, doc: Document, signal: AbortSignal): Promise<Fit
             const close = needed > gas && intrinsic + drawn.gas <= gas;
             const fits =
                 !tooLong && (needed <= gas || (close && (await app.work.suffices(doc, gas - intrinsic, { signal }))));
-            const title =
-                kind === "transaction"
-                    ? "Transaction on Ethereum"
-                    : `Read call of ${limits.map(({ node }) => node).join(", ")}`;
+            const places = limits.map(({ place }) => place).join(", ");
+            const title = `${kind === "transaction" ? "Transaction on" : "Read call of"} ${places}`;
             const remark = limits.map(({ name, source, date }) => `${name}: ${source}, ${date}`).join("\n");
             const reason = tooLong ? `${count(call.length)} bytes; nodes relay ${count(MAX_TRANSACTION)}` : "";
             return { title, remark, gas, kind, fits, needed: close && fits ? gas : needed, reason };

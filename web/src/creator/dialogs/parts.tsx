@@ -31,7 +31,7 @@ export function Sheet(props: {
     }, []);
     const close = (): void => {
         // the event of a dialog that is gone must not close one that was opened since
-        if (dialog.current && app.dialog.value === name) app.dialog.value = null;
+        if (dialog.current && app.dialog.value?.name === name) app.closeDialog();
     };
     // the second click of two may come beside a dialog that the first one made smaller
     const beside = ({ target, detail }: MouseEvent): void => void (target === dialog.current && detail < 2 && close());
@@ -68,16 +68,17 @@ export function Button(props: {
 }
 
 /** Return what a promise gives, null before, and the words of its error. It is cancelled when the component goes. */
-export function useMade<T>(make: (signal: AbortSignal) => Promise<T>, of: readonly unknown[]): Made<T> {
+export function useMade<T>(make: (signal: AbortSignal) => Promise<T>, of: readonly unknown[]): Remade<T> {
     const [found, set] = useState<Made<T>>({ value: null, error: "" });
+    const [tries, setTries] = useState(0);
     useEffect(() => {
         const stop = new AbortController();
         const tell = (value: T | null, error = ""): void => void (stop.signal.aborted || set({ value, error }));
         tell(null);
         make(stop.signal).then(tell, (error: unknown) => tell(null, wordsOf(error)));
         return () => stop.abort();
-    }, of);
-    return found;
+    }, [...of, tries]);
+    return { ...found, again: () => setTries(tries + 1) };
 }
 
 /** Work that a button starts. part: 0..1, null where nothing runs, NaN where it is not known. */
@@ -149,6 +150,11 @@ export function Pixels({ drawn, label }: { drawn: Pick<Drawn, "width" | "height"
 export interface Made<T> {
     value: T | null;
     error: string;
+}
+
+/** What can be made again, as where a network failed. */
+export interface Remade<T> extends Made<T> {
+    again(): void;
 }
 
 /** A text to copy or to save. */

@@ -57,7 +57,7 @@ export function Things({ app }: { app: App }) {
                         open={() =>
                             task.start(async () => {
                                 await app.openDocument(await openThing(thing.id), `Open ${thing.name}`);
-                                app.dialog.value = null;
+                                app.closeDialog();
                             })
                         }
                         rename={(name) => change(() => renameThing(thing.id, name))}

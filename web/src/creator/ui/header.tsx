@@ -1,7 +1,7 @@
 // The bar at the top.
 
 import { signal } from "@preact/signals";
-import type { App } from "../app.js";
+import type { App, DialogName } from "../app.js";
 import { Button, IconButton, Logo } from "./icons.js";
 import { surpriseMe } from "./keys.js";
 
@@ -48,7 +48,6 @@ const THINGS = { name: "things", label: "My things", hint: "What you made and ke
 const DOWNLOAD = { name: "download", label: "Download and share", id: "download" } as const;
 
 export function Header({ app }: { app: App }) {
-    const { dialog } = app;
     // where the page is a part of the documentation, it knows the way back
     const docs = document.querySelector<HTMLMetaElement>("meta[name=docs]")?.content;
     return (
@@ -69,7 +68,7 @@ export function Header({ app }: { app: App }) {
             <Button {...SURPRISE} look="plain" onClick={() => surpriseMe(app)}>
                 <span class="word">Surprise me</span>
             </Button>
-            <Button {...THINGS} look="plain" popup onClick={() => (dialog.value = "things")}>
+            <Button {...THINGS} look="plain" popup onClick={() => void app.openDialog("things")}>
                 <span class="word second">My things</span>
             </Button>
             <span class="rule" />
@@ -81,7 +80,7 @@ export function Header({ app }: { app: App }) {
                     <span class="word second">Docs</span>
                 </a>
             )}
-            <Button {...DOWNLOAD} look="main" popup onClick={() => (dialog.value = "download")}>
+            <Button {...DOWNLOAD} look="main" popup onClick={() => void app.openDialog("download")}>
                 <span class="word">
                     Download<span class="second"> and share</span>
                 </span>
@@ -91,12 +90,13 @@ export function Header({ app }: { app: App }) {
 }
 
 /** Buttons that small screens have at the end of the page. */
-export function Seldom({ app: { dialog } }: { app: App }) {
+export function Seldom({ app }: { app: App }) {
+    const open = (name: DialogName) => () => void app.openDialog(name);
     return (
         <>
             <IconButton name="theme" label="Toggle dark theme" id="theme" onClick={toggleTheme} />
-            <IconButton name="help" label="Keys" hint="Keys (?)" id="keys" onClick={() => (dialog.value = "keys")} />
-            <IconButton name="about" label="About the Creator" id="about" onClick={() => (dialog.value = "about")} />
+            <IconButton name="help" label="Keys" hint="Keys (?)" id="keys" onClick={open("keys")} />
+            <IconButton name="about" label="About the Creator" id="about" onClick={open("about")} />
         </>
     );
 }

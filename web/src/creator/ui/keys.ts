@@ -152,9 +152,9 @@ export const KEYS: readonly Key[] = [
     key("a", "A", "Anti-aliasing", cycle("scene.antialias")),
     key("Ctrl+z", "Ctrl Z", "Undo", (app) => app.undo()),
     key("Ctrl+Shift+z Ctrl+y", "Ctrl Shift Z", "Redo", (app) => app.redo()),
-    key("Ctrl+s", "Ctrl S", "Download and share", ({ dialog }) => (dialog.value = "download")),
-    key("Enter", "Enter", "Gas, limits and stages", ({ dialog }) => (dialog.value = "limits")),
-    key("?", "?", "Show the keys", ({ dialog }) => (dialog.value = "keys")),
+    key("Ctrl+s", "Ctrl S", "Download and share", (app) => void app.openDialog("download")),
+    key("Enter", "Enter", "Gas, limits and stages", (app) => void app.openDialog("limits")),
+    key("?", "?", "Show the keys", (app) => void app.openDialog("keys")),
 ];
 
 /** What the pointer does, and how. */

@@ -1,7 +1,6 @@
 // The whole page.
 
-import { signal, useSignalEffect } from "@preact/signals";
-import type { ComponentType } from "preact";
+import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { InputError } from "../../errors.js";
 import type { App } from "../app.js";
@@ -21,20 +20,10 @@ const PAGES = [
 ] as const;
 
 const dropping = signal(false);
-const dialogs = signal<ComponentType<{ app: App }> | null>(null);
 
 export function Page({ app }: { app: App }) {
     useEffect(() => listenToFiles(app), []);
-    useSignalEffect(() => {
-        // their code is loaded when the first is opened
-        if (app.dialog.value && !dialogs.peek()) {
-            import("../dialogs/index.js").then(
-                ({ Dialogs }) => (dialogs.value = Dialogs),
-                (error: unknown) => app.fail(error),
-            );
-        }
-    });
-    const Dialogs = dialogs.value;
+    const open = app.dialog.value;
     return (
         <div class="creator" data-page={page.value}>
             <Header app={app} />
@@ -60,7 +49,7 @@ export function Page({ app }: { app: App }) {
                     Drop files to open them
                 </div>
             )}
-            {Dialogs && <Dialogs app={app} />}
+            {open && <open.Dialog key={open.name} app={app} />}
         </div>
     );
 }

@@ -15,15 +15,19 @@ const MOST_BYTES = 130_000;
 function whereItFits(drawn: Drawn): { text: string; place: "transaction" | "call" | "none" } {
     // a call passes on all but one 64th of the gas that is left (EIP-150)
     const gas = BASE + Math.max((drawn.gas * 64) / 63 + BYTE * drawn.calldata, FLOOR * drawn.calldata);
-    const calls = LIMITS.filter(({ kind }) => kind === "call");
-    const nodes = calls.filter((limit) => gas <= limit.gas).map(({ node }) => node);
-    if (!nodes.length) return { text: "Fits no usual node: take fewer pixels or triangles", place: "none" };
-    const where = nodes.length === calls.length ? "any node's read call" : `read calls of ${listed(nodes)}`;
-    const inTransaction =
-        drawn.calldata < MOST_BYTES && LIMITS.every((limit) => limit.kind !== "transaction" || gas <= limit.gas);
-    return inTransaction
-        ? { text: `Fits one transaction, and ${where}`, place: "transaction" }
-        : { text: `Fits ${where}; no transaction`, place: "call" };
+    const all = (kind: string) => LIMITS.filter((limit) => limit.kind === kind);
+    const places = (kind: string) => all(kind).flatMap((limit) => (gas <= limit.gas ? limit.place : []));
+    const nodes = places("call");
+    if (!nodes.length) return { text: "Too much for usual nodes: take fewer pixels or triangles", place: "none" };
+    if (nodes.length < all("call").length)
+        return { text: `Free to read on ${listed(nodes)}; too much for other nodes`, place: "call" };
+    const chains = drawn.calldata < MOST_BYTES ? places("transaction") : [];
+    if (!chains.length) return { text: "Free to read on most nodes; too much for a transaction", place: "call" };
+    const isAny = chains.length === all("transaction").length;
+    return {
+        text: `Free to read on most nodes; fits a transaction${isAny ? "" : ` on ${listed(chains)}`}`,
+        place: isAny ? "transaction" : "call",
+    };
 }
 
 function listed(words: readonly string[]): string {
@@ -47,7 +51,7 @@ function count({ shown, work }: App): (() => void) | undefined {
 }
 
 export function Status({ app }: { app: App }) {
-    const { drawing, doc, shown, dialog } = app;
+    const { drawing, doc, shown } = app;
     useSignalEffect(() => count(app));
     const [seen, problem, last] = [drawing.seen.value, drawing.problem.value, shown.value];
     const current = last !== null && last.doc === doc.value;
@@ -79,7 +83,7 @@ export function Status({ app }: { app: App }) {
                     aria-haspopup="dialog"
                     title="Gas, limits and stages"
                     data-name="status"
-                    onClick={() => (dialog.value = "limits")}
+                    onClick={() => void app.openDialog("limits")}
                 >
                     <span>
                         <b data-name="gas">{number(drawn.gas)}</b> gas

@@ -1,24 +1,29 @@
-// Chains that the page knows, and where collections are on chains.
+// The names of chains, and where collections are on chains.
 
 import { numberToHex } from "viem";
+import { CHAINS } from "../settings.js";
 
-/** Names by ID; and nodes, for wallets that do not know the chain. */
-export const CHAINS: Record<number, { name: string; node?: string }> = {
-    1: { name: "Ethereum" },
-    11155111: { name: "Sepolia", node: "https://11155111.rpc.thirdweb.com" },
-    560048: { name: "Hoodi", node: "https://rpc.hoodi.ethpandaops.io" },
-    31337: { name: "a development chain", node: "http://127.0.0.1:8545" },
-};
+/** The IDs of chains on which gas is paid in ether, in which the page tells amounts. */
+export const ETHER_CHAINS = CHAINS.flatMap(({ number, currency }) => (currency === "ETH" ? number : []));
+
+const known = (id: number) => CHAINS.find(({ number }) => number === id);
 
 export function chainName(id: number): string {
-    return CHAINS[id]?.name ?? `chain ${id}`;
+    return known(id)?.name ?? `chain ${id}`;
 }
 
 /** Return what `wallet_addEthereumChain` takes; null for a chain without a node here. */
 export function additionOf(id: number) {
-    const { name, node } = CHAINS[id] ?? {};
-    const nativeCurrency = { name: "Ether", symbol: "ETH", decimals: 18 };
-    return name && node ? { chainId: numberToHex(id), chainName: name, nativeCurrency, rpcUrls: [node] } : null;
+    const chain = known(id);
+    if (!chain?.node) return null;
+    const { name, node, currency, explorer } = chain;
+    return {
+        chainId: numberToHex(id),
+        chainName: name,
+        nativeCurrency: { name: currency, symbol: currency, decimals: 18 },
+        rpcUrls: [node],
+        ...(explorer && { blockExplorerUrls: [explorer] }),
+    };
 }
 
 /** The addresses of contracts by their names, by the ID of the chain. */

@@ -11,12 +11,9 @@ import type { EditionTerms, Quote } from "../work/work.js";
 import { EDITIONS } from "./abi.js";
 import { chainName } from "./chains.js";
 import { eventsOf, isSame, mintedIn, type Token } from "./tokens.js";
-import { check, estimate, feesOf, send, type Call, type Fees, type Session, type Tell } from "./wallet.js";
+import { check, estimate, feesOf, send, withMargin, type Call, type Fees, type Session, type Tell } from "./wallet.js";
 
 const MAX_ROYALTY = 10;
-/** Hundredths of what is needed that a limit has, and how many times more than counted here a node may expect. */
-const MARGIN = 105n;
-const MOST_TIMES = 10n;
 
 /** What the form has. */
 export interface Fields {
@@ -79,24 +76,21 @@ export async function planOf(session: Session, quoted: Quoted): Promise<Plan | n
     const parts = quote.storing.map(async ({ data, code, gas, pointer }) => {
         const kept = { code: hex(code), pointer: pointer as Address };
         const isThere = (await getCode(client, { address: kept.pointer })) === kept.code;
-        return isThere ? [] : [{ to, data: hex(data), gas: (BigInt(gas) * MARGIN) / 100n, kept }];
+        return isThere ? [] : [{ to, data: hex(data), gas: withMargin(BigInt(gas)), kept }];
     });
     const add = { to: address, data: hex(quote.add.data), gas: BigInt(quote.add.limit) };
     const own = [...(await Promise.all(parts)).flat(), add];
     const usual = own[0]!.gas;
     const event = { address, abi: EDITIONS, eventName: "EditionAdded", args: { artist: account, scene } } as const;
     const [expected, fees, balance, known] = await Promise.all([
-        estimate(session, own[0]!),
+        estimate(session, own[0]!, usual),
         feesOf(session),
         getBalance(client, { address: account }),
         // nodes may not look back so far
         getContractEvents(client, { ...event, fromBlock: 0n }).catch(() => []),
     ]);
-    if (expected > MOST_TIMES * usual) {
-        throw new InputError(`The wallet expects ${expected} gas, where ${usual} were counted here: nothing was sent`);
-    }
     // some chains count gas otherwise; what comes later cannot be estimated yet, and is taken to be alike
-    const scaled = (gas: bigint): bigint => (gas * expected * MARGIN) / usual / 100n;
+    const scaled = (gas: bigint): bigint => withMargin((gas * expected) / usual);
     const calls = expected > usual ? own.map((call) => ({ ...call, gas: scaled(call.gas) })) : own;
     const most = calls.reduce((sum, { gas }) => sum + gas * fees.max, 0n);
     return {

@@ -10,10 +10,10 @@ import type { Document } from "../document.js";
 import { titleOf } from "../programs/subject.js";
 import { TRANSACTION_GAS } from "../work/protocol.js";
 import type { EditionTerms, Quote } from "../work/work.js";
-import { CHAINS, addressBook, chainName, chainsOf } from "./chains.js";
+import { ETHER_CHAINS, addressBook, chainName, chainsOf } from "./chains.js";
 import { add, planOf, termsOf, type Added, type Fields, type Plan, type Quoted } from "./edition.js";
 import { allows, rightsOf } from "./licence.js";
-import { Act, Chains, Said, TokenView, WalletLine, atMost, ether, job, perform } from "./parts.js";
+import { Act, Chains, Poor, Said, TokenView, WalletLine, atMost, job, perform } from "./parts.js";
 import { plainly, session } from "./wallet.js";
 
 const COMMAND = "shackled store SCENE.json --licence LICENCE; shackled token edition add POINTER NAME --price 0.01";
@@ -45,10 +45,14 @@ export function EditionDialog({ app }: { app: App }) {
         async () => ({ of: quoted, plan: now && quoted?.quote.fits ? await plainly(planOf(now, quoted)) : undefined }),
         [now, quoted, job.value === null],
     );
+    // what was planned last stays in sight while it is planned anew, and where that fails
+    const told = useRef<Plan | null>(null);
+    const ready = plan.value?.of === quoted ? plan.value?.plan : undefined;
+    const isSame = told.current?.session === now && told.current?.quote === quoted?.quote;
+    if (ready !== undefined || !isSame) told.current = ready ?? null;
     if (rights.value?.refused) return <Trouble text={rights.value.refused} />;
     if (last.value?.doc === doc && again !== doc) return <Result of={last.value} again={() => setAgain(doc)} />;
     const isFree = rights.value !== null && (!rights.value.isOwn || allows(licence));
-    const ready = plan.value?.of === quoted ? plan.value?.plan : undefined;
     const start = (): void => {
         if (!ready || !isFree || ready.session !== now) return;
         setAgain(null);
@@ -89,12 +93,17 @@ export function EditionDialog({ app }: { app: App }) {
             </form>
             <Trouble text={problem || (rights.value && !isFree ? LICENCE : "")} />
             <WalletLine app={app} of="edition" command={COMMAND} />
-            <Trouble text={plan.error} />
             {now && ready === null && quoted && <Elsewhere quote={quoted.quote} chain={now.chain} />}
-            {ready && (
-                <Cost plan={ready} off={!isFree} again={again === doc} allow={() => setAgain(doc)} start={start} />
+            {told.current && (
+                <Cost
+                    plan={told.current}
+                    off={!isFree || !ready}
+                    again={again === doc}
+                    allow={() => setAgain(doc)}
+                    start={start}
+                />
             )}
-            <Said of="edition" />
+            <Said of="edition" made={plan} />
         </>
     );
 }
@@ -178,7 +187,7 @@ function Cost(props: { plan: Plan; off: boolean; again: boolean; allow: () => vo
             <p data-name="cost">
                 {words} Gas costs at most <b>{atMost(most)}</b> in total, usually about half of it.
             </p>
-            {balance < most && <Trouble text={`The account has ${ether(balance)}, less than that.`} />}
+            <Poor balance={balance} most={most} />
             {isKnown && !again && <p>This account has added this very scene already.</p>}
             <div class="scales">
                 {isKnown && !again ? (
@@ -205,7 +214,7 @@ function Elsewhere({ quote, chain }: { quote: Quote; chain: number }) {
             <p class="quiet">
                 Switch to a chain that has one, or deploy it: <code>shackled deploy --contracts Editions</code>
             </p>
-            <Chains of="edition" chains={found.length ? found : Object.keys(CHAINS).map(Number)} />
+            <Chains of="edition" chains={found.length ? found : ETHER_CHAINS} />
         </section>
     );
 }

@@ -1,16 +1,18 @@
 // One token of a collection, bought by the visitor's wallet: Editions, to which anyone adds, and those in the address book.
 
-import { encodeFunctionData, isAddress, type Address, type Hex } from "viem";
+import { encodeFunctionData, hexToBytes, isAddress, type Address, type Hex } from "viem";
 import { getCode, readContract } from "viem/actions";
 import { InputError } from "../../errors.js";
 import type { App } from "../app.js";
 import { oneLine, titleOf } from "../programs/subject.js";
+import { USUAL_GAS } from "../settings.js";
+import { intrinsicGas } from "../work/calls.js";
 import { OPEN_SUPPLY, type More } from "../work/protocol.js";
 import { EDITIONS, GENESIS, ICONS, TOKENS } from "./abi.js";
 import { addressBook } from "./chains.js";
 import { ether, short } from "./parts.js";
 import { metadataOf, mintedIn, type Token } from "./tokens.js";
-import { estimate, feesOf, send, type Call, type Fees, type Session, type Tell } from "./wallet.js";
+import { priced, send, type Priced, type Session, type Tell } from "./wallet.js";
 
 type Client = Session["client"];
 
@@ -24,6 +26,8 @@ export const TITLES = {
 const PHASES = ["closed", "open for the allow list", "open for all"];
 /** The most icons or editions that are offered, the last ones; and how many are read at once. */
 const MOST = 1000;
+/** How many a collection can have. */
+const MOST_KINDS = 1 << 24;
 const AT_ONCE = 16;
 
 /** A collection on the chain of the wallet. kinds: what can be minted, null where all tokens are of one kind. */
@@ -35,14 +39,10 @@ export interface Shop {
     first: number;
 }
 
-/** What one token costs. image: a data URL, or "". most: wei for the price, and for gas at most. */
-export interface Offer {
-    session: Session;
+/** What one token costs. image: a data URL, or "". */
+export interface Offer extends Priced {
     words: string;
     image: string;
-    call: Call & { value: bigint };
-    fees: Fees;
-    most: bigint;
 }
 
 /** Return the collections that are on the chain of the wallet. */
@@ -81,6 +81,8 @@ async function kindsOf(
     const count = isEdition
         ? await readContract(client, { ...editions, functionName: "editionCount" })
         : await readContract(client, { ...icons, functionName: "iconCount" });
+    if (count > MOST_KINDS)
+        throw new InputError(`The wallet says that ${TITLES[contract]} has ${count} kinds of tokens`);
     const nameOf = async (number: number): Promise<string> => {
         const args = [BigInt(number)] as const;
         if (isEdition)
@@ -147,12 +149,10 @@ export async function offerOf(session: Session, { contract, address }: Shop, num
     const { phase, price, left, words, image, data } = await WARES[contract](session.client, address, BigInt(number));
     if (phase !== PHASES.length - 1) throw new InputError(`The sale is ${PHASES[phase] ?? "in a phase that is none"}`);
     if (left === 0n) throw new InputError("It is sold out, or was closed by its artist");
-    const call = { to: address, data, value: price };
-    const [expected, fees] = await Promise.all([estimate(session, call), feesOf(session)]);
-    const gas = (expected * 21n) / 20n;
+    const counted = USUAL_GAS.mint + intrinsicGas(hexToBytes(data));
+    const cost = await priced(session, { to: address, data, value: price }, counted);
     const stock = left === null ? "" : `, ${left} left`;
-    const most = price + gas * fees.max;
-    return { session, words: `${words} Price: ${ether(price)}${stock}.`, image, call: { ...call, gas }, fees, most };
+    return { ...cost, words: `${words} Price: ${ether(price)}${stock}.`, image };
 }
 
 /** Mint the token, and return it as the chain has it. */

@@ -2,10 +2,10 @@
 
 import { useState } from "preact/hooks";
 import type { App } from "../app.js";
-import { Choices, Trouble, useMade } from "../dialogs/parts.js";
+import { Choices, useMade } from "../dialogs/parts.js";
 import { addressBook, chainName, chainsOf } from "./chains.js";
 import { TITLES, mint, offerOf, shopsOf, type Shop } from "./mint.js";
-import { Act, Chains, Said, TokenView, WalletLine, atMost, job, perform } from "./parts.js";
+import { Act, Chains, Poor, Said, TokenView, WalletLine, atMost, job, perform } from "./parts.js";
 import type { Token } from "./tokens.js";
 import { plainly, session, type Session } from "./wallet.js";
 
@@ -21,7 +21,6 @@ export function MintDialog({ app }: { app: App }) {
     return (
         <>
             <WalletLine app={app} of="mint" command={COMMAND} />
-            <Trouble text={shops.error} />
             {now && shops.value && !shop && (
                 <section>
                     <p>No collection is known on {chainName(now.chain)}.</p>
@@ -37,8 +36,11 @@ export function MintDialog({ app }: { app: App }) {
                     does={choose}
                 />
             )}
-            {now && shop && <Shelf key={`${now.chain} ${shop.contract}`} now={now} shop={shop} />}
-            <Said of="mint" />
+            {now && shop ? (
+                <Shelf key={`${now.chain} ${shop.contract}`} now={now} shop={shop} />
+            ) : (
+                <Said of="mint" made={shops} />
+            )}
         </>
     );
 }
@@ -93,10 +95,11 @@ function Shelf({ now, shop }: { now: Session; shop: Shop }) {
                         {found.words} With gas, at most <b>{atMost(found.most)}</b> in total.
                     </p>
                 )}
-                <Trouble text={offer.error} />
-                <Act name="mint" look="main" off={!found} does={start}>
+                {found && <Poor {...found} />}
+                <Act name="mint" look="main" off={!found || found.balance < found.most} does={start}>
                     Mint one token
                 </Act>
+                <Said of="mint" made={offer} />
             </div>
         </section>
     );

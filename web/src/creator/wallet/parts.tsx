@@ -5,7 +5,7 @@ import type { ComponentChildren } from "preact";
 import { useEffect } from "preact/hooks";
 import { formatEther, type Address } from "viem";
 import type { App, DialogName } from "../app.js";
-import { Button, Trouble, wordsOf as sentence } from "../dialogs/parts.js";
+import { Button, Trouble, wordsOf as sentence, type Remade } from "../dialogs/parts.js";
 import { stemOf, titleOf } from "../programs/subject.js";
 import { sceneFile } from "../save.js";
 import { chainName } from "./chains.js";
@@ -31,11 +31,35 @@ export function perform(of: DialogName, work: (tell: Tell) => Promise<string | v
     );
 }
 
-/** What is being done now, or how it ended. */
-export function Said({ of }: { of: DialogName }) {
+/** What is being done now, or how it ended. made: what the dialog reads; where it could not, it says so, and can try again. */
+export function Said({ of, made }: { of: DialogName; made?: Remade<unknown> }) {
     const { words, isTrouble } = ends.value[of] ?? { words: "", isTrouble: false };
-    if (job.value === null && isTrouble) return <Trouble text={words} />;
-    return <p role="status" data-name="said" children={job.value ?? words} />;
+    const forget = (): void => void (job.peek() === null && (ends.value = { ...ends.peek(), [of]: undefined }));
+    // what was seen is not said again
+    useEffect(() => forget, []);
+    const again = (): void => (forget(), made?.again());
+    return (
+        <>
+            {job.value === null && isTrouble ? (
+                <Trouble text={words} />
+            ) : (
+                <p role="status" data-name="said" children={job.value ?? words} />
+            )}
+            {made?.error && made.error !== words && <Trouble text={made.error} />}
+            {made?.error && (
+                <div class="scales">
+                    <Act name="retry" does={again}>
+                        Try again
+                    </Act>
+                </div>
+            )}
+        </>
+    );
+}
+
+/** What is said where an account has less than something costs. */
+export function Poor({ balance, most }: { balance: bigint; most: bigint }) {
+    return <Trouble text={balance < most ? `The account has ${ether(balance)}, less than that.` : ""} />;
 }
 
 /** A button that is dead while something is being done. */

@@ -6,10 +6,11 @@ import { encodeFunctionData, keccak256, numberToHex, pad, toRlp, type Address, t
 import { readContract } from "viem/actions";
 import { InputError } from "../../errors.js";
 import { count } from "../dialogs/parts.js";
+import { USUAL_GAS } from "../settings.js";
 import { GENESIS, TOKENS } from "./abi.js";
 import { chainName } from "./chains.js";
 import { TITLES } from "./mint.js";
-import { check, estimate, feesOf, number, send, type Call, type Fees, type Session, type Tell } from "./wallet.js";
+import { check, number, priced, send, type Priced, type Session, type Tell } from "./wallet.js";
 
 export const COMMAND = "shackled token reveal";
 /** Rounds in a transaction. */
@@ -37,13 +38,9 @@ interface Round {
 }
 
 /** A transaction that reveals rounds. later: what it does not reveal, in words, or "". */
-export interface Reveal {
-    session: Session;
+export interface Reveal extends Priced {
     rounds: Round[];
     randomness: Hex[];
-    call: Call;
-    fees: Fees;
-    most: bigint;
     later: string;
 }
 
@@ -98,10 +95,8 @@ export async function findReveal(
     const headers = await Promise.all(chosen.map(({ block, hash }) => headerOf(from, block, hash)));
     const args = [chosen.map((each) => each.number), headers.map(({ header }) => header)] as const;
     const transaction = { to: address, data: encodeFunctionData({ abi: GENESIS, functionName: "reveal", args }) };
-    const [expected, fees] = await Promise.all([estimate(from, transaction), feesOf(from)]);
-    const call = { ...transaction, gas: (expected * 21n) / 20n };
-    const randomness = headers.map((each) => each.randomness);
-    return { session: from, rounds: chosen, randomness, call, fees, most: call.gas * fees.max, later };
+    const cost = await priced(from, transaction, USUAL_GAS.reveal + USUAL_GAS.round * chosen.length);
+    return { ...cost, rounds: chosen, randomness: headers.map((each) => each.randomness), later };
 }
 
 /** Have the wallet send the transaction, and return what it revealed, in words. */

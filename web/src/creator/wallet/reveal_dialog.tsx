@@ -5,7 +5,7 @@ import { getAddress, isAddress } from "viem";
 import type { App } from "../app.js";
 import { Code, Progress, useMade, useTask } from "../dialogs/parts.js";
 import { addressBook, chainName, chainsOf } from "./chains.js";
-import { Act, Chains, Said, WalletLine, atMost, perform } from "./parts.js";
+import { Act, Chains, Poor, Said, WalletLine, atMost, perform } from "./parts.js";
 import { COMMAND, findReveal, plural, sendReveal, type Reveal } from "./reveal.js";
 import { plainly, session } from "./wallet.js";
 
@@ -75,8 +75,14 @@ export function RevealDialog({ app }: { app: App }) {
                             {chainName(ready.session.chain)}. {ready.later} Gas costs at most{" "}
                             <b>{atMost(ready.most)}</b>.
                         </p>
+                        <Poor {...ready} />
                         <div class="scales">
-                            <Act name="send" look="main" off={task.part !== null} does={() => start(ready)}>
+                            <Act
+                                name="send"
+                                look="main"
+                                off={task.part !== null || ready.balance < ready.most}
+                                does={() => start(ready)}
+                            >
                                 Send it
                             </Act>
                         </div>

@@ -1,11 +1,12 @@
 // The visitor's own wallet in this browser (EIP-6963, EIP-1193): its account, its chain, and what it signs.
 
 import { signal, type Signal } from "@preact/signals";
-import { BaseError, createClient, custom, getAddress, isAddress, isHash, numberToHex as hex } from "viem";
+import { BaseError, createClient, custom, formatGwei, getAddress, isAddress, isHash, numberToHex as hex } from "viem";
 import type { Address, Client, EIP1193Provider, Hash, Hex, TransactionReceipt } from "viem";
-import { waitForTransactionReceipt } from "viem/actions";
+import { getBalance, waitForTransactionReceipt } from "viem/actions";
 import { InputError } from "../../errors.js";
 import { oneLine } from "../programs/subject.js";
+import { BOUNDS } from "../settings.js";
 import { additionOf, chainName } from "./chains.js";
 
 export interface Wallet {
@@ -36,17 +37,29 @@ export interface Call {
     gas: bigint;
 }
 
+/** A transaction with the most that it costs, and what the account has, in wei. */
+export interface Priced {
+    session: Session;
+    call: Call & { value: bigint };
+    fees: Fees;
+    most: bigint;
+    balance: bigint;
+}
+
 /** Says what happens now. */
 export type Tell = (words: string) => void;
 
 /** Milliseconds between two looks at the chain, and until a transaction must be in a block. */
 const PAUSE = 1000;
 const PATIENCE = 240_000;
-/** Wei per gas, where a node names no tip. */
-const USUAL_TIP = 10n ** 9n;
+/** What helps where the chain itself is unusual. */
+const UNUSUAL = "If that is right on this chain, use the command shackled with --max-fee";
 /** Codes of errors: the visitor said no (EIP-1193, WalletConnect); the chain is not known (EIP-3326). */
 const DECLINED = [4001, 5000];
 const UNKNOWN_CHAIN = [4902];
+/** What is said where a node cannot be reached: by browsers, wallets and viem. */
+const UNREACHED =
+    /failed to fetch|load failed|network ?(error|request failed)|time(d )?out|disconnected|ECONN|unreachable|bad gateway/i;
 
 export const wallets: Signal<readonly Wallet[]> = signal([]);
 export const session: Signal<Session | null> = signal(null);
@@ -124,18 +137,49 @@ export async function number(client: Client, method: string, ...params: unknown[
     );
 }
 
-/** Return what gas may cost: the base fee can double until the transaction is in a block. */
+/**
+ * Return what gas may cost: the base fee can double until the transaction is in a block. InputError if the node suggests a tip
+ * that is not usual: unlike a base fee that is too high, all of it is paid.
+ */
 export async function feesOf({ client }: Session): Promise<Fees> {
     const block = await client.request({ method: "eth_getBlockByNumber", params: ["latest", false] });
     const base = String(block?.baseFeePerGas);
     if (!/^0x[0-9a-f]{1,64}$/i.test(base)) throw new InputError("The chain of the wallet has no base fee (EIP-1559)");
-    const tip = await number(client, "eth_maxPriorityFeePerGas").catch(() => USUAL_TIP);
+    const tip = await number(client, "eth_maxPriorityFeePerGas").catch(() => BOUNDS.tip);
+    if (tip > BOUNDS.mostTip) {
+        const [tips, most] = [tip, BOUNDS.mostTip].map((wei) => formatGwei(wei));
+        throw new InputError(
+            `The wallet suggests a tip of ${tips} gwei per unit of gas, more than ${most}: nothing is sent. ${UNUSUAL}`,
+        );
+    }
     return { max: 2n * BigInt(base) + tip, tip };
 }
 
-/** Return the gas that the node of the wallet expects. */
-export function estimate({ client, account }: Session, { to, data, value = 0n }: Omit<Call, "gas">): Promise<bigint> {
-    return number(client, "eth_estimateGas", { from: account, to, data, value: hex(value) });
+/** Return the gas that the node of the wallet expects. InputError if it is many times that counted here. */
+export async function estimate(from: Session, call: Omit<Call, "gas">, counted: bigint): Promise<bigint> {
+    const { to, data, value = 0n } = call;
+    const expected = await number(from.client, "eth_estimateGas", { from: from.account, to, data, value: hex(value) });
+    if (expected <= BOUNDS.mostTimes * counted) return expected;
+    const [gas, own] = [expected, counted].map((number) => number.toLocaleString("en"));
+    throw new InputError(`The wallet expects ${gas} gas, where ${own} were counted here: nothing is sent. ${UNUSUAL}`);
+}
+
+/** Return gas with a margin, since the state of the chain changes. */
+export function withMargin(gas: bigint): bigint {
+    return (gas * BOUNDS.margin[0]) / BOUNDS.margin[1];
+}
+
+/** Return what a transaction costs at most. counted: its gas as counted here. InputError where the node is not plausible. */
+export async function priced(session: Session, of: Omit<Call, "gas">, counted: number): Promise<Priced> {
+    const { client, account } = session;
+    const [expected, fees, balance] = await Promise.all([
+        estimate(session, of, BigInt(counted)),
+        feesOf(session),
+        getBalance(client, { address: account }),
+    ]);
+    const gas = withMargin(expected > counted ? expected : BigInt(counted));
+    const call = { value: 0n, ...of, gas };
+    return { session, call, fees, most: call.value + gas * fees.max, balance };
 }
 
 /** InputError unless the wallet still has this account and this chain. */
@@ -214,7 +258,10 @@ function hasCode(error: unknown, codes: readonly number[]): boolean {
 
 /** Return what an error of a wallet, of its node or of a contract says, in one line. */
 export function wordsOf(error: unknown): string {
-    if (error instanceof BaseError) return oneLine(error.details || error.shortMessage).slice(0, 200);
+    if (error instanceof BaseError) {
+        const words = oneLine(error.details || error.shortMessage).slice(0, 200);
+        return UNREACHED.test(words) ? `The node of the wallet does not answer (${words})` : words;
+    }
     return error instanceof Error ? error.message : String(error);
 }
 

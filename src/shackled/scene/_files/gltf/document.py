@@ -6,17 +6,19 @@ import base64
 import binascii
 import struct
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import Any
 from urllib.parse import unquote, unquote_to_bytes
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 from ....errors import InputError
 from ....values import plural
-from ..content import parse, read_bytes
+from ..beside import read_beside
+from ..content import parse, read_bytes, read_content
+from ..images import Images
+from ..model import Picture
 from ..table import Table, about
 
 _JSON, _BIN = b"JSON", b"BIN\0"
@@ -40,21 +42,24 @@ _SURFACES = "KHR_materials_"
 
 
 class Document:
-    """A document, and what it refers to. decoded: elements of compressed accessors, by their places; images: RGBA."""
+    """A document, and what it refers to. decoded: elements of compressed accessors, by their places.
+
+    opened, pictures, lost: its images, textures, and the places of those that cannot be had.
+    """
 
     def __init__(self, path: Path) -> None:
         """Read a file. InputError for what asks for another reader."""
         self.path = path
-        data = read_bytes(path)
+        data = read_content(path)
         self.binary: bytes | None = None
         if data.startswith(b"glTF"):
             data, self.binary = _chunks(data)
         self.keys = Table(parse(path, data.decode("utf-8-sig", errors="replace"), ".json"), "")
         self.decoded: dict[str, NDArray[Any]] = {}
-        self.images: dict[str, Image.Image | None] = {}
+        self.opened, self.pictures, self.lost = Images(), dict[str, Picture](), set[str]()
         self._buffers: dict[str, bytes] = {}
         self._extensions: set[str] = set()
-        self._left_out: dict[tuple[str, str], set[str]] = {}
+        self._left_out: dict[tuple[str, str], dict[str, int]] = {}
         self._check()
 
     def _check(self) -> None:
@@ -72,13 +77,15 @@ class Document:
         """Keep the names of extensions, for a note of those that are not known."""
         self._extensions |= set(extensions) - _KNOWN
 
-    def leave_out(self, what: str, where: str, sentence: str = "{}") -> None:
-        """Keep, for a note, that something at a place is left out. what: a noun; sentence: around its count."""
-        self._left_out.setdefault((what, sentence), set()).add(where)
+    def leave_out(self, what: str, where: str, sentence: str = "{}", count: int = 1) -> None:
+        """Keep, for a note, that so many things at a place are left out. what: a noun; sentence: around the count."""
+        self._left_out.setdefault((what, sentence), {})[where] = count
 
     def left_out(self) -> list[str]:
         """Return a sentence for each kind of what is left out."""
-        found = [sentence.format(plural(len(places), what)) for (what, sentence), places in self._left_out.items()]
+        found = [
+            sentence.format(plural(sum(counts.values()), what)) for (what, sentence), counts in self._left_out.items()
+        ]
         if self._extensions:
             names = ", ".join(f"{name:.60}" for name in sorted(self._extensions))
             found.append(f"what {'extension' if len(self._extensions) == 1 else 'extensions'} {names} would change")
@@ -112,6 +119,11 @@ class Document:
             raise InputError(f"{view.where} needs {start + length:,} bytes of {buffer.where}, which has {len(data):,}")
         return memoryview(data)[start : start + length]
 
+    @property
+    def size(self) -> int:
+        """How many bytes of buffers were read, and of compressed accessors."""
+        return sum(map(len, self._buffers.values())) + sum(each.nbytes for each in self.decoded.values())
+
     def resource(self, keys: Table) -> bytes:
         """Return what the `uri` of a buffer or image holds."""
         uri, place = keys.get("uri"), keys.place("uri")
@@ -126,11 +138,25 @@ class Document:
                 return base64.b64decode(payload.rstrip("=") + "==")
             except (binascii.Error, ValueError):
                 raise InputError(f"{place} does not hold valid base64") from None
-        name = PurePosixPath(unquote(uri).replace("\\", "/"))
-        if name.is_absolute() or ".." in name.parts or ":" in uri:
-            raise InputError(f"{place} is {uri!r:.60}; only files in the folder of the glTF file are read")
         with about(place):
-            return read_bytes(self.path.parent.joinpath(*name.parts))
+            return read_beside([self.path.parent], unquote(uri), read_bytes)
+
+
+#: How many triangles are read, each mesh as often as it is shown; and of how many it does not matter how large the file
+#: is. Other files have at least so many bytes for each.
+MAX_TRIANGLES, _FREE, _BYTES = 1 << 24, 1 << 19, 8
+
+
+def most_triangles(gltf: Document) -> int:
+    """Return how many triangles may be shown: files that say little of many would only fill the memory."""
+    return min(MAX_TRIANGLES, max(_FREE, gltf.size // _BYTES))
+
+
+def too_many(gltf: Document) -> InputError:
+    """Return the error for a file that shows more."""
+    most = most_triangles(gltf)
+    which = "the most that are read" if most == MAX_TRIANGLES else "the most that are read of a file of its size"
+    return InputError(f"it shows more than {most:,} triangles, {which}")
 
 
 def _chunks(data: bytes) -> tuple[bytes, bytes | None]:
@@ -155,7 +181,7 @@ def _chunks(data: bytes) -> tuple[bytes, bytes | None]:
 
 
 #: How long an accessor without data may be.
-MAX_ELEMENTS = 1 << 24
+MAX_ELEMENTS = 1 << 20
 
 _COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}

@@ -5,9 +5,11 @@ from __future__ import annotations
 import io
 import math
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 
 from ....checks import Color
 from ....errors import InputError, warn
@@ -28,25 +30,26 @@ def _picture(gltf: Document, texture: Table, has_alpha: bool) -> Picture | None:
     """Return a texture; None, with a warning, if its image cannot be had. has_alpha: whether its alpha counts."""
     webp = texture.table("extensions").table("EXT_texture_webp")
     keys = webp if "source" in webp else texture
-    place = keys.place("source")
-    if place not in gltf.images:
-        gltf.images[place] = None
+    place, key = keys.place("source"), f"{texture.where}, alpha {has_alpha}"
+    if place not in gltf.lost and key not in gltf.pictures:
+        sampler = gltf.item(texture, "sampler", "samplers") if "sampler" in texture else Table({}, "")
+        filter: Filter = "nearest" if sampler.whole("magFilter", 0) == _NEAREST else "bilinear"
+        wraps = tuple(_FILE_WRAPS.get(sampler.whole(name, 0), "repeat") for name in ("wrapS", "wrapT"))
+        name = f"{gltf.path}: {texture.where}"
         try:
             source = gltf.item(keys, "source", "images")
-            data = gltf.view(gltf.item(source, "bufferView", "bufferViews")) if "bufferView" in source else None
-            file = io.BytesIO(gltf.resource(source) if data is None else data)
-            gltf.images[place] = open_image(file, source.where, as_rgba)
+            opened = partial(gltf.opened.open, (source.where, has_alpha), partial(_image, gltf, source, has_alpha))
+            gltf.pictures[key] = Picture.of(opened, name, gltf.opened, filter=filter, wraps=wraps)
         except InputError as error:
+            gltf.lost.add(place)
             warn(f"{gltf.path}: a texture is left out: {error}")
-    image = gltf.images[place]
-    if image is None:
-        return None
-    if not has_alpha or not is_transparent(image):
-        image = image.convert("RGB")
-    sampler = gltf.item(texture, "sampler", "samplers") if "sampler" in texture else Table({}, "")
-    filter: Filter = "nearest" if sampler.whole("magFilter", 0) == _NEAREST else "bilinear"
-    u, v = (_FILE_WRAPS.get(sampler.whole(name, 0), "repeat") for name in ("wrapS", "wrapT"))
-    return Picture(image, f"{gltf.path}: {texture.where}", filter, (u, v))
+    return gltf.pictures.get(key)
+
+
+def _image(gltf: Document, source: Table, has_alpha: bool) -> Image.Image:
+    data = gltf.view(gltf.item(source, "bufferView", "bufferViews")) if "bufferView" in source else None
+    image = open_image(io.BytesIO(gltf.resource(source) if data is None else data), source.where, as_rgba)
+    return image if has_alpha and is_transparent(image) else image.convert("RGB")
 
 
 _GLOSSINESS = "KHR_materials_pbrSpecularGlossiness"

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ....errors import InputError
-from ..._arithmetic import rotate
+from ..._arithmetic import rotation_of, units
 from ..table import Table, about
-from .document import Document, Vertices, numbers
+from .document import Document, Vertices, numbers, too_many
 
 Array = NDArray[np.float64]
 
@@ -30,6 +30,7 @@ class Node:
 
 def placed(gltf: Document, nodes: Sequence[Table]) -> dict[int, Node]:
     """Return all nodes by their numbers; first those of the scene, the default one or the first, in its order."""
+    matrices = _matrices(nodes)
     children = [_links(node, "children", len(nodes)) for node in nodes]
     heads = sorted(set(range(len(nodes))).difference(*children))
     roots, scenes = heads, gltf.keys.rows("scenes")
@@ -50,7 +51,7 @@ def placed(gltf: Document, nodes: Sequence[Table]) -> dict[int, Node]:
                 continue
             raise InputError(f"{node.where} hangs on several nodes, or on itself, which glTF does not allow")
         visibility = node.table("extensions").table("KHR_node_visibility")
-        here = Node(node, above @ _matrix(node), is_shown and visibility.flag("visible", True))
+        here = Node(node, above @ matrices[number], is_shown and visibility.flag("visible", True))
         found[number] = here
         waiting += [(child, here.matrix, here.is_shown) for child in reversed(children[number])]
     return found
@@ -64,38 +65,57 @@ def _links(keys: Table, key: str, count: int) -> list[int]:
     return list(keys.get(key) or [])
 
 
-def _matrix(node: Table) -> Array:
-    if "matrix" in node:
-        return np.array(node.numbers("matrix", tuple(np.eye(4).flat))).reshape(4, 4).T
-    with about(node.where):
-        return _composed(*(node.numbers(name.lower(), rest) for name, rest in _RESTS.items()))
+def _matrices(nodes: Sequence[Table]) -> Array:
+    """Return the matrices of nodes, (n, 4, 4), each for what hangs on it."""
+    rows = [
+        np.array([rest if name not in node or "matrix" in node else node.numbers(name, rest) for node in nodes])
+        for name, rest in ((name.lower(), rest) for name, rest in _RESTS.items())
+    ]
+    found = _composed(lambda number: nodes[number].where, *(row.reshape(len(nodes), -1) for row in rows))
+    for number, node in enumerate(nodes):
+        if "matrix" in node:
+            found[number] = np.array(node.numbers("matrix", tuple(np.eye(4).flat))).reshape(4, 4).T
+    return found
 
 
-def _composed(translation: Sequence[float], rotation: Sequence[float], scale: Sequence[float]) -> Array:
-    matrix = np.eye(4)
-    matrix[:3, :3] = rotate(rotation, np.eye(3)).T * scale
-    matrix[:3, 3] = translation
-    return matrix
+def _composed(where: Callable[[int], str], translations: Array, rotations: Array, scales: Array) -> Array:
+    """Return the matrices, (n, 4, 4), of so many translations, rotations and scales. where: the place of one."""
+    largest = np.abs(rotations).max(axis=1, keepdims=True, initial=0)
+    bad = np.flatnonzero(~np.isfinite(largest[:, 0]) | (largest[:, 0] == 0))
+    if len(bad):
+        with about(where(int(bad[0]))):
+            rotation_of(rotations[bad[0]])
+    x, y, z, w = units(rotations / largest).T[..., None, None]
+    axis, basis = np.concatenate([x, y, z], axis=2), np.eye(3)
+    across = 2 * np.cross(axis, basis)
+    turned = basis + w * across + np.cross(axis, across)
+    matrices = np.tile(np.eye(4), (len(rotations), 1, 1))
+    matrices[:, :3, :3] = turned.transpose(0, 2, 1) * scales[:, None, :]
+    matrices[:, :3, 3] = translations
+    return matrices
 
 
-def instances(gltf: Document, node: Node) -> list[Array]:
-    """Return the matrices that put the mesh of a node into the world: one, or one for each of its instances."""
+def instances(gltf: Document, node: Node, most: int) -> Array:
+    """Return the matrices, (n, 4, 4), that put the mesh of a node into the world: one, or one for each instance.
+
+    most: how many there may be.
+    """
     extensions = node.keys.table("extensions")
     if "EXT_mesh_gpu_instancing" not in extensions:
-        return [node.matrix]
+        return node.matrix[None]
     attributes = extensions.table("EXT_mesh_gpu_instancing").table("attributes")
     given = {
-        name: numbers(gltf, attributes, name, f"VEC{len(rest)}").astype(np.float64)
-        for name, rest in _RESTS.items()
-        if name in attributes
+        name: numbers(gltf, attributes, name, f"VEC{len(rest)}") for name, rest in _RESTS.items() if name in attributes
     }
     counts = {len(values) for values in given.values()}
     if len(counts) != 1:
         raise InputError(f"{attributes.where} must have as many elements in each, not {sorted(counts)}")
     (count,) = counts
-    columns = [given.get(name, np.tile(rest, (count, 1))) for name, rest in _RESTS.items()]
-    with about(attributes.where):
-        return [node.matrix @ _composed(*row) for row in zip(*columns, strict=True)]
+    if count > most:
+        raise too_many(gltf)
+    columns = [np.asarray(given.get(name, np.tile(rest, (count, 1))), np.float64) for name, rest in _RESTS.items()]
+    placed: Array = node.matrix @ _composed(lambda _: attributes.where, *columns)
+    return placed
 
 
 #: Other attributes of morph targets are not read; tangents are for normal textures, which are not, either.

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ....errors import InputError
 from ..._arithmetic import units
 from ..model import Picture, tinted
-from ..table import about
+from ..table import Table, about
 from .document import Document, Vertices, numbers
 from .draco import decompress
 from .materials import Surface, colors_of, picture_on, surface_of
@@ -27,7 +27,7 @@ class Piece:
     """A primitive with triangles.
 
     colors: (n, 4), with alpha. normals: zeros if there are none. picture, uvs: of its texture, or None.
-    matrices: (n, 4, 4), that put skinned vertices into the world.
+    matrices: (n, 4, 4), that put skinned vertices into the world. turn: (m,), when a triangle has its turn.
     """
 
     positions: Array
@@ -38,6 +38,7 @@ class Piece:
     picture: Picture | None
     uvs: Array
     matrices: Array | None
+    turn: NDArray[np.int64]
 
     @property
     def group(self) -> tuple[object, ...]:
@@ -69,11 +70,14 @@ def pieces_of(gltf: Document, node: Node, nodes: Mapping[int, Node]) -> Iterator
             order = numbers(gltf, keys, "indices", "SCALAR")[:, 0]
             if order.dtype.kind != "u":
                 raise InputError(f"{place} must be of whole numbers without a sign")
-        used, corners = np.unique(order[_corners(mode, len(order), keys.place("mode"))], return_inverse=True)
+        triangles = order[_corners(gltf, keys, mode, len(order))]
+        there = (triangles <= last).all(axis=1)
+        if not there.all():
+            gltf.leave_out("triangle", place, "{} with vertices that do not exist", int((~there).sum()))
+        used, corners = np.unique(triangles[there], return_inverse=True)
         if not len(used):
             continue
-        if used[-1] > last:
-            raise InputError(f"{place} name vertex {used[-1]}, but they are numbered 0 to {last}")
+        faces = corners.reshape(-1, 3)
         vertices = Vertices(gltf, attributes, used, len(positions))
         with about(where):
             surface = surface_of(gltf, keys)
@@ -89,41 +93,49 @@ def pieces_of(gltf: Document, node: Node, nodes: Mapping[int, Node]) -> Iterator
             matrices = skinned(vertices, node.keys, nodes)
         if picture is not None and not picture.is_varied:
             colors, picture = tinted(colors, picture, uvs), None
-        yield Piece(points, corners.reshape(-1, 3), colors, normals, surface, picture, uvs, matrices)
+        yield Piece(points, faces, colors, normals, surface, picture, uvs, matrices, np.zeros(len(faces), int))
 
 
-def _corners(mode: int, count: int, place: str) -> NDArray[np.int64]:
+def _corners(gltf: Document, primitive: Table, mode: int, count: int) -> NDArray[np.int64]:
     """Return the triangles of a mode, (m, 3), as numbers of so many corners."""
     if mode == _TRIANGLES:
         if count % 3:
-            raise InputError(f"{place} is that of separate triangles, but there are {count} corners, no multiple of 3")
-        return np.arange(count).reshape(-1, 3)
+            gltf.leave_out("triangle", primitive.place("mode"), "{} without its last corners")
+        return np.arange(count - count % 3).reshape(-1, 3)
     first = np.arange(max(count - 2, 0))
     if mode == _STRIP:
         return np.stack([first, first + 1 + first % 2, first + 2 - first % 2], axis=1)
     if mode == _FAN:
         return np.stack([first + 1, first + 2, np.zeros_like(first)], axis=1)
-    raise InputError(f"{place} must be from 0 to 6, not {mode}")
+    raise InputError(f"{primitive.place('mode')} must be from 0 to 6, not {mode}")
 
 
-def in_place(piece: Piece, matrix: Array) -> Piece:
-    """Return a piece where a node puts it; or its joints, if it is skinned."""
-    if piece.matrices is not None:
-        matrix = piece.matrices
+def in_place(piece: Piece, matrices: Array, turn: int) -> Piece:
+    """Return a piece where each of some matrices, (k, 4, 4), puts it, from a turn on; or its joints, if skinned."""
+    count, points = len(matrices), len(piece.positions)
+    matrix = matrices[:, None] if piece.matrices is None else piece.matrices
     linear = matrix[..., :3, :3]
     rows = [linear[..., row, :] for row in range(3)]
     # the matrix of the cofactors turns normals right under any scale; its sign follows that of a mirror
     cofactors = np.stack([np.cross(rows[1], rows[2]), np.cross(rows[2], rows[0]), np.cross(rows[0], rows[1])], axis=-2)
     signs = np.where(np.linalg.det(linear) < 0, -1.0, 1.0)
-    mirrored = np.broadcast_to(signs, len(piece.positions))[piece.faces].sum(axis=1) < 0
-    faces = np.where(mirrored[:, None], piece.faces[:, ::-1], piece.faces)
-    normals = _times(cofactors * signs[..., None, None], piece.normals)
-    positions = _times(linear, piece.positions) + matrix[..., :3, 3]
-    return replace(piece, positions=positions, faces=faces, normals=units(normals))
+    mirrored = np.broadcast_to(signs, (count, points))[:, piece.faces].sum(axis=2) < 0
+    faces = np.where(mirrored[..., None], piece.faces[:, ::-1], piece.faces) + points * np.arange(count)[:, None, None]
+    normals = _times(cofactors * signs[..., None, None], piece.normals, count)
+    positions = _times(linear, piece.positions, count) + matrix[..., :3, 3]
+    return replace(
+        piece,
+        positions=positions.reshape(-1, 3),
+        faces=faces.reshape(-1, 3),
+        colors=np.tile(piece.colors, (count, 1)),
+        normals=units(normals).reshape(-1, 3),
+        uvs=np.tile(piece.uvs, (count, 1)),
+        turn=np.repeat(turn + np.arange(count), len(piece.faces)),
+    )
 
 
-def _times(matrix: Array, vectors: Array) -> Array:
-    """Return vectors, (n, 3), times one matrix for all, or one for each."""
-    if matrix.ndim == 2:
-        return np.asarray(vectors @ matrix.T)
-    return np.asarray(np.einsum("nij,nj->ni", matrix, vectors))
+def _times(matrices: Array, vectors: Array, count: int) -> Array:
+    """Return vectors, (n, 3), times each of (count, 1, 3, 3) matrices, or as often times their own, (n, 3, 3)."""
+    if matrices.ndim == 4:
+        return np.asarray(vectors @ matrices[:, 0].transpose(0, 2, 1))
+    return np.tile(np.einsum("nij,nj->ni", matrices, vectors), (count, 1, 1))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -15,12 +16,9 @@ from ..._mesh import face_normals, weld
 from ..._object import EXPONENTS
 from ..model import MeshPart, tinted
 from .animation import posed
-from .document import Document
+from .document import Document, most_triangles, too_many
 from .nodes import Node, instances, placed
 from .primitives import Piece, in_place, pieces_of
-
-#: How many triangles are read, each mesh as often as it is shown.
-MAX_TRIANGLES = 1 << 24
 
 #: The exponent of the widest highlights; even wider ones only fade the colours.
 _WIDEST = 10
@@ -39,7 +37,10 @@ def read_gltf(
     gltf = Document(path)
     nodes = nodes_of(gltf, animation, time)
     groups: dict[tuple[object, ...], list[Piece]] = {}
-    triangles = 0
+    # meshes that several nodes show as they are
+    shown = Counter(_mesh_of(node) for node in nodes.values())
+    known: dict[str, list[Piece]] = {}
+    triangles = turn = 0
     for node in nodes.values():
         if not node.is_shown:
             continue
@@ -47,19 +48,32 @@ def read_gltf(
             gltf.leave_out("camera", node.keys.where, "{}; `use_camera` takes one, with the lights")
         if "KHR_lights_punctual" in node.keys.table("extensions") and use_camera is None:
             gltf.leave_out("light", node.keys.where)
-        pieces = list(pieces_of(gltf, node, nodes)) if "mesh" in node.keys else []
-        for matrix in instances(gltf, node) if pieces else ():
-            for piece in pieces:
-                triangles += len(piece.faces)
-                if triangles > MAX_TRIANGLES:
-                    raise InputError(f"it shows more than {MAX_TRIANGLES:,} triangles, the most that are read")
-                groups.setdefault(piece.group, []).append(in_place(piece, matrix))
+        mesh = _mesh_of(node)
+        pieces = known.get(mesh) or (list(pieces_of(gltf, node, nodes)) if "mesh" in node.keys else [])
+        if mesh and shown[mesh] > 1:
+            known[mesh] = pieces
+        size = sum(len(piece.faces) for piece in pieces)
+        if not size:
+            continue
+        matrices = instances(gltf, node, (most_triangles(gltf) - triangles) // size)
+        triangles += len(matrices) * size
+        if triangles > most_triangles(gltf):
+            raise too_many(gltf)
+        for piece in pieces:
+            groups.setdefault(piece.group, []).append(in_place(piece, matrices, turn))
+        turn += len(matrices)
     if not groups:
         raise InputError("; ".join(["it has no triangles that are shown", *gltf.left_out()]))
     for each in gltf.left_out():
         warn(f"{path}: {each}")
     textures = {pieces[0].picture.name for pieces in groups.values() if pieces[0].picture is not None}
     return [_join(pieces, len(textures)) for pieces in groups.values()]
+
+
+def _mesh_of(node: Node) -> str:
+    """Return what the mesh of a node is known by; "" for one that the node changes."""
+    is_own = "mesh" not in node.keys or "skin" in node.keys or "weights" in node.keys
+    return "" if is_own else str(node.keys.get("mesh"))
 
 
 def nodes_of(gltf: Document, animation: str | int | None, time: float | None) -> dict[int, Node]:
@@ -95,6 +109,7 @@ def _join(pieces: Sequence[Piece], count: int) -> MeshPart:
     """Return pieces with one texture, or with none, as one. count: how many textures the file has."""
     starts = np.cumsum([0, *(len(piece.positions) for piece in pieces)])
     corners = np.concatenate([piece.faces + start for piece, start in zip(pieces, starts, strict=False)])
+    corners = corners[np.concatenate([piece.turn for piece in pieces]).argsort(kind="stable")]
     positions, colors, normals, uvs = (
         np.concatenate([getattr(piece, name) for piece in pieces]) for name in ("positions", "colors", "normals", "uvs")
     )
