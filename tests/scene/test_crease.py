@@ -144,6 +144,7 @@ WAYS: dict[str, Callable[[Mesh, Path], Object]] = {
 }
 
 
+@pytest.mark.filterwarnings("ignore:.*may be meant to stand along z")
 @pytest.mark.parametrize("way", WAYS.values(), ids=WAYS)
 def test_a_flat_mesh_that_becomes_smooth_keeps_its_creases(way: Callable[[Mesh, Path], Object], tmp_path: Path) -> None:
     """By whatever asks for it."""
