@@ -405,7 +405,7 @@ def colored(scene: Record, solid: Record, x: Array, point: Array) -> Array:
 
 def light(scene: Record, color: Array) -> Array:
     """Return a colour 0..255 as light 0..1: with gamma, decoded from sRGB."""
-    x = np.maximum(color / 255, 0)
+    x = np.maximum(color / 255, 0) if scene.gamma else color / 255
     return np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055) ** 2.4) if scene.gamma else x
 
 
