@@ -71,12 +71,9 @@ def inputs_of(names: Sequence[str], stack: ExitStack) -> list[Source]:
         raise InputError(f"{STREAM}, standard input, is one file: give it once")
     sources: list[Source] = []
     for name in names:
-        if name == STREAM:
-            sources.append(Source(name, str(stack.enter_context(stdin_file())), UNNAMED, INPUT))
-            continue
-        if is_pipe(name):  # which can be read once
-            path = stack.enter_context(stored(read_pipe(name), name))
-            sources.append(Source(name, str(path), UNNAMED, name))
+        if name == STREAM or is_pipe(name):  # which can be read once
+            path = stack.enter_context(stdin_file() if name == STREAM else stored(read_pipe(name), name))
+            sources.append(Source(name, str(path), UNNAMED, INPUT if name == STREAM else name))
             continue
         try:
             found = locate(name)
