@@ -1,7 +1,7 @@
 from ._arithmetic import euler, from_euler, rotate
 from ._camera import Camera, Projection
 from ._canvas import as_shown
-from ._codec import WIREFRAME, Rectangle, encode, encode_scene, render_call
+from ._codec import WIREFRAME, Rectangle, encode, encode_scene, has_effects, render_call
 from ._decode import decode, read_call
 from ._effects import Background, Fog, Hemisphere, Rim, Tone
 from ._files.beside import is_inside
@@ -98,6 +98,7 @@ __all__ = [
     "frame_count",
     "from_euler",
     "full_turn",
+    "has_effects",
     "is_closed",
     "is_inside",
     "is_pipe",
