@@ -32,6 +32,7 @@ SKIPPED = {
     "make test": "continuous integration runs it",
     "shackled preview": "needs a compiler of Solidity and a contract of the reader's",
     "shackled render INPUT": "shows the form of the command",
+    "python contracts/picture.py CALL": "CALL is a file of the reader's",
     "shackled deploy": "the account ARTIST is the reader's",
 }
 #: Commands that need Node.
