@@ -124,7 +124,9 @@ def run(*command: str | Path, cwd: Path) -> str:
     """Run a command; return what it prints. Raise Failure with its last line if it fails."""
     done = subprocess.run(command, cwd=cwd, env=VARIABLES, capture_output=True, text=True)
     lines = [line for line in (done.stdout + done.stderr).splitlines() if line.strip()]
-    demand(not done.returncode, f"{' '.join(map(str, command[:4]))} ...: {lines[-1] if lines else done.returncode}")
+    # without the text of a program
+    name = " ".join(map(str, command[:4])).splitlines()[0]
+    demand(not done.returncode, f"{name} ...: {lines[-1] if lines else done.returncode}")
     return done.stdout
 
 
@@ -277,8 +279,10 @@ def use_others(table: Table, python: Path, work: Path) -> None:
             inside = make_environment(python, work / library, released("*.whl"))
             try:
                 run(inside, "-m", "pip", "install", "--quiet", library, cwd=work)
+                run(inside, "-c", f"import {library}", cwd=work)
             except Failure as failure:
-                if "No matching distribution" in str(failure):
+                # it has no wheel for this Python, or needs a library of the system
+                if re.search("No matching distribution|cannot open shared object file", str(failure)):
                     raise Skipped(failure) from None
                 raise
             run(inside, "-c", OTHER % (library, mesh), cwd=work)
