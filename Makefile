@@ -5,9 +5,9 @@ VENV := .venv
 BIN := $(VENV)/bin
 PACKAGE := $(VENV)/.package
 DEV := $(VENV)/.dev
-NODE := tests/package/node_modules/.package-lock.json
 WEB := web/node_modules/.package-lock.json
 CONTRACTS := contracts/node_modules/.package-lock.json
+NODE := $(CONTRACTS) $(WEB) tests/package/node_modules/.package-lock.json
 
 # A target that needs Node names it first, so that its absence is told at once.
 # Set-up steps write to the same folders. Checks do not: `make test` runs two of them at a time.
@@ -31,23 +31,11 @@ $(PACKAGE): pyproject.toml tools/prepare.py tools/locked/package.txt
 $(DEV): pyproject.toml tools/prepare.py tools/locked/dev.txt
 	@$(PYTHON) tools/prepare.py dev
 
-$(NODE): $(foreach folder,contracts web tests/package,$(folder)/package.json $(folder)/package-lock.json) tools/prepare.py
-	@$(PYTHON) tools/prepare.py node
+$(NODE): %/node_modules/.package-lock.json: %/package.json %/package-lock.json tools/prepare.py
+	@$(PYTHON) tools/prepare.py node $*
 
-$(WEB): web/package.json web/package-lock.json tools/prepare.py
-	@$(PYTHON) tools/prepare.py web
-
-$(CONTRACTS): contracts/package.json contracts/package-lock.json tools/prepare.py
-	@$(PYTHON) tools/prepare.py contracts
-
-browser:
-	@$(PYTHON) tools/prepare.py browser
-
-opengl:
-	@$(PYTHON) tools/prepare.py opengl
-
-rust:
-	@$(PYTHON) tools/prepare.py rust
+browser opengl rust:
+	@$(PYTHON) tools/prepare.py $@
 
 # ---- a picture ----
 

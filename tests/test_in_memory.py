@@ -124,7 +124,7 @@ def cells(**blocks: Any) -> Any:
         SimpleNamespace(points=V, regular_faces=F),
         SimpleNamespace(points=V, faces=np.array([4, 0, 1, 2, 3])),
         Mixed(points=np.vstack([V, V[:1]]), faces=np.array([3, 0, 1, 2, 3, 4, 2, 3])),
-        SimpleNamespace(points=V[:, :2], cells=cells(quad=[[0, 1, 2, 3]])),
+        SimpleNamespace(points=V[:, :2], cells=cells(quad=[[0, 1, 2, 3]]), read=None),
         SimpleNamespace(points=V, cells=cells(triangle=F[:1], triangle6=[[0, 2, 3, 1, 1, 1]])),
     ],
 )

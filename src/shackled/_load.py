@@ -116,8 +116,11 @@ def _located(thing: Any) -> Any:
 
 def _is_data(thing: Any) -> bool:
     """Return whether an input is the content of a file: bytes, an open file, or a pipe."""
-    is_open = isinstance(thing, bytes | bytearray | memoryview) or hasattr(thing, "read")
-    return is_open or (isinstance(thing, Path) and is_pipe(thing))
+    if isinstance(thing, Path):
+        return is_pipe(thing)
+    # a mesh of meshio has `read`, too
+    is_open = hasattr(thing, "read") and not hasattr(thing, "points")
+    return is_open or isinstance(thing, bytes | bytearray | memoryview)
 
 
 @contextmanager
