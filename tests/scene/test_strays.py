@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -14,7 +16,7 @@ def test_ground_and_fog_are_those_of_the_model() -> None:
     model = sphere(16)
     positions = np.concatenate([model.positions, [(900, -70, 0), (900, -70, 1e-3), (900, -70 + 1e-3, 0)]])
     with_stray = Mesh(positions, [*model.faces, np.arange(3) + len(model.positions)])
-    look = {"ground": "white", "shadow": True, "fog": "white"}
+    look: dict[str, Any] = {"ground": "white", "shadow": True, "fog": "white"}
     alone = load(Mesh(model.positions, model.faces), 32, **look)
     with pytest.warns(InputWarning, match="1 triangle so far away"):
         found = load(with_stray, 32, **look)
