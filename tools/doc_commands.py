@@ -101,7 +101,8 @@ class Reader:
             else:
                 told = process.communicate(timeout=PATIENCE)[0]
             code = process.wait()
-        last = ["", *told.strip().splitlines()][-1]
+        # make ends with a line that says only that something failed
+        last = ["", *re.sub(r"^make: .*", "", told, flags=re.MULTILINE).strip().splitlines()][-1]
         if command.startswith(NEED_NODE) and not self.has_node:
             demand(code and re.search(r"Node(\.js)?\b", told), f"it does not ask for Node: {last}")
             return ["asks for Node"]
