@@ -208,13 +208,13 @@ def _made(thing: Any, look: Mapping[str, Any]) -> Mesh | list[Object] | Scene:
     """Return the mesh, the parts of a model or the scene of an input."""
     if isinstance(thing, Mesh | Scene):
         return thing
-    if isinstance(thing, Path) and not _is_data(thing):
-        return _model(thing, look) if format_of(thing) in READERS else read_scene(thing)
-    if isinstance(thing, Link):
-        return thing.scene()
     if _is_data(thing):
         with _as_file(thing) as path:
             return _made(path, look)
+    if isinstance(thing, Path):
+        return _model(thing, look) if format_of(thing) in READERS else read_scene(thing)
+    if isinstance(thing, Link):
+        return thing.scene()
     if isinstance(thing, Piece):
         return evolve(thing.make(), width=MESH_STAGING.side, height=MESH_STAGING.side, antialias=True)
     if isinstance(thing, Object):

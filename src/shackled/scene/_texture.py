@@ -251,6 +251,8 @@ def sample(image: Image.Image, coordinates: ArrayLike) -> NDArray[np.float64]:
 
     coordinates: (n, 2) float, from the bottom left (0, 0) to the top right (1, 1); outside of it the image repeats.
     """
+    if not np.size(coordinates):
+        return np.zeros((0, 3))
     width, height = image.size
     uv = np.nan_to_num(np.asarray(coordinates, dtype=np.float64)[:, :2], posinf=0, neginf=0)
     # the far border belongs to the image itself, not to its first repetition
@@ -260,10 +262,9 @@ def sample(image: Image.Image, coordinates: ArrayLike) -> NDArray[np.float64]:
     left, top = np.floor(x).astype(int), np.floor(y).astype(int)
     right, bottom = np.minimum(left + 1, width - 1), np.minimum(top + 1, height - 1)
     fx, fy = (x - left)[:, None], (y - top)[:, None]
-    first, upmost = (int(each.min(initial=0 if not len(uv) else each[0])) for each in (left, top))
-    last, lowest = (int(each.max(initial=0)) for each in (right, bottom))
-    texels = np.asarray(image.crop((first, upmost, last + 1, lowest + 1)).convert("RGB"))
-    x, right, y, bottom = left - first, right - first, top - upmost, bottom - upmost
-    upper = texels[y, x] * (1 - fx) + texels[y, right] * fx
-    lower = texels[bottom, x] * (1 - fx) + texels[bottom, right] * fx
+    first, upmost = int(left.min()), int(top.min())
+    texels = np.asarray(image.crop((first, upmost, int(right.max()) + 1, int(bottom.max()) + 1)).convert("RGB"))
+    left, right, top, bottom = left - first, right - first, top - upmost, bottom - upmost
+    upper = texels[top, left] * (1 - fx) + texels[top, right] * fx
+    lower = texels[bottom, left] * (1 - fx) + texels[bottom, right] * fx
     return np.asarray(np.rint(upper * (1 - fy) + lower * fy))

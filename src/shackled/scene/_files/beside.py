@@ -21,7 +21,6 @@ T = TypeVar("T")
 #: The place of an image, and what opens it.
 Found = tuple[Path, Callable[[], Image.Image]]
 
-
 #: What a message says of a name that leads elsewhere.
 OUTSIDE = "is outside of the folder of the file that names it; only files in that folder are read"
 #: An alpha is a mask if so many of its texels are nearly 0 or 255; of a mask, those below the second number are hidden.
@@ -72,6 +71,7 @@ def _with_alpha(path: Path, images: Images, shown: Found | None, hidden: Found, 
     def read() -> Image.Image:
         alpha = hidden[1]()
         image = shown[1]().copy() if shown else Image.new("RGB", alpha.size, "white")
+        image.info.clear()  # what is known of the image without its alpha
         image.putalpha(alpha.resize(image.size))
         return image
 
@@ -86,8 +86,8 @@ def _with_alpha(path: Path, images: Images, shown: Found | None, hidden: Found, 
 def read_beside(folders: Sequence[Path], name: str, read: Callable[[Path], T]) -> T:
     """Read a file by the name that another file gives it, maybe an address or a path of the machine of the author.
 
-       Then the file is in one of the folders, in any letter case.
-    Nothing is read outside of the last folder. InputError of the first attempt if none of them succeeds.
+    Then the file is in one of the folders, in any letter case. Nothing is read outside of the last folder. InputError
+    of the first attempt if none of them succeeds.
     """
     first = None
     for place in dict.fromkeys(_places(folders, name)):

@@ -31,12 +31,8 @@ class Images:
             image = read()
             self._opened += image.width * image.height
         self._kept[key] = image
-        pixels = sum(each.width * each.height for each in self._kept.values())
-        for oldest in list(self._kept)[:-1]:
-            if pixels <= _KEPT:
-                break
-            gone = self._kept.pop(oldest)
-            pixels -= gone.width * gone.height
+        while len(self._kept) > 1 and sum(each.width * each.height for each in self._kept.values()) > _KEPT:
+            del self._kept[next(iter(self._kept))]
         return image
 
     def compares(self, pixels: int) -> bool:

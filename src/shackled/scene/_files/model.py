@@ -138,10 +138,9 @@ class Picture:
         wrap = needed.pop() if len(needed) == 1 else "repeat" if any(outside) else "clamp"
         if wrap == "repeat" and uvs.size and np.abs(uvs).max() > _FAR:
             uvs -= np.floor(uvs.min(axis=1, keepdims=True))
-        # once for all looks with this picture
-        key = ("reduced to", _side(count))
-        smaller: Image.Image = known[key] if key in (known := cast(Any, image.info)) else reduced(image, _side(count))
-        known[key] = smaller
+        known, side = cast(dict[Any, Any], image.info), _side(count)
+        smaller: Image.Image = known.get(side) or reduced(image, side)
+        known[side] = smaller  # for all looks with this picture
         if smaller.size != image.size:
             (width, height), (old_width, old_height) = smaller.size, image.size
             warn(f"{self.name} is reduced from {old_width} x {old_height} to {width} x {height} texels")
@@ -177,16 +176,16 @@ def seen(parts: Sequence[MeshPart], name: str) -> list[MeshPart]:
 
     Writers without transparency leave 0 as alpha, and of the statement Tr of OBJ files some mean the opposite.
     """
-    if not parts or any(map(_is_visible, parts)):
+    if not parts or any(is_visible(part.mesh, part.opacity, part.material.get("texture")) for part in parts):
         return list(parts)
     warn(f"{name}: its opacity is 0 everywhere, which cannot be meant; it is drawn opaque")
     return [_opaque(part) for part in parts]
 
 
-def _is_visible(part: MeshPart) -> bool:
-    opacities, texture = part.mesh.opacities, part.material.get("texture")
+def is_visible(mesh: Mesh, opacity: float, texture: Texture | None) -> bool:
+    """Return whether a mesh with an opacity and a texture is not transparent everywhere."""
     is_shown = texture is None or texture.alpha is None or bool((texture.alpha >= max(texture.cutoff, 1)).any())
-    return part.opacity > 0 and (opacities is None or bool(opacities.any())) and is_shown
+    return opacity > 0 and is_shown and (mesh.opacities is None or bool(mesh.opacities.any()))
 
 
 def _opaque(part: MeshPart) -> MeshPart:
