@@ -10,7 +10,7 @@ from ._files.gltf.animation import animation_length, animations_of
 from ._files.gltf.view import read_view
 from ._files.link import Link, link_of
 from ._files.mesh_file import GLTF, READERS, read_mesh, read_model
-from ._files.model import MeshPart
+from ._files.model import MeshPart, is_visible
 from ._files.picture import CHUNK, DIGEST, PICTURE, SceneChunk, scene_chunk, shows_scene
 from ._files.scene_file import SCENES, read_scene
 from ._files.signatures import format_by_name
@@ -103,6 +103,7 @@ __all__ = [
     "is_inside",
     "is_pipe",
     "is_trimesh",
+    "is_visible",
     "link_of",
     "look_at",
     "mesh_of",
