@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable
 from functools import cached_property
 from typing import Any, cast
+from weakref import WeakValueDictionary
 
 from PIL import Image
 
@@ -14,7 +15,7 @@ from .._texture import reduced
 #: The pixels of the images that are kept open at a time, of which there is at least one.
 _KEPT = 1 << 26
 #: How many pixels may be opened for a file, each as often as it is opened, and compared with each other.
-_MOST_OPENED, _MOST_COMPARED = 5 << 27, 1 << 28
+_MOST_OPENED, _MOST_COMPARED = 5 << 27, 1 << 27
 
 
 class Images:
@@ -22,25 +23,26 @@ class Images:
 
     def __init__(self) -> None:
         """Begin without any."""
-        self._all: dict[Hashable, FileImage] = {}
-        self._kept: dict[FileImage, Image.Image] = {}
+        # weak, for each knows of these: a cycle would hold the pixels for longer than the file is read
+        self._all = WeakValueDictionary[Hashable, FileImage]()
+        self._kept: dict[Hashable, Image.Image] = {}
         self._opened = self._compared = 0
 
     def image(self, key: Hashable, read: Callable[[], Image.Image]) -> FileImage:
         """Return the image of a key, RGB or RGBA, which `read` opens: now, and whenever it is needed again."""
-        if key not in self._all:
-            self._all[key] = FileImage(self, read)
-        return self._all[key]
+        image = self._all.get(key) or FileImage(self, key, read)
+        self._all[key] = image
+        return image
 
-    def open(self, image: FileImage) -> Image.Image:
+    def open(self, key: Hashable, read: Callable[[], Image.Image]) -> Image.Image:
         """Return the pixels of an image. InputError if all that were opened are too large together."""
-        opened = self._kept.pop(image, None)
+        opened = self._kept.pop(key, None)
         if opened is None:
             if self._opened > _MOST_OPENED:
                 raise InputError("its textures have too many pixels together; reduce them")
-            opened = image.read()
+            opened = read()
             self._opened += opened.width * opened.height
-        self._kept[image] = opened
+        self._kept[key] = opened
         while len(self._kept) > 1 and sum(each.width * each.height for each in self._kept.values()) > _KEPT:
             del self._kept[next(iter(self._kept))]
         return opened
@@ -54,9 +56,9 @@ class Images:
 class FileImage:
     """An image of a file, and what stays known of it while it is not open. has_alpha: whether it is RGBA, not RGB."""
 
-    def __init__(self, images: Images, read: Callable[[], Image.Image]) -> None:
-        """Take the images of the file, and what opens this one."""
-        self.images, self.read = images, read
+    def __init__(self, images: Images, key: Hashable, read: Callable[[], Image.Image]) -> None:
+        """Take the images of the file, and the key of this one, and what opens it."""
+        self.images, self._key, self._read = images, key, read
         self._texel: Image.Image | None = None  # all of it, if it has one colour
         self._reduced: dict[int, Image.Image] = {}
         opened = self.open()
@@ -64,7 +66,7 @@ class FileImage:
 
     def open(self) -> Image.Image:
         """Return its pixels, or one of them if it has one colour."""
-        return self._texel or self.images.open(self)
+        return self._texel or self.images.open(self._key, self._read)
 
     @cached_property
     def is_varied(self) -> bool:
