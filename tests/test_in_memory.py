@@ -58,7 +58,7 @@ def test_content_of_files() -> None:
 
 
 def test_an_open_file_finds_what_is_beside_it(tmp_path: Path) -> None:
-    case_files.comma_materials(tmp_path)
+    case_files.written(tmp_path, case_files.FILES["comma_materials"])
     Path("m.mtl").write_text("newmtl a\nKd 1 0 0\n")
     with open("x.obj", "rb") as file:
         assert [*np.unique(picture(file).reshape(-1, 3), axis=0)[-1]] == [255, 0, 0]

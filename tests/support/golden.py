@@ -22,7 +22,8 @@ from typing import Any
 import numpy as np
 
 if __name__ == "__main__":
-    sys.path[:0] = map(str, Path(__file__).parents[1:3])
+    root = Path(__file__).parents[2]
+    sys.path[:0] = map(str, (root / "tests", root / "contracts", root))
 
 from original_scenes import call_data, document, genesis_document, object_keys
 from pictures import chain

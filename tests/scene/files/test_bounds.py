@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import base64
-import json
 import resource
-import struct
 import subprocess
 import sys
-import zlib
 from pathlib import Path
-from typing import Any
 
+import numpy as np
 import pytest
+from PIL import Image
+
+from mesh_files import GltfObject
 
 MEMORY, SECONDS = 1_000_000_000, 20
 CODE = """
@@ -28,17 +27,11 @@ print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
 OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.01 0.01\nvt 0.99 0.01\nvt 0.01 0.99\nvt 0 0\nvt 1 0\nvt 0 1\n"
 
 
-def png(path: Path, side: int = 8192, first: int = 0) -> None:
-    """Write a grey picture of one colour, but for its first texel."""
-    packer = zlib.compressobj(9)
-    data = packer.compress(bytes([0, first]) + bytes(side - 1))
-    data += b"".join(packer.compress(bytes(1 + side)) for _ in range(side - 1)) + packer.flush()
-
-    def chunk(kind: bytes, data: bytes) -> bytes:
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    head = struct.pack(">IIBBBBB", side, side, 8, 0, 0, 0, 0)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", data) + chunk(b"IEND", b""))
+def png(path: Path, first: int = 0, side: int = 8192) -> None:
+    """Write a black picture, but for its first texel."""
+    image = Image.new("L", (side, side))
+    image.putpixel((0, 0), first)
+    image.save(path)
 
 
 def read(path: Path) -> str:
@@ -75,32 +68,15 @@ def test_a_large_texture_by_many_names(tmp_path: Path, first: int) -> None:
     assert read(obj(tmp_path, [f"map_Kd {'./' * number}big.png" for number in range(12)], "1/1 2/2 3/3")) == "12"
 
 
-def gltf(path: Path, data: bytes, counts: tuple[int, ...], **document: Any) -> Path:
-    """Write a document whose accessors are rows of three floats one after the other, the last one 16-bit indices."""
-    views, accessors, at = [], [], 0
-    for count in counts:
-        views.append({"buffer": 0, "byteOffset": at, "byteLength": 12 * count})
-        accessors.append({"bufferView": len(views) - 1, "componentType": 5126, "count": count, "type": "VEC3"})
-        at += 12 * count
-    if at < len(data):
-        views.append({"buffer": 0, "byteOffset": at, "byteLength": len(data) - at})
-        accessor = {"bufferView": len(views) - 1, "componentType": 5123, "count": (len(data) - at) // 2}
-        accessors.append(accessor | {"type": "SCALAR"})
-    buffer = {"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}
-    tables = {"asset": {"version": "2.0"}, "buffers": [buffer], "bufferViews": views, "accessors": accessors}
-    path.write_text(json.dumps(tables | document))
-    return path
-
-
-TRIANGLE = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
 TOO_MANY = "it shows more than 524,288 triangles, the most that are read of a file of its size"
 
 
 def instanced(path: Path, primitives: int, count: int) -> Path:
-    places = b"".join(struct.pack("<3f", number, 0, 0) for number in range(count))
-    node = {"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 1}}}}
-    meshes = [{"primitives": [{"attributes": {"POSITION": 0}}] * primitives}]
-    return gltf(path, TRIANGLE + places, (3, count), meshes=meshes, nodes=[node], scenes=[{"nodes": [0]}])
+    made = GltfObject()
+    made.document["meshes"] = [{"primitives": [made.primitive] * primitives}]
+    places = made.rows(np.arange(count)[:, None] * (1, 0, 0))
+    made.node["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": places}}}
+    return made.gltf(path)
 
 
 def test_many_instances(tmp_path: Path) -> None:
@@ -109,13 +85,13 @@ def test_many_instances(tmp_path: Path) -> None:
 
 
 def test_a_mesh_on_many_nodes(tmp_path: Path) -> None:
-    indices = struct.pack("<60000H", *[0, 1, 2] * 20_000)
-    meshes = [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}]
-    places = {"nodes": [{"mesh": 0}] * 20_000, "scenes": [{"nodes": list(range(20_000))}]}
-    assert read(gltf(tmp_path / "a.gltf", TRIANGLE + indices, (3,), meshes=meshes, **places)).endswith(TOO_MANY)
+    made = GltfObject()
+    made.primitive["indices"] = made.rows([0, 1, 2] * 20_000, "u2")
+    made.document |= {"nodes": [{"mesh": 0}] * 20_000, "scenes": [{"nodes": list(range(20_000))}]}
+    assert read(made.write(tmp_path)).endswith(TOO_MANY)
 
 
 def test_many_nodes_in_a_row(tmp_path: Path) -> None:
-    nodes = [{"children": [number + 1]} for number in range(100_000)] + [{"mesh": 0}]
-    meshes = [{"primitives": [{"attributes": {"POSITION": 0}}]}]
-    assert read(gltf(tmp_path / "a.gltf", TRIANGLE, (3,), meshes=meshes, nodes=nodes, scenes=[{"nodes": [0]}])) == "1"
+    made = GltfObject()
+    made.document["nodes"] = [{"children": [number + 1]} for number in range(100_000)] + [{"mesh": 0}]
+    assert read(made.write(tmp_path)) == "1"
