@@ -86,14 +86,15 @@ class Reader:
 
     def output(self, command: str) -> list[str]:
         """Run a command; return what is worth telling. Failure if it fails, or without Node does not ask for it."""
-        line = re.sub(rf"{NODE}|\bURL\b", self.url, command)
+        words = shlex.split(re.sub(rf"{NODE}|\bURL\b", self.url, command))
         options = {"cwd": self.clone, "env": self.variables, "start_new_session": True}
-        with child(*shlex.split(line), stderr=subprocess.STDOUT, **options) as process:
+        with child(*words, stderr=subprocess.STDOUT, **options) as process:
             assert process.stdout is not None
             told = ""
-            if "creator" in shlex.split(command):
-                for told in process.stdout:  # until it serves, or ends
-                    if address := re.search(r"http://\S+", told):
+            if "creator" in words:
+                for line in process.stdout:  # until it serves, or ends
+                    told += line
+                    if address := re.search(r"http://\S+", line):
                         with urllib.request.urlopen(address[0], timeout=60) as page:
                             demand(b"<script" in page.read(), "the page is not served")
                         os.killpg(process.pid, signal.SIGINT)
