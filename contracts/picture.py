@@ -110,7 +110,7 @@ def records_of(data: bytes) -> Iterator[tuple[tuple[int, int], bytes]]:
 def object_of(mesh: bytes, fields: list[int], records: dict[int, bytes]) -> Record:
     """Return an object: its mesh, vertices and faces, placed in the world; its material, and what its records say."""
     kind, count, size = mesh[0], int.from_bytes(mesh[1:3], "big"), 3 if mesh[0] & 2 else 2
-    rows = np.frombuffer(mesh, np.uint8, count * (3 * size + 3 + 4 * (kind & 1)), 5).reshape(count, -1)
+    rows = np.frombuffer(mesh, f"({3 * size + 3 + 4 * (kind & 1)},)u1", count, 5)  # a vertex each
     *place, scale, shading, ambient, diffuse, specular, shininess, flags = fields
     position, matrix = q32(place[:3]), rotation(q32(place[3:]))
     local = numbers(rows[:, : 3 * size].reshape(count, 3, size))
@@ -400,12 +400,12 @@ def colored(scene: Record, solid: Record, x: Array, point: Array) -> Array:
         return np.asarray(255 * x)
     color, near, far = scene.fog
     distance = scene.camera.seen(point)[:, 2:]
-    return np.asarray(255 * x + (color - 255 * x) * np.clip((distance - near) / (far - near), 0, 1))
+    return np.asarray(255 * x + (color - 255 * x) * np.clip((distance - near) / max(far - near, 2**-32), 0, 1))
 
 
 def light(scene: Record, color: Array) -> Array:
     """Return a colour 0..255 as light 0..1: with gamma, decoded from sRGB."""
-    x = np.maximum(color / 255, 0)
+    x = np.maximum(color / 255, 0) if scene.gamma else color / 255
     return np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055) ** 2.4) if scene.gamma else x
 
 

@@ -58,7 +58,7 @@ def test_content_of_files() -> None:
 
 
 def test_an_open_file_finds_what_is_beside_it(tmp_path: Path) -> None:
-    case_files.comma_materials(tmp_path)
+    case_files.written(tmp_path, case_files.FILES["comma_materials"])
     Path("m.mtl").write_text("newmtl a\nKd 1 0 0\n")
     with open("x.obj", "rb") as file:
         assert [*np.unique(picture(file).reshape(-1, 3), axis=0)[-1]] == [255, 0, 0]
@@ -124,7 +124,7 @@ def cells(**blocks: Any) -> Any:
         SimpleNamespace(points=V, regular_faces=F),
         SimpleNamespace(points=V, faces=np.array([4, 0, 1, 2, 3])),
         Mixed(points=np.vstack([V, V[:1]]), faces=np.array([3, 0, 1, 2, 3, 4, 2, 3])),
-        SimpleNamespace(points=V[:, :2], cells=cells(quad=[[0, 1, 2, 3]])),
+        SimpleNamespace(points=V[:, :2], cells=cells(quad=[[0, 1, 2, 3]]), read=None),
         SimpleNamespace(points=V, cells=cells(triangle=F[:1], triangle6=[[0, 2, 3, 1, 1, 1]])),
     ],
 )
