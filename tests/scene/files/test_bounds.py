@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -71,8 +72,13 @@ def test_many_large_textures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     """Together they may be opened so often, and no more are opened."""
     monkeypatch.setattr("shackled.scene._files.images._KEPT", 100)
     monkeypatch.setattr("shackled.scene._files.images._MOST_OPENED", 700)
-    opened = []
-    monkeypatch.setattr(beside, "open_image", lambda place, *more: opened.append(place) or open_image(place, *more))
+    opened: list[Path] = []
+
+    def counted(place: Path, *more: Any) -> Image.Image:
+        opened.append(place)
+        return open_image(place, *more)
+
+    monkeypatch.setattr(beside, "open_image", counted)
     for number in range(20):
         Image.effect_noise((10, 10), 64).save(tmp_path / f"{number}.png")
     few, many = (obj(tmp_path / f"{n}.obj", [f"{k}.png" for k in range(n)], "1/4 2/5 3/6") for n in (4, 20))
