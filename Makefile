@@ -5,9 +5,9 @@ VENV := .venv
 BIN := $(VENV)/bin
 PACKAGE := $(VENV)/.package
 DEV := $(VENV)/.dev
-NODE := tests/package/node_modules/.package-lock.json
 WEB := web/node_modules/.package-lock.json
 CONTRACTS := contracts/node_modules/.package-lock.json
+NODE := $(CONTRACTS) $(WEB) tests/package/node_modules/.package-lock.json
 
 # A target that needs Node names it first, so that its absence is told at once.
 # Set-up steps write to the same folders. Checks do not: `make test` runs two of them at a time.
@@ -31,23 +31,11 @@ $(PACKAGE): pyproject.toml tools/prepare.py tools/locked/package.txt
 $(DEV): pyproject.toml tools/prepare.py tools/locked/dev.txt
 	@$(PYTHON) tools/prepare.py dev
 
-$(NODE): $(foreach folder,contracts web tests/package,$(folder)/package.json $(folder)/package-lock.json) tools/prepare.py
-	@$(PYTHON) tools/prepare.py node
+$(NODE): %/node_modules/.package-lock.json: %/package.json %/package-lock.json tools/prepare.py
+	@$(PYTHON) tools/prepare.py node $*
 
-$(WEB): web/package.json web/package-lock.json tools/prepare.py
-	@$(PYTHON) tools/prepare.py web
-
-$(CONTRACTS): contracts/package.json contracts/package-lock.json tools/prepare.py
-	@$(PYTHON) tools/prepare.py contracts
-
-browser:
-	@$(PYTHON) tools/prepare.py browser
-
-opengl:
-	@$(PYTHON) tools/prepare.py opengl
-
-rust:
-	@$(PYTHON) tools/prepare.py rust
+browser opengl rust:
+	@$(PYTHON) tools/prepare.py $@
 
 # ---- a picture ----
 
@@ -63,11 +51,11 @@ creator: page ## open the Creator in the browser
 
 # ---- everything that must hold ----
 
-check: lint $(DEV) $(NODE) ## check an edit: style, types, and the tests without the marks slow, browser, node
+check: $(NODE) lint ## check an edit: style, types, and the tests without the marks slow, browser, node
 	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory types fast
 
 # the tests wait for nodes and browsers much of the time, in which the other checks run
-test: lint $(DEV) $(NODE) browser opengl rust ## run all checks and tests
+test: $(NODE) lint browser opengl rust ## run all checks and tests
 	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory contracts types unit evm-check web docs
 	@echo "all checks and tests passed"
 
@@ -78,31 +66,31 @@ lint: $(DEV) ## check the style of the Python code
 types: $(DEV) ## check the types of the Python code
 	$(BIN)/mypy
 
-contracts: $(DEV) $(NODE) ## check that the compiled contracts match contracts/
+contracts: $(NODE) $(DEV) ## check that the compiled contracts match contracts/
 	$(BIN)/python tools/build_contracts.py --check
 	$(BIN)/python -m tools.build_package --check
 
 evm-check: $(DEV) rust ## build evm/ again, and check that evm.wasm has the same bytes
 	$(BIN)/python tools/build_evm.py --check
 
-web: $(DEV) $(NODE) ## check types, style, tests and bundles of the TypeScript package
+web: $(NODE) $(DEV) ## check types, style, tests and bundles of the TypeScript package
 	$(BIN)/python tools/page_settings.py --check
 	npm --prefix web run --silent check
 	npm --prefix web run --silent test
 	$(BIN)/python tools/build_web.py --check
 
-docs: $(DEV) page ## build the documentation into site/, with the Creator in site/creator/
+docs: page $(DEV) ## build the documentation into site/, with the Creator in site/creator/
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict
 
-fast: $(DEV) $(NODE)
+fast: $(NODE) $(DEV)
 	$(BIN)/pytest -n 2 --dist worksteal -m "not slow and not browser and not node"
 
-unit: $(DEV) $(NODE) page browser opengl ## run the tests of Python and of the contracts
+unit: $(NODE) page $(DEV) browser opengl ## run the tests of Python and of the contracts
 	$(BIN)/pytest -n 2 --dist worksteal
 
 # ---- what is made and kept in the repository ----
 
-build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bundle web/ into src/shackled/web, make build/npm
+build: $(NODE) $(DEV) ## compile the contracts into src/shackled/artifacts, bundle web/ into src/shackled/web, make build/npm
 	$(BIN)/python tools/build_contracts.py
 	$(BIN)/python tools/library.py
 	$(BIN)/python tools/build_contracts.py --group library
@@ -112,7 +100,7 @@ build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bund
 npm: $(CONTRACTS) $(PACKAGE) ## build the npm package for contract authors into build/npm
 	$(BIN)/python -m tools.build_package
 
-release-check: $(DEV) $(NODE) page ## build what would be published into build/release, use it in fresh environments, and follow README and docs
+release-check: $(NODE) page $(DEV) ## build what would be published into build/release, use it in fresh environments, and follow README and docs
 	$(BIN)/python -m tools.release_check
 	$(BIN)/python -m tools.doc_commands
 
@@ -126,7 +114,7 @@ gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens
 	$(BIN)/python -m benchmarks.icons
 	$(BIN)/python -m benchmarks.motion
 
-golden: $(DEV) ## write tests/support/golden.json: digests of pixels, and gas, of 450 small scenes
+golden: $(DEV) ## write tests/support/golden.json: digests of pixels, and gas, of small scenes of every kind
 	$(BIN)/python tests/support/golden.py --write
 
 bench: $(DEV) opengl ## measure, and write the tables of benchmarks/, of the README and of docs/
@@ -146,7 +134,7 @@ bench: $(DEV) opengl ## measure, and write the tables of benchmarks/, of the REA
 	$(BIN)/python -m benchmarks.client_workload
 	$(BIN)/python -m tools.readme
 
-paper: $(DEV) $(NODE) ## repeat the experiments of the paper: benchmarks/results, benchmarks/README.md
+paper: $(NODE) $(DEV) ## repeat the experiments of the paper: benchmarks/results, benchmarks/README.md
 	$(BIN)/shackled bench -o benchmarks/results
 	$(BIN)/python -m benchmarks.story
 
@@ -162,7 +150,7 @@ pictures: $(DEV) ## draw the pictures of the documentation, except those of tool
 
 # ---- long runs ----
 
-verify: $(DEV) $(NODE) ## compile each input with which explorers verify the contracts, and compare the code
+verify: $(NODE) $(DEV) ## compile each input with which explorers verify the contracts, and compare the code
 	VERIFY=all $(BIN)/pytest -n 2 tests/deploy/test_verification.py
 
 fuzz: $(DEV) ## compare the contracts with the judge over 2,000 random scenes, and with other EVMs
@@ -172,7 +160,7 @@ fuzz: $(DEV) ## compare the contracts with the judge over 2,000 random scenes, a
 models: $(DEV) ## render models of packages on npm and PyPI, which are downloaded: docs/conformance.md, build/models
 	$(BIN)/python -m tools.models
 
-mutants: $(DEV) $(NODE) ## find which of 80 faulty versions of the contracts the tests detect; continues where it stopped
+mutants: $(NODE) $(DEV) ## find which of 80 faulty versions of the contracts the tests detect; continues where it stopped
 	$(BIN)/python -m tools.mutants
 
 conformance: $(DEV) opengl ## compare the contracts with the judge over 1,000 random scenes, and with OpenGL

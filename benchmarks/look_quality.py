@@ -27,6 +27,7 @@ from shackled.scene import Hemisphere, fit, render_call
 
 sys.path.insert(0, str(ROOT / "tests" / "support"))
 sys.path.insert(0, str(ROOT / "tests"))
+sys.path.insert(0, str(ROOT / "contracts"))
 from judge import render as in_float64
 
 from . import flip, publish, read_figures, run_main

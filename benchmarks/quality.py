@@ -30,6 +30,7 @@ from .antialiasing import PAGE
 
 sys.path.insert(0, str(ROOT / "tests" / "support"))
 sys.path.insert(0, str(ROOT / "tests"))
+sys.path.insert(0, str(ROOT / "contracts"))
 from conformance.world import World, background, before_camera
 
 Array = NDArray[np.float64]

@@ -14,8 +14,7 @@ import pytest
 from attrs import evolve
 
 from judge import judge_pixels, render
-from judge.calldata import scene_type
-from pictures import call_data, chain, dynamic, words
+from pictures import call_data, chain, dynamic, scene_types, words
 from random_scenes import KINDS, broken_call, random_case
 from shackled import Background, Camera, ChainError, Fog, Light, Material, Mesh, Object, RenderError, Scene
 from shackled.artifacts import artifact
@@ -64,12 +63,12 @@ def lists(value: Any) -> Any:
 
 
 def values() -> Values:
-    (scene,) = eth_abi.decode([scene_type()], CALL[4:])  # type: ignore[attr-defined]
+    (scene,) = eth_abi.decode(scene_types(), CALL[4:])  # type: ignore[attr-defined]
     return list(lists(scene))
 
 
 def encoded(scene: Values) -> bytes:
-    return CALL[:4] + eth_abi.encode([scene_type()], [scene])  # type: ignore[attr-defined]
+    return CALL[:4] + eth_abi.encode(scene_types(), [scene])  # type: ignore[attr-defined]
 
 
 def put(*path: int, value: Any) -> Callable[[Values], None]:

@@ -38,12 +38,12 @@ def shared_file(name: str) -> Path:
 def file_of(row: dict[str, Any], folder: Path) -> Path:
     if "file" in row:
         return shared_file(row["file"])
-    if "make" in row:
-        made: Path = getattr(case_files, row["make"])(folder)
-        return made
-    path = folder / str(row["name"])
-    path.write_text(row["text"], "utf-8")
-    return path
+    if "text" in row:
+        return case_files.written(folder, {row["name"]: row["text"]})
+    if row["make"] in case_files.FILES:
+        return case_files.written(folder, case_files.FILES[row["make"]])
+    made: Path = getattr(case_files, row["make"])(folder)
+    return made
 
 
 def drawn(path: Path) -> Any:

@@ -67,7 +67,7 @@ def test_a_page_is_built_if_it_is_old_or_missing(clone: Path, monkeypatch: pytes
     monkeypatch.setattr(shutil, "which", lambda name: name)
     (clone / "web" / "node_modules").mkdir()
     assert build_hook.build_page(clone) == ""
-    assert [command[-1] for command in ran] == ["--no-fund", "tools.build_page"]
+    assert [command[-1] for command in ran] == ["web", "tools.build_page"]
 
     def fail(command: list[str], **_: object) -> None:
         raise subprocess.CalledProcessError(1, command)

@@ -21,6 +21,8 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 from PIL import ImageSequence
 from tools.docs.contract_reference import MARK, filled
+from tools.docs.definition import FILE as DEFINITION
+from tools.docs.definition import named, on_page_markdown
 
 import shackled
 from animated_gltf import write
@@ -48,6 +50,15 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def blocks(page: Path) -> list[str]:
     return re.findall(r"^```python\n(.*?)^```$", page.read_text("utf-8"), re.MULTILINE | re.DOTALL)
+
+
+def test_the_explanation_includes_the_definition() -> None:
+    page = (DOCS / "explain.md").read_text("utf-8")
+    text = DEFINITION.read_text("utf-8").partition("# ---- vectors ----")[0]
+    functions = {each.name for each in ast.parse(text).body if isinstance(each, ast.FunctionDef | ast.ClassDef)}
+    helpers = {"numbers", "q32", "rgb", "toward"}
+    assert named(page) == functions - helpers
+    assert "def shade(" in on_page_markdown(page)
 
 
 def test_the_defaults_of_materials() -> None:
@@ -101,7 +112,7 @@ def test_the_files_that_pages_name_exist() -> None:
 @cache
 def sources() -> list[str]:
     folders = ("src", "contracts/src", "contracts/npm", "tests", "tools", "benchmarks", "examples")
-    files = [*ROOT.glob("*.toml"), *(ROOT / "contracts").glob("*.toml")]
+    files = [*ROOT.glob("*.toml"), *(ROOT / "contracts").glob("*.toml"), *(ROOT / "contracts").glob("*.py")]
     files += [path for folder in folders for path in (ROOT / folder).rglob("*.*")]
     return [path.as_posix() for path in files]
 

@@ -45,7 +45,7 @@ def test_content_of_files() -> None:
             memoryview(OBJ),
             io.BytesIO(OBJ),
             io.StringIO(OBJ.decode()),
-            gzip.compress(OBJ),
+            gzip.compress(OBJ, mtime=0),
         ]
         for thing in (*contents, case_files.ply(), file):
             assert (picture(thing) == expected).all()
@@ -58,7 +58,7 @@ def test_content_of_files() -> None:
 
 
 def test_an_open_file_finds_what_is_beside_it(tmp_path: Path) -> None:
-    case_files.comma_materials(tmp_path)
+    case_files.written(tmp_path, case_files.FILES["comma_materials"])
     Path("m.mtl").write_text("newmtl a\nKd 1 0 0\n")
     with open("x.obj", "rb") as file:
         assert [*np.unique(picture(file).reshape(-1, 3), axis=0)[-1]] == [255, 0, 0]
@@ -72,7 +72,7 @@ def test_an_open_file_finds_what_is_beside_it(tmp_path: Path) -> None:
         (b"", "the data is empty"),
         (b"some words", "the format of the data is not told by its content"),
         (b"PK\3\4" + bytes(99), "the data is a zip archive: unpack it"),
-        (gzip.compress(OBJ)[:-9], "the data is cut off"),
+        (gzip.compress(OBJ, mtime=0)[:-9], "the data is cut off"),
         (b"v 0 0 0\nv 1 0 0\nf 1 2 3 x\n", "the data: line 3"),
     ],
 )
@@ -93,7 +93,7 @@ def test_pipes(capsys: pytest.CaptureFixture[str]) -> None:
         return f"/dev/fd/{reader}"
 
     assert (picture(pipe(OBJ)) == picture((V, F))).all()
-    place = pipe(b"mtllib no.mtl\n" + gzip.decompress(gzip.compress(OBJ)))
+    place = pipe(b"mtllib no.mtl\n" + gzip.decompress(gzip.compress(OBJ, mtime=0)))
     assert run(["render", place, "-q", "--size", "8"]) == 0
     assert Path("picture.png").is_file()
     place = pipe(b"PK\3\4" + bytes(99))
@@ -124,7 +124,7 @@ def cells(**blocks: Any) -> Any:
         SimpleNamespace(points=V, regular_faces=F),
         SimpleNamespace(points=V, faces=np.array([4, 0, 1, 2, 3])),
         Mixed(points=np.vstack([V, V[:1]]), faces=np.array([3, 0, 1, 2, 3, 4, 2, 3])),
-        SimpleNamespace(points=V[:, :2], cells=cells(quad=[[0, 1, 2, 3]])),
+        SimpleNamespace(points=V[:, :2], cells=cells(quad=[[0, 1, 2, 3]]), read=None),
         SimpleNamespace(points=V, cells=cells(triangle=F[:1], triangle6=[[0, 2, 3, 1, 1, 1]])),
     ],
 )

@@ -67,9 +67,9 @@ def test_packages_are_those_that_were_tried(
 
 
 def test_make_npm_needs_the_compiler_only(commands: list[tuple[object, ...]], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(prepare, "need_node", lambda: None)
     monkeypatch.setattr(Path, "touch", lambda path: None)
-    prepare.prepare_contracts()
+    monkeypatch.setattr(subprocess, "run", lambda *_, **__: subprocess.CompletedProcess(["node"], 0, "v20.19.2\n"))
+    prepare.prepare_node("contracts")
     assert [command[:2] for command in commands] == [("npm", "ci")]
     makefile = (prepare.ROOT / "Makefile").read_text()
     assert "\nnpm: $(CONTRACTS) $(PACKAGE) ##" in makefile

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from judge.calldata import read
 from made_scenes import flat, teapot_scene
+from picture import read
 from pictures import call, call_data, chain, covered, draw, dynamic
 from shackled import Background, Camera, Material, Mesh, Object, RenderError, Scene
 from shackled.image import decode_bmp
@@ -90,14 +90,14 @@ def triangles_of(scene: Scene, tile: Rectangle) -> tuple[int, int]:
     surely = maybe = 0
     low = np.array([tile.x, tile.y])
     high = low + np.array([tile.width, tile.height])
-    for surface in world.surfaces:
-        corners = world.frame.to_camera(surface.positions[surface.faces])
-        near = corners[..., 2] < world.frame.near
+    for solid in world.objects:
+        corners = world.camera.seen(solid.points[solid.faces])
+        near = corners[..., 2] < world.camera.near
         with np.errstate(all="ignore"):
-            a, b, c = np.moveaxis(world.frame.project(corners), 1, 0)
+            a, b, c = np.moveaxis(world.camera.project(corners), 1, 0)
             area = (c[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1]) - (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1])
             inside = np.minimum(np.maximum.reduce([a, b, c]) - low, high - np.minimum.reduce([a, b, c])).min(axis=1)
-        facing = area if surface.cull else np.abs(area)
+        facing = area if solid.culls else np.abs(area)
         clipped = near.any(axis=1)
         counts = ~clipped & (facing > 0.1) & (inside > 0.6)
         surely += int(counts.sum())

@@ -8,14 +8,15 @@ import socket
 import subprocess
 import tempfile
 import time
+from contextlib import ExitStack
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Self
 
 from shackled.artifacts import artifact
 from shackled.chain import CallResult, Connection, ContractChain, EmbeddedChain, open_chain
 from shackled.errors import NodeUnreachableError, RenderError
 from shackled.ethereum import PROXY, SALT, checksum_address, intrinsic_gas
+from tools.children import child
 
 #: Where `npm ci` installs it in a checkout.
 BINARIES = Path(__file__).resolve().parents[1] / "contracts" / "node_modules" / ".bin"
@@ -41,24 +42,17 @@ class Anvil:
             port = found.getsockname()[1]
         self.url = f"http://127.0.0.1:{port}"
         self.connection = Connection(self.url, PATIENCE)
-        # old states, which anvil would leave in the user's folder
-        self.states = tempfile.TemporaryDirectory(prefix="anvil-")
-        options = ["--cache-path", self.states.name, *self.options]
-        self.process = subprocess.Popen(
-            [self.binary, "--host", "127.0.0.1", "--port", str(port), "--silent", *options],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-        try:
+        with ExitStack() as stack:
+            # old states, which anvil would leave in the user's folder
+            states = stack.enter_context(tempfile.TemporaryDirectory(prefix="anvil-"))
+            options = ("--host", "127.0.0.1", "--port", str(port), "--silent", "--cache-path", states, *self.options)
+            silent = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+            self.process = stack.enter_context(child(self.binary, *options, **silent))
             self._wait()
-        except BaseException:
-            self.stop()
-            raise
+            self._running = stack.pop_all()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.stop()
 
     def rpc(self, method: str, *parameters: Any) -> Any:
@@ -67,13 +61,7 @@ class Anvil:
 
     def stop(self) -> None:
         """End the process, if it still runs."""
-        self.process.terminate()
-        try:
-            self.process.wait(10)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            self.process.wait()
-        self.states.cleanup()
+        self._running.close()
 
     def _wait(self) -> None:
         end = time.monotonic() + PATIENCE
@@ -103,9 +91,7 @@ class AnvilChain(ContractChain):
         self.sender = self.rpc("eth_accounts")[0]
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.node.stop()
 
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:

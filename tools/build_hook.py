@@ -71,12 +71,12 @@ def build_page(root: Path) -> str:
         return "it needs Node 20 or newer and npm"
     lock, installed = (root / "web" / name for name in ("package-lock.json", "node_modules/.package-lock.json"))
     modules = os.pathsep.join([str(root), str(root / "src"), os.environ.get("PYTHONPATH", "")])
+    commands = [["-m", "tools.build_page"]]
+    if not installed.is_file() or installed.stat().st_mtime < lock.stat().st_mtime:
+        commands.insert(0, ["tools/prepare.py", "node", "web"])
     try:
-        if not installed.is_file() or installed.stat().st_mtime < lock.stat().st_mtime:
-            subprocess.run(["npm", "ci", "--no-audit", "--no-fund"], cwd=root / "web", check=True)
-            installed.touch()
-        command = [sys.executable, "-m", "tools.build_page"]
-        subprocess.run(command, cwd=root, env=os.environ | {"PYTHONPATH": modules}, check=True)
+        for command in commands:
+            subprocess.run([sys.executable, *command], cwd=root, env=os.environ | {"PYTHONPATH": modules}, check=True)
     except (OSError, subprocess.CalledProcessError) as error:
         return str(error)
     return ""

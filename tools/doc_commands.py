@@ -22,7 +22,7 @@ from pathlib import Path
 from tools.addresses import ROOT
 from tools.anvil import Anvil, find_anvil
 from tools.children import child
-from tools.release_check import VARIABLES, Table, demand, make_environment, run
+from tools.release_check import VARIABLES, Skipped, Table, demand, make_environment, run
 
 #: Lines of code blocks, and words in a sentence, that are commands.
 LINE = r"^ *(?:\$ )?((?:shackled|make|pip|python|npm|forge) [^#\n]*)"
@@ -32,6 +32,7 @@ SKIPPED = {
     "make test": "continuous integration runs it",
     "shackled preview": "needs a compiler of Solidity and a contract of the reader's",
     "shackled render INPUT": "shows the form of the command",
+    "python contracts/picture.py CALL": "CALL is a file of the reader's",
     "shackled deploy": "the account ARTIST is the reader's",
 }
 #: Commands that need Node.
@@ -74,11 +75,10 @@ class Reader:
 
     def follow(self, command: str, table: Table) -> None:
         """Run a command, with a row for the result."""
-        why = next((why for start, why in SKIPPED.items() if command.startswith(start)), None)
-        if why:
-            table.row(command[:60], "skipped", [why])
-            return
         with table.check(command[:60]) as details:
+            for start, why in SKIPPED.items():
+                if command.startswith(start):
+                    raise Skipped(why)
             begin = time.monotonic()
             if "model.glb" in command and not (self.clone / "model.glb").exists():
                 self.output("shackled export teapot -o model.glb")
@@ -86,14 +86,15 @@ class Reader:
 
     def output(self, command: str) -> list[str]:
         """Run a command; return what is worth telling. Failure if it fails, or without Node does not ask for it."""
-        line = re.sub(rf"{NODE}|\bURL\b", self.url, command)
+        words = shlex.split(re.sub(rf"{NODE}|\bURL\b", self.url, command))
         options = {"cwd": self.clone, "env": self.variables, "start_new_session": True}
-        with child(*shlex.split(line), stderr=subprocess.STDOUT, **options) as process:
+        with child(*words, stderr=subprocess.STDOUT, **options) as process:
             assert process.stdout is not None
             told = ""
-            if "creator" in shlex.split(command):
-                for told in process.stdout:  # until it serves, or ends
-                    if address := re.search(r"http://\S+", told):
+            if "creator" in words:
+                for line in process.stdout:  # until it serves, or ends
+                    told += line
+                    if address := re.search(r"http://\S+", line):
                         with urllib.request.urlopen(address[0], timeout=60) as page:
                             demand(b"<script" in page.read(), "the page is not served")
                         os.killpg(process.pid, signal.SIGINT)
@@ -101,7 +102,8 @@ class Reader:
             else:
                 told = process.communicate(timeout=PATIENCE)[0]
             code = process.wait()
-        last = ["", *told.strip().splitlines()][-1]
+        # make ends with a line that says only that something failed
+        last = ["", *re.sub(r"^make: .*", "", told, flags=re.MULTILINE).strip().splitlines()][-1]
         if command.startswith(NEED_NODE) and not self.has_node:
             demand(code and re.search(r"Node(\.js)?\b", told), f"it does not ask for Node: {last}")
             return ["asks for Node"]

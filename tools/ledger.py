@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from eth_abi.abi import decode, encode
+from eth_abi.grammar import parse
 
 from shackled.artifacts import artifact
 from shackled.chain import EmbeddedChain, open_chain
@@ -85,9 +86,9 @@ def call_data(signature: str, *values: Any) -> bytes:
     """Encode a call of a function whose parameters have these types."""
     from Crypto.Hash import keccak
 
-    kinds = signature.partition("(")[2][:-1]
+    parameters = parse(signature[signature.index("(") :]).components if values else ()
     selector = keccak.new(digest_bits=256, data=signature.encode()).digest()[:4]
-    return selector + encode(_split(kinds), values)
+    return selector + encode([each.to_type_str() for each in parameters], values)
 
 
 def returned(contract: str, signature: str) -> str:
@@ -95,15 +96,3 @@ def returned(contract: str, signature: str) -> str:
     name = signature.partition("(")[0]
     (kind,) = {entry["outputs"][0]["type"] for entry in artifact(contract).abi if entry.get("name") == name}
     return str(kind)
-
-
-def _split(kinds: str) -> list[str]:
-    parts, depth, part = [], 0, ""
-    for letter in kinds:
-        depth += (letter == "(") - (letter == ")")
-        if letter == "," and not depth:
-            parts.append(part)
-            part = ""
-        else:
-            part += letter
-    return [*parts, part] if part else parts

@@ -29,7 +29,7 @@ from PIL import Image, ImageDraw
 
 from shackled.cli.info import facts_of
 from shackled.cli.option import with_options
-from shackled.cli.picture import FilmOptions, Source, Task, render_to
+from shackled.cli.picture import FilmOptions, Source, Task, Work
 from shackled.cli.progress import Notes
 from shackled.errors import InputWarning, ShackledError
 from shackled.gas import fits_as_json
@@ -126,7 +126,7 @@ def result_of(package: Package, name: str, path: Path, picture: Path) -> dict[st
         warnings.simplefilter("always")
         try:
             result["faces"] = facts_of(path).triangles
-            done = render_to(Source(name, str(path), path.stem), picture, DEFAULTS, Notes())
+            done = Work(Source(name, str(path), path.stem), picture, DEFAULTS).render(Notes())
             result |= {"gas": done.report["gas"], "fits": fits_as_json(done.fits or ())}
         except ShackledError as error:
             result["refused"] = _words(error, path)

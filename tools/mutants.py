@@ -279,7 +279,8 @@ def run(file: str, judge: str) -> None:
 def killer(file: Path, judge: str) -> str | None:
     """Return what a judge finds of a mutant, in a process of its own."""
     command = [sys.executable, "-m", "tools.mutants", "--run", str(file), judge]
-    paths = os.pathsep.join(map(str, [ROOT, ROOT / "tests", ROOT / "tests" / "support", ROOT / "src"]))
+    folders = ("", "tests", "tests/support", "src", "contracts")
+    paths = os.pathsep.join(str(ROOT / folder) for folder in folders)
     # one thread each: the arrays are small
     environment = os.environ | {"PYTHONPATH": paths, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     try:

@@ -1,15 +1,13 @@
-"""Write what the page takes from the package: web/src/creator/settings.ts, with settings, looks, limits of gas, chains,
-and bounds of what transactions cost; and web/src/files/signatures.ts, with the beginnings of files.
+"""Write web/src/creator/settings.ts: what the page takes from the package, which are settings, looks, limits of gas,
+chains, and bounds of what transactions cost.
 
-python tools/page_settings.py    with --check it writes nothing, and fails if a file is not as it would be written
+python tools/page_settings.py    with --check it writes nothing, and fails if the file is not as it would be written
 """
 
 from __future__ import annotations
 
 import json
 import sys
-import tomllib
-from importlib.resources import files
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -22,7 +20,7 @@ from shackled.scene._presets import Preset
 from shackled.tokens._contract import USUAL_GAS
 from shackled.tokens._reveal import FIRST_GAS, REVEAL_GAS
 
-SOURCES = Path(__file__).resolve().parent.parent / "web" / "src"
+FILE = Path(__file__).resolve().parent.parent / "web" / "src" / "creator" / "settings.ts"
 HEAD = """// Written by tools/page_settings.py from the tables of the Python package.
 
 /** What can be set: src/shackled/scene/_settings.py. `low` and `high` are null where there is none. */
@@ -50,18 +48,6 @@ export type Limit = Readonly<
 /** A chain, its currency by symbol; node: one that a wallet can use, or "": src/shackled/gas/chains.toml. */
 export type KnownChain = Readonly<Record<"name" | "currency" | "explorer" | "node", string> & { number: number }>;
 """
-SIGNATURES = """// Written by tools/page_settings.py from src/shackled/scene/_files/signatures.toml.
-
-/** How a file begins, and what it is: the table explains the keys. */
-export interface Signature {
-    name: string;
-    begins: string;
-    case?: boolean;
-    text?: boolean;
-    format?: string;
-    do?: string;
-}
-"""
 #: The tables, and the types of their rows.
 TYPES = {"SETTINGS": "Setting", "PRESETS": "Preset", "LIMITS": "Limit", "CHAINS": "KnownChain"}
 
@@ -88,17 +74,8 @@ def look(preset: Preset) -> dict[str, Any]:
     }
 
 
-def signatures() -> str:
-    """Return the file of signatures."""
-    known = tomllib.loads(files("shackled.scene._files").joinpath("signatures.toml").read_text("utf-8"))
-    # the page is one file, too, in which no script may hold the beginning of a comment
-    rows = "".join(f"    {json.dumps(row)},\n" for row in known["signature"]).replace("<!--", "<[!]--")
-    table = f"\n// prettier-ignore\nexport const SIGNATURES: readonly Signature[] = [\n{rows}];\n"
-    return f"{SIGNATURES}{table}\n// prettier-ignore\nexport const DAMAGED = {json.dumps(known['damaged'])};\n"
-
-
 def text() -> str:
-    """Return the file of settings."""
+    """Return the file."""
     names = ("name", "gas", "kind", "place", "source", "date", "remark")
     known = [{name: getattr(each, name) for name in names} for each in limits()]
     of_chains = ("number", "name", "currency", "explorer", "node")
@@ -132,8 +109,7 @@ def _hex(color: Color) -> str:
 if __name__ == "__main__":
     if sys.argv[1:] not in ([], ["--check"]):
         sys.exit(__doc__)
-    for name, content in {"creator/settings.ts": text(), "files/signatures.ts": signatures()}.items():
-        if not sys.argv[1:]:
-            (SOURCES / name).write_text(content, "utf-8")
-        elif not (SOURCES / name).exists() or (SOURCES / name).read_text("utf-8") != content:
-            sys.exit(f"{name} is not as tools/page_settings.py writes it: run it without --check")
+    if not sys.argv[1:]:
+        FILE.write_text(text(), "utf-8")
+    elif FILE.read_text("utf-8") != text():
+        sys.exit(f"{FILE.name} is not as tools/page_settings.py writes it: run it without --check")

@@ -1,13 +1,12 @@
 """Install what the Makefile needs; runs on a bare Python.
 
-    python3 tools/prepare.py package    .venv with the package in it
-    python3 tools/prepare.py dev        and with what tests and documentation need
-    python3 tools/prepare.py web        node_modules of web/, with which the Creator is built
-    python3 tools/prepare.py contracts  node_modules of contracts/: the compiler, and sources of libraries
-    python3 tools/prepare.py node       node_modules of contracts/, web/ and tests/package: compilers, anvil, Hardhat
-    python3 tools/prepare.py browser    browsers for the tests of pages, if they can be had
-    python3 tools/prepare.py opengl     an OpenGL without a screen, to compare pictures with, if it can be had
-    python3 tools/prepare.py rust       the compiler of evm/, if it can be had
+    python3 tools/prepare.py package          .venv with the package in it
+    python3 tools/prepare.py dev              and with what tests and documentation need
+    python3 tools/prepare.py node [FOLDER]    node_modules of a folder: contracts (compiler, libraries, anvil), web
+                                              (bundler, libraries of the page) or tests/package (Hardhat); or of all
+    python3 tools/prepare.py browser          browsers for the tests of pages, if they can be had
+    python3 tools/prepare.py opengl           an OpenGL without a screen, to compare pictures with, if it can be had
+    python3 tools/prepare.py rust             the compiler of evm/, if it can be had
 
 Missing packages of the system are installed by apt-get, if that is there and the user is root, unless the variable
 SHACKLED_NO_APT is set. Python packages are those of tools/locked, by version and hash.
@@ -26,10 +25,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 VENV = ROOT / ".venv"
 PYTHON = VENV / "bin" / "python"
-CONTRACTS = ROOT / "contracts"
-WEB = ROOT / "web"
-PACKAGE_TESTS = ROOT / "tests" / "package"
 LOCKED = ROOT / "tools" / "locked"
+#: Folders with a package-lock.json.
+NODE_FOLDERS = ("contracts", "web", "tests/package")
 
 #: Browsers that the tests of pages use: their commands, and the package with them.
 BROWSERS = {"chromium": ("chromium", "chromium-browser"), "firefox-esr": ("firefox-esr", "firefox")}
@@ -51,18 +49,17 @@ def main() -> int:
     targets = {
         "package": prepare_package,
         "dev": prepare_dev,
-        "web": prepare_web,
-        "contracts": prepare_contracts,
         "node": prepare_node,
         "browser": prepare_browser,
         "opengl": prepare_opengl,
         "rust": prepare_rust,
     }
-    if len(sys.argv) != 2 or sys.argv[1] not in targets:
-        print(f"usage: python3 tools/prepare.py {'|'.join(targets)}", file=sys.stderr)
+    target, *folders = sys.argv[1:] or [""]
+    if target not in targets or not {*folders} <= {*(NODE_FOLDERS if target == "node" else ())}:
+        print(f"usage: python3 tools/prepare.py {'|'.join(targets)} [FOLDER]", file=sys.stderr)
         return 2
     try:
-        targets[sys.argv[1]]()
+        targets[target](*folders)
     except subprocess.CalledProcessError as error:
         print(f"failed: {' '.join(map(str, error.cmd))}", file=sys.stderr)
         return 1
@@ -84,34 +81,17 @@ def prepare_dev() -> None:
     (VENV / ".dev").touch()
 
 
-def prepare_web() -> None:
-    """Install node_modules of web/ from its package-lock.json."""
-    need_node()
-    say("installing the bundler and the libraries of the page")
-    npm_install(WEB)
-
-
-def prepare_contracts() -> None:
-    """Install node_modules of contracts/ from its package-lock.json."""
-    need_node()
-    say("installing the compiler and the libraries of the contracts")
-    npm_install(CONTRACTS)
-
-
-def need_node() -> None:
-    """Install Node.js, if there is none; exit if it is too old."""
+def prepare_node(*folders: str) -> None:
+    """Install node_modules of folders from their package-lock.json; without a folder, of all."""
     if not (shutil.which("node") and shutil.which("npm")):
         apt_install("Node.js and npm", "nodejs", "npm")
     check_node(subprocess.run(["node", "--version"], capture_output=True, text=True).stdout)
-
-
-def prepare_node() -> None:
-    """Install node_modules of contracts/, web/ and tests/package from their package-lock.json."""
-    need_node()
-    say("installing the compilers, and anvil and Hardhat for the tests")
-    for folder in (CONTRACTS, WEB, PACKAGE_TESTS):
-        npm_install(folder)
-    if not (CONTRACTS / "node_modules" / ".bin" / "anvil").exists():
+    folders = folders or NODE_FOLDERS
+    for folder in folders:
+        say(f"installing node_modules of {folder}")
+        run("npm", "ci", "--no-audit", "--no-fund", "--loglevel=error", cwd=ROOT / folder)
+        (ROOT / folder / "node_modules" / ".package-lock.json").touch()
+    if "contracts" in folders and not (ROOT / "contracts" / "node_modules" / ".bin" / "anvil").exists():
         say("there is no anvil for this machine; tests of a real node look for one in the PATH")
 
 
@@ -128,34 +108,23 @@ def check_node(said: str) -> None:
 def prepare_browser() -> None:
     """Install Chromium and Firefox as packages of the system. Only the tests of pages need them."""
     missing = [package for package, commands in BROWSERS.items() if not any(map(shutil.which, commands))]
-    if not missing:
-        return
-    try:
-        apt_install("browsers for the tests of pages", *missing)
-    except (SystemExit, subprocess.CalledProcessError) as error:
-        say(f"tests of pages are skipped: {error}")
+    if missing:
+        apt_install_if_possible("tests of pages are skipped", "browsers for the tests of pages", *missing)
 
 
 def prepare_opengl() -> None:
     """Install OpenGL by EGL as packages of the system. Only the tests against OpenGL need it."""
     folders = (*Path("/usr").glob("lib*"), *Path("/usr/lib").glob("*-linux-gnu"))
     has_renderer = any(list(folder.glob(name)) for folder in folders for name in OPENGL_RENDERERS)
-    if has_renderer and all(map(find_library, OPENGL_LIBRARIES)):
-        return
-    try:
-        apt_install("OpenGL, to compare pictures with", *OPENGL_PACKAGES)
-    except (SystemExit, subprocess.CalledProcessError) as error:
-        say(f"the tests against OpenGL are skipped: {error}")
+    if not (has_renderer and all(map(find_library, OPENGL_LIBRARIES))):
+        without = "the tests against OpenGL are skipped"
+        apt_install_if_possible(without, "OpenGL, to compare pictures with", *OPENGL_PACKAGES)
 
 
 def prepare_rust() -> None:
     """Install the compiler of evm/ as packages of the system. Only the check that builds evm.wasm again needs it."""
-    if all(map(shutil.which, RUST)):
-        return
-    try:
-        apt_install("the compiler of evm/", *RUST_PACKAGES)
-    except (SystemExit, subprocess.CalledProcessError) as error:
-        say(f"evm.wasm is not built again: {error}")
+    if not all(map(shutil.which, RUST)):
+        apt_install_if_possible("evm.wasm is not built again", "the compiler of evm/", *RUST_PACKAGES)
 
 
 def make_venv() -> None:
@@ -180,12 +149,6 @@ def install(listed: str) -> None:
     (VENV / ".package").touch()
 
 
-def npm_install(folder: Path) -> None:
-    """Install what the package-lock.json of a folder lists."""
-    run("npm", "ci", "--no-audit", "--no-fund", "--loglevel=error", cwd=folder)
-    (folder / "node_modules" / ".package-lock.json").touch()
-
-
 def apt_install(what: str, *packages: str) -> None:
     """Install packages of the system."""
     if not shutil.which("apt-get") or os.geteuid() != 0 or os.environ.get("SHACKLED_NO_APT"):
@@ -196,6 +159,14 @@ def apt_install(what: str, *packages: str) -> None:
     # another program may be installing packages
     options = ("-y", "-qq", "--no-install-recommends", "-o", "DPkg::Lock::Timeout=300")
     run("apt-get", "install", *options, *packages, env=environment)
+
+
+def apt_install_if_possible(without: str, what: str, *packages: str) -> None:
+    """Install packages of the system, or say what happens without them."""
+    try:
+        apt_install(what, *packages)
+    except (SystemExit, subprocess.CalledProcessError) as error:
+        say(f"{without}: {error}")
 
 
 def run(*command: object, cwd: Path = ROOT, env: dict[str, str] | None = None) -> None:

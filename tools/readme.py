@@ -1,4 +1,4 @@
-"""Update the figures of README.md, docs/index.md and docs/light.md: those of benchmarks/ and of pictures.json.
+"""Update tables of README.md and docs/: figures of benchmarks/ and of pictures.json, and the settings of a look.
 
 python -m tools.readme            writes them between the marks <!-- begin NAME --> and <!-- end NAME -->
 python -m tools.readme --check    writes nothing; fails if they are not up to date
@@ -11,9 +11,10 @@ import json
 import sys
 from typing import Any
 
+from shackled.scene import SETTINGS
 from tools.pages import DOCS, IMAGES, ROOT, update
 
-PAGES = (ROOT / "README.md", DOCS / "index.md", DOCS / "light.md")
+PAGES = (ROOT / "README.md", DOCS / "index.md", DOCS / "light.md", DOCS / "look.md")
 RESULTS = ROOT / "benchmarks" / "results.json"
 TOKENS = ROOT / "benchmarks" / "tokens.json"
 PICTURES = IMAGES / "pictures.json"
@@ -84,6 +85,15 @@ def pixels() -> str:
     return "\n".join(lines)
 
 
+def settings() -> str:
+    """Return the table of all settings of a look."""
+    lines = ["| keyword | option | what it sets | values | default |", "|---|---|---|---|---|"]
+    for setting in SETTINGS:
+        option = setting.option.replace("/", "`, `")
+        lines.append(f"| `{setting.name}` | `{option}` | {setting.text} | {setting.values} | {setting.default} |")
+    return "\n".join(lines)
+
+
 def millions(gas: float) -> str:
     """Format gas as 4.9 million."""
     return f"{gas / 1e6:,.1f} million" if gas < 1e8 else f"{gas / 1e6:,.0f} million"
@@ -94,7 +104,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--check", action="store_true", help="write nothing; fail if they are not up to date")
     check = parser.parse_args().check
-    found = {each.__name__: each() for each in (costs, effects, pixels, scene, tokens)}
+    found = {each.__name__: each() for each in (costs, effects, pixels, scene, settings, tokens)}
     return update(dict.fromkeys(PAGES, found.get), "python -m tools.readme", check)
 
 

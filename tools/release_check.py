@@ -65,19 +65,27 @@ CONTRACTS = """
 require.resolve("shackled-contracts/interfaces/IRenderer.sol");
 console.log(require("shackled-contracts").contracts.Renderer.address);
 """
-#: Draws meshes of other libraries, and fails unless they are what arrays of the same numbers are.
-OTHERS = """
-import numpy, meshio, open3d, pyvista, shackled
+#: Libraries whose meshes are drawn, and how they make one.
+OTHERS = {
+    "meshio": 'meshio.Mesh(v, {"triangle": f})',
+    "open3d": "open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(v), open3d.utility.Vector3iVector(f))",
+    "pyvista": "pyvista.PolyData.from_regular_faces(v, f)",
+}
+#: Draws a mesh of such a library, and fails unless the picture is that of arrays of the same numbers.
+OTHER = """
+import numpy, shackled, %s
 v, f = numpy.array([(-1.0, -1, 0), (1, -1, 0), (1, 1, 0)]), numpy.array([(0, 1, 2)])
-one = open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(v), open3d.utility.Vector3iVector(f))
-meshes = one, pyvista.PolyData.from_regular_faces(v, f), meshio.Mesh(v, {"triangle": f})
-assert all((shackled.render(each, 16).pixels == shackled.render((v, f), 16).pixels).all() for each in meshes)
+assert (shackled.render(%s, 16).pixels == shackled.render((v, f), 16).pixels).all()
 """
 TRIANGLE = "v 0 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\n"
 
 
 class Failure(Exception):
     """What is wrong, in one line."""
+
+
+class Skipped(Exception):
+    """Why something cannot be checked, in one line."""
 
 
 class Table:
@@ -92,10 +100,12 @@ class Table:
 
     @contextmanager
     def check(self, name: str) -> Iterator[list[object]]:
-        """Print a row for what is done within, which adds details to the list, or raises Failure."""
+        """Print a row for what is done within, which adds details to the list, or raises Failure or Skipped."""
         details: list[object] = []
         try:
             yield details
+        except Skipped as reason:
+            self.row(name, "skipped", [reason])
         except Failure as failure:
             self.row(name, "FAILED", [failure])
         except (OSError, LookupError, ValueError, subprocess.SubprocessError) as error:
@@ -114,7 +124,9 @@ def run(*command: str | Path, cwd: Path) -> str:
     """Run a command; return what it prints. Raise Failure with its last line if it fails."""
     done = subprocess.run(command, cwd=cwd, env=VARIABLES, capture_output=True, text=True)
     lines = [line for line in (done.stdout + done.stderr).splitlines() if line.strip()]
-    demand(not done.returncode, f"{' '.join(map(str, command[:4]))} ...: {lines[-1] if lines else done.returncode}")
+    # without the text of a program
+    name = " ".join(map(str, command[:4])).splitlines()[0]
+    demand(not done.returncode, f"{name} ...: {lines[-1] if lines else done.returncode}")
     return done.stdout
 
 
@@ -261,14 +273,20 @@ def use_python(table: Table, name: str, python: Path, package: Path, work: Path)
 
 
 def use_others(table: Table, python: Path, work: Path) -> None:
-    """Draw meshes of other libraries, in an environment of its own."""
-    try:
-        inside = make_environment(python, work / "others", released("*.whl"), "pyvista", "open3d", "meshio")
-    except Failure as failure:
-        table.row("meshes of PyVista, Open3D, meshio", "absent", [failure])
-        return
-    with table.check("meshes of PyVista, Open3D, meshio"):
-        run(inside, "-c", OTHERS, cwd=work)
+    """Draw meshes of other libraries, each in an environment of its own."""
+    for library, mesh in OTHERS.items():
+        with table.check(f"a mesh of {library}") as details:
+            inside = make_environment(python, work / library, released("*.whl"))
+            try:
+                run(inside, "-m", "pip", "install", "--quiet", library, cwd=work)
+                run(inside, "-c", f"import {library}", cwd=work)
+            except Failure as failure:
+                # it has no wheel for this Python, or needs a library of the system
+                if re.search("No matching distribution|cannot open shared object file", str(failure)):
+                    raise Skipped(failure) from None
+                raise
+            run(inside, "-c", OTHER % (library, mesh), cwd=work)
+            details.append(run(inside, "-m", "pip", "show", library, cwd=work).splitlines()[1])
 
 
 def runs(python: Path, program: Path, folder: Path) -> bool:

@@ -8,6 +8,7 @@
 import { copyFileSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { relative, resolve } from "node:path";
 import { build } from "esbuild";
+import { parse } from "smol-toml";
 
 /** What the scripts of workers are made of, for notices. */
 const insideWorkers = {};
@@ -21,7 +22,7 @@ const workers = {
             namespace: "worker",
         }));
         building.onLoad({ filter: /./, namespace: "worker" }, async ({ path }) => {
-            const script = { ...common, plugins: [libraries], external: ["fs", "path"], format: "iife", minify: true };
+            const script = { ...common, external: ["fs", "path"], format: "iife", minify: true };
             const { outputFiles, metafile } = await build({
                 ...script,
                 entryPoints: [path],
@@ -30,6 +31,22 @@ const workers = {
             });
             Object.assign(insideWorkers, metafile.inputs);
             return { contents: outputFiles[0].text, loader: "text", watchFiles: Object.keys(metafile.inputs) };
+        });
+    },
+};
+
+/** Imports of "toml:PATH", from src/shackled/: a table of the Python package. */
+const tables = {
+    name: "tables",
+    setup: (building) => {
+        building.onResolve({ filter: /^toml:/ }, ({ path }) => ({
+            path: resolve("../src/shackled", path.slice("toml:".length)),
+            namespace: "toml",
+        }));
+        building.onLoad({ filter: /./, namespace: "toml" }, ({ path }) => {
+            const table = JSON.stringify(parse(readFileSync(path, "utf8")));
+            // the page is one file, too, in which no script may hold the beginning of a comment
+            return { contents: table.replaceAll("<!--", "<[!]--"), loader: "json", watchFiles: [path] };
         });
     },
 };
@@ -57,10 +74,11 @@ const common = {
     legalComments: "none",
     jsx: "automatic",
     jsxImportSource: "preact",
+    plugins: [libraries, tables],
 };
 /** The decoder of Draco meshes; what starts it asks for parts of Node there. */
 const DRACO = "three/examples/jsm/libs/draco/gltf/draco_decoder.wasm";
-const modules = { ...common, plugins: [workers, libraries] };
+const modules = { ...common, plugins: [workers, libraries, tables] };
 const forPython = { shackled: "src/index.ts", view: "src/view/index.ts" };
 
 /** Write the licences of the packages that a bundle is made of. */
@@ -101,9 +119,8 @@ const builds = {
         rmSync("dist/tests", { recursive: true, force: true });
         const entryPoints = readdirSync("tests").filter((name) => name.endsWith(".test.ts"));
         return build({
-            ...common,
+            ...modules,
             entryPoints: entryPoints.map((name) => `tests/${name}`),
-            plugins: [workers, libraries],
             platform: "node",
             outdir: "dist/tests",
         });

@@ -89,17 +89,14 @@ def load_picture(thing: Thing, size: int | tuple[int, int] | None = None, **look
 
 def _loaded(thing: Thing, look: Mapping[str, Any], is_picture: bool) -> Scene:
     chosen = checked_look(look)
-    found = _located(thing)
-    if _is_data(found):
-        with _as_file(found) as path:
-            return _loaded(path, look, is_picture)
-    is_posed = isinstance(found, Path) and format_of(found) in GLTF
-    made = read_posed(found, chosen, pose_of(chosen)) if is_posed else _made(found, chosen)
-    with about(str(found)) if isinstance(found, Path | Link) else nullcontext():
-        scene = look_at(made, chosen, name=str(found) if isinstance(found, Path) else "the mesh")
-    if is_picture and "max_triangles" not in chosen and is_model(found):
-        return as_shown(scene, str(found) if isinstance(found, Path) else "the model")
-    return scene
+    with _opened(thing) as found:
+        is_posed = isinstance(found, Path) and format_of(found) in GLTF
+        made = read_posed(found, chosen, pose_of(chosen)) if is_posed else _made(found, chosen)
+        with about(str(found)) if isinstance(found, Path | Link) else nullcontext():
+            scene = look_at(made, chosen, name=str(found) if isinstance(found, Path) else "the mesh")
+        if is_picture and "max_triangles" not in chosen and is_model(found):
+            return as_shown(scene, str(found) if isinstance(found, Path) else "the model")
+        return scene
 
 
 def is_model(thing: Any) -> bool:
@@ -116,26 +113,32 @@ def _located(thing: Any) -> Any:
 
 def _is_data(thing: Any) -> bool:
     """Return whether an input is the content of a file: bytes, an open file, or a pipe."""
-    is_open = isinstance(thing, bytes | bytearray | memoryview) or hasattr(thing, "read")
-    return is_open or (isinstance(thing, Path) and is_pipe(thing))
+    if isinstance(thing, Path):
+        return is_pipe(thing)
+    # a mesh of meshio has `read`, too
+    is_open = hasattr(thing, "read") and not hasattr(thing, "points")
+    return is_open or isinstance(thing, bytes | bytearray | memoryview)
 
 
 @contextmanager
-def _as_file(thing: Any) -> Iterator[Path]:
-    """Yield the path of a file with the content of an input: that of an open file which is at its beginning."""
-    name, file = "the data", getattr(thing, "buffer", thing)
-    if _is_whole(file):
+def _opened(thing: Any) -> Iterator[Any]:
+    """Yield an input as `_located` returns it, or the path of a file with its content, if that is all it is."""
+    found = _located(thing)
+    file = getattr(found, "buffer", found)  # of an open file of text
+    if not _is_data(found):
+        yield found
+    elif _is_whole(file):
         yield Path(file.name)
-        return
-    try:
-        if isinstance(thing, Path):
-            name, data = str(thing), read_pipe(thing)
-        else:
-            data = file.read() if hasattr(file, "read") else bytes(file)
-    except OSError as error:
-        raise InputError(f"{name} cannot be read: {error.strerror or error}") from None
-    with stored(data.encode() if isinstance(data, str) else bytes(data), name) as path:
-        yield path
+    else:
+        name, read = "the data", getattr(file, "read", lambda: file)
+        if isinstance(found, Path):
+            name, read = str(found), lambda: read_pipe(found)
+        try:
+            data = read()
+        except OSError as error:
+            raise InputError(f"{name} cannot be read: {error.strerror or error}") from None
+        with stored(data.encode() if isinstance(data, str) else bytes(data), name) as path:
+            yield path
 
 
 def _is_whole(file: Any) -> bool:
@@ -208,13 +211,10 @@ def _made(thing: Any, look: Mapping[str, Any]) -> Mesh | list[Object] | Scene:
     """Return the mesh, the parts of a model or the scene of an input."""
     if isinstance(thing, Mesh | Scene):
         return thing
-    if isinstance(thing, Path) and not _is_data(thing):
+    if isinstance(thing, Path):
         return _model(thing, look) if format_of(thing) in READERS else read_scene(thing)
     if isinstance(thing, Link):
         return thing.scene()
-    if _is_data(thing):
-        with _as_file(thing) as path:
-            return _made(path, look)
     if isinstance(thing, Piece):
         return evolve(thing.make(), width=MESH_STAGING.side, height=MESH_STAGING.side, antialias=True)
     if isinstance(thing, Object):
@@ -258,15 +258,14 @@ def _combined(things: Sequence[Any], look: Mapping[str, Any]) -> list[Object] | 
     model: list[Object] = []
     models = 0
     for number, thing in enumerate(things):
-        with about(f"[{number}]"):
-            found = _located(thing)
+        with about(f"[{number}]"), _opened(thing) as found:
             if isinstance(found, list | tuple) and found and _is_input(found[0]):
                 raise InputError("a list must not hold lists: give one list of all members")
             made = found if isinstance(found, Object) else _made(found, look)
             if isinstance(made, list):
                 model, models = [*model, *made], models + 1
                 made = _in_their_places(made, str(found) if isinstance(found, Path) else "the mesh")
-            elif isinstance(made, Scene) and (isinstance(found, Scene | Path | Link) or _is_data(found)):
+            elif isinstance(made, Scene) and isinstance(found, Scene | Path | Link):
                 scenes.append(made)
             parts = [made] if isinstance(made, Object) else [Object(made)] if isinstance(made, Mesh) else made.objects
             if isinstance(found, Piece):
@@ -316,22 +315,20 @@ def load_frames(
     frames: how many, 2..720. size, look: as in `load`, but for `time`.
     """
     chosen = checked_look({"size": size, **look})
-    path = _located(thing)
-    if _is_data(path):
-        with _as_file(path) as file:
-            return load_frames(file, frames, size, **look)
-    if not isinstance(path, Path) or format_of(path) not in GLTF:
-        raise InputError(f"{thing} has no animation: those of glTF files are read, {' or '.join(GLTF)}")
     if "time" in chosen:
         raise InputError("`time` is for one picture: frames take all times of an animation")
     count, pose = frame_count(frames, "an animation"), pose_of(chosen)
-    with about(str(path)):
-        length = animation_length(path, pose.setdefault("animation", 0))
-    poses = [read_posed(path, chosen, {**pose, "time": length * step / count}) for step in range(count)]
-    models = [each for each in poses if not isinstance(each, Scene)]  # all, unless the file has the camera
-    around = np.concatenate([part.world_positions() for parts in models for part in parts]) if models else None
-    with about(str(path)):
-        return _alike([look_at(each, chosen, around=around) for each in poses]), length
+    with _opened(thing) as path:
+        if not isinstance(path, Path) or format_of(path) not in GLTF:
+            name = path if isinstance(path, Path) else thing
+            raise InputError(f"{name} has no animation: those of glTF files are read, {' or '.join(GLTF)}")
+        with about(str(path)):
+            length = animation_length(path, pose.setdefault("animation", 0))
+        poses = [read_posed(path, chosen, {**pose, "time": length * step / count}) for step in range(count)]
+        models = [each for each in poses if not isinstance(each, Scene)]  # all, unless the file has the camera
+        around = np.concatenate([part.world_positions() for parts in models for part in parts]) if models else None
+        with about(str(path)):
+            return _alike([look_at(each, chosen, around=around) for each in poses]), length
 
 
 def _alike(scenes: list[Scene]) -> list[Scene]:

@@ -6,7 +6,7 @@ import numpy as np
 from attrs import evolve
 
 from .chain import open_chain
-from .scene import Object, Scene
+from .scene import Scene, is_visible
 
 
 def why_nothing(scene: Scene, evm: str | None = None) -> str:
@@ -16,7 +16,7 @@ def why_nothing(scene: Scene, evm: str | None = None) -> str:
     """
     if not scene.objects:
         return "the scene has no objects"
-    if all(map(_is_hidden, scene.objects)):
+    if not any(is_visible(each.mesh, each.opacity, each.material.texture) for each in scene.objects):
         return "everything is transparent: its opacity is 0; `opacity` of 1 and opaque colours show it"
     if _is_outside(scene):
         return "everything is outside of the view: `eye`, `target`, `fov` and `near` place it"
@@ -28,12 +28,6 @@ def why_nothing(scene: Scene, evm: str | None = None) -> str:
     if not triangles and chain.count(shown)[1]:
         return "all faces turn away from the viewer and are culled: --no-cull, or cull=False, draws them"
     return "everything is outside of the view, or smaller than a pixel"
-
-
-def _is_hidden(thing: Object) -> bool:
-    levels = [thing.opacity, *(each.max() for each in (thing.mesh.opacities,) if each is not None)]
-    texture = thing.material.texture
-    return min(levels) == 0 or (texture is not None and texture.alpha is not None and not texture.alpha.any())
 
 
 @np.errstate(all="ignore")

@@ -22,7 +22,7 @@ from pathlib import Path
 
 if __package__ in (None, ""):
     TESTS = Path(__file__).parents[1]
-    sys.path[:0] = [str(TESTS), str(TESTS / "support")]
+    sys.path[:0] = [str(TESTS), str(TESTS / "support"), str(TESTS.parent / "contracts")]
 
 from conformance import opengl
 from conformance.compare import ANOTHER, compare

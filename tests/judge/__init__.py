@@ -1,7 +1,7 @@
-"""Judge pictures by a renderer in float64, written from the formulas of the documentation alone.
+"""Judge pictures by their definition in float64, contracts/picture.py, which shares nothing with the package.
 
-It reads the same calldata as the contracts, so that both see the same numbers, and shares nothing else with them. For
-each pixel it finds the range in which its colour may lie when samples move by 0.04 pixels.
+It reads the same calldata as the contracts, so that both see the same numbers. For each pixel it finds the range in
+which its colour may lie when samples move by 0.04 pixels.
 """
 
 from .composition import Picture, render

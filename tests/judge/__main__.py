@@ -20,7 +20,7 @@ from pathlib import Path
 
 if __package__ in (None, ""):
     TESTS = Path(__file__).parents[1]
-    sys.path[:0] = [str(each) for each in (TESTS, TESTS / "support", TESTS.parent)]
+    sys.path[:0] = [str(each) for each in (TESTS, TESTS / "support", TESTS.parent, TESTS.parent / "contracts")]
 
 from benchmarks.shared import FOLDER
 

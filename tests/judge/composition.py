@@ -12,12 +12,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .calldata import FLAT, Array, Booleans, Integers, World, read
+from picture import FLAT, Array, Integers
+
 from .fragments import RULES, WHOLES, Fragments, fragments
 from .pieces import Pieces, joined, pieces_of
 from .shadows import Shadows
-from .visibility import AROUND, CENTER, SAME_DEPTH, SAMPLES, Seen, seen
+from .visibility import AROUND, SAME_DEPTH, Seen, seen
 from .wires import seen_wires
+from .world import Booleans, World
 
 #: Opacities of texels below this may be taken as 0.
 HIDDEN = 1e-4
@@ -74,19 +76,19 @@ class _Canvas:
 
 def render(data: bytes) -> Picture:
     """Return the picture that calldata of `render(Scene)` asks for."""
-    return Composition(read(data)).picture()
+    return Composition(World(data)).picture()
 
 
 class Composition:
     """The layers of a world, one over the other."""
 
     def __init__(self, world: World) -> None:
-        self.world, self.frame = world, world.frame
-        self.places = SAMPLES if world.antialias else CENTER
-        self.shadows = Shadows(world) if world.shadow is not None else None
-        height, width = self.frame.height, self.frame.width
+        self.world, self.camera, scene = world, world.camera, world.scene
+        self.places: Array = scene.samples
+        self.shadows = Shadows(world) if scene.shadow_light is not None else None
+        height, width = self.camera.height, self.camera.width
         part = (np.arange(height) / max(height - 1, 1))[:, None]
-        background = np.repeat(world.top + (world.bottom - world.top) * part, width, axis=0)[None, :, None]
+        background = np.repeat(scene.top + (scene.bottom - scene.top) * part, width, axis=0)[None, :, None]
         shape = (height * width, len(self.places))
         full = np.empty((1 + len(RULES), 3, *shape, 3))
         full[:] = background
@@ -103,20 +105,20 @@ class Composition:
 
     def picture(self) -> Picture:
         """Draw all."""
-        surfaces = self.world.surfaces
+        objects = self.world.objects
         # a ground fades into what is before it in the scene
         solid: list[list[int]] = [[]]
-        for i, surface in enumerate(surfaces):
-            if surface.fade is not None:
+        for i, each in enumerate(objects):
+            if each.fade is not None:
                 solid += [[i], []]
-            elif surface.is_opaque:
+            elif each.is_opaque:
                 solid[-1].append(i)
-        glass = [[i] for i, s in enumerate(surfaces) if not s.is_opaque and s.fade is None and s.opacities.any()]
+        glass = [[i] for i, s in enumerate(objects) if not s.is_opaque and s.fade is None and s.opacities.any()]
         for numbers in filter(None, solid + glass):
             self._draw(numbers)
-        shape = (self.frame.height, self.frame.width)
+        shape = (self.camera.height, self.camera.width)
         colors = self.canvas.colors.mean(axis=3).reshape(-1, 3, *shape, 3)
-        if self.world.invert:
+        if self.world.scene.invert:
             colors = 255 - colors[:, ::-1]
         low, exact, high = colors[0]
         only = np.stack([np.full(shape, -1).ravel(), *self.only]).reshape(-1, *shape)
@@ -139,7 +141,7 @@ class Composition:
     def _draw(self, numbers: list[int]) -> None:
         """Draw some surfaces at once."""
         canvas, world = self.canvas, self.world
-        parts = [pieces_of(self.frame, world.surfaces[i], world.antialias) for i in numbers]
+        parts = [pieces_of(world, i) for i in numbers]
         pieces = joined([part[part.is_cut == cut] for part in parts for cut in (False, True)])
         reached, rows = self._visible(pieces)
         floor = reached.floor
@@ -177,7 +179,7 @@ class Composition:
 
     def _has_alpha(self, face: Integers) -> Booleans:
         has_alpha = self.world.are(lambda s: s.texture is not None and s.texture.alpha is not None)
-        return np.asarray(has_alpha[self.world.surface_of(face)])
+        return np.asarray(has_alpha[self.world.object_of(face)])
 
     def _widen(self, pieces: Pieces, rows: Seen, sure: Booleans) -> None:
         """Let pixels that show one smooth surface, and only that, have the colour of any sample there or in the pixels
@@ -185,7 +187,7 @@ class Composition:
         If they show another one, too, any of their samples may show either: depths are those of one triangle.
         """
         smooth = self.world.are(lambda s: s.shading > FLAT and s.is_opaque and not s.is_wire)
-        surface = self.world.surface_of(pieces.face[rows.piece])
+        surface = self.world.object_of(pieces.face[rows.piece])
         least, most = np.full(len(sure), len(smooth)), np.full(len(sure), -1)
         np.minimum.at(least, rows.pixel, np.where(smooth[surface], surface, -1))
         np.maximum.at(most, rows.pixel, surface)
@@ -193,7 +195,7 @@ class Composition:
         mixed = np.zeros(len(sure), bool)
         np.logical_or.at(mixed, rows.pixel, smooth[surface])
         mixed &= number < 0
-        there, shape = self.canvas.colors[1 + WHOLES], (self.frame.height, self.frame.width)
+        there, shape = self.canvas.colors[1 + WHOLES], (self.camera.height, self.camera.width)
         for bound, extreme in ((0, np.minimum), (2, np.maximum)):
             colors = getattr(there[bound], extreme.__name__[:3])(axis=1).reshape(*shape, 3)
             found = colors.copy()
@@ -210,12 +212,12 @@ class Composition:
         if not self.world.antialias and pieces.is_wire.any():
             wire = np.flatnonzero(pieces.is_wire)
             fill = np.flatnonzero(~pieces.is_wire)
-            first, second = seen(pieces[fill], self.frame, self.places), seen_wires(pieces[wire], self.frame)
+            first, second = seen(pieces[fill], self.camera, self.places), seen_wires(pieces[wire], self.camera)
             first, second = replace(first, piece=fill[first.piece]), replace(second, piece=wire[second.piece])
             both = (np.concatenate(each) for each in zip(first.rows, second.rows, strict=True))
             found = Seen(np.maximum(first.floor, second.floor), *both)
         else:
-            found = seen(pieces, self.frame, self.places)
+            found = seen(pieces, self.camera, self.places)
         nearest = found.floor.min(axis=2)[found.pixel, found.sample]
         # what hidden texels show hides nothing
         rows = found.chosen((found.most >= nearest) | self._has_alpha(pieces.face[found.piece]))

@@ -11,11 +11,13 @@ from itertools import combinations
 
 import numpy as np
 
-from .calldata import FLAT, UNLIT, Array, Booleans, Integers, World
-from .light import colors, mix
-from .pieces import SUBPIXELS, Pieces
+from picture import FLAT, SUBPIXELS, UNLIT, Array, Integers, mix
+
+from .light import colors
+from .pieces import Pieces
 from .shadows import Shadows
 from .visibility import AROUND, TOLERANCE, Seen
+from .world import Booleans, World
 
 #: What is documented beside the formulas: the colour of slivers; that a face is not in shadow if it is seen from the
 #: side that is turned away from the light; that a face which is clipped is drawn as several triangles, so that pixels
@@ -49,7 +51,7 @@ def fragments(
     """Return the colours of rows; `reached` are those of all samples that pieces may cover, also hidden ones, and
     `places` those of the samples.
     """
-    pixels = np.int64(world.frame.width * world.frame.height)
+    pixels = np.int64(world.camera.width * world.camera.height)
     keys, key = np.unique(rows.piece * pixels + rows.pixel, return_inverse=True)
     count, piece = len(keys), keys // pixels
     center = np.zeros((count, 2))
@@ -72,7 +74,7 @@ def fragments(
     at, to = np.concatenate(place), np.concatenate(owner)
     # only at the centre of the pixel, colours are computed outside of the triangle
     inside = np.arange(len(at)) >= count
-    surface = world.surface_of(pieces.face)
+    surface = world.object_of(pieces.face)
     textured = world.are(lambda s: s.texture is not None)
     near = np.flatnonzero(textured[surface[piece[to]]])
     at = np.concatenate([at, (at[near, None] + AROUND[1:]).reshape(-1, 2)])
@@ -96,7 +98,7 @@ def fragments(
     wire = np.flatnonzero(pieces.is_wire[piece[to[:end]]])
     to_wire = to[wire]
     # plain wires are looked at on the line, but drawn at centres
-    row, column = np.divmod(keys[to_wire] % pixels, world.frame.width)
+    row, column = np.divmod(keys[to_wire] % pixels, world.camera.width)
     spots = at[wire] if world.antialias else np.stack([column, row], axis=1) + 0.5
     beside = _shaded(world, surface[piece[to_wire]], pieces.face[piece[to_wire]], weights[wire], spots)
     wires, to = np.append(formulas, len(to) + np.arange(len(wire))), np.concatenate([to, to_wire])
@@ -117,9 +119,9 @@ def _shaded(
     """Colours (3, n, 3), lit and dark, and opacities (3, n, 1) of points. places: see `colors`."""
     lit, dark, opacity = np.zeros((3, len(face), 3)), np.zeros((3, len(face), 3)), np.ones((3, len(face), 1))
     for number in np.unique(surface):
-        each, chosen = world.surfaces[number], np.flatnonzero(surface == number)
+        chosen = np.flatnonzero(surface == number)
         spots = None if places is None else places[chosen]
-        found = colors(world, each, face[chosen] - each.first, weights[chosen], spots)
+        found = colors(world, world.objects[number], face[chosen] - world.firsts[number], weights[chosen], spots)
         lit[:, chosen], dark[:, chosen], opacity[:, chosen, 0] = found
     return lit, dark, opacity
 
@@ -160,8 +162,8 @@ def _reached(
         weights = pieces.weights_at(piece, own[chosen] + move, np.zeros(len(piece), bool))
         found = np.zeros((len(piece), 3))
         for number in np.unique(which):
-            each, part = world.surfaces[number], which == number
-            found[part] = mix(each.positions[each.faces[face[part] - each.first]], weights[part])
+            each, part = world.objects[number], which == number
+            found[part] = mix(each.points[each.faces[face[part] - world.firsts[number]]], weights[part])
         points.append(found)
     lit[chosen], dark[chosen] = shadows.on(points[0], points[1] - points[0], points[2] - points[0], face)
     return lit, dark

@@ -9,10 +9,10 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from .calldata import Array, Booleans, Frame, Integers, Surface
+from picture import SUBPIXELS, Array, Integers, clipped
 
-#: Steps of a pixel, on which projected corners lie.
-SUBPIXELS = 256.0
+from .world import Booleans, World, divisor
+
 #: Triangles of less height, in pixels, can be turned round by rounding.
 TURNABLE = 0.01
 #: Pixels by which the corners of the rectangle of a wire may be rounded.
@@ -24,7 +24,7 @@ class Pieces:
     """Triangles, front or back, with their corners counter-clockwise as they are seen.
 
     face: (n,) counted through all objects. corners: (n, 3, 2) columns and rows in sub-pixels. nearness: (n, 3), see
-    Frame. divisor: (n, 3) of the projection. weights: (n, 3, 3) of the corners of the face, for each corner.
+    `picture.Camera`. divisor: (n, 3) of the projection. weights: (n, 3, 3) of the corners of the face, for each corner.
     front: (n,) whether it is turned to the eye. doubtful: (n,) whether it may be culled, or not. height: (n,) the
     least, in pixels. is_cut: (n,) whether the near plane cuts its face. is_wire: (n,). slack: (n, 3) how far inside of
     the edges across from the corners a place must be to be covered for sure, in sub-pixels.
@@ -71,59 +71,45 @@ def area(corners: Array) -> Array:
     return np.asarray(x[:, 2] * y[:, 1] - x[:, 1] * y[:, 2])
 
 
-def pieces_of(frame: Frame, surface: Surface, antialias: bool) -> Pieces:
-    """Return what of a surface may be seen."""
-    corners = frame.to_camera(surface.positions)[surface.faces]
-    beyond = corners[..., 2] - frame.near
+def pieces_of(world: World, number: int) -> Pieces:
+    """Return what of an object may be seen."""
+    solid = world.objects[number]
+    corners = world.camera.seen(solid.points)[solid.faces]
+    beyond = corners[..., 2] - world.camera.near
     cut = np.asarray((beyond < 0).any(axis=1))
     faces, weights = [np.flatnonzero(~cut)], [np.broadcast_to(np.eye(3), ((~cut).sum(), 3, 3))]
-    for number in np.flatnonzero(cut & (beyond >= 0).any(axis=1)):
-        polygon = _clip(beyond[number])
-        for i in range(1, len(polygon) - 1):
-            faces.append(np.array([number]))
-            weights.append(np.array([[polygon[0], polygon[i], polygon[i + 1]]]))
-    face, weight = np.concatenate(faces), np.concatenate(weights)
-    made = _made(frame, corners, surface, face, weight, cut)
-    return _wires(made, antialias) if surface.is_wire else made
+    for face in np.flatnonzero(cut & (beyond >= 0).any(axis=1)):
+        for part in clipped(beyond[face]):
+            faces.append(np.array([face]))
+            weights.append(part[None])
+    made = _made(world, number, corners, np.concatenate(faces), np.concatenate(weights), cut)
+    return _wires(made, world.antialias) if solid.is_wire else made
 
 
-def _made(frame: Frame, corners: Array, surface: Surface, face: Integers, weights: Array, cut: Booleans) -> Pieces:
-    points = weights @ corners[face]
-    on_screen = np.floor(SUBPIXELS * frame.project(points) + 0.5)
+def _made(world: World, number: int, corners: Array, face: Integers, weights: Array, cut: Booleans) -> Pieces:
+    solid, camera, points = world.objects[number], world.camera, weights @ corners[face]
+    on_screen = SUBPIXELS * camera.project(points)
     areas = area(on_screen)
     front = areas > 0
     height = np.abs(areas) / np.maximum(np.linalg.norm(np.roll(on_screen, 1, 1) - on_screen, axis=2).max(1), 1)
     height /= SUBPIXELS
-    doubtful = surface.cull & (height < TURNABLE)
-    kept = (areas != 0) & (front | doubtful | (not surface.cull))
+    doubtful = solid.culls & (height < TURNABLE)
+    kept = (areas != 0) & (front | doubtful | (not solid.culls))
     back = ~front[:, None] & np.array([False, True, True])
     order = np.where(back, [0, 2, 1], [0, 1, 2])[:, :, None]
     return Pieces(
-        surface.first + face,
+        world.firsts[number] + face,
         np.take_along_axis(on_screen, order, 1),
-        np.take_along_axis(frame.nearness(points), order[..., 0], 1),
-        np.take_along_axis(frame.divisor(points), order[..., 0], 1),
+        np.take_along_axis(camera.nearness(points), order[..., 0], 1),
+        np.take_along_axis(divisor(camera, points), order[..., 0], 1),
         np.take_along_axis(weights, order, 1),
         front,
         doubtful,
         height,
         cut[face],
-        np.full(len(face), surface.is_wire),
+        np.full(len(face), solid.is_wire),
         np.where(doubtful[:, None], np.inf, np.zeros(3)),
     )[kept]
-
-
-def _clip(beyond: Array) -> list[Array]:
-    """What of a face is beyond the near plane: a polygon, as weights of the corners of the face."""
-    polygon = []
-    for i in range(3):
-        j = (i + 1) % 3
-        if beyond[i] >= 0:
-            polygon.append(np.eye(3)[i])
-        if (beyond[i] >= 0) != (beyond[j] >= 0):
-            part = beyond[i] / (beyond[i] - beyond[j])
-            polygon.append((1 - part) * np.eye(3)[i] + part * np.eye(3)[j])
-    return polygon
 
 
 def _wires(made: Pieces, antialias: bool) -> Pieces:

@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from .calldata import ALL_FACES, TURNED_AWAY, Array, Booleans, Integers, World
+from picture import ALL_FACES, TURNED_AWAY, Array, Integers, toward
+
 from .visibility import AROUND, TOLERANCE
+from .world import Booleans, World
 
 #: Points that are looked at together, in the order of the pixels.
 TILE = 64
@@ -27,33 +29,31 @@ class Shadows:
     """
 
     def __init__(self, world: World) -> None:
-        assert world.shadow is not None
-        number, rule = world.shadow
-        lamp = world.lamps[number]
+        lamp = world.scene.shadow_light
         planes, numbers, backs = [np.empty((0, 4, 4))], [np.empty(0, np.int64)], [np.empty(0, bool)]
-        for surface in world.surfaces:
-            corners = surface.positions[surface.faces]
+        for first, solid in zip(world.firsts, world.objects, strict=True):
+            corners = solid.points[solid.faces]
             begin = corners[:, 0]
             normal = np.cross(corners[:, 1] - begin, corners[:, 2] - begin)
-            side = (normal * lamp.toward(begin)).sum(axis=1)
-            backs.append(side * (normal * world.frame.to_eye(begin)).sum(axis=1) <= 0)
-            if surface.is_wire or not surface.is_opaque:
+            side = (normal * toward(lamp, begin)).sum(axis=1)
+            backs.append(side * (normal * world.camera.toward(begin)).sum(axis=1) <= 0)
+            if solid.is_wire or not solid.is_opaque:
                 continue
             casts = side != 0
-            if surface.cull and rule != ALL_FACES:
-                casts = side < 0 if rule == TURNED_AWAY else side > 0
+            if solid.culls and lamp.shadow != ALL_FACES:
+                casts = side < 0 if lamp.shadow == TURNED_AWAY else side > 0
             corners, normal, side = corners[casts], normal[casts], side[casts]
-            sides = np.cross(lamp.toward(corners), np.roll(corners, -1, 1) - corners)
+            sides = np.cross(toward(lamp, corners), np.roll(corners, -1, 1) - corners)
             # inward, if the corners are counter-clockwise as the light sees them
             normals = np.concatenate([sides, -normal[:, None]], axis=1) * np.sign(side)[:, None, None]
             normals /= np.maximum(np.linalg.norm(normals, axis=2, keepdims=True), 1e-300)
             through = np.concatenate([corners, corners[:, :1]], axis=1)
             planes.append(np.concatenate([normals, -(normals * through).sum(axis=2, keepdims=True)], axis=2))
-            numbers.append(surface.first + np.flatnonzero(casts))
+            numbers.append(first + np.flatnonzero(casts))
         self.planes, self.faces = np.concatenate(planes), np.concatenate(numbers)
         self.sizes = np.abs(self.planes[..., :3].reshape(-1, 3))
         self.backs = np.concatenate(backs)
-        self.extent = max((np.abs(s.positions).max(initial=0) for s in world.surfaces), default=1.0)
+        self.extent = max((np.abs(s.points).max(initial=0) for s in world.objects), default=1.0)
 
     def on(self, points: Array, across: Array, down: Array, face: Integers) -> tuple[Booleans, Booleans]:
         """Whether points (n, 3) may be lit, and whether they may be dark.

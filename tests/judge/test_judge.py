@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from attrs import evolve
 
+from picture import SAMPLES
 from pictures import WHITE, call_data, draw
 from random_scenes import TAME, random_scene
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, Texture, load
@@ -14,7 +15,6 @@ from shackled.scene._object import Shading
 
 from . import Picture, Verdict, draw_in_tiles, judge, judge_pixels, render
 from .verdict import outside
-from .visibility import SAMPLES
 
 BLACK = Background((0, 0, 0))
 GREY = (200, 200, 200)

@@ -11,15 +11,14 @@ from typing import Any
 
 import numpy as np
 
-from .calldata import Array, Booleans, Frame, Integers
-from .pieces import SUBPIXELS, Pieces
+from picture import SUBPIXELS, Array, Camera, Integers
+
+from .pieces import Pieces
+from .world import Booleans
 
 #: How far samples are moved, in pixels.
 TOLERANCE = 0.04
 AROUND = TOLERANCE * np.array([(0.0, 0.0), *((np.cos(t), np.sin(t)) for t in np.arange(8) * np.pi / 4)])
-#: Places of the samples, from the centre of the pixel.
-SAMPLES = np.array([(-1, -3), (3, -1), (-3, 1), (1, 3)]) / 8
-CENTER = np.zeros((1, 2))
 #: Depths that differ by less than this part of them are equal.
 SAME_DEPTH = 2.0**-21
 #: Side of a block of pixels; pairs of a piece and a block that are looked at together.
@@ -55,9 +54,9 @@ class Seen:
         return Seen(self.floor, *(values[rows] for values in self.rows))
 
 
-def seen(pieces: Pieces, frame: Frame, places: Array) -> Seen:
+def seen(pieces: Pieces, camera: Camera, places: Array) -> Seen:
     """Find what pieces show at places (n, 2) of each pixel."""
-    across, down = -(-frame.width // BLOCK), -(-frame.height // BLOCK)
+    across, down = -(-camera.width // BLOCK), -(-camera.height // BLOCK)
     numbers, blocks = _pairs(pieces, across, down)
     lines = _lines(pieces)
     corner = BLOCK * SUBPIXELS * np.stack([blocks % across, blocks // across], axis=1)
@@ -88,19 +87,19 @@ def seen(pieces: Pieces, frame: Frame, places: Array) -> Seen:
     )
     at = np.rint(own[place] / SUBPIXELS - 0.5 - places[place % len(places)]) + corner[pair] / SUBPIXELS
     floor = lowest.reshape(down, across, BLOCK, BLOCK, len(places), 9).swapaxes(1, 2)
-    floor = floor.reshape(down * BLOCK, across * BLOCK, len(places), 9)[: frame.height, : frame.width]
+    floor = floor.reshape(down * BLOCK, across * BLOCK, len(places), 9)[: camera.height, : camera.width]
     column, row = at.astype(np.int64).T
     found = Seen(
         np.ascontiguousarray(floor).reshape(-1, len(places), 9),
         numbers[pair],
-        row * frame.width + column,
+        row * camera.width + column,
         place % len(places),
         nearness,
         high,
         covers,
         at + 0.5,
     )
-    return found.chosen((column < frame.width) & (row < frame.height))
+    return found.chosen((column < camera.width) & (row < camera.height))
 
 
 def _near(

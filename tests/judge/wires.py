@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from .calldata import Frame
-from .pieces import SUBPIXELS, Pieces
+from picture import SUBPIXELS, Camera
+
+from .pieces import Pieces
 from .visibility import SAME_DEPTH, TOLERANCE, Seen
 
 #: Lines that are this near to 45 degrees, in pixels between their ends, may be steep or not.
 STEEP = 2 / SUBPIXELS
 
 
-def seen_wires(pieces: Pieces, frame: Frame) -> Seen:
+def seen_wires(pieces: Pieces, camera: Camera) -> Seen:
     """Find what wires show at the centres of pixels; pieces begin with the ends of the lines."""
-    size = np.array([frame.width, frame.height])
+    size = np.array([camera.width, camera.height])
     floor = np.full((size.prod(), 1, 9), -np.inf)
     rows = []
     p, q = pieces.corners[:, 0] / SUBPIXELS, pieces.corners[:, 1] / SUBPIXELS
@@ -40,7 +41,7 @@ def seen_wires(pieces: Pieces, frame: Frame) -> Seen:
         for place in (one, other):
             known = (place >= 0) & (place < size[1 - axis]) & ((place is one) | (one != other))
             cell = np.stack([along, place.astype(np.int64)], axis=1)[:, :: 1 - 2 * axis]
-            pixel = cell @ [1, frame.width]
+            pixel = cell @ [1, camera.width]
             sure = known & certain & (one == other)
             np.maximum.at(floor, pixel[sure], (nearness - shift)[sure, None, None])
             center = np.stack([along + 0.5, across], axis=1)[:, :: 1 - 2 * axis]

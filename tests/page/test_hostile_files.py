@@ -1,10 +1,13 @@
-"""Files of strangers in the Creator: they make it ask for nothing, and textures inside of them are drawn."""
+"""Strangers' files in the Creator: they make it ask for nothing, take little, and their textures are drawn."""
 
 from __future__ import annotations
 
 import base64
 import io
 import json
+import os
+import threading
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -92,3 +95,66 @@ def test_what_reads_files_reaches_no_address(visit: Visit, other: Static, tmp_pa
     page.page.wait_for_timeout(300)
     assert "the fault ran" in lines
     assert other.asked == []
+
+
+def memory() -> int:
+    """The bytes of the processes that this one has started, and those: shared ones are divided."""
+    parents: dict[int, int] = {}
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            parents[int(stat.parent.name)] = int(stat.read_text().rpartition(")")[2].split()[1])
+        except OSError:
+            continue
+    own, total = {os.getpid()}, 0
+    while found := {number for number, parent in parents.items() if parent in own} - own:
+        own |= found
+    for number in own - {os.getpid()}:
+        try:
+            lines = Path(f"/proc/{number}/smaps_rollup").read_text().splitlines()
+            total += next(1024 * int(line.split()[1]) for line in lines if line.startswith("Pss:"))
+        except OSError:
+            continue
+    return total
+
+
+@pytest.mark.skipif(not Path("/proc/self/smaps_rollup").exists(), reason="memory is measured on Linux")
+def test_many_large_textures(visit: Visit, tmp_path: Path) -> None:
+    """Twelve of 8192 x 8192 pixels, no two alike: those that are too many together are left out."""
+    file = GltfObject()
+    triangle = file.primitive
+    file.document["images"], file.document["textures"], file.document["materials"] = [], [], []
+    file.document["meshes"][0]["primitives"] = []
+    uvs = file.rows([[0, 0], [1, 0], [0, 1]])
+    for number in range(12):
+        stream = io.BytesIO()
+        Image.new("L", (8192, 8192), 20 * number).save(stream, "png")
+        file.document["images"].append({"bufferView": file.view(stream.getvalue()), "mimeType": "image/png"})
+        file.document["textures"].append({"source": number})
+        file.document["materials"].append({"pbrMetallicRoughness": {"baseColorTexture": {"index": number}}})
+        attributes = {**triangle["attributes"], "TEXCOORD_0": uvs}
+        primitive = {**triangle, "attributes": attributes, "material": number}
+        file.document["meshes"][0]["primitives"].append(primitive)
+    content = file.write(tmp_path).read_bytes()
+    assert len(content) < 2_000_000
+    page = visit(scene("cube"))
+    before, most, done = memory(), [0], threading.Event()
+
+    def watch() -> None:
+        while not done.wait(0.05):
+            most[0] = max(most[0], memory())
+
+    watcher = threading.Thread(target=watch)
+    watcher.start()
+    start = time.perf_counter()
+    try:
+        page.drop(**{"a.gltf": content})
+        said = page.said()
+        page.wait("app.doc.value.title === 'a'")
+        page.settle()
+    finally:
+        done.set()
+        watcher.join()
+    assert time.perf_counter() - start < 20
+    assert most[0] - before < 1_000_000_000
+    # the last of the notes are shown
+    assert "textures[11] is left out: all textures together may have up to 268,435,456 pixels; reduce them" in said

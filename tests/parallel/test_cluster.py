@@ -94,9 +94,28 @@ def test_the_gas_of_tiles_says_so(address: str, tmp_path: Path, capsys: pytest.C
     assert int(calls[1]) > 1
 
 
+def dask(kind: str, *arguments: str) -> AbstractContextManager[subprocess.Popen[str]]:
+    command = (sys.executable, "-m", f"distributed.cli.dask_{kind}", "--no-dashboard", *arguments)
+    return child(*command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+@pytest.fixture(scope="module")
+def scheduler() -> Iterator[str]:
+    """The address of a scheduler without workers."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        host, port = free.getsockname()
+    with dask("scheduler", "--host", host, "--port", str(port)):
+        yield f"tcp://{host}:{port}"
+
+
 @pytest.mark.parametrize("is_folder", [False, True])
 def test_workers_that_are_lost(
-    is_folder: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    is_folder: bool,
+    scheduler: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     """Each is told, and where none is left, the command does not wait for ever."""
     connected, told = threading.Event(), threading.Event()
@@ -116,25 +135,14 @@ def test_workers_that_are_lost(
 
     monkeypatch.setattr(ClusterBackend, "_greet_workers", greeted)
     monkeypatch.setattr(ClusterBackend, "check", checked)
-    where = "tcp://127.0.0.1:{}"
-
-    def started(kind: str, *arguments: str) -> AbstractContextManager[subprocess.Popen[str]]:
-        command = (sys.executable, "-m", f"distributed.cli.dask_{kind}", "--no-dashboard", *arguments)
-        return child(*command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        where = where.format(free.getsockname()[1])
-    names = [tmp_path / f"{number}.obj" for number in range(40 if is_folder else 1)]
+    names = [str(tmp_path / f"{number}.obj") for number in range(40 if is_folder else 1)]
     for name in names:
         trimesh.creation.icosphere(subdivisions=3).export(name)
     size = ["--size", "192"] if is_folder else ["--size", "1024", "--tile", "32"]
     with ExitStack() as stack:
-        stack.enter_context(started("scheduler", "--host", "127.0.0.1", "--port", where.rpartition(":")[2]))
-        workers = [stack.enter_context(started("worker", where, "--nthreads", "1", "--no-nanny")) for _ in range(2)]
-        client = Client(where, timeout=60, set_as_default=False)
-        client.wait_for_workers(2, timeout=60)
-        client.close()
+        workers = [stack.enter_context(dask("worker", scheduler, "--nthreads", "1", "--no-nanny")) for _ in range(2)]
+        with Client(scheduler, timeout=60, set_as_default=False) as client:
+            client.wait_for_workers(2, timeout=60)
 
         def kill() -> None:
             for worker, event in zip(workers, (connected, told), strict=True):
@@ -143,13 +151,11 @@ def test_workers_that_are_lost(
 
         thread = threading.Thread(target=kill)
         thread.start()
-        assert run(["render", *map(str, names), *size, "-o", f"{tmp_path}/out/", "--cluster", where]) == 1
+        assert run(["render", *names, *size, "-o", f"{tmp_path}/out/", "--cluster", scheduler]) == 1
         thread.join()
     said = capsys.readouterr().err
-    assert len(re.findall(r"the worker tcp://\S+ has left the cluster: others draw its parts", said)) == 1
-    assert (
-        len(re.findall(r"the worker tcp://\S+ has left the cluster: no other is left; waiting 2 s for one", said)) == 1
-    )
+    for then in ("others draw its parts", "no other is left; waiting 2 s for one"):
+        assert len(re.findall(rf"the worker tcp://\S+ has left the cluster: {then}", said)) == 1
     assert "shackled: the dask cluster has had no worker for 2 s: start one, and run this again\n" in said
 
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import struct
-from importlib.resources import files
 from typing import Any
 
 import eth_abi
@@ -14,6 +12,7 @@ from attrs import evolve
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from pictures import scene_types
 from shackled import Background, Camera, Fog, InputError, Light, Material, Mesh, Object, Scene
 from shackled.scene import Projection, Rectangle, encode, fit, pack, vertex_normals
 from shackled.scene._codec import ONE, extensions
@@ -26,19 +25,6 @@ TRIANGLE = Mesh([[0, 0, 0], [1000, 0, 0], [0, 1000, 0]], [[0, 1, 2]], [[1, 2, 3]
 def scene_of(mesh: Mesh = TRIANGLE, **changes: Any) -> Scene:
     thing = Object(mesh, position=(0, 0, -2500), material=Material("unlit"))
     return evolve(Scene([thing], Camera()), **changes)
-
-
-def scene_types() -> list[str]:
-    """The ABI types of renderTile(Scene, Rectangle), from the compiled contract."""
-    abi = json.loads(files("shackled.artifacts").joinpath("Renderer.json").read_text("utf-8"))["abi"]
-    function = next(entry for entry in abi if entry.get("name") == "render")
-    return [type_of(parameter) for parameter in function["inputs"]]
-
-
-def type_of(parameter: dict[str, Any]) -> str:
-    if not parameter["type"].startswith("tuple"):
-        return str(parameter["type"])
-    return f"({','.join(map(type_of, parameter['components']))}){parameter['type'].removeprefix('tuple')}"
 
 
 def decode(data: bytes, *more: str) -> tuple[Any, ...]:

@@ -128,9 +128,11 @@ def test_the_look_of_a_mesh() -> None:
 def in_a_scene_file(mesh: Mesh, folder: Path) -> Object:
     trimesh.Trimesh(mesh.positions, mesh.faces, process=False).export(folder / "mesh.obj")
     path = folder / "scene.toml"
-    path.write_text('[[objects]]\nmesh = "mesh.obj"\n')
+    # without it, a note tells that a cylinder along z lies on its side
+    upright = '[[objects]]\nmesh = "mesh.obj"\nup_axis = "y"\n'
+    path.write_text(upright)
     assert load(path).objects[0].material == Material("flat")
-    path.write_text('[[objects]]\nmesh = "mesh.obj"\nmaterial = { shading = "smooth" }\n')
+    path.write_text(f'{upright}material = {{ shading = "smooth" }}\n')
     return load(path).objects[0]
 
 

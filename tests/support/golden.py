@@ -1,4 +1,4 @@
-"""What the contracts return for 450 small scenes of every kind: digests of pixels and files, and gas.
+"""What the contracts return for small scenes of every kind: digests of pixels and files, and gas.
 
     python tests/support/golden.py            tells what differs from golden.json
     python tests/support/golden.py --write    and writes it there
@@ -22,7 +22,8 @@ from typing import Any
 import numpy as np
 
 if __name__ == "__main__":
-    sys.path.insert(0, str(Path(__file__).parents[1]))
+    root = Path(__file__).parents[2]
+    sys.path[:0] = map(str, (root / "tests", root / "contracts", root))
 
 from original_scenes import call_data, document, genesis_document, object_keys
 from pictures import chain

@@ -39,6 +39,20 @@ def words(*values: int) -> bytes:
     return b"".join((value % (1 << 256)).to_bytes(32, "big") for value in values)
 
 
+@cache
+def scene_types() -> list[str]:
+    """The ABI types of the arguments of render(Scene), from the compiled contract."""
+    function = next(entry for entry in artifact("Renderer").abi if entry.get("name") == "render")
+    return [type_of(parameter) for parameter in function["inputs"]]
+
+
+def type_of(parameter: dict[str, Any]) -> str:
+    """The ABI type of a parameter."""
+    if not parameter["type"].startswith("tuple"):
+        return str(parameter["type"])
+    return f"({','.join(map(type_of, parameter['components']))}){parameter['type'].removeprefix('tuple')}"
+
+
 def call_data(function: str, scene: Scene, tile: Rectangle | None = None) -> bytes:
     """A call of the Renderer with a scene as it is: with whole coordinates of meshes, and a near distance."""
     head = words(0x20) if tile is None else words(0xA0, tile.x, tile.y, tile.width, tile.height)

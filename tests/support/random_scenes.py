@@ -12,9 +12,10 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
-from judge.calldata import read
 from judge.pieces import pieces_of
-from judge.visibility import CENTER, seen
+from judge.visibility import seen
+from judge.world import World
+from picture import CENTER
 from pictures import call_data
 from shackled import Background, Camera, Fog, Light, Material, Mesh, Object, Rim, Scene, Texture, Tone, load
 from shackled.datasets import pieces
@@ -81,9 +82,9 @@ def random_case(seed: int, kind: str | None = None) -> Case:
 
 def is_anything_seen(scene: Scene) -> bool:
     """Whether any pixel shows an object by its centre, as the judge finds it."""
-    world = read(call_data("render", scene))
-    there = (pieces_of(world.frame, each, world.antialias) for each in world.surfaces if each.opacities.any())
-    return any(seen(pieces, world.frame, CENTER).covers.any() for pieces in there)
+    world = World(call_data("render", scene))
+    there = (pieces_of(world, i) for i, each in enumerate(world.objects) if each.opacities.any())
+    return any(seen(pieces, world.camera, CENTER).covers.any() for pieces in there)
 
 
 # ---- kinds ----

@@ -247,9 +247,35 @@ const PLY =
 const OPACITY = "its opacity is 0 everywhere, which cannot be meant; it is drawn opaque";
 const COMMAS = "its numbers have decimal commas, which are read as points";
 
+const TWO_FACES = PLY.replace("face 1", "face 2").replace("1,5", "1").replaceAll("9 9 9 0", "9 9 9 9");
+const MISSING = "1 triangle left out, with vertices that do not exist or are not at finite numbers";
+const data = Buffer.concat(
+    [Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0), Uint8Array.of(0, 1, 2, 0, 1, 9)].map((each) =>
+        Buffer.from(each.buffer),
+    ),
+);
+const MISSED = gltf({
+    buffers: [{ uri: `data:;base64,${data.toString("base64")}` }],
+    bufferViews: [
+        { buffer: 0, byteLength: 36 },
+        { buffer: 0, byteOffset: 36, byteLength: 6 },
+    ],
+    accessors: [
+        { bufferView: 0, componentType: 5126, type: "VEC3", count: 3 },
+        { bufferView: 1, componentType: 5121, type: "SCALAR", count: 6 },
+    ],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
+    nodes: [{ mesh: 0 }],
+});
+
 /** What is read in another way than its name or its letter says: its triangles and notes. */
 // prettier-ignore
 const ODD: [Given[], number, string[]][] = [
+    [[text("a.ply", `${TWO_FACES}3 0 1 9\n`)], 1, [`a.ply: ${MISSING}`]],
+    [[text("a.ply", `${TWO_FACES}4 0 1 2 9\n`)], 1, [`a.ply: ${MISSING}`]],
+    [[text("a.ply", `${TWO_FACES}3 0 1`)], 1, ["a.ply: 1 of its 2 elements face and all behind left out: it ends, or has a word that is no number, in element 1 of the 2 elements face"]],
+    [[text("a.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 -1\n")], 1, [`a.off: ${MISSING}`]],
+    [[MISSED], 1, [`a.gltf: ${MISSING}`]],
     [[text("model", CUBE)], 12, []],
     [[text("a.vrm", CUBE)], 12, ["a.vrm: it is an OBJ file, and is read as one"]],
     [[text("a.stl", CUBE)], 12, ["a.stl: it is an OBJ file, and is read as one"]],
@@ -290,7 +316,10 @@ test("an image is decoded once, whatever it is called, and all images have a bou
     const images = ["a", 1, 2, 3, 4, 5].map((name, at) => ({ name: `${name}.png`, bytes: Uint8Array.of(at) }));
     const { notes } = await open(text("a.obj", `mtllib m.mtl\n${CUBE}vt 0 0\n${faces}`), text("m.mtl", mtl), ...images);
     assert.equal(count, 5);
-    assert.match(notes.join("\n"), /the texture 5\.png is left out: all textures together may have 268,435,456 pixels/);
+    assert.match(
+        notes.join("\n"),
+        /the texture 5\.png is left out: all textures together may have up to 268,435,456 pixels; reduce them/,
+    );
 });
 
 test("reading ends when it is cancelled", async () => {

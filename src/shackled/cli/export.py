@@ -5,21 +5,20 @@ from __future__ import annotations
 import json
 import sys
 import time
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from .._load import locate
-from .._visible import why_nothing
 from ..datasets import Piece
-from ..errors import ChainError, InputError
+from ..errors import InputError
 from ..scene import Scene
 from ..studio import make_glb
 from ..web import check_page
 from ..web import export as write_page
 from ..whole_file import check_output_file
 from .look_options import INPUT, load_with
-from .option import option, with_options
+from .option import option
+from .picture import tell_why_nothing
 from .progress import LateBar
 
 
@@ -61,9 +60,7 @@ def export(
             image = write_page(source, path, title=title, **look)
         if not image.visible_pixels:
             assert image.scene is not None
-            with suppress(ChainError):
-                print(with_options(why_nothing(image.scene)), file=sys.stderr)
-            print("nothing is visible; the picture shows only the background", file=sys.stderr)
+            tell_why_nothing(image.scene)
         facts = {"width": image.width, "height": image.height, "triangles": image.triangles, "gas": image.gas}
         more = {"sha256": image.sha256}
         rows = {"picture": f"{image.width} x {image.height} pixels, {image.gas:,} gas", **more}

@@ -169,104 +169,113 @@ def _in_calls(report: dict[str, Any]) -> str:
     return (f" in {calls} calls" + (" for each frame" if report["frames"] > 1 else "")) if calls > 1 else ""
 
 
-def load_input(source: Source, task: Task) -> tuple[list[Scene], float]:
-    """Return the scene of an input, or the frames of its animation, and the length of that in seconds."""
-    with source.named():
-        if task.film.frames is None:
-            return [load_with(source.place, task.look, task.fit)], 0.0
-        with LateBar("reading"):
-            return load_frames(source.place, task.film.frames, **task.look)
+@dataclass(frozen=True)
+class Work:
+    """An input, the file of its picture, which is None for standard output, and what is to be done."""
 
+    source: Source
+    path: Path | None
+    task: Task
 
-def render_to(
-    source: Source,
-    path: Path | None,
-    task: Task,
-    listener: Listener,
-    loaded: Scene | None = None,
-    drawn: Image | None = None,
-) -> Done:
-    """Render an input to a file, or for None to standard output. loaded, drawn: what is there already."""
-    film = task.film
-    scenes, length = load_input(source, task) if loaded is None else ([loaded], 0.0)
-    loaded = scenes[0]
-    if task.scene:
-        scene_chunk(loaded).check()
-    if is_there(path, task, loaded):
-        return Done({"input": source.name, "output": str(path), "skipped": True})
-    extension = PICTURE if path is None else path.suffix.lower()
-    if path is not None:
-        make_output_folder(path.parent)
-    place, bounds = place_of(task.on), Bounds(task.gas_limit, task.tile)
-    in_parts = not film.one_call and (film.is_film or not is_one_call(place, loaded, bounds))
-    started = time.perf_counter() - (0 if drawn is None else drawn.seconds)
-    keep = folder_of(path) if in_parts and path is not None else None
-    told: dict[str, Any] = {"gas_limit": task.gas_limit, "tile": task.tile, "listener": listener, "keep": keep}
-    told |= {"on": task.on, "transparent": task.transparent}
-    made: Image | Animation
-    with nullcontext() if in_parts else LateBar("rendering"):
-        if drawn is not None:
-            made = drawn
-        elif film.frames is not None:
-            shown = pace(length, film.frames) if film.duration is None else film.duration
-            made = draw_film(scenes, shown, place, bounds, listener, keep, task.transparent)
-        elif film.turntable is not None:
-            shown = DURATION if film.duration is None else film.duration
-            made = turn(loaded, film.turntable, duration=shown, one_call=film.one_call, **told)
-        else:
-            made = draw(loaded, **told)
-    try:
+    def load(self) -> tuple[list[Scene], float] | Done:
+        """Return the scene, or the frames of an animation and its length in seconds; what was done if that is all."""
+        source, path, task = self.source, self.path, self.task
+        with source.named():
+            if task.film.frames is None:
+                scenes, length = [load_with(source.place, task.look, task.fit)], 0.0
+            else:
+                with LateBar("reading"):
+                    scenes, length = load_frames(source.place, task.film.frames, **task.look)
+        if task.scene:
+            scene_chunk(scenes[0]).check()
+        if task.skip_existing and path is not None and shows_scene(path, scenes[0], task.transparent):
+            return Done({"input": source.name, "output": str(path), "skipped": True})
+        if path is not None:
+            make_output_folder(path.parent)
+        return scenes, length
+
+    def render(self, listener: Listener) -> Done:
+        """Render the input to the file."""
+        loaded = self.load()
+        if isinstance(loaded, Done):
+            return loaded
+        (scene, *_), length = loaded
+        path, task, film = self.path, self.task, self.task.film
+        place, bounds = place_of(task.on), Bounds(task.gas_limit, task.tile)
+        in_parts = not film.one_call and (film.is_film or not is_one_call(place, scene, bounds))
+        keep = folder_of(path) if in_parts and path is not None else None
+        told: dict[str, Any] = {"gas_limit": task.gas_limit, "tile": task.tile, "listener": listener, "keep": keep}
+        told |= {"on": task.on, "transparent": task.transparent}
+        started = time.perf_counter()
+        made: Image | Animation
+        with nullcontext() if in_parts else LateBar("rendering"):
+            if film.frames is not None:
+                shown = pace(length, film.frames) if film.duration is None else film.duration
+                made = draw_film(loaded[0], shown, place, bounds, listener, keep, task.transparent)
+            elif film.turntable is not None:
+                shown = DURATION if film.duration is None else film.duration
+                made = turn(scene, film.turntable, duration=shown, one_call=film.one_call, **told)
+            else:
+                made = draw(scene, **told)
+        try:
+            done = self.write(made, scene, started)
+        except BaseException:
+            if keep is not None and keep.is_dir():
+                listener.warned(f"finished parts are kept in {keep}: run the same command to resume")
+            raise
+        if keep is not None:
+            remove_parts(keep)
+        return done
+
+    def write(self, made: Image | Animation, scene: Scene, started: float) -> Done:
+        """Write what was drawn of a scene since a time of `perf_counter`, and count what it shows."""
+        path, task = self.path, self.task
+        extension = PICTURE if path is None else path.suffix.lower()
         with LateBar("writing"):
             if path is None:
                 write_stdout(made.encode(PICTURE, task.scene))
             else:
                 made.save(path, scene=task.scene)
-    except BaseException:
-        if keep is not None and keep.is_dir():
-            listener.warned(f"finished parts are kept in {keep}: run the same command to resume")
-        raise
-    if keep is not None:
-        remove_parts(keep)
-    frames = [made] if isinstance(made, Image) else made.frames
-    chunk = frames[0].scene_chunk if extension in (PICTURE, "") and task.scene is not False else None
-    written = len(chunk.data) if chunk is not None and (task.scene or chunk.is_small) else None
-    with LateBar("counting"):
-        triangles, lit_pixels, shows_something = _counted(made, task.count)
-        fits = fits_of_made(made, loaded)
-    digest = hashlib.sha256()
-    for frame in frames:
-        digest.update(frame.channels.tobytes())
-    report = {
-        "input": source.name,
-        "width": loaded.width,
-        "height": loaded.height,
-        "triangles": triangles,
-        "lit_pixels": lit_pixels,
-        "gas": made.gas,
-        "intrinsic_gas": made.intrinsic_gas,
-        "seconds": round(time.perf_counter() - started, 6),
-        "chain": frames[0].made_by,
-        "output": STREAM if path is None else str(path),
-        "sha256": digest.hexdigest(),
-        "scene_bytes": written,
-        "fits": None if fits is None else fits_as_json(fits),
-        "frames": len(frames),
-        "calls": made.calls,
-    }
-    if not shows_something:
-        with suppress(ChainError):
-            print(with_options(why_nothing(loaded, frames[0].evm)), file=sys.stderr)
-        print("nothing is visible; the picture shows only the background", file=sys.stderr)
-    if extension == ".gif" and (found := colors([frame.pixels for frame in frames])) > MOST_COLORS:
-        whose = "picture" if len(frames) == 1 else "frames"
-        text = f"a GIF has at most {MOST_COLORS} colours; the {found:,} of the {whose} were mapped to the nearest"
-        print(text, file=sys.stderr)
-    return Done(report, None if chunk is None else len(chunk.data), fits)
+        frames = [made] if isinstance(made, Image) else made.frames
+        chunk = frames[0].scene_chunk if extension in (PICTURE, "") and task.scene is not False else None
+        written = len(chunk.data) if chunk is not None and (task.scene or chunk.is_small) else None
+        with LateBar("counting"):
+            triangles, lit_pixels, shows_something = _counted(made, task.count)
+            fits = fits_of_made(made, scene)
+        digest = hashlib.sha256()
+        for frame in frames:
+            digest.update(frame.channels.tobytes())
+        report = {
+            "input": self.source.name,
+            "width": scene.width,
+            "height": scene.height,
+            "triangles": triangles,
+            "lit_pixels": lit_pixels,
+            "gas": made.gas,
+            "intrinsic_gas": made.intrinsic_gas,
+            "seconds": round(time.perf_counter() - started, 6),
+            "chain": frames[0].made_by,
+            "output": STREAM if path is None else str(path),
+            "sha256": digest.hexdigest(),
+            "scene_bytes": written,
+            "fits": None if fits is None else fits_as_json(fits),
+            "frames": len(frames),
+            "calls": made.calls,
+        }
+        if not shows_something:
+            tell_why_nothing(scene, frames[0].evm)
+        if extension == ".gif" and (found := colors([frame.pixels for frame in frames])) > MOST_COLORS:
+            whose = "picture" if len(frames) == 1 else "frames"
+            text = f"a GIF has at most {MOST_COLORS} colours; the {found:,} of the {whose} were mapped to the nearest"
+            print(text, file=sys.stderr)
+        return Done(report, None if chunk is None else len(chunk.data), fits)
 
 
-def is_there(path: Path | None, task: Task, scene: Scene) -> bool:
-    """Return whether a picture is not drawn, as its file shows the same scene already."""
-    return task.skip_existing and path is not None and shows_scene(path, scene, task.transparent)
+def tell_why_nothing(scene: Scene, evm: str | None = None) -> None:
+    """Print that a picture shows only the background, and the likely cause."""
+    with suppress(ChainError):
+        print(with_options(why_nothing(scene, evm)), file=sys.stderr)
+    print("nothing is visible; the picture shows only the background", file=sys.stderr)
 
 
 def _counted(made: Image | Animation, count: bool) -> tuple[int | None, int | None, bool]:

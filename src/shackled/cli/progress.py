@@ -65,6 +65,10 @@ class LateBar:
             print(line, file=sys.stdout if to_stdout else sys.stderr, flush=True)
             self._draw()
 
+    def warned(self, text: str) -> None:
+        """Print a warning of the library above the bar."""
+        self.print(f"shackled: {with_options(text)}")
+
     def end(self) -> None:
         """Remove the bar; it does not appear again."""
         with self._lock:
@@ -132,10 +136,6 @@ class JobProgress(LateBar, Listener):
     def advanced(self, pixels: int) -> None:
         """Count finished pixels."""
         self.set(self._done + pixels, self._total)
-
-    def warned(self, text: str) -> None:
-        """Print a warning above the bar."""
-        self.print(f"shackled: {with_options(text)}")
 
     def ended(self) -> None:
         """Remove the bar."""

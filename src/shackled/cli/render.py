@@ -21,7 +21,7 @@ from ..scene import PICTURE
 from ..whole_file import check_output_folder, make_output_folder, write_output
 from .look_options import FIT, INPUT, load_with, parse_sides
 from .option import exclude, is_from_environment, need, option
-from .picture import FilmOptions, Task, render_to
+from .picture import FilmOptions, Task, Work
 from .progress import JobProgress
 from .several import INPUTS, inputs_of, outputs_of, parse_shard, render_all
 
@@ -141,13 +141,12 @@ def render(
         is_batch = len(sources) > 1
         count = as_json or not (quiet or is_batch)
         task = Task(look, fit, film, transparent, scene, on, where.gas_limit, where.tile, count, skip_existing)
-        if shard is not None:
-            mine = slice(shard[0] - 1, None, shard[1])
-            sources, paths = sources[mine], paths[mine]
+        work = [Work(source, path, task) for source, path in zip(sources, paths, strict=True)]
         if is_batch or shard is not None:
-            render_all(sources, paths, task, "json" if as_json else None if quiet else "line")
+            first, step = shard or (1, 1)
+            render_all(work[first - 1 :: step], "json" if as_json else None if quiet else "line")
             return
-        done = render_to(sources[0], paths[0], task, JobProgress())
+        done = work[0].render(JobProgress())
         if as_json or not quiet:
             print(
                 json.dumps(done.report) if as_json else done.words, file=sys.stderr if paths[0] is None else sys.stdout

@@ -8,12 +8,13 @@ import os
 import re
 import sys
 import time
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, closing, redirect_stderr
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any, Literal, TypeVar
+from typing import Literal, TypeVar
 
 from attrs import evolve
 
@@ -23,13 +24,13 @@ from .._render import render as draw
 from ..animation import check_animation
 from ..datasets import Piece
 from ..errors import InputError, InputWarning, ShackledError
-from ..image import Image, check_output
-from ..scene import PICTURE, READERS, Link, Scene, format_by_name, is_pipe, read_pipe, stored
+from ..image import check_output
+from ..scene import PICTURE, READERS, Link, format_by_name, is_pipe, read_pipe, stored
 from ..untrusted import plain
 from ..workers import each
 from .option import argument, with_options
-from .output import Action, action, noting
-from .picture import Done, Source, Task, is_there, load_input, render_to
+from .output import Action, action, noting, print_note
+from .picture import Done, Source, Work
 from .progress import LateBar, Notes
 from .streams import INPUT, STREAM, is_output, stdin_file
 
@@ -44,9 +45,6 @@ UNNAMED = "picture"
 
 #: How pictures are reported.
 Report = Literal["json", "line"] | None
-
-#: An input, the file of its picture, what to do, and what becomes of notes.
-Work = tuple[Source, Path | None, Task, Action]
 
 #: A picture that was rendered, or why not; and what was said meanwhile.
 Outcome = tuple[Done | ShackledError, str]
@@ -73,12 +71,9 @@ def inputs_of(names: Sequence[str], stack: ExitStack) -> list[Source]:
         raise InputError(f"{STREAM}, standard input, is one file: give it once")
     sources: list[Source] = []
     for name in names:
-        if name == STREAM:
-            sources.append(Source(name, str(stack.enter_context(stdin_file())), UNNAMED, INPUT))
-            continue
-        if is_pipe(name):  # which can be read once
-            path = stack.enter_context(stored(read_pipe(name), name))
-            sources.append(Source(name, str(path), UNNAMED, name))
+        if name == STREAM or is_pipe(name):  # which can be read once
+            path = stack.enter_context(stdin_file() if name == STREAM else stored(read_pipe(name), name))
+            sources.append(Source(name, str(path), UNNAMED, INPUT if name == STREAM else name))
             continue
         try:
             found = locate(name)
@@ -146,14 +141,14 @@ def _check_overwriting(sources: Sequence[Source], paths: Sequence[Path]) -> None
         taken[where] = f"that of {source.name}"
 
 
-def render_all(sources: Sequence[Source], paths: Sequence[Path | None], task: Task, report: Report) -> None:
+def render_all(work: Sequence[Work], report: Report) -> None:
     """Render each input, and print a report on it. ExceptionGroup of the errors of those that failed."""
     started, skipped = time.monotonic(), 0
     failed: list[ShackledError] = []
     notes: dict[str, list[str]] = {}
     with LateBar("rendering") as bar:
-        for number, (place, (result, said)) in enumerate(_outcomes(sources, paths, task, bar), 1):
-            name = sources[place].name
+        for number, (place, (result, said)) in enumerate(_outcomes(work, bar), 1):
+            name = work[place].source.name
             for line in said.splitlines():
                 # the same note on other inputs is printed once
                 alike = notes.setdefault(line.replace(name, STEM), [])
@@ -169,78 +164,67 @@ def render_all(sources: Sequence[Source], paths: Sequence[Path | None], task: Ta
                 failed.append(ShackledError(text if name in text else f"{name}: {text}"))
                 if report == "json":
                     bar.print(json.dumps({"input": name, "error": text}), to_stdout=True)
-            bar.set(number, len(sources))
+            bar.set(number, len(work))
     for first, *others in notes.values():
         if others:
             more = f" and {len(others) - MOST_NAMES} more" if len(others) > MOST_NAMES else ""
-            print(
-                f"shackled: the note on {first} is also true of {', '.join(others[:MOST_NAMES])}{more}", file=sys.stderr
-            )
-    counts = f"{len(sources) - len(failed) - skipped} rendered, " + (f"{skipped} skipped, " if skipped else "")
+            print_note(f"shackled: the note on {first} is also true of {', '.join(others[:MOST_NAMES])}{more}")
+    counts = f"{len(work) - len(failed) - skipped} rendered, " + (f"{skipped} skipped, " if skipped else "")
     summary = f"{counts}{len(failed)} failed, in {time.monotonic() - started:.1f} s"
     if failed:
         raise ExceptionGroup(summary, failed)
     print(summary, file=sys.stderr)
 
 
-def _outcomes(
-    sources: Sequence[Source], paths: Sequence[Path | None], task: Task, bar: LateBar
-) -> Iterator[tuple[int, Outcome]]:
+def _outcomes(work: Sequence[Work], bar: LateBar) -> Iterator[tuple[int, Outcome]]:
     """Yield the number of each input and what became of it, as they are done."""
-    jobs, on = 1, task.on
+    jobs, on = 1, work[0].task.on if work else None
+    if isinstance(on, Cluster) and on.verify is None and not work[0].task.film.is_film:
+        return enumerate(_on_cluster(work, on, bar))
     if isinstance(on, Processes):
         # a process for each input, instead of several for the parts of one
-        jobs, task = on.count, replace(task, on=on.evm)
-    work = [(source, path, task, action()) for source, path in zip(sources, paths, strict=True)]
-    if work and isinstance(on, Cluster) and on.verify is None and not task.film.is_film:
-        return _on_cluster(work, on, bar)
-    return each(_render, work, jobs, lambda error: (error, ""))
+        jobs, work = on.count, [replace(each, task=replace(each.task, on=on.evm)) for each in work]
+    return each(partial(_render, action()), work, jobs, lambda error: (error, ""))
 
 
-def _on_cluster(work: Sequence[Work], on: Cluster, bar: LateBar) -> Iterator[tuple[int, Outcome]]:
-    """Read inputs and write pictures here, and draw each picture whole on a worker of a cluster."""
+def _render(notes: Action, work: Work) -> Outcome:
+    """Render one input, in this process or in one of several."""
+    return _heard(partial(work.render, Notes()), notes)
+
+
+def _on_cluster(work: Sequence[Work], on: Cluster, bar: LateBar) -> Iterator[Outcome]:
+    """Read inputs and write pictures here, in order, and draw each picture whole on a worker of a cluster."""
     from ..parallel import ClusterBackend
 
-    done: list[tuple[int, Outcome]] = []
+    task, notes = work[0].task, action()
+    drawn = partial(draw, on=on.evm, transparent=task.transparent, gas_limit=task.gas_limit, tile=task.tile)
 
-    def read() -> Iterator[tuple[int, Scene, str]]:
-        for number, (source, path, task, notes) in enumerate(work):
-            found, said = _heard(partial(load_input, source, task), notes)
-            if isinstance(found, ShackledError):
-                done.append((number, (found, said)))
-            elif is_there(path, task, scene := found[0][0]):
-                done.append((number, (render_to(source, path, task, Notes(), scene), said)))
-            else:
-                yield number, scene, said
+    def begun(each: Work) -> Callable[[], Outcome]:
+        """Read an input, and have it drawn; return what waits for the picture and writes it."""
+        loaded, said = _heard(each.load, notes)
+        if isinstance(loaded, Done | ShackledError):
+            return lambda: (loaded, said)
+        scene = loaded[0][0]
+        future = backend.submit(drawn, scene)
 
-    task = work[0][2]
-    bounds = {"on": on.evm, "transparent": task.transparent, "gas_limit": task.gas_limit, "tile": task.tile}
+        def ended() -> Outcome:
+            made = backend.wait(future, bar.warned)
+            if isinstance(made, ShackledError):
+                return made, said
+            image = evolve(made, made_by=backend.name)
+            done, more = _heard(partial(each.write, image, scene, time.perf_counter() - made.seconds), notes)
+            return done, said + more
+
+        return ended
+
     with closing(ClusterBackend(on.address, on.evm, task.gas_limit)) as backend:
-        drawn = backend.each(partial(_draw, bounds), read(), lambda text: bar.print(f"shackled: {text}"))
-        for (number, scene, said), made in drawn:
-            source, path, task, notes = work[number]
-            outcome: Outcome = (
-                (made, "")
-                if isinstance(made, ShackledError)
-                else _heard(
-                    partial(render_to, source, path, task, Notes(), scene, evolve(made, made_by=backend.name)), notes
-                )
-            )
-            done.append((number, (outcome[0], said + outcome[1])))
-            yield from done
-            done.clear()
-    yield from done
-
-
-def _draw(bounds: dict[str, Any], item: tuple[int, Scene, str]) -> Image:
-    """Draw a picture in the process of a worker."""
-    return draw(item[1], **bounds)
-
-
-def _render(work: Work) -> Outcome:
-    """Render one input, in this process or in one of several."""
-    source, path, task, notes = work
-    return _heard(partial(render_to, source, path, task, Notes()), notes)
+        waiting = deque[Callable[[], Outcome]]()
+        for each in work:
+            waiting.append(begun(each))
+            if len(waiting) > backend.slots:
+                yield waiting.popleft()()
+        while waiting:
+            yield waiting.popleft()()
 
 
 def _heard(function: Callable[[], Result], notes: Action) -> tuple[Result | ShackledError, str]:

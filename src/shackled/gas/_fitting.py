@@ -16,10 +16,9 @@ from ..chain import open_chain
 from ..checks import choice
 from ..errors import InputError, OutOfGasError
 from ..ethereum import intrinsic_gas
-from ..scene import Scene, simplify_scene
+from ..scene import Scene, has_effects, simplify_scene
 from ..values import listed
 from ._limits import ENVELOPE, MAX_TRANSACTION, Limit, floor_gas, known_chains, limits, render_call
-from ._quick_path import has_effects
 
 #: What a picture is to fit, by the place whose limit it is: one transaction on Ethereum or on another chain, or a read
 #: call of a node with the default settings of geth.

@@ -69,7 +69,8 @@ class KnownChain:
     """A chain, as chains.toml has it.
 
     id: as `fit` takes it. number: as EIP-155 has it. gas: of one transaction at most. currency: the symbol of what gas
-    is paid in. date: of the source of `gas`. explorer, node: addresses, or "".
+    is paid in. date: of the source of `gas`. explorer: its address, or "". node: that of one that wallets can use, for
+    test networks only.
     """
 
     id: str
@@ -80,14 +81,20 @@ class KnownChain:
     source: str
     date: str
     explorer: str = ""
-    is_test: bool = False
     node: str = ""
+
+    @property
+    def is_test(self) -> bool:
+        """Whether it is a test network, or a chain for development."""
+        return bool(self.node)
 
 
 @cache
 def known_chains() -> tuple[KnownChain, ...]:
     """Return all known chains, test networks last."""
-    return tuple(KnownChain(**entry) for entry in _table("chains")["chain"])
+    table = _table("chains")
+    ethereum = {name: table["ethereum"][name] for name in ("gas", "source", "date")}
+    return tuple(KnownChain(id, **(ethereum if "node" in each else {}) | each) for id, each in table.items())
 
 
 @dataclass(frozen=True)

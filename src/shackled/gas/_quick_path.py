@@ -4,26 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 
-import numpy as np
-
-from ..scene import Object, Scene
+from ..scene import Scene, has_effects
 from ..values import listed, plural
-
-
-def has_effects(scene: Scene) -> bool:
-    """Return whether the EffectsEngine draws a scene."""
-    effects = (scene.hemisphere, scene.rim, scene.fog, scene.tone, scene.ground)
-    return (
-        any(each is not None for each in effects)
-        or any(light.shadow for light in scene.lights)
-        or any(
-            o.material.texture is not None
-            or o.mesh.opacities is not None
-            or o.fade is not None
-            or any(o.material.emission)
-            for o in scene.objects
-        )
-    )
 
 
 def missed_quick_path(scene: Scene) -> dict[str, int]:
@@ -32,22 +14,24 @@ def missed_quick_path(scene: Scene) -> dict[str, int]:
     Hidden faces count; those of wireframes and of a ground do not.
     """
     found: Counter[str] = Counter()
-    if not has_effects(scene):
-        return {}
-    everywhere = [name for name, value in (("rim light", scene.rim), ("fog", scene.fog)) if value is not None]
-    if any(light.kind == "point" for light in scene.lights):
-        everywhere.append("a point or spot light")
-    for o in scene.objects:
+    for o in scene.objects if has_effects(scene) else ():
         if o.wireframe or o.fade is not None:
             continue
-        reasons = [*_of_object(o), *everywhere]
-        corners = o.mesh.colors[o.mesh.faces]
-        varies = (corners != corners[:, :1]).any(axis=(1, 2))
-        for is_varying, count in zip(*np.unique(varies, return_counts=True), strict=True):
-            words = ["colours that vary inside the face"] * bool(is_varying) + reasons
-            if words:
-                found[" and ".join(words)] += int(count)
-    return dict(found)
+        material, corners = o.material, o.mesh.colors[o.mesh.faces]
+        reasons = {
+            "smooth shading": material.shading == "smooth",
+            f"a highlight of {100 * material.specular:.3g} percent": material.shading == "flat" and material.specular,
+            "a texture": material.texture is not None,
+            "opacities of vertices": o.mesh.opacities is not None,
+            "rim light": scene.rim is not None,
+            "fog": scene.fog is not None,
+            "a point or spot light": any(light.kind == "point" for light in scene.lights),
+        }
+        words = [name for name, holds in reasons.items() if holds]
+        varying = int((corners != corners[:, :1]).any(axis=(1, 2)).sum())
+        found[" and ".join(words)] += o.mesh.triangles - varying
+        found[" and ".join(["colours that vary inside the face", *words])] += varying
+    return {reason: count for reason, count in found.items() if reason and count}
 
 
 def quick_path_note(scene: Scene) -> str:
@@ -56,16 +40,3 @@ def quick_path_note(scene: Scene) -> str:
     return (
         f"of {plural(scene.triangles, 'face')}, these miss the quick path of effects: {listed(parts)}" if parts else ""
     )
-
-
-def _of_object(o: Object) -> list[str]:
-    material, found = o.material, []
-    if material.shading == "smooth":
-        found.append("smooth shading")
-    elif material.shading == "flat" and material.specular > 0:
-        found.append(f"a highlight of {100 * material.specular:.3g} percent")
-    if material.texture is not None:
-        found.append("a texture")
-    if o.mesh.opacities is not None:
-        found.append("opacities of vertices")
-    return found

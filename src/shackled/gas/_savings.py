@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from functools import partial
 from threading import Timer
 
 from attrs import evolve
@@ -19,8 +20,6 @@ TILE = 16, 4
 #: The parts of the triangles of the largest mesh that are tried, until one is enough.
 PARTS = (4, 16, 64)
 
-Change = Callable[[Scene], Scene]
-
 
 def savings(scene: Scene, limit: int, is_tile: bool) -> str:
     """Return which settings are each enough, with their gas, as the end of a message; "" if none was found.
@@ -29,45 +28,33 @@ def savings(scene: Scene, limit: int, is_tile: bool) -> str:
     """
     width, height = min(TILE[0], scene.width), min(TILE[1], scene.height)
     middle = Rectangle((scene.width - width) // 2, (scene.height - height) // 2, width, height)
-    chain = RevmChain(limit, is_stoppable=True)
-
-    def measured(changes: dict[str, Change]) -> str:
-        """Return the first change that is enough, in words; "" if none is."""
-        for name, change in changes.items():
-            try:
-                gas = chain.draw(change(scene), middle if is_tile else None).gas
-            except ShackledError:  # too much still, stopped, or a mesh that cannot be simplified
-                continue
-            return f"`{name}` ({gas:,})"
-        return ""
-
+    chain, found = RevmChain(limit, is_stoppable=True), dict[str, str]()
     timer = Timer(PATIENCE, chain.stop)
     timer.start()
     try:
-        chain.address("Renderer")  # set up here, before several threads ask for it
-        with ThreadPoolExecutor() as threads:
-            found = [each for each in threads.map(measured, _changes(scene, is_tile)) if each]
+        for keyword, value, change in _changes(scene, is_tile):
+            # too much still, stopped, or a mesh that cannot be simplified
+            with suppress(ShackledError):
+                if keyword not in found:
+                    gas = chain.draw(change(), middle if is_tile else None).gas
+                    found[keyword] = f"`{keyword}={value}` ({gas:,})"
     finally:
         timer.cancel()
     what = "a tile in its middle" if is_tile else "it"
-    return f"; for {what}, each of these is enough: {', '.join(found)}" if found else ""
+    return f"; for {what}, each of these is enough: {', '.join(found.values())}" if found else ""
 
 
-def _changes(scene: Scene, is_tile: bool) -> list[dict[str, Change]]:
-    """Return what can be lowered, as functions by keywords with their values; of each dictionary one is wanted."""
-    triangles = max((o.mesh.triangles for o in scene.objects), default=0)
-    width, height = max(1, scene.width // 2), max(1, scene.height // 2)
-    found: list[dict[str, Change]] = []
+def _changes(scene: Scene, is_tile: bool) -> Iterator[tuple[str, object, Callable[[], Scene]]]:
+    """Yield keywords and values that lower the gas, with a function that makes the scene; the least change first."""
     if scene.antialias:
-        found.append({"antialias=False": lambda of: evolve(of, antialias=False)})
+        yield "antialias", False, partial(evolve, scene, antialias=False)
     if any(o.material.shading == "smooth" for o in scene.objects):
-        found.append({"shading=flat": _flat})
+        flat = [evolve(o, material=evolve(o.material, shading="flat")) for o in scene.objects]
+        yield "shading", "flat", partial(evolve, scene, objects=flat)
     if not is_tile:
+        width, height = max(1, scene.width // 2), max(1, scene.height // 2)
         size = f"{width}" if width == height else f"{width}x{height}"
-        found.append({f"size={size}": lambda of: evolve(of, width=width, height=height)})
-    counts = [triangles // part for part in PARTS if triangles >= part]
-    return [*found, {f"max_triangles={n}": lambda of, n=n: simplify_scene(of, n) for n in counts}]  # type: ignore[misc]
-
-
-def _flat(scene: Scene) -> Scene:
-    return evolve(scene, objects=[evolve(o, material=evolve(o.material, shading="flat")) for o in scene.objects])
+        yield "size", size, partial(evolve, scene, width=width, height=height)
+    triangles = max((o.mesh.triangles for o in scene.objects), default=0)
+    for most in (triangles // part for part in PARTS if triangles >= part):
+        yield "max_triangles", most, partial(simplify_scene, scene, most)

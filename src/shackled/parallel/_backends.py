@@ -46,13 +46,14 @@ class Backend(Protocol):
         """Render a part; as many threads as there are slots may call this."""
 
     def check(self) -> list[str]:
-        """Return what is to be told while parts are rendered; raise RenderError if none can be any more."""
+        """Return what is to be told while parts are rendered, here nothing; RenderError if none can be any more."""
+        return []
 
     def close(self) -> None:
         """Stop what still runs; may be called while it renders, and more than once."""
 
 
-class ChainBackend:
+class ChainBackend(Backend):
     """A chain: an EVM in this process, or a node, with so many calls at a time."""
 
     def __init__(self, chain: Chain, slots: int = 1, untrusted: bool = False, gas: int | None = None) -> None:
@@ -71,10 +72,6 @@ class ChainBackend:
         if self.gas is not None and piece.gas is not None and piece.gas > self.gas:
             raise out_of_gas(self.gas)
         return piece
-
-    def check(self) -> list[str]:
-        """Return nothing: a chain that fails says so."""
-        return []
 
     def close(self) -> None:
         """End the calls of several threads, where the chain can be stopped; one slot may be a caller's chain."""

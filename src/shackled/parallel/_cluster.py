@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import threading
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from itertools import islice
-from queue import Empty, SimpleQueue
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from ..chain import Drawing, open_chain
 from ..errors import InputError, RenderError, ShackledError, not_installed
@@ -21,9 +20,6 @@ from ._store import contracts_digest
 
 if TYPE_CHECKING:
     from distributed import Client, Future
-
-Item = TypeVar("Item")
-Result = TypeVar("Result")
 
 #: Seconds within which a scheduler must answer, and a cluster without workers must get one.
 PATIENCE = 15
@@ -77,33 +73,25 @@ class ClusterBackend:
 
     def render(self, scene: Scene, tile: Rectangle) -> Drawing:
         """Render a part on any free worker."""
-        piece = self._result(self._client.submit(_answer, self._chain, self.gas, scene, tile, pure=False))
+        piece = self._result(self.submit(_answer, self._chain, self.gas, scene, tile))
         if isinstance(piece, ShackledError):
             raise piece
         assert isinstance(piece, Drawing)
         return piece
 
-    def each(
-        self, function: Callable[[Item], Result], items: Iterable[Item], warned: Callable[[str], object]
-    ) -> Iterator[tuple[Item, Result | ShackledError]]:
-        """Call a function for each item on a free worker; yield the item with its result, or its error, as it is done.
+    def submit(self, function: Callable[..., object], *given: object) -> Future[Any]:
+        """Have any free worker call a function."""
+        return self._client.submit(function, *given, pure=False)
 
-        items: taken a few ahead. warned: is told what `check` returns. Raises the error of `check`.
-        """
-        left, waiting, done = iter(items), dict[Any, Item](), SimpleQueue[Any]()
+    def wait(self, future: Future[Any], warned: Callable[[str], object]) -> Any:
+        """Return the result of a call, or its error. warned: is told what `check` returns, whose errors are raised."""
+        done = threading.Event()
+        future.add_done_callback(lambda _: done.set())  # type: ignore[no-untyped-call]
         while True:
-            for item in islice(left, self.slots - len(waiting)):
-                future = self._client.submit(function, item, pure=False)
-                waiting[future] = item
-                future.add_done_callback(done.put)  # type: ignore[no-untyped-call]
-            if not waiting:
-                return
-            with suppress(Empty):
-                future = done.get(timeout=PAUSE)
-                item, result = waiting.pop(future), self._result(future)
-                yield item, result
             for text in self.check():
                 warned(text)
+            if done.wait(PAUSE):
+                return self._result(future)
 
     def check(self) -> list[str]:
         """Return which workers have left the cluster; raise RenderError if there has been none for `PATIENCE` s."""

@@ -1,7 +1,7 @@
 from ._arithmetic import euler, from_euler, rotate
 from ._camera import Camera, Projection
 from ._canvas import as_shown
-from ._codec import WIREFRAME, Rectangle, encode, encode_scene, render_call
+from ._codec import WIREFRAME, Rectangle, encode, encode_scene, has_effects, render_call
 from ._decode import decode, read_call
 from ._effects import Background, Fog, Hemisphere, Rim, Tone
 from ._files.beside import is_inside
@@ -10,7 +10,7 @@ from ._files.gltf.animation import animation_length, animations_of
 from ._files.gltf.view import read_view
 from ._files.link import Link, link_of
 from ._files.mesh_file import GLTF, READERS, read_mesh, read_model
-from ._files.model import MeshPart
+from ._files.model import MeshPart, is_visible
 from ._files.picture import CHUNK, DIGEST, PICTURE, SceneChunk, scene_chunk, shows_scene
 from ._files.scene_file import SCENES, read_scene
 from ._files.signatures import format_by_name
@@ -98,10 +98,12 @@ __all__ = [
     "frame_count",
     "from_euler",
     "full_turn",
+    "has_effects",
     "is_closed",
     "is_inside",
     "is_pipe",
     "is_trimesh",
+    "is_visible",
     "link_of",
     "look_at",
     "mesh_of",

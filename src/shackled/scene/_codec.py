@@ -97,8 +97,18 @@ def encode_scene(scene: Scene) -> bytes:
     return head + _words(offsets) + lights + objects + _bytes(extensions(scene))
 
 
+def has_effects(scene: Scene) -> bool:
+    """Return whether the EffectsEngine draws a scene: by a record behind that of antialiasing, as in Renderer.sol."""
+    return any(kind > record.ANTIALIAS for kind, _ in _records(fit(scene)))
+
+
 def extensions(scene: Scene) -> bytes:
     """Return the fields that the structs do not have: records in ascending order of kind and index."""
+    return b"".join(_record(kind, index, content) for (kind, index), content in sorted(_records(scene).items()))
+
+
+def _records(scene: Scene) -> dict[tuple[int, int], bytes]:
+    """Return the contents of the records by kind and index."""
     found: dict[tuple[int, int], bytes] = {}
     for index, light in enumerate(scene.lights):
         if light.direction is not None:
@@ -136,7 +146,7 @@ def extensions(scene: Scene) -> bytes:
     if scene.tone is not None:
         flags = record.TONE_FILMIC * scene.tone.filmic + record.TONE_GAMMA * scene.tone.gamma
         found[record.TONE, 0] = struct.pack(">IB", max(round(scene.tone.exposure / EXPOSURE_STEP), 1), flags)
-    return b"".join(_record(kind, index, content) for (kind, index), content in sorted(found.items()))
+    return found
 
 
 def shadow_rule(scene: Scene) -> int:

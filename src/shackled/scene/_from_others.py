@@ -30,8 +30,8 @@ def mesh_of(thing: Any) -> Mesh | None:
     positions = np.asarray(points, dtype=np.float64)
     if positions.ndim == 2 and positions.shape[1] == 2:
         positions = np.pad(positions, ((0, 0), (0, 1)))
-    numbers = np.concatenate([np.asarray(rows).reshape(-1) for rows in polygons])
-    triangles = cut(positions, [size for rows in polygons for size in [rows.shape[1]] * len(rows)], numbers)
+    numbers = np.concatenate([np.ravel(rows) for rows in polygons])
+    triangles = cut(positions, [len(row) for rows in polygons for row in rows], numbers)
     colors, normals = (_of_vertices(thing, name, len(positions)) for name in ("vertex_colors", "vertex_normals"))
     return Mesh(positions, numbers[triangles[:, :3]], colors, normals)
 

@@ -9,10 +9,10 @@ from attrs import evolve
 
 from ..errors import InputError, warn
 from ._files.images import Images
-from ._files.model import MeshPart, Picture, finite_uvs, is_transparent, seen
+from ._files.model import MeshPart, Picture, finite_uvs, seen
 from ._mesh import Mesh, is_trimesh, weld
 from ._object import Material, Object
-from ._texture import as_rgb, as_rgba, cutoff_of, to_srgb
+from ._texture import as_rgb, cutoff_of, to_srgb, with_alpha
 
 
 def part_of(value: Any) -> MeshPart:
@@ -47,9 +47,9 @@ def _part_of(value: Any) -> MeshPart:
     cutoff = of_material("alphaCutoff")
     cutoff = 0.5 if cutoff is None else float(cutoff)
     has_alpha = mode == "BLEND" or (mode == "MASK" and cutoff > 0)
-    image = (as_rgba if has_alpha and is_transparent(image) else as_rgb)(image)
+    image = (with_alpha if has_alpha else as_rgb)(image)
     cutoff = cutoff_of(cutoff) if mode == "MASK" else 0
-    picture = Picture(lambda: image, "the texture of the mesh", Images(), image.mode == "RGBA", True, cutoff=cutoff)
+    picture = Picture(Images().image("", lambda: image), "the texture of the mesh", cutoff=cutoff)
     corners = finite_uvs(uvs, picture.name)[faces] * (1, -1) + (0, 1)
     texture, coordinates = picture.texture(corners, 1)
     colors = np.broadcast_to(to_srgb(color), (*faces.shape, 3))

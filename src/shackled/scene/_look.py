@@ -43,6 +43,8 @@ from ._winding import wound
 MOST_TWO_SIDED = 16384
 #: Shadows are in the picture up to where the ground has faded by this part.
 _FADED = 0.5
+#: The radius about the origin within which a staged model is, but for its strays; a little above 1 for rounding.
+_MODEL = 1 + 1e-6
 
 
 def stage(
@@ -75,7 +77,7 @@ def look_at(
         raise InputError(f"`{next(iter(of_file))}` is for what is read of one glTF file")
     if isinstance(thing, Scene) and not look:
         return thing
-    view, has_strays = None, False
+    view, model = None, None
     by_normals = staging.by_normals and not isinstance(thing, Scene)
     if isinstance(thing, Scene):
         scene = turn(thing, look["rotate"]) if "rotate" in look else thing
@@ -84,8 +86,7 @@ def look_at(
     else:
         parts = [Object(thing, material=staging.material)] if isinstance(thing, Mesh) else list(thing)
         if by_normals and around is None:
-            parts, around = without_strays(parts, name)
-            has_strays = around is not None
+            parts, model = without_strays(parts, name)
         if by_normals:
             parts = wound(parts, name, split=not {"cull", "max_triangles"} & look.keys())
         else:
@@ -97,7 +98,8 @@ def look_at(
             # without a camera that it could tilt, it is a direction of the model
             rotation = multiply(turned_up(look["up"]), rotation)
             look = {name: value for name, value in look.items() if name != "up"}
-        points = np.concatenate([each.world_positions() for each in parts]) if around is None else around
+        if (points := model if around is None else around) is None:
+            points = np.concatenate([each.world_positions() for each in parts])
         own = staging.view_of(rotate(rotation, points))
         view = view_of(look, width, height, look.get("orthographic", False), own)
         scene = _placed(parts, points, rotation, view, staging, width, height)
@@ -112,22 +114,25 @@ def look_at(
         changed = evolve(tone or Tone(), **of_tone)
         tone = None if changed == Tone() else changed
     scene = evolve(scene, objects=objects, tone=tone, **chosen)
+    points = scene.world_positions()
+    if model is not None:  # without strays
+        points = points[length(points) <= _MODEL]
+        if scene.ground is not None:
+            scene = evolve(scene, ground=scene.ground.settled(points))
     if by_normals and "background" not in look:
         scene = evolve(scene, background=contrasting(scene.objects))
     if "preset" in look and "lights" not in look:
-        seen = _camera(scene, look, view, is_framed=around is not None)
+        seen = _camera(scene, points, look, view, is_framed=around is not None)
         x, _, z = (seen.eye - seen.target).tolist()
         casts = any(each.shadow for each in scene.lights)
         scene = evolve(scene, lights=preset_of(look["preset"]).lights(math.degrees(math.atan2(x, z)), casts))
     if "shadow" in look:
         lights = [evolve(light, shadow=look["shadow"] and number == 0) for number, light in enumerate(scene.lights)]
         scene = evolve(scene, lights=lights)
-    camera = _camera(scene, look, view, is_framed=around is not None)
-    if has_strays and camera.near is None and camera.projection == "perspective":
-        # of all but the strays, which are within 1 of the origin
+    camera = _camera(scene, points, look, view, is_framed=around is not None)
+    if model is not None and camera.near is None and camera.projection == "perspective":
         camera = evolve(camera, near=NEAR_PART * (float(length(camera.eye)) + 1))
-    scene = evolve(scene, camera=camera)
-    scene = evolve(scene, fog=_fog_between(scene, fog) if isinstance(fog, tuple) else fog)
+    scene = evolve(scene, camera=camera, fog=_fog_between(camera, points, fog) if isinstance(fog, tuple) else fog)
     most = look.get("max_triangles", ALL)
     return scene if most == ALL else simplify_scene(scene, most, look.get("crease"))
 
@@ -194,33 +199,34 @@ def _object(o: Object, look: Mapping[str, Any]) -> Object:
     return shaded(o, shading, look.get("crease"), anew="crease" in look)
 
 
-def _fog_between(scene: Scene, color: Color) -> Fog:
-    """Return fog that begins at the nearest point of the objects, and hides the farthest one."""
-    camera = scene.camera
+def _fog_between(camera: Camera, points: Floats, color: Color) -> Fog:
+    """Return fog that begins at the nearest of the points, (n, 3), and hides the farthest one."""
     forward = camera.target - camera.eye
-    points = scene.world_positions() - camera.eye
     if not forward.any() or not len(points):
         return Fog(color, 0, 1)
-    depths = dot(points, forward / length(forward))
+    depths = dot(points - camera.eye, forward / length(forward))
     near, far = max(float(depths.min()), 0.0), float(depths.max())
     # a scene without depth is clear
     return Fog(color, near, far if far > near else 2 * near + 1)
 
 
-def _camera(scene: Scene, look: Mapping[str, Any], view: Viewpoint | None, is_framed: bool) -> Camera:
-    """Return the camera that a look asks for. view: that of a scene that is staged. is_framed: whether it stays."""
+def _camera(scene: Scene, points: Floats, look: Mapping[str, Any], view: Viewpoint | None, is_framed: bool) -> Camera:
+    """Return the camera that a look asks for.
+
+    points: of the scene, (n, 3), that it shows. view: that of a scene that is staged. is_framed: whether it stays.
+    """
     camera = scene.camera
     orthographic = look.get("orthographic", camera.projection == "orthographic")
     projection: Projection = "orthographic" if orthographic else "perspective"
     chosen = half_height_in(look, orthographic)
     if view is not None:
-        camera = camera if is_framed else frame(_to_be_seen(scene), view)
+        camera = camera if is_framed else frame(_to_be_seen(scene, points), view)
     elif scene.objects and {"azimuth", "elevation", "margin"} & look.keys():
         view = view_of(look, scene.width, scene.height, orthographic)
         if not orthographic and chosen is None:
             own = camera.half_height if camera.projection == projection else DEFAULT_HALF_HEIGHT
             view = evolve(view, half_height=own)
-        camera = frame(_to_be_seen(scene), view)
+        camera = frame(_to_be_seen(scene, points), view)
     camera = evolve(camera, **{name: look[name] for name in ("eye", "target", "up") if name in look})
     half_height, near = camera.half_height, camera.near
     if projection != camera.projection:
@@ -234,9 +240,8 @@ def _camera(scene: Scene, look: Mapping[str, Any], view: Viewpoint | None, is_fr
     return evolve(camera, projection=projection, half_height=half_height, near=look.get("near", near))
 
 
-def _to_be_seen(scene: Scene) -> Floats:
-    """Return points, (n, 3), that are in the picture if all of the scene is: objects, and their shadow on a ground."""
-    points = scene.world_positions()
+def _to_be_seen(scene: Scene, points: Floats) -> Floats:
+    """Return points, (n, 3), that are in the picture if points of objects are: these, and their shadow on a ground."""
     if scene.ground is None:
         return points
     ground = scene.ground.under(points)

@@ -104,7 +104,7 @@ class Texture(Value):
         alpha: whether it has the alpha of the image, if that is transparent anywhere; hidden texels get the colours of
         the nearest visible ones. cutoff: see `Texture`. InputError if the file does not exist or is not an image.
         """
-        convert = as_rgba if alpha else as_rgb
+        convert = with_alpha if alpha else as_rgb
         if isinstance(image, Image.Image):
             opened = convert(image)
         elif isinstance(image, str | os.PathLike):
@@ -191,6 +191,9 @@ def _instead(source: Path | IO[bytes]) -> str:
 
 def as_rgb(image: Image.Image) -> Image.Image:
     """Return an image of any mode of Pillow as RGB, without its alpha."""
+    if image.mode == "RGB":
+        image.load()  # before its file is closed
+        return image
     if image.mode[0] not in "IF":
         return image.convert("RGB")
     # Pillow cuts the levels of these off at 255
@@ -209,9 +212,13 @@ def as_rgb(image: Image.Image) -> Image.Image:
     return Image.fromarray(np.concatenate(found)).convert("RGB")
 
 
-def as_rgba(image: Image.Image) -> Image.Image:
-    """Return an image of any mode of Pillow as RGBA."""
-    return (image if image.has_transparency_data else as_rgb(image)).convert("RGBA")
+def with_alpha(image: Image.Image) -> Image.Image:
+    """Return an image of any mode of Pillow as RGBA, or as RGB if it is opaque everywhere."""
+    if image.has_transparency_data:
+        converted = image.convert("RGBA")
+        if converted.getchannel("A").getextrema() != (255, 255):
+            return converted
+    return as_rgb(image)
 
 
 def reduced(image: Image.Image, side: int = MAX_TEXTURE_SIDE) -> Image.Image:
@@ -251,6 +258,8 @@ def sample(image: Image.Image, coordinates: ArrayLike) -> NDArray[np.float64]:
 
     coordinates: (n, 2) float, from the bottom left (0, 0) to the top right (1, 1); outside of it the image repeats.
     """
+    if not np.size(coordinates):
+        return np.zeros((0, 3))
     width, height = image.size
     uv = np.nan_to_num(np.asarray(coordinates, dtype=np.float64)[:, :2], posinf=0, neginf=0)
     # the far border belongs to the image itself, not to its first repetition
@@ -260,10 +269,11 @@ def sample(image: Image.Image, coordinates: ArrayLike) -> NDArray[np.float64]:
     left, top = np.floor(x).astype(int), np.floor(y).astype(int)
     right, bottom = np.minimum(left + 1, width - 1), np.minimum(top + 1, height - 1)
     fx, fy = (x - left)[:, None], (y - top)[:, None]
-    first, upmost = (int(each.min(initial=0 if not len(uv) else each[0])) for each in (left, top))
-    last, lowest = (int(each.max(initial=0)) for each in (right, bottom))
-    texels = np.asarray(image.crop((first, upmost, last + 1, lowest + 1)).convert("RGB"))
-    x, right, y, bottom = left - first, right - first, top - upmost, bottom - upmost
-    upper = texels[y, x] * (1 - fx) + texels[y, right] * fx
-    lower = texels[bottom, x] * (1 - fx) + texels[bottom, right] * fx
+    first, upmost, end, lowest = int(left.min()), int(top.min()), int(right.max()) + 1, int(bottom.max()) + 1
+    # in parts, for an array of all of them at once would be made by way of three copies
+    parts = ((first, row, end, min(row + _ROWS, lowest)) for row in range(upmost, lowest, _ROWS))
+    texels = np.concatenate([np.asarray(as_rgb(image.crop(part))) for part in parts])
+    left, right, top, bottom = left - first, right - first, top - upmost, bottom - upmost
+    upper = texels[top, left] * (1 - fx) + texels[top, right] * fx
+    lower = texels[bottom, left] * (1 - fx) + texels[bottom, right] * fx
     return np.asarray(np.rint(upper * (1 - fy) + lower * fy))

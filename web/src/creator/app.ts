@@ -194,11 +194,8 @@ export class App {
         if (!add) {
             // in its own shape, as large as the picture before
             const scale = Math.max(now.width, now.height) / Math.max(piece.width, piece.height);
-            const [width, height] = [piece.width, piece.height].map((side) => Math.round(scale * side)) as [
-                number,
-                number,
-            ];
-            return this.openDocument({ ...piece, width, height, antialias: now.antialias }, `Open ${piece.title}`);
+            const size = { width: Math.round(scale * piece.width), height: Math.round(scale * piece.height) };
+            return this.openDocument({ ...piece, ...size, antialias: now.antialias }, `Open ${piece.title}`);
         }
         this.addObjects(fitted(withPiece(now, piece, this.meshes), this.meshes), `Add ${piece.title}`);
     }

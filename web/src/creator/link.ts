@@ -1,16 +1,14 @@
 // Links: the scene file of a document, deflated, behind the # of the address of the page.
 
-import { deflateSync } from "fflate";
 import { InputError } from "../errors.js";
-import { fromBase64, toBase64 } from "../evm/bytes.js";
-import { inflated } from "../files/inflate.js";
+import { deflate, fromBase64, inflating, joined, readStream, toBase64 } from "../evm/bytes.js";
 import type { Document, Item, Meshes } from "./document.js";
 import type { MeshStore } from "./library.js";
 import { LINK_DICTIONARY, documentOfState } from "./old_link.js";
 import { openSceneFile, sceneTable } from "./save.js";
 
 const VERSION = "1";
-/** The most bytes of a link with meshes in it, and of the JSON in any link. */
+/** The most bytes of a link with meshes in it, and of the JSON in any link, with the dictionary before it. */
 const MOST_INLINE = 24 * 1024;
 const MOST_JSON = 1 << 22;
 /** Above, meshes are too large for a link, whatever they are. */
@@ -21,10 +19,10 @@ export async function linkOf(doc: Document, meshes: Meshes): Promise<{ text: str
     const files = doc.objects.filter(({ mesh }) => "file" in mesh);
     const heavy = [...files, ...doc.objects.filter(({ maxTriangles }) => maxTriangles !== null)];
     const isSmall = heavy.reduce((sum, item) => sum + verticesOf(item, meshes), 0) <= MOST_VERTICES;
-    const inside = isSmall ? packed(sceneTable(doc, meshes, true)) : null;
+    const inside = isSmall ? await packed(sceneTable(doc, meshes, true)) : null;
     if (inside && (!heavy.length || inside.length <= MOST_INLINE)) return { text: textOf(inside), missing: [] };
     const missing = [...new Set(files.map(({ name }) => name))];
-    return { text: textOf(packed(sceneTable(doc, meshes, false))), missing };
+    return { text: textOf(await packed(sceneTable(doc, meshes, false))), missing };
 }
 
 /** Return about how many vertices of an object would be in the link; Infinity where its mesh is not here. */
@@ -37,8 +35,8 @@ function verticesOf({ mesh, maxTriangles }: Item, meshes: Meshes): number {
     }
 }
 
-function packed(table: object): Uint8Array {
-    return deflateSync(new TextEncoder().encode(JSON.stringify(table)), { level: 9 });
+function packed(table: object): Promise<Uint8Array> {
+    return deflate(JSON.stringify(table), "deflate-raw");
 }
 
 function textOf(bytes: Uint8Array): string {
@@ -47,13 +45,9 @@ function textOf(bytes: Uint8Array): string {
 
 /** Return the document of a link, also of one of the Creator before this one. InputError if it is damaged. */
 export async function documentOfLink(hash: string, store: MeshStore): Promise<Document> {
-    const bytes = bytesOf(hash);
-    const json = unpacked(bytes);
-    if (!json) {
-        const state = unpacked(bytes, LINK_DICTIONARY);
-        if (!state) throw new InputError("The link is damaged: copy all of it");
-        return documentOfState(state, store);
-    }
+    const json = await unpacked(bytesOf(hash));
+    if (!json) throw new InputError("The link is damaged: copy all of it");
+    if ("source" in json) return documentOfState(json, store);
     const { document, meshes } = await openSceneFile(json, store, { title: "" });
     store.put(meshes);
     return document;
@@ -70,10 +64,13 @@ function bytesOf(hash: string): Uint8Array {
 }
 
 /** Return the object whose JSON was deflated; null if it is none. */
-function unpacked(bytes: Uint8Array, dictionary?: Uint8Array): Record<string, unknown> | null {
+async function unpacked(bytes: Uint8Array): Promise<Record<string, unknown> | null> {
     try {
-        const message = `The link holds more than ${MOST_JSON.toLocaleString("en")} bytes`;
-        const whole = inflated(bytes, MOST_JSON, message, dictionary);
+        // the dictionary of old links, as a block that is stored: what is deflated behind it may refer to it
+        const { length } = LINK_DICTIONARY;
+        const head = Uint8Array.of(0, length & 255, length >> 8, ~length & 255, (~length >> 8) & 255);
+        const stream = inflating(joined([head, LINK_DICTIONARY, bytes]), "deflate-raw");
+        const whole = (await readStream(stream, MOST_JSON, "What is in the link")).subarray(length);
         const value: unknown = JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(whole));
         const isTable = typeof value === "object" && value !== null && !Array.isArray(value);
         return isTable ? (value as Record<string, unknown>) : null;

@@ -2,6 +2,9 @@
 
 import { InputError } from "../errors.js";
 
+/** Compressed bytes that are inflated at a time. */
+const STEP = 1 << 13;
+
 /** Return the bytes of "0x" and hexadecimal digits. */
 export function fromHex(text: string): Uint8Array<ArrayBuffer> {
     if (!/^0x(?:[0-9a-f]{2})*$/i.test(text)) throw new InputError("the text is not 0x and pairs of hexadecimal digits");
@@ -86,15 +89,25 @@ export function isGzip(bytes: Uint8Array): boolean {
     return bytes[0] === 0x1f && bytes[1] === 0x8b;
 }
 
+/** Return the stream of what compressed bytes contain. */
+export function inflating(bytes: Uint8Array<ArrayBuffer>, format: CompressionFormat): ReadableStream<Uint8Array> {
+    let at = 0;
+    // a few at a time: browsers inflate all that they are given, to a thousand times as much, before any of it is read
+    const parts = new ReadableStream<Uint8Array<ArrayBuffer>>({
+        pull: (stream) => (at < bytes.length ? stream.enqueue(bytes.slice(at, (at += STEP))) : stream.close()),
+    });
+    return parts.pipeThrough(new DecompressionStream(format));
+}
+
 /** Return what compressed bytes contain. InputError above `most` bytes, or where they are damaged. */
 export async function inflate(
     bytes: Uint8Array<ArrayBuffer>,
-    format: "gzip" | "deflate",
+    format: CompressionFormat,
     most: number,
     name: string,
 ): Promise<Uint8Array<ArrayBuffer>> {
     try {
-        return await readStream(new Blob([bytes]).stream().pipeThrough(new DecompressionStream(format)), most, name);
+        return await readStream(inflating(bytes, format), most, name);
     } catch (error) {
         throw error instanceof InputError ? error : new InputError(`${name}: the compressed bytes are damaged`);
     }
@@ -102,7 +115,7 @@ export async function inflate(
 
 export async function deflate(
     content: Uint8Array<ArrayBuffer> | string,
-    format: "gzip" | "deflate",
+    format: CompressionFormat,
 ): Promise<Uint8Array<ArrayBuffer>> {
     const stream = new Blob([content]).stream().pipeThrough(new CompressionStream(format));
     return new Uint8Array(await new Response(stream).arrayBuffer());

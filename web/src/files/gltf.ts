@@ -45,12 +45,12 @@ export async function readGltf(source: Source): Promise<Triangles> {
     const leaveOut: Gltf["leaveOut"] = (one, several, count = 1) => {
         if (count) leftOut.set(one, [(leftOut.get(one)?.[0] ?? 0) + count, several]);
     };
-    const given: (Uint8Array | undefined)[] = (json.buffers ?? []).map(({ uri }: Json, number: number) =>
-        uri === undefined ? (number ? undefined : binary) : resource(uri, source),
-    );
-    const size = [...new Set(given)].reduce((sum, bytes) => sum + (bytes?.length ?? 0), source.bytes.length);
-    // the fallback of meshopt has no bytes, and is not read
-    const buffers = given.map((bytes) => bytes ?? new Uint8Array());
+    const buffers: Uint8Array[] = (json.buffers ?? []).map(({ uri }: Json, number: number) => {
+        // the fallback of meshopt has no bytes, and is not read
+        if (uri === undefined) return (!number && binary) || new Uint8Array();
+        return resource(uri, source);
+    });
+    const size = [...new Set(buffers)].reduce((sum, { length }) => sum + length, source.bytes.length);
     checkLengths(json, size);
     const gltf: Gltf = { json, buffers, pictures: new Map(), source, leaveOut };
     check(gltf);
@@ -132,7 +132,8 @@ function resource(uri: Json, source: Source): Uint8Array {
 
 /** Check all that could keep the loader from ending, or let it fail without saying why. */
 function check({ json, buffers }: Gltf): void {
-    const { asset, extensionsRequired = [], bufferViews = [], accessors = [], nodes = [], skins = [] } = json;
+    const { asset, extensionsRequired = [], bufferViews = [], accessors = [] } = json;
+    const { nodes = [], skins = [], meshes = [], materials = [] } = json;
     if (!asset) throw new InputError("it is no glTF file: asset, with the version of glTF, is missing");
     if (!/^2\./.test(`${asset.version}`) || !/^(2\.0|undefined)$/.test(`${asset.minVersion}`))
         throw new InputError(`its version is ${show(asset.minVersion ?? asset.version)}; glTF 2.0 is read`);
@@ -152,32 +153,26 @@ function check({ json, buffers }: Gltf): void {
         if (!(count >= 0 && count < MOST && size > 0 && fits))
             throw new InputError(`its accessors[${number}] needs ${end} bytes, of ${view?.byteLength ?? 0}`);
     });
-    const need = (kind: string, numbers: Json[]): void => {
+    const need = (kind: string, number: Json): void => {
         const count = json[kind]?.length ?? 0;
-        const wrong = numbers.find(
-            (each) => each !== undefined && !(Number.isInteger(each) && each >= 0 && each < count),
-        );
-        if (wrong !== undefined)
-            throw new InputError(`it names number ${show(wrong)} of its ${kind}, of which there are ${count}`);
+        if (number !== undefined && !(Number.isInteger(number) && number >= 0 && number < count))
+            throw new InputError(`it names number ${show(number)} of its ${kind}, of which there are ${count}`);
     };
-    need(
-        "meshes",
-        nodes.map(({ mesh }: Json) => mesh),
-    );
-    need(
-        "skins",
-        nodes.map(({ skin }: Json) => skin),
-    );
-    for (const { joints = [], inverseBindMatrices } of skins)
-        (need("nodes", joints), need("accessors", [inverseBindMatrices]));
-    for (const { attributes = {}, indices, material } of (json.meshes ?? []).flatMap(
-        ({ primitives }: Json) => primitives,
-    )) {
-        need("accessors", [...Object.values(attributes), indices]);
-        need("materials", [material]);
+    for (const { mesh, skin } of nodes) {
+        need("meshes", mesh);
+        need("skins", skin);
     }
-    for (const { pbrMetallicRoughness: keys, emissiveTexture } of json.materials ?? [])
-        need("textures", [keys?.baseColorTexture?.index, emissiveTexture?.index]);
+    for (const { joints = [], inverseBindMatrices } of skins) {
+        for (const joint of joints) need("nodes", joint);
+        need("accessors", inverseBindMatrices);
+    }
+    for (const { primitives } of meshes)
+        for (const { attributes = {}, indices, material } of primitives) {
+            for (const accessor of [...Object.values(attributes), indices]) need("accessors", accessor);
+            need("materials", material);
+        }
+    for (const { pbrMetallicRoughness: keys, emissiveTexture } of materials)
+        for (const texture of [keys?.baseColorTexture, emissiveTexture]) need("textures", texture?.index);
 }
 
 /** Take what is not drawn out of a document, with notes. */

@@ -5,13 +5,15 @@ import type { Texture } from "../scene/checked.js";
 import { baseOf, fileBeside, type Source } from "./source.js";
 
 /**
- * Rows from the top; red, green, blue and alpha of each pixel. The rest is kept for all surfaces that show it: what `hides`
- * returned, whether it has one colour, how many pixels `isPlain` has looked at, and smaller images of it.
+ * Rows from the top; red, green, blue and alpha of each pixel. given: the size in the file, where it was reduced. The rest is
+ * kept for all surfaces that show it: what `hides` returned, whether it has one colour, how many pixels `isPlain` has looked
+ * at, and smaller images of it.
  */
 export interface Image {
     width: number;
     height: number;
     pixels: Uint8Array;
+    given?: string;
     hides?: boolean;
     isOne?: boolean;
     steps?: number;
@@ -28,9 +30,10 @@ export interface Picture {
     cutoff: number;
 }
 
-/** The most pixels of an image, and of all that are read together. Beyond the first number, those are kept smaller. */
+/** The most pixels of an image, and of all that are read together. */
 const [MAX_PIXELS, MAX_ALL] = [1 << 26, 1 << 28];
-const KEPT_SIDE = 1024;
+/** The most pixels of an image that is kept as it is, and of all of these. Larger ones have at most so many pixels a side. */
+const [MAX_KEPT, MAX_ALL_KEPT, KEPT_SIDE] = [1 << 24, 1 << 26, 1024];
 /** How many pixels are looked at to find triangles of one colour. */
 const MAX_STEPS = 1 << 28;
 const MAX_SIDE = 256;
@@ -39,24 +42,18 @@ const FULL_SIZE = 4;
 /** Coordinates outside of 0..1 by less are taken as rounded; beyond the second number they are moved by whole images. */
 const [ROUNDING, FAR] = [1e-4, 100];
 
-/** What makes pixels of the bytes of an image, maybe reduced to so many pixels a side; browsers have it built in, Node has not. */
-let decoder: (bytes: Uint8Array, side: number) => Image | Promise<Image> = async (bytes, side) => {
+/** What makes pixels of the bytes of an image, fewer if there are more than `most`; browsers have it built in, Node has not. */
+let decoder: (bytes: Uint8Array, most: number) => Image | Promise<Image> = async (bytes, most) => {
     const options = { premultiplyAlpha: "none", colorSpaceConversion: "none" } as const;
     const bitmap = await createImageBitmap(new Blob([bytes as Uint8Array<ArrayBuffer>]), options);
     checkSize(bitmap.width, bitmap.height);
-    const scale = Math.min(side / Math.max(bitmap.width, bitmap.height), 1);
-    const [width, height] = [bitmap.width, bitmap.height].map((each) => Math.max(Math.round(scale * each), 1));
-    const pixels = new Uint8Array(4 * width * height);
-    // in strips: a canvas of the whole image would take its memory three times
-    const rows = Math.min(Math.ceil(2 ** 22 / width), height);
-    const context = new OffscreenCanvas(width, rows).getContext("2d") as OffscreenCanvasRenderingContext2D;
-    for (let y = 0; y < height; y += rows) {
-        context.clearRect(0, 0, width, rows);
-        context.drawImage(bitmap, 0, -y, width, height);
-        pixels.set(context.getImageData(0, 0, width, Math.min(rows, height - y)).data, 4 * width * y);
-    }
+    const [width, height] = sizeWithin(bitmap, bitmap.width * bitmap.height > most ? KEPT_SIDE : Infinity);
+    const context = new OffscreenCanvas(width, height).getContext("2d") as OffscreenCanvasRenderingContext2D;
+    context.imageSmoothingQuality = "high";
+    context.drawImage(bitmap, 0, 0, width, height);
+    const given = `${bitmap.width} x ${bitmap.height}`;
     bitmap.close();
-    return { width, height, pixels };
+    return { width, height, given, pixels: new Uint8Array(context.getImageData(0, 0, width, height).data.buffer) };
 };
 
 /** Let another function decode images. */
@@ -75,7 +72,7 @@ function sizeOf(bytes: Uint8Array): readonly [number, number] {
     const start = new TextDecoder("latin1").decode(bytes.subarray(0, 512));
     const of = (at: number, bits: number): number => view.getUint32(at, true) & (2 ** bits - 1);
     const avif = start.indexOf("ispe");
-    if (start.startsWith("\x89P")) return [view.getUint32(16), view.getUint32(20)];
+    if (start.startsWith("PNG", 1)) return [view.getUint32(16), view.getUint32(20)];
     if (start.startsWith("GIF8")) return [of(6, 16), of(8, 16)];
     if (start.startsWith("WEBPVP8 ", 8)) return [of(26, 14), of(28, 14)];
     if (start.startsWith("WEBPVP8L", 8)) return [of(21, 14) + 1, (of(21, 28) >> 14) + 1];
@@ -100,11 +97,14 @@ export class Images {
         const [width, height] = sizeOf(bytes);
         checkSize(width, height);
         if (this.total + width * height > MAX_ALL)
-            throw new InputError(`all textures together may have ${MAX_ALL.toLocaleString("en")} pixels`);
-        const side = this.total + width * height > MAX_PIXELS ? KEPT_SIDE : Infinity;
-        const image = await decoder(bytes, side);
+            throw new InputError(
+                `all textures together may have up to ${MAX_ALL.toLocaleString("en")} pixels; reduce them`,
+            );
+        const most = Math.min(MAX_KEPT, MAX_ALL_KEPT - this.total);
+        const image = await decoder(bytes, most);
         this.total += width * height || image.width * image.height;
-        return reduced(image, side, false);
+        const { given = `${image.width} x ${image.height}` } = image;
+        return image.width * image.height > most ? { ...reduced(image, KEPT_SIDE, false), given } : image;
     }
 }
 
@@ -221,18 +221,24 @@ export function textureOf(
     let image = known.get(key) ?? reduced(picture.image, side, hasAlpha);
     known.set(key, image);
     const [{ width, height }, { width: wide, height: high }] = [image, picture.image];
-    if (wide > width) tell(`the texture ${name} is reduced from ${wide} x ${high} to ${width} x ${height} texels`);
+    const { given: size = `${wide} x ${high}` } = picture.image;
+    if (wide > width) tell(`the texture ${name} is reduced from ${size} to ${width} x ${height} texels`);
     if (hasAlpha) image = unhidden(image);
     const pixels = image.pixels.filter((_, at) => at % 4 < 3);
     const alpha = hasAlpha ? image.pixels.filter((_, at) => at % 4 === 3) : undefined;
     return { texture: { width, height, pixels, filter, wrap, alpha, cutoff }, uvs };
 }
 
+/** Return width and height of an image that has at most so many pixels a side. */
+function sizeWithin({ width, height }: Pick<Image, "width" | "height">, side: number): [number, number] {
+    const scale = Math.max(Math.max(width, height) / side, 1);
+    return [Math.max(Math.round(width / scale), 1), Math.max(Math.round(height / scale), 1)];
+}
+
 /** Return an image of at most so many pixels a side, each the mean of those that it covers; of colours by alpha, if that counts. */
 function reduced({ width, height, pixels }: Image, side: number, byAlpha: boolean): Image {
-    const scale = Math.max(width, height) / side;
-    if (scale <= 1) return { width, height, pixels };
-    const [wide, high] = [width, height].map((each) => Math.max(Math.round(each / scale), 1));
+    const [wide, high] = sizeWithin({ width, height }, side);
+    if (wide === width && high === height) return { width, height, pixels };
     const found = new Uint8Array(4 * wide * high);
     /** The old pixels that a new one covers, and their shares, along an axis. */
     const covered = (size: number, old: number): [number, number][][] =>

@@ -1,16 +1,30 @@
 // What a file is by its content.
 
+import tables from "toml:scene/_files/signatures.toml";
 import { InputError } from "../errors.js";
 import { inflate, isGzip } from "../evm/bytes.js";
-import { DAMAGED, SIGNATURES, type Signature } from "./signatures.js";
 import { extensionOf, unmarked, type Given, type Source } from "./source.js";
 
-export type Kind = Pick<Signature, "name" | "format" | "do">;
+/** What a file is: the table explains the keys. */
+interface Kind {
+    name: string;
+    format?: string;
+    do?: string;
+}
+interface Signature extends Kind {
+    begins: string;
+    case?: boolean;
+    text?: boolean;
+}
 
+const { signature: SIGNATURES, damaged: DAMAGED } = tables as {
+    signature: Signature[];
+    damaged: Kind & { least: number };
+};
 /** So much of a file is compared with the signatures; and what a file of .gz may unpack to. */
 const [HEAD, MOST_UNPACKED] = [1 << 16, 64 * 2 ** 20];
-/** The count of facets in a binary STL file ends here, and so long is a facet. */
-const [STL_HEADER, STL_FACET] = [84, 50];
+/** Bytes of the header of a binary STL file, which ends with the count of facets; and of a facet, the last two of which are its attribute. */
+export const [STL_HEADER, STL_FACET] = [84, 50];
 const BINARY_STL: Kind = { name: "a binary STL file", format: ".stl" };
 /** The extensions of formats that are read. */
 const FORMATS = new Set(SIGNATURES.flatMap((row) => (row.format && !row.do ? row.format : [])));

@@ -1,4 +1,10 @@
-// Modules of libraries that come without types.
+// Modules that come without types.
+
+/** A table of the Python package, as JSON has it: web/build.mjs. */
+declare module "toml:*" {
+    const table: unknown;
+    export default table;
+}
 
 declare module "three/src/extras/lib/earcut.js" {
     /** Return the triangles of an outline, x and y of each point, as numbers of points. */

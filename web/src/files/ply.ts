@@ -32,8 +32,17 @@ class Element {
 
     constructor(
         readonly name: string,
-        readonly count: number,
+        public count: number,
     ) {}
+
+    /** Leave out all rows from one on. */
+    cutAt(row: number): void {
+        this.count = row;
+        for (const each of this.properties) {
+            each.sizes = each.sizes.slice(0, row);
+            each.values = each.values.slice(0, each.length ? each.sizes.reduce((sum, size) => sum + size, 0) : row);
+        }
+    }
 
     /** Return the properties of the first names of which none is missing; they are lists, or not. */
     find(names: readonly string[], areLists = false): Property[] | undefined {
@@ -153,21 +162,32 @@ function elementsOf(source: Source): { elements: Element[]; textures: string[] }
     const body = bytes.subarray(end.index + end[0].length);
     const read =
         format === "ascii" ? words(withPoints(textOf(body), source)) : numbers(body, format.includes("little"));
-    for (const { name, count, properties } of elements) {
-        for (let row = 0; properties.length && row < count; row++) {
-            const next = (kind: Kind): number => {
+    /** Read a row of an element; false where a number is missing. */
+    const isRead = ({ properties }: Element): boolean =>
+        properties.every(({ kind, length, values, sizes }) => {
+            const size = length ? read(length) : 1;
+            if (size === undefined || size < 0) return false;
+            for (let each = 0; each < size; each++) {
                 const value = read(kind);
-                if (value !== undefined) return value;
-                throw new InputError(
-                    `it ends, or has a word that is no number, in element ${row} of the ${count} elements ${name}`,
-                );
-            };
-            for (const { kind, length, values, sizes } of properties) {
-                const size = length ? next(length) : 1;
-                for (let each = 0; each < size; each++) values.push(next(kind));
-                if (length) sizes.push(size);
+                if (value === undefined) return false;
+                values.push(value);
             }
-        }
+            if (length) sizes.push(size);
+            return true;
+        });
+    for (const [number, element] of elements.entries()) {
+        const { name, count, properties } = element;
+        let row = 0;
+        while (properties.length && row < count && isRead(element)) row++;
+        if (!properties.length || row === count) continue;
+        element.cutAt(row);
+        const found = elements.slice(0, number + 1);
+        const why = `it ends, or has a word that is no number, in element ${row} of the ${count} elements ${name}`;
+        // without all vertices and one face there is nothing to draw
+        if (!found.some((each) => each.name === "face" && each.count)) throw new InputError(why);
+        const lost = (count - row).toLocaleString("en");
+        source.tell(`${lost} of its ${count.toLocaleString("en")} elements ${name} and all behind left out: ${why}`);
+        return { elements: found, textures };
     }
     if (format === "ascii" && read("Int8") !== undefined)
         throw new InputError("it has more numbers than the elements of its header");

@@ -18,7 +18,8 @@ export interface Cut {
 
 /**
  * Cut polygons, given by the number of their corners and the vertices of these, into triangles: as fans where these fill
- * them, as they do convex ones, otherwise by ear clipping. InputError for vertices that do not exist, or are not finite.
+ * them, as they do convex ones, otherwise by ear clipping. One with a vertex that does not exist, or is not at finite numbers,
+ * becomes a triangle at that vertex only, which `partsOf` leaves out with a note.
  */
 export function cut(positions: Float64Array, sizes: ArrayLike<number>, vertices: ArrayLike<number>): Cut {
     const [corners, polygon]: number[][] = [[], []];
@@ -28,20 +29,9 @@ export function cut(positions: Float64Array, sizes: ArrayLike<number>, vertices:
     };
     for (let number = 0, start = 0; number < sizes.length; start += sizes[number++]) {
         const size = sizes[number];
-        for (let corner = start; corner < start + size; corner++) {
-            if (pointOf(corner).every(Number.isFinite)) continue;
-            const last = positions.length / 3 - 1;
-            const exists = vertices[corner] >= 0 && vertices[corner] <= last;
-            const wrong = exists ? "which is not at finite numbers" : `but vertices are numbered 0 to ${last}`;
-            throw new InputError(`face ${number} names vertex ${vertices[corner]}, ${wrong}`);
-        }
-        const ears =
-            size > 3
-                ? earsOf(
-                      Array.from({ length: size }, (_, each) => pointOf(start + each)),
-                      `face ${number}`,
-                  )
-                : undefined;
+        const outline = Array.from({ length: size }, (_, each) => pointOf(start + each));
+        const bad = outline.findIndex((point) => !point.every(Number.isFinite));
+        const ears = bad >= 0 ? [bad, bad, bad] : size > 3 ? earsOf(outline, `face ${number}`) : undefined;
         for (let each = 0; each < (ears ? ears.length / 3 : size - 2); each++) {
             for (const corner of ears ? ears.slice(3 * each, 3 * each + 3) : [0, each + 1, each + 2])
                 corners.push(start + corner);

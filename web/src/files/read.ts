@@ -6,7 +6,6 @@ import { decodeCall } from "../scene/decode.js";
 import type { Scene } from "../scene/types.js";
 import { readFile } from "../view/source.js";
 import { Images } from "./images.js";
-import { unzipped } from "./inflate.js";
 import { contentOf, formatOf, gunzipped, namedFormat } from "./kinds.js";
 import { readOff } from "./off.js";
 import { partsOf, type Part, type Triangles } from "./parts.js";
@@ -14,6 +13,7 @@ import { readPly } from "./ply.js";
 import { readScene } from "./scenes.js";
 import { baseOf, extensionOf, titleOf, type Given, type Source } from "./source.js";
 import { staged, type Model } from "./staging.js";
+import { unzipped } from "./zip.js";
 
 export type { Given } from "./source.js";
 
@@ -58,7 +58,13 @@ const SILENT = /\.(mtl|bin|txt|md|pdf|url)$/i;
 /** Return the document of files. InputError, a sentence, if nothing of them can be shown. */
 export async function readFiles(files: readonly Given[], options: Options): Promise<Opened> {
     const { draco = noDraco, beside } = options;
-    const folder = unpacked(await Promise.all(files.map((file) => said(file, () => gunzipped(file)))));
+    let total = 0;
+    const add = (bytes: number): void => {
+        total += bytes;
+        if (total > MOST_BYTES)
+            throw new InputError("All files together may have up to 100 MB, also when they are unpacked.");
+    };
+    const folder = (await Promise.all(files.map((file) => said(file, () => unpacked(file, add))))).flat();
     // by content also those of other names, where no name tells of a format
     const known = folder.filter(({ name }) => [...MESHES, ...SCENES[0]].includes(namedFormat(name)));
     const of = (extensions: readonly string[]): Given[] =>
@@ -168,31 +174,17 @@ async function said<T>(file: Given, read: () => Promise<T>): Promise<T> {
     }
 }
 
-/** Return the files, with those of ZIP files in place of these. */
-function unpacked(files: readonly Given[]): Given[] {
-    let total = 0;
-    const add = (bytes: number): void => {
-        total += bytes;
-        if (total > MOST_BYTES)
-            throw new InputError("All files together may have up to 100 MB, also when they are unpacked.");
-    };
-    files.forEach(({ bytes }) => add(bytes.length));
-    return files.flatMap((file): Given[] => {
-        if (extensionOf(file.name) !== ".zip") return [{ ...file, name: file.name.replaceAll("\\", "/") }];
-        let count = 0;
-        try {
-            return unzipped(file.bytes, (name, size) => {
-                if (/\/$|(^|\/)(__MACOSX|\.[^/]*)/.test(name)) return false;
-                if (++count > MOST_FILES) throw new InputError(`A ZIP file may hold up to ${MOST_FILES} files.`);
-                add(size);
-                return true;
-            });
-        } catch (error) {
-            if (error instanceof InputError) throw error;
-            throw new InputError(
-                `Cannot open ${baseOf(file.name)}: it is no ZIP file that can be read (${(error as Error).message}).`,
-            );
-        }
+/** Return a file, or those that are in it if it is a ZIP file. add: is told of bytes, and throws where they are too many. */
+async function unpacked(given: Given, add: (bytes: number) => void): Promise<Given[]> {
+    const file = await gunzipped(given);
+    add(file.bytes.length);
+    if (extensionOf(file.name) !== ".zip") return [{ ...file, name: file.name.replaceAll("\\", "/") }];
+    let count = 0;
+    return unzipped(file.bytes, (name, size) => {
+        if (/\/$|(^|\/)(__MACOSX|\.[^/]*)/.test(name)) return false;
+        if (++count > MOST_FILES) throw new InputError(`A ZIP file may hold up to ${MOST_FILES} files.`);
+        add(size);
+        return true;
     });
 }
 

@@ -2,11 +2,10 @@
 
 import { STLLoader } from "three/examples/jsm/loaders/STLLoader.js";
 import { InputError } from "../errors.js";
+import { STL_FACET as FACET, STL_HEADER as HEADER } from "./kinds.js";
 import { GREY, PLAIN, type Triangles } from "./parts.js";
 import { plural, textOf, withPoints, type Source } from "./source.js";
 
-/** Bytes of the header, and of a facet, the last two of which are its attribute. */
-const [HEADER, FACET] = [84, 50];
 /** Bytes at random make coordinates that are mostly beyond this, or no numbers. */
 const PLAUSIBLE = 1e15;
 

@@ -9,6 +9,8 @@ import { plural } from "./source.js";
 
 /** How many triangles are read, each mesh as often as it is shown; of files with less than eight bytes for each, fewer. */
 const [MAX_TRIANGLES, OF_SMALL] = [1 << 23, 1 << 20];
+/** The number of a vertex that does not exist, whose triangles are left out. */
+const NOWHERE = 2 ** 32 - 1;
 
 /** How a material looks. factor: linear, of colours of vertices. blended: whether their alpha counts. channel, matrix: of uvs. */
 export interface Shown {
@@ -73,8 +75,7 @@ export function trianglesOf(
             checkAmount(total / 3, vertices, bytes);
             const corner = (_: unknown, at: number): number => (index ? index.getX(start + at) : at);
             const corners = Uint32Array.from({ length: count - (count % 3) }, corner);
-            if (first + many > size || corners.some((each) => each >= many))
-                throw new InputError(`a mesh names a vertex beyond its ${size}`);
+            if (first + many > size) throw new InputError(`a mesh names a vertex beyond its ${size}`);
             pieces.push({ mesh, look, first, many, corners, instances });
         }
     });
@@ -93,7 +94,7 @@ export function trianglesOf(
             const of = verticesOf(mesh, place, look, first, many);
             positions.set(of.positions, 3 * vertex);
             faces.set(
-                order.map((each) => vertex + each),
+                order.map((each) => (each < many ? vertex + each : NOWHERE)),
                 corner,
             );
             colors.set(rowsOf(of.colors, order, 4), 4 * corner);

@@ -334,16 +334,16 @@ def _faces_of(points: ArrayLike) -> NDArray[np.int64]:
     """Return the faces of the convex polyhedron with these corners, (m, 3), seen from outside."""
     corners = np.asarray(points, dtype=np.float64)
     corners = corners - corners.mean(axis=0)
+    a, b, c = np.moveaxis(corners[[*combinations(range(len(corners)), 3)]], 1, 0)
+    normals = np.cross(b - a, c - a)
+    distances = (normals * a).sum(axis=1, keepdims=True)
+    aside = np.abs(distances[:, 0]) >= 1e-9  # those through the middle are not faces
+    normals = _unit(normals[aside]) * np.sign(distances[aside])
+    heights = normals @ corners.T - (normals * a[aside]).sum(axis=1, keepdims=True)
     planes: dict[tuple[int, ...], Array] = {}
-    for a, b, c in combinations(range(len(corners)), 3):
-        normal = np.cross(corners[b] - corners[a], corners[c] - corners[a])
-        distance = normal @ corners[a]
-        if abs(distance) < 1e-9:  # through the middle
-            continue
-        normal = _unit(normal) * np.sign(distance)
-        heights = corners @ normal
-        if heights.max() <= heights[a] + 1e-9:
-            planes[tuple(np.flatnonzero(heights > heights[a] - 1e-9))] = normal
+    for normal, above in zip(normals, heights, strict=True):
+        if above.max() <= 1e-9:
+            planes[tuple(np.flatnonzero(above > -1e-9))] = normal
     faces = []
     for numbers, normal in planes.items():
         around = corners[list(numbers)] - corners[list(numbers)].mean(axis=0)

@@ -13,14 +13,13 @@ from urllib.parse import unquote
 from PIL import Image
 
 from ...errors import InputError, warn
-from .._texture import as_rgb, as_rgba, open_image
-from .images import Images
+from .._texture import as_rgb, open_image, with_alpha
+from .images import FileImage, Images
 from .model import FileWrap, Picture
 
 T = TypeVar("T")
-#: The place of an image, and what opens it.
-Found = tuple[Path, Callable[[], Image.Image]]
-
+#: The place of an image, and the image.
+Found = tuple[Path, FileImage]
 
 #: What a message says of a name that leads elsewhere.
 OUTSIDE = "is outside of the folder of the file that names it; only files in that folder are read"
@@ -43,9 +42,7 @@ def picture_beside(
 
     def found(name: str, convert: Callable[[Image.Image], Image.Image]) -> Found:
         def read(place: Path) -> Found:
-            opened = partial(images.open, (place, convert), partial(open_image, place, str(place), convert))
-            opened()
-            return place, opened
+            return place, images.image((place, convert), partial(open_image, place, str(place), convert))
 
         return read_beside(folders, name, read)
 
@@ -59,35 +56,34 @@ def picture_beside(
             return _with_alpha(path, images, shown, found(alpha, _alpha_of), wrap)
     except InputError as error:
         warn(f"{path}: an alpha is left out: {error}")
-    return shown and Picture.of(shown[1], f"{path}: {shown[0].name}", images, wraps=(wrap, wrap))
+    return shown and Picture(shown[1], f"{path}: {shown[0].name}", wraps=(wrap, wrap))
 
 
 def _alpha_of(image: Image.Image) -> Image.Image:
     """Return the alpha of an image, or how bright it is if it has none."""
-    own = (image := as_rgba(image)).getchannel("A")
-    return own if own.getextrema() != (255, 255) else image.convert("L")
+    image = with_alpha(image)
+    return image.getchannel("A") if image.mode == "RGBA" else image.convert("L")
 
 
 def _with_alpha(path: Path, images: Images, shown: Found | None, hidden: Found, wrap: FileWrap) -> Picture:
     def read() -> Image.Image:
-        alpha = hidden[1]()
-        image = shown[1]().copy() if shown else Image.new("RGB", alpha.size, "white")
+        alpha = hidden[1].open()
+        image = shown[1].open().copy() if shown else Image.new("RGB", alpha.size, "white")
         image.putalpha(alpha.resize(image.size))
         return image
 
     place = (shown or hidden)[0]
-    opened = partial(images.open, (place, hidden[0]), read)
-    levels = opened().getchannel("A").histogram()
+    image = images.image((place, hidden[0]), read)
+    levels = image.open().getchannel("A").histogram()
     is_mask = sum(levels[:16] + levels[240:]) / sum(levels) >= _MASK
-    cutoff = _HIDDEN if is_mask else 0
-    return Picture.of(opened, f"{path}: {place.name}", images, wraps=(wrap, wrap), cutoff=cutoff)
+    return Picture(image, f"{path}: {place.name}", wraps=(wrap, wrap), cutoff=_HIDDEN if is_mask else 0)
 
 
 def read_beside(folders: Sequence[Path], name: str, read: Callable[[Path], T]) -> T:
     """Read a file by the name that another file gives it, maybe an address or a path of the machine of the author.
 
-       Then the file is in one of the folders, in any letter case.
-    Nothing is read outside of the last folder. InputError of the first attempt if none of them succeeds.
+    Then the file is in one of the folders, in any letter case. Nothing is read outside of the last folder. InputError
+    of the first attempt if none of them succeeds.
     """
     first = None
     for place in dict.fromkeys(_places(folders, name)):

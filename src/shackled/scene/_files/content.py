@@ -14,7 +14,7 @@ from typing import Any
 
 from ...errors import InputError, renaming, warn
 from ...untrusted import read_json, read_toml
-from .signatures import BINARY_STL, HEAD, UTF8, UTF16, damage_of, format_by_name, signature_of, signatures
+from .signatures import BINARY_STL, HEAD, UTF8, UTF16, Signature, damage_of, format_by_name, formats, signature_of
 
 #: No mesh for a contract is nearly as large; a larger file would only fill the memory.
 MAX_BYTES = 256 * 2**20
@@ -49,18 +49,18 @@ def format_of(path: Path, with_note: bool = False) -> str:
     except (OSError, ValueError, zlib.error):
         return named  # reading it reports what is wrong
     found = signature_of(head, size)
-    if found is None:
-        return named
-    if found.do is not None:
+    if found is not None and found.do is not None:
         raise InputError(f"{path} is {found.name}: {found.do}")
-    is_known = any(row.format == named for row in signatures()) and named != ".mtl"
-    # any JSON or TOML begins as a scene file does, and all of glTF has one reader
-    is_alike = found.format in (".json", ".toml") or {found.format, named} <= {".glb", ".gltf"}
-    if found.format is None or (is_known and is_alike):
+    if found is None or found.format is None:
         return named
-    if is_known and found.format == ".png" != named:
+    if named not in formats():
+        return found.format
+    # any JSON or TOML begins as a scene file does, and all of glTF has one reader
+    if found.format in (named, ".json", ".toml") or {found.format, named} == {".glb", ".gltf"}:
+        return named
+    if found.format == ".png":
         raise InputError(f"{path} is {found.name}: one that carries a scene must have a name in .png")
-    if with_note and is_known and found.format != named:
+    if with_note:
         warn(f"{path} is {found.name}, and is read as one")
     return found.format
 
@@ -97,16 +97,24 @@ def read_content(path: Path) -> bytes:
     """Return everything in a mesh or scene file, or one of materials: unpacked, and UTF-8 if it is text with a byte
     order mark. InputError as in `read_bytes`, and for what is damaged or known to be something else.
     """
-    data = _unpacked(read_bytes(path), path)
-    found = damage_of(data) or signature_of(data)
-    if found is not None and found.format is None:
-        raise InputError(f"{path} is {found.name}: {found.do}")
+    data, found = _identified(read_bytes(path), path)
     if data.startswith(UTF16) and found is not BINARY_STL:
         try:
             return data.decode("utf-16").encode()
         except UnicodeDecodeError:
             return data
     return data.removeprefix(UTF8)
+
+
+def _identified(data: bytes, name: Path | str) -> tuple[bytes, Signature | None]:
+    """Return data, unpacked, and what it is by its content. InputError if it is empty, damaged or nothing to read."""
+    data = _unpacked(data, name)
+    if not data.strip():
+        raise InputError(f"{name} is empty")
+    found = damage_of(data) or signature_of(data)
+    if found is not None and found.format is None:
+        raise InputError(f"{name} is {found.name}: {found.do}")
+    return data, found
 
 
 def _unpacked(data: bytes, name: Path | str) -> bytes:
@@ -125,8 +133,6 @@ def _unpacked(data: bytes, name: Path | str) -> bytes:
             data = opener.unused_data
     except zlib.error:
         raise InputError(f"{name} is a damaged gzip file") from None
-    if not unpacked.strip():
-        raise InputError(f"{name} is empty")
     return unpacked
 
 
@@ -153,14 +159,9 @@ def stored(data: bytes, name: str) -> Iterator[Path]:
     """
     if len(data) > MAX_BYTES:
         raise InputError(f"{name} has more than {MAX_BYTES >> 20} MB, which is the most that is read")
-    if not data.strip():
-        raise InputError(f"{name} is empty")
-    data = _unpacked(data, name)
-    found = damage_of(data) or signature_of(data)
-    if found is not None and found.do is not None:
-        raise InputError(f"{name} is {found.name}: {found.do}")
-    if found is None or found.format is None:
-        known = " ".join(dict.fromkeys(row.format for row in signatures() if row.format and not row.do))
+    data, found = _identified(data, name)
+    if found is None:
+        known = " ".join(formats())
         raise InputError(f"the format of {name} is not told by its content: give a file with its extension, {known}")
     with TemporaryDirectory(prefix="shackled-") as folder:
         path = Path(folder) / f"input{found.format}"

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, cast
+from typing import Any, Literal
 
 import numpy as np
 from attrs import evolve
@@ -16,7 +16,7 @@ from ...errors import warn
 from .._crease import filled
 from .._mesh import DEFAULT_COLOR, Mesh, faces_of_all, weld
 from .._texture import MAX_TEXTURE_SIDE, Filter, Texture, Wrap, reduced, sample
-from .images import Images
+from .images import FileImage, Images, is_plain
 
 #: The warning for a mesh whose textures have more than one colour, if only the mesh is read.
 TEXTURED = "its textures give their colours at the vertices only; what they show between them is lost"
@@ -25,8 +25,6 @@ TEXTURED = "its textures give their colours at the vertices only; what they show
 #: surface, as in scans, of which the product would be dark.
 REPLACED = "drawn in the colours of a texture, not in their own"
 
-#: Whether an image has more than one colour, or an alpha, among what is known of it.
-_VARIED = "is varied"
 #: How an image goes on outside of 0..1 in files.
 FileWrap = Literal["repeat", "clamp", "mirror"]
 
@@ -38,10 +36,6 @@ _FAR = 100
 _ROUNDING = 1e-4
 #: The same of texels.
 _TEXEL_ROUNDING = 1e-3
-#: So many triangles of a picture are looked at before a table of its pixels is made, in parts of so many pixels.
-_FIRST, _AT_ONCE = 64, 1 << 20
-#: So many rows of an image are copied at a time.
-_ROWS = 256
 #: An image is so large at most before it is mirrored.
 _MIRRORED = 1 << 12
 #: How many textures of the full size a file may have; a quarter of the texels allows four times as many.
@@ -63,73 +57,46 @@ class MeshPart:
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """An image, RGB, or RGBA if its alpha counts, and how it is sampled. name: for messages, with the path.
+    """An image, RGB, or RGBA if its alpha counts, and how it is sampled. name: for messages, with the path."""
 
-    opened: returns the image. has_alpha: whether it is RGBA. is_varied: whether it has more than one colour, or an
-    alpha. images: of the file.
-    """
-
-    opened: Callable[[], Image.Image]
+    image: FileImage
     name: str
-    images: Images
-    has_alpha: bool
-    is_varied: bool
     filter: Filter = "bilinear"
     wraps: tuple[FileWrap, FileWrap] = ("repeat", "repeat")
     cutoff: int = 0
-
-    @classmethod
-    def of(cls, opened: Callable[[], Image.Image], name: str, images: Images, **more: Any) -> Picture:
-        """Return the picture of an image, which is opened."""
-        image = opened()
-        has_alpha = image.mode == "RGBA"
-        if _VARIED not in image.info:  # once for all of its pictures
-            image.info[_VARIED] = has_alpha or any(low != high for low, high in cast(Any, image.getextrema()))
-        if image.info[_VARIED]:
-            return cls(opened, name, images, has_alpha, True, **more)
-        texel = image.crop((0, 0, 1, 1))
-        return cls(lambda: texel, name, images, False, False, **more)
 
     def is_plain(self, uvs: Array) -> bool:
         """Return whether each triangle, (m, 3, 2), is within the image and shows one colour, as of a palette.
 
         False, too, for what is beyond the pixels that may be compared.
         """
-        if self.has_alpha or not len(uvs):
-            return not self.has_alpha
-        image = self.opened()
+        if self.image.has_alpha:
+            return False
         # the texels that are seen: those between whose centres, or in which, the corners lie
         shift = 0.5 if self.filter == "bilinear" else 0.0
-        low, high = (bound * image.size - shift for bound in (uvs.min(axis=1), uvs.max(axis=1)))
+        low, high = (bound * self.image.size - shift for bound in (uvs.min(axis=1), uvs.max(axis=1)))
         low = np.floor(low + _TEXEL_ROUNDING).astype(np.int64)
         high = np.ceil(high - _TEXEL_ROUNDING).astype(np.int64)
         high = np.maximum(low, high if shift else high - 1)
-        if (low < 0).any() or (high >= image.size).any():
+        if (low < 0).any() or (high >= self.image.size).any():
             return False
-        for ends in np.stack([low, high], axis=1)[:_FIRST].tolist():
-            if image.getpixel(tuple(ends[0])) != image.getpixel(tuple(ends[1])):
+        pixels = self.image.open()
+        for left, top, right, bottom in np.unique(np.hstack([low, high + 1]), axis=0).tolist():
+            compared = (right - left) * (bottom - top)
+            if not self.image.images.compares(compared) or not is_plain(pixels.crop((left, top, right, bottom))):
                 return False
-        (left, top), (right, bottom) = start, _ = low.min(axis=0), high.max(axis=0) + 1
-        if not self.images.compares(int((right - left) * (bottom - top))):
-            return False
-        pixels = np.empty((bottom - top, right - left, 3), dtype=np.uint8)
-        for row in range(top, bottom, _ROWS):  # of all at once there would be three copies
-            part = image.crop((left, row, right, min(row + _ROWS, bottom)))
-            pixels[row - top : row - top + part.height] = np.asarray(part)
-        low, high = low - start, high - start
-        return not (
-            _changes(pixels, low, high).any() or _changes(pixels.swapaxes(0, 1), low[:, ::-1], high[:, ::-1]).any()
-        )
+        return True
 
     def texture(self, uvs: Array, count: int) -> tuple[Texture, Array]:
         """Return the texture of a file with so many, and where corners, (m, 3, 2), are on it; warn of what changes."""
-        image, uvs = self.opened(), uvs.copy()
+        uvs, side = uvs.copy(), _side(count)
         outside = [bool((axis < -_ROUNDING).any() or (axis > 1 + _ROUNDING).any()) for axis in np.moveaxis(uvs, 2, 0)]
         wraps: list[Wrap] = []
+        mirrored: Image.Image | None = None
         for axis, wrap in enumerate(self.wraps):
             if wrap == "mirror" and outside[axis]:
-                pixels = np.asarray(reduced(image, _MIRRORED))
-                image = Image.fromarray(np.concatenate([pixels, np.flip(pixels, 1 - axis)], axis=1 - axis))
+                pixels = np.asarray(reduced(mirrored or self.image.open(), _MIRRORED))
+                mirrored = Image.fromarray(np.concatenate([pixels, np.flip(pixels, 1 - axis)], axis=1 - axis))
                 uvs[:, :, axis] /= 2
             wraps.append("clamp" if wrap == "clamp" or (wrap == "mirror" and not outside[axis]) else "repeat")
         needed = {wrap for wrap, is_outside in zip(wraps, outside, strict=True) if is_outside} or set(wraps)
@@ -138,29 +105,11 @@ class Picture:
         wrap = needed.pop() if len(needed) == 1 else "repeat" if any(outside) else "clamp"
         if wrap == "repeat" and uvs.size and np.abs(uvs).max() > _FAR:
             uvs -= np.floor(uvs.min(axis=1, keepdims=True))
-        # once for all looks with this picture
-        key = ("reduced to", _side(count))
-        smaller: Image.Image = known[key] if key in (known := cast(Any, image.info)) else reduced(image, _side(count))
-        known[key] = smaller
-        if smaller.size != image.size:
-            (width, height), (old_width, old_height) = smaller.size, image.size
+        smaller = self.image.reduced(side) if mirrored is None else reduced(mirrored, side)
+        (width, height), (old_width, old_height) = smaller.size, (mirrored or self.image).size
+        if smaller.size != (old_width, old_height):
             warn(f"{self.name} is reduced from {old_width} x {old_height} to {width} x {height} texels")
         return Texture.of_image(smaller, self.filter, wrap, self.cutoff), uvs
-
-
-def _changes(pixels: NDArray[np.uint8], low: NDArray[np.int64], high: NDArray[np.int64]) -> NDArray[np.int32]:
-    """Return how often colours change from left to right in rectangles, (m,), from `low` to `high`, (m, 2)."""
-    rows, columns = pixels.shape[:2]
-    # of all that is above and to the left; a change is behind the first column of a rectangle
-    sums = np.zeros((rows + 1, columns + 1), dtype=np.int32)
-    at_once = max(1, _AT_ONCE // columns)
-    for row in range(0, rows, at_once):
-        part = pixels[row : row + at_once]
-        changed = (part[:, 1:] != part[:, :-1]).any(axis=2)
-        sums[row + 1 : row + 1 + len(part), 2:] = changed.cumsum(axis=1, dtype=np.int32).cumsum(axis=0) + sums[row, 2:]
-    left, top, right, bottom = low[:, 0] + 1, low[:, 1], high[:, 0] + 1, high[:, 1] + 1
-    found: NDArray[np.int32] = sums[bottom, right] - sums[top, right] - sums[bottom, left] + sums[top, left]
-    return found
 
 
 @dataclass(frozen=True)
@@ -177,16 +126,16 @@ def seen(parts: Sequence[MeshPart], name: str) -> list[MeshPart]:
 
     Writers without transparency leave 0 as alpha, and of the statement Tr of OBJ files some mean the opposite.
     """
-    if not parts or any(map(_is_visible, parts)):
+    if not parts or any(is_visible(part.mesh, part.opacity, part.material.get("texture")) for part in parts):
         return list(parts)
     warn(f"{name}: its opacity is 0 everywhere, which cannot be meant; it is drawn opaque")
     return [_opaque(part) for part in parts]
 
 
-def _is_visible(part: MeshPart) -> bool:
-    opacities, texture = part.mesh.opacities, part.material.get("texture")
+def is_visible(mesh: Mesh, opacity: float, texture: Texture | None) -> bool:
+    """Return whether a mesh with an opacity and a texture is not transparent everywhere."""
     is_shown = texture is None or texture.alpha is None or bool((texture.alpha >= max(texture.cutoff, 1)).any())
-    return part.opacity > 0 and (opacities is None or bool(opacities.any())) and is_shown
+    return opacity > 0 and is_shown and (mesh.opacities is None or bool(mesh.opacities.any()))
 
 
 def _opaque(part: MeshPart) -> MeshPart:
@@ -229,7 +178,7 @@ def under(picture: Picture, uvs: Array, colors: Array) -> tuple[Array, bool]:
     """
     shown = np.array(colors, dtype=np.float64)
     shown[..., :3] = 255
-    if picture.is_varied and not picture.is_plain(uvs):
+    if picture.image.is_varied and not picture.is_plain(uvs):
         return shown, True
     return tinted(shown, picture, uvs), False
 
@@ -245,11 +194,6 @@ def _side(count: int) -> int:
     while count > _FULL_SIZE and side > 1:
         side, count = side // 2, (count + 3) // 4
     return side
-
-
-def is_transparent(image: Image.Image) -> bool:
-    """Return whether an image is not opaque everywhere."""
-    return image.has_transparency_data and image.convert("RGBA").getchannel("A").getextrema() != (255, 255)
 
 
 def finite_uvs(uvs: ArrayLike, name: str) -> Array:
@@ -275,7 +219,7 @@ def given_normals(normals: Array | None, positions: Array, corners: NDArray[np.i
 def tinted(colors: Array, picture: Picture, uvs: Array) -> Array:
     """Return colours, (..., 3), times those of an image at texture coordinates, (..., 2): 0..255. An alpha stays."""
     places = uvs.reshape(-1, 2)
-    texels = sample(picture.opened(), np.stack([places[:, 0], 1 - places[:, 1]], axis=1))
+    texels = sample(picture.image.open(), np.stack([places[:, 0], 1 - places[:, 1]], axis=1))
     product = np.array(colors, dtype=np.float64)
     product[..., :3] = np.rint(product[..., :3] * texels.reshape(*product.shape[:-1], 3) / 255)
     return product
@@ -300,4 +244,4 @@ def _baked_colors(part: MeshPart) -> Array:
     if texture is None or part.mesh.uvs is None:
         return colors
     image = Image.fromarray(texture.pixels)
-    return tinted(colors, Picture.of(lambda: image, "", Images()), part.mesh.uvs)
+    return tinted(colors, Picture(Images().image("", lambda: image), ""), part.mesh.uvs)

@@ -64,6 +64,11 @@ class Element:
     values: dict[str, Any] = field(default_factory=dict)
     used: set[str] = field(default_factory=set)
 
+    @property
+    def rows(self) -> int:
+        """How many rows of values it has."""
+        return len(next(iter(self.values.values()), ()))
+
     def table(self, *names: str) -> Array | None:
         """Return the scalar properties of these names side by side, or None if one is missing."""
         if not {p.name for p in self.properties if p.length is None}.issuperset(names):
@@ -101,15 +106,6 @@ class Element:
 
 #: The elements of surfaces.
 _FACES = ("face", "tristrips")
-_Row = dict[str, list[float]]
-
-
-class _Broken(InputError):
-    """What is wrong with an element behind its first rows."""
-
-    def __init__(self, rows: list[_Row], message: str) -> None:
-        super().__init__(message)
-        self.rows = rows
 
 
 def read_elements(data: bytes, path: Path) -> tuple[dict[str, Element], list[str]]:
@@ -117,18 +113,14 @@ def read_elements(data: bytes, path: Path) -> tuple[dict[str, Element], list[str
     elements, textures, source = _open(data, path)
     for element in elements:
         if element.count and element.properties:
-            try:
-                element.values = _values(element, source)
-            except _Broken as broken:
-                # without all vertices and one face there is nothing to draw
-                has_face = any(each.name in _FACES and each.values for each in elements)
-                if not has_face and not (element.name in _FACES and broken.rows):
-                    raise InputError(str(broken)) from None
-                element.values = _by_property(element, broken.rows)
-                lost = element.count - len(broken.rows)
-                what = f"{lost:,} of its {element.count:,} elements {element.name} and all behind"
-                warn(f"{path}: {what} left out: {broken}")
-                return {each.name: each for each in elements}, textures
+            element.values, broken = _values(element, source)
+            if broken is None:
+                continue
+            if not any(each.rows for each in elements if each.name in _FACES):
+                raise broken  # without all vertices and one face there is nothing to draw
+            what = f"{element.count - element.rows:,} of its {element.count:,} elements {element.name} and all behind"
+            warn(f"{path}: {what} left out: {broken}")
+            return {each.name: each for each in elements}, textures
     if isinstance(source, _Text):
         source.finish()
     return {element.name: element for element in elements}, textures
@@ -277,36 +269,31 @@ def _ended(element: Element) -> InputError:
     return InputError(f"it ends before its {element.count} elements {element.name} are complete")
 
 
-def _values(element: Element, source: _Text | _Binary) -> dict[str, Any]:
-    """Return the rows of each property. Nearly always all lists are of one length, and all rows are one table."""
-    start = source.at
+def _values(element: Element, source: _Text | _Binary) -> tuple[dict[str, Any], InputError | None]:
+    """Return the rows of each property up to one that is wrong, and what is wrong with that.
+
+    Nearly always all lists are of one length, and all rows are one table.
+    """
+    start, rows, broken = source.at, list[dict[str, list[float]]](), None
     try:
         sizes = {name: len(row) for name, row in source.row(element).items()}
-    except InputError as error:
-        raise _Broken([], str(error)) from None
-    source.at = start
-    fields, lengths = list[_Field](), dict[str, int]()
-    for p in element.properties:
-        if p.length is not None:
-            fields.append((f"length of {p.name}", p.length, 1))
-            lengths[fields[-1][0]] = sizes[p.name]
-        fields.append((p.name, p.type, sizes[p.name]))
-    table = source.table(fields, element.count)
-    if table is not None and all((table[name] == size).all() for name, size in lengths.items()):
-        return table
-    if not lengths and isinstance(source, _Binary):
-        raise _Broken([], str(_ended(element)))
-    source.at = start
-    rows = list[_Row]()
-    try:
+        source.at = start
+        fields, lengths = list[_Field](), dict[str, int]()
+        for p in element.properties:
+            if p.length is not None:
+                fields.append((f"length of {p.name}", p.length, 1))
+                lengths[fields[-1][0]] = sizes[p.name]
+            fields.append((p.name, p.type, sizes[p.name]))
+        table = source.table(fields, element.count)
+        if table is not None and all((table[name] == size).all() for name, size in lengths.items()):
+            return table, None
+        if not lengths and isinstance(source, _Binary):
+            raise _ended(element)
+        source.at = start
         rows.extend(source.row(element) for _ in range(element.count))
     except InputError as error:
-        raise _Broken(rows, str(error)) from None
-    return _by_property(element, rows)
-
-
-def _by_property(element: Element, rows: list[_Row]) -> dict[str, Any]:
-    return {p.name: [row[p.name] for row in rows] for p in element.properties}
+        broken = error
+    return {p.name: [row[p.name] for row in rows] for p in element.properties}, broken
 
 
 #: The names of texture coordinates, which go to the right and up.

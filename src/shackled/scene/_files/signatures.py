@@ -48,6 +48,11 @@ def signatures() -> list[Signature]:
     return rows
 
 
+def formats() -> list[str]:
+    """Return the extensions of the formats of inputs."""
+    return list(dict.fromkeys(row.format for row in signatures() if row.format and not row.do))
+
+
 def signature_of(data: bytes, size: int | None = None) -> Signature | None:
     """Return what a file is by how it begins, if that is known. size: of the file, if the data is not all of it."""
     if _STL_HEADER <= (size or len(data)) == _STL_HEADER + _STL_FACET * int.from_bytes(data[80:84], "little"):

@@ -1,7 +1,7 @@
 // The picture as an edition: its terms, what it costs, and adding it. Nothing that the wallet or its node says is trusted.
 
 import { isAddressEqual, parseEther, parseEventLogs, toHex as hex, type Address, type Hex, type Log } from "viem";
-import { getBalance, getCode, getContractEvents, readContract } from "viem/actions";
+import { getCode, getContractEvents, readContract } from "viem/actions";
 import { InputError } from "../../errors.js";
 import type { App } from "../app.js";
 import type { Document } from "../document.js";
@@ -11,7 +11,7 @@ import type { EditionTerms, Quote } from "../work/work.js";
 import { EDITIONS } from "./abi.js";
 import { chainName } from "./chains.js";
 import { eventsOf, isSame, mintedIn, type Token } from "./tokens.js";
-import { check, estimate, feesOf, send, withMargin, type Call, type Fees, type Session, type Tell } from "./wallet.js";
+import { check, priced, send, withMargin, type Call, type Priced, type Session, type Tell } from "./wallet.js";
 
 const MAX_ROYALTY = 10;
 
@@ -48,14 +48,9 @@ export interface Quoted {
 }
 
 /** What the wallet will be asked to sign. */
-export interface Plan extends Quoted {
-    session: Session;
+export interface Plan extends Quoted, Omit<Priced, "call"> {
     /** What is not stored on the chain yet, and last the edition. */
     calls: (Call & { kept?: { code: Hex; pointer: Address } })[];
-    fees: Fees;
-    /** Wei that gas costs at most, and what the account has. */
-    most: bigint;
-    balance: bigint;
     /** Whether this account has added this very scene, as far as is known. */
     isKnown: boolean;
 }
@@ -80,28 +75,19 @@ export async function planOf(session: Session, quoted: Quoted): Promise<Plan | n
     });
     const add = { to: address, data: hex(quote.add.data), gas: BigInt(quote.add.limit) };
     const own = [...(await Promise.all(parts)).flat(), add];
-    const usual = own[0]!.gas;
     const event = { address, abi: EDITIONS, eventName: "EditionAdded", args: { artist: account, scene } } as const;
-    const [expected, fees, balance, known] = await Promise.all([
-        estimate(session, own[0]!, usual),
-        feesOf(session),
-        getBalance(client, { address: account }),
+    const [first, known] = await Promise.all([
+        priced(session, own[0]!, Number(own[0]!.gas)),
         // nodes may not look back so far
         getContractEvents(client, { ...event, fromBlock: 0n }).catch(() => []),
     ]);
+    const { fees, balance } = first;
+    const [usual, gas] = [withMargin(own[0]!.gas), first.call.gas];
     // some chains count gas otherwise; what comes later cannot be estimated yet, and is taken to be alike
-    const scaled = (gas: bigint): bigint => withMargin((gas * expected) / usual);
-    const calls = expected > usual ? own.map((call) => ({ ...call, gas: scaled(call.gas) })) : own;
+    const calls = gas > usual ? own.map((call) => ({ ...call, gas: withMargin((call.gas * gas) / usual) })) : own;
     const most = calls.reduce((sum, { gas }) => sum + gas * fees.max, 0n);
-    return {
-        ...quoted,
-        session,
-        calls,
-        fees,
-        most,
-        balance,
-        isKnown: added.has(`${chain} ${scene}`) || known.length > 0,
-    };
+    const isKnown = added.has(`${chain} ${scene}`) || known.length > 0;
+    return { ...quoted, session, calls, fees, most, balance, isKnown };
 }
 
 /** What was added. isSame: whether the picture read from the chain is that of the page. */

@@ -5,6 +5,7 @@
 import { encodeFunctionData, keccak256, numberToHex, pad, toRlp, type Address, type Hex } from "viem";
 import { readContract } from "viem/actions";
 import { InputError } from "../../errors.js";
+import { plural } from "../../files/source.js";
 import { count } from "../dialogs/parts.js";
 import { USUAL_GAS } from "../settings.js";
 import { GENESIS, TOKENS } from "./abi.js";
@@ -117,10 +118,6 @@ export async function sendReveal(
         );
     }
     return `Revealed: ${plural(rounds.length, "round")}. ${later}`.trim();
-}
-
-export function plural(number: number, what: string): string {
-    return `${count(number)} ${what}${number === 1 ? "" : "s"}`;
 }
 
 /** Return the rounds with tokens that are not revealed, in order. */

@@ -37,7 +37,7 @@ export interface Call {
     gas: bigint;
 }
 
-/** A transaction with the most that it costs, and what the account has, in wei. */
+/** A transaction with the most that it costs, its value and gas, and what the account has, in wei. */
 export interface Priced {
     session: Session;
     call: Call & { value: bigint };
@@ -141,7 +141,7 @@ export async function number(client: Client, method: string, ...params: unknown[
  * Return what gas may cost: the base fee can double until the transaction is in a block. InputError if the node suggests a tip
  * that is not usual: unlike a base fee that is too high, all of it is paid.
  */
-export async function feesOf({ client }: Session): Promise<Fees> {
+async function feesOf({ client }: Session): Promise<Fees> {
     const block = await client.request({ method: "eth_getBlockByNumber", params: ["latest", false] });
     const base = String(block?.baseFeePerGas);
     if (!/^0x[0-9a-f]{1,64}$/i.test(base)) throw new InputError("The chain of the wallet has no base fee (EIP-1559)");
@@ -156,7 +156,7 @@ export async function feesOf({ client }: Session): Promise<Fees> {
 }
 
 /** Return the gas that the node of the wallet expects. InputError if it is many times that counted here. */
-export async function estimate(from: Session, call: Omit<Call, "gas">, counted: bigint): Promise<bigint> {
+async function estimate(from: Session, call: Omit<Call, "gas">, counted: bigint): Promise<bigint> {
     const { to, data, value = 0n } = call;
     const expected = await number(from.client, "eth_estimateGas", { from: from.account, to, data, value: hex(value) });
     if (expected <= BOUNDS.mostTimes * counted) return expected;

@@ -39,12 +39,15 @@ _KNOWN = {
 }
 #: Changes of the surface only, without which the shape is right.
 _SURFACES = "KHR_materials_"
+#: How many triangles are read, each mesh as often as it is shown; and of how many it does not matter how large the file
+#: is. Other files have at least so many bytes for each: those that say little of many would only fill the memory.
+MAX_TRIANGLES, _FREE, _BYTES = 1 << 24, 1 << 19, 8
 
 
 class Document:
     """A document, and what it refers to. decoded: elements of compressed accessors, by their places.
 
-    opened, pictures, lost: its images, textures, and the places of those that cannot be had.
+    images, pictures, lost: its images, textures, and the places of those that cannot be had.
     """
 
     def __init__(self, path: Path) -> None:
@@ -56,8 +59,9 @@ class Document:
             data, self.binary = _chunks(data)
         self.keys = Table(parse(path, data.decode("utf-8-sig", errors="replace"), ".json"), "")
         self.decoded: dict[str, NDArray[Any]] = {}
-        self.opened, self.pictures, self.lost = Images(), dict[str, Picture](), set[str]()
+        self.images, self.pictures, self.lost = Images(), dict[str, Picture](), set[str]()
         self._buffers: dict[str, bytes] = {}
+        self._triangles = 0
         self._extensions: set[str] = set()
         self._left_out: dict[tuple[str, str], dict[str, int]] = {}
         self._check()
@@ -119,10 +123,14 @@ class Document:
             raise InputError(f"{view.where} needs {start + length:,} bytes of {buffer.where}, which has {len(data):,}")
         return memoryview(data)[start : start + length]
 
-    @property
-    def size(self) -> int:
-        """How many bytes of buffers were read, and of compressed accessors."""
-        return sum(map(len, self._buffers.values())) + sum(each.nbytes for each in self.decoded.values())
+    def show(self, triangles: int) -> None:
+        """Count triangles that are shown. InputError if there are too many, or too many for the size of the file."""
+        self._triangles += triangles
+        size = sum(map(len, self._buffers.values())) + sum(each.nbytes for each in self.decoded.values())
+        most = min(MAX_TRIANGLES, max(_FREE, size // _BYTES))
+        if self._triangles > most:
+            of_what = "" if most == MAX_TRIANGLES else " of a file of its size"
+            raise InputError(f"it shows more than {most:,} triangles, the most that are read{of_what}")
 
     def resource(self, keys: Table) -> bytes:
         """Return what the `uri` of a buffer or image holds."""
@@ -140,23 +148,6 @@ class Document:
                 raise InputError(f"{place} does not hold valid base64") from None
         with about(place):
             return read_beside([self.path.parent], unquote(uri), read_bytes)
-
-
-#: How many triangles are read, each mesh as often as it is shown; and of how many it does not matter how large the file
-#: is. Other files have at least so many bytes for each.
-MAX_TRIANGLES, _FREE, _BYTES = 1 << 24, 1 << 19, 8
-
-
-def most_triangles(gltf: Document) -> int:
-    """Return how many triangles may be shown: files that say little of many would only fill the memory."""
-    return min(MAX_TRIANGLES, max(_FREE, gltf.size // _BYTES))
-
-
-def too_many(gltf: Document) -> InputError:
-    """Return the error for a file that shows more."""
-    most = most_triangles(gltf)
-    which = "the most that are read" if most == MAX_TRIANGLES else "the most that are read of a file of its size"
-    return InputError(f"it shows more than {most:,} triangles, {which}")
 
 
 def _chunks(data: bytes) -> tuple[bytes, bytes | None]:

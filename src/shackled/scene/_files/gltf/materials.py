@@ -14,8 +14,8 @@ from PIL import Image
 from ....checks import Color
 from ....errors import InputError, warn
 from ..._mesh import DEFAULT_COLOR
-from ..._texture import Filter, as_rgba, cutoff_of, open_image, to_srgb
-from ..model import FileWrap, Picture, finite_uvs, is_transparent
+from ..._texture import Filter, as_rgb, cutoff_of, open_image, to_srgb, with_alpha
+from ..model import FileWrap, Picture, finite_uvs
 from ..table import Table
 from .document import Document, Vertices
 
@@ -34,12 +34,11 @@ def _picture(gltf: Document, texture: Table, has_alpha: bool) -> Picture | None:
     if place not in gltf.lost and key not in gltf.pictures:
         sampler = gltf.item(texture, "sampler", "samplers") if "sampler" in texture else Table({}, "")
         filter: Filter = "nearest" if sampler.whole("magFilter", 0) == _NEAREST else "bilinear"
-        wraps = tuple(_FILE_WRAPS.get(sampler.whole(name, 0), "repeat") for name in ("wrapS", "wrapT"))
-        name = f"{gltf.path}: {texture.where}"
+        u, v = (_FILE_WRAPS.get(sampler.whole(name, 0), "repeat") for name in ("wrapS", "wrapT"))
         try:
             source = gltf.item(keys, "source", "images")
-            opened = partial(gltf.opened.open, (source.where, has_alpha), partial(_image, gltf, source, has_alpha))
-            gltf.pictures[key] = Picture.of(opened, name, gltf.opened, filter=filter, wraps=wraps)
+            image = gltf.images.image((source.where, has_alpha), partial(_image, gltf, source, has_alpha))
+            gltf.pictures[key] = Picture(image, f"{gltf.path}: {texture.where}", filter, (u, v))
         except InputError as error:
             gltf.lost.add(place)
             warn(f"{gltf.path}: a texture is left out: {error}")
@@ -48,8 +47,8 @@ def _picture(gltf: Document, texture: Table, has_alpha: bool) -> Picture | None:
 
 def _image(gltf: Document, source: Table, has_alpha: bool) -> Image.Image:
     data = gltf.view(gltf.item(source, "bufferView", "bufferViews")) if "bufferView" in source else None
-    image = open_image(io.BytesIO(gltf.resource(source) if data is None else data), source.where, as_rgba)
-    return image if has_alpha and is_transparent(image) else image.convert("RGB")
+    file = io.BytesIO(gltf.resource(source) if data is None else data)
+    return open_image(file, source.where, with_alpha if has_alpha else as_rgb)
 
 
 _GLOSSINESS = "KHR_materials_pbrSpecularGlossiness"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ....errors import InputError
 from ..._arithmetic import rotation_of, units
 from ..table import Table, about
-from .document import Document, Vertices, numbers, too_many
+from .document import Document, Vertices, numbers
 
 Array = NDArray[np.float64]
 
@@ -67,41 +67,42 @@ def _links(keys: Table, key: str, count: int) -> list[int]:
 
 def _matrices(nodes: Sequence[Table]) -> Array:
     """Return the matrices of nodes, (n, 4, 4), each for what hangs on it."""
-    rows = [
-        np.array([rest if name not in node or "matrix" in node else node.numbers(name, rest) for node in nodes])
-        for name, rest in ((name.lower(), rest) for name, rest in _RESTS.items())
-    ]
-    found = _composed(lambda number: nodes[number].where, *(row.reshape(len(nodes), -1) for row in rows))
+    columns = []
+    for name, rest in _RESTS.items():
+        key = name.lower()
+        values = [node.numbers(key, rest) if key in node and "matrix" not in node else rest for node in nodes]
+        columns.append(np.array(values, dtype=np.float64).reshape(-1, len(rest)))
+    found = _composed([node.where for node in nodes], *columns)
     for number, node in enumerate(nodes):
         if "matrix" in node:
             found[number] = np.array(node.numbers("matrix", tuple(np.eye(4).flat))).reshape(4, 4).T
     return found
 
 
-def _composed(where: Callable[[int], str], translations: Array, rotations: Array, scales: Array) -> Array:
-    """Return the matrices, (n, 4, 4), of so many translations, rotations and scales. where: the place of one."""
+def _composed(places: Sequence[str], translations: Array, rotations: Array, scales: Array) -> Array:
+    """Return the matrices, (n, 4, 4), of so many translations, rotations and scales. places: of each, for messages."""
     largest = np.abs(rotations).max(axis=1, keepdims=True, initial=0)
     bad = np.flatnonzero(~np.isfinite(largest[:, 0]) | (largest[:, 0] == 0))
     if len(bad):
-        with about(where(int(bad[0]))):
+        with about(places[bad[0]]):
             rotation_of(rotations[bad[0]])
-    x, y, z, w = units(rotations / largest).T[..., None, None]
-    axis, basis = np.concatenate([x, y, z], axis=2), np.eye(3)
-    across = 2 * np.cross(axis, basis)
-    turned = basis + w * across + np.cross(axis, across)
+    axis, cosine = np.split(units(rotations / largest)[:, None], [3], axis=2)
+    across = 2 * np.cross(axis, np.eye(3))
+    turned = np.eye(3) + cosine * across + np.cross(axis, across)
     matrices = np.tile(np.eye(4), (len(rotations), 1, 1))
     matrices[:, :3, :3] = turned.transpose(0, 2, 1) * scales[:, None, :]
     matrices[:, :3, 3] = translations
     return matrices
 
 
-def instances(gltf: Document, node: Node, most: int) -> Array:
-    """Return the matrices, (n, 4, 4), that put the mesh of a node into the world: one, or one for each instance.
+def instances(gltf: Document, node: Node, triangles: int) -> Array:
+    """Return the matrices, (n, 4, 4), that put the mesh of a node, of so many triangles, into the world.
 
-    most: how many there may be.
+    One, or one for each instance, of which the triangles are counted before anything is made.
     """
     extensions = node.keys.table("extensions")
     if "EXT_mesh_gpu_instancing" not in extensions:
+        gltf.show(triangles)
         return node.matrix[None]
     attributes = extensions.table("EXT_mesh_gpu_instancing").table("attributes")
     given = {
@@ -111,10 +112,9 @@ def instances(gltf: Document, node: Node, most: int) -> Array:
     if len(counts) != 1:
         raise InputError(f"{attributes.where} must have as many elements in each, not {sorted(counts)}")
     (count,) = counts
-    if count > most:
-        raise too_many(gltf)
+    gltf.show(count * triangles)
     columns = [np.asarray(given.get(name, np.tile(rest, (count, 1))), np.float64) for name, rest in _RESTS.items()]
-    placed: Array = node.matrix @ _composed(lambda _: attributes.where, *columns)
+    placed: Array = node.matrix @ _composed([attributes.where] * count, *columns)
     return placed
 
 

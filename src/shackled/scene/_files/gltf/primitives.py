@@ -91,7 +91,7 @@ def pieces_of(gltf: Document, node: Node, nodes: Mapping[int, Node]) -> Iterator
             picture, uvs = picture_on(vertices, surface, where)
             points = morphed(vertices, keys, weights, "POSITION", positions[used].astype(np.float64))
             matrices = skinned(vertices, node.keys, nodes)
-        if picture is not None and not picture.is_varied:
+        if picture is not None and not picture.image.is_varied:
             colors, picture = tinted(colors, picture, uvs), None
         yield Piece(points, faces, colors, normals, surface, picture, uvs, matrices, np.zeros(len(faces), int))
 

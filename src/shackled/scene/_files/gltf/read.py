@@ -16,7 +16,7 @@ from ..._mesh import face_normals, weld
 from ..._object import EXPONENTS
 from ..model import MeshPart, tinted
 from .animation import posed
-from .document import Document, most_triangles, too_many
+from .document import Document
 from .nodes import Node, instances, placed
 from .primitives import Piece, in_place, pieces_of
 
@@ -40,7 +40,7 @@ def read_gltf(
     # meshes that several nodes show as they are
     shown = Counter(_mesh_of(node) for node in nodes.values())
     known: dict[str, list[Piece]] = {}
-    triangles = turn = 0
+    turn = 0
     for node in nodes.values():
         if not node.is_shown:
             continue
@@ -55,10 +55,7 @@ def read_gltf(
         size = sum(len(piece.faces) for piece in pieces)
         if not size:
             continue
-        matrices = instances(gltf, node, (most_triangles(gltf) - triangles) // size)
-        triangles += len(matrices) * size
-        if triangles > most_triangles(gltf):
-            raise too_many(gltf)
+        matrices = instances(gltf, node, size)
         for piece in pieces:
             groups.setdefault(piece.group, []).append(in_place(piece, matrices, turn))
         turn += len(matrices)

@@ -1,0 +1,73 @@
+"""The definition of the renderer, contracts/picture.py, draws what the contracts draw, to what they approximate."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import picture
+from pictures import call_data, draw
+from random_scenes import TAME, random_scene
+from shackled import Scene
+from shackled.scene import fit
+
+FILE = Path(picture.__file__)
+#: The most lines: it is read in one sitting.
+LINES = 500
+#: Scenes of each kind, and the most triangles of one; of one with shadows.
+SCENES, TRIANGLES, SHADOWED = 5, 600, 150
+#: The least share of pixels within one level: of each kind, of all.
+OF_KIND, OF_ALL = 0.985, 0.995
+
+
+def scenes(kind: str) -> list[Scene]:
+    """The first scenes of a kind that are small enough."""
+    found: list[Scene] = []
+    seed = 0
+    while len(found) < SCENES:
+        seed += 1
+        scene = fit(random_scene(kind, seed))
+        if scene.triangles <= (SHADOWED if any(light.shadow for light in scene.lights) else TRIANGLES):
+            found.append(scene)
+    return found
+
+
+def test_it_draws_what_the_contracts_draw() -> None:
+    shares, near, total = {}, 0, 0
+    for kind in TAME:
+        off = [np.abs(picture.draw(call_data("render", s)).astype(int) - draw(s)).max(axis=2) for s in scenes(kind)]
+        ones, pixels = sum(int((each <= 1).sum()) for each in off), sum(each.size for each in off)
+        shares[kind], near, total = ones / pixels, near + ones, total + pixels
+    assert min(shares.values()) >= OF_KIND, shares
+    assert near / total >= OF_ALL, shares
+
+
+def test_it_is_short_and_stands_alone() -> None:
+    text = FILE.read_text("utf-8")
+    assert len(text.splitlines()) <= LINES
+    assert "shackled" not in text
+
+
+def test_the_command(tmp_path: Path) -> None:
+    scene = scenes("plain")[0]
+    call, out = tmp_path / "call", tmp_path / "picture.ppm"
+    call.write_bytes(call_data("render", scene))
+    done = subprocess.run([sys.executable, FILE, call, out], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    pixels = np.frombuffer(out.read_bytes()[-3 * scene.width * scene.height :], np.uint8)
+    assert np.array_equal(pixels.reshape(scene.height, scene.width, 3), picture.draw(call.read_bytes()))
+
+
+@pytest.mark.parametrize("size", [0, 3, 4, 36, 500, -1])
+def test_wrong_calldata_gets_one_line(size: int, tmp_path: Path) -> None:
+    call, out = tmp_path / "call", tmp_path / "picture.ppm"
+    call.write_bytes(call_data("render", scenes("plain")[0])[:size])
+    done = subprocess.run([sys.executable, FILE, call, out], capture_output=True, text=True)
+    assert done.returncode == 1
+    assert done.stderr.count("\n") == 1
+    assert "not the calldata of render(Scene)" in done.stderr
+    assert not out.exists()
