@@ -106,9 +106,8 @@ pub unsafe extern "C" fn send(address: *const u8, value: *const u8, data: *const
     send_to(TxKind::Call(address), data, U256::from_be_slice(&value), gas)
 }
 
-/// Translates a code to a WebAssembly module, with regions of `budget` instructions, and `i64.mul_wide_u` if `is_wide` is
-/// not 0; returns the size of the module in
-/// bytes, or 0 if it would be too large.
+/// Translates a code to a WebAssembly module; returns its size in bytes, or 0 if it would be too large. `budget`: of a
+/// region, in instructions. `is_wide`: not 0 if the host has `i64.mul_wide_u`.
 ///
 /// # Safety
 /// The arguments lie in memory from `allocate`.
