@@ -118,11 +118,22 @@ class Writer:
     def loop(self) -> None:
         """Append some rounds of a block. The place to which they lead back is a constant, or known at run time only."""
         words, head = self.words, len(self.code)
+        counter = push(COUNTER)
+        count = counter + b"\x51" + push(1) + b"\x01\x80" + counter + b"\x52" + push(self.rng.randrange(2, 12))
         self.code.append(JUMPDEST)
+        if self.rng.random() < 0.4:
+            # the end is in front of the block, which may change any word
+            self.code += count + b"\x10\x61\0\0\x57"
+            at = len(self.code) - 3
+            self.block(12)
+            self.level(words)
+            self.code += b"\x61" + head.to_bytes(2, "big") + b"\x56"
+            self.code[at : at + 2] = len(self.code).to_bytes(2, "big")
+            self.code.append(JUMPDEST)
+            return
         self.block(12)
         self.level(words)
-        counter = push(COUNTER)
-        self.code += counter + b"\x51" + push(1) + b"\x01\x80" + counter + b"\x52" + push(self.rng.randrange(2, 12))
+        self.code += count
         if self.rng.random() < 0.7:
             self.code += b"\x11\x61" + head.to_bytes(2, "big") + b"\x57"
             return
