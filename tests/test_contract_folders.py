@@ -7,6 +7,8 @@ import re
 from graphlib import TopologicalSorter
 from pathlib import Path
 
+from tools import virtual_functions
+
 SOURCES = Path(__file__).resolve().parents[1] / "contracts" / "src"
 README = SOURCES.parent / "README.md"
 #: `using Library for Type global`, by which contracts outside call functions of a value without a line of their own,
@@ -56,3 +58,10 @@ def test_the_readme_has_a_row_for_each_folder() -> None:
     for folder, text in rows.items():
         assert [name for name in re.findall(r"`(\w+\.sol)`", text) if f"{folder}{name}" not in files] == []
     assert all(f"`{name}`" in rows[""] for name in files if folder_of(name) == ".")
+
+
+def test_the_readme_says_which_file_answers() -> None:
+    table = virtual_functions.table()
+    assert f"-->\n{table}\n<!--" in README.read_text("utf-8"), f"run {virtual_functions.COMMAND}"
+    # as the sources say: Engine overrides it with nothing, and Wires is the last base of Wireframe
+    assert "| `drawEdges` | *nothing* (Engine) | Wires |" in table

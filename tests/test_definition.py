@@ -8,8 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image as PillowImage
+from tools.docs import draw_rules
+from tools.pages import IMAGES
 
 import picture
+from judge import judge_pixels, render
+from judge.fragments import RULES
 from pictures import call_data, draw
 from random_scenes import TAME, random_scene
 from shackled import Scene
@@ -71,3 +76,17 @@ def test_wrong_calldata_gets_one_line(size: int, tmp_path: Path) -> None:
     assert done.stderr.count("\n") == 1
     assert "not the calldata of render(Scene)" in done.stderr
     assert not out.exists()
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_the_picture_of_a_rule(rule: str) -> None:
+    """Only the rule explains some pixels of the contracts; none of the definition need one."""
+    scene = draw_rules.SCENES[rule]()
+    call = call_data("render", scene)
+    drawn, defined = (judge_pixels(rule, pixels, render(call)) for pixels in (draw(scene), picture.draw(call)))
+    assert drawn.faults == defined.faults == []
+    assert drawn.explained[rule] > 0
+    assert defined.explained.total() == 0
+    with PillowImage.open(IMAGES / f"rule-{rule}.png") as opened:
+        shown = np.asarray(opened.convert("RGB"))[:: draw_rules.SCALE, :: draw_rules.SCALE]
+    assert np.array_equal(shown, draw_rules.draw(rule)), "run python -m tools.docs.draw_rules"
