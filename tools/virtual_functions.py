@@ -1,15 +1,14 @@
-"""Write which contract implements each virtual function of an engine: contracts/README.md.
+"""Write which contract implements each virtual function of an engine into contracts/README.md.
 
-python -m tools.virtual_functions            writes the table between its marks
-python -m tools.virtual_functions --check    writes nothing; fails if it is not up to date
+python -m tools.virtual_functions            with --check it writes nothing, and fails if the table is not up to date
 """
 
 from __future__ import annotations
 
 import re
 import sys
-from dataclasses import dataclass, field
 from functools import cache
+from typing import NamedTuple
 
 from shackled.artifacts import RENDERER
 from tools.build_contracts import CONTRACTS, SOURCES
@@ -20,15 +19,12 @@ FUNCTION = re.compile(r"^    function (\w+)\([^;{]*?\)([^;{]*)(;|\{\s*\}|\{)", r
 COMMAND = "python -m tools.virtual_functions"
 
 
-@dataclass(frozen=True)
-class Contract:
-    """bases: the contracts that it inherits. virtual: its functions that others may override. bodies: the functions
-    that it implements, and whether they have statements.
-    """
+class Contract(NamedTuple):
+    """virtual: the functions that others may override. bodies: those it implements, and whether with statements."""
 
     bases: list[str]
-    virtual: set[str] = field(default_factory=set)
-    bodies: dict[str, bool] = field(default_factory=dict)
+    virtual: set[str]
+    bodies: dict[str, bool]
 
 
 @cache
@@ -37,12 +33,10 @@ def contracts() -> dict[str, Contract]:
     found = {}
     for path in SOURCES.rglob("*.sol"):
         for name, bases, body in CONTRACT.findall(re.sub(r"//.*", "", path.read_text("utf-8"))):
-            found[name] = made = Contract(bases.split(", ") if bases else [])
-            for function, words, end in FUNCTION.findall(body):
-                if "virtual" in words.split():
-                    made.virtual.add(function)
-                if end != ";":
-                    made.bodies[function] = "}" not in end
+            functions = FUNCTION.findall(body)
+            virtual = {each for each, words, _ in functions if "virtual" in words.split()}
+            bodies = {each: "}" not in end for each, _, end in functions if end != ";"}
+            found[name] = Contract(bases.split(", ") if bases else [], virtual, bodies)
     return found
 
 
@@ -52,33 +46,29 @@ def lineage(name: str) -> type:
     return type(name, tuple(map(lineage, reversed(contracts()[name].bases))), {})
 
 
+def answer(engine: str, function: str) -> str:
+    """Return which contract implements a function in an engine, as a cell of the table."""
+    names = [each.__name__ for each in lineage(engine).__mro__[:-1]]
+    # others may have a private function of this name
+    if not any(function in contracts()[name].virtual for name in names):
+        return ""
+    name = next(name for name in names if function in contracts()[name].bodies)
+    return name if contracts()[name].bodies[function] else f"*nothing* ({name})"
+
+
 def table() -> str:
-    """Return the table in Markdown, and how many answers there are."""
+    """Return the table in Markdown, and how often the answer is nothing."""
     engines = [name for name in RENDERER if name.endswith("Engine")]
-    order = {engine: [each.__name__ for each in lineage(engine).__mro__[:-1]] for engine in engines}
-    virtual = {engine: set().union(*(contracts()[name].virtual for name in order[engine])) for engine in engines}
-    functions = sorted(set().union(*virtual.values()))
+    inherited = {engine: [each.__name__ for each in lineage(engine).__mro__[1:-1]] for engine in engines}
+    functions = set().union(*(contracts()[name].virtual for names in inherited.values() for name in names))
     lines = [f"| function | {' | '.join(engines)} |", "|---" * (1 + len(engines)) + "|"]
-    count = 0
-    for function in functions:
-        cells = []
-        for engine in engines:
-            # others may have a private function of this name
-            names = order[engine] if function in virtual[engine] else []
-            name = next((name for name in names if function in contracts()[name].bodies), "")
-            is_empty = name and not contracts()[name].bodies[function]
-            count += bool(is_empty)
-            cells.append(f"*nothing* ({name})" if is_empty else name)
-        lines.append(f"| `{function}` | {' | '.join(cells)} |")
-    sizes = ", ".join(f"{engine} {len(names) - 1}" for engine, names in order.items())
+    for function in sorted(functions):
+        lines.append(f"| `{function}` | {' | '.join(answer(engine, function) for engine in engines)} |")
+    sizes = ", ".join(f"{engine} {len(names)}" for engine, names in inherited.items())
+    count = "\n".join(lines).count("*nothing*")
     lines.append(f"\n{len(functions)} functions; {count} times *nothing*. Inherited contracts: {sizes}.")
     return "\n".join(lines)
 
 
-def main() -> int:
-    """Update the page, or check it."""
-    return update({CONTRACTS / "README.md": lambda _: table()}, COMMAND, check="--check" in sys.argv[1:])
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(update({CONTRACTS / "README.md": lambda _: table()}, COMMAND, check="--check" in sys.argv[1:]))
