@@ -318,7 +318,7 @@ def run(file: str, judge: str) -> None:
 
         if judge != "contracts":
             # tests that are imported from now on draw with it
-            pictures.draw = lambda scene: picture.draw(pictures.call_data("render", scene))
+            patch.object(pictures, "draw", lambda scene: picture.draw(pictures.call_data("render", scene))).start()
         print(json.dumps(OF_PICTURE[judge]()))
         return
     mutant = json.loads(Path(file).read_text("utf-8"))
