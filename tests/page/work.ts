@@ -11,7 +11,7 @@ import type { Format } from "../../web/src/creator/work/protocol.js";
 import { quoteOf } from "../../web/src/creator/work/quote.js";
 import { stagesOf } from "../../web/src/creator/work/stages.js";
 import { pathOf, seenFrom } from "../../web/src/creator/work/turntable.js";
-import type { Document } from "../../web/src/creator/document.js";
+import type { Document } from "../../web/src/document/document.js";
 import { hashPixels } from "../../web/src/picture.js";
 import { encode } from "../../web/src/scene/encode.js";
 import { parseScene } from "../../web/src/scene/file.js";

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { deflateSync, gzipSync } from "node:zlib";
 
 import { InputError, encode } from "../src/index.js";
-import { readFile } from "../src/view/source.js";
+import { readFile } from "../src/scene/call_file.js";
 import { Speed } from "../src/view/speed.js";
 
 const document = JSON.stringify({

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
-import type { Document, MeshRef, StoredMesh } from "../src/creator/document.js";
+import type { Document, MeshRef, StoredMesh } from "../src/document/document.js";
 import { compressZeros } from "../src/creator/work/compact.js";
 import { fitted } from "../src/creator/work/fit.js";
 import { Machine } from "../src/creator/work/machine.js";

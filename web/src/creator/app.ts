@@ -6,31 +6,18 @@ import { InputError } from "../errors.js";
 import { CallError } from "../evm/contracts.js";
 import type { Opened } from "../files/index.js";
 import { loaded, type PageAssets, type PieceEntry } from "./assets.js";
-import { fitted } from "./camera.js";
-import { prepare, type Document } from "./document.js";
-import { History } from "./history.js";
-import type { MeshStore } from "./library.js";
-import { linkOf } from "./link.js";
-import { withPiece } from "./objects.js";
-import { capital } from "./parts.js";
-import { MissingFiles } from "./save.js";
+import { fitted } from "../document/camera.js";
+import { prepare, type Document } from "../document/document.js";
+import { History } from "../document/history.js";
+import type { MeshStore } from "./mesh_store.js";
+import { linkOf } from "../document/link.js";
+import { withPiece } from "../document/objects.js";
+import { capital } from "../document/fields.js";
+import { MissingFiles } from "../document/save.js";
 import { autosave } from "./things.js";
-import { calm } from "./ui/calm.js";
-import { Drawing } from "./ui/drawing.js";
-import { Cancelled, type Drawn, type Work } from "./work/work.js";
-
-/** The picture that is seen, and the document of which it is the picture. */
-export interface Shown {
-    drawn: Drawn;
-    doc: Document;
-}
-
-/** Something that takes long. part: 0..1, where it is known. */
-export interface Busy {
-    what: string;
-    part?: number;
-    cancel?: () => void;
-}
+import { calm } from "./calm.js";
+import { Drawing, type Busy, type Shown } from "./drawing.js";
+import { Cancelled, type Work } from "./work/work.js";
 
 /** A line that is shown for some seconds. */
 export interface Toast {
@@ -90,6 +77,8 @@ export class App {
         readonly assets: PageAssets,
         readonly meshes: MeshStore,
         readonly work: Work,
+        /** Loads a dialog. */
+        private readonly dialogOf: (name: DialogName) => Promise<OpenDialog["Dialog"]>,
         first: Document,
         own = first,
     ) {
@@ -221,13 +210,17 @@ export class App {
     /** Open a dialog in place of another. It is open once its code is there. */
     async openDialog(name: DialogName): Promise<void> {
         this.#asked = name;
-        const load = async () => (await loaded(import("./dialogs/index.js"))).dialogOf(name);
-        const Dialog = (this.#dialogs[name] ??= await this.run("Opening", load));
+        const Dialog = (this.#dialogs[name] ??= await this.run("Opening", () => this.dialogOf(name)));
         if (Dialog && this.#asked === name) this.#dialog.value = { name, Dialog };
     }
 
     closeDialog(): void {
         this.#asked = this.#dialog.value = null;
+    }
+
+    /** The address that restores the picture; "" while it is not known. */
+    get address(): string {
+        return this.link.value === null ? "" : `${location.href.split("#")[0]}${this.link.value}`;
     }
 
     // ---- what is kept ----

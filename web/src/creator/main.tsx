@@ -1,12 +1,12 @@
 // Starts the Creator.
 
 import { render } from "preact";
-import { App } from "./app.js";
+import { App, type DialogName } from "./app.js";
 import { PageAssets, loaded } from "./assets.js";
-import { turned } from "./camera.js";
-import type { Document } from "./document.js";
-import { MeshStore } from "./library.js";
-import { documentOfLink } from "./link.js";
+import { turned } from "../document/camera.js";
+import type { Document } from "../document/document.js";
+import { MeshStore } from "./mesh_store.js";
+import { documentOfLink } from "../document/link.js";
 import { autosaved } from "./things.js";
 import { restoreTheme } from "./ui/header.js";
 import { listenToKeys } from "./ui/keys.js";
@@ -50,11 +50,12 @@ async function start(): Promise<void> {
         }
     };
     const found =
-        (await attempt(() => fromLink(oldLink() ?? location.hash, meshes))) ??
+        (await attempt(() => fromLink(location.hash, meshes))) ??
         (await attempt(() => fromInput(meshes, assets))) ??
         (await attempt(() => fromBefore(meshes))) ??
         (await first(meshes));
-    const app = new App(assets, meshes, work, found.doc, found.own);
+    const dialogOf = async (name: DialogName) => (await loaded(import("./dialogs.js"))).dialogOf(name);
+    const app = new App(assets, meshes, work, dialogOf, found.doc, found.own);
     listenToKeys(app);
     // for consoles, and tests
     Object.assign(globalThis, { shackledApp: app });
@@ -65,16 +66,6 @@ async function start(): Promise<void> {
     addEventListener("hashchange", ({ newURL }) => void openLink(app, new URL(newURL).hash));
     void assets.pieces().then((pieces) => (app.pieces.value = pieces));
     if (found.isFirst) turnIntoView(app);
-}
-
-/** Take a link of the Creator before this one, which was a query, out of the address. */
-function oldLink(): string | null {
-    const query = new URLSearchParams(location.search);
-    const state = query.get("p");
-    if (!state) return null;
-    query.delete("p");
-    history.replaceState(null, "", location.pathname + (query.size ? `?${query}` : "") + `#${state}`);
-    return `#${state}`;
 }
 
 /** The link in the address, if there is one. */

@@ -1,7 +1,7 @@
 // The page's side of reading files: a worker reads, which is ended to cancel.
 
 import script from "worker:files/worker.ts";
-import type { MeshRef, StoredMesh } from "../creator/document.js";
+import type { MeshRef, StoredMesh } from "../document/document.js";
 import { InputError } from "../errors.js";
 import type { Given, Opened, Options } from "./read.js";
 

@@ -1,6 +1,6 @@
 // The worker that reads files.
 
-import type { MeshRef, StoredMesh } from "../creator/document.js";
+import type { MeshRef, StoredMesh } from "../document/document.js";
 import { InputError } from "../errors.js";
 import type { Order, Report } from "./index.js";
 import { readFiles } from "./read.js";

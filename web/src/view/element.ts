@@ -7,7 +7,7 @@ import type { CallFacts } from "../turn.js";
 import { Client, Interrupted } from "./client.js";
 import { listen, type Change } from "./gestures.js";
 import type { Checked, Drawn, Source, Wish } from "./protocol.js";
-import { MAX_FILE } from "./source.js";
+import { MAX_FILE } from "../scene/call_file.js";
 import { Speed, type Size } from "./speed.js";
 import { STYLE } from "./style.js";
 

@@ -7,7 +7,7 @@ import { drawCall, functionOf, hashPixels, withFunction } from "../picture.js";
 import { isTiled } from "../scene/encode.js";
 import { describeCall, resizeCall, turnCall } from "../turn.js";
 import type { Checked, Drawn, Kind, Opened, Request, Requests, Source, Wish } from "./protocol.js";
-import { readFile } from "./source.js";
+import { readFile } from "../scene/call_file.js";
 
 /** Contracts that used so much gas are compiled: all that drew a picture. */
 const BUSY = 1_000_000;

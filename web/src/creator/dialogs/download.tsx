@@ -3,12 +3,10 @@
 import { signal } from "@preact/signals";
 import { hashPixels } from "../../picture.js";
 import type { App } from "../app.js";
-import { prepare, sceneOf, type Document } from "../document.js";
-import type { Subject } from "../programs/subject.js";
-import type { Drawn } from "../work/work.js";
+import { prepare, sceneOf } from "../../document/document.js";
 import { ChainTab } from "./chain.js";
 import { FilesTab } from "./files.js";
-import { Choices, drawnOf, useMade, type Made } from "./parts.js";
+import { Choices, drawnOf, useMade } from "./widgets.js";
 import { PictureTab } from "./picture.js";
 
 const TABS = [
@@ -18,18 +16,10 @@ const TABS = [
 ] as const;
 const tab = signal<(typeof TABS)[number][0]>("picture");
 
-/** What the tabs show. drawn, subject: null until they are made. */
-export interface TabProps {
-    app: App;
-    doc: Document;
-    drawn: Drawn | null;
-    subject: Made<Subject>;
-}
-
 export function Download({ app }: { app: App }) {
     const doc = app.doc.value;
     const drawn = useMade((signal) => drawnOf(app, doc, signal), [doc]);
-    const link = addressOf(app);
+    const link = app.address;
     const subject = useMade(
         async (signal) => {
             const { gas, triangles, pixels } = await drawnOf(app, doc, signal);
@@ -48,9 +38,4 @@ export function Download({ app }: { app: App }) {
             <Tab app={app} doc={doc} drawn={drawn.value} subject={made} />
         </>
     );
-}
-
-/** Return the address that restores the picture; "" while it is not known. */
-export function addressOf({ link }: App): string {
-    return link.value === null ? "" : `${location.href.split("#")[0]}${link.value}`;
 }

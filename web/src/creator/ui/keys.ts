@@ -1,13 +1,13 @@
 // The keys of the page, and what they do.
 
-import { toHex } from "../../evm/bytes.js";
+import { toHex } from "../../bytes.js";
 import type { App } from "../app.js";
-import { fitted, panned, resetCamera, turned, zoomed } from "../camera.js";
+import { fitted, panned, resetCamera, turned, zoomed } from "../../document/camera.js";
 import { MIXED, controlOf, type Control, type Value } from "../controls.js";
-import type { Document, Item } from "../document.js";
-import { LOOKS, applyLook, lookOf, surprise } from "../looks.js";
-import { chosen, type Selection } from "../measure.js";
-import { duplicated, removed } from "../objects.js";
+import type { Document, Item } from "../../document/document.js";
+import { LOOKS, applyLook, lookOf, surprise } from "../../document/looks.js";
+import { chosen, type Selection } from "../../document/measure.js";
+import { duplicated, removed } from "../../document/objects.js";
 import { tool } from "./state.js";
 
 interface Key {

@@ -3,8 +3,8 @@
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type { App } from "../app.js";
-import type { Item } from "../document.js";
-import { renamed, reordered } from "../objects.js";
+import type { Item } from "../../document/document.js";
+import { renamed, reordered } from "../../document/objects.js";
 import { IconButton, type IconAction } from "./icons.js";
 import { duplicate, remove } from "./keys.js";
 import { adding, page } from "./state.js";

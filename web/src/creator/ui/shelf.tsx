@@ -4,7 +4,7 @@ import { signal, useComputed } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import type { App } from "../app.js";
 import type { PieceEntry } from "../assets.js";
-import type { Document } from "../document.js";
+import type { Document } from "../../document/document.js";
 import { Button, Choices, Icon, Thumb } from "./icons.js";
 import { anyGenesis } from "./keys.js";
 import { adding } from "./state.js";

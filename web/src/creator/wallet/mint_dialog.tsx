@@ -2,10 +2,10 @@
 
 import { useState } from "preact/hooks";
 import type { App } from "../app.js";
-import { Choices, useMade } from "../dialogs/parts.js";
+import { Choices, useMade } from "../dialogs/widgets.js";
 import { addressBook, chainName, chainsOf } from "./chains.js";
 import { TITLES, mint, offerOf, shopsOf, type Shop } from "./mint.js";
-import { Act, Chains, Poor, Said, TokenView, WalletLine, atMost, job, perform } from "./parts.js";
+import { Act, Chains, Poor, Said, TokenView, WalletLine, atMost, job, perform } from "./widgets.js";
 import type { Token } from "./tokens.js";
 import { plainly, session, type Session } from "./wallet.js";
 

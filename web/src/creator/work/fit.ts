@@ -3,9 +3,9 @@
 import { InputError } from "../../errors.js";
 import { encode } from "../../scene/encode.js";
 import type { Scene } from "../../scene/types.js";
-import type { Document, Meshes } from "../document.js";
+import type { Document, Meshes } from "../../document/document.js";
 import { floorGas, intrinsicGas, isRelayed } from "./calls.js";
-import type { Machine } from "./machine.js";
+import type { Host } from "./host.js";
 import { CALL_GAS, Cancelled, TRANSACTION_GAS, type EditionTerms, type Limit, type Options } from "./protocol.js";
 import { quoteOf } from "./quote.js";
 
@@ -20,12 +20,12 @@ const FEWEST = 12;
 const TERMS: EditionTerms = { name: "Edition", price: 0n, supply: null, royalty: 500, copies: 1, model: false };
 
 /** Whether a scene fits a limit, as the contracts find. */
-export function fitsIn(machine: Machine, scene: Scene, limit: Limit, terms = TERMS): boolean {
-    if (limit === "edition") return quoteOf(machine, scene, terms).fits;
+export function fitsIn(host: Host, scene: Scene, limit: Limit, terms = TERMS): boolean {
+    if (limit === "edition") return quoteOf(host, scene, terms).fits;
     const call = encode(scene);
-    if (limit === "call") return machine.suffices(call, CALL_GAS - intrinsicGas(call));
+    if (limit === "call") return host.suffices(call, CALL_GAS - intrinsicGas(call));
     const isSmall = isRelayed(call) && floorGas(call) <= TRANSACTION_GAS;
-    return isSmall && machine.suffices(call, TRANSACTION_GAS - intrinsicGas(call));
+    return isSmall && host.suffices(call, TRANSACTION_GAS - intrinsicGas(call));
 }
 
 /**

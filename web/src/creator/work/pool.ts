@@ -2,7 +2,7 @@
 // second one in reserve, which takes over at once where the first is ended.
 
 import { InputError } from "../../errors.js";
-import type { Document } from "../document.js";
+import type { Document } from "../../document/document.js";
 import {
     Cancelled,
     NEEDS,

@@ -4,8 +4,8 @@ import { InputError } from "../../errors.js";
 import { CallError, type Contracts } from "../../evm/contracts.js";
 import type { StageGas, Stages } from "../../evm/stages.js";
 import type { Camera, Scene } from "../../scene/types.js";
-import type { Document, MeshRef, SceneOptions, StoredMesh } from "../document.js";
-import { LIMITS } from "../settings.js";
+import type { Document, MeshRef, SceneOptions, StoredMesh } from "../../document/document.js";
+import { LIMITS } from "../../document/settings.js";
 
 export type { StageGas };
 

@@ -7,7 +7,7 @@ import { checkedStages, type StageGas } from "../../evm/stages.js";
 import { hashPixels } from "../../picture.js";
 import type { Scene } from "../../scene/types.js";
 import type { PageAssets } from "../assets.js";
-import type { Document, MeshRef, Meshes } from "../document.js";
+import type { Document, MeshRef, Meshes } from "../../document/document.js";
 import { fitted } from "./fit.js";
 import { pageOf } from "./page.js";
 import { idAt } from "./pick.js";

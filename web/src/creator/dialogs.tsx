@@ -1,14 +1,14 @@
 // The dialogs.
 
 import type { ComponentType } from "preact";
-import type { App, DialogName } from "../app.js";
-import { loaded } from "../assets.js";
-import { About } from "./about.js";
-import { Download } from "./download.js";
-import { Keys } from "./keys.js";
-import { Limits } from "./limits.js";
-import { Sheet } from "./parts.js";
-import { Things } from "./things.js";
+import type { App, DialogName } from "./app.js";
+import { loaded } from "./assets.js";
+import { About } from "./dialogs/about.js";
+import { Download } from "./dialogs/download.js";
+import { Keys } from "./dialogs/keys.js";
+import { Limits } from "./dialogs/limits.js";
+import { Sheet } from "./dialogs/widgets.js";
+import { Things } from "./dialogs/things.js";
 
 const TITLES: Record<DialogName, string> = {
     download: "Download and share",
@@ -25,7 +25,7 @@ const CONTENTS = { download: Download, limits: Limits, keys: Keys, things: Thing
 /** Return a dialog, whose code is loaded when it is needed. InputError where it cannot be had. */
 export async function dialogOf(name: DialogName): Promise<ComponentType<{ app: App }>> {
     const isOfWallet = name === "mint" || name === "edition" || name === "reveal";
-    const Content = isOfWallet ? (await loaded(import("../wallet/dialogs.js"))).DIALOGS[name] : CONTENTS[name];
+    const Content = isOfWallet ? (await loaded(import("./wallet/dialogs.js"))).DIALOGS[name] : CONTENTS[name];
     return ({ app }) => (
         <Sheet app={app} name={name} title={TITLES[name]} wide={name === "limits" || name === "download"}>
             <Content app={app} />

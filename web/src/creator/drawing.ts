@@ -1,10 +1,9 @@
 // The loop that draws the document: small drafts without antialiasing while something moves, then the picture.
 
-import { effect, signal } from "@preact/signals";
-import { Speed, scaled, type Size } from "../../view/speed.js";
-import type { App, Shown } from "../app.js";
-import type { Document } from "../document.js";
-import type { Drawn } from "../work/work.js";
+import { effect, signal, type Signal } from "@preact/signals";
+import { Speed, scaled, type Size } from "../view/speed.js";
+import type { Document } from "../document/document.js";
+import type { Drawn, Work } from "./work/work.js";
 
 /** Milliseconds without movement after which the picture is drawn. */
 const REST = 160;
@@ -16,6 +15,29 @@ const BUSY = 350;
 const ANTIALIASING = 3;
 /** Pixels a side of the first draft, of which nothing is known. */
 const FIRST = 96;
+
+/** The picture that is seen, and the document of which it is the picture. */
+export interface Shown {
+    drawn: Drawn;
+    doc: Document;
+}
+
+/** Something that takes long. part: 0..1, where it is known. */
+export interface Busy {
+    what: string;
+    part?: number;
+    cancel?: () => void;
+}
+
+/** What is drawn, and where it is told what happens. */
+interface Easel {
+    doc: Signal<Document>;
+    shown: Signal<Shown | null>;
+    busy: Signal<Busy | null>;
+    work: Work;
+    tell(text: string): void;
+    sentence(error: unknown): string;
+}
 
 /** What is on the canvas. */
 export interface Seen extends Shown {
@@ -34,7 +56,7 @@ export class Drawing {
     readonly seen = signal<Seen | null>(null);
     /** Why the document cannot be drawn. */
     readonly problem = signal<string | null>(null);
-    readonly #app: App;
+    readonly #app: Easel;
     #speed = new Speed();
     /** Pixels of the last picture of these objects, and its milliseconds without antialiasing. */
     #last: readonly [number, number] | null = null;
@@ -46,7 +68,7 @@ export class Drawing {
     #movedAt = -Infinity;
     #timer: ReturnType<typeof setTimeout> | undefined;
 
-    constructor(app: App) {
+    constructor(app: Easel) {
         this.#app = app;
         let meshes = "";
         effect(() => {
