@@ -1,20 +1,19 @@
-// The loop that draws the document: small drafts without antialiasing while something moves, then the picture.
+// The document on the canvas.
 
-import { effect, signal, type Signal } from "@preact/signals";
-import { Speed, scaled, type Size } from "../view/speed.js";
+import { computed, effect, signal, type Signal } from "@preact/signals";
 import type { Document } from "../document/document.js";
+import { Scheduler, type Job, type Plan } from "../draw/scheduler.js";
+import type { MeshStore } from "./mesh_store.js";
+import { withShare } from "./work/fit.js";
 import type { Drawn, Work } from "./work/work.js";
 
-/** Milliseconds without movement after which the picture is drawn. */
-const REST = 160;
-/** Milliseconds above which a picture is given up for a newer one, has a draft before it, and is said to be drawing. */
-const INTERRUPT = 60;
-const LONG = 300;
+/** Milliseconds above which a picture is said to be drawing. */
 const BUSY = 350;
 /** By how many times pictures with antialiasing take longer. */
 const ANTIALIASING = 3;
-/** Pixels a side of the first draft, of which nothing is known. */
-const FIRST = 96;
+/** The share of the triangles in drafts of slow pictures; an object keeps so many. */
+const SHARE = 0.25;
+const FEWEST = 200;
 
 /** The picture that is seen, and the document of which it is the picture. */
 export interface Shown {
@@ -29,139 +28,91 @@ export interface Busy {
     cancel?: () => void;
 }
 
+/** What is on the canvas. */
+export interface Seen extends Shown {
+    /** Whether it is less than the picture. */
+    draft: boolean;
+}
+
 /** What is drawn, and where it is told what happens. */
-interface Easel {
+interface Page {
     doc: Signal<Document>;
     shown: Signal<Shown | null>;
     busy: Signal<Busy | null>;
+    meshes: MeshStore;
     work: Work;
     tell(text: string): void;
     sentence(error: unknown): string;
 }
 
-/** What is on the canvas. */
-export interface Seen extends Shown {
-    /** Whether it is smaller than the picture. */
-    draft: boolean;
-}
-
-interface Flight {
-    doc: Document;
-    full: boolean;
-    abort: AbortController;
-    predicted: number;
-}
-
 export class Drawing {
     readonly seen = signal<Seen | null>(null);
+    readonly #failed = signal<{ doc: Document; words: string } | null>(null);
     /** Why the document cannot be drawn. */
-    readonly problem = signal<string | null>(null);
-    readonly #app: Easel;
-    #speed = new Speed();
-    /** Pixels of the last picture of these objects, and its milliseconds without antialiasing. */
-    #last: readonly [number, number] | null = null;
-    #moving = false;
-    #flight: Flight | null = null;
-    /** The document that cannot be drawn, or was given up. */
-    #given: Document | null = null;
-    #held = false;
-    #movedAt = -Infinity;
-    #timer: ReturnType<typeof setTimeout> | undefined;
+    readonly problem = computed(() => {
+        const failed = this.#failed.value;
+        return failed?.doc === this.page.doc.value ? failed.words : null;
+    });
+    readonly #scheduler: Scheduler<Document, Drawn>;
 
-    constructor(app: Easel) {
-        this.#app = app;
+    constructor(private readonly page: Page) {
+        this.#scheduler = new Scheduler({
+            beginsSmall: true,
+            value: () => page.doc.peek(),
+            plan: (doc) => this.#plan(doc),
+            draw: (doc, job, signal) => this.#draw(doc, job, signal),
+            show: (doc, { stage }, drawn) => {
+                this.seen.value = { drawn, doc, draft: stage === "draft" };
+                if (stage !== "draft") page.shown.value = this.seen.value;
+            },
+            fail: (doc, error) => (this.#failed.value = { doc, words: page.sentence(error) }),
+        });
         let meshes = "";
         effect(() => {
-            const now = app.doc.value.objects.map(({ mesh }) => JSON.stringify(mesh)).join();
-            if (now !== meshes) [this.#speed, this.#last, meshes] = [new Speed(), null, now];
-            this.#wake();
+            const now = page.doc.value.objects.map(({ mesh }) => JSON.stringify(mesh)).join();
+            if (now !== meshes) this.#scheduler.forget();
+            meshes = now;
+            this.#scheduler.wake();
         });
     }
 
     /** Note that the document moves: drafts will do for a moment. */
     moved(): void {
-        this.#movedAt = performance.now();
+        this.#scheduler.moved();
     }
 
     /** Note whether a finger or a button is down. */
     hold(is: boolean): void {
-        this.#held = is;
-        if (!is) this.#movedAt = -Infinity;
-        this.#wake();
+        this.#scheduler.hold(is);
     }
 
-    #wake(): void {
-        const doc = this.#app.doc.peek();
-        const seen = this.seen.peek();
-        const { doc: drawing, full, predicted, abort } = this.#flight ?? {};
-        if (drawing) {
-            if (full && drawing !== doc && (predicted ?? 0) > INTERRUPT) abort?.abort();
-            return;
-        }
-        if (this.#given === doc) return;
-        if (seen?.doc === doc && !seen.draft) {
-            // such as after undo of what could not be drawn, which redo tries again
-            this.#given = this.problem.value = null;
-            return;
-        }
-        const size: Size = [doc.width, doc.height];
-        const moving = this.#held || performance.now() - this.#movedAt < REST;
-        // what was slow before, when nothing was compiled or the machine was busy, may be fast now
-        if (moving && !this.#moving && this.#last) {
-            this.#speed = new Speed();
-            this.#speed.add(...this.#last);
-        }
-        this.#moving = moving;
-        const time = this.#speed.predict(doc.width * doc.height) * (doc.antialias ? ANTIALIASING : 1);
-        const isSeen = seen?.doc === doc;
-        if (!isSeen && !this.#last) void this.#draw(doc, false, scaled(size, FIRST / Math.max(...size)));
-        else if (!isSeen && (moving || time > LONG)) void this.#draw(doc, false, this.#speed.movingSize(size, size));
-        else if (!moving) void this.#draw(doc, true, size);
-        else if (!this.#held) {
-            clearTimeout(this.#timer);
-            this.#timer = setTimeout(() => this.#wake(), REST);
-        }
+    #plan({ width, height, antialias, objects }: Document): Plan {
+        const { meshes } = this.page;
+        const isLarge = objects.some(({ mesh, maxTriangles }) => {
+            const all = meshes.has(mesh) ? meshes.get(mesh).triangles : 0;
+            return Math.min(maxTriangles ?? all, all) * SHARE > FEWEST;
+        });
+        const exact = { size: [width, height], samples: antialias ? ANTIALIASING : 1 } as const;
+        return { exact, finer: null, share: isLarge ? SHARE : 1, isPlain: !antialias };
     }
 
-    async #draw(doc: Document, full: boolean, [width, height]: Size): Promise<void> {
-        const abort = new AbortController();
-        const pixels = width * height;
-        const samples = full && doc.antialias ? ANTIALIASING : 1;
-        const predicted = this.#speed.predict(pixels) * samples;
-        const flight = { doc, full, abort, predicted };
-        this.#flight = flight;
-        const busy = setTimeout(() => {
-            if (full) this.#app.busy.value ??= { what: "Drawing", cancel: () => this.#giveUp(flight) };
+    async #draw(doc: Document, { stage, size, share }: Job, signal: AbortSignal): Promise<Drawn> {
+        const { busy, meshes, work } = this.page;
+        const cancel = (): void => {
+            this.#scheduler.giveUp();
+            this.page.tell("Stopped. The next change draws the picture again.");
+        };
+        const timer = setTimeout(() => {
+            if (stage === "exact") busy.value ??= { what: "Drawing", cancel };
         }, BUSY);
         try {
-            const options = { width, height, lane: "picture" as const, signal: abort.signal };
-            const drawn: Drawn = await this.#app.work.draw(doc, full ? options : { ...options, antialias: false });
-            this.#last = [pixels, drawn.milliseconds / samples];
-            this.#speed.add(...this.#last);
-            const exact = full || (width === doc.width && height === doc.height && !doc.antialias);
-            this.#show({ drawn, doc, draft: !exact });
-        } catch (error) {
-            if (!abort.signal.aborted) {
-                this.#given = doc;
-                if (doc === this.#app.doc.peek()) this.problem.value = this.#app.sentence(error);
-            }
+            const [width, height] = size;
+            const options = { width, height, lane: "picture" as const, signal };
+            if (stage === "exact") return await work.draw(doc, options);
+            return await work.draw(withShare(doc, meshes, share, FEWEST), { ...options, antialias: false });
         } finally {
-            clearTimeout(busy);
-            if (this.#app.busy.peek()?.what === "Drawing") this.#app.busy.value = null;
-            this.#flight = null;
-            this.#wake();
+            clearTimeout(timer);
+            if (busy.peek()?.what === "Drawing") busy.value = null;
         }
-    }
-
-    #giveUp({ doc, abort }: Flight): void {
-        this.#given = doc;
-        abort.abort();
-        this.#app.tell("Stopped. The next change draws the picture again.");
-    }
-
-    #show(seen: Seen): void {
-        this.problem.value = null;
-        this.seen.value = seen;
-        if (!seen.draft) this.#app.shown.value = seen;
     }
 }

@@ -88,11 +88,12 @@ function sized(doc: Document, longest: number): Document {
     };
 }
 
-function withShare(doc: Document, meshes: Meshes, share: number): Document {
+/** Return the document with a share of its triangles, but no fewer than `fewest` of an object that has more. */
+export function withShare(doc: Document, meshes: Meshes, share: number, fewest = FEWEST): Document {
     if (share === 1) return doc;
     const objects = doc.objects.map((item) => {
         const now = Math.min(item.maxTriangles ?? Infinity, meshes.get(item.mesh).triangles);
-        return { ...item, maxTriangles: Math.min(now, Math.max(FEWEST, Math.round(now * share))) };
+        return { ...item, maxTriangles: Math.min(now, Math.max(fewest, Math.round(now * share))) };
     });
     return { ...doc, objects };
 }
