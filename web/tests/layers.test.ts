@@ -6,7 +6,7 @@ import { test } from "node:test";
 /** Folders and files of src/, the lowest first: each imports from itself and from those above it here. */
 const LAYERS = [
     ...["errors.ts", "bytes.ts", "scene/", "evm/", "call.ts", "turn.ts", "picture.ts", "render.ts", "index.ts"],
-    ...["document/", "files/", "cli.ts", "draw/", "view/"],
+    ...["workers/", "document/", "files/", "cli.ts", "draw/", "view/"],
     ...["creator/assets.ts", "creator/things.ts", "creator/mesh_store.ts", "creator/calm.ts", "creator/controls.ts"],
     ...["creator/work/", "creator/drawing.ts", "creator/app.ts", "creator/programs/", "creator/ui/"],
     ...["creator/dialogs/", "creator/wallet/", "creator/dialogs.tsx", "creator/main.tsx"],

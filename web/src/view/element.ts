@@ -6,9 +6,11 @@ import type { Size } from "../draw/speed.js";
 import { fetchBytes, loadAssets, type Assets, type AssetSources } from "../evm/assets.js";
 import { MAX_SIDE } from "../scene/checked.js";
 import type { CallFacts } from "../turn.js";
-import { Client, Interrupted } from "./client.js";
+import script from "worker:view/worker.ts";
+import { Pool, started } from "../workers/pool.js";
+import { Cancelled } from "../workers/protocol.js";
 import { listen, type Change } from "./gestures.js";
-import type { Checked, Drawn, Source, Wish } from "./protocol.js";
+import type { Checked, Drawn, Requests, Source, Wish } from "./protocol.js";
 import { MAX_FILE } from "../scene/call_file.js";
 import { STYLE } from "./style.js";
 
@@ -63,20 +65,29 @@ export class ShackledView extends HTMLElement {
     #turn: Change = { ...START };
     #picture: (PictureDetail & { pixels: Uint8ClampedArray<ArrayBuffer> }) | null = null;
 
-    #client: Client | null = null;
+    /** One worker draws; another one asks nodes. */
+    readonly #workers = new Pool<Requests, "draw" | "check">(
+        {
+            start: () => started(script),
+            supplies: async (_, __, [lacks]) =>
+                new Map<string, unknown>([lacks ? ["call", this.#call] : ["evm", await this.#assets()]]),
+        },
+        { draw: 1, check: 1 },
+    );
+    /** Whether it was seen: pictures that nobody sees cost nothing. */
+    #isSeen = false;
+    /** Ends what is asked of the scene that is shown. */
+    #asked = new AbortController();
     #connected: AbortController | null = null;
     readonly #scheduler = new Scheduler<TurnDetail, Drawn>({
         beginsSmall: false,
-        value: () => (this.#client && this.#facts ? this.#turn : null),
+        value: () => (this.#facts ? this.#turn : null),
         plan: () => this.#plan(),
         draw: (turn, job, signal) => this.#draw(turn, job, signal),
         show: (_, job, drawn) => this.#show(job, drawn),
         fail: (_, error) => this.#fail(error),
     });
-    /** Increases with every scene; what belongs to an earlier one is dropped. */
-    #generation = 0;
     #queued = false;
-    #opening = false;
     #checking = false;
     #inertia = 0;
 
@@ -149,13 +160,16 @@ export class ShackledView extends HTMLElement {
             else delete outcome.dataset["outcome"];
         };
         let checked: Checked = { outcome: "unknown", message: "There is no picture to check." };
-        if (this.#client && this.#facts && !this.#checking) {
+        if (this.#call && this.#facts && !this.#checking) {
             show(null);
             this.#checking = send.disabled = true;
             try {
                 const { width, height } = this.#facts;
                 const wish = { turn: this.#turn, width, height, samples: 1, hashed: false } as const;
-                checked = await this.#client.ask("check", { url, wish }, CHECK_TIMEOUT);
+                checked = await this.#workers.ask("check", { url, wish, call: this.#call }, "check", {
+                    signal: this.#asked.signal,
+                    limit: CHECK_TIMEOUT,
+                });
             } catch (error) {
                 checked = { outcome: "unknown", message: `The check was interrupted: ${messageOf(error)}.` };
             } finally {
@@ -194,13 +208,12 @@ export class ShackledView extends HTMLElement {
             if (isSmall && this.#scheduler.isResting) this.#scheduler.again();
         });
         sizes.observe(stage);
-        // pictures that nobody sees cost nothing
         const observer = new IntersectionObserver(
             (entries) => {
                 if (!entries.some((entry) => entry.isIntersecting)) return;
                 observer.disconnect();
-                this.#client = new Client(() => this.#assets());
-                if (this.#source) void this.#open(this.#client, this.#source);
+                this.#isSeen = true;
+                if (this.#source) void this.#open(this.#source);
                 else this.#load();
             },
             { rootMargin: "200px" },
@@ -215,12 +228,12 @@ export class ShackledView extends HTMLElement {
     disconnectedCallback(): void {
         this.#connected?.abort();
         this.#connected = null;
-        this.#generation++;
         cancelAnimationFrame(this.#inertia);
-        this.#client?.stop();
-        this.#client = null;
+        this.#isSeen = false;
+        this.#facts = null;
+        this.#asked.abort();
         this.#scheduler.stop();
-        this.#opening = false;
+        this.#workers.stop();
     }
 
     attributeChangedCallback(name: string, before: string | null, after: string | null): void {
@@ -245,14 +258,14 @@ export class ShackledView extends HTMLElement {
 
     /** Begin with what the attributes name. */
     #load(): void {
-        if (!this.#client || this.#source) return;
+        if (!this.#isSeen || this.#source) return;
         const [src, rpc, studio, pointer] = SOURCES.map((name) => this.getAttribute(name)) as (string | null)[];
         if (src) {
-            const generation = ++this.#generation;
+            const { signal } = this.#next();
             const url = src.startsWith("#") ? src : new URL(src, document.baseURI).href;
-            fetchBytes(url, MAX_FILE, "the scene", this.#connected?.signal).then(
-                (file) => generation === this.#generation && this.#take({ file }),
-                (error: unknown) => generation === this.#generation && this.#fail(error),
+            fetchBytes(url, MAX_FILE, "the scene", signal).then(
+                (file) => signal.aborted || this.#take({ file }),
+                (error: unknown) => signal.aborted || this.#fail(error),
             );
         } else if (rpc && studio && pointer) {
             this.#take({ rpc, studio, pointer });
@@ -297,34 +310,36 @@ export class ShackledView extends HTMLElement {
         this.#source = source;
         this.#turn = { ...START };
         this.#parts.reset.hidden = true;
-        if (this.#client) void this.#open(this.#client, source);
+        if (this.#isSeen) void this.#open(source);
     }
 
-    async #open(client: Client, source: Source): Promise<void> {
-        const generation = ++this.#generation;
+    /** End what belongs to the scene before. */
+    #next(): AbortController {
+        this.#asked.abort();
+        return (this.#asked = new AbortController());
+    }
+
+    async #open(source: Source): Promise<void> {
+        const { signal } = this.#next();
         cancelAnimationFrame(this.#inertia);
-        if (this.#opening) client.stop();
         this.#facts = this.#call = this.#picture = null;
         this.#turn = { ...this.#turn };
         this.#scheduler.stop();
         this.#scheduler.forget();
-        this.#opening = true;
         this.#clearOutcome();
         this.#busy(true);
         this.#say("");
         try {
-            const { call, facts } = await client.ask("open", source, "file" in source ? this.#timeout : CHECK_TIMEOUT);
-            if (generation !== this.#generation) return;
-            this.#opening = false;
-            client.call = this.#call = call;
-            this.#facts = facts;
+            const limit = "file" in source ? this.#timeout : CHECK_TIMEOUT;
+            const { call, facts } = await this.#workers.ask("open", source, "draw", { signal, limit });
+            if (signal.aborted) return;
+            [this.#call, this.#facts] = [call, facts];
             this.#parts.canvas.style.aspectRatio = `${facts.width} / ${facts.height}`;
             const { azimuth, elevation, zoom } = this.#turn;
             if (azimuth || elevation || zoom !== 1) this.#face(this.#turn, true);
             this.#scheduler.wake();
         } catch (error) {
-            if (generation !== this.#generation) return;
-            this.#opening = false;
+            if (signal.aborted) return;
             this.#fail(error);
             // nothing of the scene before it remains
             const { canvas, poster, bar, panel, more } = this.#parts;
@@ -413,13 +428,10 @@ export class ShackledView extends HTMLElement {
     }
 
     async #draw(turn: TurnDetail, { stage, size: [width, height] }: Job, signal: AbortSignal): Promise<Drawn> {
-        const client = this.#client as Client;
-        // what a node is asked goes on
-        signal.addEventListener("abort", () => this.#checking || client.stop());
         if (stage !== "draft") delete this.#parts.stage.dataset["moving"];
         if (stage === "exact") this.#busy(true);
         const wish: Wish = { turn, width, height, samples: stage === "finer" ? 2 : 1, hashed: stage === "exact" };
-        return client.ask("draw", wish, this.#timeout);
+        return this.#workers.ask("draw", wish, "draw", { signal, limit: this.#timeout });
     }
 
     #show({ stage, size: [width, height] }: Job, drawn: Drawn): void {
@@ -487,7 +499,7 @@ export class ShackledView extends HTMLElement {
     }
 
     #fail(error: unknown): void {
-        if (error instanceof Interrupted) return;
+        if (error instanceof Cancelled) return;
         const message = messageOf(error);
         this.#busy(false);
         delete this.#parts.stage.dataset["moving"];

@@ -1,12 +1,13 @@
 // Make it fit: the largest canvas, then the most triangles, with which a document fits a limit.
 
 import { InputError } from "../../errors.js";
+import { Cancelled } from "../../workers/protocol.js";
 import { encode } from "../../scene/encode.js";
 import type { Scene } from "../../scene/types.js";
 import type { Document, Meshes } from "../../document/document.js";
 import { floorGas, intrinsicGas, isRelayed } from "./calls.js";
 import type { Host } from "./host.js";
-import { CALL_GAS, Cancelled, TRANSACTION_GAS, type EditionTerms, type Limit, type Options } from "./protocol.js";
+import { CALL_GAS, TRANSACTION_GAS, type EditionTerms, type Limit, type Options } from "./protocol.js";
 import { quoteOf } from "./quote.js";
 
 /** Longest sides of the canvas: the least that is good enough, and the least at all. */

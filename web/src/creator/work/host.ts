@@ -1,7 +1,14 @@
 // What a worker has: the contracts and meshes that it was given, and the EVM that draws with them.
 
 import { fromHex } from "../../bytes.js";
-import { sceneOf, type Document, type MeshRef, type SceneOptions, type StoredMesh } from "../../document/document.js";
+import {
+    keyOf,
+    sceneOf,
+    type Document,
+    type MeshRef,
+    type SceneOptions,
+    type StoredMesh,
+} from "../../document/document.js";
 import { InputError } from "../../errors.js";
 import { CallError, ContractEvm } from "../../evm/contracts.js";
 import { drawCall } from "../../picture.js";
@@ -9,22 +16,22 @@ import { checkedMesh } from "../../scene/checked.js";
 import { encode } from "../../scene/encode.js";
 import type { Scene } from "../../scene/types.js";
 import type { Helper } from "./calls.js";
-import { keyOf, type Drawn, type Supplies } from "./protocol.js";
+import type { Drawn, Supplies } from "./protocol.js";
 
 /** Gas that a contract uses before it is compiled: more than the first picture of the page takes. */
 const BUSY = 20_000_000;
 
 export class Host {
     readonly #meshes = new Map<string, StoredMesh>();
-    protected readonly given: Supplies = {};
+    readonly given: Partial<Supplies> = {};
     #evm: ContractEvm | null = null;
 
     /** Keep what is given. */
-    keep(give: Supplies): void {
-        for (const [key, mesh] of give.meshes ?? []) this.#meshes.set(key, mesh);
-        Object.assign(this.given, { ...give, meshes: undefined });
-        if (give.more || give.evm) this.#evm = null;
-    }
+    readonly keep = (key: string, value: unknown): void => {
+        if (key === "evm" || key === "more") this.#evm = null;
+        if (key === "evm" || key === "more" || key === "stages") Object.assign(this.given, { [key]: value });
+        else this.#meshes.set(key, value as StoredMesh);
+    };
 
     get({ ...ref }: MeshRef): StoredMesh {
         const found = this.#meshes.get(keyOf(ref));
