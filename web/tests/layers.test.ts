@@ -8,7 +8,14 @@ const LAYERS = [
     ...["errors.ts", "bytes.ts", "scene/", "evm/", "call.ts", "turn.ts", "picture.ts", "render.ts", "index.ts"],
     ...["workers/", "document/", "files/", "cli.ts", "draw/", "view/"],
     ...["creator/assets.ts", "creator/things.ts", "creator/mesh_store.ts", "creator/calm.ts", "creator/controls.ts"],
-    ...["creator/work/", "creator/drawing.ts", "creator/app.ts", "creator/programs/", "creator/ui/"],
+    ...[
+        "creator/state.ts",
+        "creator/work/",
+        "creator/drawing.ts",
+        "creator/app.ts",
+        "creator/programs/",
+        "creator/ui/",
+    ],
     ...["creator/dialogs/", "creator/wallet/", "creator/dialogs.tsx", "creator/main.tsx"],
 ];
 

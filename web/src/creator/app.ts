@@ -16,7 +16,8 @@ import { capital } from "../document/fields.js";
 import { MissingFiles } from "../document/save.js";
 import { autosave } from "./things.js";
 import { calm } from "./calm.js";
-import { Drawing, type Busy, type Shown } from "./drawing.js";
+import { Drawing, type Shown } from "./drawing.js";
+import { doing, note, open, show, type Busy, type DialogName } from "./state.js";
 import { Cancelled, type Work } from "./work/work.js";
 
 /** A line that is shown for some seconds. */
@@ -25,13 +26,6 @@ export interface Toast {
     text: string;
     kind: "note" | "error";
 }
-
-/** A dialog: its name, and the component that shows it. */
-export interface OpenDialog {
-    name: DialogName;
-    Dialog: ComponentType<{ app: App }>;
-}
-export type DialogName = "download" | "limits" | "keys" | "things" | "about" | "mint" | "edition" | "reveal";
 
 /** Milliseconds after the last change until it is kept. */
 const KEEP = 400;
@@ -47,10 +41,9 @@ export class App {
     readonly selected: Signal<ReadonlySet<string>> = signal(new Set<string>());
     /** The last finished picture at full size; null before the first. */
     readonly shown: Signal<Shown | null> = signal(null);
-    readonly busy: Signal<Busy | null> = signal(null);
-    readonly #dialog = signal<OpenDialog | null>(null);
+    readonly busy = computed(() => doing.value.busy);
     /** The dialog that is open: see `openDialog`. */
-    readonly dialog: ReadonlySignal<OpenDialog | null> = this.#dialog;
+    readonly dialog = computed(() => open.value.dialog);
     readonly toasts: Signal<readonly Toast[]> = signal([]);
     /** The link of the document, without the address of the page: "#1…"; null while it is not known. */
     readonly link: Signal<string | null> = signal(null);
@@ -69,16 +62,14 @@ export class App {
     /** Ends the opening of files or a piece when others are opened: the last are shown. */
     #opening = new AbortController();
     #toast = 0;
-    readonly #dialogs: Partial<Record<DialogName, OpenDialog["Dialog"] | undefined>> = {};
-    /** The dialog that was asked for last. */
-    #asked: DialogName | null = null;
+    readonly #dialogs: Partial<Record<DialogName, ComponentType | undefined>> = {};
 
     constructor(
         readonly assets: PageAssets,
         readonly meshes: MeshStore,
         readonly work: Work,
         /** Loads a dialog. */
-        private readonly dialogOf: (name: DialogName) => Promise<OpenDialog["Dialog"]>,
+        private readonly dialogOf: (name: DialogName, app: App) => Promise<ComponentType>,
         first: Document,
         own = first,
     ) {
@@ -209,13 +200,13 @@ export class App {
 
     /** Open a dialog in place of another. It is open once its code is there. */
     async openDialog(name: DialogName): Promise<void> {
-        this.#asked = name;
-        const Dialog = (this.#dialogs[name] ??= await this.run("Opening", () => this.dialogOf(name)));
-        if (Dialog && this.#asked === name) this.#dialog.value = { name, Dialog };
+        show({ asked: name });
+        const Dialog = (this.#dialogs[name] ??= await this.run("Opening", () => this.dialogOf(name, this)));
+        if (Dialog && open.peek().asked === name) show({ dialog: { name, Dialog } });
     }
 
     closeDialog(): void {
-        this.#asked = this.#dialog.value = null;
+        show({ asked: null, dialog: null });
     }
 
     /** The address that restores the picture; "" while it is not known. */
@@ -259,10 +250,10 @@ export class App {
         abort = new AbortController(),
     ): Promise<T | undefined> {
         let mine: Busy = { what, cancel: () => abort.abort() };
-        this.busy.value = mine;
+        note({ busy: mine });
         const progress = (part: number): void => {
             if (this.busy.peek() !== mine) return;
-            this.busy.value = mine = { ...mine, part };
+            note({ busy: (mine = { ...mine, part }) });
         };
         try {
             return await work(abort.signal, progress);
@@ -270,7 +261,7 @@ export class App {
             if (!abort.signal.aborted) this.fail(error);
             return undefined;
         } finally {
-            if (this.busy.peek() === mine) this.busy.value = null;
+            if (this.busy.peek() === mine) note({ busy: null });
         }
     }
 

@@ -4,6 +4,7 @@ import { computed, effect, signal, type Signal } from "@preact/signals";
 import type { Document } from "../document/document.js";
 import { Scheduler, type Job, type Plan } from "../draw/scheduler.js";
 import type { MeshStore } from "./mesh_store.js";
+import { doing, note } from "./state.js";
 import { withShare } from "./work/fit.js";
 import type { Drawn, Work } from "./work/work.js";
 
@@ -21,13 +22,6 @@ export interface Shown {
     doc: Document;
 }
 
-/** Something that takes long. part: 0..1, where it is known. */
-export interface Busy {
-    what: string;
-    part?: number;
-    cancel?: () => void;
-}
-
 /** What is on the canvas. */
 export interface Seen extends Shown {
     /** Whether it is less than the picture. */
@@ -38,7 +32,6 @@ export interface Seen extends Shown {
 interface Page {
     doc: Signal<Document>;
     shown: Signal<Shown | null>;
-    busy: Signal<Busy | null>;
     meshes: MeshStore;
     work: Work;
     tell(text: string): void;
@@ -97,13 +90,13 @@ export class Drawing {
     }
 
     async #draw(doc: Document, { stage, size, share }: Job, signal: AbortSignal): Promise<Drawn> {
-        const { busy, meshes, work } = this.page;
+        const { meshes, work } = this.page;
         const cancel = (): void => {
             this.#scheduler.giveUp();
             this.page.tell("Stopped. The next change draws the picture again.");
         };
         const timer = setTimeout(() => {
-            if (stage === "exact") busy.value ??= { what: "Drawing", cancel };
+            if (stage === "exact" && !doing.peek().busy) note({ busy: { what: "Drawing", cancel } });
         }, BUSY);
         try {
             const [width, height] = size;
@@ -112,7 +105,7 @@ export class Drawing {
             return await work.draw(withShare(doc, meshes, share, FEWEST), { ...options, antialias: false });
         } finally {
             clearTimeout(timer);
-            if (busy.peek()?.what === "Drawing") busy.value = null;
+            if (doing.peek().busy?.what === "Drawing") note({ busy: null });
         }
     }
 }

@@ -1,7 +1,8 @@
 // Starts the Creator.
 
 import { render } from "preact";
-import { App, type DialogName } from "./app.js";
+import { App } from "./app.js";
+import { open, type DialogName } from "./state.js";
 import { PageAssets, loaded } from "./assets.js";
 import { turned } from "../document/camera.js";
 import type { Document } from "../document/document.js";
@@ -11,7 +12,6 @@ import { autosaved } from "./things.js";
 import { restoreTheme } from "./ui/header.js";
 import { listenToKeys } from "./ui/keys.js";
 import { Page } from "./ui/page.js";
-import { begun } from "./ui/state.js";
 import { showToasts } from "./ui/toasts.js";
 import { Work } from "./work/work.js";
 import "./ui/style.css";
@@ -54,7 +54,7 @@ async function start(): Promise<void> {
         (await attempt(() => fromInput(meshes, assets))) ??
         (await attempt(() => fromBefore(meshes))) ??
         (await first(meshes));
-    const dialogOf = async (name: DialogName) => (await loaded(import("./dialogs.js"))).dialogOf(name);
+    const dialogOf = async (name: DialogName, app: App) => (await loaded(import("./dialogs.js"))).dialogOf(name, app);
     const app = new App(assets, meshes, work, dialogOf, found.doc, found.own);
     listenToKeys(app);
     // for consoles, and tests
@@ -129,7 +129,8 @@ function turnIntoView(app: App): void {
     const end = app.doc.peek();
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
     const at = performance.now();
-    const isOver = (): boolean => begun.peek() || (app.drawing.seen.peek()?.drawn.milliseconds ?? 0) > ENTRANCE.draft;
+    const isOver = (): boolean =>
+        open.peek().begun || (app.drawing.seen.peek()?.drawn.milliseconds ?? 0) > ENTRANCE.draft;
     let now = end;
     const step = (time: number): void => {
         if (app.doc.peek() !== now) return;

@@ -4,7 +4,7 @@ import { useState } from "preact/hooks";
 import { toHex } from "../../bytes.js";
 import type { Contracts } from "../../evm/contracts.js";
 import { askNode } from "../../evm/rpc.js";
-import type { DialogName } from "../app.js";
+import type { DialogName } from "../state.js";
 import { castCommand } from "../programs/cast.js";
 import { stemOf, titleOf } from "../programs/subject.js";
 import { Code, Progress, Row, madeOf, useMade, useTask, type Made, type TabProps } from "./widgets.js";

@@ -1,8 +1,8 @@
 // Files, programs, and what chains take, in three tabs.
 
-import { signal } from "@preact/signals";
 import { hashPixels } from "../../picture.js";
 import type { App } from "../app.js";
+import { open, show } from "../state.js";
 import { prepare, sceneOf } from "../../document/document.js";
 import { ChainTab } from "./chain.js";
 import { FilesTab } from "./files.js";
@@ -14,7 +14,6 @@ const TABS = [
     ["files", "Files and programs"],
     ["chain", "On chain"],
 ] as const;
-const tab = signal<(typeof TABS)[number][0]>("picture");
 
 export function Download({ app }: { app: App }) {
     const doc = app.doc.value;
@@ -31,10 +30,10 @@ export function Download({ app }: { app: App }) {
         [doc, link],
     );
     const made = { value: subject.value, error: drawn.error || subject.error };
-    const Tab = { picture: PictureTab, files: FilesTab, chain: ChainTab }[tab.value];
+    const Tab = { picture: PictureTab, files: FilesTab, chain: ChainTab }[open.value.tab];
     return (
         <>
-            <Choices name="take" label="What to take" value={tab.value} of={TABS} does={(each) => (tab.value = each)} />
+            <Choices name="take" label="What to take" value={open.value.tab} of={TABS} does={(tab) => show({ tab })} />
             <Tab app={app} doc={doc} drawn={drawn.value} subject={made} />
         </>
     );

@@ -2,7 +2,8 @@
 
 import type { ComponentChildren } from "preact";
 import { useEffect, useId, useLayoutEffect, useRef, useState } from "preact/hooks";
-import type { App, DialogName } from "../app.js";
+import type { App } from "../app.js";
+import type { DialogName } from "../state.js";
 import type { Document } from "../../document/document.js";
 import { capital } from "../../document/fields.js";
 import type { Subject } from "../programs/subject.js";

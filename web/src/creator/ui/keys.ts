@@ -8,7 +8,7 @@ import type { Document, Item } from "../../document/document.js";
 import { LOOKS, applyLook, lookOf, surprise } from "../../document/looks.js";
 import { chosen, type Selection } from "../../document/measure.js";
 import { duplicated, removed } from "../../document/objects.js";
-import { tool } from "./state.js";
+import { open, show } from "../state.js";
 
 interface Key {
     /** As in KeyboardEvent.key, after "Ctrl+" and "Shift+". */
@@ -115,7 +115,7 @@ export const KEYS: readonly Key[] = [
     key("l", "L", "Next look", (app) => look(app, LOOKS.findIndex(({ name }) => name === lookOf(app.doc.value)) + 1)),
     key("s", "S", "Surprise me", surpriseMe),
     key("g", "G", "Random Genesis piece", (app) => void anyGenesis(app)),
-    key("m", "M", "Move objects by dragging", () => (tool.value = tool.value === "move" ? "turn" : "move")),
+    key("m", "M", "Move objects by dragging", () => show({ tool: open.peek().tool === "move" ? "turn" : "move" })),
     key(
         "[",
         "[",
@@ -173,7 +173,7 @@ export const POINTER = [
 function escape(app: App): void {
     const cancel = app.busy.value?.cancel;
     if (cancel) cancel();
-    else if (tool.value === "move") tool.value = "turn";
+    else if (open.peek().tool === "move") show({ tool: "turn" });
     else app.selected.value = new Set();
 }
 
