@@ -576,22 +576,8 @@ function build(root: ShadowRoot) {
     ]);
     root.append(stage, help, bar, error, panel);
     return {
-        canvas,
-        poster,
-        veil,
-        stage,
-        error,
-        figures,
-        reset,
-        exact,
-        more,
-        bar,
-        hash,
-        url,
-        send,
-        form,
-        outcome,
-        panel,
+        ...{ canvas, poster, veil, stage, error, figures, reset, exact },
+        ...{ more, bar, hash, url, send, form, outcome, panel },
     };
 }
 
