@@ -171,7 +171,8 @@ export class ShackledView extends HTMLElement {
                     limit: CHECK_TIMEOUT,
                 });
             } catch (error) {
-                checked = { outcome: "unknown", message: `The check was interrupted: ${messageOf(error)}.` };
+                const why = error instanceof Cancelled ? "the scene changed" : messageOf(error);
+                checked = { outcome: "unknown", message: `The check was interrupted: ${why}.` };
             } finally {
                 this.#checking = send.disabled = false;
             }
