@@ -1,4 +1,4 @@
-"""Write web/src/creator/settings.ts: what the page takes from the package, which are settings, looks, limits of gas,
+"""Write web/src/document/settings.ts: what the page takes from the package, which are settings, looks, limits of gas,
 chains, and bounds of what transactions cost.
 
 python tools/page_settings.py    with --check it writes nothing, and fails if the file is not as it would be written
@@ -20,7 +20,7 @@ from shackled.scene._presets import Preset
 from shackled.tokens._contract import USUAL_GAS
 from shackled.tokens._reveal import FIRST_GAS, REVEAL_GAS
 
-FILE = Path(__file__).resolve().parent.parent / "web" / "src" / "creator" / "settings.ts"
+FILE = Path(__file__).resolve().parent.parent / "web" / "src" / "document" / "settings.ts"
 HEAD = """// Written by tools/page_settings.py from the tables of the Python package.
 
 /** What can be set: src/shackled/scene/_settings.py. `low` and `high` are null where there is none. */

@@ -3,13 +3,13 @@
 
 import { LIGHT_KINDS, MAX_LIGHTS, MAX_SIDE } from "../scene/checked.js";
 import { PROJECTIONS } from "../scene/staging.js";
-import { resetCamera } from "./camera.js";
-import type { Document, Meshes } from "./document.js";
-import { around, changed, chosen, clamped, tidy, type Selection } from "./measure.js";
-import { PARTS, camel, capital, settingsOf, type Part, type Scope, type Value } from "./parts.js";
-import { SETTINGS, type Setting } from "./settings.js";
+import { resetCamera } from "../document/camera.js";
+import type { Document, Meshes } from "../document/document.js";
+import { around, changed, chosen, clamped, tidy, type Selection } from "../document/measure.js";
+import { PARTS, camel, capital, settingsOf, type Part, type Scope, type Value } from "../document/fields.js";
+import { SETTINGS, type Setting } from "../document/settings.js";
 
-export { MIXED, type Value } from "./parts.js";
+export { MIXED, type Value } from "../document/fields.js";
 
 /** One value of a document. Lengths are in radii of its frame. */
 export interface Control extends Readonly<Required<Traits>> {

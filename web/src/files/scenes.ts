@@ -1,8 +1,8 @@
 // Scene files with the mesh files and images that they name.
 
 import { parse } from "smol-toml";
-import type { MeshRef, StoredMesh } from "../creator/document.js";
-import { digestOf, openSceneFile, storedMesh, textureTable, type Library, type Made } from "../creator/save.js";
+import type { MeshRef, StoredMesh } from "../document/document.js";
+import { digestOf, openSceneFile, storedMesh, textureTable, type Library, type Made } from "../document/save.js";
 import { InputError, show } from "../errors.js";
 import { checkedMesh, type Mesh, type Texture } from "../scene/checked.js";
 import { parseJson } from "../scene/file.js";

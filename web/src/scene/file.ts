@@ -1,7 +1,7 @@
 // Scene files: docs/scene-files.md documents the keys and their defaults.
 
 import { InputError, about, show } from "../errors.js";
-import { fromBase64 } from "../evm/bytes.js";
+import { fromBase64 } from "../bytes.js";
 import { fromAxisAngle, rint, type Vector } from "./arithmetic.js";
 import * as checked from "./checked.js";
 import * as check from "./checks.js";

@@ -1,10 +1,10 @@
 // A picture as a contract in Solidity, which holds the scene and calls the renderer with it.
 
-import { toHex } from "../../evm/bytes.js";
+import { toHex } from "../../bytes.js";
 import { SHADINGS } from "../../scene/checked.js";
 import { WORD } from "../../scene/encode.js";
 import { OBJECT_WORDS, Reader } from "../../scene/reader.js";
-import { capital } from "../parts.js";
+import { capital } from "../../document/fields.js";
 import { linkLines, notices, oneLine, originOf, stemOf, titleOf, type Subject } from "./subject.js";
 
 /** Bytes of meshes and extensions that a contract holds beside its code (EIP-170: 24,576), and what each object adds. */

@@ -9,6 +9,15 @@ import type { Light, Projection, Rotation, Scene, SceneObject, Shading, Vector3 
 /** The `object`-th object of a piece of a dataset, or an opened mesh by the digest of its contents. */
 export type MeshRef = { readonly piece: string; readonly object: number } | { readonly file: string };
 
+/** Return a text for a mesh, and the mesh of such a text. */
+export function keyOf(ref: MeshRef): string {
+    return "file" in ref ? ref.file : `${ref.piece}#${ref.object}`;
+}
+export function refOf(key: string): MeshRef {
+    const [piece, object] = key.split("#") as [string, string?];
+    return object === undefined ? { file: piece } : { piece, object: Number(object) };
+}
+
 export interface Surface {
     readonly shading: Shading;
     readonly ambient: number;

@@ -1,6 +1,6 @@
 // Bytes as hexadecimal text and base64, words of the ABI, and streams of bounded size.
 
-import { InputError } from "../errors.js";
+import { InputError } from "./errors.js";
 
 /** Compressed bytes that are inflated at a time. */
 const STEP = 1 << 13;

@@ -2,7 +2,7 @@
 
 /** Milliseconds that a picture may take while the viewer moves: 60 a second at the call's own size or above it, or 25. */
 const FRAME = 16;
-const SLOW_FRAME = 40;
+export const SLOW_FRAME = 40;
 /** Sizes while the viewer moves, as fractions of that at rest, and below the call's own as fractions of that. */
 const LARGER = [1, 0.75, 0.5];
 const SMALLER = [1, 0.75, 0.5, 0.25, 0.125];
@@ -23,10 +23,9 @@ export class Speed {
     add(pixels: number, milliseconds: number): void {
         const before = this.#seen.get(pixels) ?? Infinity;
         this.#seen.set(pixels, Math.min(milliseconds, OUTLIER * before));
-        // more pixels take no longer than each of these does: what was slower then, is not now
-        for (const [size, known] of this.#seen) {
-            if (size > pixels) this.#seen.set(size, Math.min(known, (milliseconds * size) / pixels));
-        }
+        // more pixels take no longer than each of these does, and fewer no longer than all: what was slower then, is not now
+        for (const [size, known] of this.#seen)
+            this.#seen.set(size, Math.min(known, milliseconds * Math.max(1, size / pixels)));
     }
 
     /** Return how long a picture will take, in milliseconds; 0 if none was drawn yet. */
@@ -46,10 +45,14 @@ export class Speed {
         const sizes = [...LARGER.map((part) => scaled(shown, part)), ...SMALLER.map((part) => scaled(own, part))];
         const allowed = sizes.filter(([width], index) => index >= LARGER.length || width > own[0]);
         const within = (time: number, sizes: readonly Size[]): Size | undefined =>
-            sizes.find(([width, height]) => this.predict(width * height) <= time);
+            sizes.find((size) => this.predict(areaOf(size)) <= time);
         const large = allowed.filter(([width]) => width >= own[0]);
         return within(FRAME, large) ?? within(SLOW_FRAME, allowed) ?? (allowed.at(-1) as Size);
     }
+}
+
+export function areaOf([width, height]: Size): number {
+    return width * height;
 }
 
 /** Return a part of a size, in its proportions. */

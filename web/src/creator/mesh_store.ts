@@ -3,8 +3,8 @@
 import { InputError } from "../errors.js";
 import type { Scene } from "../scene/types.js";
 import type { PageAssets } from "./assets.js";
-import type { Document, MeshRef, StoredMesh } from "./document.js";
-import { documentOfScene, openSceneFile, type Library, type Made } from "./save.js";
+import type { Document, MeshRef, StoredMesh } from "../document/document.js";
+import { documentOfScene, openSceneFile, type Library, type Made } from "../document/save.js";
 import { keptMesh, keepMeshes } from "./things.js";
 
 /** Pieces of Genesis are named by the 64 hexadecimal digits of their seed, or their number in the collection. */

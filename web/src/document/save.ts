@@ -1,7 +1,7 @@
 // Documents of scenes, and the scene files of documents: those of docs/scene-files.md, with pieces of datasets by reference.
 
 import { InputError } from "../errors.js";
-import { toBase64, toHex } from "../evm/bytes.js";
+import { toBase64, toHex } from "../bytes.js";
 import {
     checkedScene,
     worldPositions,
@@ -31,7 +31,7 @@ import {
 } from "./document.js";
 import { boundsOfPoints } from "./measure.js";
 import { rows } from "./packed.js";
-import { camel } from "./parts.js";
+import { camel } from "./fields.js";
 import { SETTINGS } from "./settings.js";
 
 /** What is known of a scene. */

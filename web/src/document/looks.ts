@@ -1,6 +1,6 @@
 // Looks: presets of lights, surface and background. They leave objects, culling, ground, effects, camera and size as they are.
 
-import { toHex } from "../evm/bytes.js";
+import { toHex } from "../bytes.js";
 import type { Light } from "../scene/types.js";
 import { fitted, orbitOf, withCamera } from "./camera.js";
 import type { Document, Item, Meshes } from "./document.js";

@@ -1,14 +1,12 @@
 // Links: the scene file of a document, deflated, behind the # of the address of the page.
 
 import { InputError } from "../errors.js";
-import { deflate, fromBase64, inflating, joined, readStream, toBase64 } from "../evm/bytes.js";
+import { deflate, fromBase64, inflating, readStream, toBase64 } from "../bytes.js";
 import type { Document, Item, Meshes } from "./document.js";
-import type { MeshStore } from "./library.js";
-import { LINK_DICTIONARY, documentOfState } from "./old_link.js";
-import { openSceneFile, sceneTable } from "./save.js";
+import { openSceneFile, sceneTable, type Library, type Made } from "./save.js";
 
 const VERSION = "1";
-/** The most bytes of a link with meshes in it, and of the JSON in any link, with the dictionary before it. */
+/** The most bytes of a link with meshes in it, and of the JSON in any link. */
 const MOST_INLINE = 24 * 1024;
 const MOST_JSON = 1 << 22;
 /** Above, meshes are too large for a link, whatever they are. */
@@ -43,17 +41,19 @@ function textOf(bytes: Uint8Array): string {
     return `#${VERSION}${toBase64(bytes).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "")}`;
 }
 
-/** Return the document of a link, also of one of the Creator before this one. InputError if it is damaged. */
-export async function documentOfLink(hash: string, store: MeshStore): Promise<Document> {
+/** Return the document of a link, whose meshes are put into the store. InputError if it is damaged. */
+export async function documentOfLink(
+    hash: string,
+    store: Library & { put(meshes: Made["meshes"]): void },
+): Promise<Document> {
     const json = await unpacked(bytesOf(hash));
     if (!json) throw new InputError("The link is damaged: copy all of it");
-    if ("source" in json) return documentOfState(json, store);
     const { document, meshes } = await openSceneFile(json, store, { title: "" });
     store.put(meshes);
     return document;
 }
 
-function bytesOf(hash: string): Uint8Array {
+function bytesOf(hash: string): Uint8Array<ArrayBuffer> {
     const [, version, digits] = /^#?(.)([\w-]*)$/.exec(hash.trim()) ?? [];
     if (version !== VERSION || digits === undefined) {
         throw new InputError("The link is damaged, or of a newer page: copy all of it");
@@ -64,14 +64,10 @@ function bytesOf(hash: string): Uint8Array {
 }
 
 /** Return the object whose JSON was deflated; null if it is none. */
-async function unpacked(bytes: Uint8Array): Promise<Record<string, unknown> | null> {
+async function unpacked(bytes: Uint8Array<ArrayBuffer>): Promise<Record<string, unknown> | null> {
     try {
-        // the dictionary of old links, as a block that is stored: what is deflated behind it may refer to it
-        const { length } = LINK_DICTIONARY;
-        const head = Uint8Array.of(0, length & 255, length >> 8, ~length & 255, (~length >> 8) & 255);
-        const stream = inflating(joined([head, LINK_DICTIONARY, bytes]), "deflate-raw");
-        const whole = (await readStream(stream, MOST_JSON, "What is in the link")).subarray(length);
-        const value: unknown = JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(whole));
+        const json = await readStream(inflating(bytes, "deflate-raw"), MOST_JSON, "What is in the link");
+        const value: unknown = JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(json));
         const isTable = typeof value === "object" && value !== null && !Array.isArray(value);
         return isTable ? (value as Record<string, unknown>) : null;
     } catch (error) {

@@ -2,9 +2,11 @@
 
 import type { ComponentChildren } from "preact";
 import { useEffect, useId, useLayoutEffect, useRef, useState } from "preact/hooks";
-import type { App, DialogName } from "../app.js";
-import type { Document } from "../document.js";
-import { capital } from "../parts.js";
+import type { App } from "../app.js";
+import type { DialogName } from "../state.js";
+import type { Document } from "../../document/document.js";
+import { capital } from "../../document/fields.js";
+import type { Subject } from "../programs/subject.js";
 import { IconButton } from "../ui/icons.js";
 import type { Drawn } from "../work/work.js";
 
@@ -150,6 +152,23 @@ export function Pixels({ drawn, label }: { drawn: Pick<Drawn, "width" | "height"
 export interface Made<T> {
     value: T | null;
     error: string;
+}
+
+/** What the tabs of a dialog show. drawn, subject: null until they are made. */
+export interface TabProps {
+    app: App;
+    doc: Document;
+    drawn: Drawn | null;
+    subject: Made<Subject>;
+}
+
+/** Return the text that is made of what is made, or the words of the error. */
+export function madeOf({ value, error }: Made<Subject>, make: (subject: Subject) => string): Made<string> {
+    try {
+        return { value: value && make(value), error };
+    } catch (problem) {
+        return { value: null, error: wordsOf(problem) };
+    }
 }
 
 /** What can be made again, as where a network failed. */

@@ -1,49 +1,49 @@
 // What the dialogs of wallets are made of, and the one thing that a wallet is asked to do at a time.
 
-import { signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect } from "preact/hooks";
 import { formatEther, type Address } from "viem";
-import type { App, DialogName } from "../app.js";
-import { Button, Trouble, wordsOf as sentence, type Remade } from "../dialogs/parts.js";
+import type { App } from "../app.js";
+import { doing, note, type DialogName, type Job } from "../state.js";
+import { Button, Trouble, wordsOf as sentence, type Remade } from "../dialogs/widgets.js";
 import { stemOf, titleOf } from "../programs/subject.js";
-import { sceneFile } from "../save.js";
+import { sceneFile } from "../../document/save.js";
 import { chainName } from "./chains.js";
 import type { Token } from "./tokens.js";
 import { connect, discover, isDeclined, session, switchTo, wallets, wordsOf, type Tell } from "./wallet.js";
 
-/** What is being done. It goes on when its dialog is closed: what is sent cannot be taken back. */
-export const job = signal<string | null>(null);
-/** How the last thing ended that a dialog did. */
-const ends = signal<Partial<Record<DialogName, { words: string; isTrouble: boolean }>>>({});
+/** What the wallet does; null for nothing. */
+export function running(): string | null {
+    return Object.values(doing.value.jobs).find(({ state }) => state === "running")?.words ?? null;
+}
 
 /** Do one thing with the wallet, unless another is being done. work: returns what to say at the end. */
 export function perform(of: DialogName, work: (tell: Tell) => Promise<string | void>): void {
-    if (job.peek() !== null) return;
-    const end = (words: string, isTrouble = false): void => {
-        ends.value = { ...ends.peek(), [of]: { words, isTrouble } };
-        job.value = null;
-    };
-    job.value = "Waiting for the wallet …";
-    work((words) => void (job.value = words)).then(
-        (words) => end(words ?? ""),
-        (error: unknown) => (isDeclined(error) ? end("Cancelled") : end(sentence(wordsOf(error)), true)),
+    if (running() !== null) return;
+    const tell = (words: string, state: Job["state"] = "running"): void => note({ jobs: { [of]: { state, words } } });
+    tell("Waiting for the wallet …");
+    work((words) => tell(words)).then(
+        (words) => tell(words ?? "", "done"),
+        (error: unknown) => (isDeclined(error) ? tell("Cancelled", "done") : tell(sentence(wordsOf(error)), "failed")),
     );
 }
 
 /** What is being done now, or how it ended. made: what the dialog reads; where it could not, it says so, and can try again. */
 export function Said({ of, made }: { of: DialogName; made?: Remade<unknown> }) {
-    const { words, isTrouble } = ends.value[of] ?? { words: "", isTrouble: false };
-    const forget = (): void => void (job.peek() === null && (ends.value = { ...ends.peek(), [of]: undefined }));
+    const { words, state } = doing.value.jobs[of] ?? { words: "", state: "done" };
+    const now = running();
+    const forget = (): void => {
+        if (doing.peek().jobs[of]?.state !== "running") note({ jobs: { [of]: { words: "", state: "done" } } });
+    };
     // what was seen is not said again
     useEffect(() => forget, []);
     const again = (): void => (forget(), made?.again());
     return (
         <>
-            {job.value === null && isTrouble ? (
+            {now === null && state === "failed" ? (
                 <Trouble text={words} />
             ) : (
-                <p role="status" data-name="said" children={job.value ?? words} />
+                <p role="status" data-name="said" children={now ?? words} />
             )}
             {made?.error && made.error !== words && <Trouble text={made.error} />}
             {made?.error && (
@@ -70,7 +70,7 @@ export function Act(props: {
     does: () => void;
     children: ComponentChildren;
 }) {
-    return <Button {...props} off={job.value !== null || (props.off ?? false)} />;
+    return <Button {...props} off={running() !== null || (props.off ?? false)} />;
 }
 
 /** The wallet: those to choose from, or the one that is connected. command: what to do without one. */
