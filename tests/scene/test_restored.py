@@ -32,8 +32,9 @@ from shackled import (
 )
 from shackled.errors import InputError
 from shackled.scene import Hemisphere, Projection, decode, read_scene, render_call
-from shackled.scene._fit import MAX_COORDINATE, _factor, _is_exact, _prepared
-from shackled.scene._object import SHADINGS, Shading
+from shackled.scene._constants import MAX_COORDINATE
+from shackled.scene._fields import SHADINGS, Shading
+from shackled.scene._fit import _factor, _is_exact, _prepared
 from shackled.scene._texture import FILTERS, WRAPS
 
 Floats = NDArray[np.float64]

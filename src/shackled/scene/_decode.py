@@ -30,9 +30,9 @@ from ._codec import (
     extensions,
     render_call,
 )
+from ._constants import MAX_COORDINATE
 from ._effects import Background, Fog, Hemisphere, Rim, Tone
 from ._files.table import about
-from ._fit import MAX_COORDINATE
 from ._ground import Ground
 from ._light import Light
 from ._object import Material, Object

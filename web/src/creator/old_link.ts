@@ -2,7 +2,7 @@
 
 import { InputError } from "../errors.js";
 import { fromEuler, type Vector } from "../scene/arithmetic.js";
-import { MAX_LIGHTS } from "../scene/checked.js";
+import { MAX_LIGHTS } from "../scene/constants.js";
 import { vector } from "../scene/checks.js";
 import { Table } from "../scene/table.js";
 import { controlOf, type Control, type Value } from "./controls.js";
