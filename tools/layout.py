@@ -10,6 +10,7 @@ are computed, so that one line of the table adds a register, and the contracts a
 
 from __future__ import annotations
 
+import json
 import re
 import sys
 import textwrap
@@ -260,6 +261,8 @@ def kinds_of_packages(table: dict[str, Any]) -> tuple[str, str]:
     title = "The kinds of the records of Scene.extensions. Written by tools/layout.py from contracts/layout.toml."
     kind_lines = [f"{name} = {kind}" for name, kind, *_ in part["kinds"]]
     number_lines = [f"{name} = {value}" for name, value, _ in part["numbers"]]
+    tone = [name for name, *_ in part["numbers"] if name.startswith("TONE_")]
+    pairs = [(json.dumps(name.removeprefix("TONE_").lower()), name) for name in tone]
     single = [
         (
             "The first kind whose size is given in words of 32 bytes, not in bytes.",
@@ -269,11 +272,15 @@ def kinds_of_packages(table: dict[str, Any]) -> tuple[str, str]:
     ]
     python = [f'"""{title}"""', "", *kind_lines, "", *number_lines, ""]
     python += [line for text, constant in single for line in (f"#: {text}", constant)]
+    flags = ", ".join(f"{field}: {name}" for field, name in pairs)
+    python += ["#: The flags of a tone, by its fields.", f"TONE_FLAGS = {{{flags}}}"]
     python += ["#: Bytes of its content; None for any number of words.", "SIZES: dict[int, int | None] = {"]
     python += [f"    {name}: {None if size == 'words' else size}," for name, _, _, size, _ in part["kinds"]]
     web = [f"// {title}", "", *(f"export const {line};" for line in kind_lines), ""]
     web += [*(f"export const {line};" for line in number_lines), ""]
     web += [line for text, constant in single for line in (f"/** {text} */", f"export const {constant};")]
+    web += ["/** The fields and the flags of a tone. */", "export const TONE_FLAGS = ["]
+    web += [*(f"    [{field}, {name}]," for field, name in pairs), "] as const;"]
     web += ["/** Bytes of the content, for kinds of one size. */", "export const SIZES = {"]
     web += [f"    [{name}]: {size}," for name, _, _, size, _ in part["kinds"] if size != "words"]
     return "\n".join([*python, "}", ""]), "\n".join([*web, "} as const;", ""])

@@ -12,7 +12,7 @@ import re
 import sys
 import textwrap
 import tomllib
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -22,10 +22,14 @@ TABLE = ROOT / "contracts" / "scene_fields.toml"
 PACKAGE = ROOT / "src" / "shackled" / "scene"
 WEB = ROOT / "web" / "src" / "scene"
 PAGE = DOCS / "scene-files.md"
-#: Columns of a line of TypeScript.
+#: Columns of a line.
 WIDTH = 120
+MADE = "Written by tools/scene_fields.py from contracts/scene_fields.toml."
 
-PYTHON_HEAD = '''"""The fields of scenes. Written by tools/scene_fields.py from contracts/scene_fields.toml."""
+PYTHON_HEAD = f'''"""The fields of scenes. {MADE}"""
+
+# ruff: noqa: E501
+# fmt: off
 
 from __future__ import annotations
 
@@ -36,65 +40,34 @@ class Field(NamedTuple):
     """A field of a class.
 
     kind: as in the table; "" for one that is checked by hand. called: how messages call it. limits: the least and the
-    greatest number, or the words of a choice. only: "file" for a key of scene files that is no field, "class" for a
-    field that is no key. lights: the kinds of lights that have it; of all if empty.
+    greatest number. default: None where there is none. only: "file" for a key of scene files that is no field, "class"
+    for a field that is no key. lights: the kinds of lights that have it; of all if empty.
     """
 
-    kind: str
     called: str
+    kind: str = ""
     limits: tuple[Any, ...] = ()
+    choices: tuple[str, ...] = ()
     default: Any = None
-    is_needed: bool = False
+    needed: bool = False
     only: str = ""
     lights: tuple[str, ...] = ()
 
-
 '''
-TYPES_HEAD = """// What a scene is made of, in the units and ranges of scene files: docs/scene-files.md.
-// Written by tools/scene_fields.py from contracts/scene_fields.toml.
+TYPES_HEAD = f"""// What a scene is made of, in the units and ranges of scene files: docs/scene-files.md.
+// {MADE}
 
-/** Rows of three numbers, as arrays or one after the other. */
-export type Rows = ArrayLike<number> | readonly ArrayLike<number>[];
+import type {{ Color, Rotation, Rows, Vector3 }} from "./values.js";
 
-/** x, y, z. */
-export type Vector3 = readonly [number, number, number];
-
-/**
- * Red, green and blue in whole numbers 0..255, or in fractions 0..1 of which one at least is not whole; "#rgb",
- * "#rrggbb", or the CSS name of a colour. `Mesh.colors` also takes an alpha, "#rgba" or "#rrggbbaa".
- */
-export type Color = readonly [number, number, number] | string;
-
-/** Three angles in degrees about the axes x, then y, then z; or a quaternion x, y, z, w of any length but zero. */
-export type Rotation = Vector3 | readonly [number, number, number, number];
-
-/** A part of the canvas, in pixels from the top left corner. */
-export interface Rectangle {
-    x: number;
-    y: number;
-    width: number;
-    height: number;
-}
+export type * from "./values.js";
 """
-FIELDS_HEAD = """// The fields of scenes. Written by tools/scene_fields.py from contracts/scene_fields.toml.
+FIELDS_HEAD = f"""// The fields of scenes. {MADE}
 
-import type { Vector } from "./arithmetic.js";
-import type { Rgb } from "./checks.js";
-import type { Projection, Shading } from "./types.js";
-
-/** A field of a class; one without a kind is checked by hand. */
-export interface Field {
-    readonly kind?: "number" | "whole" | "flag" | "color" | "vector" | "pair" | "choice";
-    readonly low?: number;
-    readonly high?: number;
-    readonly choices?: readonly string[];
-    readonly needed?: boolean;
-    readonly usual?: unknown;
-    /** Of a key of scene files that is no field, or of a field that is no key. */
-    readonly only?: "file" | "class";
-}
+import type {{ Vector }} from "./arithmetic.js";
+import type {{ Rgb }} from "./checks.js";
+import type {{ Projection, Shading }} from "./types.js";
 """
-CONSTANTS_TITLE = "Numbers of scenes. Written by tools/scene_fields.py from contracts/scene_fields.toml."
+PAIR = "readonly [number, number]"
 #: The types of the values of kinds in TypeScript: as they are given, and checked.
 TYPES = {
     "number": ("number", "number"),
@@ -102,7 +75,7 @@ TYPES = {
     "flag": ("boolean", "boolean"),
     "color": ("Color", "Rgb"),
     "vector": ("Vector3", "Vector"),
-    "pair": ("readonly [number, number]", "readonly [number, number]"),
+    "pair": (PAIR, PAIR),
 }
 #: The choices whose types are public.
 NAMED = ("Shading", "Projection")
@@ -118,22 +91,46 @@ def camel(name: str) -> str:
 
 def plural(name: str) -> str:
     """Return the name of the constant of all words of a choice, such as LIGHT_KINDS of LightKind."""
-    return f"{re.sub('(?<=[a-z])(?=[A-Z])', '_', name).upper()}S".replace("XISS", "XES").replace("XIS", "XE")
+    return re.sub("(?<=[a-z])(?=[A-Z])", "_", name.replace("xis", "xe")).upper() + "S"
 
 
-def classes(table: Table) -> dict[str, Table]:
-    """Return the classes by their names."""
-    return {name: part for name, part in table.items() if "fields" in part}
+def rows_of(table: Table) -> dict[str, dict[str, Row]]:
+    """Return the fields of each class, with the words of choices."""
+    found = {name: part["fields"] for name, part in table.items() if "fields" in part}
+    for rows in found.values():
+        for row in rows.values():
+            if "of" in row:
+                row["choices"] = table["choices"][row["of"]]
+    return found
 
 
-def web_classes(table: Table) -> Iterator[tuple[str, str, dict[str, Row]]]:
+def web_rows(table: Table) -> Iterator[tuple[str, str, dict[str, Row]]]:
     """Yield name, text and fields of each class of TypeScript, which has one for each kind of lights."""
-    for name, part in classes(table).items():
-        for kind, text in part.get("kinds", {"": part.get("text")}).items():
-            rows = {key: row for key, row in part["fields"].items() if kind in row.get("lights", [kind])}
+    for name, fields in rows_of(table).items():
+        for kind, text in table[name].get("kinds", {"": table[name].get("text")}).items():
+            rows = {camel(key): row for key, row in fields.items() if kind in row.get("lights", [kind])}
             if kind:
-                rows["kind"] = {"kind": "choice", "of": "", "words": [kind], "needed": True, "text": ""}
-            yield kind.capitalize() + part.get("ts", name), text, rows
+                rows["kind"] = {"kind": "choice", "choices": [kind], "needed": True, "text": ""}
+            yield kind.capitalize() + table[name].get("ts", name), text, rows
+
+
+def described(row: Row, brackets: str, *more: str) -> Iterator[tuple[str, str]]:
+    """Yield what code is told of a field, as names and literals; in Python lists are tuples."""
+    for name, key in (("kind",) * 2, ("limits", "range"), *((each,) * 2 for each in ("choices", "default", *more))):
+        if key in row:
+            yield name, literal(row[key], brackets)
+
+
+def literal(value: Any, brackets: str) -> str:
+    """Return a value in TypeScript or Python: texts such as 2^26 are powers."""
+    if isinstance(value, list):
+        comma = "," if brackets == "()" and len(value) == 1 else ""
+        return f"{brackets[0]}{', '.join(literal(each, brackets) for each in value)}{comma}{brackets[1]}"
+    if isinstance(value, str) and value.startswith("2^"):
+        return value.replace("2^", "2.0**" if brackets == "()" else "2 ** ")
+    if isinstance(value, bool) and brackets == "()":
+        return str(value)
+    return re.sub(r"^([\d.]+)e\+?(-?)0*", r"\1e\2", json.dumps(value))
 
 
 # ---- Python ----
@@ -141,62 +138,20 @@ def web_classes(table: Table) -> Iterator[tuple[str, str, dict[str, Row]]]:
 
 def python(table: Table) -> str:
     """Return the module of the package."""
-    lines = []
+    lines = [PYTHON_HEAD]
     for name, words in table["choices"].items():
-        listed = ", ".join(map(json.dumps, words))
-        lines += [f"{name} = Literal[{listed}]", f"{plural(name)}: tuple[{name}, ...] = ({listed})"]
+        lines.append(f"{name} = Literal[{literal(words, '()')[1:-1]}]")
+        lines.append(f"{plural(name)}: tuple[{name}, ...] = {literal(words, '()')}")
     lines += ["", "FIELDS: dict[str, dict[str, Field]] = {"]
-    for name, part in classes(table).items():
+    for name, rows in rows_of(table).items():
         lines.append(f'    "{name}": {{')
-        for key, row in part["fields"].items():
-            lines.append(f'        "{key}": {python_field(part, key, row)},')
+        for key, row in rows.items():
+            pattern = table[name].get("called", "the {}").removeprefix("the " if row.get("kind") == "flag" else "-")
+            called = row.get("called", pattern.format("colour" if key == "color" else key))
+            more = [f", {name}={value}" for name, value in described(row, "()", "needed", "only", "lights")]
+            lines.append(f'        "{key}": Field({json.dumps(called)}{"".join(more)}),')
         lines.append("    },")
-    return PYTHON_HEAD + "\n".join([*lines, "}", ""])
-
-
-def python_field(part: Table, key: str, row: Row) -> str:
-    """Return the constructor of a field."""
-    word = "colour" if key == "color" else key
-    pattern = part.get("called", "the {}")
-    called = row.get("called", pattern.removeprefix("the ") if row.get("kind") == "flag" else pattern)
-    limits = row.get("range", [])
-    value = default_of(row) or ""
-    if isinstance(row.get("default"), bool | list):
-        value = python_value(row["default"])
-    shown = f"({plural(row['of'])},)" if row.get("kind") == "choice" else python_value(limits) if limits else ""
-    given = {
-        "default": value,
-        "is_needed": "True" if row.get("needed") else "",
-        "only": json.dumps(row["only"]) if "only" in row else "",
-        "lights": python_value(row["lights"]) if "lights" in row else "",
-    }
-    more = [f", {shown}"] * bool(shown) + [f", {name}={value}" for name, value in given.items() if value]
-    return f'Field("{row.get("kind", "")}", {json.dumps(called.format(word))}{"".join(more)})'
-
-
-def python_value(value: Any) -> str:
-    """Return a value of the table in Python."""
-    if isinstance(value, list):
-        return f"({', '.join(map(python_value, value))}{',' * (len(value) == 1)})"
-    return json.dumps(value) if isinstance(value, str) else repr(value)
-
-
-def python_constants(table: Table) -> str:
-    """Return the module of the numbers."""
-    lines = [f'"""{CONSTANTS_TITLE}"""']
-    for part in table["numbers"]:
-        lines += ["", f"# {part['title']}"]
-        for name, value, text in part["rows"]:
-            lines += textwrap.wrap(text, WIDTH, initial_indent="#: ", subsequent_indent="#: ")
-            lines.append(f"{name} = {expression(value, '2.0**', '({})')}")
-    return "\n".join([*lines, ""])
-
-
-def expression(value: Any, power: str, several: str) -> str:
-    """Return a number of the table, or several: powers of two are texts, such as 2^26."""
-    if isinstance(value, list):
-        return several.format(", ".join(expression(each, power, several) for each in value))
-    return value.replace("2^", power) if isinstance(value, str) else re.sub(r"e\+?(-?)0*", r"e\1", repr(value))
+    return "\n".join([*lines, "}", ""])
 
 
 # ---- TypeScript ----
@@ -205,37 +160,25 @@ def expression(value: Any, power: str, several: str) -> str:
 def types(table: Table) -> str:
     """Return the file of the types of scenes."""
     lines = [TYPES_HEAD]
-    lines += [f"export type {name} = {union(table['choices'][name])};\n" for name in NAMED]
-    for name, text, rows in web_classes(table):
+    lines += [f"export type {name} = {' | '.join(map(json.dumps, table['choices'][name]))};\n" for name in NAMED]
+    for name, text, rows in web_rows(table):
         lines += [*comment(text), f"export interface {name} {{"]
         for key, row in rows.items():
             if row.get("only") != "file":
-                given = "" if row.get("needed") else " | undefined"
-                mark = ":" if row.get("needed") else "?:"
-                lines += comment(remark(row), "    ")
-                lines.append(f"    {camel(key)}{mark} {type_of(table, row, 0)}{given};")
+                mark, absent = (":", "") if row.get("needed") else ("?:", " | undefined")
+                lines += [*comment(remark(row), "    "), f"    {key}{mark} {type_of(row, 0)}{absent};"]
         lines.append("}\n")
-    kinds = [f"{kind.capitalize()}Light" for kind in table["Light"]["kinds"]]
-    lines.append(f"export type Light = {' | '.join(kinds)};")
-    return "\n".join([*lines, ""])
+    kinds = " | ".join(f"{kind.capitalize()}Light" for kind in table["Light"]["kinds"])
+    return "\n".join([*lines, f"export type Light = {kinds};", ""])
 
 
-def union(words: Iterable[str]) -> str:
-    """Return the type of some words."""
-    return " | ".join(map(json.dumps, words))
-
-
-def type_of(table: Table, row: Row, which: int) -> str:
+def type_of(row: Row, which: int) -> str:
     """Return the type of a field in TypeScript. which: 0 as it is given, 1 checked."""
-    if row.get("kind") == "choice":
-        return str(row["of"]) if row["of"] in NAMED else union(words_of(table, row))
-    return TYPES[row["kind"]][which] if "kind" in row else row["type"]
-
-
-def words_of(table: Table, row: Row) -> list[str]:
-    """Return the words of a choice."""
-    found: list[str] = row.get("words") or table["choices"][row["of"]]
-    return found
+    if row.get("of") in NAMED:
+        return str(row["of"])
+    if "choices" in row:
+        return " | ".join(map(json.dumps, row["choices"]))
+    return TYPES[row["kind"]][which] if "kind" in row else str(row["type"])
 
 
 def remark(row: Row) -> str:
@@ -244,8 +187,8 @@ def remark(row: Row) -> str:
         return str(row.get("comment", ""))
     text = re.sub(r"\[([^]\[]+)\]\([^)]+\)", r"\1", ranged(row, "{}..{}", "at least {}"))
     first, dot, rest = text.partition(". ")
-    usual = default_of(row)
-    if usual is None or row.get("kind") == "color":
+    usual = json.dumps(row["default"]) if "default" in row else ""
+    if not usual or row.get("kind") == "color":
         usual = row.get("usual", "").replace("`", "")
     # a flag that is off by default, as most are, does not say so
     usual = f"; {usual} by default" if usual not in ("", "false") else ""
@@ -260,86 +203,65 @@ def ranged(row: Row, both: str, least: str) -> str:
     return f"{first}{', ' * bool(shown)}{shown}{mark and mark + ' '}{rest}"
 
 
-def default_of(row: Row) -> str | None:
-    """Return the default as JSON, or as the expression that it is; None where there is none."""
-    if "default" not in row:
-        return None
-    is_expression = row.get("kind") == "number" and isinstance(row["default"], str)
-    return str(row["default"]) if is_expression else json.dumps(row["default"])
-
-
 def comment(text: str | None, indent: str = "") -> list[str]:
     """Return a text as a comment of TypeScript."""
     if not text:
         return []
     if "\n" not in text and len(line := f"{indent}/** {text} */") <= WIDTH:
         return [line]
-    parts = text.split("\n\n")
-    inside = [
-        textwrap.wrap(each, WIDTH, initial_indent=f"{indent} * ", subsequent_indent=f"{indent} * ") for each in parts
-    ]
-    lines = [line for number, each in enumerate(inside) for line in [*([f"{indent} *"] if number else []), *each]]
-    return [f"{indent}/**", *lines, f"{indent} */"]
+    inside = [textwrap.wrap(part, WIDTH - len(indent) - 3) or [""] for part in text.split("\n")]
+    return [f"{indent}/**", *(f"{indent} * {line}".rstrip() for part in inside for line in part), f"{indent} */"]
 
 
 def fields(table: Table) -> str:
     """Return the file of what is checked of scenes."""
     lines = [FIELDS_HEAD]
     for name, words in table["choices"].items():
-        lines.append(f"export const {plural(name)} = [{', '.join(map(json.dumps, words))}] as const;")
+        lines.append(f"export const {plural(name)} = {literal(words, '[]')} as const;")
     lights = ", ".join(f'{kind}: "{kind.capitalize()}Light"' for kind in table["Light"]["kinds"])
-    lines += ["/** The classes of the kinds of lights. */", f"export const LIGHTS = {{ {lights} }} as const;"]
-    made = list(web_classes(table))
-    lines += ["", "/** Of each class, the fields with a kind, checked. */", "export interface Plain {"]
-    for name, _, rows in made:
-        plain = {key: row for key, row in rows.items() if "kind" in row and row.get("only") != "file"}
-        if plain:
-            lines.append(f"    {name}: {{")
-            for key, row in plain.items():
-                absent = "" if row.get("needed") or "default" in row else " | undefined"
-                lines.append(f"        {camel(key)}: {type_of(table, row, 1)}{absent};")
-            lines.append("    };")
-    lines += ["}", "", "/** Of each class, the keys of scene files that are no fields. */", "export interface InFile {"]
-    for name, _, rows in made:
-        own = [(key, row) for key, row in rows.items() if "kind" in row and row.get("only") == "file"]
-        shown = "; ".join(f"{camel(key)}: {type_of(table, row, 1)}" for key, row in own)
-        lines += [f"    {name}: {{ {shown} }};"] if own else []
-    lines += ["}", "", "// prettier-ignore", "export const FIELDS = {"]
-    for name, _, rows in made:
-        lines.append(f"    {name}: {{")
-        lines += [f"        {camel(key)}: {web_field(row)}," for key, row in rows.items()]
-        lines.append("    },")
-    lines += ["} as const satisfies Record<string, Record<string, Field>>;", ""]
-    return "\n".join(lines)
+    lines += ["/** The classes of the kinds of lights. */", f"export const LIGHTS = {{ {lights} }} as const;", ""]
+    lines += block("export interface Plain {", "Of each class, the fields with a kind, checked.", table, plain)
+    lines += block("export interface InFile {", "Of each class, the keys of files that are no fields.", table, in_file)
+    lines += block("export const FIELDS = {", "All fields, and keys of scene files.", table, as_object)
+    return "\n".join([*lines[:-1], "} as const;", ""])
 
 
-def web_field(row: Row) -> str:
-    """Return a field as an object of TypeScript."""
-    limits = row.get("range", [])
-    found = {
-        "kind": json.dumps(row["kind"]) if "kind" in row else "",
-        "low": str(limits[0]) if limits else "",
-        "high": str(limits[1]) if len(limits) > 1 else "",
-        "choices": "",
-        "needed": "true" if row.get("needed") else "",
-        "usual": default_of(row) or "",
-        "only": json.dumps(row["only"]) if "only" in row else "",
-    }
-    if row.get("kind") == "choice":
-        found["choices"] = plural(row["of"]) if row["of"] else json.dumps(row["words"])
-    inside = ", ".join(f"{name}: {value}" for name, value in found.items() if value)
-    return f"{{ {inside} }}" if inside else "{}"
+def block(head: str, text: str, table: Table, line: Callable[[str, Row], str]) -> list[str]:
+    """Return an object of TypeScript, in which each class has the lines of its fields."""
+    lines = ["// prettier-ignore", f"/** {text} */", head]
+    for name, _, rows in web_rows(table):
+        if inside := [f"        {shown}" for key, row in rows.items() if (shown := line(key, row))]:
+            lines += [f"    {name}: {{", *inside, "    },"]
+    return [*lines, "}"]
 
 
-def web_constants(table: Table) -> str:
+def plain(key: str, row: Row) -> str:
+    """Return the type of a field with a kind."""
+    absent = "" if row.get("needed") or "default" in row else " | undefined"
+    return f"{key}: {type_of(row, 1)}{absent};" if "kind" in row and row.get("only") != "file" else ""
+
+
+def in_file(key: str, row: Row) -> str:
+    """Return the type of a key that is no field."""
+    return f"{key}: {type_of(row, 1)};" if "kind" in row and row.get("only") == "file" else ""
+
+
+def as_object(key: str, row: Row) -> str:
+    """Return what is known of a field."""
+    inside = ", ".join(f"{name}: {value}" for name, value in described(row, "[]", "needed", "only"))
+    return f"{key}: {{ {inside} }}," if inside else f"{key}: {{}},"
+
+
+# ---- both ----
+
+
+def constants(table: Table, title: str, line: str, brackets: str, remark: Callable[[str], list[str]]) -> str:
     """Return the file of the numbers."""
-    lines = [f"// {CONSTANTS_TITLE}"]
+    lines = [title]
     for part in table["numbers"]:
-        lines += ["", f"// {part['title']}", ""]
         for name, value, text in part["rows"]:
-            lines += comment(text)
-            several = " as const" if isinstance(value, list) else ""
-            lines.append(f"export const {name} = {expression(value, '2 ** ', '[{}]')}{several};")
+            fixed = " as const" if brackets == "[]" and isinstance(value, list) else ""
+            lines += [*remark(text), line.format(name, literal(value, brackets) + fixed)]
     return "\n".join([*lines, ""])
 
 
@@ -348,55 +270,51 @@ def web_constants(table: Table) -> str:
 
 def keys(table: Table, name: str) -> str | None:
     """Return the table of the keys of a class, by the name of its marks; a scene has those without marks, too."""
-    pages = {part["page"]: part for part in classes(table).values() if "page" in part}
-    if name not in pages:
-        return None
+    classes = rows_of(table)
+    pages = {table[each]["page"]: rows for each, rows in classes.items() if "page" in table[each]}
     # of a class without a table of its own, where a scene has it
-    inside = {each.lower(): part["fields"] for each, part in classes(table).items() if "page" not in part}
+    inside = {each.lower(): rows for each, rows in classes.items() if "page" not in table[each]}
     lines = ["| key | value | default |", "|---|---|---|"]
-    for key, row in pages[name]["fields"].items():
+    for key, row in pages.get(name, {}).items():
         if row.get("only") != "class":
             lines.append(key_row(key, row))
             own = inside.get(key, {}) if name == "scene" else {}
             lines += [key_row(f"{key}.{each}", more) for each, more in own.items()]
-    return "\n".join(lines)
+    return "\n".join(lines) if name in pages else None
 
 
 def key_row(key: str, row: Row) -> str:
     """Return the row of a key."""
-    value = default_of(row)
-    usual = "required for these kinds" if "lights" in row else "required"
-    if not row.get("needed"):
-        usual = "none" if value is None else f"`{value}`"
-    usual = row.get("usual", usual)
-    return f"| `{key}` | {ranged(row, '{} to {}', '{} or more')} | {usual} |"
+    usual = f"`{json.dumps(row['default'])}`" if "default" in row else "none"
+    if row.get("needed"):
+        usual = "required for these kinds" if "lights" in row else "required"
+    return f"| `{key}` | {ranged(row, '{} to {}', '{} or more')} | {row.get('usual', usual)} |"
 
 
 def files() -> dict[Path, str]:
     """Return the text of every file that is made of the table."""
     table = tomllib.loads(TABLE.read_text("utf-8"))
+    hash_comment = lambda text: textwrap.wrap(text, WIDTH, initial_indent="#: ", subsequent_indent="#: ")  # noqa: E731
+    title = f"Numbers by which scenes are prepared. {MADE}"
     return {
         PACKAGE / "_fields.py": python(table),
-        PACKAGE / "_constants.py": python_constants(table),
+        PACKAGE / "_constants.py": constants(table, f'"""{title}"""\n', "{} = {}", "()", hash_comment),
         WEB / "types.ts": types(table),
         WEB / "fields.ts": fields(table),
-        WEB / "constants.ts": web_constants(table),
+        WEB / "constants.ts": constants(table, f"// {title}\n", "export const {} = {};", "[]", comment),
         PAGE: filled(PAGE, lambda name: keys(table, name)),
     }
 
 
-def main() -> int:
+def main() -> None:
     """Write or check the files."""
-    made = files()
-    if "--check" in sys.argv[1:]:
-        stale = [path for path, text in made.items() if not path.exists() or path.read_text("utf-8") != text]
-        for path in stale:
-            print(f"{path.relative_to(ROOT)} is not made of scene_fields.toml: run tools.scene_fields", file=sys.stderr)
-        return 1 if stale else 0
-    for path, text in made.items():
+    stale = {path: text for path, text in files().items() if not path.exists() or path.read_text("utf-8") != text}
+    if stale and "--check" in sys.argv[1:]:
+        names = ", ".join(str(path.relative_to(ROOT)) for path in stale)
+        sys.exit(f"not as contracts/scene_fields.toml makes it: {names}: run python -m tools.scene_fields")
+    for path, text in stale.items():
         path.write_text(text, "utf-8", newline="\n")
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

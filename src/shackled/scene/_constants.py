@@ -1,6 +1,5 @@
-"""Numbers of scenes. Written by tools/scene_fields.py from contracts/scene_fields.toml."""
+"""Numbers by which scenes are prepared. Written by tools/scene_fields.py from contracts/scene_fields.toml."""
 
-# ranges
 #: The most lights of a scene.
 MAX_LIGHTS = 4
 #: Coordinates of objects at most, so that a float holds those of a camera that sees them all.
@@ -23,8 +22,6 @@ REACH_EXPONENT = 25
 NEAR_PART = 2.0**-10
 #: Directions of these lengths keep their precision in multiples of 2^-32.
 DIRECTION_LENGTHS = (2.0**-8, 2.0**20)
-
-# creases
 #: The largest angle between faces, in degrees, at which the edge between them is smooth, and that up to which a crease
 #: that ends within a surface is smooth. In solids of flat faces, chamfers and octagons, 45 degrees, stay hard; coarse
 #: round shapes, such as a cylinder of 9 sides, do not.
@@ -58,8 +55,6 @@ DIGITS = 6
 STRAIGHT = 0.99985
 #: An edge of more pairs of faces is a crease.
 MOST_PAIRS = 16
-
-# winding
 #: An object is divided into its closed parts and the others if there are so many faces of the former at least: what
 #: culling saves, up to half of the gas, is then more than another object costs.
 SPLIT_FACES = 32

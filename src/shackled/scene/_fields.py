@@ -1,5 +1,8 @@
 """The fields of scenes. Written by tools/scene_fields.py from contracts/scene_fields.toml."""
 
+# ruff: noqa: E501
+# fmt: off
+
 from __future__ import annotations
 
 from typing import Any, Literal, NamedTuple
@@ -9,15 +12,16 @@ class Field(NamedTuple):
     """A field of a class.
 
     kind: as in the table; "" for one that is checked by hand. called: how messages call it. limits: the least and the
-    greatest number, or the words of a choice. only: "file" for a key of scene files that is no field, "class" for a
-    field that is no key. lights: the kinds of lights that have it; of all if empty.
+    greatest number. default: None where there is none. only: "file" for a key of scene files that is no field, "class"
+    for a field that is no key. lights: the kinds of lights that have it; of all if empty.
     """
 
-    kind: str
     called: str
+    kind: str = ""
     limits: tuple[Any, ...] = ()
+    choices: tuple[str, ...] = ()
     default: Any = None
-    is_needed: bool = False
+    needed: bool = False
     only: str = ""
     lights: tuple[str, ...] = ()
 
@@ -37,113 +41,113 @@ AXES: tuple[Axis, ...] = ("x", "y", "z")
 
 FIELDS: dict[str, dict[str, Field]] = {
     "Mesh": {
-        "positions": Field("", "the positions", is_needed=True),
-        "faces": Field("", "the faces", is_needed=True),
-        "colors": Field("", "the colors"),
-        "normals": Field("", "the normals"),
-        "uvs": Field("", "the uvs"),
-        "opacities": Field("", "the opacities"),
+        "positions": Field("the positions", needed=True),
+        "faces": Field("the faces", needed=True),
+        "colors": Field("the colors"),
+        "normals": Field("the normals"),
+        "uvs": Field("the uvs"),
+        "opacities": Field("the opacities"),
     },
     "Texture": {
-        "image": Field("", "the image of a texture", only="file"),
-        "width": Field("whole", "the width of a texture", (1, 256), is_needed=True),
-        "height": Field("whole", "the height of a texture", (1, 256), is_needed=True),
-        "pixels": Field("", "the pixels of a texture", is_needed=True),
-        "filter": Field("choice", "the filter of a texture", (FILTERS,), default="bilinear"),
-        "wrap": Field("choice", "the wrap of a texture", (WRAPS,), default="repeat"),
-        "alpha": Field("", "the alpha of a texture"),
-        "cutoff": Field("whole", "the cutoff of a texture", (0, 255), default=0),
+        "image": Field("the image of a texture", only="file"),
+        "width": Field("the width of a texture", kind="whole", limits=(1, 256), needed=True),
+        "height": Field("the height of a texture", kind="whole", limits=(1, 256), needed=True),
+        "pixels": Field("the pixels of a texture", needed=True),
+        "filter": Field("the filter of a texture", kind="choice", choices=("nearest", "bilinear"), default="bilinear"),
+        "wrap": Field("the wrap of a texture", kind="choice", choices=("repeat", "clamp"), default="repeat"),
+        "alpha": Field("the alpha of a texture"),
+        "cutoff": Field("the cutoff of a texture", kind="whole", limits=(0, 255), default=0),
     },
     "Material": {
-        "shading": Field("choice", "the shading of a material", (SHADINGS,), default="flat"),
-        "ambient": Field("number", "the ambient coefficient of a material", (0, 4), default=0.3),
-        "diffuse": Field("number", "the diffuse coefficient of a material", (0, 4), default=0.75),
-        "specular": Field("number", "the specular coefficient of a material", (0, 4), default=0.3),
-        "shininess": Field("whole", "the shininess of a material", (1, 128), default=24),
-        "texture": Field("", "the texture of a material"),
-        "emission": Field("color", "the emission of a material", default=(0, 0, 0)),
+        "shading": Field("the shading of a material", kind="choice", choices=("unlit", "flat", "smooth"), default="flat"),
+        "ambient": Field("the ambient coefficient of a material", kind="number", limits=(0, 4), default=0.3),
+        "diffuse": Field("the diffuse coefficient of a material", kind="number", limits=(0, 4), default=0.75),
+        "specular": Field("the specular coefficient of a material", kind="number", limits=(0, 4), default=0.3),
+        "shininess": Field("the shininess of a material", kind="whole", limits=(1, 128), default=24),
+        "texture": Field("the texture of a material"),
+        "emission": Field("the emission of a material", kind="color", default=(0, 0, 0)),
     },
     "Object": {
-        "mesh": Field("", "the mesh of an object", is_needed=True),
-        "position": Field("vector", "the position of an object", default=(0, 0, 0)),
-        "rotation": Field("", "the rotation of an object", default=(0, 0, 0, 1)),
-        "up_axis": Field("choice", "the up_axis of an object", (AXES,), only="file"),
-        "scale": Field("number", "the scale of an object", (0,), default=1),
-        "color": Field("color", "the colour of an object", only="file"),
-        "crease": Field("number", "the crease of an object", (0, 180), only="file"),
-        "material": Field("", "the material of an object"),
-        "cull": Field("flag", "cull of an object", default=True),
-        "wireframe": Field("flag", "wireframe of an object", default=False),
-        "two_sided": Field("flag", "two_sided of an object", default=False),
-        "opacity": Field("number", "the opacity of an object", (0, 1), default=1),
-        "fade": Field("pair", "the fade of an object"),
+        "mesh": Field("the mesh of an object", needed=True),
+        "position": Field("the position of an object", kind="vector", default=(0, 0, 0)),
+        "rotation": Field("the rotation of an object", default=(0, 0, 0, 1)),
+        "up_axis": Field("the up_axis of an object", kind="choice", choices=("x", "y", "z"), only="file"),
+        "scale": Field("the scale of an object", kind="number", limits=(0,), default=1),
+        "color": Field("the colour of an object", kind="color", only="file"),
+        "crease": Field("the crease of an object", kind="number", limits=(0, 180), only="file"),
+        "material": Field("the material of an object"),
+        "cull": Field("cull of an object", kind="flag", default=True),
+        "wireframe": Field("wireframe of an object", kind="flag", default=False),
+        "two_sided": Field("two_sided of an object", kind="flag", default=False),
+        "opacity": Field("the opacity of an object", kind="number", limits=(0, 1), default=1),
+        "fade": Field("the fade of an object", kind="pair"),
     },
     "Camera": {
-        "eye": Field("vector", "the camera's eye", default=(0, 0, 0)),
-        "target": Field("vector", "the camera's target", default=(0, 0, -1)),
-        "up": Field("vector", "the camera's up", default=(0, 1, 0)),
-        "azimuth": Field("number", "the camera's azimuth", default=30, only="file"),
-        "elevation": Field("number", "the camera's elevation", (-90, 90), default=20, only="file"),
-        "margin": Field("number", "the camera's margin", (0, 0.9), default=0.08, only="file"),
-        "projection": Field("choice", "the camera's projection", (PROJECTIONS,), default="perspective"),
-        "fov": Field("number", "the camera's fov", (0.2, 179.8), only="file"),
-        "half_height": Field("number", "the camera's half_height", (0,), default=1 / 2.145),
-        "near": Field("number", "the camera's near distance"),
+        "eye": Field("the camera's eye", kind="vector", default=(0, 0, 0)),
+        "target": Field("the camera's target", kind="vector", default=(0, 0, -1)),
+        "up": Field("the camera's up", kind="vector", default=(0, 1, 0)),
+        "azimuth": Field("the camera's azimuth", kind="number", default=30, only="file"),
+        "elevation": Field("the camera's elevation", kind="number", limits=(-90, 90), default=20, only="file"),
+        "margin": Field("the camera's margin", kind="number", limits=(0, 0.9), default=0.08, only="file"),
+        "projection": Field("the camera's projection", kind="choice", choices=("perspective", "orthographic"), default="perspective"),
+        "fov": Field("the camera's fov", kind="number", limits=(0.2, 179.8), only="file"),
+        "half_height": Field("the camera's half_height", kind="number", limits=(0,), default=0.4662004662004662),
+        "near": Field("the camera's near distance", kind="number"),
     },
     "Light": {
-        "kind": Field("choice", "the kind of a light", (LIGHT_KINDS,), is_needed=True),
-        "position": Field("vector", "the position of a light", is_needed=True, lights=("point", "spot")),
-        "direction": Field("vector", "the direction of a spot light", is_needed=True, lights=("directional", "spot")),
-        "color": Field("color", "the colour of a light", default=(255, 255, 255)),
-        "inner_angle": Field("number", "the inner_angle of a spot light", (0, 180), default=0, lights=("spot",)),
-        "outer_angle": Field("number", "the outer_angle of a spot light", (0, 180), default=45, lights=("spot",)),
-        "shadow": Field("flag", "shadow of a light", default=False),
+        "kind": Field("the kind of a light", kind="choice", choices=("directional", "point", "spot"), needed=True),
+        "position": Field("the position of a light", kind="vector", needed=True, lights=("point", "spot")),
+        "direction": Field("the direction of a spot light", kind="vector", needed=True, lights=("directional", "spot")),
+        "color": Field("the colour of a light", kind="color", default=(255, 255, 255)),
+        "inner_angle": Field("the inner_angle of a spot light", kind="number", limits=(0, 180), default=0, lights=("spot",)),
+        "outer_angle": Field("the outer_angle of a spot light", kind="number", limits=(0, 180), default=45, lights=("spot",)),
+        "shadow": Field("shadow of a light", kind="flag", default=False),
     },
     "Background": {
-        "top": Field("color", "the background colour", default=(0, 0, 0)),
-        "bottom": Field("color", "the colour at the bottom of the background"),
+        "top": Field("the background colour", kind="color", default=(0, 0, 0)),
+        "bottom": Field("the colour at the bottom of the background", kind="color"),
     },
     "Hemisphere": {
-        "sky": Field("color", "the sky of a hemisphere", is_needed=True),
-        "ground": Field("color", "the ground of a hemisphere", default=(0, 0, 0)),
+        "sky": Field("the sky of a hemisphere", kind="color", needed=True),
+        "ground": Field("the ground of a hemisphere", kind="color", default=(0, 0, 0)),
     },
     "Rim": {
-        "color": Field("color", "the colour of a rim", is_needed=True),
-        "power": Field("whole", "the power of a rim", (1, 16), default=3),
+        "color": Field("the colour of a rim", kind="color", needed=True),
+        "power": Field("the power of a rim", kind="whole", limits=(1, 16), default=3),
     },
     "Fog": {
-        "color": Field("color", "the colour of the fog", is_needed=True),
-        "near": Field("number", "the near distance of the fog", (0,), is_needed=True),
-        "far": Field("number", "the far distance of the fog", (0,), is_needed=True),
+        "color": Field("the colour of the fog", kind="color", needed=True),
+        "near": Field("the near distance of the fog", kind="number", limits=(0,), needed=True),
+        "far": Field("the far distance of the fog", kind="number", limits=(0,), needed=True),
     },
     "Tone": {
-        "exposure": Field("number", "the exposure", (0, 64), default=1),
-        "filmic": Field("flag", "filmic of a tone", default=False),
-        "gamma": Field("flag", "gamma of a tone", default=False),
+        "exposure": Field("the exposure", kind="number", limits=(0, 64), default=1),
+        "filmic": Field("filmic of a tone", kind="flag", default=False),
+        "gamma": Field("gamma of a tone", kind="flag", default=False),
     },
     "Ground": {
-        "color": Field("color", "the colour of a ground", is_needed=True),
-        "height": Field("number", "the height of a ground"),
-        "radius": Field("number", "the radius of a ground", (0,)),
-        "center": Field("pair", "the center of a ground"),
-        "inner": Field("number", "the inner radius of a ground", (0,)),
+        "color": Field("the colour of a ground", kind="color", needed=True),
+        "height": Field("the height of a ground", kind="number"),
+        "radius": Field("the radius of a ground", kind="number", limits=(0,)),
+        "center": Field("the center of a ground", kind="pair"),
+        "inner": Field("the inner radius of a ground", kind="number", limits=(0,)),
     },
     "Scene": {
-        "size": Field("", "the size of a scene", only="file"),
-        "objects": Field("", "the objects of a scene", is_needed=True),
-        "camera": Field("", "the camera of a scene"),
-        "lights": Field("", "the lights of a scene"),
-        "background": Field("", "the background of a scene"),
-        "ambient_light": Field("color", "the ambient light", default=(255, 255, 255)),
-        "invert": Field("flag", "invert of a scene", default=False),
-        "antialias": Field("flag", "antialias of a scene", default=False),
-        "hemisphere": Field("", "the hemisphere of a scene"),
-        "rim": Field("", "the rim of a scene"),
-        "fog": Field("", "the fog of a scene"),
-        "tone": Field("", "the tone of a scene"),
-        "ground": Field("", "the ground of a scene"),
-        "width": Field("whole", "width", (1, 2048), default=128, only="class"),
-        "height": Field("whole", "height", (1, 2048), default=128, only="class"),
-        "creator": Field("", "the creator of a scene", only="file"),
+        "size": Field("the size of a scene", only="file"),
+        "objects": Field("the objects of a scene", needed=True),
+        "camera": Field("the camera of a scene"),
+        "lights": Field("the lights of a scene"),
+        "background": Field("the background of a scene"),
+        "ambient_light": Field("the ambient light", kind="color", default=(255, 255, 255)),
+        "invert": Field("invert of a scene", kind="flag", default=False),
+        "antialias": Field("antialias of a scene", kind="flag", default=False),
+        "hemisphere": Field("the hemisphere of a scene"),
+        "rim": Field("the rim of a scene"),
+        "fog": Field("the fog of a scene"),
+        "tone": Field("the tone of a scene"),
+        "ground": Field("the ground of a scene"),
+        "width": Field("width", kind="whole", limits=(1, 2048), default=128, only="class"),
+        "height": Field("height", kind="whole", limits=(1, 2048), default=128, only="class"),
+        "creator": Field("the creator of a scene", only="file"),
     },
 }

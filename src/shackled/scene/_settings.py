@@ -38,6 +38,7 @@ from ._upright import upright
 Part = Literal["scene", "camera", "object", "material", "tone", "file"]
 _Plain = Literal["size", "whole", "count", "number", "vector", "rotation", "flag", "color", "choice", "entry"]
 Kind = _Plain | Literal["background", "lights", "hemisphere", "rim", "fog", "ground"]
+_ANY = (-math.inf, math.inf)
 
 
 @frozen
@@ -53,7 +54,7 @@ class Setting:
     kind: Kind
     part: Part | None
     text: str
-    limits: tuple[float, float] = (-math.inf, math.inf)
+    limits: tuple[float, float] = _ANY
     unit: str = ""
     default: str = ""
     choices: tuple[str, ...] = ()
@@ -285,11 +286,9 @@ _GROUPS: dict[str, list[Setting]] = {
 def _limited(setting: Setting) -> Setting:
     """Return the setting with the limits, or the words, of the field that it is; keys of objects are no fields."""
     field = FIELDS.get((setting.part or "object").capitalize(), {}).get(setting.name)
-    if field is None or not field.limits:
+    if field is None:
         return setting
-    if field.kind == "choice":
-        return evolve(setting, choices=field.limits[0])
-    return evolve(setting, limits=(*field.limits, math.inf)[:2])
+    return evolve(setting, choices=field.choices, limits=(*field.limits, math.inf)[:2] if field.limits else _ANY)
 
 
 #: All settings.

@@ -26,7 +26,11 @@ def _described(field: Attribute[Any], of: str) -> Attribute[Any]:
         field = field.evolve(default=FIELDS[of][field.name].default)
     # a field without a kind is checked by its own converter
     own = FIELDS[of].get(field.name)
-    return field.evolve(metadata=checked(own.called, *own.limits)) if own and own.kind and not field.metadata else field
+    return (
+        field.evolve(metadata=checked(own.called, *own.limits, *filter(None, [own.choices])))
+        if own and own.kind and not field.metadata
+        else field
+    )
 
 
 def keys_of(of: str) -> tuple[str, ...]:

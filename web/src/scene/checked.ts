@@ -11,7 +11,7 @@ import { namesOf, plain } from "./plain.js";
 import { VIEW, frame, keyLight } from "./staging.js";
 import type * as given from "./types.js";
 
-export const MAX_SIDE = FIELDS.Scene.width.high;
+export const MAX_SIDE = FIELDS.Scene.width.limits[1];
 
 export const STAGED_BACKGROUND = { top: [46, 54, 72], bottom: [136, 146, 162] } as const;
 const DEFAULT_COLOR: Rgb = [200, 200, 200];
@@ -109,7 +109,7 @@ export function checkedObject(object: given.SceneObject, where: string): SceneOb
     if (!(0 <= inner && inner < outer)) {
         throw new InputError(`the distances of ${where}.fade must be 0 <= first < second, not ${inner} and ${outer}`);
     }
-    const rotation = checkedRotation(object.rotation ?? FIELDS.SceneObject.rotation.usual, `${where}.rotation`);
+    const rotation = checkedRotation(object.rotation ?? FIELDS.SceneObject.rotation.default, `${where}.rotation`);
     return { mesh, rotation, material, ...own };
 }
 

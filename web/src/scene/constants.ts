@@ -1,6 +1,4 @@
-// Numbers of scenes. Written by tools/scene_fields.py from contracts/scene_fields.toml.
-
-// ranges
+// Numbers by which scenes are prepared. Written by tools/scene_fields.py from contracts/scene_fields.toml.
 
 /** The most lights of a scene. */
 export const MAX_LIGHTS = 4;
@@ -24,9 +22,6 @@ export const REACH_EXPONENT = 25;
 export const NEAR_PART = 2 ** -10;
 /** Directions of these lengths keep their precision in multiples of 2^-32. */
 export const DIRECTION_LENGTHS = [2 ** -8, 2 ** 20] as const;
-
-// creases
-
 /**
  * The largest angle between faces, in degrees, at which the edge between them is smooth, and that up to which a crease
  * that ends within a surface is smooth. In solids of flat faces, chamfers and octagons, 45 degrees, stay hard; coarse
@@ -70,9 +65,6 @@ export const DIGITS = 6;
 export const STRAIGHT = 0.99985;
 /** An edge of more pairs of faces is a crease. */
 export const MOST_PAIRS = 16;
-
-// winding
-
 /**
  * An object is divided into its closed parts and the others if there are so many faces of the former at least: what
  * culling saves, up to half of the gas, is then more than another object costs.

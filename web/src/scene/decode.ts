@@ -200,8 +200,7 @@ function effectsOf(recordOf: Records): Partial<Scene> {
         fog: fog && { color: color(fog), near: q32At(fog, 3), far: q32At(fog, 11) },
         tone: tone && {
             exposure: tone.getUint32(0) / EXPOSURE,
-            filmic: (tone.getUint8(4) & records.TONE_FILMIC) > 0,
-            gamma: (tone.getUint8(4) & records.TONE_GAMMA) > 0,
+            ...Object.fromEntries(records.TONE_FLAGS.map(([name, bit]) => [name, (tone.getUint8(4) & bit) > 0])),
         },
     };
 }

@@ -169,11 +169,8 @@ function effects({ hemisphere, rim, fog, tone }: CheckedScene): Uint8Array[] {
     if (tone) {
         const exposure = new DataView(new ArrayBuffer(4));
         exposure.setUint32(0, Math.max(rint(tone.exposure * EXPOSURE), 1));
-        add(
-            records.TONE,
-            ...new Uint8Array(exposure.buffer),
-            (tone.filmic ? records.TONE_FILMIC : 0) | (tone.gamma ? records.TONE_GAMMA : 0),
-        );
+        const flags = records.TONE_FLAGS.reduce((sum, [name, bit]) => sum + (tone[name] ? bit : 0), 0);
+        add(records.TONE, ...new Uint8Array(exposure.buffer), flags);
     }
     return made;
 }

@@ -4,18 +4,6 @@ import type { Vector } from "./arithmetic.js";
 import type { Rgb } from "./checks.js";
 import type { Projection, Shading } from "./types.js";
 
-/** A field of a class; one without a kind is checked by hand. */
-export interface Field {
-    readonly kind?: "number" | "whole" | "flag" | "color" | "vector" | "pair" | "choice";
-    readonly low?: number;
-    readonly high?: number;
-    readonly choices?: readonly string[];
-    readonly needed?: boolean;
-    readonly usual?: unknown;
-    /** Of a key of scene files that is no field, or of a field that is no key. */
-    readonly only?: "file" | "class";
-}
-
 export const SHADINGS = ["unlit", "flat", "smooth"] as const;
 export const PROJECTIONS = ["perspective", "orthographic"] as const;
 export const LIGHT_KINDS = ["directional", "point", "spot"] as const;
@@ -25,6 +13,7 @@ export const AXES = ["x", "y", "z"] as const;
 /** The classes of the kinds of lights. */
 export const LIGHTS = { directional: "DirectionalLight", point: "PointLight", spot: "SpotLight" } as const;
 
+// prettier-ignore
 /** Of each class, the fields with a kind, checked. */
 export interface Plain {
     Texture: {
@@ -33,7 +22,7 @@ export interface Plain {
         filter: "nearest" | "bilinear";
         wrap: "repeat" | "clamp";
         cutoff: number;
-    };
+    },
     Material: {
         shading: Shading;
         ambient: number;
@@ -41,7 +30,7 @@ export interface Plain {
         specular: number;
         shininess: number;
         emission: Rgb;
-    };
+    },
     SceneObject: {
         position: Vector;
         scale: number;
@@ -50,7 +39,7 @@ export interface Plain {
         twoSided: boolean;
         opacity: number;
         fade: readonly [number, number] | undefined;
-    };
+    },
     Camera: {
         eye: Vector;
         target: Vector;
@@ -58,19 +47,19 @@ export interface Plain {
         projection: Projection;
         halfHeight: number;
         near: number | undefined;
-    };
+    },
     DirectionalLight: {
         kind: "directional";
         direction: Vector;
         color: Rgb;
         shadow: boolean;
-    };
+    },
     PointLight: {
         kind: "point";
         position: Vector;
         color: Rgb;
         shadow: boolean;
-    };
+    },
     SpotLight: {
         kind: "spot";
         position: Vector;
@@ -79,52 +68,61 @@ export interface Plain {
         innerAngle: number;
         outerAngle: number;
         shadow: boolean;
-    };
+    },
     Background: {
         top: Rgb;
         bottom: Rgb | undefined;
-    };
+    },
     Hemisphere: {
         sky: Rgb;
         ground: Rgb;
-    };
+    },
     Rim: {
         color: Rgb;
         power: number;
-    };
+    },
     Fog: {
         color: Rgb;
         near: number;
         far: number;
-    };
+    },
     Tone: {
         exposure: number;
         filmic: boolean;
         gamma: boolean;
-    };
+    },
     Ground: {
         color: Rgb;
         height: number | undefined;
         radius: number | undefined;
         center: readonly [number, number] | undefined;
         inner: number | undefined;
-    };
+    },
     Scene: {
         ambientLight: Rgb;
         invert: boolean;
         antialias: boolean;
         width: number;
         height: number;
-    };
+    },
 }
-
-/** Of each class, the keys of scene files that are no fields. */
-export interface InFile {
-    SceneObject: { upAxis: "x" | "y" | "z"; color: Rgb; crease: number };
-    Camera: { azimuth: number; elevation: number; margin: number; fov: number };
-}
-
 // prettier-ignore
+/** Of each class, the keys of files that are no fields. */
+export interface InFile {
+    SceneObject: {
+        upAxis: "x" | "y" | "z";
+        color: Rgb;
+        crease: number;
+    },
+    Camera: {
+        azimuth: number;
+        elevation: number;
+        margin: number;
+        fov: number;
+    },
+}
+// prettier-ignore
+/** All fields, and keys of scene files. */
 export const FIELDS = {
     Mesh: {
         positions: { needed: true },
@@ -136,99 +134,99 @@ export const FIELDS = {
     },
     Texture: {
         image: { only: "file" },
-        width: { kind: "whole", low: 1, high: 256, needed: true },
-        height: { kind: "whole", low: 1, high: 256, needed: true },
+        width: { kind: "whole", limits: [1, 256], needed: true },
+        height: { kind: "whole", limits: [1, 256], needed: true },
         pixels: { needed: true },
-        filter: { kind: "choice", choices: FILTERS, usual: "bilinear" },
-        wrap: { kind: "choice", choices: WRAPS, usual: "repeat" },
+        filter: { kind: "choice", choices: ["nearest", "bilinear"], default: "bilinear" },
+        wrap: { kind: "choice", choices: ["repeat", "clamp"], default: "repeat" },
         alpha: {},
-        cutoff: { kind: "whole", low: 0, high: 255, usual: 0 },
+        cutoff: { kind: "whole", limits: [0, 255], default: 0 },
     },
     Material: {
-        shading: { kind: "choice", choices: SHADINGS, usual: "flat" },
-        ambient: { kind: "number", low: 0, high: 4, usual: 0.3 },
-        diffuse: { kind: "number", low: 0, high: 4, usual: 0.75 },
-        specular: { kind: "number", low: 0, high: 4, usual: 0.3 },
-        shininess: { kind: "whole", low: 1, high: 128, usual: 24 },
+        shading: { kind: "choice", choices: ["unlit", "flat", "smooth"], default: "flat" },
+        ambient: { kind: "number", limits: [0, 4], default: 0.3 },
+        diffuse: { kind: "number", limits: [0, 4], default: 0.75 },
+        specular: { kind: "number", limits: [0, 4], default: 0.3 },
+        shininess: { kind: "whole", limits: [1, 128], default: 24 },
         texture: {},
-        emission: { kind: "color", usual: [0, 0, 0] },
+        emission: { kind: "color", default: [0, 0, 0] },
     },
     SceneObject: {
         mesh: { needed: true },
-        position: { kind: "vector", usual: [0, 0, 0] },
-        rotation: { usual: [0, 0, 0, 1] },
-        upAxis: { kind: "choice", choices: AXES, only: "file" },
-        scale: { kind: "number", low: 0, usual: 1 },
+        position: { kind: "vector", default: [0, 0, 0] },
+        rotation: { default: [0, 0, 0, 1] },
+        upAxis: { kind: "choice", choices: ["x", "y", "z"], only: "file" },
+        scale: { kind: "number", limits: [0], default: 1 },
         color: { kind: "color", only: "file" },
-        crease: { kind: "number", low: 0, high: 180, only: "file" },
+        crease: { kind: "number", limits: [0, 180], only: "file" },
         material: {},
-        cull: { kind: "flag", usual: true },
-        wireframe: { kind: "flag", usual: false },
-        twoSided: { kind: "flag", usual: false },
-        opacity: { kind: "number", low: 0, high: 1, usual: 1 },
+        cull: { kind: "flag", default: true },
+        wireframe: { kind: "flag", default: false },
+        twoSided: { kind: "flag", default: false },
+        opacity: { kind: "number", limits: [0, 1], default: 1 },
         fade: { kind: "pair" },
     },
     Camera: {
-        eye: { kind: "vector", usual: [0, 0, 0] },
-        target: { kind: "vector", usual: [0, 0, -1] },
-        up: { kind: "vector", usual: [0, 1, 0] },
-        azimuth: { kind: "number", usual: 30, only: "file" },
-        elevation: { kind: "number", low: -90, high: 90, usual: 20, only: "file" },
-        margin: { kind: "number", low: 0, high: 0.9, usual: 0.08, only: "file" },
-        projection: { kind: "choice", choices: PROJECTIONS, usual: "perspective" },
-        fov: { kind: "number", low: 0.2, high: 179.8, only: "file" },
-        halfHeight: { kind: "number", low: 0, usual: 1 / 2.145 },
+        eye: { kind: "vector", default: [0, 0, 0] },
+        target: { kind: "vector", default: [0, 0, -1] },
+        up: { kind: "vector", default: [0, 1, 0] },
+        azimuth: { kind: "number", default: 30, only: "file" },
+        elevation: { kind: "number", limits: [-90, 90], default: 20, only: "file" },
+        margin: { kind: "number", limits: [0, 0.9], default: 0.08, only: "file" },
+        projection: { kind: "choice", choices: ["perspective", "orthographic"], default: "perspective" },
+        fov: { kind: "number", limits: [0.2, 179.8], only: "file" },
+        halfHeight: { kind: "number", limits: [0], default: 0.4662004662004662 },
         near: { kind: "number" },
     },
     DirectionalLight: {
         kind: { kind: "choice", choices: ["directional"], needed: true },
         direction: { kind: "vector", needed: true },
-        color: { kind: "color", usual: [255, 255, 255] },
-        shadow: { kind: "flag", usual: false },
+        color: { kind: "color", default: [255, 255, 255] },
+        shadow: { kind: "flag", default: false },
     },
     PointLight: {
         kind: { kind: "choice", choices: ["point"], needed: true },
         position: { kind: "vector", needed: true },
-        color: { kind: "color", usual: [255, 255, 255] },
-        shadow: { kind: "flag", usual: false },
+        color: { kind: "color", default: [255, 255, 255] },
+        shadow: { kind: "flag", default: false },
     },
     SpotLight: {
         kind: { kind: "choice", choices: ["spot"], needed: true },
         position: { kind: "vector", needed: true },
         direction: { kind: "vector", needed: true },
-        color: { kind: "color", usual: [255, 255, 255] },
-        innerAngle: { kind: "number", low: 0, high: 180, usual: 0 },
-        outerAngle: { kind: "number", low: 0, high: 180, usual: 45 },
-        shadow: { kind: "flag", usual: false },
+        color: { kind: "color", default: [255, 255, 255] },
+        innerAngle: { kind: "number", limits: [0, 180], default: 0 },
+        outerAngle: { kind: "number", limits: [0, 180], default: 45 },
+        shadow: { kind: "flag", default: false },
     },
     Background: {
-        top: { kind: "color", usual: [0, 0, 0] },
+        top: { kind: "color", default: [0, 0, 0] },
         bottom: { kind: "color" },
     },
     Hemisphere: {
         sky: { kind: "color", needed: true },
-        ground: { kind: "color", usual: [0, 0, 0] },
+        ground: { kind: "color", default: [0, 0, 0] },
     },
     Rim: {
         color: { kind: "color", needed: true },
-        power: { kind: "whole", low: 1, high: 16, usual: 3 },
+        power: { kind: "whole", limits: [1, 16], default: 3 },
     },
     Fog: {
         color: { kind: "color", needed: true },
-        near: { kind: "number", low: 0, needed: true },
-        far: { kind: "number", low: 0, needed: true },
+        near: { kind: "number", limits: [0], needed: true },
+        far: { kind: "number", limits: [0], needed: true },
     },
     Tone: {
-        exposure: { kind: "number", low: 0, high: 64, usual: 1 },
-        filmic: { kind: "flag", usual: false },
-        gamma: { kind: "flag", usual: false },
+        exposure: { kind: "number", limits: [0, 64], default: 1 },
+        filmic: { kind: "flag", default: false },
+        gamma: { kind: "flag", default: false },
     },
     Ground: {
         color: { kind: "color", needed: true },
         height: { kind: "number" },
-        radius: { kind: "number", low: 0 },
+        radius: { kind: "number", limits: [0] },
         center: { kind: "pair" },
-        inner: { kind: "number", low: 0 },
+        inner: { kind: "number", limits: [0] },
     },
     Scene: {
         size: { only: "file" },
@@ -236,16 +234,16 @@ export const FIELDS = {
         camera: {},
         lights: {},
         background: {},
-        ambientLight: { kind: "color", usual: [255, 255, 255] },
-        invert: { kind: "flag", usual: false },
-        antialias: { kind: "flag", usual: false },
+        ambientLight: { kind: "color", default: [255, 255, 255] },
+        invert: { kind: "flag", default: false },
+        antialias: { kind: "flag", default: false },
         hemisphere: {},
         rim: {},
         fog: {},
         tone: {},
         ground: {},
-        width: { kind: "whole", low: 1, high: 2048, usual: 128, only: "class" },
-        height: { kind: "whole", low: 1, high: 2048, usual: 128, only: "class" },
+        width: { kind: "whole", limits: [1, 2048], default: 128, only: "class" },
+        height: { kind: "whole", limits: [1, 2048], default: 128, only: "class" },
         creator: { only: "file" },
     },
-} as const satisfies Record<string, Record<string, Field>>;
+} as const;

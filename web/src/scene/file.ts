@@ -5,10 +5,10 @@ import { fromBase64 } from "../evm/bytes.js";
 import { fromAxisAngle, rint } from "./arithmetic.js";
 import * as checked from "./checked.js";
 import * as check from "./checks.js";
-import { FIELDS, LIGHTS, LIGHT_KINDS, type Field, type Plain } from "./fields.js";
+import { FIELDS, LIGHTS, LIGHT_KINDS, type Plain } from "./fields.js";
 import { shadedMesh } from "./normals.js";
 import { isOriginal, originalScene } from "./original.js";
-import { COLOR_KEYS, keysOf, read } from "./plain.js";
+import { COLOR_KEYS, keysOf, read, type Field } from "./plain.js";
 import { VIEW, frame, halfHeightOf, keyLight, type Viewpoint } from "./staging.js";
 import { Table, snake } from "./table.js";
 import type * as given from "./types.js";
@@ -71,12 +71,12 @@ export function parseJson(text: string): unknown {
 }
 
 function sizeOf(size: unknown): [number, number] {
-    const { low, high, usual } = FIELDS.Scene.width;
+    const { limits, default: usual } = FIELDS.Scene.width;
     const sides: unknown[] = Array.isArray(size) ? size : [size ?? usual, size ?? usual];
     if (sides.length !== 2) {
         throw new InputError(`size must be a number of pixels, or width and height, not ${show(size)}`);
     }
-    return [check.whole(sides[0], "size", low, high), check.whole(sides[1], "size", low, high)];
+    return [check.whole(sides[0], "size", ...limits), check.whole(sides[1], "size", ...limits)];
 }
 
 function backgroundOf(table: Table): given.Background | given.Color {

@@ -1,32 +1,45 @@
 // Checks of the fields of which the table of fields.ts says all, in scenes and in scene files.
 
 import * as check from "./checks.js";
-import { FIELDS, type Field, type InFile, type Plain } from "./fields.js";
+import { FIELDS, type InFile, type Plain } from "./fields.js";
 import { snake, type Table } from "./table.js";
 
+/** A field of a class; one without a kind is checked by hand. */
+export interface Field {
+    readonly kind?: "number" | "whole" | "flag" | "color" | "vector" | "pair" | "choice";
+    readonly limits?: readonly number[];
+    readonly choices?: readonly string[];
+    readonly default?: unknown;
+    readonly needed?: boolean;
+    /** Of a key of scene files that is no field, or of a field that is no key. */
+    readonly only?: "file" | "class";
+}
 type Class = keyof typeof FIELDS;
 type Described = Class & keyof Plain;
 /** What a scene file may say of a class in plain fields. */
 type Read<Name extends Described> = Partial<Plain[Name] & (Name extends keyof InFile ? InFile[Name] : unknown)>;
 
-const KINDS: Readonly<
-    Record<NonNullable<Field["kind"]>, (value: unknown, where: string, field: Required<Field>) => unknown>
-> = {
-    number: (value, where, { low, high }) => check.number(value, where, low, high),
-    whole: (value, where, { low, high }) => check.whole(value, where, low, high),
-    flag: check.flag,
-    color: check.color,
-    vector: check.vector,
-    pair: (value, where) => check.numbers(value, where, 2),
-    choice: (value, where, { choices }) => check.choice(value, where, choices),
-};
+interface Limited {
+    limits: [number, number];
+    choices: readonly string[];
+}
+const KINDS: Readonly<Record<NonNullable<Field["kind"]>, (value: unknown, where: string, field: Limited) => unknown>> =
+    {
+        number: (value, where, { limits }) => check.number(value, where, ...limits),
+        whole: (value, where, { limits }) => check.whole(value, where, ...limits),
+        flag: check.flag,
+        color: check.color,
+        vector: check.vector,
+        pair: (value, where) => check.numbers(value, where, 2),
+        choice: (value, where, { choices }) => check.choice(value, where, choices),
+    };
 
 function fieldsOf(name: Class): [string, Field][] {
     return Object.entries(FIELDS[name]);
 }
 
-function checkedField({ kind, ...field }: Field, value: unknown, where: string): unknown {
-    return kind && KINDS[kind](value, where, field as Required<Field>);
+function checkedField({ kind, limits = [], choices = [] }: Field, value: unknown, where: string): unknown {
+    return kind && KINDS[kind](value, where, { limits: limits as Limited["limits"], choices });
 }
 
 /** The keys of scene files whose values are colours. */
@@ -52,7 +65,7 @@ export function plain<Name extends Described>(name: Name, value: object, where: 
     const given: Record<string, unknown> = check.fields(value, where || "the scene", namesOf(name) as never[]) as never;
     const found = fieldsOf(name).flatMap(([key, field]) => {
         if (!field.kind || field.only === "file") return [];
-        const own = given[key] ?? field.usual ?? given[key];
+        const own = given[key] ?? field.default ?? given[key];
         const isAbsent = own === undefined && !field.needed;
         return [[key, isAbsent ? undefined : checkedField(field, own, where ? `${where}.${key}` : key)]];
     });

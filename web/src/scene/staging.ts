@@ -24,17 +24,17 @@ export interface Viewpoint {
 
 const { azimuth, elevation, margin, projection, halfHeight, fov: FOV } = FIELDS.Camera;
 export const VIEW: Viewpoint = {
-    azimuth: azimuth.usual,
-    elevation: elevation.usual,
-    margin: margin.usual,
-    projection: projection.usual,
-    halfHeight: halfHeight.usual,
+    azimuth: azimuth.default,
+    elevation: elevation.default,
+    margin: margin.default,
+    projection: projection.default,
+    halfHeight: halfHeight.default,
     aspect: 1,
 };
 
 /** Return the `halfHeight` of a perspective camera with a vertical field of view in degrees, 0.2..179.8. */
 export function halfHeightOf(fov: number): number {
-    return tangent(number(fov, "the field of view in degrees", FOV.low, FOV.high) / 2);
+    return tangent(number(fov, "the field of view in degrees", ...FOV.limits) / 2);
 }
 
 /** Return unit vectors to the right, upward, and toward a viewer. */

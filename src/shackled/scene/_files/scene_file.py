@@ -114,7 +114,7 @@ def _effect(kind: type[Any], keys: Table, name: str) -> Any:
     """Return what a table has the fields of."""
     inside = keys.table(name, keys_of(kind.__name__))
     fields = FIELDS[kind.__name__].items()
-    given = {name: _READ[each.kind](inside, name) for name, each in fields if name in inside or each.is_needed}
+    given = {name: _READ[each.kind](inside, name) for name, each in fields if name in inside or each.needed}
     with about(inside.where):
         return kind(**given)
 
@@ -168,7 +168,7 @@ def _light(value: object, where: str) -> Light:
     own = {name: field for name, field in FIELDS["Light"].items() if not field.lights or kind in field.lights}
     keys = Table(value, where, tuple(own))
     for name, field in own.items():
-        if field.is_needed and name not in keys:
+        if field.needed and name not in keys:
             raise InputError(f"{where} must have a {name}, as its kind is {kind}")
     given = {name: _READ[field.kind](keys, name) for name, field in own.items() if name in keys}
     with about(where):
