@@ -22,15 +22,14 @@ def from_table(kind: type, fields: list[Attribute[Any]]) -> list[Attribute[Any]]
 
 
 def _described(field: Attribute[Any], of: str) -> Attribute[Any]:
+    if (own := FIELDS[of].get(field.name)) is None:
+        return field
     if field.default is USUAL:
-        field = field.evolve(default=FIELDS[of][field.name].default)
-    # a field without a kind is checked by its own converter
-    own = FIELDS[of].get(field.name)
-    return (
-        field.evolve(metadata=checked(own.called, *own.limits, *filter(None, [own.choices])))
-        if own and own.kind and not field.metadata
-        else field
-    )
+        field = field.evolve(default=own.default)
+    # one without a kind is checked by its own converter
+    if not own.kind or field.metadata:
+        return field
+    return field.evolve(metadata=checked(own.called, *own.limits, *filter(None, [own.choices])))
 
 
 def keys_of(of: str) -> tuple[str, ...]:

@@ -19,27 +19,15 @@ type Described = Class & keyof Plain;
 /** What a scene file may say of a class in plain fields. */
 type Read<Name extends Described> = Partial<Plain[Name] & (Name extends keyof InFile ? InFile[Name] : unknown)>;
 
-interface Limited {
-    limits: [number, number];
-    choices: readonly string[];
-}
-const KINDS: Readonly<Record<NonNullable<Field["kind"]>, (value: unknown, where: string, field: Limited) => unknown>> =
-    {
-        number: (value, where, { limits }) => check.number(value, where, ...limits),
-        whole: (value, where, { limits }) => check.whole(value, where, ...limits),
-        flag: check.flag,
-        color: check.color,
-        vector: check.vector,
-        pair: (value, where) => check.numbers(value, where, 2),
-        choice: (value, where, { choices }) => check.choice(value, where, choices),
-    };
-
 function fieldsOf(name: Class): [string, Field][] {
     return Object.entries(FIELDS[name]);
 }
 
 function checkedField({ kind, limits = [], choices = [] }: Field, value: unknown, where: string): unknown {
-    return kind && KINDS[kind](value, where, { limits: limits as Limited["limits"], choices });
+    const [low = -Infinity, high = Infinity] = limits;
+    if (kind === "number" || kind === "whole") return check[kind](value, where, low, high);
+    if (kind === "choice") return check.choice(value, where, choices);
+    return kind === "pair" ? check.numbers(value, where, 2) : kind && check[kind](value, where);
 }
 
 /** The keys of scene files whose values are colours. */
