@@ -75,6 +75,7 @@ evm-check: $(DEV) rust ## build evm/ again, and check that evm.wasm has the same
 
 web: $(NODE) $(DEV) ## check types, style, tests and bundles of the TypeScript package
 	$(BIN)/python tools/page_settings.py --check
+	$(BIN)/python -m tools.scene_fields --check
 	npm --prefix web run --silent check
 	npm --prefix web run --silent test
 	$(BIN)/python tools/build_web.py --check

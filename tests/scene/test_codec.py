@@ -16,7 +16,7 @@ from pictures import scene_types
 from shackled import Background, Camera, Fog, InputError, Light, Material, Mesh, Object, Scene
 from shackled.scene import Projection, Rectangle, encode, fit, pack, vertex_normals
 from shackled.scene._codec import ONE, extensions
-from shackled.scene._fit import MAX_COORDINATE
+from shackled.scene._constants import MAX_COORDINATE
 
 SELECTOR = b"\x12\x34\x56\x78"
 TRIANGLE = Mesh([[0, 0, 0], [1000, 0, 0], [0, 1000, 0]], [[0, 1, 2]], [[1, 2, 3], [4, 5, 6], [255, 0, 128]])

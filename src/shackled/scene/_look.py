@@ -11,11 +11,11 @@ from attrs import evolve
 
 from ..checks import Color, Floats
 from ..errors import InputError
+from . import _constants as constant
 from ._arithmetic import IDENTITY, dot, length, multiply, rotate
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_in
 from ._crease import is_flat, shaded, with_normals
 from ._effects import Fog, Tone
-from ._fit import NEAR_PART
 from ._mesh import Mesh
 from ._object import Material, Object
 from ._presets import preset_of
@@ -131,7 +131,7 @@ def look_at(
         scene = evolve(scene, lights=lights)
     camera = _camera(scene, points, look, view, is_framed=around is not None)
     if model is not None and camera.near is None and camera.projection == "perspective":
-        camera = evolve(camera, near=NEAR_PART * (float(length(camera.eye)) + 1))
+        camera = evolve(camera, near=constant.NEAR_PART * (float(length(camera.eye)) + 1))
     scene = evolve(scene, camera=camera, fog=_fog_between(camera, points, fog) if isinstance(fog, tuple) else fog)
     most = look.get("max_triangles", ALL)
     return scene if most == ALL else simplify_scene(scene, most, look.get("crease"))

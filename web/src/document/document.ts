@@ -1,10 +1,13 @@
 // The document of the Creator: plain values, of which undo, autosave, links and saved scenes are made. Meshes are not in it.
 
+import type { Vector } from "../scene/arithmetic.js";
 import type { Mesh, Texture } from "../scene/checked.js";
 import * as check from "../scene/checks.js";
+import type { Rgb } from "../scene/checks.js";
+import type { Plain } from "../scene/fields.js";
 import { painted, shadedMesh } from "../scene/normals.js";
 import { loadSimplifier, simplify } from "../scene/simplify.js";
-import type { Light, Projection, Rotation, Scene, SceneObject, Shading, Vector3 } from "../scene/types.js";
+import type { Light, Rotation, Scene, SceneObject, Vector3 } from "../scene/types.js";
 
 /** The `object`-th object of a piece of a dataset, or an opened mesh by the digest of its contents. */
 export type MeshRef = { readonly piece: string; readonly object: number } | { readonly file: string };
@@ -18,24 +21,27 @@ export function refOf(key: string): MeshRef {
     return object === undefined ? { file: piece } : { piece, object: Number(object) };
 }
 
-export interface Surface {
-    readonly shading: Shading;
-    readonly ambient: number;
-    readonly diffuse: number;
-    readonly specular: number;
-    readonly shininess: number;
-    readonly emission: string;
-}
+/** The fields of a class as documents have them: colours are "#rrggbb", what is not there is null. */
+type Stored<Name extends keyof Plain> = {
+    readonly [Key in keyof Plain[Name]]: Plain[Name][Key] extends Vector
+        ? Vector3
+        : Plain[Name][Key] extends Rgb
+          ? string
+          : undefined extends Plain[Name][Key]
+            ? Exclude<Plain[Name][Key], undefined> | null
+            : Plain[Name][Key];
+};
+export type Surface = Stored<"Material">;
+export type View = Stored<"Camera">;
+export type Ground = Stored<"Ground">;
 
 /** An object: a vertex v of its mesh is at position + rotation(scale * v). Colours are "#rrggbb". */
-export interface Item {
+export interface Item extends Omit<Stored<"SceneObject">, "fade"> {
     /** Unique in the document. */
     readonly id: string;
     readonly name: string;
     readonly mesh: MeshRef;
-    readonly position: Vector3;
     readonly rotation: Rotation;
-    readonly scale: number;
     /** Of the whole mesh; null: its own colours. */
     readonly color: string | null;
     readonly material: Surface;
@@ -43,10 +49,6 @@ export interface Item {
     readonly crease: number | null;
     /** To which the mesh is simplified; null: all. */
     readonly maxTriangles: number | null;
-    readonly opacity: number;
-    readonly cull: boolean;
-    readonly wireframe: boolean;
-    readonly twoSided: boolean;
     /** Of a ground that is not that of the document: where it begins to fade, and ends. It is not among all objects. */
     readonly fade?: readonly [number, number] | null;
 }
@@ -57,24 +59,7 @@ export interface Frame {
     readonly radius: number;
 }
 
-export interface View {
-    readonly eye: Vector3;
-    readonly target: Vector3;
-    readonly up: Vector3;
-    readonly projection: Projection;
-    readonly halfHeight: number;
-    readonly near: number | null;
-}
-
-export interface Ground {
-    readonly color: string;
-    readonly height: number | null;
-    readonly radius: number | null;
-    readonly center: readonly [number, number] | null;
-    readonly inner: number | null;
-}
-
-export interface Document {
+export interface Document extends Stored<"Scene"> {
     /** Of what was opened; "" where it is not known. */
     readonly title: string;
     readonly notice: string;
@@ -87,18 +72,13 @@ export interface Document {
     readonly lights: readonly Light[];
     /** Whether lights move with the camera. */
     readonly lightsFollow: boolean;
-    readonly ambientLight: string;
     readonly background: { readonly top: string; readonly bottom: string };
-    readonly invert: boolean;
-    readonly antialias: boolean;
-    readonly hemisphere: { readonly sky: string; readonly ground: string } | null;
-    readonly rim: { readonly color: string; readonly power: number } | null;
+    readonly hemisphere: Stored<"Hemisphere"> | null;
+    readonly rim: Stored<"Rim"> | null;
     /** Distances in the world. */
-    readonly fog: { readonly color: string; readonly near: number; readonly far: number } | null;
-    readonly tone: { readonly exposure: number; readonly filmic: boolean; readonly gamma: boolean } | null;
+    readonly fog: Stored<"Fog"> | null;
+    readonly tone: Stored<"Tone"> | null;
     readonly ground: Ground | null;
-    readonly width: number;
-    readonly height: number;
 }
 
 export interface StoredMesh {

@@ -1,7 +1,7 @@
 // The parts of a document that controls read and write, by keys. Lengths are in radii of its frame.
 
 import { add, dot, multiply, subtract, type Quaternion, type Vector } from "../scene/arithmetic.js";
-import { MAX_LIGHTS } from "../scene/checked.js";
+import { MAX_LIGHTS } from "../scene/constants.js";
 import type { Light } from "../scene/types.js";
 import { axesOf, inside, orbitOf, outside, resetCamera, withCamera } from "./camera.js";
 import type { Document, Item, Meshes } from "./document.js";

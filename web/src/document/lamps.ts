@@ -1,7 +1,8 @@
 // Lights as people place them: by angles and distances from the middle of the objects.
 
 import { add, dot, length, subtract, times, unit, type Vector } from "../scene/arithmetic.js";
-import { LIGHT_KINDS, MAX_LIGHTS } from "../scene/checked.js";
+import { MAX_LIGHTS } from "../scene/constants.js";
+import { LIGHT_KINDS } from "../scene/fields.js";
 import type { DirectionalLight, Light, PointLight, SpotLight } from "../scene/types.js";
 import { aimed, anglesOf, axesAt, axesOf, inside, orbitOf, outside } from "./camera.js";
 import type { Document, Frame } from "./document.js";

@@ -16,6 +16,7 @@ import { parseJson, parseScene } from "../scene/file.js";
 import { groundUnder } from "../scene/ground.js";
 import { vertexNormals } from "../scene/mesh.js";
 import { shadedMesh } from "../scene/normals.js";
+import { COLOR_KEYS } from "../scene/plain.js";
 import { simplify } from "../scene/simplify.js";
 import { Table, snake } from "../scene/table.js";
 import type { Light, Scene } from "../scene/types.js";
@@ -31,8 +32,6 @@ import {
 } from "./document.js";
 import { boundsOfPoints } from "./measure.js";
 import { rows } from "./packed.js";
-import { camel } from "./fields.js";
-import { SETTINGS } from "./settings.js";
 
 /** What is known of a scene. */
 export interface About {
@@ -141,14 +140,10 @@ export function digestOf(mesh: Mesh, normals: Mesh["normals"], texture: Texture 
 }
 const FACTORS = [0x01000193, 0x85ebca6b, 0xc2b2ae35, 0x27d4eb2f];
 
-/** Keys of colours. */
-const COLORS = new Set(["top", "bottom", "sky", "ground"]);
-for (const { kind, name } of SETTINGS) if (kind === "color") COLORS.add(camel(name));
-
 /** Return a checked value as documents have it: with "#rrggbb", and null for what is not there. */
 function plain(value: unknown, key = ""): unknown {
     if (value === undefined) return null;
-    if (Array.isArray(value)) return COLORS.has(key) ? hex(value as Rgb) : value;
+    if (Array.isArray(value)) return COLOR_KEYS.has(snake(key)) ? hex(value as number[]) : value;
     if (typeof value !== "object" || value === null) return value;
     return Object.fromEntries(Object.entries(value).map(([name, each]) => [name, plain(each, name)]));
 }
@@ -171,7 +166,7 @@ function groundOf(objects: readonly SceneObject[]): Document["ground"] | undefin
     if (!last?.fade) return undefined;
     const { mesh, position, scale, fade } = last;
     const center = [position[0], position[2]] as const;
-    const color = Array.from(mesh.colors.subarray(0, 3)) as Rgb;
+    const color: Rgb = [mesh.colors[0], mesh.colors[1], mesh.colors[2]];
     const made = { height: position[1], radius: scale, center, inner: fade[0] };
     const other = groundUnder({ color, ...made }, [position, position]);
     const parts = ({ mesh, material, ...own }: SceneObject): string =>

@@ -146,7 +146,7 @@ function extensions(scene: CheckedScene): Uint8Array {
     if (rim) add(records.RIM, 0, rim.color, [rim.power]);
     if (fog) add(records.FOG, 0, fog.color, range(q32(fog.near), q32(fog.far)));
     if (tone) {
-        const flags = (tone.filmic ? records.TONE_FILMIC : 0) | (tone.gamma ? records.TONE_GAMMA : 0);
+        const flags = records.TONE_FLAGS.reduce((sum, [name, bit]) => sum + (tone[name] ? bit : 0), 0);
         add(records.TONE, 0, long(Math.max(rint(tone.exposure * EXPOSURE), 1)), [flags]);
     }
     return joined(made.sort(([a, first], [b, second]) => a - b || first - second).map((each) => record(...each)));

@@ -12,18 +12,11 @@ from .._effects import Background, Fog, Hemisphere, Rim
 from .._ground import Ground
 from .._light import Light
 from .._settings import Part, settings_of
+from .._table import keys_of
 from .._texture import Texture
 
 if TYPE_CHECKING:
     from .._scene import Scene
-
-#: The keys of a mesh.
-MESH = ("positions", "faces", "colors", "normals", "uvs", "opacities")
-
-
-def keys_of(part: Part, *before: str) -> tuple[str, ...]:
-    """Return the keys of a part of a scene, with some before them."""
-    return (*before, *(setting.name for setting in settings_of(part)))
 
 
 def encode_scene_file(scene: Scene) -> bytes:
@@ -35,7 +28,7 @@ def encode_scene_file(scene: Scene) -> bytes:
         "camera": asdict(scene.camera, filter=_is_given),
         "objects": [
             {
-                "mesh": {name: value for name in MESH if (value := getattr(thing.mesh, name)) is not None},
+                "mesh": {name: value for name in keys_of("Mesh") if (value := getattr(thing.mesh, name)) is not None},
                 "position": thing.position,
                 "rotation": {"quaternion": thing.rotation},
                 "scale": thing.scale,
@@ -55,7 +48,7 @@ def _is_given(_: object, value: object) -> bool:
 
 def _fields(value: object, part: Part) -> dict[str, Any]:
     """Return the settings that are fields of a value and not None; an object has no colour of its own."""
-    fields = {name: getattr(value, name, None) for name in keys_of(part)}
+    fields = {each.name: getattr(value, each.name, None) for each in settings_of(part)}
     return {name: found for name, found in fields.items() if found is not None}
 
 

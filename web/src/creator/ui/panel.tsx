@@ -2,7 +2,7 @@
 
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren, TargetedEvent } from "preact";
-import { MAX_LIGHTS } from "../../scene/checked.js";
+import { MAX_LIGHTS } from "../../scene/constants.js";
 import type { App } from "../app.js";
 import { CONTROLS, GROUPS, lightControls, resetGroup, type Control } from "../controls.js";
 import type { Document } from "../../document/document.js";
