@@ -11,8 +11,8 @@ import argparse
 
 from shackled import Scene, load
 from shackled.bench import millions, table
-from shackled.chain import _layout as layout
 from shackled.gas import STAGES, profile
+from shackled.parallel._bands import BAND_PIXELS
 
 from . import Section, run_main, shared
 from .scenes import staged_teapot
@@ -47,7 +47,7 @@ def floor_of(scene: Scene, work: Workload) -> dict[str, int]:
         "primitive assembly": FACE * work.faces,
         "triangle set-up": TRIANGLE * work.drawn,
         "rows of plain triangles": ROW * work.rows + TESTED_PIXEL * work.tested,
-        "calls, bands, memory": round(DEPTH_MEMORY * min(work.canvas, layout.BAND_PIXELS)),
+        "calls, bands, memory": round(DEPTH_MEMORY * min(work.canvas, BAND_PIXELS)),
     }
     if scene.lights and "flat" in shadings:
         floor["shading set-up"] = LIT_TRIANGLE * work.drawn

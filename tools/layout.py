@@ -25,6 +25,7 @@ ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "contracts" / "layout.toml"
 FOLDER = ROOT / "contracts" / "src" / "words"
 PACKAGE = ROOT / "src" / "shackled" / "chain" / "_layout.py"
+BANDS = ROOT / "src" / "shackled" / "parallel" / "_bands.py"
 #: The kinds of the records of Scene.extensions.
 KINDS = ROOT / "src" / "shackled" / "scene" / "_records.py"
 WEB_KINDS = ROOT / "web" / "src" / "scene" / "records.ts"
@@ -329,16 +330,17 @@ def python(sections: Iterator[Section], used: set[str]) -> str:
 
 
 def used_names() -> set[str]:
-    """Return the names that the package uses of chain/_layout.py, as `layout.NAME`."""
-    users = (PACKAGE.with_name("_engines.py"), PACKAGE.parents[1] / "parallel" / "_job.py")
-    return {name for path in users for name in re.findall(r"\blayout\.([A-Z]\w+)", path.read_text("utf-8"))}
+    """Return the names that chain/_engines.py uses of chain/_layout.py, as `layout.NAME`."""
+    return set(re.findall(r"\blayout\.([A-Z]\w+)", PACKAGE.with_name("_engines.py").read_text("utf-8")))
 
 
-def bands() -> Section:
-    """Return the number of pixels of a band, which the contracts have where they use it."""
+def bands() -> str:
+    """Return the text of the module of the number of pixels of a band, which the contracts have where they use it."""
     text = (FOLDER.parent / "pipeline" / "Pipeline.sol").read_text("utf-8")
-    (found,) = re.findall(r"^uint256 constant (BAND_PIXELS) = (\d+);", text, re.MULTILINE)
-    return Section("bands, of Pipeline.sol", "", (Constant(found[0], int(found[1])),))
+    (pixels,) = re.findall(r"^uint256 constant (BAND_PIXELS = \d+);", text, re.MULTILINE)
+    return (
+        f'"""Pixels of a band in which a contract draws. Written by tools/layout.py from Pipeline.sol."""\n\n{pixels}\n'
+    )
 
 
 def wrapped(text: str, first: str, width: int, rest: str | None = None) -> list[str]:
@@ -361,7 +363,8 @@ def files() -> dict[Path, str]:
         FOLDER / "Records.sol": solidity(iter([kinds(table)]), version="^0.8.25"),
         KINDS: for_python,
         WEB_KINDS: for_web,
-        PACKAGE: python(iter([*common, *packed, bands()]), used_names()),
+        PACKAGE: python(iter([*common, *packed]), used_names()),
+        BANDS: bands(),
     }
     # each of the others is for fewer engines than the one before
     before = "Registers.sol"

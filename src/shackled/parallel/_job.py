@@ -11,11 +11,11 @@ import numpy as np
 
 from .._on import Bounds, Nodes, On, Place, place_of
 from ..chain import Drawing
-from ..chain import _layout as layout
 from ..errors import caller
 from ..image import Image, decode_bmp, total
 from ..scene import Rectangle, Scene
 from ._backends import SAMPLE, Backend, Part, Verifier
+from ._bands import BAND_PIXELS
 from ._estimate import Estimate, estimate
 from ._scheduler import Listener, Outline, Scheduler
 from ._store import PartStore
@@ -99,7 +99,7 @@ def _of_whole_bands(strips: int, width: int, height: int) -> int:
     """Return so many strips, or a few more: all of whole bands of the contract, where they divide the canvas."""
     if strips == 1:
         return 1
-    rows, band = height // strips, layout.BAND_PIXELS // width
+    rows, band = height // strips, BAND_PIXELS // width
     return -(-height // (rows - rows % band if rows > band else rows))
 
 
