@@ -77,6 +77,7 @@ MUTANTS = {
 DETECTORS = {
     "random programs": ["tests/evm/test_compiled.py", "-k", "random_programs"],
     "numbers at the edges": ["tests/evm/test_bytecode.py", "-k", "data_at_the_edges"],
+    "jumps to places known at run time": ["tests/evm/test_compiled.py", "-k", "jumps_to_places"],
     "check of stores": ["tests/evm/test_compiled.py", "-k", "every_store"],
 }
 #: Runs tests with the module whose path is given.
