@@ -19,7 +19,6 @@ from tools.anvil import Anvil, AnvilChain, find_anvil
 from tools.cluster import cluster
 
 from shackled import Cluster, Nodes, Processes, Scene
-from shackled._on import Place, place_of
 from shackled.bench import gas, millions, table
 from shackled.chain import RevmChain, open_chain
 from shackled.datasets import require
@@ -27,6 +26,7 @@ from shackled.parallel import Listener
 from shackled.parallel._backends import Backend, ChainBackend, Part
 from shackled.parallel._scheduler import Scheduler
 from shackled.parallel._tiles import grid
+from shackled.parallel.places import Place, place_of
 from shackled.scene import Rectangle, full_turn
 
 from . import Section, run_main, shared

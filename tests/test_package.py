@@ -46,17 +46,11 @@ EXTRA_OF = {
 
 
 @cache
-def of_the_package(path: Path, for_types: bool = True) -> list[str]:
-    """Return the modules that a file imports, and the names that it takes from them, all absolute.
-
-    for_types: also those that only checkers of types import.
-    """
+def of_the_package(path: Path) -> list[str]:
+    """Return the modules that a file imports, and the names that it takes from them, all absolute."""
     here = path.relative_to(PACKAGE.parent).with_suffix("").parts[:-1] if path.is_relative_to(PACKAGE) else ()
-    tree = ast.parse(path.read_text())
-    if not for_types:
-        tree.body = [node for node in tree.body if not ast.unparse(node).startswith("if TYPE_CHECKING:")]
     found: list[str] = []
-    for node in ast.walk(tree):
+    for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):
             found += [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
@@ -155,7 +149,10 @@ def test_a_package_exports_only_what_others_need(package: Path) -> None:
 
 
 def test_no_imports_form_a_circle() -> None:
-    """Of modules of the package, late imports included. A name of a package stands for the module that has it."""
+    """Neither of modules of the package nor of its folders, late imports and those for types included.
+
+    A name of a package stands for the module that has it.
+    """
     modules = {".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts): path for path in PACKAGE.rglob("*.py")}
     modules = {name.removesuffix(".__init__"): path for name, path in modules.items()}
     names = {".".join(folder.relative_to(PACKAGE.parent).parts): folder for folder in [PACKAGE, *FACES]}
@@ -166,13 +163,26 @@ def test_no_imports_form_a_circle() -> None:
         if isinstance(node, ast.ImportFrom)
         for alias in node.names
     }
-    graph = {}
+    graph: dict[str, set[str]] = {}
+    folders: dict[str, set[str]] = {}
     for name, path in modules.items():
-        found = {homes.get(each, each) for each in of_the_package(path, for_types=False)}
-        needed = {each if each in modules else each.rpartition(".")[0] for each in found}
-        graph[name] = needed & modules.keys() - {name}
+        found = {homes.get(each, each) for each in of_the_package(path)}
+        graph[name] = {each if each in modules else each.rpartition(".")[0] for each in found} & modules.keys() - {name}
+        if name != "shackled":
+            folder, used = name.split(".")[1], {each.split(".")[1] for each in graph[name] - {"shackled"}}
+            folders.setdefault(folder, set()).update(used - {folder})
     assert "shackled.scene._mesh" in graph["shackled.scene._scene"]
-    TopologicalSorter(graph).prepare()  # raises an error that names the circle
+    assert "scene" in folders["chain"]
+    for each in (graph, folders):
+        TopologicalSorter(each).prepare()  # raises an error that names the circle
+
+
+def test_tools_do_not_import_what_imports_them() -> None:
+    """Benchmarks use tools and tests use both; the package uses none of them."""
+    above = {"src": {"tools", "benchmarks", "tests"}, "tools": {"benchmarks", "tests"}, "benchmarks": {"tests"}}
+    for folder, others in above.items():
+        for path in sorted((ROOT / folder).rglob("*.py")):
+            assert others.isdisjoint(each.partition(".")[0] for each in of_the_package(path)), path
 
 
 def test_notices_of_all_whose_code_is_compiled_in() -> None:

@@ -43,8 +43,8 @@ from platformdirs import user_cache_path
 
 from shackled.artifacts import OUTPUTS as OUTPUTS
 from shackled.artifacts import source as text_of
+from shackled.base.whole_file import write_whole
 from shackled.gas._source_map import instruction_sources
-from shackled.whole_file import write_whole
 
 ROOT = Path(__file__).resolve().parent.parent
 CONTRACTS = ROOT / "contracts"

@@ -47,20 +47,20 @@ LEFT_OVER = {"2018", "2072", "5667", "5740", "6133"}
 #: The exact rules: which samples a triangle covers, wires, clipping, tiles, symmetry, depth, and refusals.
 RULES = [
     "tests/judge/test_judge.py",
-    "tests/test_fill_rule.py",
-    "tests/test_bad_input_on_chain.py",
-    "tests/test_watertight.py",
-    "tests/test_wire_rule.py",
-    "tests/test_clipping.py",
-    "tests/test_tiles.py",
-    "tests/test_symmetry.py",
-    "tests/test_depth.py",
+    "tests/contracts/test_fill_rule.py",
+    "tests/contracts/test_bad_input_on_chain.py",
+    "tests/contracts/test_watertight.py",
+    "tests/contracts/test_wire_rule.py",
+    "tests/contracts/test_clipping.py",
+    "tests/contracts/test_tiles.py",
+    "tests/contracts/test_symmetry.py",
+    "tests/contracts/test_depth.py",
     "tests/test_rules.py",
-    "tests/test_coincident_faces.py",
-    "tests/test_shadows.py",
-    "tests/test_tile_culling.py",
+    "tests/contracts/test_coincident_faces.py",
+    "tests/contracts/test_shadows.py",
+    "tests/contracts/test_tile_culling.py",
     "tests/test_transparent.py",
-    "tests/test_random_scenes.py",
+    "tests/contracts/test_random_scenes.py",
 ]
 #: Seeds of random scenes, of each kind, that the judge sees.
 SEEDS = range(1, 9)
@@ -279,7 +279,7 @@ def run(file: str, judge: str) -> None:
 def killer(file: Path, judge: str) -> str | None:
     """Return what a judge finds of a mutant, in a process of its own."""
     command = [sys.executable, "-m", "tools.mutants", "--run", str(file), judge]
-    folders = ("", "tests", "tests/support", "src", "contracts")
+    folders = ("", "tests", "tests/contracts", "tests/support", "src", "contracts")
     paths = os.pathsep.join(str(ROOT / folder) for folder in folders)
     # one thread each: the arrays are small
     environment = os.environ | {"PYTHONPATH": paths, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}

@@ -12,7 +12,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from shackled.checks import Color
+from shackled.base.checks import Color
 from shackled.deploy import _quote
 from shackled.gas import known_chains, limits
 from shackled.scene import PRESETS, SETTINGS

@@ -8,7 +8,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from shackled.checks import Color
+from shackled.base.checks import Color
 from shackled.scene import PRESETS
 from shackled.scene._codec import ONE
 from shackled.scene._presets import Preset

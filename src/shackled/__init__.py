@@ -6,7 +6,7 @@ from typing import Any
 
 import lazy_loader
 
-from .words import INSTEAD
+from .base.synonyms import INSTEAD
 
 _attribute, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 

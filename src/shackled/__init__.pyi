@@ -1,10 +1,10 @@
 from ._load import load, replace
-from ._on import Cluster, Nodes, Processes
 from ._render import animate, render, turntable
 from ._version import __version__
 from .animation import Animation
 from .errors import ChainError, InputError, OutputError, RenderError, ShackledError
 from .image import Image
+from .parallel.places import Cluster, Nodes, Processes
 from .scene import (
     Background,
     Camera,

@@ -11,6 +11,7 @@ from typing import Any, Unpack
 import numpy as np
 from attrs import evolve, fields
 
+from .base.synonyms import with_words
 from .datasets import Piece, find, require
 from .errors import InputError
 from .scene import (
@@ -49,7 +50,6 @@ from .scene import (
     stored,
     upright,
 )
-from .words import with_words
 
 #: Input of `load`. `Any`: arrays of vertices and faces, or a mesh or scene of trimesh, an optional package.
 Thing = str | os.PathLike[str] | Piece | Mesh | Object | Scene | Sequence[Any] | Any
@@ -207,14 +207,18 @@ def read_posed(path: Path, look: Mapping[str, Any], pose: dict[str, Any]) -> lis
     return evolve(scene, camera=camera, lights=lights or scene.lights)
 
 
+def _piece(name: str) -> Scene:
+    return require(name).make()
+
+
 def _made(thing: Any, look: Mapping[str, Any]) -> Mesh | list[Object] | Scene:
     """Return the mesh, the parts of a model or the scene of an input."""
     if isinstance(thing, Mesh | Scene):
         return thing
     if isinstance(thing, Path):
-        return _model(thing, look) if format_of(thing) in READERS else read_scene(thing)
+        return _model(thing, look) if format_of(thing) in READERS else read_scene(thing, _piece)
     if isinstance(thing, Link):
-        return thing.scene()
+        return thing.scene(_piece)
     if isinstance(thing, Piece):
         return evolve(thing.make(), width=MESH_STAGING.side, height=MESH_STAGING.side, antialias=True)
     if isinstance(thing, Object):

@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 import os
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Unpack
+from typing import Unpack
 
 from attrs import evolve
 
 from ._load import Thing, load_frames, load_picture
-from ._on import Bounds, Embedded, On, Place, is_one_call, place_of
 from .animation import DURATION, DURATIONS, Animation
-from .chain import Drawing
-from .checks import flag
+from .base.checks import flag
+from .base.synonyms import with_words
 from .errors import InputError, OutOfGasError, warn
-from .image import Image, decode_bmp, uncovered
+from .image import Image, render_whole, uncovered
+from .parallel import Listener, render_frames
+from .parallel.places import Bounds, Embedded, On, Place, is_one_call, place_of
 from .scene import Background, LookOptions, Scene, full_turn
-from .words import with_words
-
-if TYPE_CHECKING:
-    from .parallel import Listener
 
 
 @with_words
@@ -159,8 +155,6 @@ def film(
     transparent: bool = False,
 ) -> Animation:
     """Render scenes of one size as the frames of an animation."""
-    from .parallel import render_frames
-
     drawn = [each for scene in scenes for each in _twice(scene)] if flag(transparent, "`transparent`") else scenes
     images = render_frames(drawn, place, bounds, listener, keep)
     if transparent:
@@ -178,8 +172,6 @@ def draw(
     scenes: Sequence[Scene], place: Place, bounds: Bounds, listener: Listener | None = None, keep: Path | None = None
 ) -> list[Image]:
     """Render scenes of one size, by one call each or by several."""
-    from .parallel import render_frames
-
     is_whole = isinstance(place, Embedded) and all(is_one_call(place, scene, bounds) for scene in scenes)
     try:
         if isinstance(place, Embedded) and is_whole:
@@ -192,20 +184,3 @@ def draw(
         if error.limit is None:
             raise
         raise OutOfGasError(f"{error}{savings(scenes[0], error.limit, not is_whole)}") from None
-
-
-def render_whole(scene: Scene, draw: Callable[[Scene], Drawing], made_by: str, evm: str | None = None) -> Image:
-    """Render a scene by one call. draw: makes it. made_by, evm: see `Image`."""
-    started = time.perf_counter()
-    drawing = draw(scene)
-    seconds = time.perf_counter() - started
-    return Image(
-        pixels=decode_bmp(drawing.bmp, scene.width, scene.height),
-        bmp=drawing.bmp,
-        gas=drawing.gas,
-        intrinsic_gas=drawing.intrinsic_gas,
-        made_by=made_by,
-        seconds=seconds,
-        scene=scene,
-        evm=evm,
-    )

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import Any, BinaryIO
 
 import numpy as np
 from attrs import field, frozen
@@ -18,7 +18,11 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from PIL import Image as PillowImage
 from PIL import ImageSequence
 
-from .checks import number
+from .base.checks import number
+from .base.synonyms import Words, with_duration, words_of
+from .base.values import plural
+from .base.whole_file import check_output_file, check_output_folder, make_output_folder, write_output
+from .contract_file import ContractFile
 from .errors import InputError, not_installed
 from .image import (
     WEBP,
@@ -38,12 +42,6 @@ from .image import (
     write_open,
 )
 from .scene import PICTURE
-from .values import plural
-from .whole_file import check_output_file, check_output_folder, make_output_folder, write_output
-from .words import Words, with_duration, words_of
-
-if TYPE_CHECKING:
-    from .studio import ContractFile
 
 #: Milliseconds for which a frame is shown.
 DURATION = 80

@@ -14,11 +14,11 @@ from numpy.typing import ArrayLike
 from PIL import Image as PillowImage
 from PIL import ImageDraw, ImageFont
 
+from .base.checks import Floats
+from .base.values import plural
 from .chain import Chain, open_chain
-from .checks import Floats
 from .image import Pixels, decode_bmp
 from .scene import Background, Material, Mesh, Object, Scene, fit
-from .values import plural
 
 BLACK, WHITE = Background((0, 0, 0)), Background((255, 255, 255))
 #: The two greys of the checkerboard, and the side of its squares at 128 pixels.

@@ -15,10 +15,10 @@ import pytest
 
 from commands import Shackled
 from shackled import __version__, cli
+from shackled.base.synonyms import INSTEAD
 from shackled.chain import EmbeddedChain, RevmChain
 from shackled.cli.app import LINES, app, run
 from shackled.cli.option import with_options
-from shackled.words import INSTEAD
 
 needs_full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
 
@@ -57,7 +57,7 @@ def test_stopped_while_the_package_is_read_in() -> None:
 
 
 def test_refusals_and_interrupts_exit_with_1(shackled: Shackled, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("shackled._on.open_chain", lambda *_: RevmChain(gas_limit=50_000))
+    monkeypatch.setattr("shackled.parallel.places.open_chain", lambda *_: RevmChain(gas_limit=50_000))
     said = shackled("render shape.obj", expect=1)
     assert said.err == "shackled: the call ran out of gas: 50,000 gas is not enough\n"
 

@@ -14,7 +14,8 @@ import pytest
 from PIL import Image as PillowImage
 
 from commands import Shackled
-from shackled import Camera, InputError, Mesh, Object, Rim, Scene, Tone, load, render, whole_file
+from shackled import Camera, InputError, Mesh, Object, Rim, Scene, Tone, load, render
+from shackled.base import whole_file
 from shackled.chain import CHAINS, RevmChain
 from shackled.cli.app import run
 from shackled.gas import limits

@@ -22,7 +22,7 @@ from shackled import load, render
 from shackled.artifacts import RENDERER
 from shackled.chain import returned_bytes
 from shackled.gas import render_call
-from shackled.scene import encode_scene_file, fit, pack
+from shackled.scene import fit, pack
 from shackled.scene._codec import extensions
 from shackled.web import asset
 
@@ -64,7 +64,7 @@ pytestmark = needs_web
 def programs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, dict[str, Any]]:
     """All programs of all cases."""
     content = {
-        "pieces": {name: json.loads(encode_scene_file(load(name))) for name in {c["piece"] for c in CASES.values()}},
+        "pieces": {name: json.loads(load(name).encode()) for name in {c["piece"] for c in CASES.values()}},
         "cases": [{"item": {}, "opened": False, "link": LOCAL, **case} for case in CASES.values()],
         "evm": base64.b64encode(asset("evm.wasm")).decode(),
         "contracts": json.loads(asset("contracts.json")),

@@ -26,7 +26,7 @@ from shackled import Ground, InputError, Light, Material, Mesh, Object, Scene, T
 from shackled.artifacts import artifact
 from shackled.ethereum import to_hex
 from shackled.evm import Instance
-from shackled.scene import encode_scene_file, full_turn, render_call
+from shackled.scene import full_turn, render_call
 from shackled.stages import draw_stages
 from shackled.studio import STUDIO, make_apng, make_glb, store_scene
 from shackled.tokens import EDITIONS, EditionTerms, add_gas
@@ -79,7 +79,7 @@ class Answers:
         codes = {each: {"address": to_hex(local().address(each)), "code": to_hex(local().code(each))} for each in MORE}
         errors = {to_hex(key): error for each in (*MORE, STUDIO) for key, error in artifact(each).errors.items()}
         (folder / "more.json").write_text(json.dumps({"contracts": codes, "errors": errors}))
-        texts = {name: encode_scene_file(scene).decode() for name, scene in SCENES.items()}
+        texts = {name: scene.encode().decode() for name, scene in SCENES.items()}
         cases = [
             {"name": name, "does": does, "text": texts.get(scene), "options": options}
             for name, (does, scene, options) in CASES.items()

@@ -22,11 +22,11 @@ from tools.cluster import cluster
 
 from nodes import Reply, serving
 from shackled import ChainError, Cluster, InputError, Scene, load
-from shackled._on import Bounds
 from shackled.chain import Drawing
 from shackled.cli.app import run
 from shackled.parallel import Listener, _cluster, render_frames
 from shackled.parallel._cluster import ClusterBackend
+from shackled.parallel.places import Bounds
 from shackled.scene import Rectangle, full_turn
 
 Client = pytest.importorskip("distributed").Client

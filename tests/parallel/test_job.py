@@ -13,12 +13,12 @@ from attrs import evolve
 
 import shackled
 from shackled import Camera, ChainError, Cluster, Ground, Image, InputError, Nodes, Processes, Scene, load
-from shackled._on import Bounds, On
 from shackled.chain import CHAINS, open_chain
 from shackled.parallel import Listener, Outline, render_frames
 from shackled.parallel._backends import ChainBackend
 from shackled.parallel._estimate import estimate
 from shackled.parallel._job import COMPARED_GAS, choose_verifier, plan
+from shackled.parallel.places import Bounds, On
 from shackled.scene import Rectangle
 
 SCENE = evolve(load("teapot"), width=96, height=70)

@@ -13,11 +13,11 @@ import shackled
 from nodes import Reply, anvil, failure, forward, free_port, geth, needs_anvil, serving
 from proxies import always, at, each_third, proxy
 from shackled import ChainError, Image, Nodes, load
-from shackled._on import Bounds
 from shackled.chain import open_chain
 from shackled.errors import NodeError
 from shackled.ethereum import PROXY
 from shackled.parallel import Listener, Outline, render_frames
+from shackled.parallel.places import Bounds
 from shackled.scene import full_turn
 
 SCENE = evolve(load("cube"), width=64, height=60)

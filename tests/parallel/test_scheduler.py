@@ -280,7 +280,7 @@ def test_a_full_disk_ends_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
         raise OSError(28, "No space left on device")
 
     store = PartStore(tmp_path / "parts", [SCENE])
-    monkeypatch.setattr("shackled.whole_file.write_whole", full)
+    monkeypatch.setattr("shackled.base.whole_file.write_whole", full)
     with pytest.raises(OutputError, match="No space left on device"):
         run([Shaky("a")], store=store)
 

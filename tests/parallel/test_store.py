@@ -8,13 +8,13 @@ import pytest
 from attrs import evolve
 
 from shackled import InputError, RenderError, Scene, load
-from shackled._on import Bounds
 from shackled.chain import Drawing, open_chain
 from shackled.errors import TooLargeError
 from shackled.parallel import Listener, folder_of, remove_parts, render_frames
 from shackled.parallel._backends import Part, draw_part
 from shackled.parallel._store import PartStore
 from shackled.parallel._tiles import cut
+from shackled.parallel.places import Bounds
 from shackled.scene import Rectangle, full_turn
 
 SCENE = evolve(load("cube"), width=32, height=20)

@@ -13,7 +13,6 @@ from benchmarks.parallel import GRIDS, SIDES
 
 import shackled
 from shackled import Scene, load
-from shackled._on import Bounds, Embedded, is_one_call
 from shackled.bench import gas as gas_of
 from shackled.chain import ContractChain, open_chain
 from shackled.datasets import require
@@ -21,6 +20,7 @@ from shackled.parallel._backends import ChainBackend
 from shackled.parallel._estimate import estimate
 from shackled.parallel._job import plan
 from shackled.parallel._tiles import grid
+from shackled.parallel.places import Bounds, Embedded, is_one_call
 from shackled.scene import Rectangle
 
 FIGURES = json.loads((Path(__file__).parents[2] / "benchmarks" / "parallel.json").read_text("utf-8"))

@@ -27,7 +27,7 @@ from shackled import (
     render,
     replace,
 )
-from shackled._on import Bounds
+from shackled.parallel.places import Bounds
 from shackled.scene import rotate, simplify
 
 CORNERS, FACES = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.5)], [(0, 1, 2)]

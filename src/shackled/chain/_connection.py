@@ -9,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any, TypeVar
 from urllib.parse import SplitResult, unquote, urlsplit
 
-from ..checks import number
+from ..base.checks import number
 from ..errors import ChainError, InputError, NoAnswerError, NodeBusyError, NodeError, WrongChainError
 from ..ethereum import to_hex
 from ._failures import rpc_failure

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from importlib.util import find_spec
 
-from ..checks import choice
+from ..base.checks import choice
 from ..errors import InputError
 from ..ethereum import parse_address
 from ._connection import PATIENCE, Connection

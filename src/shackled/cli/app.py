@@ -9,9 +9,9 @@ from pathlib import Path
 
 import click
 
+from ..base.synonyms import INSTEAD, SAME
+from ..base.untrusted import plain
 from ..errors import InputError, InputWarning, ShackledError
-from ..untrusted import plain
-from ..words import INSTEAD, SAME
 from .command import CommandGroup
 from .option import MEANT, option_names, with_options
 from .output import noting

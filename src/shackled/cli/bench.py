@@ -5,9 +5,9 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from ..checks import choice
+from ..base.checks import choice
+from ..base.whole_file import check_output_folder
 from ..errors import InputError
-from ..whole_file import check_output_folder
 from .option import argument, option
 from .progress import LateBar
 

@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..base.checks import number
+from ..base.untrusted import plain
+from ..base.values import plural
+from ..base.whole_file import check_output_file, write_output
 from ..chain import PATIENCE, Connection
-from ..checks import number
 from ..errors import InputError
 from ..ethereum import GWEI, at_most, checksum_address, ether, parse_address, roughly
-from ..untrusted import plain
-from ..values import plural
-from ..whole_file import check_output_file, write_output
 from .option import exclude, option
 from .output import print_json, print_note
 

@@ -14,13 +14,13 @@ from urllib.parse import quote
 from PIL import Image
 
 from .._load import load, locate
+from ..base.local_server import Answer, listen, run, type_of
+from ..base.whole_file import make_output_folder
 from ..chain import book_path
 from ..datasets import Piece
 from ..datasets.genesis import seed_of
 from ..errors import InputError
-from ..local_server import Answer, listen, run, type_of
-from ..scene import READERS, SCENES, Link, encode_scene_file, is_inside
-from ..whole_file import make_output_folder
+from ..scene import READERS, SCENES, Link, is_inside
 from .option import argument, option
 
 #: Default port.
@@ -89,7 +89,7 @@ def first_answers(input: str | None, page: Path) -> tuple[dict[str, Path | bytes
     packed = page / "data" / "pieces" / f"{name.replace('/', '-')}.gz"
     if isinstance(source, Piece) and not name.startswith("genesis/") and not packed.is_file():
         file = f"{source.name.rpartition('/')[2]}.json"
-        answers[f"input/{file}"] = encode_scene_file(load(source.name))
+        answers[f"input/{file}"] = load(source.name).encode()
         told = {"names": [file]}
     elif not isinstance(source, Piece):
         if not source.is_file():

@@ -10,10 +10,10 @@ from itertools import groupby, islice
 from pathlib import Path
 from typing import Any
 
-from ..checks import choice
+from ..base.checks import choice
+from ..base.whole_file import check_output_file, write_output
 from ..datasets import DATASETS, Piece, PieceCost, cost, pieces
 from ..errors import InputError
-from ..whole_file import check_output_file, write_output
 from .option import argument, option
 from .progress import LateBar
 

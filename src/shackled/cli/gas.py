@@ -8,8 +8,10 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
+from ..base.checks import number
+from ..base.values import plural
+from ..base.whole_file import check_output_file, write_output
 from ..chain import CHAINS, PATIENCE, NodeChain, open_chain, open_node
-from ..checks import number
 from ..errors import InputError
 from ..gas import (
     KINDS,
@@ -23,8 +25,6 @@ from ..gas import (
     quick_path_note,
     render_call,
 )
-from ..values import plural
-from ..whole_file import check_output_file, write_output
 from .look_options import FIT, INPUT, load_with
 from .option import exclude, need, option
 from .output import print_json, print_line, print_table

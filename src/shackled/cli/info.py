@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from .._load import is_model, load, locate
 from .._render import render
+from ..base.values import listed, plural
 from ..datasets import Piece
 from ..errors import ChainError, InputError, InputWarning, ShackledError
 from ..gas import headline
@@ -36,7 +37,6 @@ from ..scene import (
     is_closed,
     read_model,
 )
-from ..values import listed, plural
 from .option import option, with_options
 from .output import print_json, print_line
 from .picture import Source, fits_of_made

@@ -29,7 +29,7 @@ OPTIONS = {
     "urls": "--rpc",
 }
 
-#: Other words for commands and options than `shackled.words` has for keywords, and what is meant.
+#: Other words for commands and options than `shackled.base.synonyms` has for keywords, and what is meant.
 MEANT = {
     "mint": "store, which mints no token; `shackled token mint` does",
     "turntable": "render INPUT --turntable FRAMES",

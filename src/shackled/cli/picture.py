@@ -12,21 +12,21 @@ from pathlib import Path
 from typing import Any
 
 from .._load import load_frames
-from .._on import Bounds, On, is_one_call, place_of
 from .._render import film as draw_film
 from .._render import pace
 from .._render import render as draw
 from .._render import turntable as turn
 from .._visible import why_nothing
 from ..animation import DURATION, Animation, check_duration
+from ..base.values import plural
+from ..base.whole_file import make_output_folder
 from ..chain import open_chain
 from ..errors import ChainError, renaming
 from ..gas import Fit, fits_as_json, fits_of, headline, render_call, suffices
 from ..image import MOST_COLORS, Image, colors, total
 from ..parallel import Listener, folder_of, remove_parts
+from ..parallel.places import Bounds, On, is_one_call, place_of
 from ..scene import PICTURE, Scene, scene_chunk, shows_scene
-from ..values import plural
-from ..whole_file import make_output_folder
 from .look_options import load_with
 from .option import exclude, need, option, with_options
 from .progress import LateBar

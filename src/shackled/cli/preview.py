@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..base.untrusted import plain
 from ..errors import VerificationError
 from ..ethereum import checksum_address
-from ..untrusted import plain
 from .option import argument, need, option
 from .output import print_json, print_line, print_note, print_table
 from .progress import LateBar

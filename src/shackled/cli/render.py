@@ -12,13 +12,13 @@ from typing import Any
 
 from PIL import Image as PillowImage
 
-from .._on import VERIFY, Bounds, Cluster, Nodes, On, Processes, place_of
 from ..animation import FORMATS as FILMS
+from ..base.whole_file import check_output_folder, make_output_folder, write_output
 from ..chain import CHAINS, PATIENCE, open_chain
 from ..errors import InputError
 from ..image import FORMATS, check_alpha, one_of
+from ..parallel.places import VERIFY, Bounds, Cluster, Nodes, On, Processes, place_of
 from ..scene import PICTURE
-from ..whole_file import check_output_folder, make_output_folder, write_output
 from .look_options import FIT, INPUT, load_with, parse_sides
 from .option import exclude, is_from_environment, need, option
 from .picture import FilmOptions, Task, Work

@@ -19,15 +19,15 @@ from typing import Literal, TypeVar
 from attrs import evolve
 
 from .._load import locate
-from .._on import Cluster, Processes
 from .._render import render as draw
 from ..animation import check_animation
+from ..base.untrusted import plain
+from ..base.workers import each
 from ..datasets import Piece
 from ..errors import InputError, InputWarning, ShackledError
 from ..image import check_output
+from ..parallel.places import Cluster, Processes
 from ..scene import PICTURE, READERS, Link, format_by_name, is_pipe, read_pipe, stored
-from ..untrusted import plain
-from ..workers import each
 from .option import argument, with_options
 from .output import Action, action, noting, print_note
 from .picture import Done, Source, Work

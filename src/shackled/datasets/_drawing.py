@@ -25,12 +25,12 @@ from PIL.PngImagePlugin import PngInfo
 from platformdirs import user_cache_path
 
 from ..artifacts import RENDERER, artifact
+from ..base.whole_file import write_whole
+from ..base.workers import each
 from ..chain import open_chain
 from ..errors import InputError
 from ..image import data_uri, decode_bmp, pillow_bytes
 from ..scene import encode, resize
-from ..whole_file import write_whole
-from ..workers import each
 from ._pieces import Piece, require
 
 #: The environment variable that names the cache folder.

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..checks import whole
+from ..base.checks import whole
 from ..scene import Mesh
 from .common import shapes
 

@@ -13,7 +13,7 @@ from ..artifacts import artifact
 from ..chain import CallResult, Drawing, open_chain
 from ..errors import InputError, RenderError
 from ..ethereum import intrinsic_gas, keccak256
-from ..image import Image
+from ..image import Image, render_whole
 from ..scene import Background, Light, Material, Mesh, Object, Scene
 from ._pieces import Piece
 
@@ -89,7 +89,6 @@ def generate_on_chain(seed: bytes) -> tuple[GenesisPiece, int]:
 
 def picture_on_chain(piece: GenesisPiece) -> Image:
     """Return the picture of a piece, 128 x 128 pixels, made by one call from its seed alone."""
-    from .._render import render_whole
 
     def draw(_: Scene) -> Drawing:
         result, data = call("render", piece.seed), artifact(CONTRACT).interface.encode("render", piece.seed)

@@ -4,7 +4,7 @@ import sys
 
 import lazy_loader
 
-from ..words import Package
+from ..base.synonyms import Package
 
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 sys.modules[__name__].__class__ = Package

@@ -12,12 +12,12 @@ from typing import Literal
 
 from attrs import evolve
 
+from ..base.checks import choice
+from ..base.values import listed
 from ..chain import open_chain
-from ..checks import choice
 from ..errors import InputError, OutOfGasError
 from ..ethereum import intrinsic_gas
 from ..scene import Scene, has_effects, simplify_scene
-from ..values import listed
 from ._limits import ENVELOPE, MAX_TRANSACTION, Limit, floor_gas, known_chains, limits, render_call
 
 #: What a picture is to fit, by the place whose limit it is: one transaction on Ethereum or on another chain, or a read

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 
+from ..base.values import listed, plural
 from ..scene import Scene, has_effects
-from ..values import listed, plural
 
 
 def missed_quick_path(scene: Scene) -> dict[str, int]:

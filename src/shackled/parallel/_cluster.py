@@ -11,10 +11,10 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
+from ..base.values import plural
 from ..chain import Drawing, open_chain
 from ..errors import InputError, RenderError, ShackledError, not_installed
 from ..scene import Rectangle, Scene
-from ..values import plural
 from ._backends import ChainBackend
 from ._store import contracts_digest
 

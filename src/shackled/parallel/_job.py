@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 
-from .._on import Bounds, Nodes, On, Place, place_of
 from ..chain import Drawing
 from ..errors import caller
 from ..image import Image, decode_bmp, total
@@ -19,6 +18,7 @@ from ._estimate import Estimate, estimate
 from ._scheduler import Listener, Outline, Scheduler
 from ._store import PartStore
 from ._tiles import area, cut, grid
+from .places import Bounds, Nodes, On, Place, place_of
 
 #: Parts for each slot, so that all are busy until the end, and the extra gas that this may cost.
 PARTS_PER_SLOT = 4

@@ -13,11 +13,11 @@ from contextlib import suppress
 from pathlib import Path
 
 from ..artifacts import RENDERER, artifact
+from ..base.whole_file import make_output_folder, write_output
 from ..chain import Drawing
 from ..errors import ChainError, InputError
 from ..image import decode_bmp
 from ..scene import Scene, encode_scene, fit
-from ..whole_file import make_output_folder, write_output
 from ._backends import Part
 
 SUFFIX = ".part"

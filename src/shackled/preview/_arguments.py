@@ -8,10 +8,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ..base.untrusted import read_json
 from ..deploy import CONTRACTS
 from ..errors import InputError
 from ..ethereum import ETHER, GWEI, Interface, parse_address, whole_numbers
-from ..untrusted import read_json
 from ._project import Compiled
 
 CALL = re.compile(

@@ -15,7 +15,6 @@ from ._files.picture import CHUNK, DIGEST, PICTURE, SceneChunk, scene_chunk, sho
 from ._files.scene_file import SCENES, read_scene
 from ._files.signatures import format_by_name
 from ._files.table import about
-from ._files.written import encode_scene_file
 from ._fit import fit
 from ._from_others import mesh_of
 from ._from_trimesh import objects_of, part_of
@@ -89,7 +88,6 @@ __all__ = [
     "decode",
     "encode",
     "encode_scene",
-    "encode_scene_file",
     "euler",
     "faces_of_all",
     "fit",

@@ -8,10 +8,10 @@ from typing import Any, Literal
 from attrs import field, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import Floats, choice, number, optional_number, vector
+from ..base.checks import Floats, choice, number, optional_number, vector
+from ..base.synonyms import Given, with_words, words_of
+from ..base.values import Value, checked, with_names
 from ..errors import InputError
-from ..values import Value, checked, with_names
-from ..words import Given, with_words, words_of
 from ._arithmetic import tangent
 
 Projection = Literal["perspective", "orthographic"]

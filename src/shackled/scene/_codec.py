@@ -15,7 +15,7 @@ from attrs import evolve
 from numpy.typing import ArrayLike
 
 from ..artifacts import artifact
-from ..checks import Color
+from ..base.checks import Color
 from ..errors import InputError
 from . import _records as record
 from ._arithmetic import cosine

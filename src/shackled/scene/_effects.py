@@ -10,9 +10,9 @@ from typing import Any, TypeVar
 
 from attrs import Factory, field, frozen
 
-from ..checks import Color, color, flag, instance, number, whole
+from ..base.checks import Color, color, flag, instance, number, whole
+from ..base.values import checked, with_names
 from ..errors import InputError
-from ..values import checked, with_names
 
 #: The range of the exponent of a rim, and that of exposures.
 POWERS = (1, 16)

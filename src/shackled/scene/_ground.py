@@ -9,9 +9,9 @@ import numpy as np
 from attrs import evolve, field, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import Color, Floats, color, optional_number, vector
+from ..base.checks import Color, Floats, color, optional_number, vector
+from ..base.values import checked, with_names
 from ..errors import InputError
-from ..values import checked, with_names
 from ._arithmetic import length
 from ._mesh import Mesh
 from ._object import Material, Object

@@ -8,10 +8,10 @@ from typing import Any, Literal, TypeVar
 from attrs import field, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import Color, Floats, choice, color, flag, instance, number, optional_vector, vector
+from ..base.checks import Color, Floats, choice, color, flag, instance, number, optional_vector, vector
+from ..base.synonyms import Given, with_words, words_of
+from ..base.values import Value, checked, with_names
 from ..errors import InputError
-from ..values import Value, checked, with_names
-from ..words import Given, with_words, words_of
 
 LightKind = Literal["directional", "point", "spot"]
 LIGHT_KINDS: tuple[LightKind, ...] = ("directional", "point", "spot")

@@ -9,7 +9,7 @@ from typing import Any, Unpack
 import numpy as np
 from attrs import evolve
 
-from ..checks import Color, Floats
+from ..base.checks import Color, Floats
 from ..errors import InputError
 from ._arithmetic import IDENTITY, dot, length, multiply, rotate
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_in

@@ -9,10 +9,10 @@ import numpy as np
 from attrs import evolve, field, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import Color, Floats, choice, color, flag, instance, number, vector, whole
+from ..base.checks import Color, Floats, choice, color, flag, instance, number, vector, whole
+from ..base.synonyms import Given, words_of
+from ..base.values import Value, checked, with_names
 from ..errors import InputError
-from ..values import Value, checked, with_names
-from ..words import Given, words_of
 from ._arithmetic import ORTHOGONAL, matrix_of, quaternion_of, rotate, rotation_of
 from ._mesh import Mesh, is_trimesh
 from ._texture import Texture

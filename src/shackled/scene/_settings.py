@@ -9,9 +9,9 @@ from typing import Any, Final, Literal, TypedDict
 from attrs import Factory, evolve, field, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import choice, color, flag, integer, number, vector, whole
+from ..base.checks import choice, color, flag, integer, number, vector, whole
+from ..base.synonyms import in_our_words, instead_of
 from ..errors import InputError, KeywordError
-from ..words import in_our_words, instead_of
 from ._arithmetic import IDENTITY, multiply, rotation_of
 from ._camera import FIELDS_OF_VIEW, Camera
 from ._crease import CREASES

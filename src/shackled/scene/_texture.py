@@ -15,9 +15,9 @@ from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
-from ..checks import choice, fixed, whole
+from ..base.checks import choice, fixed, whole
+from ..base.values import Value, checked, with_names
 from ..errors import InputError
-from ..values import Value, checked, with_names
 from ._files.signatures import HEAD, signature_of
 
 Filter = Literal["nearest", "bilinear"]

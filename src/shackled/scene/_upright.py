@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..checks import Floats, vector
+from ..base.checks import Floats, vector
 from ..errors import InputError, warn
 from ._arithmetic import from_euler, unit
 from ._files.content import format_of

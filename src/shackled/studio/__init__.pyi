@@ -1,10 +1,9 @@
-from ._files import ContractFile, make_apng, make_glb
+from ._files import make_apng, make_glb
 from ._storage import ANIMATE, STUDIO, StoreTransaction, store_scene, stored_codes
 
 __all__ = [
     "ANIMATE",
     "STUDIO",
-    "ContractFile",
     "StoreTransaction",
     "make_apng",
     "make_glb",

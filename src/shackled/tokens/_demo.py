@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..base.whole_file import make_output_folder, write_output
 from ..chain import Connection
 from ..deploy import Call, Receipt, Transactor, local_chain, signer_class
 from ..errors import InputError, VerificationError
 from ..ethereum import checksum_address
-from ..whole_file import make_output_folder, write_output
 from ._allow_list import make_allow_list
 from ._collection import KINDS, Collection
 from ._contract import perform

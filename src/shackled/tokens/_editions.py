@@ -8,8 +8,8 @@ from functools import partial
 from typing import Any
 
 from ..artifacts import artifact
+from ..base.checks import whole
 from ..chain import Connection, Report, read_all
-from ..checks import whole
 from ..deploy import Call, local_chain
 from ..errors import InputError, NodeError, OutOfGasError, RenderError, VerificationError
 from ..ethereum import amount, checksum_address, intrinsic_gas

@@ -14,8 +14,8 @@ from typing import Any
 from attrs import evolve
 
 from ..artifacts import artifact
+from ..base.checks import whole
 from ..chain import read_all
-from ..checks import whole
 from ..datasets import Piece, find, pieces
 from ..deploy import Call, local_chain
 from ..errors import InputError

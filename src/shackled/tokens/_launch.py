@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..artifacts import artifact
+from ..base.checks import whole
 from ..chain import Connection
-from ..checks import whole
 from ..deploy import (
     Call,
     Deployer,

@@ -8,11 +8,11 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...checks import choice
+from ...base.checks import choice
+from ...base.whole_file import check_output_folder
 from ...errors import InputError
 from ...ethereum import parse_ether
 from ...tokens import ICON_PRICE, KINDS, SCALE
-from ...whole_file import check_output_folder
 from ..chain_options import JSON, MAX_FEE, NodeOptions, PayerOptions, address, print_step
 from ..option import argument, option
 from ..output import print_json, print_line, print_note

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from ...base.values import plural
 from ...errors import VerificationError
 from ...ethereum import amount, ether, parse_ether
 from ...tokens import OPEN
-from ...values import plural
 from ..chain_options import JSON, NodeOptions, PayerOptions, address
 from ..option import argument, option
 from ..output import print_json, print_line, print_table

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from ...base.checks import number
 from ...chain import AddressBook
-from ...checks import number
 from ...errors import InputError
 from ...ethereum import checksum_address
 from ...tokens import EDITIONS, KINDS

@@ -7,11 +7,11 @@ import time
 from functools import partial
 from pathlib import Path
 
-from ...checks import choice, number
+from ...base.checks import choice, number
+from ...base.whole_file import write_output
 from ...errors import InputError
 from ...ethereum import checksum_address, ether, parse_ether
 from ...tokens import PHASES
-from ...whole_file import write_output
 from ..chain_options import PayerOptions, SignerOptions, address, parse_checksum_address
 from ..option import argument, is_from_environment, option
 from ..output import print_line

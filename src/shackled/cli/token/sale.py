@@ -6,8 +6,8 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ...base.values import plural
 from ...errors import InputError
-from ...values import plural
 from ..chain_options import CALLDATA, JSON, PayerOptions, address, parse_checksum_address, print_price, write_calls
 from ..option import argument, exclude, option
 from ..output import print_json, print_line, print_note

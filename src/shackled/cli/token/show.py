@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from ...animation import DURATION
+from ...base.whole_file import check_output_file, write_output
 from ...errors import InputError, VerificationError
 from ...ethereum import amount, ether
 from ...image import check_output, one_of
 from ...tokens import EDITIONS, PHASES
-from ...whole_file import check_output_file, write_output
 from ..chain_options import JSON, NodeOptions
 from ..look_options import parse_size
 from ..option import argument, need, option

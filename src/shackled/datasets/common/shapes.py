@@ -9,7 +9,7 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
-from ...checks import color as checked_color
+from ...base.checks import color as checked_color
 from ...scene import Mesh, faces_of_all, vertex_normals, without_slivers
 
 Array = NDArray[np.float64]

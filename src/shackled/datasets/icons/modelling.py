@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ... import checks
+from ...base import checks
 from ...scene import Mesh, from_euler, rotate
 from ..common import shapes
 from .outlines import arc, chamfered, inset, rectangle, regular, triangulate

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.values import plural
 from ...errors import InputError, InputWarning, warn
-from ...values import plural
 from .._mesh import Mesh
 from .content import format_of
 from .gltf.read import read_gltf

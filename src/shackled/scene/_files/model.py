@@ -11,7 +11,7 @@ from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
-from ...checks import Color
+from ...base.checks import Color
 from ...errors import warn
 from .._crease import filled
 from .._mesh import DEFAULT_COLOR, Mesh, faces_of_all, weld

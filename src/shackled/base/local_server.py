@@ -15,7 +15,7 @@ from urllib.parse import unquote
 
 from attrs import Factory, frozen
 
-from .errors import InputError
+from ..errors import InputError
 
 HOST = "127.0.0.1"
 HEADERS = {

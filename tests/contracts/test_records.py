@@ -21,7 +21,7 @@ from shackled.artifacts import artifact
 from shackled.chain._engines import ANTIALIASED, EFFECTS, PLAIN, engines
 from shackled.datasets.common import shapes
 from shackled.image import decode_bmp
-from shackled.scene import Rectangle, encode, encode_scene_file, fit, render_call
+from shackled.scene import Rectangle, encode, fit, render_call
 from shackled.scene._codec import extensions
 from shackled.studio._storage import quantize
 from stored_scenes import stored
@@ -129,7 +129,7 @@ def test_a_fade_is_about_the_position_of_its_object(tmp_path: Path) -> None:
     covered = (x > step - 0.75) & (z > step - 1.2)
     calls = [render_call(scene), render_call(evolve(scene, objects=[quantize(ground, 9)]))]
     if shutil.which("node"):
-        calls += calls_made([{"text": encode_scene_file(scene).decode()}], tmp_path)
+        calls += calls_made([{"text": scene.encode().decode()}], tmp_path)
     for call in calls:
         pixels = decode_bmp(dynamic(chain().call("Renderer", call).output), size, size)[:, :, 0]
         assert (pixels[covered & (distance < inner - step)] > 250).all()

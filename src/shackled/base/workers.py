@@ -18,7 +18,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import suppress
 from typing import IO, TypeVar
 
-from .errors import RenderError
+from ..errors import RenderError
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -110,7 +110,7 @@ class _Worker:
                 self._end()
                 # it imports the modules of functions by the same path, and in a new session Ctrl-C does not reach it
                 self._process = subprocess.Popen(
-                    [sys.executable, "-P", "-c", "from shackled.workers import _serve; _serve()"],
+                    [sys.executable, "-P", "-c", "from shackled.base.workers import _serve; _serve()"],
                     stdin=subprocess.PIPE,
                     stdout=subprocess.PIPE,
                     env=os.environ | {"PYTHONPATH": os.pathsep.join(map(str, sys.path))},

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
 
 from attrs import field, frozen
 from attrs.converters import optional
 
-from .chain import (
+from ..base.checks import choice, integer, whole
+from ..chain import (
     CHAINS,
     DEFAULT_GAS_LIMIT,
     Chain,
@@ -19,14 +19,12 @@ from .chain import (
     open_chain,
     open_node,
 )
-from .checks import choice, integer, whole
-from .errors import ChainError, InputError, NodeError, OutOfGasError
-from .ethereum import parse_address
-from .scene import Scene, size_of
-
-if TYPE_CHECKING:
-    from .parallel import Backend, Listener
-
+from ..errors import ChainError, InputError, NodeError, OutOfGasError
+from ..ethereum import parse_address
+from ..scene import Scene, size_of
+from ._backends import Backend, ChainBackend
+from ._scheduler import Listener
+from ._tiles import is_large
 
 #: The most jobs, and how much of the pixels of nodes and clusters is compared.
 MOST_JOBS = 256
@@ -65,8 +63,6 @@ class Embedded:
 
     def open(self, listener: Listener, gas_limit: int | None = None) -> list[Backend]:
         """Return the backends of a job."""
-        from .parallel import ChainBackend
-
         return [ChainBackend(self.opened(gas_limit), gas=gas_limit)]
 
 
@@ -90,8 +86,6 @@ class Processes:
 
     def open(self, listener: Listener, gas_limit: int | None = None) -> list[Backend]:
         """Return the backends of a job."""
-        from .parallel import ChainBackend
-
         if self.evm in (None, "revm"):
             chain = RevmChain(gas_limit or DEFAULT_GAS_LIMIT, is_stoppable=True)
             chain.address("Renderer")  # set up here, before several threads ask for it
@@ -167,8 +161,6 @@ class Nodes:
         return backends
 
     def _open(self, url: str, gas_limit: int | None) -> Backend:
-        from .parallel import ChainBackend
-
         node = open_node(url, self.address, self.timeout)
         node.connection.attempts = ATTEMPTS
         most = node.gas_limit
@@ -195,7 +187,7 @@ class Cluster:
 
     def open(self, listener: Listener, gas_limit: int | None = None) -> list[Backend]:
         """Return the backends of a job."""
-        from .parallel import ClusterBackend
+        from ._cluster import ClusterBackend  # takes a moment
 
         # workers with the same contracts are trusted, unless `verify` is given
         return [ClusterBackend(self.address, self.evm, gas_limit, self.verify is not None)]
@@ -250,6 +242,4 @@ class Bounds:
 
 def is_one_call(place: Place, scene: Scene, bounds: Bounds) -> bool:
     """Return whether a picture is made by one call in this process."""
-    from .parallel import is_large
-
     return isinstance(place, Embedded) and bounds == Bounds() and not is_large(scene)

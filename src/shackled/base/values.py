@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from attrs import Attribute
 
-from .words import Words
+from .synonyms import Words
 
 
 class Value(Words):

@@ -11,7 +11,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .errors import InputError
+from ..errors import InputError
 
 Number = TypeVar("Number", bound=np.generic)
 Kind = TypeVar("Kind")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from attrs.exceptions import FrozenInstanceError
 
-from .errors import InputError, KeywordError
+from ..errors import InputError, KeywordError
 
 P = ParamSpec("P")
 R = TypeVar("R")

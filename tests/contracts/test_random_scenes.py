@@ -90,7 +90,7 @@ def from_surface(scene: Scene, light: Light) -> float:
 
 def test_a_scene_that_a_faulty_contract_draws_wrongly() -> None:
     """Its depths change by more than their lane holds: an EffectsEngine took their eighths from the lane alone."""
-    assert judge("lanes", load(Path(__file__).parent / "support" / "lanes.json")).faults == []
+    assert judge("lanes", load(Path(__file__).parents[1] / "support" / "lanes.json")).faults == []
 
 
 @pytest.mark.parametrize(

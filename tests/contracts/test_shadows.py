@@ -13,7 +13,7 @@ from attrs import evolve
 from pictures import draw
 from shackled import Camera, Ground, InputError, Light, Material, Mesh, Object, Scene, Tone, load
 from shackled.datasets.common import shapes
-from shackled.scene import encode_scene_file, fit, painted
+from shackled.scene import fit, painted
 
 SIZE = 40
 
@@ -54,7 +54,7 @@ def test_a_ground_fades() -> None:
 def test_scene_files(tmp_path: Path) -> None:
     scene = still_life(ground=Ground("#b9b4a8", -0.5, 7))
     path = tmp_path / "scene.json"
-    path.write_bytes(encode_scene_file(scene))
+    path.write_bytes(scene.encode())
     assert load(path) == scene
     assert load(path, shadow=False, ground="none") == evolve(
         scene, ground=None, lights=[evolve(light, shadow=False) for light in scene.lights]

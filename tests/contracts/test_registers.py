@@ -10,7 +10,7 @@ from runpy import run_path
 
 from tools import layout
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "contracts" / "src" / "words"
 TABLE = tomllib.loads((ROOT / "contracts" / "layout.toml").read_text("utf-8"))
 

@@ -7,7 +7,7 @@ import re
 from graphlib import TopologicalSorter
 from pathlib import Path
 
-SOURCES = Path(__file__).resolve().parents[1] / "contracts" / "src"
+SOURCES = Path(__file__).resolve().parents[2] / "contracts" / "src"
 README = SOURCES.parent / "README.md"
 #: `using Library for Type global`, by which contracts outside call functions of a value without a line of their own,
 #: must stand in the file that declares the type, and these libraries take it as their argument.
