@@ -26,7 +26,7 @@ from shackled.parallel import Listener
 from shackled.parallel._backends import Backend, ChainBackend, Part
 from shackled.parallel._scheduler import Scheduler
 from shackled.parallel._tiles import grid
-from shackled.parallel.places import Place, place_of
+from shackled.parallel.places import Embedded, Place
 from shackled.scene import Rectangle, full_turn
 
 from . import Section, run_main, shared
@@ -122,7 +122,7 @@ def throughput() -> Section:
 def opened(stack: ExitStack) -> dict[str, list[Backend]]:
     """Open the backends, which close with the stack."""
     wanted: dict[str, Place] = {
-        "this process": place_of(None),
+        "this process": Embedded(),
         "2 threads": Processes(2),
         "dask, 1 worker": Cluster(stack.enter_context(cluster(1))[0]),
         "dask, 2 workers": Cluster(stack.enter_context(cluster(2))[0]),

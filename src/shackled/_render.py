@@ -11,12 +11,11 @@ from attrs import evolve
 
 from ._load import Thing, load_frames, load_picture
 from .animation import DURATION, DURATIONS, Animation
-from .base.checks import flag
 from .base.synonyms import with_words
 from .errors import InputError, OutOfGasError, warn
 from .image import Image, render_whole, uncovered
 from .parallel import Listener, render_frames
-from .parallel.places import Bounds, Embedded, On, Place, is_one_call, place_of
+from .parallel.places import Embedded, How, On
 from .scene import Background, LookOptions, Scene, full_turn
 
 
@@ -53,7 +52,7 @@ def render(
 
     Raises InputError for an invalid scene, ChainError if a call fails.
     """
-    scene, place, bounds = load_picture(thing, size, **look), place_of(on), Bounds(gas_limit, tile)
+    scene, how = load_picture(thing, size, **look), How(on, gas_limit, tile, listener, keep, transparent)
     if fit is not None:
         from .gas import fit_scene
 
@@ -64,10 +63,7 @@ def render(
         if found.scene != scene:
             warn(found.sentence)
         scene = found.scene
-    if not flag(transparent, "`transparent`"):
-        return draw([scene], place, bounds, listener, keep)[0]
-    black, white = draw(_twice(scene), place, bounds, listener, keep)
-    return uncovered(black, white, scene)
+    return picture(scene, how)
 
 
 @with_words
@@ -98,18 +94,8 @@ def turntable(
         frames, no tiles, and `on` as in `shackled.studio.make_apng`.
     transparent: as in `render`.
     """
-    if one_call:
-        from .studio import make_apng
-
-        if transparent:
-            raise InputError("`one_call` and `transparent` exclude each other: the contract's file has a background")
-        if tile is not None:
-            raise InputError("a turntable of one call has no tiles: leave out `tile` or `one_call`")
-        return Animation.of(
-            make_apng(load_picture(thing, size, **look), frames, duration, on=on, gas_limit=gas_limit), duration
-        )
-    turned = full_turn(load_picture(thing, size, **look), frames)
-    return film(turned, duration, place_of(on), Bounds(gas_limit, tile), listener, keep, transparent)
+    scene, how = load_picture(thing, size, **look), How(on, gas_limit, tile, listener, keep, transparent)
+    return turn(scene, frames, duration, how, one_call)
 
 
 @with_words
@@ -137,7 +123,7 @@ def animate(
     """
     scenes, length = load_frames(thing, frames, size, **look)
     shown = pace(length, frames) if duration is None else duration
-    return film(scenes, shown, place_of(on), Bounds(gas_limit, tile), listener, keep, transparent)
+    return film(scenes, shown, How(on, gas_limit, tile, listener, keep, transparent))
 
 
 def pace(length: float, frames: int) -> int:
@@ -145,42 +131,49 @@ def pace(length: float, frames: int) -> int:
     return round(min(max(1000 * length / frames, DURATIONS[0]), DURATIONS[1]))
 
 
-def film(
-    scenes: Sequence[Scene],
-    duration: int,
-    place: Place,
-    bounds: Bounds,
-    listener: Listener | None = None,
-    keep: Path | None = None,
-    transparent: bool = False,
-) -> Animation:
+def turn(scene: Scene, frames: int, duration: int, how: How, one_call: bool = False) -> Animation:
+    """Render a full turn of a scene. The arguments are those of `turntable`."""
+    if not one_call:
+        return film(full_turn(scene, frames), duration, how)
+    from .studio import make_apng
+
+    if how.transparent:
+        raise InputError("`one_call` and `transparent` exclude each other: the contract's file has a background")
+    if how.tile is not None:
+        raise InputError("a turntable of one call has no tiles: leave out `tile` or `one_call`")
+    on = how.on.chain if isinstance(how.on, Embedded) else how.on
+    return Animation.of(make_apng(scene, frames, duration, on=on, gas_limit=how.gas_limit), duration)
+
+
+def film(scenes: Sequence[Scene], duration: int, how: How) -> Animation:
     """Render scenes of one size as the frames of an animation."""
-    drawn = [each for scene in scenes for each in _twice(scene)] if flag(transparent, "`transparent`") else scenes
-    images = render_frames(drawn, place, bounds, listener, keep)
-    if transparent:
+    images = render_frames([each for scene in scenes for each in _drawn(scene, how)], how)
+    if how.transparent:
         images = [uncovered(*both) for both in zip(images[::2], images[1::2], scenes, strict=True)]
     return Animation(images, duration)
 
 
-def _twice(scene: Scene) -> list[Scene]:
-    """Return a scene over black and over white, as it is drawn for `uncovered`."""
-    backgrounds = ("white", "black") if scene.invert else ("black", "white")
-    return [evolve(scene, background=Background(each)) for each in backgrounds]
-
-
-def draw(
-    scenes: Sequence[Scene], place: Place, bounds: Bounds, listener: Listener | None = None, keep: Path | None = None
-) -> list[Image]:
-    """Render scenes of one size, by one call each or by several."""
-    is_whole = isinstance(place, Embedded) and all(is_one_call(place, scene, bounds) for scene in scenes)
+def picture(scene: Scene, how: How) -> Image:
+    """Render a scene, by one call or by several."""
+    scenes, is_whole = _drawn(scene, how), how.is_one_call(scene)
     try:
-        if isinstance(place, Embedded) and is_whole:
-            chain, evm = place.opened(), place.evm
-            return [render_whole(scene, chain.draw, chain.name, evm) for scene in scenes]
-        return render_frames(scenes, place, bounds, listener, keep)
+        if isinstance(how.on, Embedded) and is_whole:
+            chain, evm = how.on.opened(), how.on.evm
+            images = [render_whole(each, chain.draw, chain.name, evm) for each in scenes]
+        else:
+            images = render_frames(scenes, how)
     except OutOfGasError as error:
         from .gas import savings
 
         if error.limit is None:
             raise
         raise OutOfGasError(f"{error}{savings(scenes[0], error.limit, not is_whole)}") from None
+    return uncovered(images[0], images[1], scene) if how.transparent else images[0]
+
+
+def _drawn(scene: Scene, how: How) -> list[Scene]:
+    """Return what is drawn of a scene: itself or, for `uncovered`, the scene over black and over white."""
+    if not how.transparent:
+        return [scene]
+    backgrounds = ("white", "black") if scene.invert else ("black", "white")
+    return [evolve(scene, background=Background(each)) for each in backgrounds]

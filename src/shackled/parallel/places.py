@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 
 from attrs import field, frozen
 from attrs.converters import optional
 
-from ..base.checks import choice, integer, whole
+from ..base.checks import choice, flag, integer, whole
 from ..chain import (
     CHAINS,
     DEFAULT_GAS_LIMIT,
@@ -228,18 +229,22 @@ def _tile(value: int | tuple[int, int] | None) -> tuple[int, int] | None:
     return sides
 
 
+def _transparent(value: bool) -> bool:
+    return flag(value, "`transparent`")
+
+
 @frozen
-class Bounds:
-    """Bounds of a call.
+class How:
+    """Where and how pictures are made: the arguments of `render` of these names."""
 
-    gas_limit: gas that it may use; None for the limit of the chain.
-    tile: width and height of the tiles of a picture, or one number; None where they are chosen, if any are needed.
-    """
-
+    on: Place = field(default=None, converter=place_of)
     gas_limit: int | None = field(default=None, converter=_gas)
     tile: tuple[int, int] | None = field(default=None, converter=_tile)
+    listener: Listener | None = None
+    keep: Path | None = None
+    transparent: bool = field(default=False, converter=_transparent)
 
-
-def is_one_call(place: Place, scene: Scene, bounds: Bounds) -> bool:
-    """Return whether a picture is made by one call in this process."""
-    return isinstance(place, Embedded) and bounds == Bounds() and not is_large(scene)
+    def is_one_call(self, scene: Scene) -> bool:
+        """Return whether a picture is made by one call in this process."""
+        is_bounded = self.gas_limit is not None or self.tile is not None
+        return isinstance(self.on, Embedded) and not is_bounded and not is_large(scene)
