@@ -274,6 +274,7 @@ VALUES: dict[str, Any] = {
 def test_each_setting_changes_the_scene(name: str, kind: str) -> None:
     thing = MESH if kind == "mesh" else Scene([Object(MESH)])
     plain = load(thing)
+    assert name in (*VALUES, "antialias"), f"give {name} a value in VALUES"
     # meshes are antialiased by default, scenes are not
     value: Any = not plain.antialias if name == "antialias" else VALUES[name]
     other = load(thing, **{name: value})

@@ -1,7 +1,7 @@
 """Compile the contracts into src/shackled/artifacts.
 
     python tools/build_contracts.py                  writes the artifacts
-    python tools/build_contracts.py --group NAME     those of one group only
+    python tools/build_contracts.py --group NAME ... those of some groups only
     python tools/build_contracts.py --check          writes nothing; fails, and says which are not up to date
     python tools/build_contracts.py --input NAME     prints the compiler's whole input of a group, libraries too
     python tools/build_contracts.py --functions NAME prints the bytes of each function of a contract, as it was built
@@ -453,7 +453,7 @@ def main() -> int:
     """Build or check the artifacts."""
     parser = argparse.ArgumentParser(description="Compile the contracts into src/shackled/artifacts.")
     parser.add_argument("--check", action="store_true", help="write nothing; fail if the artifacts are not up to date")
-    parser.add_argument("--group", choices=tuple(GROUPS), help="only the contracts of this group")
+    parser.add_argument("--group", nargs="+", choices=tuple(GROUPS), help="only the contracts of these groups")
     parser.add_argument("--input", choices=tuple(GROUPS), help="print the compiler's input of a group, and stop")
     every = [name for group in GROUPS.values() for name in group["contracts"]]
     parser.add_argument("--functions", choices=every, metavar="NAME", help="print the bytes of each function, and stop")
@@ -466,7 +466,7 @@ def main() -> int:
     if options.input:
         print(_text(standard_input(options.input)), end="")
         return 0
-    groups = (options.group,) if options.group else tuple(GROUPS)
+    groups = options.group or tuple(GROUPS)
     files = build(groups=groups)
     others = outdated(groups)
     if options.check:

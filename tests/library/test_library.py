@@ -12,7 +12,6 @@ import pytest
 from eth_abi.abi import decode as decode_abi
 from eth_utils.crypto import keccak
 from PIL import Image as PillowImage
-from tools import library as tool
 from tools.docs.draw_library import Shelf
 
 import gltf_reader
@@ -46,10 +45,6 @@ def call(shelf: Shelf, contract: str, function: str, *values: Any) -> Any:
 def ask(shelf: Shelf, path: str, **parameters: str) -> tuple[int, bytes, dict[str, str]]:
     """Send a request as a web3:// browser does."""
     return shelf.ask(shelf.addresses["Web"], path, **parameters)
-
-
-def test_the_table_is_up_to_date() -> None:
-    assert tool.TABLE.read_text("utf-8") == tool.source(), "run tools/library.py"
 
 
 def test_items_by_name(shelf: Shelf) -> None:

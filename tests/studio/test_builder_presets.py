@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 from attrs import evolve
 from eth_abi.abi import encode
-from tools import presets
 
 from compiler import needs_compiler
 from probes import SCENE_STRUCT, Probe
@@ -16,10 +15,6 @@ from shackled.scene._decode import read_call
 
 #: Of cosines and of coefficients, in Q32, after two roundings.
 NEAR = 2**-28
-
-
-def test_the_file_is_written_from_the_table() -> None:
-    assert presets.FILE.read_text("utf-8") == presets.source(), "run python tools/presets.py"
 
 
 @needs_compiler
